@@ -1,9 +1,8 @@
 #include "calibrate/bootstrap.h"
 
-#include <algorithm>
 #include <cmath>
 
-#include "core/random.h"
+#include "core/resampling.h"
 
 namespace sonarsim {
 
@@ -14,40 +13,19 @@ void widen(Bounded& m, double by) {
     m.high += wider;
 }
 
-std::vector<double> drawn_weights(int count, std::uint32_t draw) {
-    std::vector<double> weights(static_cast<std::size_t>(count), 0.0);
-    const PhiloxKey key = stream_key(1, draw, 0, stream_named("calibrate bootstrap"));
-    for (int k = 0; k < count; ++k) {
-        const PhiloxBlock block = philox({static_cast<std::uint32_t>(k), 0, 0, 0}, key);
-        const double at = unit_double(block.x0, block.x1) * count;
-        weights[static_cast<std::size_t>(at)] += 1.0;
-    }
-    return weights;
-}
-
 std::vector<Bounded> bootstrap_all(
     int count, const std::function<std::vector<double>(const std::vector<double>&)>& estimate,
     const std::vector<double>& least, int draws) {
     const std::vector<double> whole =
         estimate(std::vector<double>(static_cast<std::size_t>(count), 1.0));
-    std::vector<double> sums(whole.size()), squares(whole.size()), counts(whole.size());
-    for (int draw = 0; draw < draws && count > 1; ++draw) {
-        const std::vector<double> drawn =
-            estimate(drawn_weights(count, static_cast<std::uint32_t>(draw)));
-        for (std::size_t k = 0; k < whole.size(); ++k) {
-            const double off = drawn[k] - whole[k];
-            if (!std::isfinite(off)) continue;
-            sums[k] += off;
-            squares[k] += off * off;
-            counts[k] += 1.0;
-        }
-    }
+    const std::vector<double> variances =
+        drawn_variances(whole, count > 1 ? draws : 0, [&](std::uint32_t draw) {
+            const PhiloxKey key = stream_key(1, draw, 0, stream_named("calibrate bootstrap"));
+            return estimate(drawn_counts(count, key));
+        });
     std::vector<Bounded> out;
     for (std::size_t k = 0; k < whole.size(); ++k) {
-        const double mean = counts[k] > 0.0 ? sums[k] / counts[k] : 0.0;
-        const double variance =
-            counts[k] > 1.0 ? std::max(squares[k] / counts[k] - mean * mean, 0.0) : 0.0;
-        const double half = std::sqrt(1.96 * 1.96 * variance + least[k] * least[k]);
+        const double half = std::sqrt(1.96 * 1.96 * variances[k] + least[k] * least[k]);
         out.push_back({whole[k], whole[k] - half, whole[k] + half});
     }
     return out;

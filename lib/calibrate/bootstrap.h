@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -18,9 +17,6 @@ struct Bounded {
 
 /// Makes an interval wider by an independent error.
 void widen(Bounded& m, double by);
-
-/// The number of times that each of `count` units is drawn when `count` are drawn with replacement.
-std::vector<double> drawn_weights(int count, std::uint32_t draw);
 
 /// `estimate` of the units as they are, with its interval over `draws` bootstrap samples of them:
 /// 1.96 standard deviations to either side, and at least `least` to either side, for what the

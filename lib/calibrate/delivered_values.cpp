@@ -76,14 +76,13 @@ std::optional<Bounded> fit_offset(const std::vector<RecordedPing>& pings, double
     const double mean = sum / static_cast<double>(even.size());
     const double spread = square / static_cast<double>(even.size()) / (mean * mean) - 1.0;
     if (spread < least_spread_of_means * least_spread_of_means) return {};
-    const int rows = patch_size(pings.front().ranges, pings.front().beams).rows;
-    const int count =
-        units == OffsetUnits::ranges ? pings.front().ranges / rows : patch_places(pings);
+    const PatchGrid grid = speckle_grid(pings.front());
+    const int count = units == OffsetUnits::ranges ? grid.rows : grid.places();
     return bootstrap(count, [&](const std::vector<double>& weights) {
         LineSums line;
         for (const std::size_t k : even) {
             const PatchMoments& p = patches[k];
-            const int unit = units == OffsetUnits::ranges ? p.row / rows : p.place;
+            const int unit = units == OffsetUnits::ranges ? p.row / grid.size.ranges : p.place;
             line.add(weights[static_cast<std::size_t>(unit)], p.mean_value, deviation(p));
         }
         return line.offset() / full_value;

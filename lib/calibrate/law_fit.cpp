@@ -128,7 +128,7 @@ LawPatches law_patches(const std::vector<RecordedPing>& pings, double full_value
     out.logs = moments([&](double v, int) { return log_of_value(v + offset * full_value, step); });
     // Evenness is that of the logarithms, in which no law makes loud patches uneven.
     out.even = speckle_patches(out.logs, full_value > 15.0 ? 6.0 : 0.0);
-    out.places = patch_places(pings);
+    out.places = speckle_grid(pings.front()).places();
     if (out.even.size() < least_patches) {
         throw InputError(
             "fewer than 8 even patches of speckle, of 24 bins and 24 beams (96 bins "

@@ -12,7 +12,7 @@ constexpr double least_echo_db = 6.0;
 constexpr double db_of_neper_of_power = 4.342944819032518;
 
 /// True for a patch that has beams with noise that all elements share.
-bool straight_ahead(const PatchMoments& patch, const SpecklePatch& size, const AheadBeams& ahead) {
+bool straight_ahead(const PatchMoments& patch, const PatchSize& size, const AheadBeams& ahead) {
     return patch.beam < ahead.end && ahead.first < patch.beam + size.beams;
 }
 
@@ -42,13 +42,12 @@ PatchClasses classified(const Recording& recording, const LawFit& law,
                         const std::optional<NoiseFit>& noise) {
     const double full_value = full_value_of(recording);
     PatchClasses out;
-    out.places = patch_places(recording.pings);
+    const PatchGrid grid = speckle_grid(recording.pings.front());
+    out.places = grid.places();
     out.patches = patch_moments(recording.pings, full_value, [&](double v, int row) {
         const double level_db = noise ? noise->at(range_of_row(recording, row)) : 0.0;
         return law.log_power(v, full_value) - level_db / db_of_neper_of_power;
     });
-    const SpecklePatch size =
-        patch_size(recording.pings.front().ranges, recording.pings.front().beams);
     std::set<int> blocks;
     if (noise) {
         for (const NoiseBlock& block : noise->used) {
@@ -57,8 +56,8 @@ PatchClasses classified(const Recording& recording, const LawFit& law,
     }
     for (std::size_t k = 0; k < out.patches.size(); ++k) {
         const PatchMoments& patch = out.patches[k];
-        if (noise && all_rows_in(patch, size.rows, blocks) &&
-            !straight_ahead(patch, size, noise->ahead))
+        if (noise && all_rows_in(patch, grid.size.ranges, blocks) &&
+            !straight_ahead(patch, grid.size, noise->ahead))
             out.noise.push_back(k);
     }
     // Particles in the water are bright points in some of them.

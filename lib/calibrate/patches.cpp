@@ -94,51 +94,40 @@ void add_moments(const PatchField& field, PatchMoments& patch) {
     patch.unevenness = variance_of_quarters(field) / std::max(patch.variance, 1e-30);
 }
 
-PatchMoments moments_of(const RecordedPing& ping, const SpecklePatch& size, int row, int beam,
+PatchMoments moments_of(const RecordedPing& ping, const PatchGrid& grid, int place,
                         double full_value, const std::function<double(double, int)>& scaled) {
     PatchMoments out;
-    out.row = row;
-    out.beam = beam;
-    PatchField field{size.rows, size.beams, {}};
-    const double part = 1.0 / (size.rows * size.beams);
-    for (int i = row; i < row + size.rows; ++i) {
-        for (int j = beam; j < beam + size.beams; ++j) {
-            const double v =
-                ping.values[static_cast<std::size_t>(i) * static_cast<std::size_t>(ping.beams) +
-                            static_cast<std::size_t>(j)];
-            out.mean_value += v * part;
-            out.zeros += v <= 0.0 ? part : 0.0;
-            out.full += full_value > 0.0 && v >= full_value ? part : 0.0;
-            field.x.push_back(scaled(v, i));
-        }
-    }
+    out.place = place;
+    out.row = grid.first_range(place);
+    out.beam = grid.first_beam(place);
+    PatchField field{grid.size.ranges, grid.size.beams, {}};
+    const double part = 1.0 / grid.size.values();
+    const ImageView image{ping.values, ping.ranges, ping.beams};
+    grid.for_each_bin(image, place, [&](double v, int row, int) {
+        out.mean_value += v * part;
+        out.zeros += v <= 0.0 ? part : 0.0;
+        out.full += full_value > 0.0 && v >= full_value ? part : 0.0;
+        field.x.push_back(scaled(v, row));
+    });
     add_moments(field, out);
     return out;
 }
 
 }  // namespace
 
-SpecklePatch patch_size(int ranges, int beams) {
-    SpecklePatch size;
-    size.beams = std::min(24, beams);
-    if (size.beams < 8) size.rows = 96;
-    size.rows = std::min(size.rows, ranges);
-    return size;
+PatchGrid speckle_grid(const RecordedPing& ping) {
+    const int beams = std::min(24, ping.beams);
+    return {{std::min(beams < 8 ? 96 : 24, ping.ranges), beams}, ping.ranges, ping.beams};
 }
 
 std::vector<PatchMoments> patch_moments(const std::vector<RecordedPing>& pings, double full_value,
                                         const std::function<double(double, int)>& scaled) {
     std::vector<PatchMoments> out;
     for (std::size_t number = 0; number < pings.size(); ++number) {
-        const RecordedPing& ping = pings[number];
-        const SpecklePatch size = patch_size(ping.ranges, ping.beams);
-        int place = 0;
-        for (int row = 0; row + size.rows <= ping.ranges; row += size.rows) {
-            for (int beam = 0; beam + size.beams <= ping.beams; beam += size.beams) {
-                out.push_back(moments_of(ping, size, row, beam, full_value, scaled));
-                out.back().ping = static_cast<int>(number);
-                out.back().place = place++;
-            }
+        const PatchGrid grid = speckle_grid(pings[number]);
+        for (int place = 0; place < grid.places(); ++place) {
+            out.push_back(moments_of(pings[number], grid, place, full_value, scaled));
+            out.back().ping = static_cast<int>(number);
         }
     }
     return out;
@@ -151,15 +140,6 @@ std::vector<PatchMoments> at_places(std::vector<PatchMoments> patches,
         return !places[static_cast<std::size_t>(patch.place)];
     });
     return patches;
-}
-
-int patch_places(const std::vector<RecordedPing>& pings) {
-    int most = 0;
-    for (const RecordedPing& ping : pings) {
-        const SpecklePatch size = patch_size(ping.ranges, ping.beams);
-        most = std::max(most, (ping.ranges / size.rows) * (ping.beams / size.beams));
-    }
-    return most;
 }
 
 std::vector<std::size_t> speckle_patches(const std::vector<PatchMoments>& patches,

@@ -4,15 +4,10 @@
 #include <functional>
 #include <vector>
 
+#include "recording/patch_grid.h"
 #include "recording/recording.h"
 
 namespace sonarsim {
-
-/// The rows and beams of a patch.
-struct SpecklePatch {
-    int rows = 24;
-    int beams = 24;
-};
 
 /// Structure functions reach so many bins and beams.
 inline constexpr int patch_lags = 8;
@@ -38,9 +33,8 @@ struct PatchMoments {
     double unevenness = 0.0;  ///< variance of the means of its quarters by `variance`
 };
 
-/// The size of patches for pings of so many bins and beams. Distant values are half a patch apart
-/// along range and across the beams.
-SpecklePatch patch_size(int ranges, int beams);
+/// The patches of a ping. Distant values are half a patch apart along range and across the beams.
+PatchGrid speckle_grid(const RecordedPing& ping);
 
 /// The moments of all patches of some pings, of `scaled` values: a function of value and row.
 std::vector<PatchMoments> patch_moments(const std::vector<RecordedPing>& pings, double full_value,
@@ -49,9 +43,6 @@ std::vector<PatchMoments> patch_moments(const std::vector<RecordedPing>& pings, 
 /// The patches at these places; all of them if `places` is empty.
 std::vector<PatchMoments> at_places(std::vector<PatchMoments> patches,
                                     const std::vector<bool>& places);
-
-/// The number of places that patches of such pings have.
-int patch_places(const std::vector<RecordedPing>& pings);
 
 /// The patches without clipped and missing values, the more even half of them, by number. Values of
 /// less than `least_mean` are too coarse for their logarithm.

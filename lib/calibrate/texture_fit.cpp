@@ -57,8 +57,10 @@ double trigamma(double x) {
     // trigamma(x) = 1 / x^2 + trigamma(x + 1), and its asymptotic series (Abramowitz and Stegun
     // 6.4.12).
     double sum = 0.0;
-    for (; x < 8.0; x += 1.0)
+    while (x < 8.0) {
         sum += 1.0 / (x * x);
+        x += 1.0;
+    }
     const double y = 1.0 / (x * x);
     return sum + 1.0 / x + 0.5 * y + y / x * (1.0 / 6.0 - y * (1.0 / 30.0 - y / 42.0));
 }
@@ -81,8 +83,7 @@ BottomTexture texture_of(const SpeckleConfig& speckle, const LogStatistics& stat
 EchoPatches echo_patches(const PatchClasses& classes, const Recording& recording,
                          const Lags& of_beams) {
     EchoPatches out{&classes, recording.range_step_m, 0.0, of_beams};
-    const RecordedPing& first = recording.pings.front();
-    const double middle = 0.5 * patch_size(first.ranges, first.beams).rows;
+    const double middle = 0.5 * speckle_grid(recording.pings.front()).size.ranges;
     double range = 0.0, stretch = 0.0;
     for (const std::size_t k : classes.echoes) {
         const double at =

@@ -1,15 +1,14 @@
 #include "compare/bootstrap.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
-#include <numeric>
 #include <set>
 
 #include "compare/reduced.h"
 #include "compare/student.h"
-#include "core/elementary.h"
-#include "core/random.h"
+#include "core/resampling.h"
 
 namespace sonarsim {
 
@@ -21,25 +20,18 @@ constexpr int fewest_locations = 8;
 
 enum class Units : std::uint32_t { locations = 1, pings = 2, cells = 3 };
 
-/// A weight of mean 1, exponentially distributed.
-double drawn_weight(std::uint32_t replicate, std::uint32_t a, std::uint32_t b, PhiloxKey key) {
-    const PhiloxBlock block = philox({replicate, a, b, 0x626f6f74U}, key);
-    return -natural_log(unit_float(block.x0));
+int unit_of(const Cell& cell, Units units) {
+    return units == Units::locations ? cell.location : cell.ping;
 }
 
 /// The cells of a mean joined by unit, since a draw gives all of these one weight.
 Measured joined(const Measured& figure, Units units) {
     if (figure.reduce == Reduce::quantile || units == Units::cells) return figure;
     Measured out = figure;
-    std::ranges::stable_sort(out.cells, {}, [&](const Cell& cell) {
-        return units == Units::locations ? cell.location : cell.ping;
-    });
+    std::ranges::stable_sort(out.cells, {}, [&](const Cell& cell) { return unit_of(cell, units); });
     std::size_t count = 0;
     for (const Cell& cell : out.cells) {
-        const auto unit = [&](const Cell& c) {
-            return units == Units::locations ? c.location : c.ping;
-        };
-        if (count > 0 && unit(out.cells[count - 1]) == unit(cell)) {
+        if (count > 0 && unit_of(out.cells[count - 1], units) == unit_of(cell, units)) {
             Cell& last = out.cells[count - 1];
             const double weight = static_cast<double>(last.weight) + cell.weight;
             last.value = static_cast<float>((static_cast<double>(last.value) * last.weight +
@@ -54,33 +46,46 @@ Measured joined(const Measured& figure, Units units) {
     return out;
 }
 
-/// The value of a figure in each replicate.
-std::vector<double> replicated(const Measured& figure, Units units, std::uint32_t seed,
-                               bool is_own) {
-    const Measured cells = joined(figure, units);
-    const PhiloxKey key = {seed, static_cast<std::uint32_t>(units) * 2U + (is_own ? 1U : 0U)};
-    const int count = units == Units::cells ? cell_replicates : replicates;
+/// The value of a figure in a draw of weights for its units. A draw has one weight for a unit that
+/// two figures share, if they share the key.
+double value_in_draw(const Measured& cells, Units units, std::uint32_t draw, PhiloxKey key) {
+    const auto weight = [&](std::uint32_t a, std::uint32_t b) {
+        return drawn_weight({draw, a, b, 0x626f6f74U}, key);
+    };
+    if (units == Units::cells) {
+        return reduced(cells, [&](const Cell& c) {
+            return c.weight * weight(static_cast<std::uint32_t>(c.location),
+                                     static_cast<std::uint32_t>(c.ping));
+        });
+    }
     int last = 0;
     for (const Cell& cell : cells.cells)
-        last = std::max(last, units == Units::locations ? cell.location : cell.ping);
-    std::vector<double> out;
+        last = std::max(last, unit_of(cell, units));
     std::vector<double> weights(static_cast<std::size_t>(last) + 1);
-    for (int k = 0; k < count; ++k) {
-        const auto replicate = static_cast<std::uint32_t>(k);
-        if (units == Units::cells) {
-            out.push_back(reduced(cells, [&](const Cell& c) {
-                return c.weight * drawn_weight(replicate, static_cast<std::uint32_t>(c.location),
-                                               static_cast<std::uint32_t>(c.ping), key);
-            }));
-            continue;
-        }
-        for (std::size_t u = 0; u < weights.size(); ++u)
-            weights[u] = drawn_weight(replicate, static_cast<std::uint32_t>(u), 0, key);
-        out.push_back(reduced(cells, [&](const Cell& c) {
-            const int unit = units == Units::locations ? c.location : c.ping;
-            return c.weight * weights[static_cast<std::size_t>(unit)];
-        }));
-    }
+    for (std::size_t u = 0; u < weights.size(); ++u)
+        weights[u] = weight(static_cast<std::uint32_t>(u), 0);
+    return reduced(cells, [&](const Cell& c) {
+        return c.weight * weights[static_cast<std::size_t>(unit_of(c, units))];
+    });
+}
+
+/// The variances over draws of the real figure, of the simulated one, and of their difference.
+std::vector<double> variances_over(Units units, const Measured& real, const Measured& simulated,
+                                   bool is_paired, std::uint32_t seed) {
+    const Measured a = joined(real, units);
+    const Measured b = joined(simulated, units);
+    const auto number = static_cast<std::uint32_t>(units) * 2U;
+    const PhiloxKey key = {seed, number};
+    const PhiloxKey key_of_simulated = {seed, is_paired ? number : number + 1U};
+    const auto in_draw = [&](std::uint32_t draw) {
+        const double x = value_in_draw(a, units, draw, key);
+        const double y = value_in_draw(b, units, draw, key_of_simulated);
+        return std::vector<double>{x, y, x - y};
+    };
+    const int draws = units == Units::cells ? cell_replicates : replicates;
+    std::vector<double> out = drawn_variances(in_draw(0), draws, in_draw);
+    for (double& variance : out)
+        variance *= draws / (draws - 1.0);
     return out;
 }
 
@@ -124,25 +129,10 @@ double degrees_of(const Measured& real, const Measured& simulated, bool is_paire
     return fourth > 0.0 ? std::clamp(3.0 * second * second / fourth - 2.0, 1.0, most) : most;
 }
 
-double variance(const std::vector<double>& values) {
-    const auto n = static_cast<double>(values.size());
-    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
-    double sum = 0.0;
-    for (const double v : values)
-        sum += (v - mean) * (v - mean);
-    return sum / (n - 1.0);
-}
-
-std::vector<double> differences(const std::vector<double>& a, const std::vector<double>& b) {
-    std::vector<double> out(a.size());
-    std::transform(a.begin(), a.end(), b.begin(), out.begin(), std::minus<>());
-    return out;
-}
-
 int count_of(const Measured& figure, Units units) {
     std::set<int> found;
     for (const Cell& cell : figure.cells)
-        found.insert(units == Units::locations ? cell.location : cell.ping);
+        found.insert(unit_of(cell, units));
     return static_cast<int>(found.size());
 }
 
@@ -186,21 +176,17 @@ Estimate estimate(const Measured& real_figure, const Measured& simulated_figure,
     const int locations =
         std::min(count_of(real, Units::locations), count_of(simulated, Units::locations));
     const int pings = std::min(count_of(real, Units::pings), count_of(simulated, Units::pings));
-    double drawn[3][3] =
-        {};  // for each unit: of the real one, of the simulated one, of the difference
+    std::array<std::vector<double>, 3> drawn;
+    drawn.fill(std::vector<double>(3));
     for (const Units units : {Units::locations, Units::pings, Units::cells}) {
         if (units != Units::locations && pings < 2) continue;
         const bool is_paired = units == Units::locations ? pairing.locations
                                : units == Units::pings   ? pairing.pings
                                                          : pairing.locations && pairing.pings;
-        const std::vector<double> a = replicated(real, units, seed, false);
-        const std::vector<double> b = replicated(simulated, units, seed, !is_paired);
-        double* of_unit = drawn[static_cast<int>(units) - 1];
-        of_unit[0] = variance(a);
-        of_unit[1] = variance(b);
-        of_unit[2] = variance(differences(a, b));
+        drawn[static_cast<std::size_t>(units) - 1] =
+            variances_over(units, real, simulated, is_paired, seed);
     }
-    const auto of = [&](int k) {
+    const auto of = [&](std::size_t k) {
         return joined_variance(drawn[0][k], drawn[1][k], drawn[2][k], locations, pings);
     };
     out.real_error = std::sqrt(of(0).all());

@@ -23,7 +23,8 @@ struct RecordedImages {
     double range_step_m = 0.0;
     std::vector<double> bearing_rad;  ///< the columns'; empty where they are pings
 
-    PowerImage image(std::size_t k) const { return {powers[k], ranges, columns}; }
+    ImageView image(std::size_t k) const { return {powers[k], ranges, columns}; }
+    PatchGrid grid(PatchSize size) const { return {size, ranges, columns}; }
 };
 
 RecordedImages images_of(const Recording& recording);

@@ -27,35 +27,7 @@ std::string short_number(double value) {
     return number_text(std::round(value * 100.0) / 100.0);
 }
 
-/// A rectangle of an image.
-struct Block {
-    int location = 0;
-    int range = 0, beam = 0;  ///< the first ones
-    PatchSize size;
-};
-
-/// The image in blocks of the size of a patch; rows and columns that fill none are left out.
-std::vector<Block> blocks_of(const RecordedImages& images, PatchSize size) {
-    std::vector<Block> blocks;
-    const int columns = images.columns / size.beams;
-    const int rows = images.ranges / size.ranges;
-    blocks.reserve(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
-    for (int i = 0; i < rows; ++i) {
-        for (int j = 0; j < columns; ++j)
-            blocks.push_back({i * columns + j, i * size.ranges, j * size.beams, size});
-    }
-    return blocks;
-}
-
-template <class Visit>
-void for_each_power(const PowerImage& image, const Block& block, const Visit& visit) {
-    for (int i = block.range; i < block.range + block.size.ranges; ++i) {
-        for (int j = block.beam; j < block.beam + block.size.beams; ++j)
-            visit(image.at(i, j), i, j);
-    }
-}
-
-/// Levels over cells of one block, whose pixels `choose` puts into bands from 0 on; -1 leaves one
+/// Levels over cells of one patch, whose pixels `choose` puts into bands from 0 on; -1 leaves one
 /// out.
 template <class Choose>
 std::vector<Measured> banded_levels(const RecordedImages& images, PatchSize size,
@@ -66,12 +38,12 @@ std::vector<Measured> banded_levels(const RecordedImages& images, PatchSize size
         bands.push_back({name, Reduce::level, Tolerance::decibel, 0.5, {}});
     std::vector<double> sums(names.size());
     std::vector<double> counts(names.size());
+    const PatchGrid grid = images.grid(size);
     for (std::size_t k = 0; k < images.powers.size(); ++k) {
-        const PowerImage image = images.image(k);
-        for (const Block& block : blocks_of(images, size)) {
+        for (int place = 0; place < grid.places(); ++place) {
             std::ranges::fill(sums, 0.0);
             std::ranges::fill(counts, 0.0);
-            for_each_power(image, block, [&](float power, int i, int j) {
+            grid.for_each_bin(images.image(k), place, [&](float power, int i, int j) {
                 const int band = choose(i, j);
                 if (band < 0) return;
                 sums[static_cast<std::size_t>(band)] += power;
@@ -79,7 +51,7 @@ std::vector<Measured> banded_levels(const RecordedImages& images, PatchSize size
             });
             for (std::size_t b = 0; b < bands.size(); ++b) {
                 if (counts[b] == 0.0) continue;
-                bands[b].cells.push_back({block.location, static_cast<int>(k),
+                bands[b].cells.push_back({place, static_cast<int>(k),
                                           static_cast<float>(sums[b] / counts[b]),
                                           static_cast<float>(counts[b])});
             }
@@ -145,19 +117,19 @@ void measure_levels(const RecordedImages& images, const MeasureOptions& options,
 void measure_shares(const RecordedImages& images, PatchSize size, Measurement& out) {
     Measured zeros{"share of zeros", Reduce::mean, Tolerance::share, 0.5, {}};
     Measured clipped{"share of clipped values", Reduce::mean, Tolerance::share, 0.5, {}};
+    const PatchGrid grid = images.grid(size);
     for (std::size_t k = 0; k < images.powers.size(); ++k) {
-        const PowerImage image = images.image(k);
-        for (const Block& block : blocks_of(images, size)) {
+        for (int place = 0; place < grid.places(); ++place) {
             int empty = 0;
             int full = 0;
-            for_each_power(image, block, [&](float power, int, int) {
+            grid.for_each_bin(images.image(k), place, [&](float power, int, int) {
                 empty += power > images.least_power ? 0 : 1;
                 full += images.full_power > 0.0F && power >= images.full_power ? 1 : 0;
             });
-            const float share = 1.0F / static_cast<float>(size.ranges * size.beams);
+            const float share = 1.0F / static_cast<float>(size.values());
             const int ping = static_cast<int>(k);
-            zeros.cells.push_back({block.location, ping, share * static_cast<float>(empty), 1.0F});
-            clipped.cells.push_back({block.location, ping, share * static_cast<float>(full), 1.0F});
+            zeros.cells.push_back({place, ping, share * static_cast<float>(empty), 1.0F});
+            clipped.cells.push_back({place, ping, share * static_cast<float>(full), 1.0F});
         }
     }
     out.figures.push_back(std::move(zeros));
@@ -171,20 +143,22 @@ void measure_histograms(const RecordedImages& images, PatchSize size, Measuremen
     constexpr double lowest_db = -160.0;
     MeasuredHistogram levels{"levels", bin_db, "dB", {}};
     MeasuredHistogram texture{"texture", 1.0, "patterns", {}};
-    const std::vector<Block> blocks = blocks_of(images, size);
-    levels.counts.assign(blocks.size(), std::vector<double>(bins));
-    texture.counts.assign(blocks.size(), std::vector<double>(texture_patterns));
+    const PatchGrid grid = images.grid(size);
+    const auto places = static_cast<std::size_t>(grid.places());
+    levels.counts.assign(places, std::vector<double>(bins));
+    texture.counts.assign(places, std::vector<double>(texture_patterns));
     for (std::size_t k = 0; k < images.powers.size(); ++k) {
-        const PowerImage image = images.image(k);
-        for (std::size_t b = 0; b < blocks.size(); ++b) {
-            for_each_power(image, blocks[b], [&](float power, int, int) {
+        const ImageView image = images.image(k);
+        for (std::size_t b = 0; b < places; ++b) {
+            const int place = static_cast<int>(b);
+            grid.for_each_bin(image, place, [&](float power, int, int) {
                 const double level =
                     10.0 / ln_10 *
                     natural_log(std::max(power, static_cast<float>(least_level_power)));
                 const int bin = static_cast<int>((level - lowest_db) / bin_db + 0.5);
                 levels.counts[b][static_cast<std::size_t>(std::clamp(bin, 0, bins - 1))] += 1.0;
             });
-            const auto own = texture_histogram(image, blocks[b].range, blocks[b].beam, size);
+            const auto own = texture_histogram(image, grid, place);
             for (std::size_t t = 0; t < own.size(); ++t)
                 texture.counts[b][t] += own[t];
         }
@@ -195,11 +169,11 @@ void measure_histograms(const RecordedImages& images, PatchSize size, Measuremen
                         Tolerance::decibel,
                         percent / 100.0,
                         {}};
-        for (std::size_t b = 0; b < blocks.size(); ++b) {
+        for (std::size_t b = 0; b < places; ++b) {
             for (std::size_t i = 0; i < bins; ++i) {
                 if (levels.counts[b][i] > 0.0)
                     figure.cells.push_back(
-                        {blocks[b].location, 0,
+                        {static_cast<int>(b), 0,
                          static_cast<float>(lowest_db + bin_db * static_cast<double>(i)),
                          static_cast<float>(levels.counts[b][i])});
             }
@@ -217,11 +191,10 @@ void measure_points(const RecordedImages& images, const MeasureOptions& options,
     Measured lobes{"points: side lobes, dB", Reduce::quantile, Tolerance::decibel, 0.5, {}};
     const RangeZone zone = options.zones.water.to > options.zones.water.from ? options.zones.water
                                                                              : options.zones.bottom;
-    const int columns = std::max(1, images.columns / options.patch.beams);
+    const PatchGrid grid = images.grid(options.patch);
     for (std::size_t k = 0; k < images.powers.size(); ++k) {
         for (const PointEcho& point : point_echoes(images.image(k), zone.from, zone.to)) {
-            const int place = point.range / options.patch.ranges * columns +
-                              std::min(columns - 1, point.beam / options.patch.beams);
+            const int place = grid.place_of(point.range, point.beam);
             const int ping = static_cast<int>(k);
             beams.cells.push_back({place, ping, static_cast<float>(point.width_beams), 1.0F});
             ranges.cells.push_back({place, ping, static_cast<float>(point.width_ranges), 1.0F});

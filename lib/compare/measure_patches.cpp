@@ -65,17 +65,14 @@ std::vector<Measured> empty_figures(const std::string& zone, bool columns_are_pi
 }
 
 /// The share of a patch that lies at either end of the scale.
-double clipped_share_of(const RecordedImages& images, const PowerImage& image, PatchSize size,
-                        int range, int beam) {
+double clipped_share_of(const RecordedImages& images, const ImageView& image, const PatchGrid& grid,
+                        int place) {
     int clipped = 0;
-    for (int i = range; i < range + size.ranges; ++i) {
-        for (int j = beam; j < beam + size.beams; ++j) {
-            const float power = image.at(i, j);
-            const bool is_full = images.full_power > 0.0F && power >= images.full_power;
-            clipped += is_full || power <= images.least_power ? 1 : 0;
-        }
-    }
-    return static_cast<double>(clipped) / (static_cast<double>(size.ranges) * size.beams);
+    grid.for_each_bin(image, place, [&](float power, int, int) {
+        const bool is_full = images.full_power > 0.0F && power >= images.full_power;
+        clipped += is_full || power <= images.least_power ? 1 : 0;
+    });
+    return static_cast<double>(clipped) / grid.size.values();
 }
 
 /// A patch of one image that counts.
@@ -86,16 +83,15 @@ struct FoundPatch {
 
 /// The patches of one place in all images.
 std::vector<std::optional<FoundPatch>> patches_at(const RecordedImages& images,
-                                                  const Detrender& detrender, int range, int beam,
-                                                  double most_trend) {
+                                                  const Detrender& detrender, const PatchGrid& grid,
+                                                  int place, double most_trend) {
     std::vector<std::optional<FoundPatch>> found(images.powers.size());
-    const PatchSize size = detrender.size();
     for (std::size_t k = 0; k < found.size(); ++k) {
-        const PowerImage image = images.image(k);
-        if (clipped_share_of(images, image, size, range, beam) > most_clipped) continue;
-        std::optional<Patch> patch = detrender.patch_of(image, range, beam);
+        const ImageView image = images.image(k);
+        if (clipped_share_of(images, image, grid, place) > most_clipped) continue;
+        std::optional<Patch> patch = detrender.patch_of(image, grid, place);
         if (!patch || patch->trend > most_trend) continue;
-        found[k] = FoundPatch{values_of(*patch, size), std::move(patch->amplitude)};
+        found[k] = FoundPatch{values_of(*patch, grid.size), std::move(patch->amplitude)};
         if (images.columns_are_pings || k == 0 || !found[k - 1]) continue;
         found[k]->values[patch_figures - 1] =
             ping_correlation(found[k]->amplitude, found[k - 1]->amplitude);
@@ -109,17 +105,15 @@ std::vector<std::optional<FoundPatch>> patches_at(const RecordedImages& images,
 void measure_zone(const RecordedImages& images, PatchSize size, RangeZone zone,
                   const std::string& name, double most_trend, Measurement& out) {
     const Detrender detrender(size);
-    const int columns = images.columns / size.beams;
-    const int first = (zone.from + size.ranges - 1) / size.ranges;
-    const int rows = zone.to / size.ranges - first;
-    if (rows < 1 || columns < 1) return;
-    std::vector<std::vector<std::optional<FoundPatch>>> found(static_cast<std::size_t>(rows) *
-                                                              static_cast<std::size_t>(columns));
+    const PatchGrid grid = images.grid(size);
+    const int first = (zone.from + size.ranges - 1) / size.ranges * grid.columns;
+    const int end = zone.to / size.ranges * grid.columns;
+    if (end <= first) return;
+    std::vector<std::vector<std::optional<FoundPatch>>> found(
+        static_cast<std::size_t>(end - first));
     in_parallel(found.size(), [&](std::size_t k) {
-        const int row = first + static_cast<int>(k) / columns;
-        const int column = static_cast<int>(k) % columns;
-        found[k] =
-            patches_at(images, detrender, row * size.ranges, column * size.beams, most_trend);
+        const int place = first + static_cast<int>(k);
+        found[k] = patches_at(images, detrender, grid, place, most_trend);
     });
     std::vector<Measured> figures = empty_figures(name, images.columns_are_pings);
     for (std::size_t place = 0; place < found.size(); ++place) {
@@ -127,7 +121,7 @@ void measure_zone(const RecordedImages& images, PatchSize size, RangeZone zone,
             if (!found[place][k]) continue;
             for (std::size_t f = 0; f < figures.size(); ++f) {
                 const auto value = static_cast<float>(found[place][k]->values[f]);
-                const int location = static_cast<int>(place) + first * columns;
+                const int location = first + static_cast<int>(place);
                 if (std::isfinite(value))
                     figures[f].cells.push_back({location, static_cast<int>(k), value, 1.0F});
             }

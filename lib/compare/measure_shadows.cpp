@@ -10,7 +10,8 @@ namespace sonarsim {
 void measure_shadows(const RecordedImages& images, PatchSize size, const Zones& zones,
                      Measurement& out) {
     const RangeZone zone{zones.bottom.from, images.ranges};
-    const int columns = std::max(1, images.columns / size.beams);
+    const PatchGrid grid = images.grid(size);
+    const int columns = std::max(1, grid.columns);
     Measured share{"shadows: share of the bottom", Reduce::mean, Tolerance::share, 0.5, {}};
     Measured depth{"shadows: depth, dB", Reduce::quantile, Tolerance::decibel, 0.5, {}};
     Measured edge{"shadows: far edge, ranges", Reduce::quantile, Tolerance::tenth, 0.5, {}};
@@ -18,21 +19,18 @@ void measure_shadows(const RecordedImages& images, PatchSize size, const Zones& 
         const int ping = static_cast<int>(k);
         std::vector<float> dark(static_cast<std::size_t>(columns) *
                                 static_cast<std::size_t>(images.ranges / size.ranges + 1));
-        const auto place_of = [&](int range, int column) {
-            return range / size.ranges * columns + std::min(columns - 1, column / size.beams);
-        };
         for (const Shadow& shadow : shadows_of(images.image(k), zone)) {
-            const int place = place_of(shadow.from, shadow.column);
+            const int place = grid.place_of(shadow.from, shadow.column);
             depth.cells.push_back({place, ping, static_cast<float>(shadow.depth_db), 1.0F});
             if (std::isfinite(shadow.edge_ranges))
                 edge.cells.push_back({place, ping, static_cast<float>(shadow.edge_ranges), 1.0F});
             for (int i = shadow.from; i < shadow.to; ++i)
-                dark[static_cast<std::size_t>(place_of(i, shadow.column))] += 1.0F;
+                dark[static_cast<std::size_t>(grid.place_of(i, shadow.column))] += 1.0F;
         }
-        const float part = 1.0F / static_cast<float>(size.ranges * size.beams);
+        const float part = 1.0F / static_cast<float>(size.values());
         for (int range = zone.from; range + size.ranges <= zone.to; range += size.ranges) {
             for (int column = 0; column < columns; ++column) {
-                const int place = place_of(range, column * size.beams);
+                const int place = grid.place_of(range, column * size.beams);
                 share.cells.push_back(
                     {place, ping, part * dark[static_cast<std::size_t>(place)], 1.0F});
             }

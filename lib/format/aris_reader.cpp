@@ -41,10 +41,6 @@ LoggedPing aris_frame(std::string_view frame, std::uint32_t samples, std::uint32
 }  // namespace
 
 SonarLog read_aris(std::string_view bytes, std::size_t most_pings) {
-    const auto version = field_at<std::uint32_t>(bytes, 0);
-    if (version != version_5)
-        throw std::runtime_error("is version " + std::to_string(version >> 24U) +
-                                 " of DIDSON's format; version 5, an ARIS's, is read");
     const auto beams = field_at<std::uint32_t>(bytes, file_beams_at);
     const auto samples = field_at<std::uint32_t>(bytes, file_samples_at);
     bool is_known = false;

@@ -75,7 +75,8 @@ SonarLog read_ping360(std::string_view bytes, std::size_t most_pings) {
     }
     if (log.pings.empty())
         throw std::runtime_error(
-            "is no .kmall, .raw of an EK60 or .aris, and has no pings of a Ping360");
+            "is no .all, .kmall, .raw of an EK60 or EK80, .ddf or .aris, and has no pings of a "
+            "Ping360");
     return log;
 }
 

@@ -38,9 +38,9 @@ struct SonarLog {
     std::vector<LoggedPing> pings;
 };
 
-/// Reads the first pings of a file, by the format that its bytes show: .kmall, .raw of an EK60,
-/// .aris, or a log with messages of a Ping360. `frequency_hz` chooses one of several channels.
-/// Throws std::runtime_error with the reason when it is none of them or damaged.
+/// Reads the first pings of a file, by the format that its bytes show: .all, .kmall, .raw of an
+/// EK60 or EK80, .ddf, .aris, or a log with messages of a Ping360. `frequency_hz` chooses one of
+/// several channels. Throws std::runtime_error with the reason when it is none of them or damaged.
 SonarLog read_sonar_log(std::string_view bytes, std::size_t most_pings,
                         std::optional<double> frequency_hz = {});
 
@@ -50,9 +50,25 @@ SonarLog read_sonar_log(std::string_view bytes, std::size_t most_pings,
 /// several fans of a ping is read.
 SonarLog read_kmall(std::string_view bytes, std::size_t most_pings);
 
+/// The same of Kongsberg's older format, datagrams 'k' of a .all or .wcd. The first of several
+/// heads is read; pings that lack a datagram are left out.
+SonarLog read_all(std::string_view bytes, std::size_t most_pings);
+
+/// True if a .all begins here.
+bool is_all_file(std::string_view bytes);
+
 /// The power of an EK60 (RAW0 datagrams) in dB re 1 W: 200 dB from the value 0 to 200. No TVG.
 SonarLog read_ek60(std::string_view bytes, std::size_t most_pings,
                    std::optional<double> frequency_hz);
+
+/// The power of an EK80 (RAW3 datagrams), the same way: int16 samples, or complex ones of 32 bits
+/// of pulses that do not sweep.
+SonarLog read_ek80(std::string_view bytes, std::size_t most_pings,
+                   std::optional<double> frequency_hz);
+
+/// The frames of a DIDSON (versions 3 and 4 of its format), 8 bits over 90 dB. Their ranges follow
+/// Echoview's formula; the distortion of the lens is not taken out.
+SonarLog read_didson(std::string_view bytes, std::size_t most_pings);
 
 /// The frames of an ARIS (version 5 of its format), 8 bits.
 SonarLog read_aris(std::string_view bytes, std::size_t most_pings);

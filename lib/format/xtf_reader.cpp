@@ -20,8 +20,12 @@ constexpr std::size_t xtf_file_header = 1024;
 constexpr std::size_t xtf_channel_info = 128;
 constexpr std::size_t xtf_ping_header = 256;
 constexpr std::size_t xtf_channel_header = 64;
+constexpr std::size_t xtf_sounding = 64;
+constexpr int xtf_side_scan = 0, xtf_multibeam = 28;
 constexpr std::size_t most_channels = 64;
 constexpr double longest_range_m = 1e5;
+constexpr double longest_s = 100.0;
+constexpr double largest_intensity = 1e30;
 
 enum class XtfSample { byte, word, integer, real };
 
@@ -79,6 +83,11 @@ double time_of(std::string_view record) {
            0.01 * field_at<std::uint8_t>(record, 21);
 }
 
+double sound_speed_of(std::string_view record) {
+    const double speed = field_at<float>(record, 72);
+    return speed > 0.0 ? speed : 2.0 * field_at<float>(record, 32);
+}
+
 float sample_at(std::string_view bytes, XtfSample kind, std::size_t k) {
     switch (kind) {
         case XtfSample::byte:
@@ -116,8 +125,7 @@ std::optional<XtfSidescanPing> ping_of_record(std::string_view record,
                                               double& frequency_hz) {
     XtfSidescanPing ping;
     ping.t_s = time_of(record);
-    ping.sound_speed_m_s = field_at<float>(record, 72);
-    if (!(ping.sound_speed_m_s > 0.0)) ping.sound_speed_m_s = 2.0 * field_at<float>(record, 32);
+    ping.sound_speed_m_s = sound_speed_of(record);
     ping.altitude_m = field_at<float>(record, 196);
     const std::size_t count = field_at<std::uint16_t>(record, 4);
     std::size_t at = xtf_ping_header;
@@ -142,6 +150,43 @@ std::optional<XtfSidescanPing> ping_of_record(std::string_view record,
     return ping;
 }
 
+/// The soundings of a multibeam's record: entries of 64 bytes behind the header of a ping.
+XtfSoundingPing soundings_of_record(std::string_view record) {
+    XtfSoundingPing ping;
+    ping.t_s = time_of(record);
+    ping.sound_speed_m_s = sound_speed_of(record);
+    const std::size_t count = field_at<std::uint16_t>(record, 4);
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t at = xtf_ping_header + k * xtf_sounding;
+        const XtfSounding beam{.two_way_s = field_at<double>(record, at + 16),
+                               .angle_deg = field_at<double>(record, at + 32),
+                               .intensity = field_at<double>(record, at + 4)};
+        if (!(beam.two_way_s > 0.0)) continue;
+        if (!(beam.two_way_s < longest_s && std::fabs(beam.angle_deg) <= 180.0 &&
+              beam.intensity >= 0.0 && beam.intensity < largest_intensity))
+            refuse_xtf("has a sounding with impossible numbers");
+        ping.beams.push_back(beam);
+    }
+    return ping;
+}
+
+/// Calls `visit(record)` for the records of a type until it says that it has enough.
+template <class Visit>
+void for_each_record(std::string_view bytes, std::size_t channels, int type, const Visit& visit) {
+    // Six channels fit into the first 1,024 bytes, eight into each further 1,024.
+    std::size_t at = xtf_file_header;
+    if (channels > 6) at += (channels - 6 + 7) / 8 * xtf_file_header;
+    while (at < bytes.size()) {
+        if (field_at<std::uint16_t>(bytes, at) != 0xFACE)
+            refuse_xtf("has no record where one should begin");
+        const std::size_t length = field_at<std::uint32_t>(bytes, at + 10);
+        if (length < 14 || length > bytes.size() - at) refuse_xtf("is cut off within a record");
+        const bool is_wanted = field_at<std::uint8_t>(bytes, at + 2) == type;
+        if (is_wanted && !visit(bytes.substr(at, length))) return;
+        at += length;
+    }
+}
+
 }  // namespace
 
 XtfPings read_xtf(std::string_view bytes, std::size_t most_pings) {
@@ -153,22 +198,22 @@ XtfPings read_xtf(std::string_view bytes, std::size_t most_pings) {
         out.full_value = full_values[static_cast<std::size_t>(channel.sample)];
         break;
     }
-    // Six channels fit into the first 1,024 bytes, eight into each further 1,024.
-    std::size_t at = xtf_file_header;
-    if (channels.size() > 6) at += (channels.size() - 6 + 7) / 8 * xtf_file_header;
-    while (at < bytes.size() && out.pings.size() < most_pings) {
-        if (field_at<std::uint16_t>(bytes, at) != 0xFACE)
-            refuse_xtf("has no record where one should begin");
-        const std::size_t length = field_at<std::uint32_t>(bytes, at + 10);
-        if (length < 14 || length > bytes.size() - at) refuse_xtf("is cut off within a record");
-        const bool is_sonar = field_at<std::uint8_t>(bytes, at + 2) == 0;
-        if (is_sonar) {
-            auto ping = ping_of_record(bytes.substr(at, length), channels, out.frequency_hz);
-            if (ping) out.pings.push_back(std::move(*ping));
-        }
-        at += length;
-    }
+    for_each_record(bytes, channels.size(), xtf_side_scan, [&](std::string_view record) {
+        auto ping = ping_of_record(record, channels, out.frequency_hz);
+        if (ping) out.pings.push_back(std::move(*ping));
+        return out.pings.size() < most_pings;
+    });
     return out;
+}
+
+std::vector<XtfSoundingPing> read_xtf_soundings(std::string_view bytes, std::size_t most_pings) {
+    std::vector<XtfSoundingPing> pings;
+    const std::size_t channels = channels_of(bytes).size();
+    for_each_record(bytes, channels, xtf_multibeam, [&](std::string_view record) {
+        pings.push_back(soundings_of_record(record));
+        return pings.size() < most_pings;
+    });
+    return pings;
 }
 
 }  // namespace sonarsim

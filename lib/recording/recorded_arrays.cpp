@@ -173,7 +173,10 @@ Recording read_recorded_arrays(const RecordingFile& file, std::size_t most_pings
         add_pings(read_array_file(path), path.string(), most_pings, values, recording);
     }
     if (!file.xtf.empty()) {
-        read_xtf_pings(file, most_pings, recording);
+        if (file.kind == RecordedKind::soundings)
+            read_xtf_pings_of_soundings(file, most_pings, recording);
+        else
+            read_xtf_pings(file, most_pings, recording);
         check_recording(recording, file.place.location.file);
         return recording;
     }

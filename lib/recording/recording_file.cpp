@@ -49,14 +49,13 @@ void describe(MissionReader& v, RecordingFile& c) {
     v.place(c.place);
     v.choice("kind", c.kind, recorded_kinds, "what the instrument delivers", required);
     const bool is_soundings = c.kind == RecordedKind::soundings;
-    v.paths("xtf", c.xtf, "XTF files of a side-scan", Presence::optional);
-    v.require(c.xtf.empty() || c.kind == RecordedKind::sidescan, {"kind", "xtf"},
-              "XTF files are read for the kind sidescan");
+    v.paths("xtf", c.xtf, "XTF files", Presence::optional);
+    v.require(c.xtf.empty() || c.kind == RecordedKind::sidescan || is_soundings, {"kind", "xtf"},
+              "XTF files are read for the kinds sidescan and soundings");
     v.paths("oculus", c.oculus, "messages or logs of an Oculus", Presence::optional);
     v.require(c.oculus.empty() || c.kind == RecordedKind::imaging, {"kind", "oculus"},
               "files of an Oculus are read for the kind imaging");
-    v.paths("logs", c.logs, ".kmall, .raw of an EK60, .aris or logs of a Ping360",
-            Presence::optional);
+    v.paths("logs", c.logs, "files of the formats in docs/compare.md", Presence::optional);
     const bool is_log = !c.logs.empty();
     const bool is_format = !c.xtf.empty() || !c.oculus.empty() || is_log;
     const bool has_own_ranges = is_soundings || is_format;
@@ -67,8 +66,9 @@ void describe(MissionReader& v, RecordingFile& c) {
     v.require(sources <= 1, {"files", "xtf", "oculus", "logs"},
               "a recording has one of `files`, `xtf`, `oculus` and `logs`");
     v.optional_section("soundings", c.soundings, "files of soundings");
-    v.require(is_soundings == c.soundings.has_value(), {"kind", "soundings"},
-              "the kind soundings has the section `soundings`, other kinds have `files`");
+    v.require(is_soundings ? c.soundings.has_value() == c.xtf.empty() : !c.soundings,
+              {"kind", "soundings"},
+              "the kind soundings has the section `soundings`, or `xtf`; other kinds have `files`");
     v.require(!is_soundings || c.files.empty(), {"kind", "files"},
               "the kind soundings has the section `soundings` in place of `files`");
     v.optional_section("law", c.law, "meaning of the values");

@@ -25,9 +25,9 @@ struct SoundingFiles {
 struct RecordingFile {
     RecordedKind kind = RecordedKind::imaging;
     std::vector<std::filesystem::path> files;
-    std::vector<std::filesystem::path> xtf;     ///< a side-scan's, in place of `files` and ranges
+    std::vector<std::filesystem::path> xtf;     ///< the place of `files` or `soundings`
     std::vector<std::filesystem::path> oculus;  ///< an Oculus's, in place of `files` and ranges
-    std::vector<std::filesystem::path> logs;    ///< .kmall, .raw, .aris, Ping360; the same
+    std::vector<std::filesystem::path> logs;    ///< files of read_sonar_log(); the same
     std::optional<SoundingFiles> soundings;
     std::optional<RecordedLaw> law;  ///< missing: the format of `logs` defines it
     double sound_speed_m_s = 0;

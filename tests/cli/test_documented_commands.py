@@ -40,6 +40,10 @@ NOT_RUN = {
     "sonarsim calibrate out/real --preset gemini_720is --out mine.yaml --report mine.json":
         "needs pings of a real sonar; test_calibrate.py makes some",
     "sonarsim calibrate out/real --preset START --out MINE": "the same",
+    **{f"sonarsim calibrate out/{name} --out fit.yaml": "needs pings that belong to others"
+       for name in ("oculus --preset oculus_m1200d_2100khz_10m --judge 0.34",
+                    "oculus --preset oculus_m1200d_2100khz_10m --judge 0.34 --reverse",
+                    "r2sonic --preset bathymetric_400khz")},
     "scripts/before_after.py build/sonarsim out/before_after":
         "writes pictures into docs, in a minute, and needs python3-pil",
     "scripts/stage_costs.py": HOURS,

@@ -59,15 +59,16 @@ TEST_SUITE("compare") {
                 power.push_back(static_cast<float>(10 + i + 0.5 * j));
         }
         const Detrender detrender({8, 10});
-        const auto plane = detrender.patch_of({power, 8, 10}, 0, 0);
+        const PatchGrid grid({8, 10}, 8, 10);
+        const auto plane = detrender.patch_of({power, 8, 10}, grid, 0);
         REQUIRE(plane.has_value());
         for (const float a : plane->amplitude)
             CHECK(a == doctest::Approx(1.0F).epsilon(1e-5));
         CHECK(plane->mean_power == doctest::Approx(10 + 3.5 + 2.25));
         std::vector<float> edge(80, 0.0F);
         std::fill(edge.begin() + 40, edge.end(), 1.0F);
-        CHECK_FALSE(detrender.patch_of({edge, 8, 10}, 0, 0).has_value());
-        CHECK_FALSE(detrender.patch_of({std::vector<float>(80), 8, 10}, 0, 0).has_value());
+        CHECK_FALSE(detrender.patch_of({edge, 8, 10}, grid, 0).has_value());
+        CHECK_FALSE(detrender.patch_of({std::vector<float>(80), 8, 10}, grid, 0).has_value());
     }
 
     TEST_CASE("figures: correlations of a checkerboard") {
@@ -163,7 +164,7 @@ TEST_SUITE("compare") {
 
     TEST_CASE("figures: texture and distances") {
         const std::vector<float> flat(100, 1.0F);
-        const auto same = texture_histogram({flat, 10, 10}, 0, 0, {10, 10});
+        const auto same = texture_histogram({flat, 10, 10}, {{10, 10}, 10, 10}, 0);
         double sum = 0.0;
         for (const double count : same)
             sum += count;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -75,6 +77,52 @@ inline std::string kmall_water(std::uint32_t seconds, const std::vector<MadeBeam
     return kmall_datagram("#MWC", seconds, out.text);
 }
 
+/// A datagram of a .all: from the 23rd of October 2004, one second past midnight.
+inline std::string all_datagram(char type, int counter, int serial, const std::string& content) {
+    MadeBytes out;
+    out.add('\x02').add(type).u16(3002).u32(20041023).u32(1000).u16(counter).u16(serial);
+    out.text += content;
+    out.add('\x03').u16(0);
+    MadeBytes whole;
+    whole.u32(static_cast<std::uint32_t>(out.text.size()));
+    return whole.text + out.text;
+}
+
+/// Water column of a .all, of beams whose ping has `all` of them.
+inline std::string all_water(int counter, const std::vector<MadeBeam>& beams, int all,
+                             int serial = 7) {
+    MadeBytes out;
+    out.u16(1).u16(1).u16(2).u16(all).u16(static_cast<int>(beams.size()));
+    out.u16(14850).u32(1500000).u16(0).add<std::uint8_t>(30).add<std::int8_t>(-3).u32(0);
+    for (int sector = 0; sector < 2; ++sector)
+        out.u16(0).u16(29300).add(static_cast<std::uint8_t>(sector)).add<std::uint8_t>(0);
+    for (const MadeBeam& beam : beams) {
+        out.add(static_cast<std::int16_t>(std::lround(100.0 * beam.angle_deg))).u16(beam.first);
+        out.u16(static_cast<int>(beam.levels.size())).u16(0).u16(0);
+        for (const int level : beam.levels)
+            out.add(static_cast<std::int8_t>(level));
+    }
+    return all_datagram('k', counter, serial, out.text);
+}
+
+/// A record of XTF with a multibeam's soundings: travel time, angle and intensity of each.
+inline std::string xtf_multibeam(const std::vector<std::array<double, 3>>& beams,
+                                 double sound_speed_m_s) {
+    MadeBytes out;
+    out.text.assign(256, '\0');
+    out.at(0, std::uint16_t{0xFACE}).at(2, std::uint8_t{28});
+    out.at(4, static_cast<std::uint16_t>(beams.size()));
+    out.at(10, static_cast<std::uint32_t>(256 + 64 * beams.size()));
+    // 1970-01-02, 00:00:03 and a quarter of a second.
+    out.at(14, std::uint16_t{1970}).at(16, std::uint8_t{1}).at(17, std::uint8_t{2});
+    out.at(20, std::uint8_t{3}).at(21, std::uint8_t{25});
+    out.at(72, static_cast<float>(sound_speed_m_s));
+    for (const std::array<double, 3>& beam : beams)
+        out.u32(1).add(beam[2]).u32(0).add(beam[0]).add(0.0).add(beam[1]).add(0.0).add(0.0).add(
+            0.0);
+    return out.text;
+}
+
 /// A datagram of Simrad's .raw: type and time, then content.
 inline std::string simrad_datagram(const char* type, const std::string& content) {
     MadeBytes out;
@@ -101,6 +149,57 @@ inline std::string ek60_ping(double frequency_hz, const std::vector<int>& steps,
     }
     out.text += std::string(2 * steps.size(), '\x22');
     return simrad_datagram("RAW0", out.text);
+}
+
+/// The XML datagrams before the pings of an EK80, with one receiver of 1,000 ohms.
+inline std::string ek80_head() {
+    return simrad_datagram(
+               "XML0",
+               "<Configuration><Transceivers><Transceiver Impedance=\"1000\"><Channels>"
+               "<Channel ChannelID=\"A\" ChannelIdShort=\"a\" PulseDuration=\"1E-3;2E-3\"/>"
+               "</Channels></Transceiver></Transceivers></Configuration>") +
+           simrad_datagram("FIL1", std::string(20, '\x33')) +
+           simrad_datagram("XML0", "<Environment Depth=\"1\"\n SoundSpeed=\"1480.5\"/>");
+}
+
+/// The parameters of a channel's next pings; `form` 0 is a pulse that does not sweep.
+inline std::string ek80_parameter(const std::string& channel, const std::string& frequency,
+                                  int form = 0) {
+    return simrad_datagram("XML0", "<Parameter><Channel ChannelID=\"" + channel +
+                                       "\" PulseForm=\"" + std::to_string(form) + "\" " +
+                                       frequency + " SampleInterval=\"2.0E-04\"/></Parameter>");
+}
+
+/// A RAW3 datagram with these samples, which have `count` of them.
+inline std::string ek80_ping(const std::string& channel, int type, int count,
+                             const std::string& samples) {
+    MadeBytes out;
+    out.text = channel + std::string(128 - channel.size(), '\0');
+    out.u16(type).u16(0).add<std::int32_t>(2).add<std::int32_t>(count);
+    return simrad_datagram("RAW3", out.text + samples);
+}
+
+/// A DIDSON file of 48 beams: `frames` of counted samples, at `start` periods of delay.
+inline std::string didson_file(int version, std::uint32_t frames, std::uint32_t samples,
+                               std::uint32_t serial = 100, std::uint32_t start = 4) {
+    constexpr std::uint32_t beams = 48;
+    const std::uint32_t mark = 0x00464444U + (static_cast<std::uint32_t>(version) << 24U);
+    MadeBytes out;
+    out.text.assign(version == 3 ? 512 : 1024, '\0');
+    out.at(0, mark).at(12, std::uint32_t{1}).at(16, beams).at(20, 50000.0F).at(24, samples);
+    out.at(44, serial);
+    for (std::uint32_t k = 0; k < frames; ++k) {
+        const std::size_t frame = out.text.size();
+        out.text.append(version == 3 ? 256 : 1024, '\0');
+        // 1970-01-02, 00:00:0k and a quarter of a second.
+        const std::uint32_t date[] = {1970, 1, 2, 0, 0, k, 25};
+        for (std::size_t d = 0; d < 7; ++d)
+            out.at(frame + 20 + 4 * d, date[d]);
+        out.at(frame + 12, mark).at(frame + 52, start);
+        for (std::uint32_t v = 0; v < samples * beams; ++v)
+            out.add(static_cast<std::uint8_t>(v + k));
+    }
+    return out.text;
 }
 
 /// An ARIS file of 48 beams: `frames` of counted samples.

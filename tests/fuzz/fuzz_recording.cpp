@@ -42,6 +42,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         } else if (data[0] == 'x') {
             for (const XtfSidescanPing& ping : read_xtf(text, 1000).pings)
                 require_that(!ping.port.samples.empty() && ping.starboard.slant_range_m > 0.0);
+            for (const XtfSoundingPing& ping : read_xtf_soundings(text, 1000)) {
+                for (const XtfSounding& beam : ping.beams)
+                    require_that(beam.two_way_s > 0.0 && beam.intensity >= 0.0);
+            }
         } else if (data[0] == 'o') {
             for (const OculusPing& ping : read_oculus(text, 1000))
                 require_that(!ping.values.empty() &&

@@ -118,6 +118,34 @@ TEST_SUITE("recording") {
         CHECK(message_of(folder.path).find("is no XTF file") != std::string::npos);
     }
 
+    TEST_CASE("recording: XTF files of a multibeam's soundings") {
+        const TemporaryFolder folder;
+        // The beam without a travel time found no bottom.
+        const std::string ping =
+            xtf_multibeam({{0.02, -60.0, 3.0}, {0.0, -20.0, 9.0}, {0.01, 30.0, 4.0}}, 1500.0);
+        write_file(folder.path / "a.xtf", xtf_header({}) + ping + ping);
+        const std::string yaml = "kind: soundings\nlaw: {kind: amplitude, full_value: 0}\n";
+        write_file(folder.path / "recording.yaml", yaml + "xtf: a.xtf\n");
+        const Recording recording = load_recording(folder.path);
+        REQUIRE(recording.soundings.size() == 2);
+        const RecordedSoundings& own = recording.soundings[1];
+        CHECK(own.time_s == doctest::Approx(86403.25));
+        CHECK(own.range_m == std::vector<float>{15.0F, 7.5F});
+        CHECK(own.angle_rad[0] == doctest::Approx(-pi / 3.0));
+        CHECK(own.intensity == std::vector<float>{3.0F, 4.0F});
+        CHECK(recording.sound_speed_m_s == 1500.0);
+        write_file(folder.path / "recording.yaml", yaml + "xtf: a.xtf\nsound_speed_m_s: 1600\n");
+        CHECK(load_recording(folder.path).soundings[0].range_m[1] == 8.0F);
+        write_file(folder.path / "a.xtf",
+                   xtf_header({}) + xtf_multibeam({{0.1, 200.0, 1.0}}, 1500.0));
+        CHECK(message_of(folder.path).find("impossible numbers") != std::string::npos);
+        write_file(folder.path / "a.xtf", xtf_header({}) + xtf_multibeam({{0.1, 20.0, 1.0}}, 0.0));
+        write_file(folder.path / "recording.yaml", yaml + "xtf: a.xtf\n");
+        CHECK(message_of(folder.path).find("add `sound_speed_m_s`") != std::string::npos);
+        write_file(folder.path / "recording.yaml", yaml);
+        CHECK(message_of(folder.path).find("section `soundings`, or `xtf`") != std::string::npos);
+    }
+
     TEST_CASE("recording: logs of sonars, with what their formats do not say") {
         const TemporaryFolder folder;
         const auto yaml = [&](const std::string& text) {
@@ -150,6 +178,14 @@ TEST_SUITE("recording") {
         const Recording lenses = load_recording(folder.path);
         CHECK(lenses.pings.size() == 2);
         CHECK(lenses.first_range_m == doctest::Approx(0.5 * 1450.0 * 1004e-6));
+        write_file(folder.path / "d.ddf", didson_file(3, 2, 4));
+        const std::string old = "kind: imaging\nlogs: d.ddf\n";
+        refused(old, "add `sound_speed_m_s`");
+        refused(old + "sound_speed_m_s: 1500\n", "add `bearing_first_deg`");
+        yaml(old + "sound_speed_m_s: 1500\nbearing_first_deg: 14\nbearing_last_deg: -14\n");
+        const Recording didson = load_recording(folder.path);
+        CHECK(didson.range_step_m == doctest::Approx(0.015));
+        CHECK(power_of(didson.law, 127.5) == doctest::Approx(std::pow(10.0, -4.5)));
         write_file(folder.path / "c.log",
                    ping360_message(100, {1, 2, 3}, false) + ping360_message(101, {1, 2, 3}, false));
         const std::string head = "kind: scanning\nlogs: c.log\nlaw: {kind: amplitude}\n";

@@ -31,7 +31,7 @@ void add_orthonormal(std::vector<std::vector<double>>& basis, std::vector<double
 
 }  // namespace
 
-Detrender::Detrender(PatchSize size) : size_(size) {
+Detrender::Detrender(PatchSize size) {
     const auto rows = static_cast<std::size_t>(size.ranges);
     const auto columns = static_cast<std::size_t>(size.beams);
     const auto place = [](std::size_t k, std::size_t count) {
@@ -52,12 +52,10 @@ Detrender::Detrender(PatchSize size) : size_(size) {
     }
 }
 
-std::optional<Patch> Detrender::patch_of(const PowerImage& image, int range, int beam) const {
+std::optional<Patch> Detrender::patch_of(const ImageView& image, const PatchGrid& grid,
+                                         int place) const {
     std::vector<double> power;
-    for (int i = 0; i < size_.ranges; ++i) {
-        for (int j = 0; j < size_.beams; ++j)
-            power.push_back(image.at(range + i, beam + j));
-    }
+    grid.for_each_bin(image, place, [&](float value, int, int) { power.push_back(value); });
     const auto n = static_cast<double>(power.size());
     Patch patch;
     patch.mean_power = std::accumulate(power.begin(), power.end(), 0.0) / n;

@@ -1,28 +1,11 @@
 #pragma once
 
-#include <cstddef>
 #include <optional>
-#include <span>
 #include <vector>
 
+#include "recording/patch_grid.h"
+
 namespace sonarsim {
-
-/// The powers of one image, [range, beam], a range after the other.
-struct PowerImage {
-    std::span<const float> power;
-    int ranges = 0;
-    int beams = 0;
-
-    float at(int range, int beam) const {
-        return power[static_cast<std::size_t>(range) * static_cast<std::size_t>(beams) +
-                     static_cast<std::size_t>(beam)];
-    }
-};
-
-struct PatchSize {
-    int ranges = 32;
-    int beams = 16;
-};
 
 /// A patch without its trend.
 struct Patch {
@@ -37,13 +20,11 @@ class Detrender {
   public:
     explicit Detrender(PatchSize size);
 
-    PatchSize size() const { return size_; }
-    /// The patch with this first range and beam, which must lie in the image; nothing where it is
-    /// empty, or where the trend falls to 0.15 of the mean: an edge lies there.
-    std::optional<Patch> patch_of(const PowerImage& image, int range, int beam) const;
+    /// A patch of the image; nothing where it is empty, or where the trend falls to 0.15 of the
+    /// mean: an edge lies there.
+    std::optional<Patch> patch_of(const ImageView& image, const PatchGrid& grid, int place) const;
 
   private:
-    PatchSize size_;
     std::vector<std::vector<double>> basis_;  ///< orthonormal functions of a pixel of the patch
 };
 

@@ -13,7 +13,7 @@ constexpr int range_reach = 4;
 constexpr int beam_reach = 12;
 constexpr double stands_out = 150.0;
 
-bool is_largest(const PowerImage& image, int range, int beam) {
+bool is_largest(const ImageView& image, int range, int beam) {
     const float own = image.at(range, beam);
     for (int i = std::max(0, range - range_reach);
          i <= std::min(image.ranges - 1, range + range_reach); ++i) {
@@ -25,7 +25,7 @@ bool is_largest(const PowerImage& image, int range, int beam) {
     return true;
 }
 
-double median_about(const PowerImage& image, int range) {
+double median_about(const ImageView& image, int range) {
     std::vector<float> values;
     for (int i = std::max(0, range - 3); i <= std::min(image.ranges - 1, range + 3); ++i) {
         for (int j = 0; j < image.beams; ++j)
@@ -50,7 +50,7 @@ double half_width(int peak, int step, int count, const Value& value) {
 
 }  // namespace
 
-std::vector<PointEcho> point_echoes(const PowerImage& image, int from, int to) {
+std::vector<PointEcho> point_echoes(const ImageView& image, int from, int to) {
     std::vector<PointEcho> points;
     const int margin = std::min(20, image.beams / 8);
     if (image.beams < 2 * beam_reach) return points;

@@ -17,6 +17,6 @@ struct PointEcho {
 };
 
 /// The point echoes with ranges in [from, to), 20 beams or an eighth of the fan off its edges.
-std::vector<PointEcho> point_echoes(const PowerImage& image, int from, int to);
+std::vector<PointEcho> point_echoes(const ImageView& image, int from, int to);
 
 }  // namespace sonarsim

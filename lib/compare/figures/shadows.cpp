@@ -16,7 +16,7 @@ constexpr double dark = 0.25;  // 6 dB below
 constexpr double least_shadow_power = 1e-16;
 
 /// The mean power of a window that ends at the image's borders.
-double window_mean(const PowerImage& image, int range, int column, int half_ranges) {
+double window_mean(const ImageView& image, int range, int column, int half_ranges) {
     double sum = 0.0, count = 0.0;
     for (int i = std::max(range - half_ranges, 0);
          i <= std::min(range + half_ranges, image.ranges - 1); ++i) {
@@ -35,7 +35,7 @@ struct Smoothed {
     std::vector<double> median;
 };
 
-Smoothed smoothed_zone(const PowerImage& image, RangeZone zone) {
+Smoothed smoothed_zone(const ImageView& image, RangeZone zone) {
     Smoothed out;
     for (int i = zone.from; i < zone.to; ++i) {
         const auto first = static_cast<std::ptrdiff_t>(out.power.size());
@@ -50,7 +50,7 @@ Smoothed smoothed_zone(const PowerImage& image, RangeZone zone) {
 }
 
 /// The place, between ranges linearly, where the mean of 5 columns first reaches a power.
-double reached_at(const PowerImage& image, int column, int from, int to, double power) {
+double reached_at(const ImageView& image, int column, int from, int to, double power) {
     double before = window_mean(image, from, column, 0);
     for (int i = from + 1; i < to; ++i) {
         const double here = window_mean(image, i, column, 0);
@@ -61,7 +61,7 @@ double reached_at(const PowerImage& image, int column, int from, int to, double 
 }
 
 /// Depth and edge of the shadow of these ranges.
-Shadow measured_shadow(const PowerImage& image, RangeZone zone, const Smoothed& smoothed,
+Shadow measured_shadow(const ImageView& image, RangeZone zone, const Smoothed& smoothed,
                        Shadow shadow) {
     const int trim = std::min(half_window, (shadow.to - shadow.from - 1) / 2);
     double inside = 0.0, around = 0.0;
@@ -83,7 +83,7 @@ Shadow measured_shadow(const PowerImage& image, RangeZone zone, const Smoothed& 
 
 }  // namespace
 
-std::vector<Shadow> shadows_of(const PowerImage& image, RangeZone zone) {
+std::vector<Shadow> shadows_of(const ImageView& image, RangeZone zone) {
     std::vector<Shadow> out;
     const Smoothed smoothed = smoothed_zone(image, zone);
     const auto is_dark = [&](int i, int j) {

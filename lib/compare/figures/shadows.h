@@ -20,6 +20,6 @@ struct Shadow {
 };
 
 /// The shadows within a zone.
-std::vector<Shadow> shadows_of(const PowerImage& image, RangeZone zone);
+std::vector<Shadow> shadows_of(const ImageView& image, RangeZone zone);
 
 }  // namespace sonarsim

@@ -21,15 +21,17 @@ std::array<int, 256> places_of_patterns() {
 
 }  // namespace
 
-std::array<double, texture_patterns> texture_histogram(const PowerImage& image, int range, int beam,
-                                                       PatchSize size) {
+std::array<double, texture_patterns> texture_histogram(const ImageView& image,
+                                                       const PatchGrid& grid, int place) {
     const std::array<int, 256> places = places_of_patterns();
     // The neighbours around the circle.
     constexpr std::array<std::array<int, 2>, 8> neighbours{
         {{-1, -1}, {-1, 0}, {-1, 1}, {0, 1}, {1, 1}, {1, 0}, {1, -1}, {0, -1}}};
     std::array<double, texture_patterns> histogram{};
-    for (int i = range + 1; i + 1 < range + size.ranges; ++i) {
-        for (int j = beam + 1; j + 1 < beam + size.beams; ++j) {
+    const int range = grid.first_range(place);
+    const int beam = grid.first_beam(place);
+    for (int i = range + 1; i + 1 < range + grid.size.ranges; ++i) {
+        for (int j = beam + 1; j + 1 < beam + grid.size.beams; ++j) {
             const float middle = image.at(i, j);
             unsigned pattern = 0;
             for (const auto& [down, right] : neighbours)

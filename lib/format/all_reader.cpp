@@ -1,0 +1,115 @@
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+
+#include "format/byte_fields.h"
+#include "format/water_column.h"
+
+namespace sonarsim {
+
+namespace {
+
+// Kongsberg, "EM Series Multibeam echo sounder, Datagram formats", little-endian as its programs
+// for PCs write: a length, then a datagram of that length from 0x02 on. The third byte from its end
+// is 0x03. Places are those after the length.
+constexpr char all_begin = 0x02, all_end = 0x03, water_type = 'k';
+constexpr std::size_t shortest_datagram = 19;
+constexpr std::size_t all_sectors_at = 40, all_sector_length = 6, all_beam_entry = 10;
+
+/// The datagram that begins at a place.
+std::optional<std::string_view> all_datagram(std::string_view bytes, std::size_t at) {
+    if (bytes.size() - at < 4) return std::nullopt;
+    const std::size_t length = field_at<std::uint32_t>(bytes, at);
+    if (length < shortest_datagram || length > bytes.size() - at - 4) return std::nullopt;
+    const std::string_view datagram = bytes.substr(at + 4, length);
+    if (datagram[0] != all_begin || datagram[length - 3] != all_end) return std::nullopt;
+    return datagram;
+}
+
+/// Seconds since 1970 of a date, 20041023 for the 23rd of October 2004, and of milliseconds of the
+/// day.
+double time_of_day(std::uint32_t date, std::uint32_t ms) {
+    using namespace std::chrono;
+    const year_month_day day(year(static_cast<int>(date / 10000)), month(date / 100 % 100),
+                             std::chrono::day(date % 100));
+    if (date > 99999999 || !day.ok()) throw std::runtime_error("has a ping without a date");
+    return 86400.0 * static_cast<double>(sys_days(day).time_since_epoch().count()) + 1e-3 * ms;
+}
+
+/// A ping with the numbers that name it: several datagrams may hold its beams.
+struct AllPing {
+    WaterPing ping;
+    std::uint16_t counter = 0;
+    std::uint16_t serial = 0;   ///< the head's
+    std::size_t all_beams = 0;  ///< in all of its datagrams
+};
+
+AllPing head_of_ping(std::string_view datagram) {
+    AllPing out;
+    out.ping.t_s =
+        time_of_day(field_at<std::uint32_t>(datagram, 4), field_at<std::uint32_t>(datagram, 8));
+    out.counter = field_at<std::uint16_t>(datagram, 12);
+    out.serial = field_at<std::uint16_t>(datagram, 14);
+    out.all_beams = field_at<std::uint16_t>(datagram, 22);
+    out.ping.sound_speed_m_s = 0.1 * field_at<std::uint16_t>(datagram, 26);
+    out.ping.sample_hz = 0.01 * field_at<std::uint32_t>(datagram, 28);
+    if (field_at<std::uint16_t>(datagram, 20) > 0)
+        out.ping.frequency_hz = 10.0 * field_at<std::uint16_t>(datagram, all_sectors_at + 2);
+    check_water(out.ping);
+    return out;
+}
+
+void add_all_beams(std::string_view datagram, WaterPing& ping) {
+    const std::size_t sectors = field_at<std::uint16_t>(datagram, 20);
+    const std::size_t count = field_at<std::uint16_t>(datagram, 24);
+    std::size_t at = all_sectors_at + sectors * all_sector_length;
+    for (std::size_t k = 0; k < count; ++k) {
+        WaterBeam beam;
+        beam.angle_deg = 0.01 * field_at<std::int16_t>(datagram, at);
+        beam.first = field_at<std::uint16_t>(datagram, at + 2);
+        const std::size_t samples = field_at<std::uint16_t>(datagram, at + 4);
+        at += all_beam_entry;
+        if (at > datagram.size() || datagram.size() - at < samples)
+            throw std::runtime_error("has a beam with more samples than their datagram");
+        beam.samples = datagram.substr(at, samples);
+        at += samples;
+        ping.add(beam);
+    }
+}
+
+}  // namespace
+
+bool is_all_file(std::string_view bytes) {
+    return all_datagram(bytes, 0).has_value();
+}
+
+SonarLog read_all(std::string_view bytes, std::size_t most_pings) {
+    std::vector<WaterPing> pings;
+    std::optional<AllPing> open;
+    std::optional<std::uint16_t> serial;
+    const auto close = [&] {
+        if (open && open->ping.beams.size() == open->all_beams)
+            pings.push_back(std::move(open->ping));
+        open.reset();
+    };
+    for (std::size_t at = 0; at < bytes.size() && pings.size() < most_pings;) {
+        const auto datagram = all_datagram(bytes, at);
+        if (!datagram)
+            throw std::runtime_error("has no datagram where one should begin, or is cut off");
+        at += 4 + datagram->size();
+        if ((*datagram)[1] != water_type) continue;
+        AllPing own = head_of_ping(*datagram);
+        if (!serial) serial = own.serial;
+        if (own.serial != *serial) continue;
+        if (!open || open->counter != own.counter || open->ping.t_s != own.ping.t_s) {
+            close();
+            open = std::move(own);
+        }
+        add_all_beams(*datagram, open->ping);
+        if (open->ping.beams.size() >= open->all_beams) close();
+    }
+    return log_of_water(pings, "has no water column (datagrams 'k', in .all or .wcd files)");
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,156 @@
+#include <cstdint>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+#include "core/text.h"
+#include "format/byte_fields.h"
+#include "format/ek_log.h"
+
+namespace sonarsim {
+
+namespace {
+
+// Simrad, "EK80 Interface specifications": datagrams as those of an EK60. XML0 has the environment
+// and, before a ping, its parameters; RAW3 has its samples. Places are those after the first
+// length.
+constexpr std::size_t channel_at = 12, channel_length = 128, type_at = 140, offset_at = 144,
+                      count_at = 148, raw3_data = 152;
+constexpr unsigned power_bit = 1, half_bit = 4, complex_bit = 8;
+// The impedances of the receiver, if the file has none, and of a transducer, in ohms.
+constexpr double usual_ohms = 5400.0, transducer_ohms = 75.0;
+
+struct Ek80Channel {
+    double frequency_hz = 0.0;
+    double sample_s = 0.0;
+    bool is_sweep = false;
+    double ohms = usual_ohms;  ///< impedance of its receiver
+};
+
+/// The contents of the XML datagrams so far.
+struct Ek80Settings {
+    double sound_speed_m_s = 0.0;
+    std::map<std::string, Ek80Channel, std::less<>> channels;
+};
+
+/// The start tags of a name, without their brackets.
+std::vector<std::string_view> xml_tags(std::string_view xml, const std::string& name) {
+    std::vector<std::string_view> tags;
+    for (std::size_t at = xml.find('<' + name); at != std::string_view::npos;
+         at = xml.find('<' + name, at + 1)) {
+        const std::string_view tag = xml.substr(at, xml.find('>', at) - at);
+        const std::string_view after = tag.substr(name.size() + 1);
+        if (!after.empty() && after.find_first_of(" \t\r\n") == 0) tags.push_back(after);
+    }
+    return tags;
+}
+
+/// The text of an attribute; empty if the tag lacks it.
+std::string_view xml_attribute(std::string_view tag, const std::string& name) {
+    const std::string wanted = name + "=\"";
+    for (std::size_t at = tag.find(wanted); at != std::string_view::npos;
+         at = tag.find(wanted, at + 1)) {
+        if (at == 0 || std::string_view(" \t\r\n").find(tag[at - 1]) == std::string_view::npos)
+            continue;
+        const std::string_view text = tag.substr(at + wanted.size());
+        return text.substr(0, text.find('"'));
+    }
+    return {};
+}
+
+std::string channel_id(std::string_view channel) {
+    return std::string(xml_attribute(channel, "ChannelID"));
+}
+
+std::optional<double> xml_number(std::string_view tag, const std::string& name) {
+    return parse_number(xml_attribute(tag, name));
+}
+
+/// Takes the impedances of the receivers from the configuration.
+void take_receivers(std::string_view xml, Ek80Settings& settings) {
+    constexpr std::string_view begin = "<Transceiver ";
+    for (std::size_t at = xml.find(begin); at != std::string_view::npos;) {
+        const std::size_t next = xml.find(begin, at + 1);
+        const std::string_view own = xml.substr(at, next - at);
+        const double ohms = xml_number(own.substr(0, own.find('>')), "Impedance").value_or(0.0);
+        for (const std::string_view tag : xml_tags(own, "Channel")) {
+            if (ohms > 0.0) settings.channels[channel_id(tag)].ohms = ohms;
+        }
+        at = next;
+    }
+}
+
+void take_settings(std::string_view xml, Ek80Settings& settings) {
+    for (const std::string_view tag : xml_tags(xml, "Environment"))
+        settings.sound_speed_m_s = xml_number(tag, "SoundSpeed").value_or(0.0);
+    take_receivers(xml, settings);
+    for (const std::string_view tag : xml_tags(xml, "Channel")) {
+        const auto interval = xml_number(tag, "SampleInterval");
+        if (!interval) continue;  // the configuration has no ping's parameters
+        const double start = xml_number(tag, "FrequencyStart").value_or(0.0);
+        const double end = xml_number(tag, "FrequencyEnd").value_or(start);
+        Ek80Channel& channel = settings.channels[channel_id(tag)];
+        channel.sample_s = *interval;
+        channel.frequency_hz = xml_number(tag, "Frequency").value_or(0.5 * (start + end));
+        channel.is_sweep = xml_number(tag, "PulseForm").value_or(0.0) != 0.0;
+    }
+}
+
+/// Takes the samples of a RAW3 datagram, if they are power or complex.
+void take_samples(std::string_view datagram, double ohms, EkPing& ping) {
+    const auto type = static_cast<unsigned>(field_at<std::uint16_t>(datagram, type_at));
+    if ((type & half_bit) != 0)
+        throw std::runtime_error("has complex samples of 16 bits, which are not read");
+    const bool is_complex = (type & complex_bit) != 0;
+    if (!is_complex && (type & power_bit) == 0) return;
+    const auto offset = field_at<std::int32_t>(datagram, offset_at);
+    const auto count = field_at<std::int32_t>(datagram, count_at);
+    ping.sectors = is_complex ? static_cast<int>((type >> 8U) & 7U) : 0;
+    const std::size_t bytes = is_complex ? 8 * static_cast<std::size_t>(ping.sectors) : 2;
+    if (offset < 0 || count < 0 || bytes == 0)
+        throw std::runtime_error("has a ping with impossible numbers");
+    ping.offset = static_cast<std::size_t>(offset);
+    ping.count = static_cast<std::size_t>(count);
+    if (ping.count > (datagram.size() - raw3_data) / bytes)
+        throw std::runtime_error("has more samples than their datagram");
+    ping.samples = datagram.substr(raw3_data, bytes * ping.count);
+    // Andersen et al. 2021: P = N (|y| / (2 sqrt 2))^2 ((Zr + Zt) / Zr)^2 / Zt, y the mean of N.
+    const double share = (ohms + transducer_ohms) / ohms;
+    ping.watts = ping.sectors / 8.0 * share * share / transducer_ohms;
+}
+
+EkPing ek80_ping_of(std::string_view datagram, const Ek80Settings& settings) {
+    field_at<std::int32_t>(datagram, count_at);  // throws where the datagram is too short
+    const std::string_view field = datagram.substr(channel_at, channel_length);
+    const auto found = settings.channels.find(field.substr(0, field.find('\0')));
+    if (found == settings.channels.end() || found->second.sample_s == 0.0)
+        throw std::runtime_error("has a ping without its parameters (XML0 datagram)");
+    EkPing ping;
+    ping.t_s = ek_time_s(datagram);
+    ping.frequency_hz = found->second.frequency_hz;
+    ping.sample_s = found->second.sample_s;
+    ping.is_sweep = found->second.is_sweep;
+    ping.sound_speed_m_s = settings.sound_speed_m_s;
+    check_ek(ping);
+    take_samples(datagram, found->second.ohms, ping);
+    return ping;
+}
+
+}  // namespace
+
+SonarLog read_ek80(std::string_view bytes, std::size_t most_pings,
+                   std::optional<double> frequency_hz) {
+    Ek80Settings settings;
+    std::vector<EkPing> pings;
+    for (const std::string_view datagram : ek_datagrams(bytes)) {
+        if (datagram.starts_with("XML0")) take_settings(datagram.substr(12), settings);
+        if (!datagram.starts_with("RAW3")) continue;
+        const EkPing ping = ek80_ping_of(datagram, settings);
+        if (ping.count > 0) pings.push_back(ping);
+    }
+    if (pings.empty())
+        throw std::runtime_error("has no power or complex samples of an EK80 (RAW3 datagrams)");
+    return log_of_ek(pings, most_pings, frequency_hz);
+}
+
+}  // namespace sonarsim
