@@ -14,6 +14,7 @@ anchor    an anchor as an OBJ in millimetres with z up
 bathymetry  a survey's map of 55 x 50 m of sand as a GeoTIFF in UTM coordinates
 sediments a map of what that ground is made of as a PNG, and backscatter, a map of decibels as a
           GeoTIFF
+mosaic    a drawn side-scan mosaic of that ground as a GeoTIFF of decibels, with gaps below the tracks
 
     ./scripts/make_scenes.py --for mission.yaml [options of sonarsim]
 
@@ -26,7 +27,7 @@ import pathlib
 import subprocess
 import sys
 
-from scenes import anchor, bathymetry, close_bottom, lifeboat, minefield, seafloor, sediments, tank, wreck
+from scenes import anchor, bathymetry, close_bottom, lifeboat, minefield, mosaic, seafloor, sediments, tank, wreck
 from scenes.glb import write_glb
 from scenes.named import files_named
 from scenes.obj import write_obj
@@ -48,11 +49,12 @@ def builders(cells: int, area: float, quarterings: int) -> dict:
         "anchor": {"anchor": anchor.build},
         "bathymetry": {"bathymetry": bathymetry.build},
         "sediments": {"sediments": sediments.colours, "backscatter": sediments.decibels},
+        "mosaic": {"mosaic": mosaic.decibels},
     }
 
 
 def file_name(name: str) -> str:
-    suffixes = {"anchor": ".obj", "bathymetry": ".tif", "sediments": ".png", "backscatter": ".tif"}
+    suffixes = {"anchor": ".obj", "bathymetry": ".tif", "sediments": ".png", "backscatter": ".tif", "mosaic": ".tif"}
     return name + suffixes.get(name, ".glb")
 
 
@@ -62,7 +64,7 @@ def write(path: pathlib.Path, build) -> None:
     if path.suffix in (".tif", ".png"):
         if path.suffix == ".png":
             size = sediments.write_png(path, parts)
-        elif path.stem == "backscatter":
+        elif path.stem in ("backscatter", "mosaic"):
             size = bathymetry.write_geotiff(path, parts, sediments.MOSAIC_PIXEL_M)
         else:
             size = bathymetry.write_geotiff(path, parts)

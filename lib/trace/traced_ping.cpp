@@ -34,6 +34,7 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
         // The texels' errors do not depend on the signs of the engine's.
         const double of_maps = error_of_maps(scene, settings.view, T_world_sensor, traced.samples);
         double& estimate = traced.samples.estimated_l1;
+        estimate *= growth_by_maps(scene, settings.view, T_world_sensor, traced.samples.compared);
         estimate = std::sqrt(estimate * estimate + of_maps * of_maps);
         lay_maps(*scene.maps, settings.view, T_world_sensor, traced.samples, traced.outside_sector,
                  1.0, scene.sound_profile.get());

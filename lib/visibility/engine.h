@@ -31,6 +31,12 @@ struct Sample {
     float strength = 1.0F;
 };
 
+/// A beam as two sets of samples see it, whose images an engine's estimate compares.
+struct ComparedBeam {
+    int beam = 0;
+    std::vector<Sample> one, other;
+};
+
 /// The insonified surface of a ping, sorted by beam. A footprint extends into a neighbouring beam
 /// by at most a tenth of a beam.
 struct Samples {
@@ -42,6 +48,9 @@ struct Samples {
     std::uint64_t dropped = 0;
     /// The engine's estimate of the relative L1 of the noise-free image; NaN if it has none.
     double estimated_l1 = std::numeric_limits<double>::quiet_NaN();
+    /// Beams that the estimate is from, in order; of scenes with maps, since engines know nothing
+    /// of these.
+    std::vector<ComparedBeam> compared;
 
     std::span<const Sample> beam(int j) const {
         return {items.data() + beam_begin[j], items.data() + beam_begin[j + 1]};

@@ -36,6 +36,7 @@ NOT_RUN = {
     "./scripts/report.sh": HOURS,
     'SCENES="tank seafloor wreck lifeboat motorbike" ./scripts/report.sh': HOURS,
     "./scripts/scene_costs.py copies": HOURS,
+    "./scripts/map_figures.py errors": HOURS,
     "./scripts/same_sums.sh PROGRAM": "takes minutes; test_clusters.py and test_merge.py compare the same sums",
     "sonarsim calibrate out/real --preset gemini_720is --out mine.yaml --report mine.json":
         "needs pings of a real sonar; test_calibrate.py makes some",

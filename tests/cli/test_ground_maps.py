@@ -261,7 +261,7 @@ class GroundMaps(Composed):
                 (with_texture(floor, {"uri": "quarters.png"}, texCoord=1), "by another TEXCOORD than TEXCOORD_0"),
                 (with_texture(floor, {"uri": "../db.png"}), "is not in the folder of the glTF file or below"),
                 (with_texture(floor, {"uri": "none.png"}), "none.png: no such file"),
-                (with_texture(floor, {"uri": data_uri(b"\xff\xd8\xff\xe0")}), "is no image; PNG, TIFF and OpenEXR"),
+                (with_texture(floor, {"uri": data_uri(b"\xff\xd8\xff\xe0")}), "is a JPEG, whose values are not exact"),
                 (with_texture(floor, {"uri": data_uri(png([[1, 2]], 8)[:50])}), "cannot be read"),
                 (with_texture(floor, {"bufferView": 2**31 - 1}), "reaches beyond bufferViews[2147483647]"),
                 (with_texture(floor, {"uri": "a.png"}, index=7), "textures[7] does not exist")):

@@ -284,6 +284,33 @@ class Heightmap(Composed):
         self.assertTrue(re.search(r"bed.png: cannot be read: .*install libopenimageio-dev", result.stderr),
                         result.stderr)
 
+    def test_soundings_lie_on_it(self):
+        """Soundings of a profiling sonar lie on the map's surface, within their bins."""
+        self.mission(self.OWN)
+        for old, new in (("kind: imaging", "kind: profiling\n    azimuth_deg: 60\n    noise: {add_sigma: 0, mult_sigma: 0}"),
+                         ("range_bins: 48", "range_bins: 900"), ("azimuth_bins: 32", "azimuth_bins: 120"),
+                         ("    mount: {rpy_deg: [0, 25, 0]}\n", ""), ("  labels: true\n", ""),
+                         ("[1, 4.5, 3]", "[2, 5, 3]"), ("[2, 5, 3], rpy_deg: [0, 0, 30]", "[10, 5, 3]")):
+            self.edit("mission.yaml", old, new)
+        self.assert_renders()
+        table = (self.folder / "out/fls/soundings.csv").read_text().splitlines()
+        names = table[0].split(",")
+        rows = [dict(zip(names, map(float, line.split(",")), strict=True)) for line in table[1:]]
+        self.assertGreater(len(rows), 500)
+        off = []
+        for row in rows:
+            x, y = row["x_m"] / PIXEL - 0.5, ROWS - row["y_m"] / PIXEL - 0.5
+            column, line = math.floor(x), math.floor(y)
+            if not (0 <= column < COLUMNS - 1 and 0 <= line < ROWS - 1):
+                continue
+            a, b = x - column, y - line
+            north, south = ((1 - a) * value(line + k, column) + a * value(line + k, column + 1) for k in (0, 1))
+            off.append(row["z_m"] - (0.001 * ((1 - b) * north + b * south) - 3))
+        self.assertGreater(len(off), 500)
+        # Bins of 1 cm, and footprints of 5 to 12 cm on slopes of up to 0.25.
+        self.assertLess(abs(sum(off) / len(off)), 0.01)
+        self.assertLess(math.sqrt(sum(d * d for d in off) / len(off)), 0.02)
+
     @unittest.skipIf(shutil.which("gdal_translate") is None, "needs gdal-bin")
     def test_geotiff(self):
         """A user's GeoTIFF at UTM coordinates, with nothing but origin_m."""

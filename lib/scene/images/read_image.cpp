@@ -221,7 +221,12 @@ Image ImageReader::read_at(const std::filesystem::path& path, const Location& wh
                            bool has_place) {
     const std::string format = image_format(path);
     if (format.empty()) {
-        const std::string_view known = known_format(first_bytes(path));
+        const std::string bytes = first_bytes(path);
+        if (bytes.starts_with("\xff\xd8\xff"))
+            throw InputError(where,
+                             "is a JPEG, whose values are not exact; save the image it was "
+                             "made from as PNG, TIFF or OpenEXR");
+        const std::string_view known = known_format(bytes);
         throw InputError(where, (known.empty() ? "is no image" : "is " + std::string(known)) +
                                     "; PNG, TIFF and OpenEXR are read");
     }

@@ -45,6 +45,11 @@ double area_of(const TexelBox& box) {
     return (box.x_max - box.x_min) * (box.y_max - box.y_min);
 }
 
+/// The distance that a footprint reaches from its centre along x and y.
+Eigen::Vector2d reach_m(const GroundFootprint& footprint) {
+    return footprint.u.cwiseAbs() + footprint.v.cwiseAbs();
+}
+
 /// True if a box lies within one texel, or wholly beyond the image.
 bool is_within_texel(const TexelFrame& frame, const TexelBox& box) {
     const bool beyond = box.x_max <= 0.0 || box.y_max <= 0.0 || box.x_min >= frame.width ||
@@ -161,27 +166,44 @@ MappedPoint GroundMaps::at(std::uint32_t instance, std::uint32_t own,
     return out;
 }
 
-std::optional<MappedPoint> GroundMaps::alike_over(std::uint32_t instance, std::uint32_t own,
-                                                  const GroundFootprint& footprint) const {
-    const Eigen::Vector2d half_m = footprint.u.cwiseAbs() + footprint.v.cwiseAbs();
-    if (is_on(on_strengths_, instance)) {
-        const TexelFrame& frame = strengths_->frame;
-        if (!is_within_texel(frame, box_around(frame, footprint.centre, half_m)))
-            return std::nullopt;
-    }
-    const MappedPoint centre = at(instance, own, footprint.centre);
-    if (!is_on(on_materials_, instance)) return centre;
+std::optional<std::uint32_t> GroundMaps::material_over(std::uint32_t instance, std::uint32_t own,
+                                                       const GroundFootprint& footprint) const {
+    if (!is_on(on_materials_, instance)) return own;
     const TexelFrame& frame = materials_->frame;
-    const TexelBox box = box_around(frame, footprint.centre, half_m);
-    if (is_within_texel(frame, box)) return centre;
+    const TexelBox box = box_around(frame, footprint.centre, reach_m(footprint));
     const auto texel = texel_at(frame, frame.texels(footprint.centre));
-    const TexelBox whole = whole_texels(box);
     const bool is_own = !texel || materials_->choice[*texel] == MaterialTexels::own;
+    const std::uint32_t here = is_own ? own : materials_->materials[materials_->choice[*texel]];
+    if (is_within_texel(frame, box)) return here;
+    const TexelBox whole = whole_texels(box);
     // All is the ground's own material where no texel of the box has another.
     const bool is_alike =
         is_own ? std::ranges::all_of(counts_, [&](const auto& c) { return c.over(whole) == 0.0; })
                : counts_[materials_->choice[*texel]].over(whole) >= area_of(whole);
-    return is_alike ? std::optional(centre) : std::nullopt;
+    return is_alike ? std::optional(here) : std::nullopt;
+}
+
+std::optional<MappedPoint> GroundMaps::alike_over(std::uint32_t instance, std::uint32_t own,
+                                                  const GroundFootprint& footprint) const {
+    if (is_on(on_strengths_, instance)) {
+        const TexelFrame& frame = strengths_->frame;
+        if (!is_within_texel(frame, box_around(frame, footprint.centre, reach_m(footprint))))
+            return std::nullopt;
+    }
+    const auto material = material_over(instance, own, footprint);
+    if (!material) return std::nullopt;
+    return MappedPoint{*material, at(instance, own, footprint.centre).strength};
+}
+
+double GroundMaps::factor_over(const Eigen::Vector2d& world, const Eigen::Vector2d& half_m) const {
+    const TexelFrame& frame = strengths_->frame;
+    const TexelBox box = box_around(frame, world, half_m);
+    if (is_within_texel(frame, box)) {
+        const auto texel = texel_at(frame, frame.texels(world));
+        return texel ? static_cast<double>(strengths_->factor[*texel]) : 1.0;
+    }
+    // Rounding may leave a little less than nothing of a factor near 0.
+    return std::max(0.0, 1.0 + gains_.over(box) / area_of(box));
 }
 
 void GroundMaps::shares_over(std::uint32_t instance, std::uint32_t own,
@@ -191,26 +213,25 @@ void GroundMaps::shares_over(std::uint32_t instance, std::uint32_t own,
     const Probes probes = probes_of(footprint);
     const Eigen::Vector2d half_m = Eigen::Vector2d::Constant(probes.half_m);
     const double per_probe = 1.0 / probes.count;
+    const bool has_strengths = is_on(on_strengths_, instance);
+    // Most footprints have one material.
+    if (const auto material = material_over(instance, own, footprint)) {
+        double sum = 0.0;
+        for (int k = 0; k < probes.count; ++k)
+            sum += has_strengths ? factor_over(probes.first + k * probes.step, half_m) : 1.0;
+        out.push_back({*material, 1.0, sum * per_probe});
+        return;
+    }
     for (int k = 0; k < probes.count; ++k) {
         const Eigen::Vector2d world = probes.first + k * probes.step;
-        double factor = 1.0;
-        if (is_on(on_strengths_, instance)) {
-            const TexelBox box = box_around(strengths_->frame, world, half_m);
-            // Rounding may leave a little less than nothing of a factor near 0.
-            factor = is_within_texel(strengths_->frame, box)
-                         ? at(instance, own, world).strength
-                         : std::max(0.0, 1.0 + gains_.over(box) / area_of(box));
-        }
+        const double factor = has_strengths ? factor_over(world, half_m) : 1.0;
+        const TexelBox box = box_around(materials_->frame, world, half_m);
+        const double per_area = 1.0 / area_of(box);
         double left = 1.0;
-        if (is_on(on_materials_, instance)) {
-            const TexelBox box = box_around(materials_->frame, world, half_m);
-            const double per_area = 1.0 / area_of(box);
-            for (std::size_t m = 0; m < counts_.size(); ++m) {
-                const double share = std::min(counts_[m].over(box) * per_area, left);
-                add_share(materials_->materials[m], share * per_probe, factor * share * per_probe,
-                          out);
-                left -= share;
-            }
+        for (std::size_t m = 0; m < counts_.size(); ++m) {
+            const double share = std::min(counts_[m].over(box) * per_area, left);
+            add_share(materials_->materials[m], share * per_probe, factor * share * per_probe, out);
+            left -= share;
         }
         constexpr double rounding = 1e-6;
         if (left > rounding) add_share(own, left * per_probe, factor * left * per_probe, out);

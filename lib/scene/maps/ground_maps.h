@@ -116,6 +116,12 @@ class GroundMaps {
         return instance < on.size() && on[instance] != 0;
     }
 
+    /// The material of all of a footprint, if a quick look says that it has one.
+    std::optional<std::uint32_t> material_over(std::uint32_t instance, std::uint32_t own,
+                                               const GroundFootprint& footprint) const;
+    /// The mean of the factors over a box around a point.
+    double factor_over(const Eigen::Vector2d& world, const Eigen::Vector2d& half_m) const;
+
     std::optional<MaterialTexels> materials_;
     std::vector<TexelSums<std::uint32_t>> counts_;  ///< texels of each of MaterialTexels::materials
     std::vector<char> on_materials_;

@@ -38,26 +38,36 @@ class TexelSums {
 
     /// The integral over a box. Beyond the image all is 0.
     double over(const TexelBox& box) const {
-        return (before(box.x_max, box.y_max) - before(box.x_min, box.y_max)) -
-               (before(box.x_max, box.y_min) - before(box.x_min, box.y_min));
+        const Place west = place(box.x_min, width_);
+        const Place east = place(box.x_max, width_);
+        const Place north = place(box.y_min, height_);
+        const Place south = place(box.y_max, height_);
+        return (before(east, south) - before(west, south)) -
+               (before(east, north) - before(west, north));
     }
 
   private:
     static std::size_t index(int k) { return static_cast<std::size_t>(k); }
     std::size_t row_length() const { return index(width_) + 1; }
 
-    double before(double x, double y) const {
-        x = std::clamp(x, 0.0, 1.0 * width_);
-        y = std::clamp(y, 0.0, 1.0 * height_);
-        const int column = std::min(static_cast<int>(x), width_ - 1);
-        const int row = std::min(static_cast<int>(y), height_ - 1);
-        const T* const above = &sums_[index(row) * row_length() + index(column)];
+    /// A coordinate: its texel, and the way across it from 0 to 1.
+    struct Place {
+        std::size_t texel;
+        double share;
+    };
+    static Place place(double at, int texels) {
+        at = std::clamp(at, 0.0, 1.0 * texels);
+        const int texel = std::min(static_cast<int>(at), texels - 1);
+        return {index(texel), at - texel};
+    }
+
+    double before(const Place& column, const Place& row) const {
+        const T* const above = &sums_[row.texel * row_length() + column.texel];
         const T* const below = above + row_length();
-        const double a = x - column;
-        const double b = y - row;
+        const double a = column.share;
         const double up = above[0] + a * (static_cast<double>(above[1]) - above[0]);
         const double down = below[0] + a * (static_cast<double>(below[1]) - below[0]);
-        return up + b * (down - up);
+        return up + row.share * (down - up);
     }
 
     int width_ = 0;

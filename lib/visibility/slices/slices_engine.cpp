@@ -12,6 +12,7 @@
 #include "visibility/local_pose.h"
 #include "visibility/slices/adaptive_slices.h"
 #include "visibility/slices/beam_check.h"
+#include "visibility/slices/beam_cutter.h"
 #include "visibility/slices/beam_errors.h"
 #include "visibility/slices/clusters.h"
 #include "visibility/slices/edge_rays.h"
@@ -73,62 +74,6 @@ SliceErrorLimit slice_error_limit(double relative_l1, double edge_bins) {
                               0.125 * relative_l1),
             .carry_over = coarse ? 0.25 : 0.0};
 }
-
-/// Divides the strips of slices at the borders of beams.
-class BeamCutter {
-  public:
-    /// All arguments must outlive it.
-    BeamCutter(const SliceFrame& frame, StripQuads& quads, BeamErrors& errors, Samples& samples)
-        : frame_(frame), quads_(quads), errors_(errors), samples_(samples) {
-        errors_.begin_beam(frame_.first_beam);
-        begin_ = samples_.items.size();
-    }
-
-    /// Replaces the samples of the beam that is being cut.
-    void replace(const std::vector<Sample>& by) {
-        replaced_ = true;
-        by_ = by;
-    }
-
-    /// Adds the samples of a strip. Strips must be added from low u to high, without gaps.
-    void add(const SliceResult& result) {
-        if (beam_ + 1 == static_cast<int>(frame_.beam_u.size())) return;  // no width is left
-        const MovedEnds* low = &result.low;
-        while (frame_.beam_u[beam_ + 1] < result.high.u) {
-            move_ends(result.slice, result.spans, frame_.beam_u[beam_ + 1], at_border_[beam_ % 2]);
-            quads_.add(result, *low, at_border_[beam_ % 2]);
-            low = &at_border_[beam_ % 2];
-            end_beam();
-        }
-        quads_.add(result, *low, result.high);
-        if (frame_.beam_u[beam_ + 1] == result.high.u) end_beam();
-    }
-
-  private:
-    void end_beam() {
-        quads_.end_beam();
-        std::vector<Sample>& items = samples_.items;
-        if (replaced_) {
-            items.resize(begin_);
-            items.insert(items.end(), by_.begin(), by_.end());
-        }
-        replaced_ = false;
-        begin_ = items.size();
-        samples_.beam_begin[frame_.first_beam + ++beam_] =
-            static_cast<std::uint32_t>(samples_.items.size());
-        if (beam_ + 1 < std::ssize(frame_.beam_u)) errors_.begin_beam(frame_.first_beam + beam_);
-    }
-
-    const SliceFrame& frame_;
-    StripQuads& quads_;
-    BeamErrors& errors_;
-    Samples& samples_;
-    MovedEnds at_border_[2];
-    int beam_ = 0;           ///< beam of the frame in which the next strip begins
-    std::size_t begin_ = 0;  ///< its first sample
-    bool replaced_ = false;
-    std::vector<Sample> by_;  ///< its samples if it is replaced
-};
 
 class SlicesEngine final : public VisibilityEngine {
   public:
@@ -245,7 +190,7 @@ class SlicesEngine final : public VisibilityEngine {
         AdaptiveSlices adaptive(view, scene_->materials, scan);
         QuadSampler sampler(scan, scene_->materials, limits, errors.sums(), samples.items);
         StripQuads quads(scan, limits, sampler);
-        BeamCutter cutter(frame, quads, errors, samples);
+        BeamCutter cutter(frame, quads, errors, samples, scene_->maps != nullptr);
         BeamCheck check(view, which, scan, scene_->materials);
         const auto most = [&] {
             return options_.per_beam > 0 ? unlimited
