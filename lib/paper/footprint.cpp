@@ -10,10 +10,6 @@ namespace {
 // what can be seen (the contrast of a mean over 64 draws is an eighth of one draw's).
 constexpr float most_pieces_per_bin = 64.0F;
 
-// A piece has one intensity. On a plane v . n = H / r: where a piece spans no more than this share
-// of its range, its ends are off by 0.25 % and its mean is right.
-constexpr float most_depth_by_range = 0.005F;
-
 /// The squared length of (x, y, z) in the order in which Eigen adds.
 float squared(float x, float y, float z) {
     return x * x + (y * y + z * z);
@@ -75,18 +71,13 @@ void cut_for_cells(float bin_m, float cell_m, Footprints& f) {
     }
 }
 
-/// A box follows the edge that spans more range; the other edge is cut until a piece of it is half
-/// a bin deep.
 void cut_for_bins(float bin_m, Footprints& f) {
     const int count = f.count;
-    const float across_m = 0.5F * bin_m;
     for (int k = 0; k < count; ++k) {
-        const float along_m = std::max(bin_m, most_depth_by_range * f.range_m[k]);
-        const bool along_v = f.depth_u_m[k] < f.depth_v_m[k];
-        const float u = along_v ? 2.0F * f.depth_u_m[k] / across_m : 1.0F;
-        const float v = 2.0F * f.depth_v_m[k] / (along_v ? along_m : across_m);
-        f.u[k] = std::ceil(std::min(std::max(u, 1.0F), most_pieces_per_bin));
-        f.v[k] = std::ceil(std::min(std::max(v, 1.0F), most_pieces_per_bin));
+        const PieceCounts pieces =
+            pieces_for_bins(f.depth_u_m[k], f.depth_v_m[k], f.range_m[k], bin_m);
+        f.u[k] = pieces.u;
+        f.v[k] = pieces.v;
     }
 }
 

@@ -106,7 +106,7 @@ std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const Cas
     if (few && std::ranges::all_of(probes, [](const Probe& p) { return p.rays_goal == 0.0; }))
         return slices;
     const std::shared_ptr<const VisibilityEngine> rays = make_rays_engine(scene, caster, false);
-    const auto trial_slices = without_rays(*slices);
+    const auto trial_slices = without_points(*slices);
     std::vector<View> tried;
     std::vector<EngineOfView> better;
     for (const Probe& probe : probes) {

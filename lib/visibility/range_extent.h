@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 namespace sonarsim {
 
@@ -18,6 +19,30 @@ inline RangeExtent extent_of(float squared_edge, float depth_m, float range_m) {
     const float before_foot = 0.25F * depth_m * depth_m / bend;
     return {.before = depth_m >= 2.0F * bend ? depth_m - bend : before_foot,
             .after = depth_m + bend};
+}
+
+/// Pieces along either edge of a patch; whole numbers.
+struct PieceCounts {
+    float u;
+    float v;
+};
+
+/// The pieces of a patch whose half edges are `depth_u_m` and `depth_v_m` deep, if a box in range
+/// stands for each: a box follows the edge that spans more range, and the other edge is cut until a
+/// piece of it is half a bin deep.
+inline PieceCounts pieces_for_bins(float depth_u_m, float depth_v_m, float range_m, float bin_m) {
+    // More pieces than this do not change the mean of a bin by what can be seen.
+    constexpr float most_pieces = 64.0F;
+    // A piece has one intensity. On a plane v . n = H / r: where a piece spans no more than this
+    // share of its range, its ends are off by 0.25 % and its mean is right.
+    constexpr float most_depth_by_range = 0.005F;
+    const float along_m = std::max(bin_m, most_depth_by_range * range_m);
+    const float across_m = 0.5F * bin_m;
+    const bool along_v = depth_u_m < depth_v_m;
+    const float u = along_v ? 2.0F * depth_u_m / across_m : 1.0F;
+    const float v = 2.0F * depth_v_m / (along_v ? along_m : across_m);
+    return {.u = std::ceil(std::min(std::max(u, 1.0F), most_pieces)),
+            .v = std::ceil(std::min(std::max(v, 1.0F), most_pieces))};
 }
 
 }  // namespace sonarsim

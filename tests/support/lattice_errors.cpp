@@ -10,7 +10,11 @@
 
 #include "support/slivers.h"
 #include "validation/image_error.h"
+#include "visibility/caster.h"
+#include "visibility/local_pose.h"
 #include "visibility/make_engine.h"
+#include "visibility/slices/edge_rays.h"
+#include "visibility/slices/sampled_image.h"
 
 namespace sonarsim::test {
 
@@ -24,6 +28,26 @@ Ping render(const Lattice& lattice, const VisibilityEngine& engine, double goal)
     sonar.T_vehicle_sensor = Pose{};
     return render_ping(sonar, lattice.scene, engine, Pose{}, {.seed = 1, .ping = 0},
                        direct_echoes_alone);
+}
+
+/// Accepts the image in bins that the reference lacks and in which rays to its samples end: such a
+/// ray proves that the bin has surface. Slivers before a border, or seen through gaps, get smaller
+/// than any number of rays to random points can find.
+void accept_proved_bins(const Lattice& lattice, const VisibilityEngine& engine, double goal,
+                        const std::vector<float>& image, Reference& reference) {
+    const View view = make_sonar(lattice.sonar, {goal}).settings.view;
+    Samples samples = engine.visible_surface(view, Pose{});
+    const std::vector<EdgeBin> edges =
+        settle_edge_bins(Caster(lattice.scene), view, local_pose(Pose{}, lattice.scene.origin),
+                         image_of(lattice.scene, view, samples), samples);
+    for (int bin = 0; bin < view.range_bins; ++bin) {
+        for (int beam = 0; beam < view.beams; ++beam) {
+            const std::size_t k = static_cast<std::size_t>(bin) * view.beams + beam;
+            const std::size_t by_beam = static_cast<std::size_t>(beam) * view.range_bins + bin;
+            if (!(reference.intensity[k] > 0.0F) && edges[by_beam] == EdgeBin::filled)
+                reference.intensity[k] = image[k];
+        }
+    }
 }
 
 }  // namespace
@@ -47,6 +71,7 @@ std::vector<LatticeError> lattice_errors(std::uint32_t number, const Lattice& la
         Reference known = reference;
         add_slivers(lattice.scene, make_sonar(lattice.sonar, {}).settings.view, ping.intensity,
                     known);
+        accept_proved_bins(lattice, *made, goal, ping.intensity, known);
         // The octree has no estimate for a ping; it warns of its view.
         const double estimate =
             made->warnings().empty() ? ping.estimated_l1 : std::numeric_limits<double>::infinity();

@@ -29,8 +29,8 @@ struct LatticeError {
 Reference lattice_reference(const Lattice& lattice, std::uint64_t rays);
 
 /// Renders scene `number` at each goal and compares it with its reference and the slivers that the
-/// reference missed (support/slivers.h). Empty if the sonar sees
-/// too few bins to judge.
+/// reference missed (support/slivers.h), or that rays to the image's samples meet. Empty if the
+/// sonar sees too few bins to judge.
 std::vector<LatticeError> lattice_errors(std::uint32_t number, const Lattice& lattice,
                                          const Reference& reference, EngineKind engine,
                                          const std::vector<double>& goals);

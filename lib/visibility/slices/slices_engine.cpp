@@ -17,8 +17,8 @@
 #include "visibility/slices/clusters.h"
 #include "visibility/slices/edge_rays.h"
 #include "visibility/slices/frame_scan.h"
+#include "visibility/slices/point_image.h"
 #include "visibility/slices/quad_samples.h"
-#include "visibility/slices/ray_image.h"
 #include "visibility/slices/sampled_image.h"
 #include "visibility/slices/scan.h"
 #include "visibility/slices/strip_quads.h"
@@ -52,9 +52,6 @@ constexpr double aimed_share = 0.8;
 constexpr int most_passes_of_few = 4;
 constexpr int times_the_slices = 4;
 
-// Noise of an independent image by rays, as a share of the goal. Chosen.
-constexpr double noise_of_rays = 0.25;
-
 /// Error of an image without errors of visibility: patches of surface become boxes in range.
 double error_of_shapes(double relative_l1) {
     return 0.002 + 0.003 * std::clamp(relative_l1 / 0.03, 0.1, 1.0);
@@ -85,8 +82,8 @@ class SlicesEngine final : public VisibilityEngine {
           coverage_(scene, coverage),
           mesh_(std::make_shared<const ClusterMesh>(make_clusters(scene))) {}
 
-    SlicesEngine(const SlicesEngine& other, bool image_by_rays) : SlicesEngine(other) {
-        options_.image_by_rays = image_by_rays;
+    SlicesEngine(const SlicesEngine& other, bool image_by_points) : SlicesEngine(other) {
+        options_.image_by_points = image_by_points;
     }
 
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
@@ -95,12 +92,12 @@ class SlicesEngine final : public VisibilityEngine {
         View finer = view;
         BeamsToCheck which = beams_to_check(view);
         int least_slices = slices_for(goal);
-        std::optional<RayImage> rays;
+        std::optional<PointImage> points;
         for (int pass = 1;; ++pass) {
             Pass seen = see(finer, which, goal, pose, least_slices);
             bool last = is_last(seen, goal, pass);
-            if (last && seen.few_bins && options_.per_beam == 0 && needs_rays(seen, goal, pass)) {
-                ask_rays(view, pose, pass, seen, rays);
+            if (last && seen.few_bins && options_.per_beam == 0) {
+                ask_rays(view, pose, pass, seen, points);
                 last = is_last(seen, goal, pass);
             }
             if (last) return std::move(seen.samples);
@@ -139,16 +136,10 @@ class SlicesEngine final : public VisibilityEngine {
                pass >= (seen.few_bins ? most_passes_of_few : most_passes);
     }
 
-    /// False at coarse goals for pings that passed the first look without edge bins: those of most
-    /// missions.
-    static bool needs_rays(const Pass& seen, double goal, int pass) {
-        return !is_coarse(goal) || pass > 1 || seen.edge_bins > 0.0;
-    }
-
-    /// Lets rays decide about edge bins, so that the estimate needs no allowance for them. With a
-    /// fine goal, also compares the image with one by rays, which is made once.
+    /// Lets rays decide about edge bins, so that the estimate needs no allowance for them. Then
+    /// compares the image with one by points, which is made once.
     void ask_rays(const View& view, const LocalPose& pose, int pass, Pass& seen,
-                  std::optional<RayImage>& rays) const {
+                  std::optional<PointImage>& points) const {
         const SampledImage before = image_of(*scene_, view, seen.samples);
         const std::vector<EdgeBin> edges =
             settle_edge_bins(caster_, view, pose, before, seen.samples);
@@ -158,10 +149,9 @@ class SlicesEngine final : public VisibilityEngine {
         const double allowed = std::exchange(seen.edge_bins, pass > 2 ? dark : 0.0);
         double& estimate = seen.samples.estimated_l1;
         estimate += dark - allowed;
-        if (!options_.image_by_rays || is_coarse(view.relative_l1) || estimate > view.relative_l1)
-            return;
-        if (!rays) rays.emplace(*scene_, caster_, view, pose, noise_of_rays * view.relative_l1);
-        estimate = std::max(estimate, rays->error_of(settled, edges));
+        if (!options_.image_by_points || estimate > view.relative_l1) return;
+        if (!points) points.emplace(*scene_, *mesh_, caster_, view, pose);
+        estimate = std::max(estimate, points->error_of(settled, edges));
     }
 
     /// One pass over a ping, as fine as `view` asks, with at least so many slices per beam; `goal`
@@ -228,7 +218,7 @@ std::unique_ptr<VisibilityEngine> make_slices_engine(const Scene& scene, const C
     return std::make_unique<SlicesEngine>(scene, caster, options, coverage);
 }
 
-std::unique_ptr<VisibilityEngine> without_rays(const VisibilityEngine& slices) {
+std::unique_ptr<VisibilityEngine> without_points(const VisibilityEngine& slices) {
     return std::make_unique<SlicesEngine>(dynamic_cast<const SlicesEngine&>(slices), false);
 }
 

@@ -10,9 +10,8 @@ namespace sonarsim {
 
 struct SlicesOptions {
     int per_beam = 0;  ///< slices per beam; 0: the view's error goal determines them
-    /// Images of few bins with fine goals are compared with an image by rays, which takes some
-    /// hundred thousand of them.
-    bool image_by_rays = true;
+    /// Images of few bins are compared with an image by rays to random points.
+    bool image_by_points = true;
 };
 
 /// The slices engine: half-planes through the sensor, exact along each. `scene` must outlive it.
@@ -25,7 +24,7 @@ std::unique_ptr<VisibilityEngine> make_slices_engine(const Scene& scene,
 std::unique_ptr<VisibilityEngine> make_slices_engine(const Scene& scene, const Caster& caster,
                                                      const SlicesOptions& options, bool coverage);
 
-/// An engine of make_slices_engine() without `image_by_rays`. It shares what that engine holds.
-std::unique_ptr<VisibilityEngine> without_rays(const VisibilityEngine& slices);
+/// An engine of make_slices_engine() without `image_by_points`. It shares what that engine holds.
+std::unique_ptr<VisibilityEngine> without_points(const VisibilityEngine& slices);
 
 }  // namespace sonarsim
