@@ -115,7 +115,7 @@ TEST_SUITE("calibrate") {
               doctest::skip()) {
         const Samples bottom = made_bottom(3.0, 5.0);
         Recovered recovered;
-        for (std::uint32_t draw = 0; draw < 200; ++draw)
+        for (std::uint32_t draw = 1000; draw < 1200; ++draw)
             recovered.add(draw, bottom);
         for (const auto& of_key : recovered.estimates) {
             const int held = recovered.held[of_key.first];

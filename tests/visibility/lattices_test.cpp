@@ -89,7 +89,7 @@ TEST_CASE("lattices: faces that are seen edge-on are not lost") {
             test::lattice_errors(number, lattice, reference, EngineKind::slices, {0.01}).front();
         CAPTURE(number);
         CHECK(error.error - error.reference < 0.01);
-        // Where they were lost, the estimate was 2 % and more.
+        // The second one has an estimate of 1.2 %.
         CHECK(error.estimate <= 0.015);
     }
 }
