@@ -49,9 +49,7 @@ TEST_SUITE("map error") {
 
     TEST_CASE("an engine's estimate grows with the maps") {
         // On cells of 20 cm, strengths in texels of 10 cm make more of the same
-        // misplaced surface. The last beam of a frame of slices keeps its own image, whose error is
-        // sqrt(2) times its distance from its check (visibility/slices/beam_check.h): so is that of
-        // a side-scan.
+        // misplaced surface. A side-scan keeps the images of its checks.
         Draws draws(23);
         Scene scene = rough_floor();
         const auto engine = make_engine(scene, {.type = EngineKind::slices, .octree = {}});
@@ -77,8 +75,8 @@ TEST_SUITE("map error") {
             const double error = image_change(mean_echoes(scene, view, usual.samples),
                                               mean_echoes(scene, view, fine.samples));
             CAPTURE(error);
-            CHECK(std::sqrt(2.0) * usual.samples.estimated_l1 > error);
-            CHECK(usual.samples.estimated_l1 < 4.0 * error);
+            CHECK(usual.samples.estimated_l1 > 1.3 * error);
+            CHECK(usual.samples.estimated_l1 < 6.0 * error);
             grown += usual.samples.estimated_l1;
         }
         CHECK(grown > 1.2 * plain);

@@ -19,6 +19,11 @@ BeamCutter::BeamCutter(const SliceFrame& frame, StripQuads& quads, BeamErrors& e
 void BeamCutter::replace(const std::vector<Sample>& by) {
     if (beam_ + 1 == std::ssize(frame_.beam_u)) {
         if (keeps_compared_) keep_compared(beam_ - 1, last_begin_, by);
+        std::vector<Sample>& items = samples_.items;
+        items.resize(last_begin_);
+        items.insert(items.end(), by.begin(), by.end());
+        begin_ = items.size();
+        samples_.beam_begin[frame_.first_beam + beam_] = static_cast<std::uint32_t>(items.size());
         return;
     }
     replaced_ = true;
