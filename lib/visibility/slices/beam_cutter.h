@@ -17,8 +17,8 @@ class BeamCutter {
     BeamCutter(const SliceFrame& frame, StripQuads& quads, BeamErrors& errors, Samples& samples,
                bool keeps_compared);
 
-    /// Replaces the samples of the beam that is being cut by those of its check, or, at the end of a
-    /// frame, those of its last beam.
+    /// Replaces the samples of the beam that is being cut by those of its check, or, at the end of
+    /// a frame, those of its last beam.
     void replace(const std::vector<Sample>& by);
 
     /// Adds the samples of a strip. Strips must be added from low u to high, without gaps.

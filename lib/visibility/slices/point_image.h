@@ -37,7 +37,7 @@ class PointImage {
 
   private:
     struct Bin {
-        double area_per_point = 0.0;  ///< of the points drawn in it; 0 if it has no surface
+        double area_per_point = 0.0;  ///< 0 if the bin has no surface
         double points = 0.0;          ///< visible ones
         double area = 0.0;
         double echo = 0.0;

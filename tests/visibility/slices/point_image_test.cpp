@@ -64,7 +64,7 @@ PointImage points_to(const Scene& scene) {
 }  // namespace
 
 TEST_CASE("slices: the image by points is that of a wall") {
-    // Its noise is a quarter of the goal of 1 %. Of a normal error of the variance s^2, the root of
+    // Its noise is a quarter of the goal of 1 %. If x is normal with the variance s^2, the root of
     // max(x^2 - s^2, 0) has a mean of 0.3 s.
     const std::vector<EdgeBin> edges(100, EdgeBin::not_asked);
     CHECK(points_to(scene_of_wall()).error_of(image_of_wall(), edges) < 0.001);
