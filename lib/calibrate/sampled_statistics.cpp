@@ -64,6 +64,7 @@ DrawnLogs drawn_logs(const ReceiverConfig& receiver, const std::vector<DrawnSequ
 std::vector<DrawnSequence> drawn_looks(int looks, const std::vector<double>& taps, int count,
                                        std::uint32_t stream) {
     std::vector<DrawnSequence> out;
+    out.reserve(static_cast<std::size_t>(looks));
     for (int look = 0; look < looks; ++look)
         out.push_back(filtered(taps, count, stream + 2 * static_cast<std::uint32_t>(look)));
     return out;

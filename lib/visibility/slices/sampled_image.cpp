@@ -27,8 +27,10 @@ void add_pieces(const Sample& sample, float reflection, const View& view, std::s
     const RangeExtent along_u = extent_of(half_u.squaredNorm(), depth_u / u, range);
     const RangeExtent along_v = extent_of(half_v.squaredNorm(), depth_v / v, range);
     const float piece_m2 = sample.area_m2 / (u * v);
-    for (float s = 1.0F - u; s < u; s += 2.0F) {
-        for (float t = 1.0F - v; t < v; t += 2.0F) {
+    for (int i = 0; i < static_cast<int>(u); ++i) {
+        const float s = 2.0F * static_cast<float>(i) + 1.0F - u;
+        for (int k = 0; k < static_cast<int>(v); ++k) {
+            const float t = 2.0F * static_cast<float>(k) + 1.0F - v;
             const float at = (sample.position + s * half_u + t * half_v).norm();
             const float from = (at - along_u.before - along_v.before - range_min_m) / bin_m;
             const float to =
