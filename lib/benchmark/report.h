@@ -112,8 +112,9 @@ struct Report {
     std::size_t triangles = 0;  ///< copies included
     int poses = 0;
     int threads = 0;
-    double goal = 0.0;  ///< accuracy.relative_l1 of the mission
-    double load = 0.0;  ///< load average of the machine at the start
+    double goal = 0.0;   ///< accuracy.relative_l1 of the mission
+    double load = 0.0;   ///< load average of the machine at the start
+    Thinning heightmap;  ///< the heights that are left out; errors are those over the rest
     std::vector<ReportRow> rows;
     std::vector<ReferenceQuality> references;  ///< one per sonar
     std::vector<Growth> growth;

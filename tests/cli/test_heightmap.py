@@ -162,6 +162,9 @@ class Heightmap(Composed):
             else:
                 self.assertRegex(result.stdout, r"heightmap +1 of \d+ rows and columns is kept, which changes "
                                  r"images by [\d.]+ %")
+        self.run_sonarsim("report", "mission.yaml", "--set", "output.labels=false", "--quick", "--out", "report")
+        kept = json.loads((self.folder / "report/report.json").read_text())["heightmap"]
+        self.assertIn(kept["every"], (2, 4, 8, 16))
 
     def test_extent_and_origin(self):
         """size_m instead of pixel_m, and another origin with a trajectory moved by as much."""

@@ -105,8 +105,8 @@ class PointCaster {
         const float range = point.norm();
         const double bin =
             std::floor((static_cast<double>(range) - view_.range_min_m) / view_.bin_m());
-        const int beam = beam_of(view_, point);
-        if (beam < 0 || !(bin >= 0.0 && bin < view_.range_bins)) return;
+        const auto beam = static_cast<int>(pieces_.bins[k]) / view_.range_bins;
+        if (!(bin >= 0.0 && bin < view_.range_bins)) return;
         const SliceFacet& facet = mesh_.facets[piece.facet];
         const Eigen::Vector3f direction = pose_.rotation * (point / range);
         const float echo =
