@@ -162,7 +162,8 @@ class Heightmap(Composed):
             else:
                 self.assertRegex(result.stdout, r"heightmap +1 of \d+ rows and columns is kept, which changes "
                                  r"images by [\d.]+ %")
-        self.run_sonarsim("report", "mission.yaml", "--set", "output.labels=false", "--quick", "--out", "report")
+        self.run_sonarsim("report", "mission.yaml", "--set", "output.labels=false", "--quick", "--out", "report",
+                          "--poses", "1", "--engines", "slices", "--reference-rays", "1000000")
         kept = json.loads((self.folder / "report/report.json").read_text())["heightmap"]
         self.assertIn(kept["every"], (2, 4, 8, 16))
 

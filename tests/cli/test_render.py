@@ -224,7 +224,7 @@ class Interrupted(Sandbox):
 
 class Terminal(Sandbox):
     # Seconds of work, and the line is first shown before one is over.
-    POSES = 4_000 if SANITIZED else 40_000
+    POSES = 4_000 if SANITIZED else 10_000
 
     def test_progress_line(self):
         self.write("path.csv", path_csv(self.POSES))
