@@ -134,14 +134,7 @@ TEST_SUITE("trace") {
     TEST_CASE("object motion: particles go on in the ping, and one at rest stays to the bit") {
         const Scene scene = empty_scene();
         const auto engine = make_rays_engine(scene);
-        const View view{.azimuth_rad = radians(90.0),
-                        .elevation_rad = radians(20.0),
-                        .range_min_m = 0.5,
-                        .range_max_m = 50.0,
-                        .range_bins = 100,
-                        .beams = 32,
-                        .relative_l1 = 0.03,
-                        .shape = ViewShape::fan};
+        const View view = fan_of_50_m();
         Particles particles;
         for (const double speed : {0.0, 4.0}) {
             Particle& fish = particles.all.emplace_back();

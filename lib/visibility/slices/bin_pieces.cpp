@@ -62,7 +62,7 @@ void cut_at_borders(const Corners3& part, const Places& at, int intervals, const
     cut({to_left, part[right], to_right}, {level, at[right], level});
 }
 
-/// The point of a side at which a function of its ends' values, nearly linear, is 0.
+/// The point at a share of the side from a to b.
 Eigen::Vector3f at_share(const Eigen::Vector3f& a, const Eigen::Vector3f& b, double share) {
     return a + static_cast<float>(std::clamp(share, 0.0, 1.0)) * (b - a);
 }
@@ -260,6 +260,11 @@ BinPieces sorted(const std::vector<BinPiece>& pieces, const std::vector<std::uin
     out.begin.push_back(static_cast<std::uint32_t>(pieces.size()));
     for (const std::uint32_t k : groups.items)
         out.pieces.push_back(pieces[k]);
+    out.area_m2.assign(out.bins.size(), 0.0F);
+    for (std::size_t k = 0; k < out.bins.size(); ++k) {
+        for (std::uint32_t i = out.begin[k]; i < out.begin[k + 1]; ++i)
+            out.area_m2[k] += out.pieces[i].area_m2;
+    }
     return out;
 }
 

@@ -24,6 +24,7 @@ struct BinPieces {
     std::vector<BinPiece> pieces;      ///< bin after bin
     std::vector<std::uint32_t> bins;   ///< [beams, range_bins] index of each bin with pieces
     std::vector<std::uint32_t> begin;  ///< bins + 1 offsets into `pieces`
+    std::vector<float> area_m2;        ///< sum over the pieces of each bin
 };
 
 /// Cuts the triangles of a mesh into pieces; nothing if there are more than a fixed number.

@@ -42,13 +42,6 @@ struct DrawnPoint {
     float echo;
 };
 
-float area_of(const BinPieces& pieces, std::uint32_t k) {
-    float area = 0.0F;
-    for (std::uint32_t i = pieces.begin[k]; i < pieces.begin[k + 1]; ++i)
-        area += pieces.pieces[i].area_m2;
-    return area;
-}
-
 /// Draws points in bins and casts rays to them.
 class PointCaster {
   public:
@@ -62,7 +55,7 @@ class PointCaster {
     void draw(std::uint32_t k, std::uint32_t drawn, std::uint32_t count, const Sink& seen) {
         const auto first = pieces_.pieces.begin() + pieces_.begin[k];
         const auto last = pieces_.pieces.begin() + pieces_.begin[k + 1];
-        const float step = area_of(pieces_, k) / static_cast<float>(count);
+        const float step = pieces_.area_m2[k] / static_cast<float>(count);
         auto piece = first;
         float passed_m2 = 0.0F;
         for (std::uint32_t i = 0; i < count; ++i) {
@@ -153,31 +146,29 @@ PointImage::PointImage(const Scene& scene, const ClusterMesh& mesh, const Caster
     };
     std::vector<std::uint32_t> drawn(pieces->bins.size(), 0);
     std::vector<std::uint32_t> wanted(pieces->bins.size(), first_points);
+    std::size_t points = 0;
     while (true) {
         for (std::uint32_t k = 0; k < drawn.size(); ++k) {
             if (wanted[k] <= drawn[k]) continue;
             caster_of_points.draw(k, drawn[k], wanted[k] - drawn[k], keep);
-            points_ += wanted[k] - drawn[k];
+            points += wanted[k] - drawn[k];
             drawn[k] = wanted[k];
         }
         caster_of_points.cast(keep);
-        sum_up(*pieces, drawn, seen);
-        if (!(signal_ > 0.0) || noise_ <= noise_share * goal || points_ >= enough) return;
-        wanted = wanted_points(*pieces, drawn, 2.0 * static_cast<double>(points_));
+        const double noise = sum_up(*pieces, drawn, seen);
+        if (noise <= noise_share * goal * signal_ || points >= enough) return;
+        wanted = wanted_points(*pieces, drawn, 2.0 * static_cast<double>(points));
     }
 }
 
-void PointImage::sum_up(const BinPieces& pieces, std::span<const std::uint32_t> drawn,
-                        std::span<const Seen> seen) {
-    std::vector<double> area_per_point(drawn.size());
-    for (std::uint32_t k = 0; k < drawn.size(); ++k)
-        area_per_point[k] = static_cast<double>(area_of(pieces, k)) / drawn[k];
+double PointImage::sum_up(const BinPieces& pieces, std::span<const std::uint32_t> drawn,
+                          std::span<const Seen> seen) {
     std::ranges::fill(bins_, Bin{});
     for (std::size_t k = 0; k < drawn.size(); ++k)
-        bins_[pieces.bins[k]].area_per_point = area_per_point[k];
+        bins_[pieces.bins[k]].area_per_point = static_cast<double>(pieces.area_m2[k]) / drawn[k];
     for (const Seen& point : seen) {
         Bin& bin = bins_[point.bin];
-        const double w = area_per_point[point.drawn_in];
+        const double w = bins_[pieces.bins[point.drawn_in]].area_per_point;
         const auto x = static_cast<double>(point.echo);
         bin.points += 1.0;
         bin.area += w;
@@ -192,7 +183,7 @@ void PointImage::sum_up(const BinPieces& pieces, std::span<const std::uint32_t> 
         signal_ += bin.mean();
         deviations += bin.deviation();
     }
-    noise_ = signal_ > 0.0 ? deviations / signal_ : 1.0;
+    return deviations;
 }
 
 std::vector<std::uint32_t> PointImage::wanted_points(const BinPieces& pieces,

@@ -56,10 +56,10 @@ class PointImage {
         float echo;
     };
 
-    /// Computes bins, signal and noise; `drawn` has the number of points of each of the pieces'
-    /// bins.
-    void sum_up(const BinPieces& pieces, std::span<const std::uint32_t> drawn,
-                std::span<const Seen> seen);
+    /// Computes bins and signal, and returns the sum of the standard deviations; `drawn` has the
+    /// number of points of each of the pieces' bins.
+    double sum_up(const BinPieces& pieces, std::span<const std::uint32_t> drawn,
+                  std::span<const Seen> seen);
 
     /// The number of points of each of the pieces' bins for `all` in sum. The sum of s_k /
     /// sqrt(n_k) for a given sum of the n_k is least with n_k in proportion to s_k^(2/3), where s_k
@@ -73,8 +73,6 @@ class PointImage {
 
     std::vector<Bin> bins_;  ///< [beams, range_bins]
     double signal_ = 0.0;
-    double noise_ = 1.0;
-    std::size_t points_ = 0;
 };
 
 }  // namespace sonarsim

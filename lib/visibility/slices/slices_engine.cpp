@@ -140,10 +140,13 @@ class SlicesEngine final : public VisibilityEngine {
     /// compares the image with one by points, which is made once.
     void ask_rays(const View& view, const LocalPose& pose, int pass, Pass& seen,
                   std::optional<PointImage>& points) const {
-        const SampledImage before = image_of(*scene_, view, seen.samples);
+        SampledImage before = image_of(*scene_, view, seen.samples);
         const std::vector<EdgeBin> edges =
             settle_edge_bins(caster_, view, pose, before, seen.samples);
-        const SampledImage settled = image_of(*scene_, view, seen.samples);
+        const bool asked =
+            std::ranges::any_of(edges, [](EdgeBin edge) { return edge != EdgeBin::not_asked; });
+        const SampledImage settled =
+            asked ? image_of(*scene_, view, seen.samples) : std::move(before);
         // Ends that cannot be moved may be better in the next pass, not in all.
         const double dark = share_in_dark_bins(settled, edges);
         const double allowed = std::exchange(seen.edge_bins, pass > 2 ? dark : 0.0);
