@@ -33,7 +33,8 @@ template <typename Crossing, typename Whole>
 void cut_at_borders(const Corners3& part, const Places& at, int intervals, const Crossing& crossing,
                     const Whole& whole) {
     const auto [low, high] = std::minmax({at[0], at[1], at[2]});
-    if (!(high > 0.0 && low < intervals)) return;
+    // A part that reaches in by no more than rounding has no border to be cut at.
+    if (!(high > border_rounding && low < intervals - border_rounding)) return;
     const double first = std::floor(low + border_rounding) + 1.0;
     if (!(high > first + border_rounding)) {
         const int interval = static_cast<int>(std::floor(0.5 * (low + high)));

@@ -150,4 +150,35 @@ TEST_CASE("slices: pieces of triangles lie in one bin each, and leave nothing ou
     }
 }
 
+TEST_CASE("slices: triangles that touch the view's border from outside have no pieces") {
+    // One corner is on the border of the outermost beam within rounding; the others lie up to ten
+    // beams beyond it.
+    const View view = test::fan_view();
+    const double beam_rad = view.azimuth_rad / view.beams;
+    test::Draws draws(3011);
+    for (int n = 0; n < 100; ++n) {
+        Scene scene = test::empty_scene();
+        const double side = n % 2 == 0 ? 1.0 : -1.0;
+        std::array<Eigen::Vector3d, 3> corners;
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            const double range = static_cast<double>(draws.between(2.0F, 9.0F));
+            const double elevation = static_cast<double>(draws.between(-0.05F, 0.05F));
+            const auto beyond = static_cast<double>(k == 0 ? draws.between(-5e-5F, 5e-5F)
+                                                           : draws.between(0.5F, 10.0F));
+            const double azimuth = side * (0.5 * view.azimuth_rad + beyond * beam_rad);
+            corners[k] = range * direction_of(azimuth, elevation);
+        }
+        test::add_quad(scene, corners[0].cast<float>(), corners[1].cast<float>(),
+                       corners[2].cast<float>(), corners[2].cast<float>(),
+                       test::add_material(scene, 1.0F));
+        const auto pieces =
+            bin_pieces(make_clusters(scene), view, local_pose(Pose{}, scene.origin));
+        REQUIRE(pieces);
+        double sum = 0.0;
+        for (const BinPiece& piece : pieces->pieces) sum += static_cast<double>(piece.area_m2);
+        // Within 1e-4 beams of a corner, a triangle of 40 m^2 has less than 1e-6 m^2.
+        CHECK(sum < 1e-6);
+    }
+}
+
 TEST_SUITE_END();
