@@ -8,6 +8,7 @@
 
 #include "support/draws.h"
 #include "support/maps.h"
+#include "support/sanitized.h"
 #include "support/scenes.h"
 #include "support/smooth_shapes.h"
 
@@ -73,7 +74,8 @@ struct Cylinder {
 
 TEST_SUITE("calibrated") {
     // Broadside and far away the integral is 10 log(R a L^2 / (2 lambda)) - 40 log r.
-    TEST_CASE("cylinders: the Kirchhoff integral in any sonar, by any engine") {
+    TEST_CASE("cylinders: the Kirchhoff integral in any sonar, by any engine" *
+              doctest::skip(test::sanitized)) {
         for (std::uint32_t trial = 0; trial < 20; ++trial) {
             Draws draws(7100 + trial);
             const SonarKind kind = kinds_before_shapes[trial % 5];

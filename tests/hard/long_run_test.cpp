@@ -8,13 +8,15 @@
 #include "core/units.h"
 #include "paper/accumulate.h"
 #include "sonar/setup.h"
+#include "support/sanitized.h"
 #include "visibility/view.h"
 
 using namespace sonarsim;
 
 TEST_SUITE_BEGIN("hard");
 
-TEST_CASE("a million pings of two sensors: no two of their random streams are the same") {
+TEST_CASE("a million pings of two sensors: no two of their random streams are the same" *
+          doctest::skip(test::sanitized)) {
     // 6 million keys of 64 bits: the probability that two of them are equal is n^2 / 2^65 = 1e-6,
     // and the keys do not vary from run to run.
     std::vector<std::uint64_t> keys;

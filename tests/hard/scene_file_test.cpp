@@ -9,6 +9,7 @@
 #include "core/file.h"
 #include "core/pose.h"
 #include "scene/gltf/builder.h"
+#include "support/sanitized.h"
 #include "validation/hard/tools.h"
 
 using namespace sonarsim;
@@ -145,7 +146,8 @@ TEST_CASE("glTF scene under a node at UTM coordinates: the image at the origin")
     }
 }
 
-TEST_CASE("glTF scene of millimetres under a node scaled by 1e-3: the same image") {
+TEST_CASE("glTF scene of millimetres under a node scaled by 1e-3: the same image" *
+          doctest::skip(test::sanitized)) {
     TankFile file;
     file.change_positions([](const Eigen::Vector3f& p) { return 1000.0F * p; });
     file.wrap({{"scale", {1e-3, 1e-3, 1e-3}}});
@@ -155,7 +157,8 @@ TEST_CASE("glTF scene of millimetres under a node scaled by 1e-3: the same image
     check("millimetres", scene, nowhere, EngineKind::octree, {1e-4, 1e-6});
 }
 
-TEST_CASE("glTF scene under a rotated node, and the trajectory with it: the same image") {
+TEST_CASE("glTF scene under a rotated node, and the trajectory with it: the same image" *
+          doctest::skip(test::sanitized)) {
     const Pose motion{rotation_from_rpy(0.3, -0.2, 1.1), {20.0, -7.0, 3.0}};
     TankFile file;
     file.wrap(node_of(motion));

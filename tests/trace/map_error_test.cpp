@@ -4,6 +4,7 @@
 
 #include "support/draws.h"
 #include "support/mapped_floor.h"
+#include "support/sanitized.h"
 #include "trace/lay_maps.h"
 #include "trace/traced_ping.h"
 #include "visibility/image_change.h"
@@ -61,7 +62,7 @@ TEST_SUITE("map error") {
                               direct_echoes_alone);
         };
         double grown = 0.0, plain = 0.0;
-        for (int draw = 0; draw < 4; ++draw) {
+        for (int draw = 0; draw < (test::sanitized ? 1 : 4); ++draw) {
             const auto yaw_deg = static_cast<double>(draws.between(0, 90));
             scene.maps = nullptr;
             plain += traced(0.03, yaw_deg).samples.estimated_l1;
@@ -85,7 +86,7 @@ TEST_SUITE("map error") {
     TEST_CASE("the estimated error of maps covers that of chequered maps at any heading") {
         // A side-scan meets few borders: an estimate from a part of its samples would miss them.
         Draws draws(22);
-        for (int draw = 0; draw < 24; ++draw) {
+        for (int draw = 0; draw < (test::sanitized ? 4 : 24); ++draw) {
             const bool side = draw % 2 == 0;
             Scene scene = wide_floor();
             const Sonar sonar = side ? sidescan(ModelKind::paper) : imaging(ModelKind::paper);

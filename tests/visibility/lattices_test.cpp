@@ -15,7 +15,8 @@ using namespace sonarsim;
 
 TEST_SUITE_BEGIN("lattices");
 
-TEST_CASE("lattices: the distance of a reference's halves is about its error") {
+TEST_CASE("lattices: the distance of a reference's halves is about its error" *
+          doctest::skip(test::sanitized)) {
     // More rays move the image by about as much as the halves of the smaller cast are apart.
     for (const std::uint32_t number : {2U, 13U}) {
         const test::Lattice lattice = test::draw_lattice(number);
