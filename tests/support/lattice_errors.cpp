@@ -20,16 +20,6 @@ namespace sonarsim::test {
 
 namespace {
 
-/// The image as the program makes it, without noise and gain, and the engine's estimate.
-Ping render(const Lattice& lattice, const VisibilityEngine& engine, double goal) {
-    SonarConfig config = lattice.sonar;
-    config.noise.gain = 1.0;
-    Sonar sonar = make_sonar(config, {goal});
-    sonar.T_vehicle_sensor = Pose{};
-    return render_ping(sonar, lattice.scene, engine, Pose{}, {.seed = 1, .ping = 0},
-                       direct_echoes_alone);
-}
-
 /// Accepts the image in bins that the reference lacks and in which rays to its samples end: such a
 /// ray proves that the bin has surface. Slivers before a border, or seen through gaps, get smaller
 /// than any number of rays to random points can find.
@@ -52,6 +42,15 @@ void accept_proved_bins(const Lattice& lattice, const VisibilityEngine& engine, 
 
 }  // namespace
 
+Ping render_lattice(const Lattice& lattice, const VisibilityEngine& engine, double goal) {
+    SonarConfig config = lattice.sonar;
+    config.noise.gain = 1.0;
+    Sonar sonar = make_sonar(config, {goal});
+    sonar.T_vehicle_sensor = Pose{};
+    return render_ping(sonar, lattice.scene, engine, Pose{}, {.seed = 1, .ping = 0},
+                       direct_echoes_alone);
+}
+
 Reference lattice_reference(const Lattice& lattice, std::uint64_t rays) {
     const View view = make_sonar(lattice.sonar, {}).settings.view;
     return cast_reference(Caster(lattice.scene), lattice.scene, view, Pose{}, {0.0005, 16.0, rays});
@@ -67,7 +66,7 @@ std::vector<LatticeError> lattice_errors(std::uint32_t number, const Lattice& la
     std::vector<LatticeError> errors;
     for (const double goal : goals) {
         const auto made = make_engine(lattice.scene, {.type = engine, .octree = {}});
-        const Ping ping = render(lattice, *made, goal);
+        const Ping ping = render_lattice(lattice, *made, goal);
         Reference known = reference;
         add_slivers(lattice.scene, make_sonar(lattice.sonar, {}).settings.view, ping.intensity,
                     known);

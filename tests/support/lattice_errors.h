@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "support/lattices.h"
+#include "trace/ping.h"
 #include "validation/reference.h"
+#include "visibility/engine.h"
 
 namespace sonarsim::test {
 
@@ -23,6 +25,9 @@ struct LatticeError {
     bool missed_in_silence() const { return error - reference > goal && !(estimate > goal); }
     bool warned_in_vain() const { return error <= goal && estimate > goal; }
 };
+
+/// The image as the program makes it, without noise and gain, and the engine's estimate.
+Ping render_lattice(const Lattice& lattice, const VisibilityEngine& engine, double goal);
 
 /// The noise-free image of a drawn scene by at most `rays` view rays and rays to points of the
 /// surface, in two independent halves.

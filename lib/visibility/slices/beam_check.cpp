@@ -56,7 +56,7 @@ double student(double degrees) {
     return z + (first + second / degrees) / degrees;
 }
 
-std::uint32_t step_for(const View& view, BeamsToCheck which) {
+std::uint32_t calm_step(const View& view, BeamsToCheck which) {
     return which == BeamsToCheck::all ? 1U : static_cast<std::uint32_t>(view.beams / drawn_beams);
 }
 
@@ -78,15 +78,21 @@ BeamCheck::BeamCheck(const View& view, BeamsToCheck which, const FrameScan& scan
     : sums_(view),
       sampler_(scan, materials, fine_limits(view), sums_, samples_),
       quads_(scan, fine_limits(view), sampler_),
-      calm_step_(step_for(view, which)),
+      calm_step_(calm_step(view, which)),
       all_(view.beams <= 2) {}
 
-bool BeamCheck::look_at(AdaptiveSlices& adaptive, bool closely) {
+std::uint32_t BeamCheck::step_for(bool closely, double wrong_bins) const {
+    const std::uint32_t step = closely ? calm_step_ / more_if_close : calm_step_;
+    const double most = std::max(wrong_bins / bins_of_one_cause, 1.0);
+    return std::max(most < step ? static_cast<std::uint32_t>(most) : step, 1U);
+}
+
+bool BeamCheck::look_at(AdaptiveSlices& adaptive, bool closely, double wrong_bins) {
     if (!all_ && !adaptive.uncertain()) return false;
     const std::uint32_t at = uncertain_++;
     if (at == begin_ + step_) {
         begin_ = at;
-        step_ = closely ? std::max(calm_step_ / more_if_close, 1U) : calm_step_;
+        step_ = step_for(closely, wrong_bins);
         next_ = begin_ + philox({at, 0, 0, 0}, draw_key).x0 % step_;
     }
     if (at != next_) return false;

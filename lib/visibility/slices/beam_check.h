@@ -56,8 +56,9 @@ class BeamCheck {
               std::span<const Material> materials);
 
     /// Makes the image of the last beam that was scanned if it is drawn. `closely`: more beams are
-    /// drawn from now on. Returns true if it was drawn.
-    bool look_at(AdaptiveSlices& adaptive, bool closely);
+    /// drawn from now on. `wrong_bins`: the number of bins that may be wrong at the error goal, the
+    /// goal times the expected bins with an echo. Returns true if it was drawn.
+    bool look_at(AdaptiveSlices& adaptive, bool closely, double wrong_bins);
 
     /// Hands over the image of the last beam, which was drawn.
     void hand_over(BeamErrors& errors) const;
@@ -66,6 +67,10 @@ class BeamCheck {
     const std::vector<Sample>& samples() const { return samples_; }
 
   private:
+    /// The size of the next group. Drawn beams of too few bins would miss the errors of others:
+    /// they have at least bins_of_one_cause wrong bins if the image just meets its goal.
+    std::uint32_t step_for(bool closely, double wrong_bins) const;
+
     std::vector<Sample> samples_;
     BeamSums sums_;
     QuadSampler sampler_;

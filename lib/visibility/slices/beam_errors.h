@@ -40,6 +40,9 @@ class BeamErrors {
     /// The number of bins with an echo in the finished beams.
     double occupied_bins() const { return occupied_; }
 
+    /// The same per finished beam.
+    double bins_per_beam() const { return beam_ > 0 ? occupied_ / beam_ : 0.0; }
+
     /// The distance of the other beams from checks of theirs, estimated from the drawn ones.
     double of_others() const { return signal_ > 0.0 ? others_ / signal_ : 0.0; }
 

@@ -192,7 +192,8 @@ class SlicesEngine final : public VisibilityEngine {
         while (adaptive.scan_next(most())) {
             // More draws decide if the estimate and its limit are on different sides of the goal.
             const bool closely = likely_error(errors) <= goal && estimated_error(errors) > goal;
-            const bool drawn = check.look_at(adaptive, closely);
+            const double wrong_bins = goal * errors.bins_per_beam() * view.beams;
+            const bool drawn = check.look_at(adaptive, closely, wrong_bins);
             for (const SliceResult* result : adaptive.slices())
                 cutter.add(*result);
             if (!drawn) continue;
