@@ -222,7 +222,7 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
         warn_of_lost_glints(assembly.sonars, assembly.scene);
     else
         find_targets(assembly.sonars, assembly.scene);
-    bury_objects(mission, assembly.scene, assembly.sonars);
+    bury_objects(mission, parts.files, assembly.scene, assembly.sonars);
     leave_out_glints(assembly.sonars, assembly.scene);
     assembly.inputs = inputs_of(mission);
     Brightness brightness = find_full_scales(mission, assembly.scene, assembly.trajectory,

@@ -178,7 +178,8 @@ void describe(Visitor& v, Mission& c) {
     v.named("sensors", c.sensors, "one section per sonar; NAME is its folder in the dataset");
     const bool is_seen = !c.scene.particles.empty() ||
                          (c.scene.water_surface && c.scene.water_surface->scatters) ||
-                         std::ranges::any_of(c.scene.objects, &ObjectConfig::buried);
+                         std::ranges::any_of(c.scene.objects, &ObjectConfig::buried) ||
+                         std::ranges::any_of(c.scene.scatter, &ScatterConfig::buried);
     v.require(!is_seen || std::ranges::all_of(c.sensors,
                                               [](const SonarConfig& s) {
                                                   return s.model == ModelKind::calibrated;
