@@ -81,6 +81,10 @@ void describe(Visitor& v, WaterConfig& c) {
                      "adds to that of the other keys; `auto` is 0.5 for `clear` and 20 for "
                      "`coastal` and `plankton`, and 0 with a scattering_db_per_m3");
     v.number("suspended_um", c.suspended_um, between(1, 2000), "diameter of these particles");
+    v.number_or_auto("drift_rms_m_s", c.drift_rms_m_s, between(0, 100),
+                     "RMS speed at which the water's scatterers drift apart, one component: pings "
+                     "close in time from one place keep a part of the water's speckle; with "
+                     "`auto` each ping has its own");
     v.list("layers", c.layers, 0,
            "layers of the water that scatter more; they need "
            "scene.water_surface");
