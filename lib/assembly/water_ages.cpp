@@ -35,11 +35,14 @@ AgeScales age_scales(const Sonar& sonar, const WaterConfig& water) {
 /// Older water is independent all the same.
 constexpr double most_step = 2.0;
 
-double age_between(const AgeScales& scales, const Pose& from, const Pose& to, double time_s) {
+/// `to` is the later pose.
+double age_between(const AgeScales& scales, const Pose& from, const Pose& to, double time_s,
+                   const Eigen::Vector3d& current_m_s) {
     const Eigen::Quaterniond turn = from.rotation.conjugate() * to.rotation;
     const double angle = 2.0 * arctan2(turn.vec().norm(), std::fabs(turn.w()));
     const double by_time = scales.per_s * time_s;
-    const double by_way = scales.per_m * (to.translation - from.translation).norm();
+    const double by_way =
+        scales.per_m * (to.translation - from.translation - time_s * current_m_s).norm();
     const double by_turn = scales.per_rad * angle;
     return std::min(most_step, std::sqrt(by_time * by_time + by_way * by_way + by_turn * by_turn));
 }
@@ -48,6 +51,7 @@ double age_between(const AgeScales& scales, const Pose& from, const Pose& to, do
 
 void add_water_ages(const Mission& mission, const Trajectory& trajectory, std::span<Sonar> sonars) {
     if (!mission.water.drift_rms_m_s) return;
+    const Eigen::Vector3d current_m_s(mission.water.current_m_s.data());
     for (Sonar& sonar : sonars) {
         if (sonar.config.model != ModelKind::calibrated) continue;
         const AgeScales scales = age_scales(sonar, mission.water);
@@ -56,10 +60,12 @@ void add_water_ages(const Mission& mission, const Trajectory& trajectory, std::s
         for (std::size_t k = 0; k < trajectory.size(); ++k) {
             const Pose at =
                 sensor_pose(sonar, trajectory[k].T_world_vehicle, static_cast<std::uint32_t>(k));
-            ages.push_back(k == 0 ? 0.0
-                                  : ages.back() +
-                                        age_between(scales, before, at,
-                                                    trajectory[k].t_s - trajectory[k - 1].t_s));
+            double age = 0.0;
+            if (k > 0) {
+                const double time_s = trajectory[k].t_s - trajectory[k - 1].t_s;
+                age = ages.back() + age_between(scales, before, at, time_s, current_m_s);
+            }
+            ages.push_back(age);
             before = at;
         }
         sonar.water_ages = std::make_shared<const std::vector<double>>(std::move(ages));

@@ -16,9 +16,10 @@ namespace sonarsim {
 /// the correlation of the characteristic function, exp(-(2 k u t)^2 / 2). The draws one age apart
 /// have cos(pi s / 2) over a part s of an age, which begins alike with s = 2 / pi 2 k u t.
 ///
-/// The sonar's own motion ages it, too: by one over half of its array, where the power of a line
-/// array has lost its correlation, or over a range bin of the pulse if that is shorter, and by one
-/// over the width of its beam. So what the sonar leaves and comes back to is new.
+/// The sonar's motion through the water ages it, too: by one over half of its array, where the
+/// power of a line array has lost its correlation, or over a range bin of the pulse if that is
+/// shorter, and by one over the width of its beam. So what the sonar leaves and comes back to is
+/// new.
 void add_water_ages(const Mission& mission, const Trajectory& trajectory, std::span<Sonar> sonars);
 
 }  // namespace sonarsim

@@ -85,6 +85,11 @@ void describe(Visitor& v, WaterConfig& c) {
                      "RMS speed at which the water's scatterers drift apart, one component: pings "
                      "close in time from one place keep a part of the water's speckle; with "
                      "`auto` each ping has its own");
+    v.numbers("current_m_s", c.current_m_s, between(-100, 100),
+              "velocity of the water in the world, which carries its speckle past the sonar");
+    v.require(c.drift_rms_m_s || c.current_m_s == std::array<double, 3>{},
+              {"current_m_s", "drift_rms_m_s"},
+              "current_m_s needs a drift_rms_m_s: without it each ping has speckle of its own");
     v.list("layers", c.layers, 0,
            "layers of the water that scatter more; they need "
            "scene.water_surface");

@@ -80,6 +80,14 @@ TEST_SUITE("assembly") {
         CHECK(ages[3] - ages[2] == doctest::Approx(0.1));
         CHECK(ages[9] == ages[3]);
         CHECK(ages[10] == ages[9] + 2.0);
+        // A sonar that goes with the water stays in it.
+        Mission current = mission;
+        current.water.current_m_s = {0.3, 0.0, -0.1};
+        poses = at_rest(11, 0.1);
+        for (TimedPose& pose : poses)
+            pose.T_world_vehicle.translation += pose.t_s * Eigen::Vector3d(0.3, 0.0, -0.1);
+        add_water_ages(current, poses, sonars);
+        CHECK(sonars[0].water_ages->back() == doctest::Approx(2.0 / pi * phase_spread(1.0)));
         // Without the key there are none.
         std::vector<Sonar> others{resting_sounder({})};
         add_water_ages({}, poses, others);

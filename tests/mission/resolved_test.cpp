@@ -90,6 +90,7 @@ water:
   suspended_mg_l: auto
   suspended_um: 50
   drift_rms_m_s: auto
+  current_m_s: [0, 0, 0]
   layers: []
 scene:
   file: "/base/a.glb"
