@@ -15,6 +15,7 @@
 #include "assembly/poses.h"
 #include "assembly/scene_parts.h"
 #include "assembly/sound_profiles.h"
+#include "assembly/water_ages.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/named_at.h"
@@ -204,6 +205,7 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
     add_sound_profiles(mission, assembly.scene, assembly.sonars);
     add_ping_motions(mission, assembly.trajectory, assembly.scene, assembly.motions,
                      assembly.sonars);
+    add_water_ages(mission, assembly.trajectory, assembly.sonars);
     warn_of_empty_scatter(mission, assembly.scene);
     if (!mission.output.labels.empty() || !mission.classes.empty()) {
         std::vector<ClassRule> rules;
@@ -222,7 +224,7 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
         warn_of_lost_glints(assembly.sonars, assembly.scene);
     else
         find_targets(assembly.sonars, assembly.scene);
-    bury_objects(mission, assembly.scene, assembly.sonars);
+    bury_objects(mission, parts.files, assembly.scene, assembly.sonars);
     leave_out_glints(assembly.sonars, assembly.scene);
     assembly.inputs = inputs_of(mission);
     Brightness brightness = find_full_scales(mission, assembly.scene, assembly.trajectory,

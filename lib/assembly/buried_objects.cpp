@@ -1,13 +1,16 @@
 #include "assembly/buried_objects.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <map>
 #include <memory>
+#include <string_view>
 #include <utility>
 
-#include "assembly/placed_files.h"
 #include "calibrated/sediment_paths.h"
 #include "calibrated/water.h"
 #include "core/error.h"
+#include "core/text.h"
 #include "trace/target_shapes.h"
 
 namespace sonarsim {
@@ -21,25 +24,28 @@ std::vector<SedimentPath> sediments_of(const Mission& mission, const Scene& scen
                           frequency_hz, absorption_db_per_m(frequency_hz, state));
 }
 
-void bury_objects(const Mission& mission, const Scene& scene, std::span<Sonar> sonars) {
-    if (std::ranges::none_of(mission.scene.objects, &ObjectConfig::buried)) return;
+void bury_objects(const Mission& mission, std::span<const PlacedFile> files, const Scene& scene,
+                  std::span<Sonar> sonars) {
+    std::map<std::string_view, Location> places;  // in the mission, by instance
+    for (const PlacedFile& file : files) {
+        if (file.buried) places.emplace(file.name, file.place);
+    }
+    if (places.empty()) return;
     for (Sonar& sonar : sonars) {
         BuriedObjects buried{.instances = {}, .sediments = sediments_of(mission, scene, sonar)};
-        for (const ObjectConfig& object : mission.scene.objects) {
-            if (!object.buried) continue;
-            const auto instance = static_cast<std::uint32_t>(
-                std::ranges::find(scene.instances, object.name) - scene.instances.begin());
-            const auto& targets = sonar.settings.targets;
-            if (!targets || std::ranges::find(targets->placed, instance, &PlacedTarget::instance) ==
+        const auto& targets = sonar.settings.targets;
+        for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+            const auto place = places.find(scene.instances[i]);
+            if (place == places.end()) continue;
+            if (!targets || std::ranges::find(targets->placed, i, &PlacedTarget::instance) ==
                                 targets->placed.end()) {
-                throw InputError(object.place.location,
-                                 title_of(object) +
-                                     " is buried and has more than 20,000 triangles or a radius "
+                throw InputError(place->second,
+                                 "'" + printable(scene.instances[i]) +
+                                     "' is buried and has more than 20,000 triangles or a radius "
                                      "of more than 5 m: use a smaller or coarser mesh");
             }
-            buried.instances.push_back(instance);
+            buried.instances.push_back(i);
         }
-        std::ranges::sort(buried.instances);
         sonar.settings.buried = std::make_shared<const BuriedObjects>(std::move(buried));
     }
 }

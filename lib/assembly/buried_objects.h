@@ -5,6 +5,7 @@
 
 #include "mission/mission.h"
 #include "ping/sonar.h"
+#include "scene/placed_file.h"
 #include "scene/scene.h"
 #include "trace/buried.h"
 
@@ -14,8 +15,9 @@ namespace sonarsim {
 std::vector<SedimentPath> sediments_of(const Mission& mission, const Scene& scene,
                                        const Sonar& sonar);
 
-/// Gives the sonars the objects of the mission that are buried. find_targets() comes before.
-/// InputError for one that is too large.
-void bury_objects(const Mission& mission, const Scene& scene, std::span<Sonar> sonars);
+/// Gives the sonars the objects among the files of the scene that are buried. find_targets() comes
+/// before. InputError for one that is too large.
+void bury_objects(const Mission& mission, std::span<const PlacedFile> files, const Scene& scene,
+                  std::span<Sonar> sonars);
 
 }  // namespace sonarsim

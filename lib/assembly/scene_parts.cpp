@@ -198,6 +198,7 @@ void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64
     for (const std::filesystem::path& path : config.files) {
         kinds.push_back(file_of(path, config.mesh, config.place));
         kinds.back().class_name = config.class_name.empty() ? config.name : config.class_name;
+        kinds.back().buried = config.buried;
         shapes.push_back(surface_of(kinds.back(), models));
         if (!shapes.back().triangles.empty()) continue;
         throw InputError(config.place.location, path.string() + " has no surface to scatter");
@@ -216,11 +217,12 @@ void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64
         PlacedFile& file = files.emplace_back(kinds[object.shape]);
         file.name = config.name + "_" + std::to_string(++number);
         file.T_world_file = object.T_world_shape;
-        if (config.bury_m[1] > 0.0 &&
+        if (!config.buried && config.bury_m[1] > 0.0 &&
             lies_below(bottom.get(), moved(shapes[object.shape], file.T_world_file))) {
-            throw InputError(config.place.location, "'" + printable(file.name) +
-                                                        "' lies wholly below the bottom; lower "
-                                                        "bury_m");
+            throw InputError(config.place.location,
+                             "'" + printable(file.name) +
+                                 "' lies wholly below the bottom; lower bury_m; sound reaches it "
+                                 "there with buried: true");
         }
     }
 }

@@ -215,8 +215,9 @@ class ImageFormer {
         std::vector<float> phase2;  // one for each facet
         if (!shares_.are_all_one()) {
             for (const TargetFacet& facet : targets.facets)
-                phase2.push_back(
-                    shares_.phase2(facet.instance, facet.material, facet.corners[0], facet.normal));
+                phase2.push_back(facet.buried ? IncoherentShares::incoherent
+                                              : shares_.phase2(facet.instance, facet.material,
+                                                               facet.corners[0], facet.normal));
         }
         TargetPieces pieces;
         cut_targets(targets.facets, limits, slopes_, pieces, [&](TargetPieces& cut) {

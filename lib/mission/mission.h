@@ -49,7 +49,10 @@ struct WaterConfig {
     std::vector<WaterLayerConfig> layers = {};  ///< their scattering adds to that
     /// Mineral particles; without it by `content`.
     std::optional<double> suspended_mg_l = {};
-    double suspended_um = 50.0;                      ///< their diameter
+    double suspended_um = 50.0;  ///< their diameter
+    /// RMS speed at which the scatterers drift apart; none: they are others in each ping.
+    std::optional<double> drift_rms_m_s = {};
+    std::array<double, 3> current_m_s{};             ///< moves all of them alike
     std::optional<SoundProfileConfig> profile = {};  ///< sound bends by it; none: it goes straight
     /// The profile by which the instruments turn angles and times to soundings; none: constant.
     std::optional<SoundProfileConfig> assumed_profile = {};

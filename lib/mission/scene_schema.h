@@ -108,6 +108,7 @@ void describe(Visitor& v, ScatterConfig& c) {
     v.number("spacing_m", c.spacing_m, at_least(0),
              "least distance between two objects, seen from above");
     v.flag("align", c.align, "objects stand upright on the slope below them");
+    v.flag("buried", c.buried, "the objects may lie wholly below the bottom, as in `objects`");
     v.integer("tries", c.tries, between(1, 1e6), "number of places that are tried for each object");
     v.require(c.area_min_m[0] < c.area_max_m[0] && c.area_min_m[1] < c.area_max_m[1],
               {"area_min_m", "area_max_m"}, "area_min_m must be below area_max_m in x and in y");

@@ -81,6 +81,15 @@ void describe(Visitor& v, WaterConfig& c) {
                      "adds to that of the other keys; `auto` is 0.5 for `clear` and 20 for "
                      "`coastal` and `plankton`, and 0 with a scattering_db_per_m3");
     v.number("suspended_um", c.suspended_um, between(1, 2000), "diameter of these particles");
+    v.number_or_auto("drift_rms_m_s", c.drift_rms_m_s, between(0, 100),
+                     "RMS speed at which the water's scatterers drift apart, one component: pings "
+                     "close in time from one place keep a part of the water's speckle; with "
+                     "`auto` each ping has its own");
+    v.numbers("current_m_s", c.current_m_s, between(-100, 100),
+              "velocity of the water in the world, which carries its speckle past the sonar");
+    v.require(c.drift_rms_m_s || c.current_m_s == std::array<double, 3>{},
+              {"current_m_s", "drift_rms_m_s"},
+              "current_m_s needs a drift_rms_m_s: without it each ping has speckle of its own");
     v.list("layers", c.layers, 0,
            "layers of the water that scatter more; they need "
            "scene.water_surface");
@@ -178,7 +187,8 @@ void describe(Visitor& v, Mission& c) {
     v.named("sensors", c.sensors, "one section per sonar; NAME is its folder in the dataset");
     const bool is_seen = !c.scene.particles.empty() ||
                          (c.scene.water_surface && c.scene.water_surface->scatters) ||
-                         std::ranges::any_of(c.scene.objects, &ObjectConfig::buried);
+                         std::ranges::any_of(c.scene.objects, &ObjectConfig::buried) ||
+                         std::ranges::any_of(c.scene.scatter, &ScatterConfig::buried);
     v.require(!is_seen || std::ranges::all_of(c.sensors,
                                               [](const SonarConfig& s) {
                                                   return s.model == ModelKind::calibrated;

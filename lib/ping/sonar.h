@@ -33,6 +33,8 @@ struct Sonar {
     std::shared_ptr<const std::vector<PingMotion>> motions;
     /// The objects that move then, by pose; null: they stand still in a ping.
     std::shared_ptr<const std::vector<std::vector<ObjectMotion>>> object_motions;
+    /// TracedPing::water_age by pose; null: none.
+    std::shared_ptr<const std::vector<double>> water_ages;
 };
 
 /// The angle of the head at the pose with this index on the trajectory; 0 for a fixed sonar.

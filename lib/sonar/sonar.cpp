@@ -69,6 +69,8 @@ TracedPing trace_at(const Sonar& sonar, const Scene& scene, const VisibilityEngi
         objects.all = (*sonar.object_motions)[pose];
     TracedPing traced =
         trace_ping(sonar.settings, scene, engine, T_world_sensor, terms, motion, objects);
+    if (sonar.water_ages && pose < sonar.water_ages->size())
+        traced.water_age = (*sonar.water_ages)[pose];
     if (const auto& particles = sonar.settings.particles) {
         const double time_s = pose < particles->time_s.size() ? particles->time_s[pose] : 0.0;
         traced.particles =

@@ -126,6 +126,7 @@ std::optional<TargetFacet> seen_buried(std::span<const SedimentPath> sediments,
         seen.normals[k] = turn * part.normals[k];
     }
     seen.strength *= static_cast<float>(sight->echo);
+    seen.buried = true;
     return seen;
 }
 

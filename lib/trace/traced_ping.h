@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/pose.h"
@@ -50,6 +51,8 @@ struct TracedPing {
     std::vector<Sample> water_surface;  ///< material and instance are 0
     std::vector<BouncePath> bounces;    ///< multipath paths from `samples`
     RetracedSurface retraced;
+    /// The age of the water's speckle; none: it is new.
+    std::optional<double> water_age;
     /// The group in which each beam transmits, and the traces of all groups but the first, which
     /// is this one. Empty: all beams transmit at once.
     std::vector<int> group_of_beam;

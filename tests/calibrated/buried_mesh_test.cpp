@@ -140,6 +140,24 @@ TEST_SUITE("calibrated") {
         }
     }
 
+    // Sound is as fast in mud as in water, within 2 %: a plate appears within 4 mm of its plane, in
+    // which the coherent echo of a smooth face takes all of the power.
+    TEST_CASE("buried mesh: a smooth plate has the incoherent echo of a rough one") {
+        double rough = 0.0;
+        for (const bool smooth : {false, true}) {
+            BuriedScene below;
+            below.scene.materials[below.floor].grain_phi = 9.0;
+            if (smooth) below.scene.materials[below.metal].roughness_m = 2e-6;
+            add_quad(below.scene, {-0.05F, -0.05F, -0.2F}, {0.05F, -0.05F, -0.2F},
+                     {0.05F, 0.05F, -0.2F}, {-0.05F, 0.05F, -0.2F}, below.metal);
+            const double level = below.level_over_point_db({0.0, 0.0, -0.2});
+            if (smooth)
+                CHECK(std::fabs(level - rough) < 0.01);
+            else
+                rough = level;
+        }
+    }
+
     TEST_CASE("buried mesh: rock hides it, and so does a bottom unless it is said to be buried") {
         BuriedScene below;
         add_sphere(below.scene, {0.0F, 0.0F, -0.45F}, 0.15F, below.metal, 48);

@@ -70,7 +70,11 @@ class BadObjects(Composed):
         self.refused("buried objects are for the calibrated model")
         self.scene("  file: floor.gltf\n  materials: materials.csv\n" +
                    SCATTER.replace("count: 5", "count: 2, bury_m: 1.01"))
-        self.refused("mission.yaml:7:7: 'mine_1' lies wholly below the bottom; lower bury_m")
+        self.refused("mission.yaml:7:7: 'mine_1' lies wholly below the bottom; lower bury_m",
+                     "buried: true")
+        self.scene("  file: floor.gltf\n  materials: materials.csv\n" +
+                   SCATTER.replace("count: 5", "count: 2, bury_m: 1.01, buried: true"))
+        self.refused("buried objects are for the calibrated model")
 
     def test_names_that_nothing_asks_for(self):
         """What no object needs so far is checked all the same."""

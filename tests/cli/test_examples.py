@@ -4,6 +4,7 @@ import concurrent.futures
 import json
 import os
 import pathlib
+import re
 import shutil
 import tempfile
 import unittest
@@ -22,7 +23,7 @@ GROUPS = (
     ("minefield_variants", "detection"),
     ("lifeboat_imaging",), ("own_bathymetry", "sediment_maps"),
     ("made_seabeds", "scattering_layer", "summer_bathymetry", "fish_and_bubbles", "windy_sidescan",
-     "buried_mines", "yawing_camera"),
+     "buried_mines", "yawing_camera", "towed_sidescan", "sector_bathymetry", "moored_echosounder"),
     ("tank_imaging", "tank_calibrated", "tank_detection", "tank_echosounder", "tank_labels", "tank_layers",
      "tank_multipath", "tank_multipath_calibrated", "tank_scanning"),
 )
@@ -60,6 +61,19 @@ class Examples(unittest.TestCase):
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
             for faults in pool.map(self.render_group, GROUPS):
                 self.assertEqual(faults, {})
+
+    def test_each_stage_has_a_mission_with_labels(self):
+        """The table of docs/calibrated.md: the mission, or the preset that it names, sets the keys."""
+        page = (self.clone / "docs/calibrated.md").read_text()
+        table = page.split("## Missions of the stages", 1)[1].split("\n## ", 1)[0]
+        rows = re.findall(r"^\| .* \| \[.*\]\(\.\./(configs/\w+\.yaml)\) \| (.*) \|$", table, re.MULTILINE)
+        self.assertGreater(len(rows), 12)
+        for mission, keys in rows:
+            text = (self.clone / mission).read_text()
+            for preset in re.findall(r"preset: (sensors/\w+\.yaml)", text):
+                text += (self.clone / "configs" / preset).read_text()
+            for key in (*re.findall("`(.*?)`", keys), "labels"):
+                self.assertRegex(text, rf"(?m)^[^#]*\b{key}:", mission)
 
     def own_mission(self, scene):
         """The tank's mission with another scene, in the folder of the clone."""

@@ -89,6 +89,8 @@ water:
   scattering_db_per_m3: auto
   suspended_mg_l: auto
   suspended_um: 50
+  drift_rms_m_s: auto
+  current_m_s: [0, 0, 0]
   layers: []
 scene:
   file: "/base/a.glb"

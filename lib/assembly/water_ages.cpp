@@ -1,0 +1,75 @@
+#include "assembly/water_ages.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "calibrated/line_array.h"
+#include "core/elementary.h"
+#include "core/units.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// Ages by which the water's speckle grows older.
+struct AgeScales {
+    double per_s, per_m, per_rad;
+};
+
+AgeScales age_scales(const Sonar& sonar, const WaterConfig& water) {
+    const InstrumentConfig& instrument = sonar.config.instrument;
+    const double wavelength_m = water.sound_speed_m_s / instrument.frequency_hz;
+    const double width_rad = radians(instrument.beam.width_deg);
+    const double half_array_m =
+        0.5 * wavelength_m * line_array(width_rad, instrument.beam.side_lobe_db).wavelengths;
+    const double pulse_m = std::max(instrument.pulse.resolution_m, sonar.settings.view.bin_m());
+    // 2 / pi times 2 k u.
+    return {.per_s = 8.0 * *water.drift_rms_m_s / wavelength_m,
+            .per_m = 1.0 / std::min(half_array_m, pulse_m),
+            .per_rad = 1.0 / width_rad};
+}
+
+/// Older water is independent all the same.
+constexpr double most_step = 2.0;
+
+/// `to` is the later pose.
+double age_between(const AgeScales& scales, const Pose& from, const Pose& to, double time_s,
+                   const Eigen::Vector3d& current_m_s) {
+    const Eigen::Quaterniond turn = from.rotation.conjugate() * to.rotation;
+    const double angle = 2.0 * arctan2(turn.vec().norm(), std::fabs(turn.w()));
+    const double by_time = scales.per_s * time_s;
+    const double by_way =
+        scales.per_m * (to.translation - from.translation - time_s * current_m_s).norm();
+    const double by_turn = scales.per_rad * angle;
+    return std::min(most_step, std::sqrt(by_time * by_time + by_way * by_way + by_turn * by_turn));
+}
+
+}  // namespace
+
+void add_water_ages(const Mission& mission, const Trajectory& trajectory, std::span<Sonar> sonars) {
+    if (!mission.water.drift_rms_m_s) return;
+    const Eigen::Vector3d current_m_s(mission.water.current_m_s.data());
+    for (Sonar& sonar : sonars) {
+        if (sonar.config.model != ModelKind::calibrated) continue;
+        const AgeScales scales = age_scales(sonar, mission.water);
+        std::vector<double> ages;
+        Pose before;
+        for (std::size_t k = 0; k < trajectory.size(); ++k) {
+            const Pose at =
+                sensor_pose(sonar, trajectory[k].T_world_vehicle, static_cast<std::uint32_t>(k));
+            double age = 0.0;
+            if (k > 0) {
+                const double time_s = trajectory[k].t_s - trajectory[k - 1].t_s;
+                age = ages.back() + age_between(scales, before, at, time_s, current_m_s);
+            }
+            ages.push_back(age);
+            before = at;
+        }
+        sonar.water_ages = std::make_shared<const std::vector<double>>(std::move(ages));
+    }
+}
+
+}  // namespace sonarsim
