@@ -160,7 +160,8 @@ void take_samples(std::string_view datagram, double ohms, EkPing& ping) {
     ping.watts = ping.sectors / 8.0 * share * share / transducer_ohms;
 }
 
-EkPing ek80_ping_of(std::string_view datagram, Ek80Settings& settings) {
+EkPing ek80_ping_of(std::string_view datagram, Ek80Settings& settings,
+                    std::optional<double> wanted_hz) {
     field_at<std::int32_t>(datagram, count_at);  // throws where the datagram is too short
     const auto found = settings.channels.find(name_at(datagram, channel_at));
     if (found == settings.channels.end() || found->second.sample_s == 0.0)
@@ -172,7 +173,8 @@ EkPing ek80_ping_of(std::string_view datagram, Ek80Settings& settings) {
     ping.sound_speed_m_s = settings.sound_speed_m_s;
     check_ek(ping);
     take_samples(datagram, found->second.ohms, ping);
-    if (ping.count > 0 && ping.sectors > 0) ping.pulse = pulse_of(found->second);
+    const bool is_read = !wanted_hz || is_wanted(ping.frequency_hz, *wanted_hz);
+    if (is_read && ping.count > 0 && ping.sectors > 0) ping.pulse = pulse_of(found->second);
     return ping;
 }
 
@@ -186,7 +188,7 @@ SonarLog read_ek80(std::string_view bytes, std::size_t most_pings,
         if (datagram.starts_with("XML0")) take_settings(datagram.substr(12), settings);
         if (datagram.starts_with("FIL1")) take_filter(datagram, settings);
         if (!datagram.starts_with("RAW3")) continue;
-        const EkPing ping = ek80_ping_of(datagram, settings);
+        const EkPing ping = ek80_ping_of(datagram, settings, frequency_hz);
         if (ping.count > 0) pings.push_back(ping);
     }
     if (pings.empty())

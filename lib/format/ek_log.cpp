@@ -30,7 +30,7 @@ double chosen_frequency(const std::vector<EkPing>& pings, std::optional<double> 
         all.insert(ping.frequency_hz);
     if (!wanted && all.size() == 1) return *all.begin();
     for (const double one : all) {
-        if (wanted && std::fabs(one - *wanted) < 1e-3 * one) return one;
+        if (wanted && is_wanted(one, *wanted)) return one;
     }
     std::string text;
     for (const double one : all)
@@ -91,6 +91,10 @@ LoggedPing logged_ek(const EkPing& own) {
 }
 
 }  // namespace
+
+bool is_wanted(double frequency_hz, double wanted_hz) {
+    return std::fabs(frequency_hz - wanted_hz) < 1e-3 * frequency_hz;
+}
 
 std::vector<std::string_view> ek_datagrams(std::string_view bytes) {
     std::vector<std::string_view> out;

@@ -37,6 +37,9 @@ double ek_time_s(std::string_view datagram);
 /// Throws std::runtime_error for impossible numbers.
 void check_ek(const EkPing& ping);
 
+/// True for the frequency of the wanted channel.
+bool is_wanted(double frequency_hz, double wanted_hz);
+
 /// A log of the pings of one frequency.
 SonarLog log_of_ek(const std::vector<EkPing>& pings, std::size_t most_pings,
                    std::optional<double> frequency_hz);

@@ -63,6 +63,14 @@ TEST_SUITE("format") {
         }
         CHECK(message_of_log(ek80_head() + ek80_parameter("B", settings, 1, "1.0E-05") + ping)
                   .find("without their filters") != std::string::npos);
+        // A channel that is not read needs none.
+        MadeBytes power;
+        power.add(std::int16_t{-256});
+        CHECK(read_sonar_log(ek80_head() + ek80_parameter("A", "Frequency=\"38000\"") +
+                                 ek80_ping("A", 1, 1, power.text) +
+                                 ek80_parameter("B", settings, 1, "1.0E-05") + ping,
+                             10, 38000.0)
+                  .pings.size() == 1);
         CHECK(message_of_log(ek80_head() + ek80_filter("B", 1, 0, {1.0, 0.0}) +
                              ek80_parameter("B", settings, 1, "1.0E-05") + ping)
                   .find("impossible numbers") != std::string::npos);

@@ -47,9 +47,8 @@ struct Grouped {
     }
     /// The mean power of rows [from, to).
     double mean_of(int from, int to) const {
-        const auto begin = power.begin();
-        return std::accumulate(begin + from * groups, begin + to * groups, 0.0) /
-               ((to - from) * groups);
+        const auto at = [&](int row) { return power.begin() + std::ptrdiff_t{row} * groups; };
+        return std::accumulate(at(from), at(to), 0.0) / ((to - from) * groups);
     }
 };
 

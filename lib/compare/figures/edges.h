@@ -35,7 +35,10 @@ struct StepWindow {
     int along = 0;
     int across = 0;
 
-    float at(int i, int j) const { return power[static_cast<std::size_t>(i * across + j)]; }
+    float at(int i, int j) const {
+        return power[static_cast<std::size_t>(i) * static_cast<std::size_t>(across) +
+                     static_cast<std::size_t>(j)];
+    }
 };
 
 /// The width of a step, from 10 to 90 %, in bins; NaN if the window has none. The mean power is
