@@ -42,7 +42,7 @@ for upper in ("dataset", "checks", "job", "validation", "benchmark", "preview", 
 PARTS = {
     "dataset": [["*"], ["writers/"], ["writers"], ["layout"], ["metadata"], ["dataset_file"],
                 ["description", "ping_file_reader"], ["coco/"], ["encode_ping"], ["shared_files"]],
-    "compare": [["*"], ["figures/"], ["images"], ["measure_patches", "measure_shadows"], ["measure_images", "measure_soundings"],
+    "compare": [["*"], ["figures/"], ["images"], ["measure_edges", "measure_patches", "measure_shadows"], ["measure_images", "measure_soundings"],
                 ["compare"], ["plot", "report"]],
     "job": [["*"], ["folder_lock"], ["journal"], ["checksums"], ["folder"], ["listed_files", "resume"],
             ["ping_files"], ["ping_cost"], ["completion", "joined_labels"],

@@ -23,6 +23,8 @@ constexpr std::array rules{
     Rule{"points", "beams", "instrument.beam.width_deg, aberration_rad"},
     Rule{"points", "ranges", "instrument.pulse.resolution_m, range_bins"},
     Rule{"points", "side lobes", "instrument.beam.side_lobe_db, elements"},
+    Rule{"edges", "degrees", "instrument.beam.width_deg, aberration_rad"},
+    Rule{"edges", " m", "instrument.pulse.resolution_m, range_bins"},
     Rule{"shadows", "depth",
          "instrument.receiver.noise_db, instrument.beam.side_lobe_db, elements; water.content"},
     Rule{"shadows", "edge", "instrument.pulse.resolution_m, range_bins, instrument.beam.width_deg"},

@@ -7,6 +7,7 @@
 #include "calibrated/decibel.h"
 #include "compare/figures/points.h"
 #include "compare/figures/texture.h"
+#include "compare/measure_edges.h"
 #include "compare/measure_patches.h"
 #include "compare/measure_shadows.h"
 #include "core/text.h"
@@ -221,6 +222,7 @@ Measurement measure_images(const RecordedImages& images, const MeasureOptions& o
     measure_shares(images, options.patch, out);
     measure_histograms(images, options.patch, out);
     measure_points(images, options, out);
+    measure_edges(images, options.patch, z, out);
     if (images.has_shadows) measure_shadows(images, options.patch, z, out);
     return out;
 }

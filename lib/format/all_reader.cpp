@@ -10,21 +10,33 @@ namespace sonarsim {
 
 namespace {
 
-// Kongsberg, "EM Series Multibeam echo sounder, Datagram formats", little-endian as its programs
-// for PCs write: a length, then a datagram of that length from 0x02 on. The third byte from its end
-// is 0x03. Places are those after the length.
+// Kongsberg, "EM Series Multibeam echo sounder, Datagram formats": a length, then a datagram of
+// that length from 0x02 on. The third byte from its end is 0x03. Places are those after the length.
+// Kongsberg's programs for PCs write little-endian numbers, older ones for Unix big-endian ones.
 constexpr char all_begin = 0x02, all_end = 0x03, water_type = 'k';
 constexpr std::size_t shortest_datagram = 19;
 constexpr std::size_t all_sectors_at = 40, all_sector_length = 6, all_beam_entry = 10;
 
+/// A datagram and the order of its bytes.
+struct AllDatagram {
+    std::string_view bytes;
+    bool is_big_endian = false;
+
+    template <class T>
+    T get(std::size_t at) const {
+        return field_at<T>(bytes, at, is_big_endian);
+    }
+};
+
 /// The datagram that begins at a place.
-std::optional<std::string_view> all_datagram(std::string_view bytes, std::size_t at) {
+std::optional<AllDatagram> all_datagram(std::string_view bytes, std::size_t at,
+                                        bool is_big_endian) {
     if (bytes.size() - at < 4) return std::nullopt;
-    const std::size_t length = field_at<std::uint32_t>(bytes, at);
+    const std::size_t length = field_at<std::uint32_t>(bytes, at, is_big_endian);
     if (length < shortest_datagram || length > bytes.size() - at - 4) return std::nullopt;
     const std::string_view datagram = bytes.substr(at + 4, length);
     if (datagram[0] != all_begin || datagram[length - 3] != all_end) return std::nullopt;
-    return datagram;
+    return AllDatagram{datagram, is_big_endian};
 }
 
 /// Seconds since 1970 of a date, 20041023 for the 23rd of October 2004, and of milliseconds of the
@@ -45,34 +57,33 @@ struct AllPing {
     std::size_t all_beams = 0;  ///< in all of its datagrams
 };
 
-AllPing head_of_ping(std::string_view datagram) {
+AllPing head_of_ping(const AllDatagram& datagram) {
     AllPing out;
-    out.ping.t_s =
-        time_of_day(field_at<std::uint32_t>(datagram, 4), field_at<std::uint32_t>(datagram, 8));
-    out.counter = field_at<std::uint16_t>(datagram, 12);
-    out.serial = field_at<std::uint16_t>(datagram, 14);
-    out.all_beams = field_at<std::uint16_t>(datagram, 22);
-    out.ping.sound_speed_m_s = 0.1 * field_at<std::uint16_t>(datagram, 26);
-    out.ping.sample_hz = 0.01 * field_at<std::uint32_t>(datagram, 28);
-    if (field_at<std::uint16_t>(datagram, 20) > 0)
-        out.ping.frequency_hz = 10.0 * field_at<std::uint16_t>(datagram, all_sectors_at + 2);
+    out.ping.t_s = time_of_day(datagram.get<std::uint32_t>(4), datagram.get<std::uint32_t>(8));
+    out.counter = datagram.get<std::uint16_t>(12);
+    out.serial = datagram.get<std::uint16_t>(14);
+    out.all_beams = datagram.get<std::uint16_t>(22);
+    out.ping.sound_speed_m_s = 0.1 * datagram.get<std::uint16_t>(26);
+    out.ping.sample_hz = 0.01 * datagram.get<std::uint32_t>(28);
+    if (datagram.get<std::uint16_t>(20) > 0)
+        out.ping.frequency_hz = 10.0 * datagram.get<std::uint16_t>(all_sectors_at + 2);
     check_water(out.ping);
     return out;
 }
 
-void add_all_beams(std::string_view datagram, WaterPing& ping) {
-    const std::size_t sectors = field_at<std::uint16_t>(datagram, 20);
-    const std::size_t count = field_at<std::uint16_t>(datagram, 24);
+void add_all_beams(const AllDatagram& datagram, WaterPing& ping) {
+    const std::size_t sectors = datagram.get<std::uint16_t>(20);
+    const std::size_t count = datagram.get<std::uint16_t>(24);
     std::size_t at = all_sectors_at + sectors * all_sector_length;
     for (std::size_t k = 0; k < count; ++k) {
         WaterBeam beam;
-        beam.angle_deg = 0.01 * field_at<std::int16_t>(datagram, at);
-        beam.first = field_at<std::uint16_t>(datagram, at + 2);
-        const std::size_t samples = field_at<std::uint16_t>(datagram, at + 4);
+        beam.angle_deg = 0.01 * datagram.get<std::int16_t>(at);
+        beam.first = datagram.get<std::uint16_t>(at + 2);
+        const std::size_t samples = datagram.get<std::uint16_t>(at + 4);
         at += all_beam_entry;
-        if (at > datagram.size() || datagram.size() - at < samples)
+        if (at > datagram.bytes.size() || datagram.bytes.size() - at < samples)
             throw std::runtime_error("has a beam with more samples than their datagram");
-        beam.samples = datagram.substr(at, samples);
+        beam.samples = datagram.bytes.substr(at, samples);
         at += samples;
         ping.add(beam);
     }
@@ -81,10 +92,11 @@ void add_all_beams(std::string_view datagram, WaterPing& ping) {
 }  // namespace
 
 bool is_all_file(std::string_view bytes) {
-    return all_datagram(bytes, 0).has_value();
+    return all_datagram(bytes, 0, false) || all_datagram(bytes, 0, true);
 }
 
 SonarLog read_all(std::string_view bytes, std::size_t most_pings) {
+    const bool is_big_endian = !all_datagram(bytes, 0, false);
     std::vector<WaterPing> pings;
     std::optional<AllPing> open;
     std::optional<std::uint16_t> serial;
@@ -94,11 +106,11 @@ SonarLog read_all(std::string_view bytes, std::size_t most_pings) {
         open.reset();
     };
     for (std::size_t at = 0; at < bytes.size() && pings.size() < most_pings;) {
-        const auto datagram = all_datagram(bytes, at);
+        const auto datagram = all_datagram(bytes, at, is_big_endian);
         if (!datagram)
             throw std::runtime_error("has no datagram where one should begin, or is cut off");
-        at += 4 + datagram->size();
-        if ((*datagram)[1] != water_type) continue;
+        at += 4 + datagram->bytes.size();
+        if (datagram->bytes[1] != water_type) continue;
         AllPing own = head_of_ping(*datagram);
         if (!serial) serial = own.serial;
         if (own.serial != *serial) continue;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <cstring>
 #include <stdexcept>
@@ -15,6 +18,14 @@ T field_at(std::string_view bytes, std::size_t at) {
     T value;
     std::memcpy(&value, bytes.data() + at, sizeof value);
     return value;
+}
+
+/// The same of bytes in either order.
+template <class T>
+T field_at(std::string_view bytes, std::size_t at, bool is_big_endian) {
+    auto own = std::bit_cast<std::array<char, sizeof(T)>>(field_at<T>(bytes, at));
+    if (is_big_endian) std::reverse(own.begin(), own.end());
+    return std::bit_cast<T>(own);
 }
 
 }  // namespace sonarsim

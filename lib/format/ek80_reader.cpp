@@ -5,6 +5,7 @@
 
 #include "core/text.h"
 #include "format/byte_fields.h"
+#include "format/ek80_pulse.h"
 #include "format/ek_log.h"
 
 namespace sonarsim {
@@ -12,10 +13,12 @@ namespace sonarsim {
 namespace {
 
 // Simrad, "EK80 Interface specifications": datagrams as those of an EK60. XML0 has the environment
-// and, before a ping, its parameters; RAW3 has its samples. Places are those after the first
-// length.
+// and, before a ping, its parameters; RAW3 has its samples, FIL1 a filter of a channel's receiver.
+// Places are those after the first length.
 constexpr std::size_t channel_at = 12, channel_length = 128, type_at = 140, offset_at = 144,
                       count_at = 148, raw3_data = 152;
+constexpr std::size_t stage_at = 12, filter_channel_at = 16, tap_count_at = 144,
+                      decimation_at = 146, taps_at = 148;
 constexpr unsigned power_bit = 1, half_bit = 4, complex_bit = 8;
 // The impedances of the receiver, if the file has none, and of a transducer, in ohms.
 constexpr double usual_ohms = 5400.0, transducer_ohms = 75.0;
@@ -24,7 +27,10 @@ struct Ek80Channel {
     double frequency_hz = 0.0;
     double sample_s = 0.0;
     bool is_sweep = false;
-    double ohms = usual_ohms;  ///< impedance of its receiver
+    EkSweep sweep;
+    double ohms = usual_ohms;                 ///< impedance of its receiver
+    std::map<int, EkFilter> filters;          ///< stages by their numbers
+    std::vector<std::complex<double>> pulse;  ///< the sweep; empty until a ping needs it
 };
 
 /// The contents of the XML datagrams so far.
@@ -93,20 +99,55 @@ void take_settings(std::string_view xml, Ek80Settings& settings) {
         channel.sample_s = *interval;
         channel.frequency_hz = xml_number(tag, "Frequency").value_or(0.5 * (start + end));
         channel.is_sweep = xml_number(tag, "PulseForm").value_or(0.0) != 0.0;
+        const auto length = xml_number(tag, "PulseLength");  // the name in older files
+        channel.sweep = {start, end, xml_number(tag, "PulseDuration").value_or(length.value_or(0)),
+                         xml_number(tag, "Slope").value_or(0.0), *interval};
+        channel.pulse.clear();
     }
+}
+
+std::string name_at(std::string_view datagram, std::size_t at) {
+    const std::string_view field = datagram.substr(at, channel_length);
+    return std::string(field.substr(0, field.find('\0')));
+}
+
+void take_filter(std::string_view datagram, Ek80Settings& settings) {
+    if (datagram.size() < taps_at) throw std::runtime_error("has a FIL1 datagram that is cut off");
+    EkFilter filter;
+    filter.decimation = field_at<std::uint16_t>(datagram, decimation_at);
+    const std::size_t count = field_at<std::uint16_t>(datagram, tap_count_at);
+    for (std::size_t k = 0; k < count; ++k)
+        filter.taps.emplace_back(field_at<float>(datagram, taps_at + 8 * k),
+                                 field_at<float>(datagram, taps_at + 8 * k + 4));
+    Ek80Channel& channel = settings.channels[name_at(datagram, filter_channel_at)];
+    channel.filters[field_at<std::int16_t>(datagram, stage_at)] = std::move(filter);
+    channel.pulse.clear();
+}
+
+/// The sweep of a channel as its pings have it.
+const std::vector<std::complex<double>>& pulse_of(Ek80Channel& channel) {
+    if (channel.is_sweep && channel.pulse.empty()) {
+        if (channel.filters.empty())
+            throw std::runtime_error("has sweeps without their filters (FIL1 datagrams)");
+        std::vector<EkFilter> filters;
+        for (const auto& [stage, filter] : channel.filters)
+            filters.push_back(filter);
+        channel.pulse = filtered_sweep(channel.sweep, filters);
+    }
+    return channel.pulse;
 }
 
 /// Takes the samples of a RAW3 datagram, if they are power or complex.
 void take_samples(std::string_view datagram, double ohms, EkPing& ping) {
     const auto type = static_cast<unsigned>(field_at<std::uint16_t>(datagram, type_at));
-    if ((type & half_bit) != 0)
-        throw std::runtime_error("has complex samples of 16 bits, which are not read");
-    const bool is_complex = (type & complex_bit) != 0;
+    ping.has_half_floats = (type & half_bit) != 0;
+    const bool is_complex = (type & (half_bit | complex_bit)) != 0;
     if (!is_complex && (type & power_bit) == 0) return;
     const auto offset = field_at<std::int32_t>(datagram, offset_at);
     const auto count = field_at<std::int32_t>(datagram, count_at);
     ping.sectors = is_complex ? static_cast<int>((type >> 8U) & 7U) : 0;
-    const std::size_t bytes = is_complex ? 8 * static_cast<std::size_t>(ping.sectors) : 2;
+    const std::size_t of_one = ping.has_half_floats ? 4 : 8;
+    const std::size_t bytes = is_complex ? of_one * static_cast<std::size_t>(ping.sectors) : 2;
     if (offset < 0 || count < 0 || bytes == 0)
         throw std::runtime_error("has a ping with impossible numbers");
     ping.offset = static_cast<std::size_t>(offset);
@@ -119,20 +160,21 @@ void take_samples(std::string_view datagram, double ohms, EkPing& ping) {
     ping.watts = ping.sectors / 8.0 * share * share / transducer_ohms;
 }
 
-EkPing ek80_ping_of(std::string_view datagram, const Ek80Settings& settings) {
+EkPing ek80_ping_of(std::string_view datagram, Ek80Settings& settings,
+                    std::optional<double> wanted_hz) {
     field_at<std::int32_t>(datagram, count_at);  // throws where the datagram is too short
-    const std::string_view field = datagram.substr(channel_at, channel_length);
-    const auto found = settings.channels.find(field.substr(0, field.find('\0')));
+    const auto found = settings.channels.find(name_at(datagram, channel_at));
     if (found == settings.channels.end() || found->second.sample_s == 0.0)
         throw std::runtime_error("has a ping without its parameters (XML0 datagram)");
     EkPing ping;
     ping.t_s = ek_time_s(datagram);
     ping.frequency_hz = found->second.frequency_hz;
     ping.sample_s = found->second.sample_s;
-    ping.is_sweep = found->second.is_sweep;
     ping.sound_speed_m_s = settings.sound_speed_m_s;
     check_ek(ping);
     take_samples(datagram, found->second.ohms, ping);
+    const bool is_read = !wanted_hz || is_wanted(ping.frequency_hz, *wanted_hz);
+    if (is_read && ping.count > 0 && ping.sectors > 0) ping.pulse = pulse_of(found->second);
     return ping;
 }
 
@@ -144,8 +186,9 @@ SonarLog read_ek80(std::string_view bytes, std::size_t most_pings,
     std::vector<EkPing> pings;
     for (const std::string_view datagram : ek_datagrams(bytes)) {
         if (datagram.starts_with("XML0")) take_settings(datagram.substr(12), settings);
+        if (datagram.starts_with("FIL1")) take_filter(datagram, settings);
         if (!datagram.starts_with("RAW3")) continue;
-        const EkPing ping = ek80_ping_of(datagram, settings);
+        const EkPing ping = ek80_ping_of(datagram, settings, frequency_hz);
         if (ping.count > 0) pings.push_back(ping);
     }
     if (pings.empty())

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <set>
 #include <stdexcept>
 #include <string>
 
 #include "core/elementary.h"
 #include "format/byte_fields.h"
+#include "format/ek80_pulse.h"
 
 namespace sonarsim {
 
@@ -28,7 +30,7 @@ double chosen_frequency(const std::vector<EkPing>& pings, std::optional<double> 
         all.insert(ping.frequency_hz);
     if (!wanted && all.size() == 1) return *all.begin();
     for (const double one : all) {
-        if (wanted && std::fabs(one - *wanted) < 1e-3 * one) return one;
+        if (wanted && is_wanted(one, *wanted)) return one;
     }
     std::string text;
     for (const double one : all)
@@ -37,19 +39,45 @@ double chosen_frequency(const std::vector<EkPing>& pings, std::optional<double> 
                              " Hz; choose one of them with `frequency_hz`");
 }
 
-/// The level of a sample in dB re 1 W.
-double level_of(const EkPing& ping, std::size_t k) {
-    if (ping.sectors == 0) return db_per_step * field_at<std::int16_t>(ping.samples, 2 * k);
+/// A float of 16 bits (IEEE 754).
+float half_value(std::uint16_t bits) {
+    const int exponent = (bits >> 10) & 31;
+    const int fraction = bits & 1023;
+    const float size = exponent == 31 ? std::numeric_limits<float>::infinity()
+                       : exponent == 0
+                           ? std::ldexp(static_cast<float>(fraction), -24)
+                           : std::ldexp(static_cast<float>(1024 + fraction), exponent - 25);
+    return (bits >> 15) != 0 ? -size : size;
+}
+
+/// The means of the sectors' complex samples, compressed if the pulse is a sweep.
+std::vector<std::complex<double>> complex_samples(const EkPing& ping) {
+    const auto number = [&](std::size_t k) -> double {
+        return ping.has_half_floats ? half_value(field_at<std::uint16_t>(ping.samples, 2 * k))
+                                    : field_at<float>(ping.samples, 4 * k);
+    };
     const auto sectors = static_cast<std::size_t>(ping.sectors);
-    double real = 0.0;
-    double imaginary = 0.0;
-    for (std::size_t s = k * sectors; s < (k + 1) * sectors; ++s) {
-        real += field_at<float>(ping.samples, 8 * s) / ping.sectors;
-        imaginary += field_at<float>(ping.samples, 8 * s + 4) / ping.sectors;
+    std::vector<std::complex<double>> out(ping.count);
+    for (std::size_t k = 0; k < sectors * ping.count; ++k)
+        out[k / sectors] +=
+            std::complex<double>(number(2 * k), number(2 * k + 1)) / static_cast<double>(sectors);
+    return ping.pulse.empty() ? out : compressed(out, ping.pulse);
+}
+
+/// The levels of the samples in dB re 1 W.
+std::vector<double> levels_of(const EkPing& ping) {
+    std::vector<double> levels;
+    if (ping.sectors == 0) {
+        for (std::size_t k = 0; k < ping.count; ++k)
+            levels.push_back(db_per_step * field_at<std::int16_t>(ping.samples, 2 * k));
+        return levels;
     }
-    const double power = ping.watts * (real * real + imaginary * imaginary);
-    if (!std::isfinite(power)) throw std::runtime_error("has samples that are no numbers");
-    return power > 0.0 ? db_per_neper * natural_log(power) : lowest_db;
+    for (const std::complex<double>& sample : complex_samples(ping)) {
+        const double power = ping.watts * std::norm(sample);
+        if (!std::isfinite(power)) throw std::runtime_error("has samples that are no numbers");
+        levels.push_back(power > 0.0 ? db_per_neper * logarithm(power) : lowest_db);
+    }
+    return levels;
 }
 
 LoggedPing logged_ek(const EkPing& own) {
@@ -57,12 +85,16 @@ LoggedPing logged_ek(const EkPing& own) {
     ping.t_s = own.t_s;
     ping.ranges = static_cast<int>(own.count);
     ping.beams = 1;
-    for (std::size_t k = 0; k < own.count; ++k)
-        ping.values.push_back(static_cast<float>(std::max(level_of(own, k) - lowest_db, 0.0)));
+    for (const double level : levels_of(own))
+        ping.values.push_back(static_cast<float>(std::max(level - lowest_db, 0.0)));
     return ping;
 }
 
 }  // namespace
+
+bool is_wanted(double frequency_hz, double wanted_hz) {
+    return std::fabs(frequency_hz - wanted_hz) < 1e-3 * frequency_hz;
+}
 
 std::vector<std::string_view> ek_datagrams(std::string_view bytes) {
     std::vector<std::string_view> out;
@@ -102,9 +134,6 @@ SonarLog log_of_ek(const std::vector<EkPing>& pings, std::size_t most_pings,
     for (const EkPing& ping : pings) {
         if (ping.frequency_hz != frequency) continue;
         if (log.pings.size() == most_pings) break;
-        if (ping.is_sweep)
-            throw std::runtime_error(
-                "has sweeps on this channel, which are not compressed; convert them to arrays");
         if (!first) {
             first = &ping;
             log.range_step_s = ping.sample_s;

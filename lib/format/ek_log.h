@@ -1,5 +1,6 @@
 #pragma once
 
+#include <complex>
 #include <cstddef>
 #include <optional>
 #include <string_view>
@@ -10,7 +11,7 @@
 namespace sonarsim {
 
 /// One channel of one ping of a Simrad echosounder. The samples are int16 in steps of 10 log10(2) /
-/// 256 dB re 1 W, or complex floats, one for each sector of the transducer.
+/// 256 dB re 1 W, or complex floats of 16 or 32 bits, one for each sector of the transducer.
 struct EkPing {
     double t_s = 0.0;
     double frequency_hz = 0.0;
@@ -21,7 +22,9 @@ struct EkPing {
     std::string_view samples;
     int sectors = 0;     ///< 0: the samples are int16
     double watts = 0.0;  ///< for each squared unit of the mean of the sectors
-    bool is_sweep = false;
+    bool has_half_floats = false;
+    /// The sweep behind the receiver's filters; empty for a pulse of one frequency.
+    std::vector<std::complex<double>> pulse;
 };
 
 /// The datagrams of a .raw file, each from its type of four letters on. Throws std::runtime_error
@@ -33,6 +36,9 @@ double ek_time_s(std::string_view datagram);
 
 /// Throws std::runtime_error for impossible numbers.
 void check_ek(const EkPing& ping);
+
+/// True for the frequency of the wanted channel.
+bool is_wanted(double frequency_hz, double wanted_hz);
 
 /// A log of the pings of one frequency.
 SonarLog log_of_ek(const std::vector<EkPing>& pings, std::size_t most_pings,

@@ -50,8 +50,8 @@ SonarLog read_sonar_log(std::string_view bytes, std::size_t most_pings,
 /// several fans of a ping is read.
 SonarLog read_kmall(std::string_view bytes, std::size_t most_pings);
 
-/// The same of Kongsberg's older format, datagrams 'k' of a .all or .wcd. The first of several
-/// heads is read; pings that lack a datagram are left out.
+/// The same of Kongsberg's older format, datagrams 'k' of a .all or .wcd in either order of bytes.
+/// The first of several heads is read; pings that lack a datagram are left out.
 SonarLog read_all(std::string_view bytes, std::size_t most_pings);
 
 /// True if a .all begins here.
@@ -61,8 +61,8 @@ bool is_all_file(std::string_view bytes);
 SonarLog read_ek60(std::string_view bytes, std::size_t most_pings,
                    std::optional<double> frequency_hz);
 
-/// The power of an EK80 (RAW3 datagrams), the same way: int16 samples, or complex ones of 32 bits
-/// of pulses that do not sweep.
+/// The power of an EK80 (RAW3 datagrams), the same way: int16 samples, or complex ones of 16 or 32
+/// bits. Sweeps are compressed by the transmitted pulse behind the receiver's filters.
 SonarLog read_ek80(std::string_view bytes, std::size_t most_pings,
                    std::optional<double> frequency_hz);
 

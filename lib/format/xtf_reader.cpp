@@ -151,16 +151,16 @@ std::optional<XtfSidescanPing> ping_of_record(std::string_view record,
 }
 
 /// The soundings of a multibeam's record: entries of 64 bytes behind the header of a ping.
-XtfSoundingPing soundings_of_record(std::string_view record) {
-    XtfSoundingPing ping;
+LoggedSoundings soundings_of_record(std::string_view record) {
+    LoggedSoundings ping;
     ping.t_s = time_of(record);
     ping.sound_speed_m_s = sound_speed_of(record);
     const std::size_t count = field_at<std::uint16_t>(record, 4);
     for (std::size_t k = 0; k < count; ++k) {
         const std::size_t at = xtf_ping_header + k * xtf_sounding;
-        const XtfSounding beam{.two_way_s = field_at<double>(record, at + 16),
-                               .angle_deg = field_at<double>(record, at + 32),
-                               .intensity = field_at<double>(record, at + 4)};
+        const LoggedSounding beam{.two_way_s = field_at<double>(record, at + 16),
+                                  .angle_deg = field_at<double>(record, at + 32),
+                                  .intensity = field_at<double>(record, at + 4)};
         if (!(beam.two_way_s > 0.0)) continue;
         if (!(beam.two_way_s < longest_s && std::fabs(beam.angle_deg) <= 180.0 &&
               beam.intensity >= 0.0 && beam.intensity < largest_intensity))
@@ -206,8 +206,8 @@ XtfPings read_xtf(std::string_view bytes, std::size_t most_pings) {
     return out;
 }
 
-std::vector<XtfSoundingPing> read_xtf_soundings(std::string_view bytes, std::size_t most_pings) {
-    std::vector<XtfSoundingPing> pings;
+std::vector<LoggedSoundings> read_xtf_soundings(std::string_view bytes, std::size_t most_pings) {
+    std::vector<LoggedSoundings> pings;
     const std::size_t channels = channels_of(bytes).size();
     for_each_record(bytes, channels, xtf_multibeam, [&](std::string_view record) {
         pings.push_back(soundings_of_record(record));

@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "format/logged_soundings.h"
+
 namespace sonarsim {
 
 /// A side of a ping in an XTF file, the sample at nadir first.
@@ -28,19 +30,6 @@ struct XtfPings {
     std::vector<XtfSidescanPing> pings;
 };
 
-/// A sounding of a multibeam's ping.
-struct XtfSounding {
-    double two_way_s = 0.0;
-    double angle_deg = 0.0;  ///< across the track, from the vertical
-    double intensity = 0.0;
-};
-
-struct XtfSoundingPing {
-    double t_s = 0.0;
-    double sound_speed_m_s = 0.0;
-    std::vector<XtfSounding> beams;  ///< without those that have no travel time
-};
-
 /// Reads the first `most_pings` pings; records of other kinds are skipped. Throws
 /// std::runtime_error with the reason when the file is no XTF, is cut off within a record, or holds
 /// samples of another kind.
@@ -48,6 +37,6 @@ XtfPings read_xtf(std::string_view bytes, std::size_t most_pings);
 
 /// Reads the first pings with soundings, in the records XTF_HEADER_Q_MULTIBEAM (28). Throws
 /// std::runtime_error as read_xtf().
-std::vector<XtfSoundingPing> read_xtf_soundings(std::string_view bytes, std::size_t most_pings);
+std::vector<LoggedSoundings> read_xtf_soundings(std::string_view bytes, std::size_t most_pings);
 
 }  // namespace sonarsim

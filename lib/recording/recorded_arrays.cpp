@@ -181,7 +181,10 @@ Recording read_recorded_arrays(const RecordingFile& file, std::size_t most_pings
         return recording;
     }
     if (!file.logs.empty()) {
-        read_log_pings(file, most_pings, recording);
+        if (file.kind == RecordedKind::soundings)
+            read_log_soundings(file, most_pings, recording);
+        else
+            read_log_pings(file, most_pings, recording);
         if (recording.kind == RecordedKind::imaging && recording.bearing_rad.empty())
             recording.bearing_rad =
                 bearings_of(file, static_cast<std::size_t>(recording.pings.front().beams));

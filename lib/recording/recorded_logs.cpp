@@ -1,29 +1,16 @@
 #include "recording/recorded_logs.h"
 
 #include <cmath>
-#include <stdexcept>
 
 #include "core/error.h"
-#include "core/file.h"
 #include "core/units.h"
+#include "format/kmall_soundings.h"
 #include "format/sonar_log.h"
-#include "recording/arrays.h"
+#include "recording/file_of_pings.h"
 
 namespace sonarsim {
 
 namespace {
-
-constexpr std::size_t largest_log_file = std::size_t{1} << 31;
-
-SonarLog log_of_file(const std::filesystem::path& path, std::size_t most_pings,
-                     std::optional<double> frequency_hz) {
-    const std::string bytes = read_file(path, largest_log_file);
-    try {
-        return read_sonar_log(bytes, most_pings, frequency_hz);
-    } catch (const std::runtime_error& fault) {
-        throw InputError({path.string()}, fault.what());
-    }
-}
 
 RecordedKind kind_of_log(LoggedKind kind) {
     if (kind == LoggedKind::scanning) return RecordedKind::scanning;
@@ -31,15 +18,16 @@ RecordedKind kind_of_log(LoggedKind kind) {
 }
 
 /// Sets or checks the law: the format defines it, or recording.yaml does.
-void take_law(const SonarLog& log, const RecordingFile& file, Recording& recording) {
-    if (log.decibels.has_value() == file.law.has_value())
+void take_law(const std::optional<LoggedDecibels>& decibels, const RecordingFile& file,
+              Recording& recording) {
+    if (decibels.has_value() == file.law.has_value())
         throw InputError(file.place.location,
                          file.law ? "the values of this format are decibels: leave `law` out"
                                   : "this format does not say what a value means: add `law`");
-    if (!log.decibels) return;
+    if (!decibels) return;
     recording.law.kind = RecordedLaw::Kind::decibel;
-    recording.law.range_db = log.decibels->range_db;
-    recording.law.full_value = log.decibels->full_value;
+    recording.law.range_db = decibels->range_db;
+    recording.law.full_value = decibels->full_value;
 }
 
 /// Takes from the first file what holds for all.
@@ -48,7 +36,7 @@ void take_facts_of_log(const SonarLog& log, const RecordingFile& file, Recording
     if (kind != file.kind)
         throw InputError(file.place.location, "'" + file.logs.front().string() +
                                                   "' has pings of the kind " + name_of_kind(kind));
-    take_law(log, file, recording);
+    take_law(log.decibels, file, recording);
     if (file.sound_speed_m_s == 0.0) recording.sound_speed_m_s = log.sound_speed_m_s;
     if (!(recording.sound_speed_m_s > 0.0))
         throw InputError(file.place.location,
@@ -74,7 +62,9 @@ void read_log_pings(const RecordingFile& file, std::size_t most_pings, Recording
     double step_s = 0.0;
     for (const std::filesystem::path& path : file.logs) {
         if (recording.pings.size() >= most_pings) break;
-        SonarLog log = log_of_file(path, most_pings - recording.pings.size(), file.frequency_hz);
+        SonarLog log = parsed_file(path, [&](const std::string& bytes) {
+            return read_sonar_log(bytes, most_pings - recording.pings.size(), file.frequency_hz);
+        });
         if (recording.pings.empty()) {
             take_facts_of_log(log, file, recording);
             step_s = log.range_step_s;
@@ -82,10 +72,7 @@ void read_log_pings(const RecordingFile& file, std::size_t most_pings, Recording
         if (std::fabs(log.range_step_s - step_s) > 1e-6 * step_s)
             throw InputError({path.string()}, "has another step of range than the first file");
         for (LoggedPing& own : log.pings) {
-            values += own.values.size();
-            if (values > most_recorded_values)
-                throw InputError({path.string()},
-                                 "makes more than 268,435,456 values in all; take fewer pings");
+            count_values(own.values.size(), path, values);
             RecordedPing& ping = recording.pings.emplace_back();
             ping.time_s = own.t_s;
             if (own.t_s == 0.0 && file.rate_hz > 0.0)
@@ -95,6 +82,18 @@ void read_log_pings(const RecordingFile& file, std::size_t most_pings, Recording
             ping.values = std::move(own.values);
             ping.bearing_rad = radians(file.head_first_deg) + own.bearing_rad;
         }
+    }
+}
+
+void read_log_soundings(const RecordingFile& file, std::size_t most_pings, Recording& recording) {
+    take_law(kmall_sounding_law, file, recording);
+    std::size_t values = 0;
+    for (const std::filesystem::path& path : file.logs) {
+        if (recording.soundings.size() >= most_pings) break;
+        const auto pings = parsed_file(path, [&](const std::string& bytes) {
+            return read_kmall_soundings(bytes, most_pings - recording.soundings.size());
+        });
+        add_soundings(pings, path, file, values, recording);
     }
 }
 

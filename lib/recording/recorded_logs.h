@@ -12,4 +12,7 @@ namespace sonarsim {
 /// InputError where recording.yaml has to say it, where both do, or where the file is damaged.
 void read_log_pings(const RecordingFile& file, std::size_t most_pings, Recording& recording);
 
+/// The same of soundings: a .kmall's.
+void read_log_soundings(const RecordingFile& file, std::size_t most_pings, Recording& recording);
+
 }  // namespace sonarsim

@@ -1,28 +1,15 @@
 #include "recording/recorded_oculus.h"
 
 #include <cmath>
-#include <stdexcept>
 
 #include "core/error.h"
-#include "core/file.h"
 #include "core/units.h"
 #include "format/oculus_reader.h"
-#include "recording/arrays.h"
+#include "recording/file_of_pings.h"
 
 namespace sonarsim {
 
 namespace {
-
-constexpr std::size_t largest_oculus_file = std::size_t{1} << 31;
-
-std::vector<OculusPing> oculus_pings_of(const std::filesystem::path& path, std::size_t most_pings) {
-    const std::string bytes = read_file(path, largest_oculus_file);
-    try {
-        return read_oculus(bytes, most_pings);
-    } catch (const std::runtime_error& fault) {
-        throw InputError({path.string()}, fault.what());
-    }
-}
 
 /// Takes from the first ping what holds for all.
 void take_facts(const OculusPing& first, const RecordingFile& file, Recording& recording) {
@@ -40,7 +27,10 @@ void read_oculus_pings(const RecordingFile& file, std::size_t most_pings, Record
     std::size_t values = 0;
     for (const std::filesystem::path& path : file.oculus) {
         if (recording.pings.size() >= most_pings) break;
-        for (OculusPing& own : oculus_pings_of(path, most_pings - recording.pings.size())) {
+        std::vector<OculusPing> pings = parsed_file(path, [&](const std::string& bytes) {
+            return read_oculus(bytes, most_pings - recording.pings.size());
+        });
+        for (OculusPing& own : pings) {
             if (recording.pings.empty()) take_facts(own, file, recording);
             if (std::fabs(own.range_step_m - recording.range_step_m) >
                 1e-4 * recording.range_step_m)
@@ -48,10 +38,7 @@ void read_oculus_pings(const RecordingFile& file, std::size_t most_pings, Record
                                  "ping " + std::to_string(recording.pings.size()) +
                                      " has another range than the first; split the "
                                      "file where the range changes");
-            values += own.values.size();
-            if (values > most_recorded_values)
-                throw InputError({path.string()},
-                                 "makes more than 268,435,456 values in all; take fewer pings");
+            count_values(own.values.size(), path, values);
             RecordedPing& ping = recording.pings.emplace_back();
             ping.ranges = own.ranges;
             ping.beams = own.beams;

@@ -5,28 +5,13 @@
 #include <stdexcept>
 
 #include "core/error.h"
-#include "core/file.h"
 #include "core/text.h"
-#include "core/units.h"
 #include "format/xtf_reader.h"
-#include "recording/arrays.h"
+#include "recording/file_of_pings.h"
 
 namespace sonarsim {
 
 namespace {
-
-constexpr std::size_t largest_xtf_file = std::size_t{1} << 31;
-
-/// `read` of the bytes of a file.
-template <class Read>
-auto read_xtf_file(const std::filesystem::path& path, const Read& read) {
-    const std::string bytes = read_file(path, largest_xtf_file);
-    try {
-        return read(bytes);
-    } catch (const std::runtime_error& fault) {
-        throw InputError({path.string()}, fault.what());
-    }
-}
 
 /// The samples and the range of a side, for a message.
 std::string extent_text(const XtfSide& side) {
@@ -52,7 +37,7 @@ void read_xtf_pings(const RecordingFile& file, std::size_t most_pings, Recording
     XtfSide first;
     std::size_t values = 0;
     for (const std::filesystem::path& path : file.xtf) {
-        const XtfPings xtf = read_xtf_file(path, [&](const std::string& bytes) {
+        const XtfPings xtf = parsed_file(path, [&](const std::string& bytes) {
             return read_xtf(bytes, most_pings - recording.pings.size());
         });
         for (std::size_t k = 0; k < xtf.pings.size(); ++k) {
@@ -78,10 +63,7 @@ void read_xtf_pings(const RecordingFile& file, std::size_t most_pings, Recording
                                                       extent_text(first) +
                                                       "; split the file where the range changes");
             }
-            values += 2 * first.samples.size();
-            if (values > most_recorded_values)
-                throw InputError({path.string()},
-                                 "makes more than 268,435,456 values in all; take fewer pings");
+            count_values(2 * first.samples.size(), path, values);
             recording.pings.push_back(two_sides_of(ping));
         }
         if (recording.pings.size() >= most_pings) break;
@@ -93,28 +75,10 @@ void read_xtf_pings_of_soundings(const RecordingFile& file, std::size_t most_pin
     std::size_t values = 0;
     for (const std::filesystem::path& path : file.xtf) {
         if (recording.soundings.size() >= most_pings) break;
-        const auto pings = read_xtf_file(path, [&](const std::string& bytes) {
+        const auto pings = parsed_file(path, [&](const std::string& bytes) {
             return read_xtf_soundings(bytes, most_pings - recording.soundings.size());
         });
-        for (const XtfSoundingPing& ping : pings) {
-            const double speed =
-                file.sound_speed_m_s > 0.0 ? file.sound_speed_m_s : ping.sound_speed_m_s;
-            if (!(speed > 0.0))
-                throw InputError({path.string()},
-                                 "does not have the speed of sound: add `sound_speed_m_s`");
-            if (recording.soundings.empty()) recording.sound_speed_m_s = speed;
-            values += ping.beams.size();
-            if (values > most_recorded_values)
-                throw InputError({path.string()},
-                                 "makes more than 268,435,456 values in all; take fewer pings");
-            RecordedSoundings& out = recording.soundings.emplace_back();
-            out.time_s = ping.t_s;
-            for (const XtfSounding& beam : ping.beams) {
-                out.range_m.push_back(static_cast<float>(0.5 * speed * beam.two_way_s));
-                out.angle_rad.push_back(static_cast<float>(radians(beam.angle_deg)));
-                out.intensity.push_back(static_cast<float>(beam.intensity));
-            }
-        }
+        add_soundings(pings, path, file, values, recording);
     }
 }
 

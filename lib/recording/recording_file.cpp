@@ -66,9 +66,10 @@ void describe(MissionReader& v, RecordingFile& c) {
     v.require(sources <= 1, {"files", "xtf", "oculus", "logs"},
               "a recording has one of `files`, `xtf`, `oculus` and `logs`");
     v.optional_section("soundings", c.soundings, "files of soundings");
-    v.require(is_soundings ? c.soundings.has_value() == c.xtf.empty() : !c.soundings,
+    v.require(is_soundings ? c.soundings.has_value() == (c.xtf.empty() && !is_log) : !c.soundings,
               {"kind", "soundings"},
-              "the kind soundings has the section `soundings`, or `xtf`; other kinds have `files`");
+              "the kind soundings has the section `soundings`, `xtf` or `logs`; other kinds have "
+              "`files`");
     v.require(!is_soundings || c.files.empty(), {"kind", "files"},
               "the kind soundings has the section `soundings` in place of `files`");
     v.optional_section("law", c.law, "meaning of the values");

@@ -3,33 +3,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <vector>
 
+#include "format/made_bytes.h"
+
 namespace sonarsim::test {
-
-/// Appends numbers as their bytes, little-endian.
-class MadeBytes {
-  public:
-    template <class T>
-    MadeBytes& add(T value) {
-        char bytes[sizeof value];
-        std::memcpy(bytes, &value, sizeof value);
-        text.append(bytes, sizeof value);
-        return *this;
-    }
-    MadeBytes& u16(int value) { return add(static_cast<std::uint16_t>(value)); }
-    MadeBytes& u32(std::uint32_t value) { return add(value); }
-    MadeBytes& f32(double value) { return add(static_cast<float>(value)); }
-    template <class T>
-    MadeBytes& at(std::size_t place, T value) {
-        std::memcpy(&text[place], &value, sizeof value);
-        return *this;
-    }
-
-    std::string text;
-};
 
 struct MadeBeam {
     double angle_deg = 0.0;
@@ -77,21 +56,70 @@ inline std::string kmall_water(std::uint32_t seconds, const std::vector<MadeBeam
     return kmall_datagram("#MWC", seconds, out.text);
 }
 
-/// A datagram of a .all: from the 23rd of October 2004, one second past midnight.
-inline std::string all_datagram(char type, int counter, int serial, const std::string& content) {
+/// A sounding of a .kmall, below the vessel's reference point and to starboard of it.
+struct MadeSounding {
+    double below_m = 0.0;
+    double across_m = 0.0;
+    double two_way_s = 0.0;
+    double level_db = 0.0;
+    int type = 0;  ///< 0: normal, 1: extra, 2: rejected
+    int method = 1;
+};
+
+/// Soundings of a ping whose transmitter is 1.5 m below a water line 0.5 m above the reference
+/// point: 1 m below that. Blocks have `more` bytes at their end that nobody knows.
+inline std::string kmall_soundings(std::uint32_t seconds,
+                                   const std::vector<MadeSounding>& soundings, int fan = 0,
+                                   int more = 0) {
+    const std::string unknown(static_cast<std::size_t>(more), '\x7f');
+    const auto zeros = [](std::size_t count) { return std::string(count, '\0'); };
     MadeBytes out;
+    out.u16(1).u16(1);  // one partition, the first
+    out.u16(12 + more).u16(7).add<std::uint8_t>(2).add(static_cast<std::uint8_t>(fan));
+    out.text += zeros(6) + unknown;
+    MadeBytes info;
+    info.text = zeros(144);
+    info.at(0, static_cast<std::uint16_t>(144 + more)).at(20, 2e5F).at(24, 4e5F);
+    info.at(92, std::uint16_t{2}).at(94, static_cast<std::uint16_t>(36 + more));
+    info.at(100, 1500.0F).at(104, 1.5F).at(108, -0.5F);
+    out.text += info.text + unknown;
+    for (int sector = 0; sector < 2; ++sector)
+        out.text += zeros(36) + unknown;
+    MadeBytes receiver;
+    receiver.text = zeros(32);
+    receiver.at(0, static_cast<std::uint16_t>(32 + more));
+    receiver.at(2, static_cast<std::uint16_t>(soundings.size()));
+    receiver.at(6, static_cast<std::uint16_t>(120 + more)).at(28, std::uint16_t{3});
+    receiver.at(30, std::uint16_t{4});
+    out.text += receiver.text + unknown + zeros(3 * 4);
+    for (const MadeSounding& own : soundings) {
+        MadeBytes entry;
+        entry.text = zeros(120);
+        entry.at(3, static_cast<std::uint8_t>(own.type));
+        entry.at(4, static_cast<std::uint8_t>(own.method));
+        entry.at(52, static_cast<float>(own.level_db)).at(80, static_cast<float>(own.two_way_s));
+        entry.at(96, static_cast<float>(own.below_m)).at(100, static_cast<float>(own.across_m));
+        out.text += entry.text + unknown;
+    }
+    return kmall_datagram("#MRZ", seconds, out.text);
+}
+
+/// A datagram of a .all: from the 23rd of October 2004, one second past midnight.
+inline std::string all_datagram(char type, int counter, int serial, const std::string& content,
+                                bool big_endian = false) {
+    MadeBytes out(big_endian);
     out.add('\x02').add(type).u16(3002).u32(20041023).u32(1000).u16(counter).u16(serial);
     out.text += content;
     out.add('\x03').u16(0);
-    MadeBytes whole;
+    MadeBytes whole(big_endian);
     whole.u32(static_cast<std::uint32_t>(out.text.size()));
     return whole.text + out.text;
 }
 
 /// Water column of a .all, of beams whose ping has `all` of them.
 inline std::string all_water(int counter, const std::vector<MadeBeam>& beams, int all,
-                             int serial = 7) {
-    MadeBytes out;
+                             int serial = 7, bool big_endian = false) {
+    MadeBytes out(big_endian);
     out.u16(1).u16(1).u16(2).u16(all).u16(static_cast<int>(beams.size()));
     out.u16(14850).u32(1500000).u16(0).add<std::uint8_t>(30).add<std::int8_t>(-3).u32(0);
     for (int sector = 0; sector < 2; ++sector)
@@ -102,7 +130,7 @@ inline std::string all_water(int counter, const std::vector<MadeBeam>& beams, in
         for (const int level : beam.levels)
             out.add(static_cast<std::int8_t>(level));
     }
-    return all_datagram('k', counter, serial, out.text);
+    return all_datagram('k', counter, serial, out.text, big_endian);
 }
 
 /// A record of XTF with a multibeam's soundings: travel time, angle and intensity of each.
@@ -121,62 +149,6 @@ inline std::string xtf_multibeam(const std::vector<std::array<double, 3>>& beams
         out.u32(1).add(beam[2]).u32(0).add(beam[0]).add(0.0).add(beam[1]).add(0.0).add(0.0).add(
             0.0);
     return out.text;
-}
-
-/// A datagram of Simrad's .raw: type and time, then content.
-inline std::string simrad_datagram(const char* type, const std::string& content) {
-    MadeBytes out;
-    out.text = type;
-    // 1970-01-01 00:00:10 in 100 ns since 1601.
-    out.add<std::uint64_t>((11644473600ULL + 10ULL) * 10000000ULL);
-    out.text += content;
-    MadeBytes whole;
-    whole.u32(static_cast<std::uint32_t>(out.text.size()));
-    whole.text += out.text;
-    return whole.u32(static_cast<std::uint32_t>(out.text.size())).text;
-}
-
-/// A RAW0 datagram of power, or of angles alone.
-inline std::string ek60_ping(double frequency_hz, const std::vector<int>& steps,
-                             bool has_power = true) {
-    MadeBytes out;
-    out.u16(1).u16(has_power ? 3 : 2).f32(0.0).f32(frequency_hz);
-    out.f32(1000.0).f32(1e-3).f32(2425.0).f32(2e-4).f32(1480.0).f32(0.01);
-    out.text += std::string(76 - 48, '\0');
-    out.add<std::int32_t>(2).add(static_cast<std::int32_t>(steps.size()));
-    for (const int step : steps) {
-        if (has_power) out.add(static_cast<std::int16_t>(step));
-    }
-    out.text += std::string(2 * steps.size(), '\x22');
-    return simrad_datagram("RAW0", out.text);
-}
-
-/// The XML datagrams before the pings of an EK80, with one receiver of 1,000 ohms.
-inline std::string ek80_head() {
-    return simrad_datagram(
-               "XML0",
-               "<Configuration><Transceivers><Transceiver Impedance=\"1000\"><Channels>"
-               "<Channel ChannelID=\"A\" ChannelIdShort=\"a\" PulseDuration=\"1E-3;2E-3\"/>"
-               "</Channels></Transceiver></Transceivers></Configuration>") +
-           simrad_datagram("FIL1", std::string(20, '\x33')) +
-           simrad_datagram("XML0", "<Environment Depth=\"1\"\n SoundSpeed=\"1480.5\"/>");
-}
-
-/// The parameters of a channel's next pings; `form` 0 is a pulse that does not sweep.
-inline std::string ek80_parameter(const std::string& channel, const std::string& frequency,
-                                  int form = 0) {
-    return simrad_datagram("XML0", "<Parameter><Channel ChannelID=\"" + channel +
-                                       "\" PulseForm=\"" + std::to_string(form) + "\" " +
-                                       frequency + " SampleInterval=\"2.0E-04\"/></Parameter>");
-}
-
-/// A RAW3 datagram with these samples, which have `count` of them.
-inline std::string ek80_ping(const std::string& channel, int type, int count,
-                             const std::string& samples) {
-    MadeBytes out;
-    out.text = channel + std::string(128 - channel.size(), '\0');
-    out.u16(type).u16(0).add<std::int32_t>(2).add<std::int32_t>(count);
-    return simrad_datagram("RAW3", out.text + samples);
 }
 
 /// A DIDSON file of 48 beams: `frames` of counted samples, at `start` periods of delay.

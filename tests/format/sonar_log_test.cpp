@@ -2,28 +2,19 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "core/random.h"
 #include "core/units.h"
+#include "format/kmall_soundings.h"
+#include "format/made_ek_logs.h"
 #include "format/made_logs.h"
+#include "format/message_of_log.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
-
-namespace {
-
-std::string message_of_log(const std::string& bytes, std::optional<double> frequency_hz = {}) {
-    try {
-        read_sonar_log(bytes, 100, frequency_hz);
-    } catch (const std::runtime_error& fault) {
-        return fault.what();
-    }
-    return "accepted";
-}
-
-}  // namespace
 
 TEST_SUITE("format") {
     TEST_CASE("kmall: drawn water columns, with phases and blocks of any length") {
@@ -69,23 +60,52 @@ TEST_SUITE("format") {
               std::string::npos);
     }
 
-    TEST_CASE("ek60: power of one of two channels") {
-        const std::string file =
-            simrad_datagram("CON0", std::string(40, 'x')) + ek60_ping(38000, {0, -256, -12800}) +
-            ek60_ping(120000, {1, 2, 3, 4}) + simrad_datagram("NME0", "$GPGGA") +
-            ek60_ping(38000, {9, 9, 9}, false) + ek60_ping(38000, {-1, -2, -3});
-        const SonarLog log = read_sonar_log(file, 10, 38000.0);
-        REQUIRE(log.pings.size() == 2);
-        CHECK(log.kind == LoggedKind::echosounder);
-        CHECK(log.pings[0].t_s == doctest::Approx(10.0));
-        // 256 steps are a factor of 2: 3.0103 dB.
-        CHECK(log.pings[0].values[0] == doctest::Approx(200.0));
-        CHECK(log.pings[0].values[1] == doctest::Approx(200.0 - 3.0103).epsilon(1e-6));
-        CHECK(log.pings[0].values[2] == doctest::Approx(200.0 - 150.515).epsilon(1e-5));
-        CHECK(log.first_range_s == doctest::Approx(4e-4));
-        CHECK(log.sound_speed_m_s == 1480.0);
-        CHECK(message_of_log(file).find("38000, 120000 Hz; choose") != std::string::npos);
-        CHECK(message_of_log(file, 50000.0).find("choose") != std::string::npos);
+    TEST_CASE("kmall: drawn soundings, with blocks of any length") {
+        for (std::uint32_t draw = 0; draw < 12; ++draw) {
+            const auto drawn = [&](std::uint32_t k, double low, double high) {
+                const PhiloxBlock block = philox({draw, k, 0, 0}, {78, 0});
+                return low + (high - low) * unit_float(block.x0);
+            };
+            const std::vector<MadeSounding> made{
+                {drawn(1, 5, 50), drawn(2, -50, 0), drawn(3, 0.01, 0.1), drawn(4, -60, 0)},
+                {.below_m = 9.0, .two_way_s = 0.02, .type = 1},
+                {.below_m = 9.0, .two_way_s = 0.02, .type = 2},
+                {.below_m = 9.0, .two_way_s = 0.02, .method = 0},
+                {drawn(5, 5, 50), drawn(6, 0, 50), drawn(7, 0.01, 0.1), -300.0, 0, 2}};
+            const int more = 4 * static_cast<int>(drawn(8, 0, 3));
+            const std::string file =
+                kmall_datagram("#IIP", 1, "text") + kmall_water(1, {{0.0, 0, {0}}}) +
+                kmall_soundings(1, made, 0, more) + kmall_soundings(1, made, 1, more) +
+                kmall_soundings(2, made, 0, more) + kmall_soundings(3, made, 0, more);
+            const std::vector<LoggedSoundings> pings = read_kmall_soundings(file, 2);
+            REQUIRE(pings.size() == 2);  // the second fan is left out
+            CHECK(pings[1].t_s == doctest::Approx(2.5));
+            CHECK(pings[0].sound_speed_m_s == 1500.0);
+            CHECK(pings[0].frequency_hz == doctest::Approx(3e5));
+            REQUIRE(pings[0].beams.size() == 2);  // normal detections alone
+            // The transmitter is 1 m below the reference point.
+            CHECK(std::tan(radians(pings[0].beams[0].angle_deg)) ==
+                  doctest::Approx(made[0].across_m / (made[0].below_m - 1.0)).epsilon(1e-5));
+            CHECK(pings[0].beams[0].two_way_s == doctest::Approx(made[0].two_way_s));
+            CHECK(pings[0].beams[0].intensity == doctest::Approx(200.0 + made[0].level_db));
+            CHECK(pings[0].beams[1].angle_deg > 0.0);
+            CHECK(pings[0].beams[1].intensity == 0.0);
+        }
+        const auto fault_of = [](const std::string& bytes) -> std::string {
+            try {
+                read_kmall_soundings(bytes, 9);
+            } catch (const std::runtime_error& fault) {
+                return fault.what();
+            }
+            return "accepted";
+        };
+        CHECK(fault_of(kmall_water(1, {{0.0, 0, {0}}})).find("no soundings") != std::string::npos);
+        CHECK(fault_of(all_datagram('I', 1, 7, "x")).find("no .kmall") != std::string::npos);
+        const std::string file = kmall_soundings(1, {{10.0, 1.0, 0.02, -20.0}});
+        for (std::size_t length = 8; length < file.size(); ++length)
+            CHECK(fault_of(file.substr(0, length)).find("cut off") != std::string::npos);
+        CHECK(fault_of(kmall_soundings(1, {{10.0, 1.0, -0.02, -20.0}})).find("impossible") !=
+              std::string::npos);
     }
 
     TEST_CASE("aris: frames in the order of samples and beams") {
@@ -117,54 +137,21 @@ TEST_SUITE("format") {
         CHECK(log.pings[0].t_s == doctest::Approx(12714.0 * 86400.0 + 1.0));
         CHECK(log.pings[1].values ==
               std::vector<float>{0, 128, 0, 0, 0, 0, 1, 0, 133, 255, 0, 134});
+        const auto in_order = [&](bool big_endian) {
+            return all_datagram('I', 1, 7, "install", big_endian) +
+                   all_water(1, port, 3, 7, big_endian) + all_water(1, starboard, 3, 7, big_endian);
+        };
+        const SonarLog little = read_sonar_log(in_order(false), 10);
+        const SonarLog big = read_sonar_log(in_order(true), 10);
+        CHECK(big.pings[0].values == little.pings[0].values);
+        CHECK(big.pings[0].t_s == little.pings[0].t_s);
+        CHECK(big.bearing_rad == little.bearing_rad);
+        CHECK(big.range_step_s == little.range_step_s);
+        CHECK(big.sound_speed_m_s == little.sound_speed_m_s);
+        CHECK(big.frequency_hz == little.frequency_hz);
         CHECK(message_of_log(all_datagram('I', 1, 7, "install")).find("no water column") !=
               std::string::npos);
         CHECK(message_of_log(file + "more").find("no datagram") != std::string::npos);
-    }
-
-    TEST_CASE("ek80: power and complex samples of channels by their last parameters") {
-        MadeBytes power;
-        for (const int step : {0, -256, -12800})
-            power.add(static_cast<std::int16_t>(step));
-        MadeBytes sectors;  // two samples of two sectors, whose means are 3 + 4i and 0
-        for (const double part : {2.0, 4.0, 4.0, 4.0, 1.0, 1.0, -1.0, -1.0})
-            sectors.f32(part);
-        const std::string file = ek80_head() + ek80_parameter("A", "Frequency=\"38000\"") +
-                                 ek80_ping("A", 1, 3, power.text) +
-                                 ek80_ping("A", 2, 3, power.text) +
-                                 ek80_parameter("B", "Frequency=\"70000\"") +
-                                 ek80_ping("B", 8 + 2 * 256, 2, sectors.text);
-        const SonarLog narrow = read_sonar_log(file, 10, 38000.0);
-        REQUIRE(narrow.pings.size() == 1);  // the second one has angles alone
-        CHECK(narrow.kind == LoggedKind::echosounder);
-        CHECK(narrow.pings[0].t_s == doctest::Approx(10.0));
-        CHECK(narrow.sound_speed_m_s == 1480.5);
-        CHECK(narrow.first_range_s == doctest::Approx(4e-4));
-        CHECK(narrow.pings[0].values[1] == doctest::Approx(200.0 - 3.0103).epsilon(1e-6));
-        // Two sectors of a mean amplitude of 5 at 5,400 ohms, which B's receiver has by default:
-        // 2 (5 / (2 sqrt 2))^2 (5475 / 5400)^2 / 75 W.
-        const double watts = 2.0 * 25.0 / 8.0 * std::pow(5475.0 / 5400.0, 2.0) / 75.0;
-        const SonarLog wide = read_sonar_log(file, 10, 70000.0);
-        CHECK(wide.pings[0].values[0] ==
-              doctest::Approx(200.0 + 10.0 * std::log10(watts)).epsilon(1e-6));
-        CHECK(wide.pings[0].values[1] == 0.0F);
-        // A's receiver has 1,000 ohms.
-        const SonarLog own =
-            read_sonar_log(ek80_head() + ek80_parameter("A", "Frequency=\"38000\"") +
-                               ek80_ping("A", 8 + 2 * 256, 2, sectors.text),
-                           10);
-        CHECK(own.pings[0].values[0] - wide.pings[0].values[0] ==
-              doctest::Approx(20.0 * std::log10(1.075 / (5475.0 / 5400.0))).epsilon(1e-3));
-        CHECK(message_of_log(file).find("38000, 70000 Hz; choose") != std::string::npos);
-        const std::string sweep =
-            ek80_head() + ek80_parameter("A", "FrequencyStart=\"45000\" FrequencyEnd=\"95000\"", 1);
-        CHECK(message_of_log(sweep + ek80_ping("A", 8 + 2 * 256, 2, sectors.text)).find("sweeps") !=
-              std::string::npos);
-        CHECK(message_of_log(ek80_head() + ek80_ping("A", 1, 3, power.text))
-                  .find("without its parameters") != std::string::npos);
-        CHECK(message_of_log(sweep + ek80_ping("A", 4 + 256, 2, sectors.text)).find("16 bits") !=
-              std::string::npos);
-        CHECK(message_of_log(ek80_head()).find("no power or complex") != std::string::npos);
     }
 
     TEST_CASE("didson: frames of versions 3 and 4, with both delays") {
@@ -219,6 +206,9 @@ TEST_SUITE("format") {
             ek80_head() + ek80_parameter("A", "Frequency=\"38000\"") + ek80_ping("A", 1, 2, "abcd"),
             ek80_head() + ek80_parameter("A", "Frequency=\"38000\"") +
                 ek80_ping("A", 8 + 256, 1, "abcdefgh"),
+            ek80_head() + ek80_parameter("A", "FrequencyEnd=\"900\" PulseDuration=\"1E-3\"", 1) +
+                ek80_ping("A", 8 + 256, 1, "abcdefgh"),
+            all_water(1, {{-10.0, 1, {1, 2, 3}}}, 1, 7, true),
             didson_file(3, 2, 2),
             ping360_message(1, {1, 2, 3}, false) + ping360_message(2, {3, 4, 5}, true)};
         std::size_t refused = 0;

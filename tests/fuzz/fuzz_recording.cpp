@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "format/kmall_soundings.h"
 #include "format/oculus_reader.h"
 #include "format/sonar_log.h"
 #include "format/xtf_reader.h"
@@ -12,8 +13,8 @@
 #include "recording/recording_file.h"
 
 // The first byte chooses the reader: 'y' for recording.yaml, 'x' for XTF, 'o'
-// for an Oculus, 'l' for the logs of other sonars, anything else for an array (.npy or PNG). What a
-// reader accepts keeps the promises of its struct.
+// for an Oculus, 'l' for the logs of other sonars, 'm' for the soundings of a .kmall, anything else
+// for an array (.npy or PNG). What a reader accepts keeps the promises of its struct.
 
 using namespace sonarsim;
 
@@ -42,8 +43,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         } else if (data[0] == 'x') {
             for (const XtfSidescanPing& ping : read_xtf(text, 1000).pings)
                 require_that(!ping.port.samples.empty() && ping.starboard.slant_range_m > 0.0);
-            for (const XtfSoundingPing& ping : read_xtf_soundings(text, 1000)) {
-                for (const XtfSounding& beam : ping.beams)
+            for (const LoggedSoundings& ping : read_xtf_soundings(text, 1000)) {
+                for (const LoggedSounding& beam : ping.beams)
                     require_that(beam.two_way_s > 0.0 && beam.intensity >= 0.0);
             }
         } else if (data[0] == 'o') {
@@ -59,6 +60,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                              static_cast<std::size_t>(ping.ranges) *
                                      static_cast<std::size_t>(ping.beams) ==
                                  ping.values.size());
+        } else if (data[0] == 'm') {
+            for (const LoggedSoundings& ping : read_kmall_soundings(text, 1000)) {
+                require_that(ping.sound_speed_m_s > 0.0);
+                for (const LoggedSounding& beam : ping.beams)
+                    require_that(beam.two_way_s > 0.0 && beam.intensity >= 0.0 &&
+                                 std::isfinite(beam.angle_deg));
+            }
         } else {
             check_array(read_array(text, "in"));
         }

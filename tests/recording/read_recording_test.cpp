@@ -143,7 +143,8 @@ TEST_SUITE("recording") {
         write_file(folder.path / "recording.yaml", yaml + "xtf: a.xtf\n");
         CHECK(message_of(folder.path).find("add `sound_speed_m_s`") != std::string::npos);
         write_file(folder.path / "recording.yaml", yaml);
-        CHECK(message_of(folder.path).find("section `soundings`, or `xtf`") != std::string::npos);
+        CHECK(message_of(folder.path).find("section `soundings`, `xtf` or `logs`") !=
+              std::string::npos);
     }
 
     TEST_CASE("recording: logs of sonars, with what their formats do not say") {
@@ -170,6 +171,15 @@ TEST_SUITE("recording") {
               doctest::Approx(std::pow(10.0, -0.05)));
         refused("kind: imaging\nlogs: a.kmall\nlaw: {kind: power}\n", "leave `law` out");
         refused("kind: echosounder\nlogs: a.kmall\n", "pings of the kind imaging");
+        write_file(folder.path / "m.kmall", kmall_soundings(5, {{11.0, -10.0, 0.02, -20.0}}));
+        yaml("kind: soundings\nlogs: [m.kmall, m.kmall]\n");
+        const Recording bottom = load_recording(folder.path);
+        REQUIRE(bottom.soundings.size() == 2);
+        CHECK(bottom.soundings[0].range_m[0] == doctest::Approx(15.0));
+        CHECK(bottom.soundings[0].angle_rad[0] == doctest::Approx(-pi / 4.0));  // to port
+        CHECK(power_of(bottom.law, bottom.soundings[0].intensity[0]) == doctest::Approx(0.01));
+        refused("kind: soundings\nlogs: m.kmall\nlaw: {kind: power}\n", "leave `law` out");
+        refused("kind: soundings\nlogs: a.kmall\n", "no soundings");
         write_file(folder.path / "b.aris", aris_file(2, 4));
         const std::string lens = "kind: imaging\nlogs: b.aris\n";
         refused(lens, "add `law`");
