@@ -1,5 +1,6 @@
 #include "trace/retraced.h"
 
+#include <cstddef>
 #include <optional>
 #include <utility>
 
@@ -11,6 +12,9 @@
 namespace sonarsim {
 
 namespace {
+
+// Paths are tried so many at a time, which bounds the memory. Chosen.
+constexpr std::size_t most_untried = 4096;
 
 /// The surface that a way meets as the sonar sees it: all sound that met the source goes on to it.
 /// When the place on the source moves along an edge, that behind it stays in its plane.
@@ -93,12 +97,14 @@ RetracedSurface retraced_surface(const Multipath& multipath, const TraceContext&
                     out.sources.push_back(way.source);
                 }
             }
+            if (untried.size() >= most_untried)
+                try_paths(multipath, trace, water, untried, out.unequal, counts);
             reflect(at, way);
             if (way.reflected >= multipath.retraced_least) further.push_back(way);
         }
         ways = std::move(further);
     }
-    out.unequal = paths_that_arrive(multipath, trace, water, std::move(untried), counts);
+    try_paths(multipath, trace, water, untried, out.unequal, counts);
     return out;
 }
 

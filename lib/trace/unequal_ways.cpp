@@ -95,11 +95,9 @@ void add_untried_paths(const TraceContext& trace, const BeamLocator& field, cons
     }
 }
 
-std::vector<SpecularPath> paths_that_arrive(const Multipath& multipath, const TraceContext& trace,
-                                            const std::optional<WaterMirror>& water,
-                                            std::vector<UntriedPath> untried,
-                                            MultipathCounts& counts) {
-    std::vector<SpecularPath> arrived;
+void try_paths(const Multipath& multipath, const TraceContext& trace,
+               const std::optional<WaterMirror>& water, std::vector<UntriedPath>& untried,
+               std::vector<SpecularPath>& arrived, MultipathCounts& counts) {
     std::vector<Way> ways(untried.size());
     for (std::uint32_t k = 0; k < untried.size(); ++k) {
         ways[k].source = k;
@@ -135,7 +133,7 @@ std::vector<SpecularPath> paths_that_arrive(const Multipath& multipath, const Tr
         }
         ways = std::move(further);
     }
-    return arrived;
+    untried.clear();
 }
 
 }  // namespace sonarsim

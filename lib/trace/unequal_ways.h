@@ -27,11 +27,10 @@ struct UntriedPath {
 void add_untried_paths(const TraceContext& trace, const BeamLocator& field, const Way& way,
                        const Meeting& at, const Sample& seen, std::vector<UntriedPath>& untried);
 
-/// Follows sound from the sonar to each image. Keeps the paths on which it arrives at the piece
-/// after as many reflections.
-std::vector<SpecularPath> paths_that_arrive(const Multipath& multipath, const TraceContext& trace,
-                                            const std::optional<WaterMirror>& water,
-                                            std::vector<UntriedPath> untried,
-                                            MultipathCounts& counts);
+/// Follows sound from the sonar to each image, and empties `untried`. Paths on which it arrives at
+/// the piece after as many reflections are added to `arrived`.
+void try_paths(const Multipath& multipath, const TraceContext& trace,
+               const std::optional<WaterMirror>& water, std::vector<UntriedPath>& untried,
+               std::vector<SpecularPath>& arrived, MultipathCounts& counts);
 
 }  // namespace sonarsim
