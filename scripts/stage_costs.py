@@ -37,7 +37,8 @@ TANK = ("tank_calibrated", "fls", "1/1", {
     "motion within a ping": ["fls.moves_in_ping=true"],
     "4 groups of beams": ["fls.moves_in_ping=true", "fls.shutter.groups=4"],
     "multipath": ["fls.multipath.method=cluster"],
-    "multipath, retraced 4 times": ["fls.multipath.method=cluster", "fls.multipath.retraced=4"],
+    "multipath, retraced: 2": ["fls.multipath.method=cluster", "fls.multipath.retraced=2"],
+    "multipath, retraced: 4": ["fls.multipath.method=cluster", "fls.multipath.retraced=4"],
 })
 SIDE = ("seafloor_sidescan_calibrated", "sss", "1/3", {
     "water column": ["water.content=coastal"],

@@ -17,8 +17,8 @@ struct Multipath {
     ClusterLimits cluster;  ///< epsilon 0 is the exact method: every sample is traced by itself
     /// Keeps paths that the second surface mirrors away from the sonar.
     bool scattered = false;
-    int retraced = 0;             ///< most reflections on a way that sound takes out and back
-    float retraced_least = 0.0F;  ///< ways whose reflections leave less power are left out
+    int retraced = 0;             ///< most reflections on a way out, and on one back
+    float retraced_least = 0.0F;  ///< echoes of which all reflections leave less are left out
 };
 
 /// The scene and the sonar that paths are traced for.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "trace/multipath.h"
+#include "trace/specular_path.h"
 
 namespace sonarsim {
 
@@ -15,11 +16,14 @@ struct RetracedSurface {
     std::vector<Sample> samples;
     /// The sample of the first reflector of each: index into those of the ping.
     std::vector<std::uint32_t> sources;
+    /// Surface that sound reaches over one way and comes back from over another.
+    std::vector<SpecularPath> unequal;
 };
 
 /// Follows the sound from each sample on, from reflection to reflection. What it meets after one or
 /// more, up to Multipath::retraced, is surface that scatters it back; the water's surface, of
-/// which this is not known, only reflects it.
+/// which this is not known, only reflects it. Surface that is also seen over some of these
+/// reflectors, or over none, is in `unequal`, unless find_bounces() has it.
 RetracedSurface retraced_surface(const Multipath& multipath, const TraceContext& trace,
                                  const Samples& samples, MultipathCounts& counts);
 

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <map>
+#include <random>
+#include <utility>
 
 #include "core/units.h"
 #include "support/scenes.h"
@@ -93,6 +95,90 @@ TEST_SUITE("trace") {
         CHECK(counts.size() == 4);
         for (const int order : {1, 2, 3, 4})
             CHECK(counts[order] > 100);
+    }
+
+    // Out over n reflections and back over m, both from the wall ahead on: the places are the
+    // images of one point, and have its y and z. Where n - m is odd, one of the two begins at the
+    // wall behind, outside the sector.
+    TEST_CASE("unequal ways: the images of a point between two walls that face each other") {
+        const Scene scene = two_walls();
+        const auto [samples, found] = retrace(scene, {}, 4, 0.0F);
+        const auto order_of = [](const Eigen::Vector3f& image) {
+            return static_cast<int>(std::lround((image.x() - front_m) / (front_m + back_m)));
+        };
+        const auto reflected = [](int order) {
+            float product = 1.0F;
+            for (int k = 0; k < order; ++k)
+                product *= k % 2 == 0 ? 0.5F : 0.3F;
+            return product;
+        };
+        std::map<std::pair<int, int>, int> counts;
+        for (const SpecularPath& path : found.unequal) {
+            const Eigen::Vector3f& over_more = path.image_source.at;
+            const Eigen::Vector3f& over_fewer = path.point.at;
+            const int n = order_of(over_more);
+            const int m = order_of(over_fewer);
+            ++counts[{n, m}];
+            CHECK(std::fabs(over_more.x() - front_m - n * (front_m + back_m)) < 0.01F);
+            CHECK(std::fabs(over_fewer.x() - front_m - m * (front_m + back_m)) < 0.01F);
+            CHECK((over_more - over_fewer).tail<2>().norm() < 0.01F);
+            CHECK((path.image_source.u - path.point.u).norm() < 1e-3F);
+            CHECK(path.reflection == doctest::Approx(reflected(n) * reflected(m)).epsilon(1e-5));
+            CHECK(path.sine_of_image ==
+                  doctest::Approx(over_more.x() / over_more.norm()).epsilon(1e-3));
+            CHECK(path.sine_of_point ==
+                  doctest::Approx(over_fewer.x() / over_fewer.norm()).epsilon(1e-3));
+            CHECK(scene.materials[path.material].reflection == (n % 2 == 0 ? 0.5F : 0.3F));
+        }
+        CHECK(counts.size() == 4);
+        for (const auto& orders :
+             {std::pair{2, 0}, std::pair{3, 1}, std::pair{4, 0}, std::pair{4, 2}})
+            CHECK(counts[orders] > 10);
+    }
+
+    // In a box all ways are known: at a place x of the world that is folded out lies the point of
+    // the box that a triangle wave of x gives, and the way crosses a wall at each whole number of
+    // the box's lengths. Boxes and poses are drawn at random.
+    TEST_CASE("unequal ways: both images of a path fold back to one point of a box") {
+        std::mt19937 draws(31);
+        const auto draw = [&](double low, double high) {
+            return std::uniform_real_distribution<double>(low, high)(draws);
+        };
+        for (int trial = 0; trial < 6; ++trial) {
+            Eigen::Vector3d size;
+            Pose pose;
+            for (int k = 0; k < 3; ++k) {
+                size[k] = draw(4.0, 8.0);
+                pose.translation[k] = draw(0.3, 0.7) * size[k];
+            }
+            const double pitch = draw(-0.3, 0.3);
+            pose.rotation = rotation_from_rpy(0.0, pitch, draw(-pi, pi));
+            Scene scene = empty_scene();
+            add_box(scene, Eigen::Vector3f::Zero(), size.cast<float>(), add_material(scene, 0.5F));
+            const auto found = retrace(scene, pose, 3, 0.0F).found;
+            CHECK(found.unequal.size() > 1000);
+            int crossed = 0;
+            int near_walls = 0;
+            const auto fold = [&](const Eigen::Vector3f& image) {
+                Eigen::Vector3d x = pose.rotation * image.cast<double>() + pose.translation;
+                for (int k = 0; k < 3; ++k) {
+                    // The point lies on a wall, which is not crossed.
+                    const double end = x[k] + (x[k] > pose.translation[k] ? -0.02 : 0.02);
+                    crossed += std::abs(static_cast<int>(std::floor(end / size[k])));
+                    near_walls += std::fabs(std::remainder(x[k], size[k])) < 0.04 ? 1 : 0;
+                    x[k] = std::fabs(std::remainder(x[k], 2.0 * size[k]));
+                }
+                return x;
+            };
+            for (const SpecularPath& path : found.unequal) {
+                crossed = near_walls = 0;
+                const Eigen::Vector3d one = fold(path.image_source.at);
+                const Eigen::Vector3d other = fold(path.point.at);
+                CHECK((one - other).norm() < 0.02);
+                if (near_walls > 2) continue;  // near a seam of two walls
+                CHECK(path.reflection == doctest::Approx(std::ldexp(1.0, -crossed)).epsilon(1e-4));
+            }
+        }
     }
 
     // After one reflection 0.25 of the power is left, after two 0.0225, after three 0.0056.

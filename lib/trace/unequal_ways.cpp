@@ -1,0 +1,139 @@
+#include "trace/unequal_ways.h"
+
+#include <algorithm>
+#include <bit>
+#include <span>
+#include <utility>
+
+#include "trace/arrivals.h"
+#include "trace/bounce_tracer.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// The end of a way may lie so far from its piece: half a bin, and the rounding of the rays.
+float slack_at(const View& view, float range_m) {
+    return 0.5F * static_cast<float>(view.bin_m()) + 1e-3F * range_m;
+}
+
+/// A piece of surface, or its image: place, normal, direction of the sound of the way that met it,
+/// and half edges.
+struct Piece {
+    Eigen::Vector3f at, normal, direction, u, v;
+};
+
+/// The image over one more reflector, nearer to the sonar.
+Piece image_over(const Way::Reflector& reflector, const Piece& piece) {
+    const auto turned = [&](const Eigen::Vector3f& direction) -> Eigen::Vector3f {
+        return specular_direction(direction, reflector.normal);
+    };
+    return {reflector.point + turned(piece.at - reflector.point), turned(piece.normal),
+            turned(piece.direction), turned(piece.u), turned(piece.v)};
+}
+
+/// find_bounces() has the way over one reflector, and over one and the water, with a straight one.
+bool is_bounce(const Way& way, unsigned chosen) {
+    return chosen == 0 &&
+           (way.reflections == 1 || (way.reflections == 2 && way.reflectors[1].is_water));
+}
+
+/// The image of a piece over those of the reflectors whose bits are set.
+Piece image_over(const Way& way, unsigned chosen, Piece piece) {
+    for (int k = way.reflections - 1; k >= 0; --k) {
+        if ((chosen >> static_cast<unsigned>(k)) & 1U) piece = image_over(way.reflectors[k], piece);
+    }
+    return piece;
+}
+
+/// True if an image is among those of this piece. The way to it has the fewer reflections.
+bool is_known(const Eigen::Vector3f& image, int reflections, float slack_m,
+              std::span<UntriedPath> of_piece) {
+    for (UntriedPath& known : of_piece) {
+        if ((known.path.point.at - image).squaredNorm() > slack_m * slack_m) continue;
+        known.reflections = std::min(known.reflections, reflections);
+        return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+void add_untried_paths(const TraceContext& trace, const BeamLocator& field, const Way& way,
+                       const Meeting& at, const Sample& seen, std::vector<UntriedPath>& untried) {
+    if (way.reflections > Way::most_kept) return;
+    const auto range_max = static_cast<float>(trace.view.range_max_m);
+    const std::size_t first = untried.size();
+    const float seen_range = arrival_range(seen.position);
+    const float seen_sine = seen.height_m / seen_range;
+    const Piece piece{way.ray.origin + at.distance_m * way.ray.direction, at.normal,
+                      way.ray.direction, way.unfold.transpose() * seen.edge_u,
+                      way.unfold.transpose() * seen.edge_v};
+    const unsigned all = (1U << static_cast<unsigned>(way.reflections)) - 1U;
+    for (unsigned chosen = 0; chosen < all; ++chosen) {
+        if (is_bounce(way, chosen)) continue;
+        const Piece image = image_over(way, chosen, piece);
+        const float range = arrival_range(image.at);
+        if (!(arrival_range(range, seen_range) < range_max)) continue;
+        const float sine = -image.normal.dot(image.at) / range;
+        if (!(sine >= least_seen_cosine && field.beam(image.at, range) >= 0.0F)) continue;
+        const int reflections = std::popcount(chosen);
+        if (is_known(image.at, reflections, slack_at(trace.view, range),
+                     std::span(untried).subspan(first)))
+            continue;
+        SpecularPath path;
+        path.point = {image.at, image.u, image.v};
+        path.image_source = {seen.position, seen.edge_u, seen.edge_v};
+        path.area_m2 = seen.area_m2;
+        path.sine_of_point = sine;
+        path.sine_of_image = seen_sine;
+        path.sine_between = (sine + seen_sine) / (image.at / range + image.direction).norm();
+        path.reflection = way.reflected * at.surface.strength;
+        path.material = seen.material;
+        path.sample = way.source;
+        untried.push_back({path, piece.at, reflections});
+    }
+}
+
+void try_paths(const Multipath& multipath, const TraceContext& trace,
+               const std::optional<WaterMirror>& water, std::vector<UntriedPath>& untried,
+               std::vector<SpecularPath>& arrived, MultipathCounts& counts) {
+    std::vector<Way> ways(untried.size());
+    for (std::uint32_t k = 0; k < untried.size(); ++k) {
+        ways[k].source = k;
+        ways[k].ray = {Eigen::Vector3f::Zero(), arrival_of(untried[k].path.point.at).departure};
+    }
+    std::vector<Ray> rays;
+    std::vector<Intersection> hits;
+    while (!ways.empty()) {
+        rays.clear();
+        for (const Way& way : ways)
+            rays.push_back(way.ray);
+        hits.resize(rays.size());
+        trace.engine.intersect(trace.T_world_sensor, rays, hits);
+        counts.rays += rays.size();
+        std::vector<Way> further;
+        for (std::size_t i = 0; i < ways.size(); ++i) {
+            Way& way = ways[i];
+            UntriedPath& to = untried[way.source];
+            const float range = arrival_range(to.path.point.at);
+            const float slack = slack_at(trace.view, range);
+            const Meeting at = meeting_at(trace, water, rays[i], hits[i]);
+            const float left = range - way.length_m - at.distance_m;
+            if (!(left >= -slack)) continue;
+            if (way.reflections < to.reflections) {
+                reflect(at, way);
+                further.push_back(way);
+                continue;
+            }
+            const Eigen::Vector3f end = rays[i].origin + at.distance_m * rays[i].direction;
+            if (!(left <= slack && (end - to.place).norm() <= slack)) continue;
+            to.path.reflection *= way.reflected;
+            if (to.path.reflection >= multipath.retraced_least) arrived.push_back(to.path);
+        }
+        ways = std::move(further);
+    }
+    untried.clear();
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "trace/counters.h"
+#include "trace/multipath.h"
+#include "trace/specular_path.h"
+#include "trace/water_mirror.h"
+#include "trace/way.h"
+#include "visibility/engine.h"
+#include "visibility/view.h"
+
+namespace sonarsim {
+
+/// A piece of surface that a way reaches, and an image of it that another way may reach.
+struct UntriedPath {
+    SpecularPath path;
+    Eigen::Vector3f place;  ///< the piece itself, in the scene
+    int reflections;        ///< their number on the other way
+};
+
+/// Adds the images of a piece over some of the reflectors of the way that met it, in their order,
+/// or over none of them. `seen` is the piece as the way has it. Images that find_bounces() has, and
+/// those outside the view, are left out.
+void add_untried_paths(const TraceContext& trace, const BeamLocator& field, const Way& way,
+                       const Meeting& at, const Sample& seen, std::vector<UntriedPath>& untried);
+
+/// Follows sound from the sonar to each image, and empties `untried`. Paths on which it arrives at
+/// the piece after as many reflections are added to `arrived`.
+void try_paths(const Multipath& multipath, const TraceContext& trace,
+               const std::optional<WaterMirror>& water, std::vector<UntriedPath>& untried,
+               std::vector<SpecularPath>& arrived, MultipathCounts& counts);
+
+}  // namespace sonarsim

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "trace/bounce_path.h"
+#include "trace/lay_maps.h"
+#include "trace/multipath.h"
+#include "trace/water_mirror.h"
+#include "visibility/engine.h"
+
+namespace sonarsim {
+
+/// Below this cosine surface is seen edge-on, as in find_bounces().
+inline constexpr float least_seen_cosine = 0.01F;
+
+/// A surface that a way meets.
+struct Meeting {
+    float distance_m;
+    Eigen::Vector3f normal;
+    float reflection;
+    MappedPoint surface{no_material, 1.0F};  ///< no_material: the water's, or the source
+};
+
+/// Sound on its way from the sonar, over reflectors.
+struct Way {
+    static constexpr int most_kept = 6;
+
+    struct Reflector {
+        Eigen::Vector3f point, normal;
+        bool is_water;
+    };
+
+    std::uint32_t source = 0;  ///< index into Samples::items
+    Ray ray;                   ///< after the last reflection
+    float length_m = 0.0F;     ///< up to it
+    float reflected = 1.0F;    ///< share of the power after the reflections so far
+    Eigen::Matrix3f unfold =
+        Eigen::Matrix3f::Identity();  ///< directions of the scene to those of the world folded out
+    int reflections = 0;
+    std::array<Reflector, most_kept> reflectors;  ///< the first of them
+};
+
+/// Goes on behind a reflection.
+void reflect(const Meeting& at, Way& way);
+
+/// The surface that a ray meets where it has this hit.
+Meeting meeting_at(const TraceContext& trace, const std::optional<WaterMirror>& water,
+                   const Ray& ray, const Intersection& hit);
+
+}  // namespace sonarsim

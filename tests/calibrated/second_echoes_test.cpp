@@ -1,0 +1,97 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibrated/decibel.h"
+#include "core/units.h"
+#include "support/calibrated.h"
+#include "support/scenes.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+constexpr double over_bottom_m = 8.0;
+constexpr double below_surface_m = 2.0;
+
+/// A rough flat bottom that reflects 0.25 of the power, below water whose surface reflects 0.9.
+Scene bottom_and_surface() {
+    Scene scene = empty_scene();
+    const std::uint32_t bottom = add_material(scene, 0.25F);
+    scene.materials[bottom].slope_rms_deg = 0.0;
+    add_floor(scene, 100.0F, 0.0F, bottom, 4);
+    scene.water_surface = {over_bottom_m + below_surface_m, 0.9F};
+    return scene;
+}
+
+/// An echosounder whose beam is far wider than its view.
+Sonar wide_echosounder(int retraced) {
+    SonarConfig config = calibrated(default_sonar(SonarKind::echosounder), 3.8e4);
+    config.opening_deg = 4.0;
+    config.range_min_m = 1.0;
+    config.range_max_m = 36.0;
+    config.range_bins = 700;
+    config.multipath.method = MultipathMethod::exact;
+    config.multipath.retraced = retraced;
+    config.instrument = bare(config.instrument);
+    config.instrument.beam.width_deg = 100.0;
+    config.instrument.pulse.resolution_m = 0.1;
+    return make_sonar(config, {0.002});
+}
+
+}  // namespace
+
+TEST_SUITE("calibrated") {
+    // A sonar h over the bottom and d below the surface sees the bottom at s_i = h + 2 i (h + d),
+    // with the share q^i of the power left: q = 0.25 * 0.9. Out over one way and back over another,
+    // echo k = i + j comes at (s_i + s_j) / 2 = h + k (h + d): the second one at twice the range if
+    // d = 0. A narrow view sees the bottom that the longer way s sees, of the area s^2 times a
+    // solid angle w, and at right angles to it. So the energy of echo k by that of the first is
+    //
+    //     h^2 q^k e^-(loss (s_k - h)) sum over i + j = k of min(s_i, s_j)^2 / (s_i^2 s_j^2).
+    TEST_CASE("second bottom echo: ranges and levels of an echosounder's, and of the third") {
+        const Scene scene = bottom_and_surface();
+        const auto engine = make_engine(scene, {});
+        const Pose pose{Eigen::Quaterniond::Identity(), {0.0, 0.0, over_bottom_m}};
+        for (const int retraced : {0, 4}) {
+            const Sonar sonar = wide_echosounder(retraced);
+            const Ping ping =
+                render_ping(sonar, scene, *engine, pose, {.seed = 1}, without_random_terms);
+            const double loss_per_m =
+                0.2 * std::log(10.0) * calibrated_model_of(sonar).absorption_db_per_m;
+            const double bin_m = sonar.settings.view.bin_m();
+            const auto s = [](int i) {
+                return over_bottom_m + 2.0 * i * (over_bottom_m + below_surface_m);
+            };
+            const auto predicted = [&](int k) {
+                double sum = 0.0;
+                for (int i = 0; i <= k; ++i) {
+                    const double longer = std::max(s(i), s(k - i));
+                    sum += 1.0 / (longer * longer);
+                }
+                const double range_m = 0.5 * (s(0) + s(k));
+                return sum * over_bottom_m * over_bottom_m * std::pow(0.25 * 0.9, k) *
+                       std::exp(-loss_per_m * (range_m - over_bottom_m));
+            };
+            const auto energy = [&](int k) {
+                const double range_m = 0.5 * (s(0) + s(k));
+                double sum = 0.0;
+                for (int i = 0; i < ping.range_bins; ++i)
+                    if (std::fabs(1.0 + bin_m * (i + 0.5) - range_m) < 1.0) sum += ping.at(i, 0);
+                return sum;
+            };
+            for (const int k : {1, 2}) {
+                CAPTURE(retraced);
+                CAPTURE(k);
+                // Without retraced ways there is no third echo.
+                const double expected = k == 1 || retraced > 0 ? predicted(k) : 0.0;
+                if (expected == 0.0)
+                    CHECK(energy(k) < 1e-3 * predicted(k) * energy(0));
+                else
+                    CHECK(std::fabs(db_of_power(energy(k) / energy(0) / expected)) < 0.15);
+            }
+        }
+    }
+}
