@@ -67,20 +67,13 @@ RetracedSurface retraced_surface(const Multipath& multipath, const TraceContext&
     const BeamLocator field(trace.view);
     const auto range_max = static_cast<float>(trace.view.range_max_m);
     std::vector<Way> ways = first_ways(multipath, trace, samples);
-    std::vector<Ray> rays;
-    std::vector<Intersection> hits;
     std::vector<UntriedPath> untried;
     for (int k = 1; k <= multipath.retraced && !ways.empty(); ++k) {
-        rays.clear();
-        for (const Way& way : ways)
-            rays.push_back(way.ray);
-        hits.resize(rays.size());
-        trace.engine.intersect(trace.T_world_sensor, rays, hits);
-        counts.rays += rays.size();
+        const std::vector<Intersection> hits = cast_ways(trace, ways, counts);
         std::vector<Way> further;
         for (std::size_t i = 0; i < ways.size(); ++i) {
             Way& way = ways[i];
-            const Meeting at = meeting_at(trace, water, rays[i], hits[i]);
+            const Meeting at = meeting_at(trace, water, way.ray, hits[i]);
             // Sound that comes back over a shorter way has a nearer echo.
             const float range = way.length_m + at.distance_m;
             if (!(range < 2.0F * range_max)) continue;

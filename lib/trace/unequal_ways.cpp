@@ -103,22 +103,15 @@ void try_paths(const Multipath& multipath, const TraceContext& trace,
         ways[k].source = k;
         ways[k].ray = {Eigen::Vector3f::Zero(), arrival_of(untried[k].path.point.at).departure};
     }
-    std::vector<Ray> rays;
-    std::vector<Intersection> hits;
     while (!ways.empty()) {
-        rays.clear();
-        for (const Way& way : ways)
-            rays.push_back(way.ray);
-        hits.resize(rays.size());
-        trace.engine.intersect(trace.T_world_sensor, rays, hits);
-        counts.rays += rays.size();
+        const std::vector<Intersection> hits = cast_ways(trace, ways, counts);
         std::vector<Way> further;
         for (std::size_t i = 0; i < ways.size(); ++i) {
             Way& way = ways[i];
             UntriedPath& to = untried[way.source];
             const float range = arrival_range(to.path.point.at);
             const float slack = slack_at(trace.view, range);
-            const Meeting at = meeting_at(trace, water, rays[i], hits[i]);
+            const Meeting at = meeting_at(trace, water, way.ray, hits[i]);
             const float left = range - way.length_m - at.distance_m;
             if (!(left >= -slack)) continue;
             if (way.reflections < to.reflections) {
@@ -126,7 +119,7 @@ void try_paths(const Multipath& multipath, const TraceContext& trace,
                 further.push_back(way);
                 continue;
             }
-            const Eigen::Vector3f end = rays[i].origin + at.distance_m * rays[i].direction;
+            const Eigen::Vector3f end = way.ray.origin + at.distance_m * way.ray.direction;
             if (!(left <= slack && (end - to.place).norm() <= slack)) continue;
             to.path.reflection *= way.reflected;
             if (to.path.reflection >= multipath.retraced_least) arrived.push_back(to.path);

@@ -21,6 +21,17 @@ void reflect(const Meeting& at, Way& way) {
     way.unfold -= 2.0F * (way.unfold * at.normal) * at.normal.transpose();
 }
 
+std::vector<Intersection> cast_ways(const TraceContext& trace, std::span<const Way> ways,
+                                    MultipathCounts& counts) {
+    std::vector<Ray> rays;
+    for (const Way& way : ways)
+        rays.push_back(way.ray);
+    std::vector<Intersection> hits(rays.size());
+    trace.engine.intersect(trace.T_world_sensor, rays, hits);
+    counts.rays += rays.size();
+    return hits;
+}
+
 Meeting meeting_at(const TraceContext& trace, const std::optional<WaterMirror>& water,
                    const Ray& ray, const Intersection& hit) {
     const float to_water = water ? water->distance(ray) : std::numeric_limits<float>::infinity();

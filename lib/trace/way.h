@@ -4,8 +4,11 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "trace/bounce_path.h"
+#include "trace/counters.h"
 #include "trace/lay_maps.h"
 #include "trace/multipath.h"
 #include "trace/water_mirror.h"
@@ -45,6 +48,10 @@ struct Way {
 
 /// Goes on behind a reflection.
 void reflect(const Meeting& at, Way& way);
+
+/// What the rays of ways meet first, and their number added to `counts`.
+std::vector<Intersection> cast_ways(const TraceContext& trace, std::span<const Way> ways,
+                                    MultipathCounts& counts);
 
 /// The surface that a ray meets where it has this hit.
 Meeting meeting_at(const TraceContext& trace, const std::optional<WaterMirror>& water,
