@@ -53,7 +53,9 @@ void add_water_ages(const Mission& mission, const Trajectory& trajectory, std::s
     if (!mission.water.drift_rms_m_s) return;
     const Eigen::Vector3d current_m_s(mission.water.current_m_s.data());
     for (Sonar& sonar : sonars) {
-        if (sonar.config.model != ModelKind::calibrated) continue;
+        if (sonar.config.model != ModelKind::calibrated ||
+            sonar.config.instrument.speckle.mode == SpeckleMode::ping)
+            continue;
         const AgeScales scales = age_scales(sonar, mission.water);
         std::vector<double> ages;
         Pose before;

@@ -9,6 +9,7 @@
 namespace sonarsim {
 
 /// Gives the sonars the age of the water's speckle at each pose, if water.drift_rms_m_s is given.
+/// Those with `speckle: ping` have none: their speckle is new in each ping.
 ///
 /// Speckle one age apart is independent but for an eighth of its power's correlation, and two ages
 /// apart wholly. With normal velocities of the RMS value u along the line of sight, the phases 2 k

@@ -28,7 +28,7 @@ double beam_step_deg(const std::vector<double>& bearing_rad, int beam) {
 
 void measure_edges(const RecordedImages& images, PatchSize size, const Zones& zones,
                    Measurement& out) {
-    if (images.columns_are_pings) return;
+    if (images.columns_are_pings || images.powers.empty()) return;
     const RangeZone nearest = zones.water.to > zones.water.from ? zones.water : zones.bottom;
     const EdgeSearch search{size, {nearest.from, images.ranges}, images.full_power};
     const PatchGrid grid = images.grid(size);

@@ -13,9 +13,11 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// Real pulses last up to 16 ms at 1.5 MHz, real filters have up to some hundred taps.
+// Real pulses last up to 16 ms at 1.5 MHz; real receivers have two filters of up to some hundred
+// taps.
 constexpr double most_pulse_samples = 1e5;
 constexpr std::size_t most_taps = 4096;
+constexpr std::size_t most_filters = 8;
 
 /// The sum of products; std::complex's own product looks for infinities.
 void add_product(const Complex& a, const Complex& b, Complex& sum) {
@@ -41,6 +43,8 @@ std::vector<Complex> filtered(const std::vector<Complex>& signal, const EkFilter
 }  // namespace
 
 std::vector<Complex> filtered_sweep(const EkSweep& sweep, const std::vector<EkFilter>& filters) {
+    if (filters.size() > most_filters)
+        throw std::runtime_error("has more than 8 filters (FIL1 datagrams) of a channel");
     double step_s = sweep.sample_s;
     for (const EkFilter& filter : filters) {
         if (filter.decimation < 1 || filter.taps.empty() || filter.taps.size() > most_taps)
@@ -53,15 +57,15 @@ std::vector<Complex> filtered_sweep(const EkSweep& sweep, const std::vector<EkFi
         !(std::fabs(sweep.start_hz) + std::fabs(sweep.end_hz) < 1e8))
         throw std::runtime_error("has a sweep with impossible numbers");
     std::vector<Complex> signal;
-    const double rate = (sweep.end_hz - sweep.start_hz) / sweep.duration_s;
     const double rise_s = sweep.slope * sweep.duration_s;
     for (int k = 0; k < static_cast<int>(count); ++k) {
         const double t = k * step_s;
         const double to_edge = std::min(t, sweep.duration_s - t);
         const double envelope =
             to_edge < rise_s ? 0.5 - 0.5 * sincos(pi * to_edge / rise_s).cos : 1.0;
-        signal.emplace_back(envelope *
-                            sincos(2.0 * pi * t * (sweep.start_hz + 0.5 * rate * t)).cos);
+        const double share = t / sweep.duration_s;
+        const double mean_hz = sweep.start_hz + 0.5 * share * (sweep.end_hz - sweep.start_hz);
+        signal.emplace_back(envelope * sincos(2.0 * pi * t * mean_hz).cos);
     }
     for (const EkFilter& filter : filters)
         signal = filtered(signal, filter);

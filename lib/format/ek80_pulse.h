@@ -19,6 +19,8 @@ struct EkSweep {
     double duration_s = 0.0;
     double slope = 0.0;     ///< share of the duration in which the envelope rises, and falls
     double sample_s = 0.0;  ///< interval of the samples behind all filters
+
+    bool operator==(const EkSweep&) const = default;
 };
 
 /// The sweep as it comes out of the receiver's filters. The samples before the first filter are as

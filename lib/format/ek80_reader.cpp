@@ -1,5 +1,6 @@
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -22,21 +23,25 @@ constexpr std::size_t stage_at = 12, filter_channel_at = 16, tap_count_at = 144,
 constexpr unsigned power_bit = 1, half_bit = 4, complex_bit = 8;
 // The impedances of the receiver, if the file has none, and of a transducer, in ohms.
 constexpr double usual_ohms = 5400.0, transducer_ohms = 75.0;
+// A file of damaged settings may have another pulse in each ping: those of all take 256 MB at most.
+constexpr std::size_t most_pulse_values = std::size_t{1} << 24;
 
 struct Ek80Channel {
     double frequency_hz = 0.0;
     double sample_s = 0.0;
     bool is_sweep = false;
     EkSweep sweep;
-    double ohms = usual_ohms;                 ///< impedance of its receiver
-    std::map<int, EkFilter> filters;          ///< stages by their numbers
-    std::vector<std::complex<double>> pulse;  ///< the sweep; empty until a ping needs it
+    double ohms = usual_ohms;         ///< impedance of its receiver
+    std::map<int, EkFilter> filters;  ///< stages by their numbers
+    /// The sweep behind them; null until a ping needs it.
+    std::shared_ptr<const std::vector<std::complex<double>>> pulse;
 };
 
 /// The contents of the XML datagrams so far.
 struct Ek80Settings {
     double sound_speed_m_s = 0.0;
     std::map<std::string, Ek80Channel, std::less<>> channels;
+    std::size_t pulse_values = 0;  ///< the number of those of all pulses so far
 };
 
 /// The start tags of a name, without their brackets.
@@ -44,7 +49,8 @@ std::vector<std::string_view> xml_tags(std::string_view xml, const std::string& 
     std::vector<std::string_view> tags;
     for (std::size_t at = xml.find('<' + name); at != std::string_view::npos;
          at = xml.find('<' + name, at + 1)) {
-        const std::string_view tag = xml.substr(at, xml.find('>', at) - at);
+        // A tag without an end stops at the next one.
+        const std::string_view tag = xml.substr(at, xml.find_first_of("<>", at + 1) - at);
         const std::string_view after = tag.substr(name.size() + 1);
         if (!after.empty() && after.find_first_of(" \t\r\n") == 0) tags.push_back(after);
     }
@@ -100,9 +106,11 @@ void take_settings(std::string_view xml, Ek80Settings& settings) {
         channel.frequency_hz = xml_number(tag, "Frequency").value_or(0.5 * (start + end));
         channel.is_sweep = xml_number(tag, "PulseForm").value_or(0.0) != 0.0;
         const auto length = xml_number(tag, "PulseLength");  // the name in older files
-        channel.sweep = {start, end, xml_number(tag, "PulseDuration").value_or(length.value_or(0)),
-                         xml_number(tag, "Slope").value_or(0.0), *interval};
-        channel.pulse.clear();
+        const EkSweep sweep{start, end,
+                            xml_number(tag, "PulseDuration").value_or(length.value_or(0)),
+                            xml_number(tag, "Slope").value_or(0.0), *interval};
+        if (sweep != channel.sweep) channel.pulse.reset();
+        channel.sweep = sweep;
     }
 }
 
@@ -121,20 +129,22 @@ void take_filter(std::string_view datagram, Ek80Settings& settings) {
                                  field_at<float>(datagram, taps_at + 8 * k + 4));
     Ek80Channel& channel = settings.channels[name_at(datagram, filter_channel_at)];
     channel.filters[field_at<std::int16_t>(datagram, stage_at)] = std::move(filter);
-    channel.pulse.clear();
+    channel.pulse.reset();
 }
 
-/// The sweep of a channel as its pings have it.
-const std::vector<std::complex<double>>& pulse_of(Ek80Channel& channel) {
-    if (channel.is_sweep && channel.pulse.empty()) {
-        if (channel.filters.empty())
-            throw std::runtime_error("has sweeps without their filters (FIL1 datagrams)");
-        std::vector<EkFilter> filters;
-        for (const auto& [stage, filter] : channel.filters)
-            filters.push_back(filter);
-        channel.pulse = filtered_sweep(channel.sweep, filters);
-    }
-    return channel.pulse;
+/// Makes the pulse of a channel that sweeps, unless it has it.
+void make_pulse(Ek80Channel& channel, std::size_t& pulse_values) {
+    if (!channel.is_sweep || channel.pulse) return;
+    if (channel.filters.empty())
+        throw std::runtime_error("has sweeps without their filters (FIL1 datagrams)");
+    std::vector<EkFilter> filters;
+    for (const auto& [stage, filter] : channel.filters)
+        filters.push_back(filter);
+    channel.pulse = std::make_shared<const std::vector<std::complex<double>>>(
+        filtered_sweep(channel.sweep, filters));
+    pulse_values += channel.pulse->size();
+    if (pulse_values > most_pulse_values)
+        throw std::runtime_error("changes its sweeps too often; split the file");
 }
 
 /// Takes the samples of a RAW3 datagram, if they are power or complex.
@@ -174,7 +184,10 @@ EkPing ek80_ping_of(std::string_view datagram, Ek80Settings& settings,
     check_ek(ping);
     take_samples(datagram, found->second.ohms, ping);
     const bool is_read = !wanted_hz || is_wanted(ping.frequency_hz, *wanted_hz);
-    if (is_read && ping.count > 0 && ping.sectors > 0) ping.pulse = pulse_of(found->second);
+    if (is_read && ping.count > 0 && ping.sectors > 0) {
+        make_pulse(found->second, settings.pulse_values);
+        if (found->second.is_sweep) ping.pulse = found->second.pulse;
+    }
     return ping;
 }
 

@@ -61,7 +61,7 @@ std::vector<std::complex<double>> complex_samples(const EkPing& ping) {
     for (std::size_t k = 0; k < sectors * ping.count; ++k)
         out[k / sectors] +=
             std::complex<double>(number(2 * k), number(2 * k + 1)) / static_cast<double>(sectors);
-    return ping.pulse.empty() ? out : compressed(out, ping.pulse);
+    return ping.pulse ? compressed(out, *ping.pulse) : out;
 }
 
 /// The levels of the samples in dB re 1 W.

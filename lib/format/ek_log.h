@@ -2,6 +2,7 @@
 
 #include <complex>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -23,8 +24,9 @@ struct EkPing {
     int sectors = 0;     ///< 0: the samples are int16
     double watts = 0.0;  ///< for each squared unit of the mean of the sectors
     bool has_half_floats = false;
-    /// The sweep behind the receiver's filters; empty for a pulse of one frequency.
-    std::vector<std::complex<double>> pulse;
+    /// The sweep behind the receiver's filters, which pings share; null for a pulse of one
+    /// frequency.
+    std::shared_ptr<const std::vector<std::complex<double>>> pulse;
 };
 
 /// The datagrams of a .raw file, each from its type of four letters on. Throws std::runtime_error

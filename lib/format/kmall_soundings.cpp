@@ -45,7 +45,8 @@ LoggedSoundings soundings_of(std::string_view datagram) {
         throw std::runtime_error("has a ping with impossible numbers");
     ping.frequency_hz = 0.5 * (field_at<float>(datagram, info + lowest_frequency_at) +
                                field_at<float>(datagram, info + highest_frequency_at));
-    // Depth points are below the vessel's reference point; both others are below or above it.
+    // Depths of soundings count from the vessel's reference point, as that of the water level does;
+    // that of the transmitter counts from the water level.
     const double tx_below_m = field_at<float>(datagram, info + water_level_at) +
                               field_at<float>(datagram, info + tx_depth_at);
     const std::size_t rx =

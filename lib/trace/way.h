@@ -33,7 +33,7 @@ struct Way {
 
     struct Reflector {
         Eigen::Vector3f point, normal;
-        bool is_water;
+        bool is_water = false;
     };
 
     std::uint32_t source = 0;  ///< index into Samples::items

@@ -92,6 +92,10 @@ TEST_SUITE("assembly") {
         std::vector<Sonar> others{resting_sounder({})};
         add_water_ages({}, poses, others);
         CHECK(!others[0].water_ages);
+        // Nor with speckle that is drawn for each ping.
+        others[0].config.instrument.speckle.mode = SpeckleMode::ping;
+        add_water_ages(mission, poses, others);
+        CHECK(!others[0].water_ages);
     }
 
     // 30 bins of water, two resolutions apart, in 60 pings. Where pings are independent, the mean

@@ -71,11 +71,43 @@ TEST_SUITE("format") {
                                  ek80_parameter("B", settings, 1, "1.0E-05") + ping,
                              10, 38000.0)
                   .pings.size() == 1);
-        CHECK(message_of_log(ek80_head() + ek80_filter("B", 1, 0, {1.0, 0.0}) +
-                             ek80_parameter("B", settings, 1, "1.0E-05") + ping)
-                  .find("impossible numbers") != std::string::npos);
-        CHECK(message_of_log(ek80_head() + head + ek80_parameter("B", "Slope=\"0.9\"", 1) + ping)
-                  .find("impossible numbers") != std::string::npos);
+    }
+
+    TEST_CASE("ek80: sweeps and filters with impossible numbers are refused") {
+        MadeBytes samples;
+        samples.f32(1.0).f32(0.0);
+        const std::string ping = ek80_ping("B", 8 + 256, 1, samples.text);
+        const std::string head = ek80_head() + ek80_filter("B", 1, 1, {1.0, 0.0});
+        const std::string settings =
+            "FrequencyStart=\"45000\" FrequencyEnd=\"75000\" PulseDuration=\"1E-3\" Slope=\"0.05\"";
+        const auto is_refused = [&](const std::string& file, const char* reason) {
+            return message_of_log(file + ping).find(reason) != std::string::npos;
+        };
+        const std::string usual = ek80_parameter("B", settings, 1, "1.0E-05");
+        CHECK(message_of_log(head + usual + ping) == "accepted");
+        CHECK(is_refused(ek80_head() + ek80_filter("B", 1, 0, {1.0, 0.0}) + usual,
+                         "filter (FIL1 datagram) with impossible numbers"));
+        CHECK(is_refused(head + ek80_parameter("B", "PulseDuration=\"1E-3\" Slope=\"0.9\"", 1),
+                         "sweep with impossible numbers"));
+        std::string filters;
+        for (int stage = 2; stage < 10; ++stage)
+            filters += ek80_filter("B", stage, 1, {1.0, 0.0});
+        CHECK(is_refused(head + filters + usual, "more than 8 filters"));
+        // Frequencies over the shortest of durations are no overflow.
+        const char* shortest =
+            "FrequencyStart=\"1\" FrequencyEnd=\"9E7\" PulseDuration=\"1E-305\" Slope=\"0\"";
+        CHECK(message_of_log(head + ek80_parameter("B", shortest, 1, "1E-305") + ping) ==
+              "accepted");
+        // Each of these sweeps has 99,100 samples or more: the limit is 2^24.
+        std::string sweeps = head;
+        for (int k = 0; k < 170; ++k)
+            sweeps += ek80_parameter("B",
+                                     "FrequencyStart=\"1\" FrequencyEnd=\"9\" Slope=\"0\" "
+                                     "PulseDuration=\"0.99" +
+                                         std::to_string(k + 100) + "\"",
+                                     1, "1.0E-05") +
+                      ping;
+        CHECK(message_of_log(sweeps).find("too often") != std::string::npos);
     }
 
     TEST_CASE("ek60: power of one of two channels") {

@@ -25,7 +25,7 @@ struct EdgeSearch {
 
 /// The edges of an image along one direction. The image is cut across that direction into strips as
 /// wide as the window. The means of a strip's rows show where a level steps by 6 dB or more between
-/// the outer halves of a window about the step. The powers of that window, not averaged and not
+/// the outer quarters of a window about the step. The powers of that window, not averaged and not
 /// smoothed, give its width: see width_of_step().
 std::vector<Edge> edges_of(const ImageView& image, const EdgeSearch& search, StepAlong along);
 
