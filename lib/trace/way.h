@@ -49,7 +49,7 @@ struct Way {
 /// Goes on behind a reflection.
 void reflect(const Meeting& at, Way& way);
 
-/// What the rays of ways meet first, and their number added to `counts`.
+/// The first hits of the rays of ways. Their number is added to `counts`.
 std::vector<Intersection> cast_ways(const TraceContext& trace, std::span<const Way> ways,
                                     MultipathCounts& counts);
 
