@@ -194,48 +194,6 @@ TEST_SUITE("calibrated") {
         CHECK(water_image(model, view, {7, 2, 0}) != water_image(model, view, {7, 2, 1}));
     }
 
-    // With a and b the ages of two pings and w the weights of the draws of whole ages, amplitudes
-    // have the correlation r = sum w(a) w(b), and powers, of normal amplitudes, r^2. 45 bins in
-    // each of 40 seeds and 5 pairs of ages: for exponential powers of the mean 1 the variance of
-    // (I_a - 1) (I_b - 1) is 8 for r = 1 and 1 for r = 0, so 9,000 such products have a mean within
-    // 0.12 and 0.042 (4 sigma); in between it is below 1 + 7 r^2.
-    TEST_CASE("water: its speckle changes with its age") {
-        const View view = view_of(ViewShape::cone, 40.0, 40.0, 1);
-        const CalibratedModel model = sounder(SpeckleMode::scene);
-        const std::vector<float> expected = water_image(sounder(SpeckleMode::none), view);
-        const auto weight = [](double whole, double age) {
-            const double past = age - whole;
-            return past > -1.0 && past < 1.0 ? std::cos(0.5 * pi * past) : 0.0;
-        };
-        for (const double apart : {0.0, 0.3, 0.6, 1.0, 1.5, 2.0}) {
-            double product = 0.0;
-            double predicted = 0.0;
-            for (int k = 0; k < 5; ++k) {
-                const double first = 0.1 + 0.2 * k;
-                double r = 0.0;
-                for (int whole = 0; whole < 5; ++whole)
-                    r += weight(whole, first) * weight(whole, first + apart);
-                predicted += 0.2 * r * r;
-                for (std::uint64_t seed = 0; seed < 40; ++seed) {
-                    TracedPing traced;
-                    traced.water_age = first;
-                    const PingDraws draws{40 * k + seed, 2, 0};
-                    const auto before = image_of_traced(model, view, traced, {}, draws);
-                    traced.water_age = first + apart;
-                    const auto after = image_of_traced(model, view, traced, {}, {draws.seed, 2, 1});
-                    for (int row = 10; row < 190; row += 4) {
-                        if (apart == 0.0)
-                            CHECK(after[row] == doctest::Approx(before[row]).epsilon(1e-4));
-                        product += (before[row] / expected[row] - 1.0) *
-                                   (after[row] / expected[row] - 1.0) / 9000.0;
-                    }
-                }
-            }
-            MESSAGE(apart, " ages apart: ", product, ", by the weights ", predicted);
-            CHECK(std::fabs(product - predicted) < 0.042 * std::sqrt(1.0 + 7.0 * predicted));
-        }
-    }
-
     // The sonar is 3 m below the surface and looks straight down: the layer from 8 to 11 m of depth
     // lies between 5 and 8 m of range, but for the edge of a 7 degree beam, 0.02 m.
     TEST_CASE("water: a layer is at its depth, and the water ends at the bottom") {
