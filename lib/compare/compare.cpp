@@ -68,9 +68,10 @@ void adjust(std::vector<ComparedFigure>& figures) {
 }
 
 /// A figure of places that both recordings have differs only if their exchange says so, too: tails
-/// that a few bright places make are not Student's.
+/// that a few bright places make are not Student's. One without any variance has no such tails.
 void adjust_by_exchange(std::vector<ComparedFigure>& figures, const std::vector<double>& p) {
     for (std::size_t i = 0; i < figures.size(); ++i) {
+        if (figures[i].estimate.difference_error == 0.0) continue;
         figures[i].adjusted_p = std::max(figures[i].adjusted_p, p[i]);
         figures[i].differs = figures[i].adjusted_p < significance;
     }

@@ -120,6 +120,17 @@ TEST_SUITE("compare") {
         CHECK(exchange_p({{&real, &simulated, 0.1}}, 1).front() == doctest::Approx(1.0 / 500.0));
     }
 
+    TEST_CASE("compare: images of one value differ from those of another") {
+        const auto constant = [](float value) {
+            Recording out = drawn_recording(1, {});
+            for (RecordedPing& ping : out.pings)
+                std::ranges::fill(ping.values, value);
+            return out;
+        };
+        CHECK(compare_recordings(constant(9.0F), constant(9.0F)).is_same());
+        CHECK_FALSE(compare_recordings(constant(9.0F), constant(90.0F)).is_same());
+    }
+
     TEST_CASE("compare: recordings that cannot be compared are refused") {
         Recording other = drawn_recording(1, {});
         other.kind = RecordedKind::echosounder;
