@@ -84,7 +84,7 @@ void describe(Visitor& v, WaterConfig& c) {
     v.number_or_auto("drift_rms_m_s", c.drift_rms_m_s, between(0, 100),
                      "RMS speed at which the water's scatterers drift apart, one component: pings "
                      "close in time from one place keep a part of the water's speckle; with "
-                     "`auto` each ping has its own");
+                     "`auto`, and with `speckle: ping` of the sonar, each ping has its own");
     v.numbers("current_m_s", c.current_m_s, between(-100, 100),
               "velocity of the water in the world, which carries its speckle past the sonar");
     v.require(c.drift_rms_m_s || c.current_m_s == std::array<double, 3>{},

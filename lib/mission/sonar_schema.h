@@ -54,11 +54,13 @@ void describe(Visitor& v, MultipathConfig& c) {
     v.integer("columns_per_beam", c.columns_per_beam, between(1, 16),
               "trace each beam of a fan as so many narrower ones: more of the echoes of small "
               "facets are found, and a ping takes so many times as long");
-    v.integer("retraced", c.retraced, between(0, 16),
-              "calibrated model: sound also goes over up to so many reflections out, and over up to "
-              "so many back, as the echoes behind the wall of a tank do; 0: none");
+    v.integer(
+        "retraced", c.retraced, between(0, 16),
+        "calibrated model: sound also goes over up to so many reflections out, and over up to "
+        "so many back, as the echoes behind the wall of a tank do; 0: none");
     v.number("retraced_loss_db", c.retraced_loss_db, between(0, 300),
-             "ways are followed until their reflections, out and back, take more than this");
+             "ways are followed until the reflections of out and back together take more "
+             "than this");
     v.require(c.retraced == 0 || c.method != MultipathMethod::none, {"retraced", "method"},
               "multipath.retraced needs multipath.method: cluster or exact");
 }
