@@ -175,7 +175,8 @@ TEST_CASE("slices: triangles that touch the view's border from outside have no p
             bin_pieces(make_clusters(scene), view, local_pose(Pose{}, scene.origin));
         REQUIRE(pieces);
         double sum = 0.0;
-        for (const BinPiece& piece : pieces->pieces) sum += static_cast<double>(piece.area_m2);
+        for (const BinPiece& piece : pieces->pieces)
+            sum += static_cast<double>(piece.area_m2);
         // Within 1e-4 beams of a corner, a triangle of 40 m^2 has less than 1e-6 m^2.
         CHECK(sum < 1e-6);
     }
