@@ -12,6 +12,7 @@
 #include "compare/report.h"
 #include "compare/student.h"
 #include "core/error.h"
+#include "support/sanitized.h"
 
 using namespace sonarsim;
 using sonarsim::test::drawn_recording;
@@ -28,7 +29,8 @@ const ComparedFigure& figure_of(const Comparison& comparison, const std::string&
 }  // namespace
 
 TEST_SUITE("compare") {
-    TEST_CASE("compare: two draws of one law are the same in 95 of 100 pairs") {
+    TEST_CASE("compare: two draws of one law are the same in 95 of 100 pairs" *
+              doctest::skip(test::sanitized)) {
         // Each pair is called different with a probability of at most 5 %; 4 or more of 10 are so
         // with a probability of 0.001, the significance of this test.
         int different = 0;

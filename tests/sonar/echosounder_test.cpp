@@ -6,6 +6,7 @@
 #include "product/echogram.h"
 #include "sonar/kinds.h"
 #include "sonar/sonar.h"
+#include "support/sanitized.h"
 #include "support/scenes.h"
 #include "validation/image_error.h"
 #include "validation/reference.h"
@@ -113,7 +114,7 @@ TEST_CASE("echosounder: range noise does not fade") {
     CHECK(latest > 0.2);  // the largest of 20 draws of mean 0.3 m; below 0.2 once in 10^6
 }
 
-TEST_CASE("echosounder: on rough ground the error goal is met") {
+TEST_CASE("echosounder: on rough ground the error goal is met" * doctest::skip(test::sanitized)) {
     const Scene scene = rough_floor();
     const Caster caster(scene);
     SonarConfig config = echosounder();

@@ -53,7 +53,7 @@ Pose looking_down(double pitch_deg, const Eigen::Vector3d& at) {
 // The tolerances below are relative L1 against the reference, per leaf size: a coarse leaf blurs
 // edges and shadows by about its own size.
 
-TEST_CASE("octree image: a closed box room") {
+TEST_CASE("octree image: a closed box room" * doctest::skip(test::sanitized)) {
     Scene scene = test::empty_scene();
     test::add_box(scene, {-4, -3, 0}, {4, 3, 3}, test::add_material(scene, 0.5F));
     const Trial trial(scene, looking_down(15.0, {-3, 0.2, 1.5}));
@@ -63,7 +63,7 @@ TEST_CASE("octree image: a closed box room") {
     CHECK(trial.octree_error(0.0) < 0.03);
 }
 
-TEST_CASE("octree image: an open seafloor") {
+TEST_CASE("octree image: an open seafloor" * doctest::skip(test::sanitized)) {
     Scene scene = test::empty_scene();
     test::add_floor(scene, 30.0F, 0.0F, test::add_material(scene, 0.3F), 20);
     const Trial trial(scene, looking_down(20.0, {0, 0, 2}));
@@ -85,7 +85,7 @@ TEST_CASE("octree image: a thin plate on a floor, its two faces in one leaf") {
     CHECK(trial.octree_error(0.02) < 0.03);
 }
 
-TEST_CASE("octree image: a pole thinner than a leaf") {
+TEST_CASE("octree image: a pole thinner than a leaf" * doctest::skip(test::sanitized)) {
     Scene scene = test::empty_scene();
     test::add_floor(scene, 15.0F, 0.0F, test::add_material(scene, 0.2F));
     test::add_pole(scene, {4.0F, 0.3F, 0.0F}, 0.01F, 2.0F, test::add_material(scene, 0.9F), 16);
