@@ -12,7 +12,8 @@ namespace sonarsim {
 
 namespace {
 
-/// The end of a way may lie so far from its piece: half a bin, and the rounding of the rays.
+/// The end of a way may lie so far from its piece: half a bin, and the rounding of the rays. The
+/// latter is chosen.
 float slack_at(const View& view, float range_m) {
     return 0.5F * static_cast<float>(view.bin_m()) + 1e-3F * range_m;
 }

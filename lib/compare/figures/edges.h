@@ -25,8 +25,8 @@ struct EdgeSearch {
 
 /// The edges of an image along one direction. The image is cut across that direction into strips as
 /// wide as the window. The means of a strip's rows show where a level steps by 6 dB or more between
-/// the outer quarters of a window about the step. The powers of that window, not averaged and not
-/// smoothed, give its width: see width_of_step().
+/// the outer quarters of a window about the step. The powers of that window, not smoothed along the
+/// step, give its width: see width_of_step().
 std::vector<Edge> edges_of(const ImageView& image, const EdgeSearch& search, StepAlong along);
 
 /// Powers of a window, [along the step, across it].
@@ -41,7 +41,8 @@ struct StepWindow {
     }
 };
 
-/// The width of a step, from 10 to 90 %, in bins; NaN if the window has none. The mean power is
+/// The width of a step, from 10 to 90 %, in bins; NaN if the window has none. Each row has two
+/// values, the means of the halves of the window across the step. The mean power is
 /// taken as d + (b - d) Phi((x - x0 - g y) / s), Phi the normal distribution's integral, with the
 /// levels d and b, the place x0, the slant g and the width s all fitted at once by weighted least
 /// squares. The equations of this fit have the mean 0 at the true values for speckle of any law and

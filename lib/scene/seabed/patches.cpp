@@ -4,24 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include "core/elementary.h"
+#include "core/normal_tail.h"
 #include "core/units.h"
 #include "scene/seabed/smooth_field.h"
 
 namespace sonarsim {
-
-namespace {
-
-/// The probability of a normal number above x >= 0, within 1e-7 (Abramowitz and Stegun 26.2.17).
-double share_above(double x) {
-    const double t = 1.0 / (1.0 + 0.2316419 * x);
-    const double series =
-        t * (0.319381530 +
-             t * (-0.356563782 + t * (1.781477937 + t * (-1.821255978 + t * 1.330274429))));
-    return exponential(-0.5 * x * x) / std::sqrt(2.0 * pi) * series;
-}
-
-}  // namespace
 
 double normal_quantile(double probability) {
     const double tail = std::min(probability, 1.0 - probability);
@@ -31,7 +18,7 @@ double normal_quantile(double probability) {
     double high = 40.0;
     for (int i = 0; i < 60; ++i) {
         const double middle = 0.5 * (low + high);
-        (share_above(middle) > tail ? low : high) = middle;
+        (normal_tail(middle) > tail ? low : high) = middle;
     }
     return std::copysign(low, probability - 0.5);
 }
