@@ -153,6 +153,7 @@ void AdaptiveSlices::refine(const SliceErrorLimit& most) {
         // The mean lets a dim beam have a larger share of its signal in error than a bright one.
         const double mean = 0.5 * (beam.signal + (sum_.signal + beam.signal) / times_);
         if (beam.difference <= most.share * mean + carry_over || worst == subgaps_.size()) {
+            last_difference_ = beam.difference;
             sum_.difference += beam.difference;
             sum_.signal += beam.signal;
             return;

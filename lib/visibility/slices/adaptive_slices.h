@@ -59,6 +59,9 @@ class AdaptiveSlices {
     /// The sum over all gaps so far.
     const SliceError& sum() const { return sum_; }
 
+    /// The difference in the last gaps, a part of sum().
+    double last_difference() const { return last_difference_; }
+
   private:
     /// An interval between two neighbouring slices; indices into results_.
     struct Subgap {
@@ -120,6 +123,7 @@ class AdaptiveSlices {
     const float same_range_m_;
     float last_signal_ = 0.0F;  ///< signal of a whole beam
     SliceError sum_;
+    double last_difference_ = 0.0;
     double times_ = 0.0;  ///< number of refinements so far
 };
 

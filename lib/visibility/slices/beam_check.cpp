@@ -3,23 +3,27 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/random.h"
 #include "visibility/slices/patch_limits.h"
 
 namespace sonarsim {
 
 namespace {
 
-constexpr PhiloxKey draw_key{0x64726177U, 0};
-
 // Views of up to this many beams are checked whole, since one of their beams may have a large share
 // of the error. Set after a drawn lattice of 64 beams was missed with 16 of them.
 constexpr int few_beams = 64;
 
 // The number of drawn beams of others if all may have errors, and how many times more are drawn
-// where it decides. The first was chosen among 12, 16, 32 and all for its cost.
-constexpr int drawn_beams = 16;
-constexpr std::uint32_t more_if_close = 4;
+// where it decides. Chosen for cost: by 16 beams the error is known to 43 % in the lifeboat and to
+// 25 % in the wreck, and a third and two thirds of their pings had to be seen again.
+constexpr int drawn_beams = 32;
+constexpr double more_if_close = 2.0;
+
+// A beam's rate is this share of the calm rate at least; the rest of it grows with the disagreement
+// of the beam's slices, up to so many times the mean. Chosen on the lifeboat, the wreck and the
+// tank: half the standard deviation of draws with equal rates, two thirds and nine tenths.
+constexpr double least_share_of_rate = 0.5;
+constexpr double most_times_the_mean = 8.0;
 
 // Errors per distance of a checked beam, whose check is returned, and of another beam; see
 // BeamCheck.
@@ -56,8 +60,14 @@ double student(double degrees) {
     return z + (first + second / degrees) / degrees;
 }
 
-std::uint32_t calm_step(const View& view, BeamsToCheck which) {
-    return which == BeamsToCheck::all ? 1U : static_cast<std::uint32_t>(view.beams / drawn_beams);
+double calm_rate(const View& view, BeamsToCheck which) {
+    switch (which) {
+        case BeamsToCheck::drawn: return static_cast<double>(drawn_beams) / view.beams;
+        case BeamsToCheck::half: return 0.5;
+        case BeamsToCheck::all: break;
+    }
+    // Whatever the slices' disagreement is, the rate is 1.
+    return 1.0 / least_share_of_rate;
 }
 
 /// The patches of the check are those of a third of the error goal at most.
@@ -78,24 +88,25 @@ BeamCheck::BeamCheck(const View& view, BeamsToCheck which, const FrameScan& scan
     : sums_(view),
       sampler_(scan, materials, fine_limits(view), sums_, samples_),
       quads_(scan, fine_limits(view), sampler_),
-      calm_step_(calm_step(view, which)),
+      calm_rate_(calm_rate(view, which)),
       all_(view.beams <= 2) {}
 
-std::uint32_t BeamCheck::step_for(bool closely, double wrong_bins) const {
-    const std::uint32_t step = closely ? calm_step_ / more_if_close : calm_step_;
-    const double most = std::max(wrong_bins / bins_of_one_cause, 1.0);
-    return std::max(most < step ? static_cast<std::uint32_t>(most) : step, 1U);
+double BeamCheck::rate(double difference, bool closely, double wrong_bins) {
+    ++uncertain_;
+    differences_ += difference;
+    const double mean = differences_ / uncertain_;
+    const double times = mean > 0.0 ? std::min(difference / mean, most_times_the_mean) : 1.0;
+    const double own = least_share_of_rate + (1.0 - least_share_of_rate) * times;
+    // Drawn beams of too few bins would miss the errors of others: they have at least
+    // bins_of_one_cause wrong bins if the image just meets its goal.
+    const double least = bins_of_one_cause / std::max(wrong_bins, bins_of_one_cause);
+    return std::max((closely ? more_if_close : 1.0) * calm_rate_ * own, least);
 }
 
 bool BeamCheck::look_at(AdaptiveSlices& adaptive, bool closely, double wrong_bins) {
     if (!all_ && !adaptive.uncertain()) return false;
-    const std::uint32_t at = uncertain_++;
-    if (at == begin_ + step_) {
-        begin_ = at;
-        step_ = step_for(closely, wrong_bins);
-        next_ = begin_ + philox({at, 0, 0, 0}, draw_key).x0 % step_;
-    }
-    if (at != next_) return false;
+    weight_ = draw_.weight(rate(adaptive.last_difference(), closely, wrong_bins));
+    if (!(weight_ > 0.0)) return false;
     samples_.clear();
     sums_.clear();
     for (const Strip& strip : adaptive.check_strips())
@@ -105,7 +116,7 @@ bool BeamCheck::look_at(AdaptiveSlices& adaptive, bool closely, double wrong_bin
 }
 
 void BeamCheck::hand_over(BeamErrors& errors) const {
-    errors.add_check(sums_, 1.0 / static_cast<double>(step_));
+    errors.add_check(sums_, weight_);
 }
 
 double likely_error(const BeamErrors& errors) {

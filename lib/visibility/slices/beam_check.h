@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "visibility/slices/adaptive_slices.h"
+#include "visibility/slices/beam_draw.h"
 #include "visibility/slices/beam_errors.h"
 #include "visibility/slices/quad_samples.h"
 #include "visibility/slices/strip_quads.h"
@@ -12,7 +13,7 @@
 namespace sonarsim {
 
 /// The beams that are checked, among those that may have errors.
-enum class BeamsToCheck { drawn, all };
+enum class BeamsToCheck { drawn, half, all };
 
 /// Views of few beams and those with fine goals are checked whole at first.
 BeamsToCheck beams_to_check(const View& view);
@@ -45,10 +46,11 @@ BeamsToCheck beams_to_check(const View& view);
 /// C has the patches of a third of the error goal and does not join them over slices. So D contains
 /// the errors of A's patches as well.
 ///
-/// Beams that may have errors are grouped by `step` neighbours, and one of each group is drawn.
-/// The draw is independent of the errors, so the sum of `step` D over the drawn beams is an
-/// unbiased estimate of the sum over all beams. A beam needs no check if neighbouring slices
-/// predict the same image and no triangle lies between them.
+/// Beams that may have errors are drawn (beam_draw.h), twice as often if their slices disagree three
+/// times as much as the others' on average. The draw is independent of the errors, so the sum of D
+/// over the drawn beams, each times the number of beams that it stands for, is an unbiased estimate
+/// of the sum over all beams, however badly the disagreement predicts D. A beam needs no check if
+/// neighbouring slices predict the same image and no triangle lies between them.
 class BeamCheck {
   public:
     /// All arguments but `view` must outlive it.
@@ -67,21 +69,20 @@ class BeamCheck {
     const std::vector<Sample>& samples() const { return samples_; }
 
   private:
-    /// The size of the next group. Drawn beams of too few bins would miss the errors of others:
-    /// they have at least bins_of_one_cause wrong bins if the image just meets its goal.
-    std::uint32_t step_for(bool closely, double wrong_bins) const;
+    /// The rate at which a beam is drawn whose slices disagree by `difference`.
+    double rate(double difference, bool closely, double wrong_bins);
 
     std::vector<Sample> samples_;
     BeamSums sums_;
     QuadSampler sampler_;
     StripQuads quads_;
-    const std::uint32_t calm_step_;  ///< `step` while the errors are small
+    const double calm_rate_;  ///< of a beam with the mean difference while the errors are small
     /// Several frames may share a beam of a view with one or two, and make its image together.
     const bool all_;
-    std::uint32_t uncertain_ = 0;  ///< number of uncertain beams so far
-    std::uint32_t begin_ = 0;      ///< first uncertain beam of the group
-    std::uint32_t step_ = 0;       ///< number of uncertain beams in the group
-    std::uint32_t next_ = 0;       ///< the beam of the group that is drawn
+    BeamDraw draw_;
+    double differences_ = 0.0;  ///< of the uncertain beams so far
+    int uncertain_ = 0;         ///< their number
+    double weight_ = 0.0;       ///< the number of beams that the last one stands for
 };
 
 /// The expected error of an image as a share of its signal.

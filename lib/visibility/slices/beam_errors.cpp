@@ -43,9 +43,9 @@ void BeamErrors::begin_beam(int beam) {
     beam_ = beam;
 }
 
-void BeamErrors::add_check(const BeamSums& check, double share) {
+void BeamErrors::add_check(const BeamSums& check, double weight) {
     check_.add(check);
-    share_ = share;
+    weight_ = weight;
 }
 
 double BeamErrors::others_deviation() const {
@@ -60,22 +60,24 @@ double BeamErrors::root_of_runs() const {
     return signal_ > 0.0 ? std::sqrt(runs_) / signal_ : 0.0;
 }
 
-/// One of `step` beams is drawn, so step - 1 times its distance is that of the others on average.
-/// The mean square of the difference of two draws is twice their variance.
+/// A beam that stands for `weight` beams has `weight` - 1 times its distance for the others. The
+/// mean square of the difference of two draws is twice their variance; a beam that stands for itself
+/// alone has none.
 void BeamErrors::end_beam() {
-    add_edge_bins(share_ > 0.0 ? check_ : sums_);
-    if (share_ > 0.0) {
-        const double step = 1.0 / share_;
+    const bool drawn = weight_ > 0.0;
+    add_edge_bins(drawn ? check_ : sums_);
+    if (drawn) {
         const double distance = BeamSums::difference(sums_, check_);
-        const double change = last_ < 0.0 ? 0.0 : distance - last_;
+        const double total = weight_ * distance;
+        const double change = last_ < 0.0 ? 0.0 : total - last_;
         checked_ += distance;
         squares_ += BeamSums::squared_difference(sums_, check_);
         runs_ += BeamSums::squared_runs(sums_, check_);
-        others_ += (step - 1.0) * distance;
-        variance_ += 0.5 * step * (step - 1.0) * change * change;
-        last_ = distance;
+        others_ += total - distance;
+        variance_ += 0.5 * (1.0 - 1.0 / weight_) * change * change;
+        last_ = total;
         check_.clear();
-        share_ = 0.0;
+        weight_ = 0.0;
     }
     sums_.clear();
 }

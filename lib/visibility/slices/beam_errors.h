@@ -21,8 +21,8 @@ class BeamErrors {
 
     BeamSums& sums() { return sums_; }
 
-    /// Adds surface of the beam's check. The beam was drawn from 1 / `share` beams.
-    void add_check(const BeamSums& check, double share);
+    /// Adds surface of the beam's check. The beam was drawn and stands for `weight` beams.
+    void add_check(const BeamSums& check, double weight);
 
     /// The expected error of edge bins over the finished beams.
     double edge_bins() const { return signal_ > 0.0 ? edge_bins_ / signal_ : 0.0; }
@@ -58,7 +58,7 @@ class BeamErrors {
 
     BeamSums sums_;
     BeamSums check_;
-    double share_ = 0.0;  ///< one of 1 / share_ beams was drawn, this one; 0: not this one
+    double weight_ = 0.0;  ///< the number of beams that this one stands for; 0: it was not drawn
     int beam_ = -1;
     double signal_ = 0.0;  ///< intensities of all bins of all beams
     double edge_bins_ = 0.0;
@@ -68,7 +68,7 @@ class BeamErrors {
     double occupied_ = 0.0;
     double others_ = 0.0;
     double variance_ = 0.0;
-    double last_ = -1.0;  ///< distance of the last drawn beam; negative: none
+    double last_ = -1.0;  ///< distance of the last drawn beam, times its weight; negative: none
 };
 
 }  // namespace sonarsim

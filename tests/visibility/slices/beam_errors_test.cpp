@@ -80,13 +80,13 @@ TEST_CASE("slices: the error of edge bins is that of the beams so far") {
 TEST_CASE("slices: a drawn beam has its check's image, and stands for its neighbours") {
     // Intensity is 1 everywhere. Beam 0 has bins 2 to 4 and its check bins 2 to 5: distance 1, of
     // two bins if a check has bins 3 to 5.
-    const auto errors_with = [](const Interval& check_m, double share) -> BeamErrors {
+    const auto errors_with = [](const Interval& check_m, double weight) -> BeamErrors {
         BeamErrors errors(ten_bins());
         errors.begin_beam(0);
         errors.sums().add({2.5F, 4.5F}, 2.0F, 4.5F, 1.0F);
         BeamSums check(ten_bins());
         check.add(check_m, 1.0F, check_m.to, 1.0F);
-        errors.add_check(check, share);
+        errors.add_check(check, weight);
         errors.finish();
         return errors;
     };
@@ -94,7 +94,7 @@ TEST_CASE("slices: a drawn beam has its check's image, and stands for its neighb
     CHECK(whole.of_checked() == doctest::Approx(1.0 / 4.0));  // the check has four bins
     CHECK(whole.of_others() == 0.0);
     CHECK(whole.root_of_squares() == doctest::Approx(1.0 / 4.0));
-    const BeamErrors drawn = errors_with({3.5F, 5.5F}, 0.25);
+    const BeamErrors drawn = errors_with({3.5F, 5.5F}, 4.0);
     CHECK(drawn.of_checked() == doctest::Approx(2.0 / 3.0));
     CHECK(drawn.of_others() == doctest::Approx(3.0 * 2.0 / 3.0));
     CHECK(drawn.root_of_squares() == doctest::Approx(std::sqrt(2.0) / 3.0));

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+
+namespace sonarsim {
+
+/// Draws beams at random, each with a rate of its own.
+///
+/// The rates are laid end to end on a line. Each unit of the line has one random point, and a beam
+/// is drawn as often as points lie on its rate. So the expected number of draws of a beam is its
+/// rate, whatever the others are. Let a beam that is drawn n times stand for n / rate beams: a sum
+/// over all beams is then estimated without bias (Hansen and Hurwitz 1943), and one draw is made per
+/// unit, as with strata.
+class BeamDraw {
+  public:
+    BeamDraw();
+
+    /// The number of beams that the next one stands for; 0 if it is not drawn. A rate is above 0; a
+    /// beam with a rate of 1 or more is always drawn, for itself alone.
+    double weight(double rate);
+
+  private:
+    double rates_ = 0.0;       ///< sum so far
+    std::uint32_t units_ = 0;  ///< those whose point was passed
+    double next_;              ///< the next point on the line
+};
+
+}  // namespace sonarsim
