@@ -62,9 +62,12 @@ double student(double degrees) {
 
 double calm_rate(const View& view, BeamsToCheck which) {
     switch (which) {
-        case BeamsToCheck::drawn: return static_cast<double>(drawn_beams) / view.beams;
-        case BeamsToCheck::half: return 0.5;
-        case BeamsToCheck::all: break;
+        case BeamsToCheck::drawn:
+            return static_cast<double>(drawn_beams) / view.beams;
+        case BeamsToCheck::half:
+            return 0.5;
+        case BeamsToCheck::all:
+            break;
     }
     // Whatever the slices' disagreement is, the rate is 1.
     return 1.0 / least_share_of_rate;

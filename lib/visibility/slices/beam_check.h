@@ -46,11 +46,11 @@ BeamsToCheck beams_to_check(const View& view);
 /// C has the patches of a third of the error goal and does not join them over slices. So D contains
 /// the errors of A's patches as well.
 ///
-/// Beams that may have errors are drawn (beam_draw.h), twice as often if their slices disagree three
-/// times as much as the others' on average. The draw is independent of the errors, so the sum of D
-/// over the drawn beams, each times the number of beams that it stands for, is an unbiased estimate
-/// of the sum over all beams, however badly the disagreement predicts D. A beam needs no check if
-/// neighbouring slices predict the same image and no triangle lies between them.
+/// Beams that may have errors are drawn (beam_draw.h), twice as often if their slices disagree
+/// three times as much as the others' on average. The draw is independent of the errors, so the sum
+/// of D over the drawn beams, each times the number of beams that it stands for, is an unbiased
+/// estimate of the sum over all beams, however badly the disagreement predicts D. A beam needs no
+/// check if neighbouring slices predict the same image and no triangle lies between them.
 class BeamCheck {
   public:
     /// All arguments but `view` must outlive it.
@@ -76,12 +76,13 @@ class BeamCheck {
     BeamSums sums_;
     QuadSampler sampler_;
     StripQuads quads_;
-    const double calm_rate_;  ///< of a beam with the mean difference while the errors are small
+    /// The rate of a beam with the mean difference, while the errors are small.
+    const double calm_rate_;
     /// Several frames may share a beam of a view with one or two, and make its image together.
     const bool all_;
     BeamDraw draw_;
-    double differences_ = 0.0;  ///< of the uncertain beams so far
-    int uncertain_ = 0;         ///< their number
+    int uncertain_ = 0;         ///< number of uncertain beams so far
+    double differences_ = 0.0;  ///< sum of their differences
     double weight_ = 0.0;       ///< the number of beams that the last one stands for
 };
 

@@ -9,8 +9,8 @@ namespace sonarsim {
 /// The rates are laid end to end on a line. Each unit of the line has one random point, and a beam
 /// is drawn as often as points lie on its rate. So the expected number of draws of a beam is its
 /// rate, whatever the others are. Let a beam that is drawn n times stand for n / rate beams: a sum
-/// over all beams is then estimated without bias (Hansen and Hurwitz 1943), and one draw is made per
-/// unit, as with strata.
+/// over all beams is then estimated without bias (Hansen and Hurwitz 1943), and one draw is made
+/// per unit, as with strata.
 class BeamDraw {
   public:
     BeamDraw();
@@ -21,7 +21,7 @@ class BeamDraw {
 
   private:
     double rates_ = 0.0;       ///< sum so far
-    std::uint32_t units_ = 0;  ///< those whose point was passed
+    std::uint32_t units_ = 0;  ///< number of units whose point was passed
     double next_;              ///< the next point on the line
 };
 

@@ -61,8 +61,8 @@ double BeamErrors::root_of_runs() const {
 }
 
 /// A beam that stands for `weight` beams has `weight` - 1 times its distance for the others. The
-/// mean square of the difference of two draws is twice their variance; a beam that stands for itself
-/// alone has none.
+/// mean square of the difference of two draws is twice their variance; a beam that stands for
+/// itself alone has none.
 void BeamErrors::end_beam() {
     const bool drawn = weight_ > 0.0;
     add_edge_bins(drawn ? check_ : sums_);

@@ -82,7 +82,7 @@ void FrameScan::find_unseen(std::uint32_t gap, std::vector<UnseenPiece>& out) {
 }
 
 void FrameScan::scan_slice(float u, std::span<const Candidate> candidates, SliceResult& out) {
-    segments_at(scene_, u, candidates, segments_);
+    segments_at(scene_, u, candidates, places_, segments_);
     scan_slice(slice_at(frame_, u), segments_, out);
 }
 

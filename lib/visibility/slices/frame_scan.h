@@ -83,6 +83,7 @@ class FrameScan {
     SliceWalk walk_;
     int next_ = 0;
     EnvelopeScratch envelope_;
+    std::vector<std::uint64_t> places_;
     std::vector<Segment> segments_;
     std::optional<Groups> by_gap_;  ///< indices into scene_.in_gaps by gap
     std::vector<std::uint32_t> facets_;

@@ -1,6 +1,7 @@
 #include "visibility/slices/slice_walk.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace sonarsim {
 
@@ -13,6 +14,18 @@ struct Before {
     }
 };
 constexpr Before before;
+
+float w_low_at(const Trapezoid& trapezoid, float u) {
+    return trapezoid.low.w + trapezoid.low.w_slope * (u - trapezoid.low.anchor);
+}
+
+/// A number whose order is that of Before: the bits of w_low, made ascending, and the trapezoid.
+std::uint64_t place_of(float w_low, std::uint32_t trapezoid) {
+    constexpr std::uint32_t sign = 0x80000000U;
+    const auto bits = std::bit_cast<std::uint32_t>(w_low + 0.0F);  // -0 becomes 0
+    const std::uint32_t ascending = (bits & sign) != 0 ? ~bits : bits | sign;
+    return std::uint64_t{ascending} << 32 | trapezoid;
+}
 
 /// Takes linear time for nearly sorted lists.
 void insertion_sort(std::vector<Segment>& segments) {
@@ -31,7 +44,7 @@ void evaluate(const SliceScene& scene, float u, std::vector<Segment>& segments) 
         const Trapezoid& t = scene.trapezoids[segment.trapezoid];
         const float low_aside = u - t.low.anchor;
         const float high_aside = u - t.high.anchor;
-        segment.w_low = t.low.w + t.low.w_slope * low_aside;
+        segment.w_low = w_low_at(t, u);
         // Near a corner the edges may cross by rounding.
         segment.w_high = std::max(t.high.w + t.high.w_slope * high_aside, segment.w_low);
         const float q_low = t.low.q + t.low.q_slope * low_aside;
@@ -57,13 +70,18 @@ Candidate candidate(const SliceScene& scene, std::uint32_t trapezoid) {
 }
 
 void segments_at(const SliceScene& scene, float u, std::span<const Candidate> candidates,
-                 std::vector<Segment>& out) {
-    out.clear();
+                 std::vector<std::uint64_t>& places, std::vector<Segment>& out) {
+    // Numbers are sorted in a third of the time of segments.
+    places.clear();
     for (const Candidate& c : candidates) {
-        if (c.u_from <= u && u < c.u_to) out.push_back(not_evaluated(c.trapezoid));
+        if (c.u_from <= u && u < c.u_to)
+            places.push_back(place_of(w_low_at(scene.trapezoids[c.trapezoid], u), c.trapezoid));
     }
+    std::ranges::sort(places);
+    out.clear();
+    for (const std::uint64_t place : places)
+        out.push_back(not_evaluated(static_cast<std::uint32_t>(place)));
     evaluate(scene, u, out);
-    std::ranges::sort(out, before);
 }
 
 void SliceWalk::start(const SliceScene& scene, const SliceFrame& frame) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "visibility/slices/envelope.h"
@@ -16,9 +18,10 @@ struct Candidate {
 
 Candidate candidate(const SliceScene& scene, std::uint32_t trapezoid);
 
-/// The segments of the candidates that a slice at u meets, sorted by w_low.
+/// The segments of the candidates that a slice at u meets, sorted by w_low. The memory of `places`
+/// is reused.
 void segments_at(const SliceScene& scene, float u, std::span<const Candidate> candidates,
-                 std::vector<Segment>& out);
+                 std::vector<std::uint64_t>& places, std::vector<Segment>& out);
 
 /// Walks the slices of a frame in order and keeps the segments that each of them meets sorted.
 class SliceWalk {

@@ -132,9 +132,8 @@ class SlicesEngine final : public VisibilityEngine {
     /// less error, so half of them lower it to (1 + 1.41) / 2 / 1.41 of that without checks.
     static BeamsToCheck more_beams(BeamsToCheck before, const Pass& seen, double goal) {
         const bool half_suffices = 0.85 * seen.likely_error <= aimed_share * goal;
-        return before == BeamsToCheck::drawn && !seen.few_bins && half_suffices
-                   ? BeamsToCheck::half
-                   : BeamsToCheck::all;
+        return before == BeamsToCheck::drawn && !seen.few_bins && half_suffices ? BeamsToCheck::half
+                                                                                : BeamsToCheck::all;
     }
 
     /// True if the ping needs no further pass, or gets none.

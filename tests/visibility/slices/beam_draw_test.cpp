@@ -10,10 +10,10 @@
 using namespace sonarsim;
 
 TEST_CASE("slices: drawn beams with any rates estimate a sum without bias") {
-    // Values that grow with the rate, so that equal weights would be biased. A beam is drawn n times
-    // with the mean `rate`, so n / rate has the mean 1. Each unit of rates has one point, uniform in
-    // it: the estimate from a unit has at most the variance of one draw from it, the mean of
-    // (value / rate)^2 over the unit.
+    // Values that grow with the rate, so that equal weights would be biased. A beam is drawn n
+    // times with the mean `rate`, so n / rate has the mean 1. Each unit of rates has one point,
+    // uniform in it: the estimate from a unit has at most the variance of one draw from it, the
+    // mean of (value / rate)^2 over the unit.
     std::mt19937 random(7);
     std::uniform_real_distribution<double> any(0.03, 1.0);
     const int beams = test::sanitized ? 20'000 : 200'000;
