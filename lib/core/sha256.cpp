@@ -68,7 +68,10 @@ __attribute__((target("sha"))) void blocks_by_sha_instructions(
         __m128i words[streams][16];
         for (int s = 0; s < streams; ++s)
             before[s] = now[s];
+            // Unrolled, the words stay in registers: a store and a load would delay every round.
+#pragma GCC unroll 16
         for (std::ptrdiff_t i = 0; i < 16; ++i) {  // four rounds each
+#pragma GCC unroll 2
             for (int s = 0; s < streams; ++s) {
                 __m128i* const word = words[s];
                 if (i < 4) {
