@@ -1,19 +1,19 @@
 #pragma once
 
+#include <atomic>
 #include <vector>
 
 #include "dataset/writers.h"
 #include "job/journal.h"
 #include "job/ping_files.h"
-#include "job/run_job.h"
+#include "job/render_summary.h"
 
 namespace sonarsim {
 
-/// The arguments of run_job(), and what its steps share.
+/// What the steps of a run share.
 struct RenderRun {
     const Mission& mission;
     const Assembly& assembly;
-    const RenderOptions& options;
     const JobCallback& progress;
     const std::atomic<bool>& stop;
     int threads;

@@ -82,10 +82,10 @@ std::vector<std::pair<std::string, std::string>> initial_files(const Assembly& a
 }
 
 /// Renders into the folder of the mission what is missing there, and completes the dataset.
-void run_in_folder(const RenderRun& run, const std::vector<PingId>& all) {
+void run_in_folder(const RenderRun& run, const RenderOptions& options,
+                   const std::vector<PingId>& all) {
     const Mission& mission = run.mission;
     const Assembly& assembly = run.assembly;
-    const RenderOptions& options = run.options;
     RenderSummary& summary = run.summary;
     const std::vector<Writers> writers = make_writers(mission, assembly);
     const Layout layout = make_layout(mission, writers, assembly.trajectory.size());
@@ -156,10 +156,10 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
     RenderSummary summary;
     summary.sensors.resize(assembly.sonars.size());
     on_threads(options.threads, [&](int threads) {
-        const RenderRun run{mission, assembly, options, progress, stop, threads, summary};
+        const RenderRun run{mission, assembly, progress, stop, threads, summary};
         const std::vector<PingId> all = list_pings(mission, assembly.trajectory.size());
         if (options.files) {
-            run_in_folder(run, all);
+            run_in_folder(run, options, all);
         } else {
             const auto shard = [&](std::size_t i) { return static_cast<int>(i % options.shards); };
             render_pings(run, make_plan(all, options, shard, is_never_there).todo, nullptr);
