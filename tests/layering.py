@@ -45,7 +45,7 @@ PARTS = {
     "compare": [["*"], ["figures/"], ["images"], ["measure_edges", "measure_patches", "measure_shadows"], ["measure_images", "measure_soundings"],
                 ["compare"], ["plot", "report"]],
     "job": [["*"], ["folder_lock"], ["journal"], ["checksums"], ["folder"], ["listed_files", "resume"],
-            ["ping_files"], ["ping_cost"], ["completion", "joined_labels"],
+            ["ping_files"], ["ping_cost"], ["completion", "joined_labels", "render_pings"],
             ["collection", "run_job", "merge", "verify", "ping_source"],
             ["variants"], ["status", "variants_check", "collection_check"]],
     "scene": [["*"], ["images/", "meshes/"], ["heightmap/", "maps/", "seabed/"], ["gltf/", "placing/"]],

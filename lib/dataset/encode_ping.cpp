@@ -26,6 +26,14 @@ float greatest_magnitude(std::span<const float> values) {
     return std::bit_cast<float>(greatest);
 }
 
+/// The number of values above `limit`. Sums of 32 bits vectorise.
+std::uint32_t count_above(std::span<const float> values, float limit) {
+    std::uint32_t count = 0;
+    for (const float value : values)
+        count += value > limit ? 1 : 0;
+    return count;
+}
+
 }  // namespace
 
 RenderedPing render_at_pose(const Mission& mission, const Assembly& assembly,
@@ -59,8 +67,7 @@ void finish_ping(const Assembly& assembly, const LabelPlan& plan, const Rendered
     const auto& [id, at_pose, engine, traced, ping] = rendered;
     const Sonar& sonar = *at_pose;
     const auto white = static_cast<float>(assembly.full_scales[id.sensor]);
-    const std::uint64_t clipped =
-        std::ranges::count_if(ping.intensity, [&](float v) { return v > white; });
+    const std::uint64_t clipped = count_above(ping.intensity, white);
     const auto metadata =
         measured({sonar, assembly.trajectory[id.pose].T_world_vehicle, id.pose, ping}, *engine);
     LabelledPing labels;

@@ -1,6 +1,7 @@
 #include "job/merge.h"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
 #include <set>
@@ -200,7 +201,8 @@ EncodedPing sound_ping(const Copy& copy) {
     const Part& from = *copy.from;
     EncodedPing encoded = read_ping(from.layout, from.records, *from.finished, copy.id);
     const SensorLayout& sensor = from.layout.sensors[copy.id.sensor];
-    const std::vector<std::string> found = journal_fields(sensor, encoded);
+    const std::vector<std::string> found =
+        journal_fields(std::array{PingToList{sensor, encoded}}).front();
     const auto differs = std::ranges::mismatch(found, from.finished->fields_of(copy.id)).in1;
     if (differs == found.end()) return encoded;
     const auto* file = std::get_if<PingFile>(&sensor.per_ping[differs - found.begin()]);

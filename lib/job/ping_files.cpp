@@ -35,20 +35,26 @@ std::string read_part_of(const fs::path& path, std::uint64_t offset, std::uint64
 
 }  // namespace
 
-std::vector<std::string> journal_fields(const SensorLayout& sensor, const EncodedPing& encoded) {
-    const auto is_record = [&](std::size_t k) {
-        return std::holds_alternative<PingRecord>(sensor.per_ping[k]);
+std::vector<std::vector<std::string>> journal_fields(std::span<const PingToList> pings) {
+    const auto is_record = [](const PingToList& ping, std::size_t k) {
+        return std::holds_alternative<PingRecord>(ping.sensor.per_ping[k]);
     };
     std::vector<std::string_view> files;
-    for (std::size_t k = 0; k < encoded.size(); ++k) {
-        if (!is_record(k)) files.push_back(encoded[k]);
+    for (const PingToList& ping : pings) {
+        for (std::size_t k = 0; k < ping.encoded.size(); ++k) {
+            if (!is_record(ping, k)) files.push_back(ping.encoded[k]);
+        }
     }
     std::vector<std::string> sums = sha256_of_all(files);
-    std::vector<std::string> fields;
+    std::vector<std::vector<std::string>> fields;
     std::size_t file = 0;
-    for (std::size_t k = 0; k < encoded.size(); ++k) {
-        fields.push_back(is_record(k) ? hash_of_record(encoded[k])
-                                      : entry_text({encoded[k].size(), std::move(sums[file++])}));
+    for (const PingToList& ping : pings) {
+        std::vector<std::string>& own = fields.emplace_back();
+        for (std::size_t k = 0; k < ping.encoded.size(); ++k) {
+            const std::string& bytes = ping.encoded[k];
+            own.push_back(is_record(ping, k) ? hash_of_record(bytes)
+                                             : entry_text({bytes.size(), std::move(sums[file++])}));
+        }
     }
     return fields;
 }

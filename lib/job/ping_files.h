@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,8 +16,13 @@ namespace sonarsim {
 /// The output of each writer of a sensor for a ping, in their order: the bytes of a file or record.
 using EncodedPing = std::vector<std::string>;
 
-/// The fields of a ping in the journal.
-std::vector<std::string> journal_fields(const SensorLayout& sensor, const EncodedPing& encoded);
+/// A ping for the journal. The references must outlive it.
+struct PingToList {
+    const SensorLayout& sensor;
+    const EncodedPing& encoded;
+};
+/// The fields of each ping in the journal. Files of several pings are summed in less time together.
+std::vector<std::vector<std::string>> journal_fields(std::span<const PingToList> pings);
 
 /// Reads a ping that is in a dataset. `finished` is that of the dataset. InputError when a file
 /// cannot be read; std::system_error when the disk fails.

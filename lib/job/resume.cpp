@@ -1,5 +1,7 @@
 #include "job/resume.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
@@ -16,10 +18,9 @@ namespace fs = std::filesystem;
 
 /// The size of a regular file; nothing for anything else.
 std::optional<std::uint64_t> size_of(const fs::path& path) {
-    std::error_code absent;
-    if (fs::symlink_status(path, absent).type() != fs::file_type::regular) return std::nullopt;
-    const std::uint64_t size = fs::file_size(path, absent);
-    return absent ? std::nullopt : std::optional(size);
+    struct stat status {};
+    if (::lstat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+    return static_cast<std::uint64_t>(status.st_size);
 }
 
 /// Visits the products; those of all sensors as if of a sensor after the last one.

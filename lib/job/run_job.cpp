@@ -1,17 +1,11 @@
 #include "job/run_job.h"
 
 #include <algorithm>
-#include <cmath>
-#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "assembly/engine_probes.h"
-#include "core/clock.h"
 #include "core/error.h"
-#include "core/ordered_pipeline.h"
-#include "dataset/encode_ping.h"
 #include "dataset/metadata.h"
 #include "dataset/seabed_files.h"
 #include "job/completion.h"
@@ -19,47 +13,13 @@
 #include "job/folder_lock.h"
 #include "job/journal.h"
 #include "job/ping_files.h"
+#include "job/render_pings.h"
 #include "job/resume.h"
 #include "trajectory/files.h"
 
 namespace sonarsim {
 
 namespace {
-
-/// The result of one ping besides its files.
-struct PingReport {
-    PingId id;
-    EncodedPing encoded;              ///< bytes for a pack; empty if the sensor has none
-    std::vector<std::string> fields;  ///< for the journal
-    SensorSummary summary;            ///< this ping alone
-    PingSeconds seconds;
-    double encode_seconds = 0.0;
-    double write_seconds = 0.0;
-};
-
-PingReport report_of(const RenderedPing& rendered) {
-    const auto& [id, sonar, engine, traced, ping] = rendered;
-    SensorSummary summary{.pings = 1,
-                          .dark_pings = ping.counts.occupied_bins == 0 ? 1U : 0U,
-                          .counts = ping.counts,
-                          .brightest = brightest_pixel(ping, sonar->config.name, id.pose)};
-    // The estimate is NaN if the engine has none.
-    summary.missed_goals = ping.estimated_l1 > sonar->settings.view.relative_l1 ? 1 : 0;
-    if (!std::isnan(ping.estimated_l1)) summary.worst_l1 = ping.estimated_l1;
-    if (!std::isnan(ping.missed_multipath)) summary.worst_multipath = ping.missed_multipath;
-    summary.missed_multipath = summary.worst_multipath > 1.0 - least_found_multipath ? 1 : 0;
-    return {.id = id, .encoded = {}, .fields = {}, .summary = summary, .seconds = ping.seconds};
-}
-
-void add(RenderSummary& summary, const PingReport& report) {
-    ++summary.pings;
-    summary.stages += report.seconds;
-    summary.encode_seconds += report.encode_seconds;
-    summary.write_seconds += report.write_seconds;
-    summary.counts += report.summary.counts;
-    summary.clipped_pixels += report.summary.clipped_pixels;
-    summary.sensors[report.id.sensor] += report.summary;
-}
 
 /// The pings that a run renders.
 struct Plan {
@@ -81,83 +41,6 @@ Plan make_plan(const std::vector<PingId>& all, const RenderOptions& options,
         is_there(all[i]) ? void(++plan.skipped) : plan.todo.push_back(all[i]);
     }
     return plan;
-}
-
-/// The place that a run writes to.
-struct Destination {
-    const Layout& layout;
-    const std::vector<Writers>& writers;
-    PingFiles& files;
-    Journal& journal;
-};
-
-/// The arguments of run_job(), and what its steps share.
-struct Run {
-    const Mission& mission;
-    const Assembly& assembly;
-    const RenderOptions& options;
-    const JobCallback& progress;
-    const std::atomic<bool>& stop;
-    int threads;
-    RenderSummary& summary;
-};
-
-/// Hands a ping to the writers of its sensor, and their output to the disk.
-void write_ping(const Assembly& assembly, const Destination& to, const LabelPlan& labels,
-                const RenderedPing& rendered, PingReport& report) {
-    const PingId& id = report.id;
-    Stopwatch watch;
-    WrittenPing written = encode_ping(assembly, to.writers[id.sensor], labels, rendered);
-    report.summary.clipped_pixels = written.clipped_pixels;
-    report.encode_seconds = watch.lap();
-    to.files.write(id, written.parts);
-    const SensorLayout& sensor = to.layout.sensors[id.sensor];
-    report.fields = journal_fields(sensor, written.parts);
-    if (sensor.pings_per_pack > 0) report.encoded = std::move(written.parts);
-    report.write_seconds = watch.lap();
-}
-
-/// Renders `todo`, several pings at a time; at most twice as many as threads are in memory. Without
-/// a destination nothing is written, but labels are found.
-void render(const Run& run, const std::vector<PingId>& todo, const Destination* to) {
-    if (todo.empty()) return;
-    const Assembly& assembly = run.assembly;
-    RenderSummary& summary = run.summary;
-    std::vector<LabelPlan> labels;
-    for (const Sonar& sonar : assembly.sonars)
-        labels.push_back(plan_labels(run.mission, assembly, sonar));
-    const std::unique_ptr<VisibilityEngine> engine = make_engine(run.mission, assembly);
-    Stopwatch watch;
-    ordered_pipeline(
-        todo.size(), 2 * static_cast<std::size_t>(run.threads), run.stop,
-        [&](std::size_t i) {
-            const RenderedPing rendered = render_at_pose(run.mission, assembly, *engine, todo[i]);
-            PingReport report = report_of(rendered);
-            const LabelPlan& plan = labels[report.id.sensor];
-            if (to) {
-                write_ping(assembly, *to, plan, rendered, report);
-            } else if (plan.on) {
-                Stopwatch labelling;
-                label_ping(rendered.traced, rendered.sonar->settings, assembly.scene,
-                           assembly.objects, *rendered.engine, plan.request);
-                report.encode_seconds = labelling.lap();
-            }
-            return report;
-        },
-        [&](const PingReport& report) {
-            add(summary, report);
-            if (to) {
-                Stopwatch packing;
-                to->files.pack(report.id, report.encoded);
-                summary.write_seconds += packing.lap();
-                to->journal.add(report.id, report.fields);
-            }
-            if (run.progress) run.progress(summary, todo.size());
-        });
-    summary.seconds = watch.lap();
-    summary.stopped = summary.pings < todo.size();
-    for (const std::string& warning : engine->warnings())
-        summary.warnings.push_back(make_warning(WarningCode::engine, "engine", warning));
 }
 
 /// Makes the folder ready for pings, and returns what it held before. A shard then admits other
@@ -199,10 +82,10 @@ std::vector<std::pair<std::string, std::string>> initial_files(const Assembly& a
 }
 
 /// Renders into the folder of the mission what is missing there, and completes the dataset.
-void run_in_folder(const Run& run, const std::vector<PingId>& all) {
+void run_in_folder(const RenderRun& run, const RenderOptions& options,
+                   const std::vector<PingId>& all) {
     const Mission& mission = run.mission;
     const Assembly& assembly = run.assembly;
-    const RenderOptions& options = run.options;
     RenderSummary& summary = run.summary;
     const std::vector<Writers> writers = make_writers(mission, assembly);
     const Layout layout = make_layout(mission, writers, assembly.trajectory.size());
@@ -238,7 +121,7 @@ void run_in_folder(const Run& run, const std::vector<PingId>& all) {
     {
         PingFiles files(layout, records, *there);
         const Destination to{layout, writers, files, journal};
-        render(run, plan.todo, &to);
+        render_pings(run, plan.todo, &to);
     }
     journal.finish();
     if (summary.stopped) return;
@@ -273,13 +156,13 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
     RenderSummary summary;
     summary.sensors.resize(assembly.sonars.size());
     on_threads(options.threads, [&](int threads) {
-        const Run run{mission, assembly, options, progress, stop, threads, summary};
+        const RenderRun run{mission, assembly, progress, stop, threads, summary};
         const std::vector<PingId> all = list_pings(mission, assembly.trajectory.size());
         if (options.files) {
-            run_in_folder(run, all);
+            run_in_folder(run, options, all);
         } else {
             const auto shard = [&](std::size_t i) { return static_cast<int>(i % options.shards); };
-            render(run, make_plan(all, options, shard, is_never_there).todo, nullptr);
+            render_pings(run, make_plan(all, options, shard, is_never_there).todo, nullptr);
         }
     });
     return summary;

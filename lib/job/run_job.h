@@ -1,16 +1,11 @@
 #pragma once
 
 #include <atomic>
-#include <cstdint>
-#include <functional>
-#include <vector>
 
 #include "assembly/assemble.h"
-#include "checks/warning.h"
-#include "dataset/sensor_summary.h"
 #include "job/parallel.h"
+#include "job/render_summary.h"
 #include "mission/mission.h"
-#include "trace/ping.h"
 
 namespace sonarsim {
 
@@ -24,25 +19,6 @@ struct RenderOptions {
 };
 /// InputError when the options contradict each other.
 void check(const RenderOptions& options);
-
-struct RenderSummary {
-    std::uint64_t pings = 0;    ///< rendered by this run
-    std::uint64_t skipped = 0;  ///< not rendered: their files were there already
-    bool complete = false;      ///< the folder now holds every ping of every shard
-    bool stopped = false;       ///< ended early on request
-    bool unlocked = false;      ///< the disk has no locks that would refuse a second run
-    double seconds = 0.0;       ///< wall clock from the first ping to the last
-    PingSeconds stages;         ///< summed over the pings, and so over threads
-    double encode_seconds = 0.0;
-    double write_seconds = 0.0;
-    PingCounts counts;                   ///< summed over the pings
-    std::vector<Warning> warnings;       ///< from the engine; of variants also about the images
-    std::uint64_t clipped_pixels = 0;    ///< intensities above full_scale, where files were written
-    std::vector<SensorSummary> sensors;  ///< in the order of Mission::sensors
-};
-
-/// As ProgressCallback, with the sums over the pings so far.
-using JobCallback = std::function<void(const RenderSummary& so_far, std::uint64_t total)>;
 
 /// Renders a mission into its output folder.
 ///

@@ -41,7 +41,31 @@ bool is_near_edge(const View& view, const FanFrame& frame, const FanPlace& place
     const bool full_turn = view.azimuth_rad >= 2.0 * pi;
     return std::fabs(place.range_m - view.range_min_m) < frame.pixel_m ||
            std::fabs(place.range_m - view.range_max_m) < frame.pixel_m ||
-           (!full_turn && place.range_m * std::min(aside, 1.0) < 2.0 * frame.pixel_m);
+           (!full_turn && place.range_m * std::min(aside, 1.0) < frame.pixel_m);
+}
+
+/// The first column of a row with a pixel that is not clearly outside the sector; as many at the
+/// end of the row are, too.
+int first_column(const View& view, const FanFrame& frame, int row) {
+    if (view.azimuth_rad >= pi) return 0;
+    const SinCos half = sincos(0.5 * view.azimuth_rad);
+    const double x = view.range_max_m - (row + 0.5) * frame.pixel_m;
+    constexpr double margin_px = 2.0;
+    const double most_px = (x / frame.pixel_m * half.sin + margin_px) / half.cos;
+    const double columns = std::floor(0.5 * frame.width - 0.5 - most_px);
+    return static_cast<int>(std::clamp(columns, 0.0, 0.5 * frame.width));
+}
+
+/// The places of the pixels of a row from `first` on. The right half mirrors the left.
+std::vector<FanPlace> places_of_row(const View& view, const FanFrame& frame, int first, int row) {
+    std::vector<FanPlace> places(static_cast<std::size_t>(frame.width - 2 * first));
+    for (std::size_t k = 0; 2 * k < places.size(); ++k) {
+        const FanPlace left =
+            fan_place(frame, view.range_max_m, static_cast<double>(k) + first, row);
+        places[places.size() - 1 - k] = {left.x_m, -left.y_m, left.range_m, -left.azimuth_rad};
+        places[k] = left;
+    }
+    return places;
 }
 
 /// The ring of pixels that are `extent` beams wide; ring 0 holds those of up to one beam.
@@ -126,8 +150,10 @@ FanMap make_fan_map(const Sonar& sonar, int width_px) {
         map.rings.push_back({make_kernel(extent, 4), {}, {}, {}});
     map.beam_padding = map.rings.back().beam_kernel.taps;
     for (int row = 0; row < map.frame.height; ++row) {
-        for (int column = 0; column < map.frame.width; ++column) {
-            const FanPlace place = fan_place(map.frame, view.range_max_m, column, row);
+        const int first = first_column(view, map.frame, row);
+        int column = first - 1;
+        for (const FanPlace& place : places_of_row(view, map.frame, first, row)) {
+            ++column;
             const int covered = is_near_edge(view, map.frame, place)
                                     ? covered_points(view, map.frame, column, row)
                                     : (is_inside_sector(view, place) ? cover_points : 0);

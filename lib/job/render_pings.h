@@ -1,0 +1,35 @@
+#pragma once
+
+#include <atomic>
+#include <vector>
+
+#include "dataset/writers.h"
+#include "job/journal.h"
+#include "job/ping_files.h"
+#include "job/render_summary.h"
+
+namespace sonarsim {
+
+/// What the steps of a run share.
+struct RenderRun {
+    const Mission& mission;
+    const Assembly& assembly;
+    const JobCallback& progress;
+    const std::atomic<bool>& stop;
+    int threads;
+    RenderSummary& summary;
+};
+
+/// The place that a run writes to.
+struct Destination {
+    const Layout& layout;
+    const std::vector<Writers>& writers;
+    PingFiles& files;
+    Journal& journal;
+};
+
+/// Renders `todo`, several pings at a time. Without a destination nothing is written, but labels
+/// are found.
+void render_pings(const RenderRun& run, const std::vector<PingId>& todo, const Destination* to);
+
+}  // namespace sonarsim
