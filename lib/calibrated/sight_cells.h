@@ -19,7 +19,7 @@ struct SightPlaces {
     int count = 0;
     std::array<float, most> x{}, y{}, z{};
     std::array<float, most> range_m{};
-    std::array<std::int32_t, most> cell{};  ///< of SightCells; -1 beyond them
+    std::array<std::int32_t, most> cell{};  ///< number among SightCells; -1 beyond them
 };
 
 /// The directions that a sonar sees, in cells of equal solid angle: by the sine of the angle to an
