@@ -1,6 +1,7 @@
 #include "calibrated/drawn_powers.h"
 
 #include <array>
+#include <optional>
 
 #include "calibrated/lanes.h"
 #include "calibrated/normals.h"
@@ -9,25 +10,9 @@ namespace sonarsim {
 
 namespace {
 
-/// Adds to 8 bins of a column.
-void add_eight(PowerForm form, Floats8 power, float half_gain, int row, int column, PhiloxKey key,
-               float* cells) {
+void add_to_eight(float* cells, Floats8 re, Floats8 im) {
     std::array<float, std::size_t{2} * lanes> added;
-    if (form == PowerForm::power) {
-        store_complex(power, 0.0F, added.data());
-    } else {
-        std::array<std::uint32_t, lanes> a, b;
-        for (int lane = 0; lane < lanes; ++lane) {
-            a[lane] = static_cast<std::uint32_t>(row + lane);
-            b[lane] = static_cast<std::uint32_t>(column);
-        }
-        philox_pairs(a.data(), b.data(), lanes, key);
-        Lanes re, im;
-        complex_normals(a.data(), re, im);
-        const Floats8 amplitude = sqrt(half_gain * power);
-        store_complex(amplitude * Floats8::load(re.data()), amplitude * Floats8::load(im.data()),
-                      added.data());
-    }
+    store_complex(re, im, added.data());
     (Floats8::load(cells) + Floats8::load(added.data())).store(cells);
     (Floats8::load(cells + lanes) + Floats8::load(added.data() + lanes)).store(cells + lanes);
 }
@@ -37,9 +22,25 @@ void add_eight(PowerForm form, Floats8 power, float half_gain, int row, int colu
 void add_drawn(PowerForm form, std::span<const float> powers, float gain, int column, PhiloxKey key,
                EchoGrid& grid) {
     float* const cells = grid.column(column);
-    for (std::size_t row = 0; row < powers.size(); row += lanes) {
-        const Floats8 power = greatest(Floats8::load(powers.data() + row), 0.0F);
-        add_eight(form, power, 0.5F * gain, static_cast<int>(row), column, key, cells + 2 * row);
+    const auto count = static_cast<int>(powers.size());
+    const float half_gain = 0.5F * gain;
+    for (int row = 0; row < count; row += drawn_together) {
+        const auto power_at = [&](int at) -> Floats8 {
+            return at < count ? greatest(Floats8::load(powers.data() + at), 0.0F) : 0.0F;
+        };
+        const std::array<Floats8, 2> power{power_at(row), power_at(row + lanes)};
+        if (((power[0] != 0.0F).bits() | (power[1] != 0.0F).bits()) == 0U) continue;
+        std::optional<std::array<Complexes8, 2>> normals;
+        if (form == PowerForm::amplitude) normals = column_normals(row, column, key);
+        for (int k = 0; k < 2 && row + k * lanes < count; ++k) {
+            float* const to = cells + std::ptrdiff_t{2} * (row + k * lanes);
+            if (!normals) {
+                add_to_eight(to, power[k], 0.0F);
+                continue;
+            }
+            const Floats8 amplitude = sqrt(half_gain * power[k]);
+            add_to_eight(to, amplitude * (*normals)[k].re, amplitude * (*normals)[k].im);
+        }
     }
 }
 

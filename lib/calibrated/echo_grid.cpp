@@ -44,10 +44,14 @@ void EchoGrid::add(const EchoGrid& more) {
 }
 
 std::size_t EchoGrid::occupied() const {
+    const std::size_t length = 2 * static_cast<std::size_t>(rows_);
+    const std::size_t whole = length / floats_per_line * floats_per_line;
     std::size_t cells = 0;
     for (int c = 0; c < columns_; ++c) {
         const float* const values = column(c);
-        for (std::size_t i = 0; i < 2 * static_cast<std::size_t>(rows_); i += 2)
+        for (std::size_t i = 0; i < whole; i += floats_per_line)
+            cells += count_occupied(values + i);
+        for (std::size_t i = whole; i < length; i += 2)
             cells += values[i] != 0.0F || values[i + 1] != 0.0F ? 1 : 0;
     }
     return cells;

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <initializer_list>
 
 // Eight numbers at a time, so that the code that uses them reads like code for one number. An
 // operation is one instruction: what it rounds is part of the images.
@@ -128,6 +129,9 @@ inline Floats8 floor(Floats8 a) {
 inline Floats8 where(Mask8 mask, Floats8 a) {
     return _mm256_and_ps(mask.v, a.v);
 }
+inline Ints8 where(Mask8 mask, Ints8 a) {
+    return _mm256_and_si256(_mm256_castps_si256(mask.v), a.v);
+}
 /// Rounded towards 0.
 inline Ints8 to_ints(Floats8 a) {
     return _mm256_cvttps_epi32(a.v);
@@ -137,6 +141,17 @@ inline Floats8 to_floats(Ints8 a) {
 }
 inline Floats8 floats_of_bits(Ints8 a) {
     return _mm256_castsi256_ps(a.v);
+}
+inline Ints8 bits_of_floats(Floats8 a) {
+    return _mm256_castps_si256(a.v);
+}
+/// Horner's rule, `polynomial` of elementary.h; the coefficients from the highest power down.
+inline Floats8 polynomial_of_8(Floats8 x, std::initializer_list<float> coefficients) {
+    const float* next = coefficients.begin();
+    Floats8 sum = *next;
+    while (++next != coefficients.end())
+        sum = fma(x, sum, *next);
+    return sum;
 }
 /// values[at], `at` within 0 to 7.
 inline Floats8 picked(Floats8 values, Ints8 at) {

@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 
+#include "calibrated/lanes.h"
 #include "core/elementary.h"
 #include "core/units.h"
+#include "trace/arrivals.h"
 
 namespace sonarsim {
 
@@ -134,14 +136,28 @@ int SightCells::spanned(const Eigen::Vector3f& half_edge, const Eigen::Vector3f&
     return static_cast<int>(std::ceil(std::clamp(std::max(sine / sine_step, by_turn), 1.0F, most)));
 }
 
-int SightCells::at(float x, float y, float z, float range) const {
-    const std::array<float, 3> place{x, y, z};
+void SightCells::find(SightPlaces& places) const {
+    const std::array<const float*, 3> place{places.x.data(), places.y.data(), places.z.data()};
     const auto [along, first, second] = axes_of(axis);
-    const float s = (place[along] / range - first_sine) / sine_step;
-    const float t = (arctan2_float(place[second], place[first]) - first_turn_rad) / turn_step_rad;
-    const bool inside =
-        s >= 0.0F && s < static_cast<float>(sines) && t >= 0.0F && t < static_cast<float>(turns);
-    return inside ? static_cast<int>(s) * turns + static_cast<int>(t) : -1;
+    const float* const on_axis = place[along];
+    const float* const on_first = place[first];
+    const float* const on_second = place[second];
+    std::array<float, SightPlaces::most> s, t;
+    const int count = (places.count + lanes - 1) / lanes * lanes;
+    for (int k = 0; k < count; ++k) {
+        const float range = arrival_at(places.x[k], places.y[k], places.z[k]).range_m;
+        places.range_m[k] = range;
+        s[k] = (on_axis[k] / range - first_sine) / sine_step;
+        t[k] = (arctan2_float(on_second[k], on_first[k]) - first_turn_rad) / turn_step_rad;
+    }
+    for (int k = 0; k < count; k += lanes) {
+        const Floats8 row = Floats8::load(s.data() + k);
+        const Floats8 column = Floats8::load(t.data() + k);
+        const Mask8 inside = (row >= 0.0F) & (row < static_cast<float>(sines)) &
+                             ((column >= 0.0F) & (column < static_cast<float>(turns)));
+        const Ints8 number = to_ints(row) * turns + to_ints(column);
+        (where(inside, number + 1) - 1).store(places.cell.data() + k);
+    }
 }
 
 WeightedCells weighted_cells(const ArrayBeams& beams, const View& view,

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "calibrated/array_beams.h"
@@ -9,6 +11,16 @@
 #include "visibility/view.h"
 
 namespace sonarsim {
+
+/// SightPlaces in the sensor frame, in arrays so that loops vectorise.
+struct SightPlaces {
+    static constexpr int most = 256;
+
+    int count = 0;
+    std::array<float, most> x{}, y{}, z{};
+    std::array<float, most> range_m{};
+    std::array<std::int32_t, most> cell{};  ///< number among SightCells; -1 beyond them
+};
 
 /// The directions that a sonar sees, in cells of equal solid angle: by the sine of the angle to an
 /// axis of the sensor frame and by the turn about that axis (the area of a sphere between two
@@ -30,8 +42,8 @@ struct SightCells {
     /// pieces of it that are no longer than a cell, at most 64.
     int spanned(const Eigen::Vector3f& half_edge, const Eigen::Vector3f& towards,
                 float range_m) const;
-    /// The cell of a direction, -1 beyond them. `x`, `y`, `z` may have any length; `range` is it.
-    int at(float x, float y, float z, float range) const;
+    /// Fills the ranges and the cells of places.
+    void find(SightPlaces& places) const;
 };
 
 /// The power that a channel receives from the water of a cell: the two-way pattern times the solid

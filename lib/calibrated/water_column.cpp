@@ -10,18 +10,12 @@
 #include "calibrated/levels.h"
 #include "calibrated/volume_strengths.h"
 #include "core/units.h"
-#include "trace/arrivals.h"
 
 namespace sonarsim {
 
 namespace {
 
 constexpr float no_end = std::numeric_limits<float>::infinity();
-
-// Pieces of surface count for the cell of their middle, so a cell that is covered wholly may have
-// less than its solid angle. This share, which is chosen, also closes a cell that is cut by an
-// edge.
-constexpr float least_cover = 0.2F;
 
 /// The share of a side-scan sonar's pattern along the track that its view receives, by range; 1 for
 /// other sonars, whose weights have it.
@@ -77,26 +71,6 @@ std::array<float, 2> stretch_between(float depth_m, float fall, float top_m, flo
     return {std::max(std::min(a, b), 0.0F), std::max(std::max(a, b), 0.0F)};
 }
 
-/// The view cuts cells at its border, and pieces of surface have their middles farther in. So the
-/// water of a cut cell that no piece ends goes as far as that of its neighbours that the view
-/// has more of.
-void end_at_borders(const SightCells& cells, std::vector<float>& ends) {
-    const std::vector<float> found = ends;
-    for (int cell = 0; cell < cells.count(); ++cell) {
-        const float seen = cells.seen_sr[cell];
-        if (found[cell] != no_end || seen == 0.0F) continue;
-        const int turn = cell % cells.turns;
-        const auto take = [&](bool exists, int neighbour) {
-            if (!exists || cells.seen_sr[neighbour] <= seen) return;
-            ends[cell] = std::min(ends[cell], found[neighbour]);
-        };
-        take(turn > 0, cell - 1);
-        take(turn + 1 < cells.turns, cell + 1);
-        take(cell >= cells.turns, cell - cells.turns);
-        take(cell + cells.turns < cells.count(), cell + cells.turns);
-    }
-}
-
 /// The two channels that a column lies between, and its share of the second one.
 struct BetweenChannels {
     int first, second;
@@ -142,42 +116,6 @@ std::optional<WaterColumn> water_column(const WaterConfig& water, double frequen
         out.row_power[row] = static_cast<float>(std::min<double>(power, most_echo));
     }
     return out;
-}
-
-std::vector<float> water_ends(const SightCells& cells, const TracedPing& traced) {
-    std::vector<float> covered_sr(cells.count(), 0.0F);
-    std::vector<float> ends(cells.count(), 0.0F);
-    const auto add = [&](std::span<const Sample> surface) {
-        for (const Sample& sample : surface) {
-            const auto [range, departure, direction] = arrival_of(sample.position);
-            if (!(range > 0.0F)) continue;
-            const int rows = cells.spanned(sample.edge_u, direction, range);
-            const int columns = cells.spanned(sample.edge_v, direction, range);
-            const float covers = sample.area_m2 * sample.height_m / static_cast<float>(rows) /
-                                 static_cast<float>(columns);
-            for (int k = 0; k < rows * columns; ++k) {
-                const auto share = [](int at, int of) {
-                    return (2.0F * static_cast<float>(at) + 1.0F) / static_cast<float>(of) - 1.0F;
-                };
-                const Eigen::Vector3f place = sample.position +
-                                              share(k / columns, rows) * sample.edge_u +
-                                              share(k % columns, columns) * sample.edge_v;
-                const float r = arrival_range(place);
-                const int cell = cells.at(place.x(), place.y(), place.z(), r);
-                if (cell < 0) continue;
-                covered_sr[cell] += covers / (r * r * r);
-                ends[cell] += covers / (r * r);
-            }
-        }
-    };
-    add(traced.samples.items);
-    add(traced.outside_sector);
-    for (int cell = 0; cell < cells.count(); ++cell) {
-        const bool closed = covered_sr[cell] > least_cover * cells.seen_sr[cell];
-        ends[cell] = closed ? ends[cell] / covered_sr[cell] : no_end;
-    }
-    end_at_borders(cells, ends);
-    return ends;
 }
 
 std::vector<float> received_water(const WaterColumn& water, std::span<const float> ends_m,

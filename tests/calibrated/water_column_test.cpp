@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -104,6 +105,50 @@ CalibratedModel sounder(SpeckleMode mode) {
 }  // namespace
 
 TEST_SUITE("calibrated") {
+    TEST_CASE("water: a cell of directions holds its own middle, at any range") {
+        for (const int axis : {0, 1, 2}) {
+            SightCells cells;
+            cells.axis = axis;
+            cells.sines = 7;
+            cells.turns = 11;
+            cells.first_sine = -0.6F;
+            cells.sine_step = 0.15F;
+            cells.first_turn_rad = -1.2F;
+            cells.turn_step_rad = 0.2F;
+            SightPlaces places;
+            const auto place = [&](float sine, float turn_rad) {
+                const float across = std::sqrt(1.0F - sine * sine);
+                // The axes that the turn is measured between follow the axis, but for y.
+                const int first = axis == 1 ? 0 : (axis + 1) % 3;
+                const int second = axis == 1 ? 2 : (axis + 2) % 3;
+                std::array<float, 3> p{};
+                const float range = 1.0F + 0.3F * static_cast<float>(places.count);
+                p[axis] = range * sine;
+                p[first] = range * across * std::cos(turn_rad);
+                p[second] = range * across * std::sin(turn_rad);
+                places.x[places.count] = p[0];
+                places.y[places.count] = p[1];
+                places.z[places.count++] = p[2];
+            };
+            for (int cell = 0; cell < cells.count(); ++cell) {
+                const auto turn = static_cast<float>(cell % cells.turns) + 0.5F;
+                place(cells.middle_sine(cell / cells.turns), -1.2F + 0.2F * turn);
+            }
+            place(-0.61F, 0.0F);  // before the first sine, behind the last, beside the turns
+            place(0.46F, 0.0F);
+            place(0.0F, -1.21F);
+            place(0.0F, 1.01F);
+            cells.find(places);
+            for (int cell = 0; cell < cells.count(); ++cell) {
+                CHECK(places.cell[cell] == cell);
+                CHECK(places.range_m[cell] ==
+                      doctest::Approx(1.0 + 0.3 * static_cast<double>(cell)).epsilon(1e-6));
+            }
+            for (int k = cells.count(); k < places.count; ++k)
+                CHECK(places.cell[k] == -1);
+        }
+    }
+
     // The equivalent beam angle of a disc is 5.78 / (ka)^2 (e.g. Simmonds and MacLennan, Fisheries
     // Acoustics, 2005). The far side lobes outside the view, and that constant, leave 0.03 dB.
     TEST_CASE("water: the level in an echosounder, at every range") {

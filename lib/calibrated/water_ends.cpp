@@ -1,0 +1,115 @@
+#include <algorithm>
+#include <limits>
+
+#include "calibrated/water_column.h"
+#include "trace/arrivals.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr float ends_nowhere = std::numeric_limits<float>::infinity();
+
+// Pieces of surface count for the cell of their middle, so a cell that is covered wholly may have
+// less than its solid angle. This share, which is chosen, also closes a cell that is cut by an
+// edge.
+constexpr float least_cover = 0.2F;
+
+/// Sums over the pieces of surface in each cell. Pieces are collected, since many find their cells
+/// faster together.
+class CoveredCells {
+  public:
+    explicit CoveredCells(const SightCells& cells)
+        : cells_(cells), covered_sr_(cells.count(), 0.0F), weighted_m_(cells.count(), 0.0F) {}
+
+    void add(std::span<const Sample> surface) {
+        for (const Sample& sample : surface) {
+            const auto [range, departure, direction] = arrival_of(sample.position);
+            if (!(range > 0.0F)) continue;
+            const int rows = cells_.spanned(sample.edge_u, direction, range);
+            const int columns = cells_.spanned(sample.edge_v, direction, range);
+            const float covers = sample.area_m2 * sample.height_m / static_cast<float>(rows) /
+                                 static_cast<float>(columns);
+            for (int k = 0; k < rows * columns; ++k) {
+                const auto share = [](int at, int of) {
+                    return (2.0F * static_cast<float>(at) + 1.0F) / static_cast<float>(of) - 1.0F;
+                };
+                add(sample.position + share(k / columns, rows) * sample.edge_u +
+                        share(k % columns, columns) * sample.edge_v,
+                    covers);
+            }
+        }
+    }
+
+    /// The mean range of each cell that is closed.
+    std::vector<float> ends() {
+        flush();
+        std::vector<float> out(cells_.count());
+        for (int cell = 0; cell < cells_.count(); ++cell) {
+            const bool closed = covered_sr_[cell] > least_cover * cells_.seen_sr[cell];
+            out[cell] = closed ? weighted_m_[cell] / covered_sr_[cell] : ends_nowhere;
+        }
+        return out;
+    }
+
+  private:
+    /// `covers`: the area across the line of sight, times the range.
+    void add(const Eigen::Vector3f& place, float covers) {
+        if (places_.count == SightPlaces::most) flush();
+        const int at = places_.count++;
+        places_.x[at] = place.x();
+        places_.y[at] = place.y();
+        places_.z[at] = place.z();
+        covers_[at] = covers;
+    }
+
+    void flush() {
+        cells_.find(places_);
+        for (int k = 0; k < places_.count; ++k) {
+            const int cell = places_.cell[k];
+            if (cell < 0) continue;
+            const float r = places_.range_m[k];
+            covered_sr_[cell] += covers_[k] / (r * r * r);
+            weighted_m_[cell] += covers_[k] / (r * r);
+        }
+        places_.count = 0;
+    }
+
+    const SightCells& cells_;
+    std::vector<float> covered_sr_, weighted_m_;
+    SightPlaces places_;
+    std::array<float, SightPlaces::most> covers_{};
+};
+
+/// The view cuts cells at its border, and pieces of surface have their middles farther in. So the
+/// water of a cut cell that no piece ends goes as far as that of its neighbours that the view
+/// has more of.
+void end_at_borders(const SightCells& cells, std::vector<float>& ends) {
+    const std::vector<float> found = ends;
+    for (int cell = 0; cell < cells.count(); ++cell) {
+        const float seen = cells.seen_sr[cell];
+        if (found[cell] != ends_nowhere || seen == 0.0F) continue;
+        const int turn = cell % cells.turns;
+        const auto take = [&](bool exists, int neighbour) {
+            if (!exists || cells.seen_sr[neighbour] <= seen) return;
+            ends[cell] = std::min(ends[cell], found[neighbour]);
+        };
+        take(turn > 0, cell - 1);
+        take(turn + 1 < cells.turns, cell + 1);
+        take(cell >= cells.turns, cell - cells.turns);
+        take(cell + cells.turns < cells.count(), cell + cells.turns);
+    }
+}
+
+}  // namespace
+
+std::vector<float> water_ends(const SightCells& cells, const TracedPing& traced) {
+    CoveredCells covered(cells);
+    covered.add(traced.samples.items);
+    covered.add(traced.outside_sector);
+    std::vector<float> ends = covered.ends();
+    end_at_borders(cells, ends);
+    return ends;
+}
+
+}  // namespace sonarsim
