@@ -138,8 +138,8 @@ void render(const Run& run, const std::vector<PingId>& todo, const Destination* 
                 write_ping(assembly, *to, plan, rendered, report);
             } else if (plan.on) {
                 Stopwatch labelling;
-                label_ping(rendered.traced, rendered.sonar->settings, assembly.scene,
-                           assembly.objects, *rendered.engine, plan.request);
+                label_bins(plan, assembly, *rendered.sonar, *rendered.engine, rendered.traced,
+                           assembly.trajectory[rendered.id.pose].t_s);
                 report.encode_seconds = labelling.lap();
             }
             return report;
