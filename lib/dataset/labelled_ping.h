@@ -38,7 +38,11 @@ struct LabelledPing {
     std::vector<SeenObject> seen;  ///< sorted by id; empty if no writer needs it
 };
 
-/// Labels a ping. `plan` must outlive the result.
+/// Labels the bins of a ping at the time `t_s`.
+PingLabels label_bins(const LabelPlan& plan, const Assembly& assembly, const Sonar& sonar,
+                      const VisibilityEngine& engine, const TracedPing& traced, double t_s);
+
+/// The same with what the writers make of it. `plan` must outlive the result.
 LabelledPing label_for_writers(const LabelPlan& plan, const Assembly& assembly, const Sonar& sonar,
                                const VisibilityEngine& engine, const TracedPing& traced,
                                const Ping& ping, double t_s);

@@ -137,8 +137,8 @@ class PingRenderer {
             write_ping(assembly, *to_, plan, rendered, report);
         } else if (plan.on) {
             Stopwatch labelling;
-            label_ping(rendered.traced, rendered.sonar->settings, assembly.scene, assembly.objects,
-                       *rendered.engine, plan.request);
+            label_bins(plan, assembly, *rendered.sonar, *rendered.engine, rendered.traced,
+                       assembly.trajectory[rendered.id.pose].t_s);
             report.encode_seconds = labelling.lap();
         }
         return report;

@@ -26,6 +26,35 @@ double spread_at_one_range(const EchoPatch& patch) {
     return std::max(sine_u * sine_u + sine_v * sine_v - explained, 0.0) / 3.0;
 }
 
+constexpr float none = std::numeric_limits<float>::quiet_NaN();
+
+/// Bins are worked out in blocks of this many.
+constexpr int block = 16;
+
+/// Elevations and spreads of at most a block of bins, from the echo and its moments. Two loops
+/// without branches: compilers make vectors of them.
+void find_bins(const double* __restrict echo, const double* __restrict first,
+               const double* __restrict second, int count, float* __restrict elevation,
+               float* __restrict spread) {
+    std::array<float, block> sines, cosines;
+    for (int i = 0; i < count; ++i) {
+        const bool occupied = echo[i] > 0.0;
+        const double total = occupied ? echo[i] : 1.0;
+        const double sine = std::min(std::max(first[i] / total, -1.0), 1.0);
+        const double cosine = std::sqrt((1.0 - sine) * (1.0 + sine));
+        // d(theta) = d(sin theta) / cos(theta); where cos is 0, no more than a half circle.
+        const double deviation = std::sqrt(std::max(second[i] / total - sine * sine, 0.0));
+        const double least = std::max(std::max(cosine, deviation / pi), 1e-9);
+        sines[i] = static_cast<float>(occupied ? sine : none);
+        cosines[i] = static_cast<float>(cosine);
+        spread[i] = static_cast<float>(occupied ? deviation / least : none);
+    }
+    for (int i = 0; i < count; ++i) {
+        const float angle = arctan2_float(sines[i], cosines[i]);
+        elevation[i] = std::isnan(sines[i]) ? none : angle;
+    }
+}
+
 }  // namespace
 
 ElevationFinder::ElevationFinder(const RangeBins& bins, int rows) : sums_(rows, bins.count) {}
@@ -65,34 +94,17 @@ void ElevationFinder::add(std::uint32_t row, double echo, const CoveredBins& cov
 
 void ElevationFinder::find(std::uint32_t row, std::span<float> elevation_rad,
                            std::span<float> spread_rad) {
-    constexpr float none = std::numeric_limits<float>::quiet_NaN();
     std::ranges::fill(elevation_rad, none);
     std::ranges::fill(spread_rad, none);
     const BinSumRows<3>::Row sums = sums_.row(row);
-    const double* const __restrict echo = sums.of[0];
-    const double* const __restrict first = sums.of[1];
-    const double* const __restrict second = sums.of[2];
-    float* const __restrict elevation = elevation_rad.data();
-    float* const __restrict spread = spread_rad.data();
-    const auto find_bin = [=](int i) {
-        const bool occupied = echo[i] > 0.0;
-        const double total = occupied ? echo[i] : 1.0;
-        const double sine = std::clamp(first[i] / total, -1.0, 1.0);
-        const double cosine = std::sqrt((1.0 - sine) * (1.0 + sine));
-        const float angle = arctan2_float(static_cast<float>(sine), static_cast<float>(cosine));
-        // d(theta) = d(sin theta) / cos(theta); where cos is 0, no more than a half circle.
-        const double deviation = std::sqrt(std::max(second[i] / total - sine * sine, 0.0));
-        const double least = std::max(std::max(cosine, deviation / pi), 1e-9);
-        elevation[i] = occupied ? angle : none;
-        spread[i] = occupied ? static_cast<float>(deviation / least) : none;
-    };
+    const auto [echo, first, second] = sums.of;
     // Most bins between occupied ones hold water.
-    constexpr int block = 16;
     for (int from = sums.first; from < sums.last; from += block) {
-        const int end = std::min(from + block, sums.last);
-        if (std::all_of(echo + from, echo + end, [](double e) { return e == 0.0; })) continue;
-        for (int i = from; i < end; ++i)
-            find_bin(i);
+        const int count = std::min(block, sums.last - from);
+        const std::span<const double> echoes(echo + from, count);
+        if (std::ranges::all_of(echoes, [](double e) { return e == 0.0; })) continue;
+        find_bins(echo + from, first + from, second + from, count, &elevation_rad[from],
+                  &spread_rad[from]);
     }
     sums_.clear(row);
 }

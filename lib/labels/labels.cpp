@@ -1,11 +1,11 @@
 #include "labels/labels.h"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
+#include <utility>
 
 #include "labels/patch_labels.h"
-#include "labels/shadow.h"
+#include "labels/ping_shadows.h"
 #include "labels/shares.h"
 
 namespace sonarsim {
@@ -169,19 +169,20 @@ PingLabels blank_labels(const View& view, const LabelRequest& request) {
     return labels;
 }
 
-/// Finds the shadows of objects that are no background, and the visible shares of these.
-ShadowFinder find_object_shadows(const TracedPing& traced, const ConeBeams& cones, const View& view,
-                                 const SceneObjects& objects, const VisibilityEngine& engine,
-                                 const ObjectDirections& directions, ShadowFinder::Behind& behind,
-                                 std::vector<float>& visible_share) {
-    ShadowFinder finder(traced, cones, view, objects, engine, directions,
-                        ShadowFinder::Of::annotated, behind);
-    if (!visible_share.empty()) return finder;
-    visible_share = finder.visible_shares();
-    for (std::uint32_t k = 0; k < visible_share.size(); ++k) {
-        if (objects.is_background(k)) visible_share[k] = std::numeric_limits<float>::quiet_NaN();
-    }
-    return finder;
+/// The shadows that a request needs; empty without any.
+std::optional<PingShadows> find_shadows(const TracedPing& traced, const ConeBeams& cones,
+                                        const View& view, const Scene& scene,
+                                        const SceneObjects& objects, const VisibilityEngine& engine,
+                                        const LabelRequest& request) {
+    if (!request.shadow && !request.annotations) return std::nullopt;
+    const bool is_bent = scene.sound_profile || !traced.motion.is_still();
+    const ObjectDirections directions =
+        is_bent ? ObjectDirections()
+                : ObjectDirections(request.annotated, request.surface, traced.T_world_sensor,
+                                   view.range_min_m, view.range_max_m);
+    const PingShadows::Wanted wanted{.of_all = request.shadow, .of_objects = request.annotations};
+    return std::optional<PingShadows>(std::in_place, wanted, traced, cones, view, objects, engine,
+                                      directions);
 }
 
 PingLabels label_group(const TracedPing& traced, const PingSettings& settings, const Scene& scene,
@@ -192,25 +193,9 @@ PingLabels label_group(const TracedPing& traced, const PingSettings& settings, c
     const SurfaceEchoes echoes =
         settings.model->surface_echoes(traced, view, scene, request.elevation || request.height);
     BeamLabeller labeller(echoes, view, objects, request);
-    ShadowFinder::Behind behind;
-    std::optional<ObjectDirections> directions;
-    if (request.shadow || request.annotations) {
-        scene.sound_profile || !traced.motion.is_still()
-            ? directions.emplace()
-            : directions.emplace(request.annotated, request.surface, traced.T_world_sensor,
-                                 view.range_min_m, view.range_max_m);
-    }
-    std::optional<ShadowFinder> shadows;
-    if (request.shadow) {
-        shadows.emplace(traced, echoes.cones, view, objects, engine, *directions,
-                        ShadowFinder::Of::all, behind);
-        labels.visible_share = shadows->visible_shares();
-    }
-    std::optional<ShadowFinder> object_shadows;
-    if (request.annotations) {
-        object_shadows = find_object_shadows(traced, echoes.cones, view, objects, engine,
-                                             *directions, behind, labels.visible_share);
-    }
+    std::optional<PingShadows> shadows =
+        find_shadows(traced, echoes.cones, view, scene, objects, engine, request);
+    if (shadows) labels.visible_share = shadows->visible_shares();
     const bool shares = request.objects || request.classes || request.materials;
     for (int j = 0; j < view.beams; ++j) {
         const auto own = [&](auto& all) {
@@ -218,9 +203,10 @@ PingLabels label_group(const TracedPing& traced, const PingSettings& settings, c
                                           view.range_bins);
         };
         if (shares) labeller.label(j, labels);
-        if (shadows) shadows->find(j, labeller.occupied(j, shares), own(labels.shadow));
-        if (object_shadows)
-            object_shadows->find(j, labeller.occupied(j, shares), own(labels.object_shadow));
+        if (!shadows) continue;
+        const std::span<const std::uint8_t> occupied = labeller.occupied(j, shares);
+        if (request.shadow) shadows->find_of_all(j, occupied, own(labels.shadow));
+        if (request.annotations) shadows->find_of_objects(j, occupied, own(labels.object_shadow));
     }
     if (request.elevation || request.height) {
         const TruePlaces places{traced.T_world_sensor, scene.sound_profile.get(), traced.motion,

@@ -65,16 +65,16 @@ void for_each_covered(const RangePath& path, const RangeBins& bins, Visit visit)
         covered.first = from;
         covered.count = std::min(at_once, end_bin - from);
         covered.whole = (covered.count + lanes - 1) / lanes * lanes;
-        for (int begin = 0; begin < covered.whole; begin += lanes) {
-            for (int k = begin; k < begin + lanes; ++k) {
-                const double enters = std::max(low, static_cast<double>(from + k));
-                const double leaves = std::min(high, from + k + 1.0);
-                const double range_m = bins.min_m + leaves * bins.bin_m;
-                covered.range_m[k + 1] = range_m;
-                covered.way[k + 1] = way_to(path, range_m);
-                covered.share[k] = std::max((leaves - enters) / (last - first), 0.0);
-            }
+        // Two loops: compilers make vectors of each, not of one.
+        const auto start = static_cast<double>(from);
+        for (int k = 0; k < covered.whole; ++k) {
+            const double enters = std::max(low, start + k);
+            const double leaves = std::min(high, start + k + 1.0);
+            covered.range_m[k + 1] = bins.min_m + leaves * bins.bin_m;
+            covered.share[k] = std::max((leaves - enters) / (last - first), 0.0);
         }
+        for (int k = 0; k < covered.whole; ++k)
+            covered.way[k + 1] = way_to(path, covered.range_m[k + 1]);
         visit(covered);
         covered.range_m[0] = covered.range_m[covered.count];
         covered.way[0] = covered.way[covered.count];

@@ -108,14 +108,17 @@ void Strongest::clear(int bins) {
     };
     blank(key);
     blank(echo);
+    if (!has_second && std::ssize(second_key) == bins) return;
     blank(second_key);
     blank(second_echo);
+    has_second = false;
 }
 
 void StrongestFinder::find_ordered(const BeamShares& shares, Ranks ranks, Strongest& out) {
     out.clear(static_cast<int>(shares.total.size()));
     out.first = shares.first;
     out.last = shares.last;
+    out.has_second = ranks == Ranks::first_and_second;
     std::ranges::sort(order_);
     for (std::size_t a = 0, b = 0; a < order_.size(); a = b) {
         const BeamShares::Source& source = shares.sources[order_[a].source];

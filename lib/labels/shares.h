@@ -43,6 +43,7 @@ struct Strongest {
     std::vector<std::uint32_t> second_key;  ///< 0: no other key, or not asked for
     std::vector<float> second_echo;
     int first = 0, last = 0;  ///< outside [first, last) all is 0
+    bool has_second = false;  ///< some of the second keys may not be 0
 
     void clear(int bins);
 };

@@ -20,8 +20,12 @@ double echo_of(const Sample& sample, const Material& material) {
 }
 
 BeamEchoes direct_by_beam(const Samples& samples, const View& view, const Scene& scene) {
+    // Room for most pings, since arrays that grow are copied.
+    constexpr std::size_t pieces_per_sample = 8;
     Echoes echoes;
+    echoes.resize(pieces_per_sample * samples.items.size(), false);
     std::vector<std::uint32_t> ends;
+    ends.reserve(samples.items.size());
     direct_echoes(samples.items, scene.materials, static_cast<float>(view.bin_m()),
                   ScattererLattice{}, echoes, ends);
     BeamEchoes out;

@@ -1,0 +1,206 @@
+#include "labels/hidden_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "labels/sight_lines.h"
+#include "trace/arrivals.h"
+
+namespace sonarsim {
+
+namespace {
+
+// A sight line ends after this many surfaces: four closed bodies one behind the other.
+constexpr int most_surfaces_behind = 8;
+
+// The gap behind a surface at which a sight line continues, as a share of its range: well above the
+// rounding of floats and far below a bin.
+constexpr float step_behind = 1e-5F;
+
+/// An object that a sight line has met, and the node before it. The first one of a way is its own.
+struct WayNode {
+    std::uint32_t object, before;
+};
+
+/// True if the way that ends in a node has met an object.
+bool has_met(const std::vector<WayNode>& nodes, std::uint32_t node, std::uint32_t object) {
+    while (nodes[node].object != object && nodes[node].before != node)
+        node = nodes[node].before;
+    return nodes[node].object == object;
+}
+
+/// The solid angle of an object that sight lines meet, sr.
+struct SolidAngles {
+    double visible = 0.0, hidden = 0.0;
+};
+
+/// The ray that goes on behind the end of a sight line, from the pose of transmission.
+Ray ray_behind(const SightLine& line, const PingMotion& motion, ViewShape shape) {
+    if (motion.is_still())
+        return {line.direction * (line.range_m * (1.0F + step_behind)), line.direction};
+    const Eigen::Vector3d measured = (line.range_m * line.direction).cast<double>();
+    const Eigen::Vector3f place = unmoved_place(motion, shape, measured).cast<float>();
+    return {place * (1.0F + step_behind), place.normalized()};
+}
+
+/// Adds the pieces of hidden surface that lie in different beams of a line array. `whole` is all
+/// the surface that the line meets, a piece of the plane with this normal.
+void add_to_cones(const SightLine& line, const HiddenPiece& whole, const Eigen::Vector3f& normal,
+                  const ConeBeams& cones, std::vector<HiddenPiece>& pieces) {
+    const Sample& sample = *line.sample;
+    const int rows = beams_along(sample.edge_u, line, cones);
+    const int columns = beams_along(sample.edge_v, line, cones);
+    if (rows * columns == 1) return pieces.push_back(whole);
+    const auto share = 1.0F / static_cast<float>(rows * columns);
+    const float least_m = whole.range_m - whole.half_m;
+    const float greatest_m = whole.range_m + whole.half_m;
+    const float along = normal.dot(line.direction);
+    for (int i = 0; i < rows; ++i) {
+        for (int j = 0; j < columns; ++j) {
+            const Eigen::Vector3f to =
+                sample.position +
+                ((2.0F * static_cast<float>(i) + 1.0F) / static_cast<float>(rows) - 1.0F) *
+                    sample.edge_u +
+                ((2.0F * static_cast<float>(j) + 1.0F) / static_cast<float>(columns) - 1.0F) *
+                    sample.edge_v;
+            const Eigen::Vector3f direction = arrival_of(to).direction;
+            const int beam = cones.beam(direction.y());
+            if (beam < 0) continue;
+            HiddenPiece piece = whole;
+            piece.beam = static_cast<std::uint32_t>(beam);
+            // The quotient may be no number for a plane that is seen edge-on; fmax() leaves that
+            // out.
+            const float range_m = whole.range_m * along / normal.dot(direction);
+            piece.range_m = std::fmin(std::fmax(range_m, least_m), greatest_m);
+            piece.half_m = whole.half_m / static_cast<float>(std::max(rows, columns));
+            piece.solid_angle = whole.solid_angle * share;
+            pieces.push_back(piece);
+        }
+    }
+}
+
+/// Follows the sight lines of a ping.
+class LineTracer {
+  public:
+    LineTracer(const ConeBeams& cones, const View& view, const SceneObjects& objects,
+               const ObjectDirections& directions, HiddenSurface::By by)
+        : cones_(cones),
+          objects_(objects),
+          directions_(directions),
+          all_(by == HiddenSurface::By::all),
+          range_max_m_(static_cast<float>(view.range_max_m)),
+          solid_angles_(objects.objects.size()) {}
+
+    /// Keeps the lines that lead on to surface that is wanted.
+    void begin(std::vector<SightLine>& lines) {
+        nodes_.reserve(2 * lines.size());
+        for (const SightLine& line : lines) {
+            nodes_.push_back({objects_.object_of(line.sample->instance), line.first});
+            solid_angles_[nodes_.back().object].visible += line.solid_angle;
+        }
+        std::erase_if(lines, [&](const SightLine& line) { return !is_wanted(line); });
+        pieces_.reserve(2 * lines.size());
+    }
+
+    /// Takes what a line has met. True: it goes on.
+    bool take(SightLine& line, const Intersection& met) {
+        line.range_m = line.range_m * (1.0F + step_behind) + met.distance_m;
+        if (!(line.range_m < range_max_m_)) return false;
+        if (is_shadow(line)) {
+            const HiddenPiece hidden{line.beam, nodes_[line.first].object, line.range_m,
+                                     half_extent(line, line.range_m, met.normal), line.solid_angle};
+            cones_.exist() ? add_to_cones(line, hidden, met.normal, cones_, pieces_)
+                           : pieces_.push_back(hidden);
+        }
+        const std::uint32_t object = objects_.object_of(met.instance);
+        if (!has_met(nodes_, line.passed, object)) {
+            solid_angles_[object].hidden += line.solid_angle;
+            nodes_.push_back({object, line.passed});
+            line.passed = static_cast<std::uint32_t>(nodes_.size() - 1);
+        }
+        return is_wanted(line);
+    }
+
+    HiddenSurface finish() {
+        HiddenSurface out{std::move(pieces_), {}};
+        for (const SolidAngles& of : solid_angles_)
+            out.visible_shares.push_back(static_cast<float>(of.visible / (of.visible + of.hidden)));
+        return out;
+    }
+
+  private:
+    bool is_shadow(const SightLine& line) const {
+        return all_ || !objects_.is_background(nodes_[line.first].object);
+    }
+    bool is_wanted(const SightLine& line) const {
+        if (directions_.is_empty_behind(line.direction, line.range_m)) return false;
+        return is_shadow(line) || directions_.may_lie_behind(line.direction, line.range_m);
+    }
+
+    const ConeBeams& cones_;
+    const SceneObjects& objects_;
+    const ObjectDirections& directions_;
+    bool all_;  ///< objects hide and background does
+    float range_max_m_;
+    std::vector<WayNode> nodes_;
+    std::vector<SolidAngles> solid_angles_;  ///< indexed by object
+    std::vector<HiddenPiece> pieces_;
+};
+
+}  // namespace
+
+HiddenSurface find_hidden_surface(const TracedPing& traced, const ConeBeams& cones,
+                                  const View& view, const SceneObjects& objects,
+                                  const VisibilityEngine& engine,
+                                  const ObjectDirections& directions, HiddenSurface::By by) {
+    std::vector<SightLine> lines = sight_lines(traced, cones, view.beams);
+    LineTracer tracer(cones, view, objects, directions, by);
+    tracer.begin(lines);
+    std::vector<Ray> rays;
+    std::vector<Intersection> met;
+    for (int layer = 0; layer < most_surfaces_behind && !lines.empty(); ++layer) {
+        met.resize(lines.size());
+        rays.clear();
+        for (const SightLine& line : lines)
+            rays.push_back(ray_behind(line, traced.motion, view.shape));
+        engine.intersect_behind(traced.T_world_sensor, rays, static_cast<float>(view.range_max_m),
+                                met);
+        std::size_t going_on = 0;
+        for (std::size_t k = 0; k < lines.size(); ++k) {
+            if (tracer.take(lines[k], met[k])) lines[going_on++] = lines[k];
+        }
+        lines.resize(going_on);
+    }
+    return tracer.finish();
+}
+
+std::vector<HiddenPiece> hidden_by_objects(const std::vector<HiddenPiece>& pieces,
+                                           const SceneObjects& objects) {
+    std::vector<HiddenPiece> out;
+    out.reserve(pieces.size());
+    std::ranges::copy_if(pieces, std::back_inserter(out), [&](const HiddenPiece& hidden) {
+        return !objects.is_background(hidden.object);
+    });
+    return out;
+}
+
+std::vector<std::uint8_t> hidden_bins(const std::vector<HiddenPiece>& pieces, const RangeBins& bins,
+                                      int beams) {
+    std::vector<std::uint8_t> covered(static_cast<std::size_t>(beams) * bins.count);
+    const auto bin_at = [&](float range_m) {
+        const float bin = (range_m - bins.min_m) / bins.bin_m;
+        return static_cast<int>(std::clamp(bin, -1.0F, static_cast<float>(bins.count)));
+    };
+    for (const HiddenPiece& hidden : pieces) {
+        std::uint8_t* const own = &covered[static_cast<std::size_t>(hidden.beam) * bins.count];
+        const int first = std::max(bin_at(hidden.range_m - hidden.half_m), 0);
+        const int last = std::min(bin_at(hidden.range_m + hidden.half_m), bins.count - 1);
+        for (int i = first; i <= last; ++i)
+            own[i] = 1;
+    }
+    return covered;
+}
+
+}  // namespace sonarsim
