@@ -10,7 +10,7 @@
 
 namespace sonarsim {
 
-/// What the steps of a run share.
+/// A run as its steps share it.
 struct RenderRun {
     const Mission& mission;
     const Assembly& assembly;
