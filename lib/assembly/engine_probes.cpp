@@ -11,14 +11,15 @@ namespace {
 
 constexpr std::size_t most_probes = 3;  // per sonar
 
-/// The error goal for a sonar that needs rays; 0: slices will do.
-double rays_goal(const Sonar& sonar) {
+/// The rays that a sonar needs; a goal of 0: slices will do.
+RaysNeed rays_need(const Sonar& sonar) {
     const View& view = sonar.settings.view;
-    const double of_model = sonar.settings.model->rays_goal(view);
-    if (of_model > 0.0) return of_model;
+    const RaysNeed of_model = sonar.settings.model->rays_need(view);
+    if (of_model.goal > 0.0) return of_model;
     // Multipath continues from the middle of each sample, and a sample of the slices may be as long
     // as a beam is high.
-    return sonar.config.multipath.method != MultipathMethod::none ? view.relative_l1 : 0.0;
+    return {.goal =
+                sonar.config.multipath.method != MultipathMethod::none ? view.relative_l1 : 0.0};
 }
 
 }  // namespace
@@ -32,7 +33,7 @@ EngineSettings engine_settings(const Mission& mission, const Assembly& assembly)
             settings.probes.push_back(
                 {traced_view(sonar.settings.view, sonar.settings.guard_beams),
                  sensor_pose(sonar, assembly.trajectory[pose].T_world_vehicle, pose),
-                 rays_goal(sonar)});
+                 rays_need(sonar)});
         }
     }
     return settings;

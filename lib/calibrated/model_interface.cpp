@@ -13,10 +13,9 @@ namespace {
 // In the order in which they enter an image.
 constexpr std::array<std::string_view, 2> calibrated_terms{"speckle", "receiver_noise"};
 
-// The beam of a side-scan sonar is narrow within its view. With added energies, images by rays have
-// three times the error of the paper's means, images by slices 14 to 18 % at any goal (a sea floor
-// with boulders against brute force).
-constexpr double share_along_track = 1.0 / 3.0;
+// The beam of a side-scan sonar is narrow within its view: the columns of rays that the goal asks
+// for are wider than it. Chosen; docs/calibrated.md has a table of the errors.
+constexpr int columns_along_track = 4;
 
 }  // namespace
 
@@ -46,11 +45,12 @@ std::span<const std::string_view> CalibratedModel::random_terms() const {
     return calibrated_terms;
 }
 
-double CalibratedModel::rays_goal(const View& view) const {
-    if (view.shape == ViewShape::port_starboard) return share_along_track * view.relative_l1;
+RaysNeed CalibratedModel::rays_need(const View& view) const {
+    if (view.shape == ViewShape::port_starboard)
+        return {.goal = view.relative_l1, .columns = columns_along_track};
     // In a cone slices are off by up to 1 %, which their estimate does not show; rays are as fast
     // there and have a third of that error.
-    return view.shape == ViewShape::cone ? view.relative_l1 : 0.0;
+    return {.goal = view.shape == ViewShape::cone ? view.relative_l1 : 0.0};
 }
 
 double CalibratedModel::working_bytes(bool multipath) const {

@@ -103,7 +103,7 @@ std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const Cas
         return make_dense_rays_engine(scene, caster, probes, coverage);
     auto slices = make_slices_engine(scene, caster, options, coverage);
     const bool few = scene.triangles.size() < few_triangles;
-    if (few && std::ranges::all_of(probes, [](const Probe& p) { return p.rays_goal == 0.0; }))
+    if (few && std::ranges::all_of(probes, [](const Probe& p) { return p.rays.goal == 0.0; }))
         return slices;
     const std::shared_ptr<const VisibilityEngine> rays = make_rays_engine(scene, caster, false);
     const auto trial_slices = without_points(*slices);
@@ -112,9 +112,10 @@ std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const Cas
     for (const Probe& probe : probes) {
         if (std::ranges::find(tried, probe.view) != tried.end()) continue;
         tried.push_back(probe.view);
-        const double goal = required_goal(probe.view, probes);
-        if (goal > 0.0) {
-            better.push_back({probe.view, goal, rays});
+        const RaysNeed need = required_rays(probe.view, probes);
+        if (need.goal > 0.0) {
+            better.push_back({probe.view, need.goal,
+                              make_rays_engine(scene, caster, false, {.columns = need.columns})});
             continue;
         }
         if (few) continue;

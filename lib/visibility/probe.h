@@ -8,21 +8,29 @@
 
 namespace sonarsim {
 
+/// The rays that a sonar needs.
+struct RaysNeed {
+    double goal = 0.0;  ///< above 0: use rays with this error goal, whatever the slices' error
+    int columns = 1;    ///< times the columns that the goal asks for, see make_rays_engine()
+};
+
 /// A view and a pose for the choice of an engine.
 struct Probe {
     View view;
     Pose T_world_sensor;
-    double rays_goal = 0.0;  ///< above 0: use rays with this goal, whatever the slices' error
+    RaysNeed rays = {};
 };
 
-/// The finest goal that the probes of a view require of rays; 0 if they require none.
-inline double required_goal(const View& view, std::span<const Probe> probes) {
-    double goal = 0.0;
+/// The finest goal and the most columns that the probes of a view need of rays; a goal of 0 if they
+/// need none.
+inline RaysNeed required_rays(const View& view, std::span<const Probe> probes) {
+    RaysNeed need;
     for (const Probe& probe : probes) {
-        if (probe.view != view || probe.rays_goal == 0.0) continue;
-        goal = goal == 0.0 ? probe.rays_goal : std::min(goal, probe.rays_goal);
+        if (probe.view != view || probe.rays.goal == 0.0) continue;
+        need.goal = need.goal == 0.0 ? probe.rays.goal : std::min(need.goal, probe.rays.goal);
+        need.columns = std::max(need.columns, probe.rays.columns);
     }
-    return goal;
+    return need;
 }
 
 }  // namespace sonarsim

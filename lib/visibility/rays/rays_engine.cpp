@@ -35,12 +35,12 @@ constexpr double sag_of_sight_lines_m = 0.01;
 class RaysEngine final : public VisibilityEngine {
   public:
     RaysEngine(const Scene& scene, Caster caster, SceneCoverage coverage,
-               std::span<const Pose> T_world_body, int density)
+               std::span<const Pose> T_world_body, const RaysExcess& excess)
         : scene_(&scene),
           caster_(std::move(caster)),
           coverage_(std::move(coverage)),
           T_world_body_(T_world_body.begin(), T_world_body.end()),
-          density_(density) {}
+          excess_(excess) {}
 
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
         const Sampling sampling = denser_sampling(view);
@@ -92,22 +92,23 @@ class RaysEngine final : public VisibilityEngine {
         for (Pose& pose : T_local_body)
             pose.translation -= scene_->origin;
         return std::make_unique<RaysEngine>(*scene_, caster_.moved(T_local_body), coverage_,
-                                            T_world_body, density_);
+                                            T_world_body, excess_);
     }
 
     std::span<const Pose> body_poses() const override { return T_world_body_; }
 
   private:
     Sampling denser_sampling(View view) const {
-        view.relative_l1 /= density_;
+        view.relative_l1 /= excess_.density;
         Sampling sampling = sampling_for(view);
-        sampling.columns *= density_;
+        sampling.columns *= excess_.density;
+        if (excess_.columns > 1) sampling.columns = excess_.columns * sampling.columns | 1;
         return sampling;
     }
 
     /// All beams, unless the rays are dense: then memory is bounded.
     int beams_together(const View& view, const Sampling& sampling) const {
-        if (density_ == 1) return std::max(view.beams, 1);
+        if (excess_.density == 1) return std::max(view.beams, 1);
         return std::max(most_rays_together / (sampling.columns * sampling.rays), 1);
     }
 
@@ -119,7 +120,7 @@ class RaysEngine final : public VisibilityEngine {
     Caster caster_;
     SceneCoverage coverage_;
     std::vector<Pose> T_world_body_;
-    int density_;
+    RaysExcess excess_;
 };
 
 }  // namespace
@@ -129,9 +130,9 @@ std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene, bool cove
 }
 
 std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene, const Caster& caster,
-                                                   bool coverage, int density) {
+                                                   bool coverage, const RaysExcess& excess) {
     return std::make_unique<RaysEngine>(scene, caster, SceneCoverage(scene, coverage),
-                                        std::span<const Pose>(), density);
+                                        std::span<const Pose>(), excess);
 }
 
 }  // namespace sonarsim

@@ -12,10 +12,19 @@ namespace sonarsim {
 /// will be called, so what it needs is made now. Throws std::runtime_error when Embree cannot build
 /// its tree (out of memory).
 std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene, bool coverage = false);
-/// The same with a caster over the scene, whose trees engines may share. A `density` of n takes a
-/// goal that is n times as fine and n times as many columns: rays that a goal asks for see lines of
-/// a beam, and over ground that is rough within the width of a beam these differ from the beam.
+/// More rays than a goal asks for.
+struct RaysExcess {
+    /// n: a goal that is n times as fine and n times as many columns. Rays that a goal asks for see
+    /// lines of a beam, and over ground that is rough within the width of a beam these differ from
+    /// the beam.
+    int density = 1;
+    /// n > 1: n times as many columns with as many rays each, and an odd number of them. Beams that
+    /// are narrower than the view receive the middle most: a column must lie there.
+    int columns = 1;
+};
+
+/// The same with a caster over the scene, whose trees engines may share.
 std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene, const Caster& caster,
-                                                   bool coverage, int density = 1);
+                                                   bool coverage, const RaysExcess& excess = {});
 
 }  // namespace sonarsim
