@@ -12,7 +12,8 @@
 
 namespace sonarsim {
 
-/// SightPlaces in the sensor frame, in arrays so that loops vectorise.
+/// Places in the sensor frame, in arrays so that loops vectorise. `most` is a multiple of the lanes
+/// of a vector: places behind `count` are worked out, too.
 struct SightPlaces {
     static constexpr int most = 256;
 

@@ -20,6 +20,9 @@ class PingShadows {
     PingShadows(Wanted wanted, const TracedPing& traced, const ConeBeams& cones, const View& view,
                 const SceneObjects& objects, const VisibilityEngine& engine,
                 const ObjectDirections& directions);
+    /// Not copied: the finders refer to the members.
+    PingShadows(const PingShadows&) = delete;
+    PingShadows& operator=(const PingShadows&) = delete;
 
     /// The shadows of beam j, as ShadowFinder::find() gives them.
     void find_of_all(int j, std::span<const std::uint8_t> occupied,

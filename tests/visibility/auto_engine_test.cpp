@@ -64,6 +64,28 @@ TEST_CASE("rays are better if they meet the goal with less than half of the samp
     CHECK_FALSE(rays_are_better({.error = 0.01, .samples_share = 0.5}, view));
 }
 
+TEST_CASE("auto gives a view the finest goal and the most columns that its probes need") {
+    Scene scene = test::empty_scene();
+    test::add_floor(scene, 30.0F, 0.0F, test::add_material(scene, 0.3F), 10);
+    const View view = auto_view();
+    View other = view;
+    other.beams = 64;
+    std::vector<Probe> probes = probes_of(view);
+    CHECK(required_rays(view, probes).goal == 0.0);
+    probes[0].rays = {.goal = 0.03, .columns = 4};
+    probes[1].rays = {.goal = 0.02, .columns = 1};
+    probes.push_back({other, above_floor(0.0), {.goal = 0.001, .columns = 7}});
+    CHECK(required_rays(view, probes).goal == 0.02);
+    CHECK(required_rays(view, probes).columns == 4);
+    View finer = view;
+    finer.relative_l1 = 0.02;
+    const Pose pose = above_floor(-15.0);
+    const auto rays = make_rays_engine(scene, Caster(scene), false, {.columns = 4});
+    const Samples seen = make_auto_engine(scene, {}, probes)->visible_surface(view, pose);
+    CHECK(same(seen, rays->visible_surface(finer, pose)));
+    CHECK_FALSE(same(seen, make_rays_engine(scene)->visible_surface(finer, pose)));
+}
+
 TEST_CASE("auto takes rays for a floor of small triangles, with the error of its probes" *
           doctest::skip(test::sanitized)) {
     const Scene scene = swell();

@@ -141,7 +141,8 @@ TEST_SUITE("dense rays") {
         View view = dense_view(0.001);
         view.beams = 256;
         const Pose pose = at_the_border(view).front().T_world_sensor;
-        const Samples seen = make_rays_engine(scene, caster, false, {.density = 2})->visible_surface(view, pose);
+        const Samples seen =
+            make_rays_engine(scene, caster, false, {.density = 2})->visible_surface(view, pose);
         REQUIRE(seen.beam_begin.size() == 257);
         CHECK(seen.beam_begin.back() == seen.items.size());
         int astray = 0;

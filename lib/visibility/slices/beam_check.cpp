@@ -94,7 +94,7 @@ BeamCheck::BeamCheck(const View& view, BeamsToCheck which, const FrameScan& scan
       calm_rate_(calm_rate(view, which)),
       all_(view.beams <= 2) {}
 
-double BeamCheck::rate(double difference, bool closely, double wrong_bins) {
+double BeamCheck::rate(double difference) {
     ++uncertain_;
     differences_ += difference;
     const double mean = differences_ / uncertain_;
@@ -102,13 +102,18 @@ double BeamCheck::rate(double difference, bool closely, double wrong_bins) {
     const double own = least_share_of_rate + (1.0 - least_share_of_rate) * times;
     // Drawn beams of too few bins would miss the errors of others: they have at least
     // bins_of_one_cause wrong bins if the image just meets its goal.
-    const double least = bins_of_one_cause / std::max(wrong_bins, bins_of_one_cause);
-    return std::max((closely ? more_if_close : 1.0) * calm_rate_ * own, least);
+    const double least = bins_of_one_cause / std::max(wrong_bins_, bins_of_one_cause);
+    return std::max((closely_ ? more_if_close : 1.0) * calm_rate_ * own, least);
 }
 
 bool BeamCheck::look_at(AdaptiveSlices& adaptive, bool closely, double wrong_bins) {
     if (!all_ && !adaptive.uncertain()) return false;
-    weight_ = draw_.weight(rate(adaptive.last_difference(), closely, wrong_bins));
+    weight_ = draw_.weight(rate(adaptive.last_difference()));
+    if (draw_.unit() != unit_) {
+        unit_ = draw_.unit();
+        closely_ = closely;
+        wrong_bins_ = wrong_bins;
+    }
     if (!(weight_ > 0.0)) return false;
     samples_.clear();
     sums_.clear();

@@ -70,7 +70,7 @@ class BeamCheck {
 
   private:
     /// The rate at which a beam is drawn whose slices disagree by `difference`.
-    double rate(double difference, bool closely, double wrong_bins);
+    double rate(double difference);
 
     std::vector<Sample> samples_;
     BeamSums sums_;
@@ -84,6 +84,11 @@ class BeamCheck {
     int uncertain_ = 0;         ///< number of uncertain beams so far
     double differences_ = 0.0;  ///< sum of their differences
     double weight_ = 0.0;       ///< the number of beams that the last one stands for
+    /// look_at()'s arguments when the unit of the draw began: within a unit they would depend on
+    /// its own draw. The first beam is certain.
+    bool closely_ = false;
+    double wrong_bins_ = 0.0;
+    std::uint32_t unit_ = 0;
 };
 
 /// The expected error of an image as a share of its signal.

@@ -19,6 +19,10 @@ class BeamDraw {
     /// beam with a rate of 1 or more is always drawn, for itself alone.
     double weight(double rate);
 
+    /// The unit in which the next beam's rate begins. A draw depends on those of its unit alone:
+    /// rates may depend on the beams of units before.
+    std::uint32_t unit() const { return static_cast<std::uint32_t>(rates_); }
+
   private:
     double rates_ = 0.0;       ///< sum so far
     std::uint32_t units_ = 0;  ///< number of units whose point was passed

@@ -69,13 +69,15 @@ void BeamErrors::end_beam() {
     if (drawn) {
         const double distance = BeamSums::difference(sums_, check_);
         const double total = weight_ * distance;
-        const double change = last_ < 0.0 ? 0.0 : total - last_;
         checked_ += distance;
         squares_ += BeamSums::squared_difference(sums_, check_);
         runs_ += BeamSums::squared_runs(sums_, check_);
         others_ += total - distance;
-        variance_ += 0.5 * (1.0 - 1.0 / weight_) * change * change;
-        last_ = total;
+        if (weight_ > 1.0) {
+            const double change = last_ < 0.0 ? 0.0 : total - last_;
+            variance_ += 0.5 * (1.0 - 1.0 / weight_) * change * change;
+            last_ = total;
+        }
         check_.clear();
         weight_ = 0.0;
     }

@@ -40,9 +40,9 @@ int slices_for(double relative_l1) {
 // added: where neighbours differ most, so the rest of the error does not fall in proportion.
 constexpr double error_per_difference = 0.16;
 
-// The passes over a ping at most, and the share of the goal at which a further pass aims: chosen
-// for cost, on the lifeboat and the drawn lattices 1000 to 1109.
-constexpr int most_passes = 4;
+// The passes over a ping at most, one more if the first draws beams, and the share of the goal at
+// which a further pass aims: chosen for cost, on the lifeboat and the drawn lattices 1000 to 1109.
+constexpr int most_passes = 3;
 constexpr double aimed_share = 0.8;
 
 // The same if few bins decide, and how many times the slices a further pass has. Fixed numbers of
@@ -95,10 +95,10 @@ class SlicesEngine final : public VisibilityEngine {
         std::optional<PointImage> points;
         for (int pass = 1;; ++pass) {
             Pass seen = see(finer, which, goal, pose, least_slices);
-            bool last = is_last(seen, goal, pass);
+            bool last = is_last(seen, view, pass);
             if (last && seen.few_bins && options_.per_beam == 0) {
                 ask_rays(view, pose, pass, seen, points);
-                last = is_last(seen, goal, pass);
+                last = is_last(seen, view, pass);
             }
             if (last) return std::move(seen.samples);
             if (seen.few_bins) least_slices *= times_the_slices;
@@ -137,12 +137,14 @@ class SlicesEngine final : public VisibilityEngine {
     }
 
     /// True if the ping needs no further pass, or gets none.
-    bool is_last(const Pass& seen, double goal, int pass) const {
+    bool is_last(const Pass& seen, const View& view, int pass) const {
+        const double goal = view.relative_l1;
+        const int most = most_passes + (beams_to_check(view) == BeamsToCheck::all ? 0 : 1);
         const double enough = seen.few_bins ? enough_for_few_bins(goal, pass) : goal;
         // More slices do not help against edge bins.
         const bool hopeless = seen.edge_bins > goal;
         return seen.samples.estimated_l1 <= enough || hopeless || options_.per_beam > 0 ||
-               pass >= (seen.few_bins ? most_passes_of_few : most_passes);
+               pass >= (seen.few_bins ? most_passes_of_few : most);
     }
 
     /// Lets rays decide about edge bins, so that the estimate needs no allowance for them. Then

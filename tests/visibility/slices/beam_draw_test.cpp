@@ -28,6 +28,7 @@ TEST_CASE("slices: drawn beams with any rates estimate a sum without bias") {
         sum += value;
         variance += value * value / rate;
     }
+    // 4 standard deviations: 1 of 16,000.
     CHECK(std::fabs(estimate - sum) < 4.0 * std::sqrt(variance));
     CHECK(std::sqrt(variance) < 0.02 * sum);  // else the test could hardly fail
 }

@@ -100,6 +100,30 @@ TEST_CASE("slices: a drawn beam has its check's image, and stands for its neighb
     CHECK(drawn.root_of_squares() == doctest::Approx(std::sqrt(2.0) / 3.0));
 }
 
+TEST_CASE("slices: draws of equal weighted distances have no scatter, and certain beams add none") {
+    // Each beam has bins 2 to 4, and its check one or two bins more: distances of 1 or 2.
+    const auto deviation = [](const std::vector<std::pair<double, int>>& drawn) -> double {
+        BeamErrors errors(ten_bins());
+        int beam = 0;
+        for (const auto& [weight, more] : drawn) {
+            errors.begin_beam(beam++);
+            errors.sums().add({2.5F, 4.5F}, 2.0F, 4.5F, 1.0F);
+            BeamSums check(ten_bins());
+            const float to = 4.5F + static_cast<float>(more);
+            check.add({2.5F, to}, 1.0F, to, 1.0F);
+            errors.add_check(check, weight);
+        }
+        errors.finish();
+        return errors.others_deviation();
+    };
+    CHECK(deviation({{4.0, 1}, {2.0, 2}}) == 0.0);
+    CHECK(deviation({{4.0, 1}, {1.0, 1}, {4.0, 1}}) == 0.0);
+    // Weighted distances of 2 and 4: half the squared difference, times 1 - 1 / 2. The checks have
+    // 4 and 5 bins.
+    CHECK(deviation({{2.0, 1}, {2.0, 2}}) ==
+          doctest::Approx(std::sqrt(0.5 * 0.5 * 2.0 * 2.0) / 9.0));
+}
+
 TEST_CASE("slices: neighbours that err alike are one run") {
     // Bins 1 and 2 are too bright, 3 too dark, 7 too dark: runs of 2, 1 and 1 of three bins'
     // signal.
