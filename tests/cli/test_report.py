@@ -15,9 +15,13 @@ ROW = {"sensor", "engine", "setting", "promise", "ms_per_ping", "pings_per_s", "
        "false_rate", "samples_per_ping", "build_s", "first_ping_s", "peak_memory_mb"}
 
 
+# A million rays show whether the figures are sound.
+QUICK = ("--quick", "--reference-rays", "1000000")
+
+
 class Report(Sandbox):
     def test_quick(self):
-        result = self.run_sonarsim("report", "mission.yaml", "--quick", "--out", "report", "--json",
+        result = self.run_sonarsim("report", "mission.yaml", *QUICK, "--out", "report", "--json",
                                    "elsewhere.json")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("engine: auto takes", result.stdout)
@@ -57,7 +61,7 @@ class Report(Sandbox):
         self.edit("mission.yaml", "azimuth_deg: 60", "azimuth_deg: 120")
         self.edit("mission.yaml", "    noise:", "    multipath: {method: cluster, delta_deg: 15}\n"
                   "    streaks: {mode: add}\n    noise:")
-        result = self.run_sonarsim("report", "mission.yaml", "--quick", "--out", "report")
+        result = self.run_sonarsim("report", "mission.yaml", *QUICK, "--out", "report")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("cluster epsilon=5 delta=15 <", result.stdout)
         report = json.loads((self.folder / "report/report.json").read_text())
@@ -83,7 +87,7 @@ class Report(Sandbox):
         self.assertEqual(float(table[5]["recall"]), rows[5]["recall"])
 
     def test_labels(self):
-        result = self.run_sonarsim("report", "mission.yaml", "--quick", "--engines", "auto", "--set",
+        result = self.run_sonarsim("report", "mission.yaml", *QUICK, "--engines", "auto", "--set",
                                    "output.labels=true", "--json", "report.json")
         self.assertEqual(result.returncode, 0, result.stderr)
         report = json.loads((self.folder / "report.json").read_text())
@@ -95,7 +99,7 @@ class Report(Sandbox):
         self.assertRegex(result.stdout, r"\n all ids +[0-9]")
 
     def test_scale(self):
-        result = self.run_sonarsim("report", "mission.yaml", "--quick", "--scale", "--quiet",
+        result = self.run_sonarsim("report", "mission.yaml", *QUICK, "--scale", "--quiet",
                                    "--most-triangles", "800", "--json", "report.json")
         self.assertEqual(result.returncode, 0, result.stderr)
         growth = json.loads((self.folder / "report.json").read_text())["growth"]
@@ -120,7 +124,7 @@ class Report(Sandbox):
         self.assertIn("12 verdicts: 0 fail", result.stdout)
 
     def test_engines(self):
-        result = self.run_sonarsim("report", "mission.yaml", "--quick", "--quiet", "--engines",
+        result = self.run_sonarsim("report", "mission.yaml", *QUICK, "--quiet", "--engines",
                                    "slices,rays", "--json", "report.json")
         self.assertEqual(result.returncode, 0, result.stderr)
         rows = json.loads((self.folder / "report.json").read_text())["rows"]
