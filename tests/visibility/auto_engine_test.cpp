@@ -131,7 +131,7 @@ TEST_CASE("auto takes slices for few triangles, and without probes") {
     CHECK(same(make_auto_engine(scene, {}, {})->visible_surface(view, pose), by_slices));
 
     SUBCASE("but rays with multipath") {
-        const std::vector<Probe> bouncing{{view, pose, view.relative_l1}};
+        const std::vector<Probe> bouncing{{view, pose, {.goal = view.relative_l1}}};
         const Samples seen = make_auto_engine(scene, {}, bouncing)->visible_surface(view, pose);
         const Samples by_rays = make_rays_engine(scene)->visible_surface(view, pose);
         CHECK(same(seen, by_rays));
