@@ -84,8 +84,8 @@ class BeamCheck {
     int uncertain_ = 0;         ///< number of uncertain beams so far
     double differences_ = 0.0;  ///< sum of their differences
     double weight_ = 0.0;       ///< the number of beams that the last one stands for
-    /// look_at()'s arguments when the unit of the draw began: within a unit they would depend on
-    /// its own draw. The first beam is certain.
+    /// look_at()'s arguments when the present unit of draw_ began (see BeamDraw::unit). The rate of
+    /// the first beam is 1.
     bool closely_ = false;
     double wrong_bins_ = 0.0;
     std::uint32_t unit_ = 0;

@@ -19,8 +19,8 @@ class BeamDraw {
     /// beam with a rate of 1 or more is always drawn, for itself alone.
     double weight(double rate);
 
-    /// The unit in which the next beam's rate begins. A draw depends on those of its unit alone:
-    /// rates may depend on the beams of units before.
+    /// The unit of the line in which the next beam's rate begins. Its rate may depend on what was
+    /// drawn in earlier units. If it depends on draws of its own unit, the estimate is biased.
     std::uint32_t unit() const { return static_cast<std::uint32_t>(rates_); }
 
   private:

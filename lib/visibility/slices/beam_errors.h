@@ -68,8 +68,8 @@ class BeamErrors {
     double occupied_ = 0.0;
     double others_ = 0.0;
     double variance_ = 0.0;
-    double last_ =
-        -1.0;  ///< weighted distance of the last beam that stood for others; negative: none
+    /// The weighted distance of the last beam that stood for others; negative: there is none.
+    double last_ = -1.0;
 };
 
 }  // namespace sonarsim
