@@ -90,7 +90,7 @@ bool AdaptiveSlices::scan_next(const SliceErrorLimit& most) {
 }
 
 void AdaptiveSlices::scan_gap(std::uint32_t gap) {
-    Around& around = around_[gap - first_gap_];
+    AroundGap& around = around_[gap - first_gap_];
     around.of_slices.clear();
     around.all.clear();
     around.unseen.clear();
@@ -131,7 +131,7 @@ void AdaptiveSlices::split(std::size_t i, float u) {
 }
 
 const std::vector<Candidate>& AdaptiveSlices::candidates(std::uint32_t gap) {
-    Around& around = around_[gap - first_gap_];
+    AroundGap& around = around_[gap - first_gap_];
     if (around.all.empty()) scan_.find_candidates(gap, around.of_slices, around.all);
     return around.all;
 }

@@ -9,6 +9,8 @@
 
 namespace sonarsim {
 
+struct KeptGaps;
+
 /// Difference of neighbouring slices' predictions midway between them, in intensities summed over
 /// bins and beams.
 struct SliceError {
@@ -35,6 +37,23 @@ struct Strip {
 /// them ends, so that the other's goes on up to there.
 float strip_border(const SliceResult& low, const SliceResult& high);
 
+/// An interval between two neighbouring slices of a beam.
+struct Subgap {
+    std::uint32_t low;  ///< index of a slice
+    std::uint32_t high;
+    std::uint32_t gap;        ///< index of the frame's gap that contains it
+    float difference = 0.0F;  ///< as in SliceError
+    float signal = 0.0F;
+    float split_u = 0.0F;  ///< the next slice goes here
+};
+
+/// A gap of the frame, and the trapezoids that a slice in it may meet.
+struct AroundGap {
+    std::vector<std::uint32_t> of_slices;  ///< trapezoids that its own slices meet
+    std::vector<Candidate> all;            ///< filled when the gap is split
+    std::vector<UnseenPiece> unseen;       ///< pieces that its own slices do not meet
+};
+
 /// Scans the slices of a frame, one beam at a time, and adds slices between them until neighbours
 /// agree.
 class AdaptiveSlices {
@@ -56,30 +75,16 @@ class AdaptiveSlices {
     /// The slices themselves stay as they are.
     std::span<const Strip> check_strips();
 
+    /// Appends what the last gaps are, for a later check of them.
+    void keep(KeptGaps& out) const;
+
+    /// Makes kept gaps the last ones, for check_strips(). Nothing can be scanned afterwards.
+    void restore(const KeptGaps& kept, std::size_t index);
+
     /// The sum over all gaps so far.
     const SliceError& sum() const { return sum_; }
 
-    /// The difference in the last gaps, a part of sum().
-    double last_difference() const { return last_difference_; }
-
   private:
-    /// An interval between two neighbouring slices; indices into results_.
-    struct Subgap {
-        std::uint32_t low;
-        std::uint32_t high;
-        std::uint32_t gap;        ///< index of the frame's gap that contains it
-        float difference = 0.0F;  ///< as in SliceError
-        float signal = 0.0F;
-        float split_u = 0.0F;  ///< the next slice goes here
-    };
-
-    /// A gap of the frame, and the trapezoids that a slice in it may meet.
-    struct Around {
-        std::vector<std::uint32_t> of_slices;  ///< trapezoids that its own slices meet
-        std::vector<Candidate> all;            ///< filled when the gap is split
-        std::vector<UnseenPiece> unseen;       ///< pieces that its own slices do not meet
-    };
-
     void scan_gap(std::uint32_t gap);
     void split_where_wanted(std::uint32_t gap);
     void split(std::size_t i, float u);
@@ -108,7 +113,7 @@ class AdaptiveSlices {
     std::uint32_t next_gap_ = 0;
     std::uint32_t first_gap_ = 0;  ///< first of the gaps scanned together
     float beam_width_ = 0.0F;      ///< in u
-    std::vector<Around> around_;
+    std::vector<AroundGap> around_;
     std::vector<Subgap> subgaps_;
     std::vector<const SliceResult*> done_;
     std::vector<SliceResult> check_;  ///< slices of the check; the first check_used_ are in use

@@ -9,22 +9,6 @@ namespace sonarsim {
 
 namespace {
 
-// Views of up to this many beams are checked whole, since one of their beams may have a large share
-// of the error. Set after a drawn lattice of 64 beams was missed with 16 of them.
-constexpr int few_beams = 64;
-
-// The number of drawn beams of others if all may have errors, and how many times more are drawn
-// where it decides. Chosen for cost: by 16 beams the error is known to 43 % in the lifeboat and to
-// 25 % in the wreck, and a third and two thirds of their pings had to be seen again.
-constexpr int drawn_beams = 32;
-constexpr double more_if_close = 2.0;
-
-// A beam's rate is this share of the calm rate at least; the rest of it grows with the disagreement
-// of the beam's slices, up to so many times the mean. Chosen on the lifeboat, the wreck and the
-// tank, whose estimates have 0.71, 0.83 and 0.87 of the standard deviation that equal rates give.
-constexpr double least_share_of_rate = 0.5;
-constexpr double most_times_the_mean = 8.0;
-
 // Errors per distance of a checked beam, whose check is returned, and of another beam; see
 // BeamCheck.
 constexpr double error_if_checked = 1.0;
@@ -60,19 +44,6 @@ double student(double degrees) {
     return z + (first + second / degrees) / degrees;
 }
 
-double calm_rate(const View& view, BeamsToCheck which) {
-    switch (which) {
-        case BeamsToCheck::drawn:
-            return static_cast<double>(drawn_beams) / view.beams;
-        case BeamsToCheck::half:
-            return 0.5;
-        case BeamsToCheck::all:
-            break;
-    }
-    // Whatever the slices' disagreement is, the rate is 1.
-    return 1.0 / least_share_of_rate;
-}
-
 /// The patches of the check are those of a third of the error goal at most.
 PatchLimits fine_limits(View view) {
     view.relative_l1 = std::min(view.relative_l1 / 3.0, 0.01);
@@ -81,50 +52,18 @@ PatchLimits fine_limits(View view) {
 
 }  // namespace
 
-BeamsToCheck beams_to_check(const View& view) {
-    return view.beams <= few_beams || !is_coarse(view.relative_l1) ? BeamsToCheck::all
-                                                                   : BeamsToCheck::drawn;
-}
-
-BeamCheck::BeamCheck(const View& view, BeamsToCheck which, const FrameScan& scan,
-                     std::span<const Material> materials)
+BeamCheck::BeamCheck(const View& view, const FrameScan& scan, std::span<const Material> materials,
+                     std::vector<Sample>& samples)
     : sums_(view),
-      sampler_(scan, materials, fine_limits(view), sums_, samples_),
-      quads_(scan, fine_limits(view), sampler_),
-      calm_rate_(calm_rate(view, which)),
-      all_(view.beams <= 2) {}
+      sampler_(scan, materials, fine_limits(view), sums_, samples),
+      quads_(scan, fine_limits(view), sampler_) {}
 
-double BeamCheck::rate(double difference) {
-    ++uncertain_;
-    differences_ += difference;
-    const double mean = differences_ / uncertain_;
-    const double times = mean > 0.0 ? std::min(difference / mean, most_times_the_mean) : 1.0;
-    const double own = least_share_of_rate + (1.0 - least_share_of_rate) * times;
-    // Drawn beams of too few bins would miss the errors of others: they have at least
-    // bins_of_one_cause wrong bins if the image just meets its goal.
-    const double least = bins_of_one_cause / std::max(wrong_bins_, bins_of_one_cause);
-    return std::max((closely_ ? more_if_close : 1.0) * calm_rate_ * own, least);
-}
-
-bool BeamCheck::look_at(AdaptiveSlices& adaptive, bool closely, double wrong_bins) {
-    if (!all_ && !adaptive.uncertain()) return false;
-    weight_ = draw_.weight(rate(adaptive.last_difference()));
-    if (draw_.unit() != unit_) {
-        unit_ = draw_.unit();
-        closely_ = closely;
-        wrong_bins_ = wrong_bins;
-    }
-    if (!(weight_ > 0.0)) return false;
-    samples_.clear();
+BeamSums& BeamCheck::look_at(AdaptiveSlices& adaptive) {
     sums_.clear();
     for (const Strip& strip : adaptive.check_strips())
         quads_.add(*strip.slice, *strip.low, *strip.high);
     quads_.end_beam();
-    return true;
-}
-
-void BeamCheck::hand_over(BeamErrors& errors) const {
-    errors.add_check(sums_, weight_);
+    return sums_;
 }
 
 double likely_error(const BeamErrors& errors) {
@@ -132,23 +71,33 @@ double likely_error(const BeamErrors& errors) {
            error_if_not * errors.of_others();
 }
 
+double likely_error_if_checked(const BeamErrors& errors) {
+    return error_of_fine_patches + errors.edge_bins() +
+           error_if_checked * (errors.of_checked() + errors.of_others());
+}
+
 double estimated_error(const BeamErrors& errors) {
-    const double bins = deviation_of_bins * errors.root_of_squares();
-    const double draw = error_if_not * errors.others_deviation();
-    return likely_error(errors) + deviations * std::sqrt(bins * bins + draw * draw);
+    const double bins = deviations * deviation_of_bins * errors.root_of_squares();
+    // Variances from differences of successive draws have two thirds of the degrees of freedom
+    // that the draws have (von Neumann 1941: their variance is 3/2 of the usual one).
+    const double degrees = std::max((errors.draws() - 1) / 1.5, 1.0);
+    const double draw = student(degrees) * error_if_not * errors.others_deviation();
+    return likely_error(errors) + std::sqrt(bins * bins + draw * draw);
 }
 
 bool few_bins_decide(const BeamErrors& errors, double goal) {
     return goal * errors.occupied_bins() < bins_of_one_cause;
 }
 
+double share_with_one_cause(const BeamErrors& errors, double goal) {
+    return bins_of_one_cause / std::max(goal * errors.occupied_bins(), bins_of_one_cause);
+}
+
 double estimated_error_of_few_bins(const BeamErrors& errors) {
     const double run = errors.root_of_runs();
     const double distance = errors.of_checked();
     const double runs = run > 0.0 ? std::max(distance * distance / (run * run), 1.0) : 1.0;
-    const double bins = student(runs) * deviation_of_bins * run;
-    const double draw = deviations * error_if_not * errors.others_deviation();
-    return likely_error(errors) + std::sqrt(bins * bins + draw * draw);
+    return likely_error(errors) + student(runs) * deviation_of_bins * run;
 }
 
 double enough_for_few_bins(double goal, int pass) {

@@ -13,17 +13,17 @@ namespace sonarsim {
 /// per unit, as with strata.
 class BeamDraw {
   public:
-    BeamDraw();
+    /// Draws of different numbers are independent.
+    explicit BeamDraw(std::uint32_t number);
 
     /// The number of beams that the next one stands for; 0 if it is not drawn. A rate is above 0; a
     /// beam with a rate of 1 or more is always drawn, for itself alone.
     double weight(double rate);
 
-    /// The unit of the line in which the next beam's rate begins. Its rate may depend on what was
-    /// drawn in earlier units. If it depends on draws of its own unit, the estimate is biased.
-    std::uint32_t unit() const { return static_cast<std::uint32_t>(rates_); }
-
   private:
+    double next_point() const;
+
+    std::uint32_t number_;
     double rates_ = 0.0;       ///< sum so far
     std::uint32_t units_ = 0;  ///< number of units whose point was passed
     double next_;              ///< the next point on the line

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <vector>
 
 namespace sonarsim {
@@ -35,7 +36,7 @@ double sum_of(const Lanes& x) {
 
 }  // namespace
 
-BeamErrors::BeamErrors(const View& view) : sums_(view), check_(view) {}
+BeamErrors::BeamErrors(const View& view) : sums_(view), finished_(view.beams) {}
 
 void BeamErrors::begin_beam(int beam) {
     if (beam == beam_) return;
@@ -43,49 +44,72 @@ void BeamErrors::begin_beam(int beam) {
     beam_ = beam;
 }
 
-void BeamErrors::add_check(const BeamSums& check, double weight) {
-    check_.add(check);
-    weight_ = weight;
-}
-
 double BeamErrors::others_deviation() const {
-    return signal_ > 0.0 ? std::sqrt(variance_) / signal_ : 0.0;
+    return of_signal(std::sqrt(variance_));
 }
 
 double BeamErrors::root_of_squares() const {
-    return signal_ > 0.0 ? std::sqrt(squares_) / signal_ : 0.0;
+    return of_signal(std::sqrt(checked_.squares));
 }
 
 double BeamErrors::root_of_runs() const {
-    return signal_ > 0.0 ? std::sqrt(runs_) / signal_ : 0.0;
+    return of_signal(std::sqrt(checked_.runs));
+}
+
+void BeamErrors::end_beam() {
+    if (beam_ < 0) return;
+    const Bins bins = bins_of(sums_);
+    add(bins, 1.0);
+    const std::size_t begin = intensities_.size();
+    sums_.append_intensities(intensities_);
+    finished_[beam_] = {bins, sums_.first(), begin, intensities_.size() - begin};
+    sums_.clear();
+    beam_ = -1;
+}
+
+void BeamErrors::start_draw() {
+    others_ = 0.0;
+    variance_ = 0.0;
+    draws_ = 0;
 }
 
 /// A beam that stands for `weight` beams has `weight` - 1 times its distance for the others. The
 /// mean square of the difference of two draws is twice their variance; a beam that stands for
 /// itself alone has none.
-void BeamErrors::end_beam() {
-    const bool drawn = weight_ > 0.0;
-    add_edge_bins(drawn ? check_ : sums_);
-    if (drawn) {
-        const double distance = BeamSums::difference(sums_, check_);
-        const double total = weight_ * distance;
-        checked_ += distance;
-        squares_ += BeamSums::squared_difference(sums_, check_);
-        runs_ += BeamSums::squared_runs(sums_, check_);
-        others_ += total - distance;
-        if (weight_ > 1.0) {
-            const double change = last_ < 0.0 ? 0.0 : total - last_;
-            variance_ += 0.5 * (1.0 - 1.0 / weight_) * change * change;
-            last_ = total;
-        }
-        check_.clear();
-        weight_ = 0.0;
-    }
-    sums_.clear();
+void BeamErrors::check(int beam, BeamSums& check, double weight) {
+    const Finished& finished = finished_[beam];
+    add(finished.bins, -1.0);
+    add(bins_of(check), 1.0);
+    const double before = checked_.absolute;
+    add_distance({finished.first, std::span(intensities_).subspan(finished.begin, finished.count)},
+                 check);
+    if (!(weight > 1.0)) return;
+    const double distance = checked_.absolute - before;
+    const double total = weight * distance;
+    others_ += total - distance;
+    const double change = draws_ > 0 ? total - last_ : 0.0;
+    variance_ += 0.5 * (1.0 - 1.0 / weight) * change * change;
+    last_ = total;
+    ++draws_;
 }
 
-/// Adds the intensities of all bins, and those of the probable errors of edge bins.
-void BeamErrors::add_edge_bins(BeamSums& sums) {
+void BeamErrors::add_distance(const BeamImage& image, const BeamSums& check) {
+    of_check_.clear();
+    check.append_intensities(of_check_);
+    const BeamDistance d = distance(image, {check.first(), of_check_});
+    checked_.absolute += d.absolute;
+    checked_.squares += d.squares;
+    checked_.runs += d.runs;
+}
+
+void BeamErrors::add(const Bins& bins, double times) {
+    total_.signal += times * bins.signal;
+    total_.edge_bins += times * bins.edge_bins;
+    total_.occupied += times * bins.occupied;
+}
+
+/// The sum of the intensities of all bins, and of the probable errors of edge bins.
+BeamErrors::Bins BeamErrors::bins_of(BeamSums& sums) {
     Lanes all{};
     Lanes edge_bins{};
     Lanes occupied{};
@@ -101,17 +125,16 @@ void BeamErrors::add_edge_bins(BeamSums& sums) {
                 intensity * (sums.area(i) < thinnest_share * fuller ? thinnest_error_rate : share);
         }
     }
-    signal_ += sum_of(all);
-    edge_bins_ += sum_of(edge_bins);
-    occupied_ += sum_of(occupied);
+    Bins out{sum_of(all), sum_of(edge_bins), sum_of(occupied)};
     std::vector<int>& touched = sums.touched();
     std::ranges::sort(touched);
     touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
     for (const int i : touched) {
         if (i < 0 || i >= sums.count() || sums.area(i) > 0.0F) continue;
         const int fuller = sums.area(i - 1) > sums.area(i + 1) ? i - 1 : i + 1;
-        edge_bins_ += static_cast<double>(touched_error_rate * sums.intensity(fuller));
+        out.edge_bins += static_cast<double>(touched_error_rate * sums.intensity(fuller));
     }
+    return out;
 }
 
 }  // namespace sonarsim

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
 #include "visibility/slices/beam_sums.h"
 
 namespace sonarsim {
@@ -9,26 +12,32 @@ namespace sonarsim {
 ///
 /// - Edge bins, which surface only just fills or only just misses. A bin is as bright for a sliver
 ///   of surface as for a wall, so rounding decides about it, and all slices have the same rounding.
-/// - The distance of drawn beams from their check, an image by more slices (beam_check.h). The
-///   check is the image of these beams.
+/// - The distance of beams from their check, an image by more slices (beam_check.h). The check is
+///   the image of these beams.
 class BeamErrors {
   public:
     explicit BeamErrors(const View& view);
 
-    /// Starts a beam; what is added to sums() or by add_check() later belongs to it. Beams come in
-    /// order.
+    /// Starts a beam; what is added to sums() later belongs to it. Beams come in order.
     void begin_beam(int beam);
 
     BeamSums& sums() { return sums_; }
 
-    /// Adds surface of the beam's check. The beam was drawn and stands for `weight` beams.
-    void add_check(const BeamSums& check, double weight);
+    /// Ends the last beam.
+    void finish() { end_beam(); }
+
+    /// Starts a draw among the beams that were not checked, after finish(). The beams that were not
+    /// checked are known from the last draw alone.
+    void start_draw();
+
+    /// The check of a beam without one, which was drawn and stands for `weight` beams.
+    void check(int beam, BeamSums& check, double weight);
 
     /// The expected error of edge bins over the finished beams.
-    double edge_bins() const { return signal_ > 0.0 ? edge_bins_ / signal_ : 0.0; }
+    double edge_bins() const { return of_signal(total_.edge_bins); }
 
-    /// The distance of the drawn beams from their checks.
-    double of_checked() const { return signal_ > 0.0 ? checked_ / signal_ : 0.0; }
+    /// The distance of the checked beams from their checks.
+    double of_checked() const { return of_signal(checked_.absolute); }
 
     /// The root of the sum over their bins of the squared distances.
     double root_of_squares() const;
@@ -38,38 +47,50 @@ class BeamErrors {
     double root_of_runs() const;
 
     /// The number of bins with an echo in the finished beams.
-    double occupied_bins() const { return occupied_; }
-
-    /// The same per finished beam.
-    double bins_per_beam() const { return beam_ > 0 ? occupied_ / beam_ : 0.0; }
+    double occupied_bins() const { return total_.occupied; }
 
     /// The distance of the other beams from checks of theirs, estimated from the drawn ones.
-    double of_others() const { return signal_ > 0.0 ? others_ / signal_ : 0.0; }
+    double of_others() const { return of_signal(others_); }
 
     /// Standard deviation of of_others() from the draw of beams.
     double others_deviation() const;
 
-    /// Ends the last beam.
-    void finish() { end_beam(); }
+    /// The number of beams that the last draw drew and that stand for others.
+    int draws() const { return draws_; }
 
   private:
+    struct Bins {
+        double signal = 0.0;  ///< sum of the intensities
+        double edge_bins = 0.0;
+        double occupied = 0.0;
+    };
+
+    /// A beam before its check.
+    struct Finished {
+        Bins bins;
+        int first = 0;
+        std::size_t begin = 0;  ///< offset into intensities_
+        std::size_t count = 0;
+    };
+
     void end_beam();
-    void add_edge_bins(BeamSums& sums);
+    static Bins bins_of(BeamSums& sums);
+    void add_distance(const BeamImage& image, const BeamSums& check);
+    void add(const Bins& bins, double times);
+    double of_signal(double x) const { return total_.signal > 0.0 ? x / total_.signal : 0.0; }
 
     BeamSums sums_;
-    BeamSums check_;
-    double weight_ = 0.0;  ///< the number of beams that this one stands for; 0: it was not drawn
     int beam_ = -1;
-    double signal_ = 0.0;  ///< intensities of all bins of all beams
-    double edge_bins_ = 0.0;
-    double checked_ = 0.0;
-    double squares_ = 0.0;
-    double runs_ = 0.0;
-    double occupied_ = 0.0;
+    Bins total_;
+    BeamDistance checked_;
     double others_ = 0.0;
     double variance_ = 0.0;
-    /// The weighted distance of the last beam that stood for others; negative: there is none.
-    double last_ = -1.0;
+    int draws_ = 0;
+    double last_ = 0.0;               ///< the weighted distance of the last of these draws
+    std::vector<Finished> finished_;  ///< by beam
+    std::vector<float> intensities_;
+
+    std::vector<float> of_check_;  ///< of one beam
 };
 
 }  // namespace sonarsim

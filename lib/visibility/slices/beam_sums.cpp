@@ -14,6 +14,24 @@ constexpr float touching_bins = 0.001F;
 
 }  // namespace
 
+BeamDistance distance(const BeamImage& a, const BeamImage& b) {
+    BeamDistance out;
+    double run = 0.0;
+    const int end = std::max(a.end(), b.end());
+    for (int i = std::min(a.first, b.first); i < end; ++i) {
+        const auto d = static_cast<double>(a.at(i) - b.at(i));
+        out.absolute += std::fabs(d);
+        out.squares += d * d;
+        if (!(run * d > 0.0)) {
+            out.runs += run * run;
+            run = 0.0;
+        }
+        run += d;
+    }
+    out.runs += run * run;
+    return out;
+}
+
 BeamSums::BeamSums(const View& view)
     : per_m_(static_cast<float>(1.0 / view.bin_m())),
       min_bins_(static_cast<float>(view.range_min_m / view.bin_m())),
@@ -54,44 +72,9 @@ void BeamSums::add(const BeamSums& other) {
     last_ = std::max(last_, other.last_);
 }
 
-double BeamSums::signal() const {
-    double sum = 0.0;
+void BeamSums::append_intensities(std::vector<float>& out) const {
     for (int i = first_; i <= last_; ++i)
-        sum += static_cast<double>(intensity(i));
-    return sum;
-}
-
-double BeamSums::difference(const BeamSums& a, const BeamSums& b) {
-    double sum = 0.0;
-    const int last = std::max(a.last_, b.last_);
-    for (int i = std::min(a.first_, b.first_); i <= last; ++i)
-        sum += static_cast<double>(std::fabs(a.intensity(i) - b.intensity(i)));
-    return sum;
-}
-
-double BeamSums::squared_difference(const BeamSums& a, const BeamSums& b) {
-    double sum = 0.0;
-    const int last = std::max(a.last_, b.last_);
-    for (int i = std::min(a.first_, b.first_); i <= last; ++i) {
-        const auto d = static_cast<double>(a.intensity(i) - b.intensity(i));
-        sum += d * d;
-    }
-    return sum;
-}
-
-double BeamSums::squared_runs(const BeamSums& a, const BeamSums& b) {
-    double sum = 0.0;
-    double run = 0.0;
-    const int last = std::max(a.last_, b.last_);
-    for (int i = std::min(a.first_, b.first_); i <= last; ++i) {
-        const auto d = static_cast<double>(a.intensity(i) - b.intensity(i));
-        if (!(run * d > 0.0)) {
-            sum += run * run;
-            run = 0.0;
-        }
-        run += d;
-    }
-    return sum + run * run;
+        out.push_back(intensity(i));
 }
 
 void BeamSums::clear() {

@@ -1,11 +1,33 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "visibility/slices/scan.h"
 #include "visibility/view.h"
 
 namespace sonarsim {
+
+/// The image of a beam; bins without a value are dark.
+struct BeamImage {
+    int first;  ///< bin of the first value
+    std::span<const float> intensities;
+
+    int end() const { return first + static_cast<int>(intensities.size()); }
+    float at(int bin) const {
+        return first <= bin && bin < end() ? intensities[bin - first] : 0.0F;
+    }
+};
+
+/// The difference d of two images of a beam.
+struct BeamDistance {
+    double absolute = 0.0;  ///< the sum over the bins of |d|
+    double squares = 0.0;   ///< of d^2
+    /// The sum of the squared sums over runs of bins in which d has one sign.
+    double runs = 0.0;
+};
+
+BeamDistance distance(const BeamImage& a, const BeamImage& b);
 
 /// Surface of one beam by range bin: area, and area times intensity. Their quotient is the image.
 class BeamSums {
@@ -21,14 +43,8 @@ class BeamSums {
 
     void clear();
 
-    /// The sum of the intensities.
-    double signal() const;
-
-    /// The sum over the bins of the absolute difference of the intensities.
-    static double difference(const BeamSums& a, const BeamSums& b);
-    static double squared_difference(const BeamSums& a, const BeamSums& b);
-    /// The sum of the squared sums over runs of bins in which the difference has one sign.
-    static double squared_runs(const BeamSums& a, const BeamSums& b);
+    /// Appends the intensities of the bins from first() to last() to `out`.
+    void append_intensities(std::vector<float>& out) const;
 
     int count() const { return count_; }
     /// Bins outside of [first, last] are dark.

@@ -4,6 +4,7 @@
 
 #include "core/random.h"
 #include "visibility/slices/adaptive_slices.h"
+#include "visibility/slices/kept_gaps.h"
 
 namespace sonarsim {
 
@@ -20,6 +21,43 @@ bool AdaptiveSlices::certain(const Subgap& subgap) const {
 
 bool AdaptiveSlices::uncertain() const {
     return !std::ranges::all_of(subgaps_, [&](const Subgap& subgap) { return certain(subgap); });
+}
+
+void AdaptiveSlices::keep(KeptGaps& out) const {
+    out.beams.push_back(
+        {first_gap_, next_gap_, out.slices.size(), out.unseen.size(), last_difference_});
+    out.subgaps.add(subgaps_);
+    for (std::uint32_t i = 0; i < used_; ++i) {
+        out.slices.push_back(results_[i].slice);
+        out.spans.add(results_[i].spans);
+    }
+    for (std::uint32_t gap = first_gap_; gap < next_gap_; ++gap) {
+        const AroundGap& around = around_[gap - first_gap_];
+        out.of_slices.add(around.of_slices);
+        out.all.add(around.all);
+        out.unseen.add(around.unseen);
+    }
+}
+
+void AdaptiveSlices::restore(const KeptGaps& kept, std::size_t index) {
+    const auto assign = [](auto& to, auto row) { to.assign(row.begin(), row.end()); };
+    const KeptGaps::Beam& beam = kept.beams[index];
+    const bool is_last = index + 1 == kept.beams.size();
+    const std::size_t end = is_last ? kept.slices.size() : kept.beams[index + 1].first_slice;
+    first_gap_ = beam.first_gap;
+    next_gap_ = beam.next_gap;
+    assign(subgaps_, kept.subgaps[index]);
+    used_ = 0;
+    for (std::size_t i = beam.first_slice; i < end; ++i) {
+        SliceResult& result = results_[new_slice()];
+        result.slice = kept.slices[i];
+        assign(result.spans, kept.spans[i]);
+    }
+    for (std::uint32_t k = 0; k < next_gap_ - first_gap_; ++k) {
+        assign(around_[k].of_slices, kept.of_slices[beam.first_around + k]);
+        assign(around_[k].all, kept.all[beam.first_around + k]);
+        assign(around_[k].unseen, kept.unseen[beam.first_around + k]);
+    }
 }
 
 void AdaptiveSlices::scan_check() {

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <deque>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -10,38 +13,28 @@
 #include "visibility/coverage.h"
 #include "visibility/intersect.h"
 #include "visibility/local_pose.h"
-#include "visibility/slices/adaptive_slices.h"
 #include "visibility/slices/beam_check.h"
-#include "visibility/slices/beam_cutter.h"
 #include "visibility/slices/beam_errors.h"
+#include "visibility/slices/check_beams.h"
 #include "visibility/slices/clusters.h"
 #include "visibility/slices/edge_rays.h"
-#include "visibility/slices/frame_scan.h"
+#include "visibility/slices/patch_limits.h"
 #include "visibility/slices/point_image.h"
-#include "visibility/slices/quad_samples.h"
 #include "visibility/slices/sampled_image.h"
 #include "visibility/slices/scan.h"
-#include "visibility/slices/strip_quads.h"
+#include "visibility/slices/swept_frame.h"
 
 namespace sonarsim {
 
 namespace {
-
-// With a fixed number of slices, gaps are split only for narrow components.
-constexpr SliceErrorLimit unlimited{.share = 1e9, .carry_over = 0.0};
 
 /// Initial number of slices per beam for an error goal.
 int slices_for(double relative_l1) {
     return is_coarse(relative_l1) ? 1 : relative_l1 >= 0.005 ? 2 : 4;
 }
 
-// Ratio of an image's error to the square root of its slice error: where slices are to be added.
-// The estimate of the error does not depend on it. The square root follows from where slices are
-// added: where neighbours differ most, so the rest of the error does not fall in proportion.
-constexpr double error_per_difference = 0.16;
-
-// The passes over a ping at most, one more if the first draws beams, and the share of the goal at
-// which a further pass aims: chosen for cost, on the lifeboat and the drawn lattices 1000 to 1109.
+// The passes over a ping at most, and the share of the goal at which a further pass aims: chosen
+// for cost, on the lifeboat and the drawn lattices 1000 to 1109.
 constexpr int most_passes = 3;
 constexpr double aimed_share = 0.8;
 
@@ -51,26 +44,6 @@ constexpr double aimed_share = 0.8;
 // not converge so surely.
 constexpr int most_passes_of_few = 4;
 constexpr int times_the_slices = 4;
-
-/// Error of an image without errors of visibility: patches of surface become boxes in range.
-double error_of_shapes(double relative_l1) {
-    return 0.002 + 0.003 * std::clamp(relative_l1 / 0.03, 0.1, 1.0);
-}
-
-/// Limit of the slice error for an error goal, less `edge_bins`, the expected error of edge bins.
-/// More slices do not meet goals near the error of shapes: the limit is at least an eighth of the
-/// goal.
-SliceErrorLimit slice_error_limit(double relative_l1, double edge_bins) {
-    // A coarse goal is used except for a tenth, the uncertainty of the estimate: beams share their
-    // allowance, and edge bins are subtracted. At 1 % errors are up to 1.15 times the estimate, so
-    // every beam has to meet the goal by itself.
-    const bool coarse = is_coarse(relative_l1);
-    const double goal = coarse ? 0.9 * relative_l1 - edge_bins : relative_l1;
-    const double left = std::max(goal - error_of_shapes(relative_l1), 0.0);
-    return {.share = std::max(left * left / (error_per_difference * error_per_difference),
-                              0.125 * relative_l1),
-            .carry_over = coarse ? 0.25 : 0.0};
-}
 
 class SlicesEngine final : public VisibilityEngine {
   public:
@@ -90,11 +63,11 @@ class SlicesEngine final : public VisibilityEngine {
         const LocalPose pose = local_pose(T_world_sensor, scene_->origin);
         const double goal = view.relative_l1;
         View finer = view;
-        BeamsToCheck which = beams_to_check(view);
+        bool draws = draws_beams(view);
         int least_slices = slices_for(goal);
         std::optional<PointImage> points;
         for (int pass = 1;; ++pass) {
-            Pass seen = see(finer, which, goal, pose, least_slices);
+            Pass seen = see(finer, draws, goal, pose, least_slices);
             bool last = is_last(seen, view, pass);
             if (last && seen.few_bins && options_.per_beam == 0) {
                 ask_rays(view, pose, pass, seen, points);
@@ -102,11 +75,8 @@ class SlicesEngine final : public VisibilityEngine {
             }
             if (last) return std::move(seen.samples);
             if (seen.few_bins) least_slices *= times_the_slices;
-            if (seen.few_bins || which == BeamsToCheck::all) {
-                const double error = seen.samples.estimated_l1;
-                finer.relative_l1 *= std::clamp(aimed_share * goal / error, 0.25, 0.67);
-            }
-            which = more_beams(which, seen, goal);
+            draws = false;
+            finer.relative_l1 *= std::clamp(aimed_share * goal / seen.if_checked, 0.25, 0.67);
         }
     }
 
@@ -123,28 +93,19 @@ class SlicesEngine final : public VisibilityEngine {
   private:
     struct Pass {
         Samples samples;
-        double likely_error;
-        double edge_bins;  ///< their part of the estimated error
-        bool few_bins;     ///< few bins decide
+        double if_checked;  ///< the estimated error if all beams are checked
+        double edge_bins;   ///< their part of the estimated error
+        bool few_bins;      ///< few bins decide
     };
-
-    /// The beams that the next pass checks: half of them if that may suffice. Checked beams have
-    /// less error, so half of them lower it to (1 + 1.41) / 2 / 1.41 of that without checks.
-    static BeamsToCheck more_beams(BeamsToCheck before, const Pass& seen, double goal) {
-        const bool half_suffices = 0.85 * seen.likely_error <= aimed_share * goal;
-        return before == BeamsToCheck::drawn && !seen.few_bins && half_suffices ? BeamsToCheck::half
-                                                                                : BeamsToCheck::all;
-    }
 
     /// True if the ping needs no further pass, or gets none.
     bool is_last(const Pass& seen, const View& view, int pass) const {
         const double goal = view.relative_l1;
-        const int most = most_passes + (beams_to_check(view) == BeamsToCheck::all ? 0 : 1);
         const double enough = seen.few_bins ? enough_for_few_bins(goal, pass) : goal;
         // More slices do not help against edge bins.
         const bool hopeless = seen.edge_bins > goal;
         return seen.samples.estimated_l1 <= enough || hopeless || options_.per_beam > 0 ||
-               pass >= (seen.few_bins ? most_passes_of_few : most);
+               pass >= (seen.few_bins ? most_passes_of_few : most_passes);
     }
 
     /// Lets rays decide about edge bins, so that the estimate needs no allowance for them. Then
@@ -170,48 +131,35 @@ class SlicesEngine final : public VisibilityEngine {
 
     /// One pass over a ping, as fine as `view` asks, with at least so many slices per beam; `goal`
     /// is that of the mission.
-    Pass see(const View& view, BeamsToCheck which, double goal, const LocalPose& pose,
+    Pass see(const View& view, bool draws, double goal, const LocalPose& pose,
              int least_slices) const {
-        const int per_beam = options_.per_beam > 0
-                                 ? options_.per_beam
-                                 : std::max(slices_for(view.relative_l1), least_slices);
+        const bool fixed = options_.per_beam > 0;
+        const int per_beam =
+            fixed ? options_.per_beam : std::max(slices_for(view.relative_l1), least_slices);
+        const SlicesPing ping{*mesh_, *scene_, view, pose, fixed};
         Samples samples;
         samples.beam_begin.assign(view.beams + 1, 0);
         BeamErrors errors(view);
-        for (const SliceFrame& frame : slice_frames(view, per_beam))
-            see_frame(view, which, goal, pose, frame, samples, errors);
+        const std::vector<SliceFrame> frames = slice_frames(view, per_beam);
+        CheckedBeams checked;
+        std::deque<SweptFrame> swept;
+        for (const SliceFrame& frame : frames)
+            swept.emplace_back(ping, frame, samples, errors, checked);
         errors.finish();
+        if (draws) {
+            check_drawn(swept, fixed ? unbounded : goal, errors);
+        } else {
+            check_all(view, swept, errors);
+        }
+        replace_checked(checked, scene_->maps != nullptr, samples);
+        for (const SweptFrame& frame : swept)
+            samples.dropped += frame.dropped();
         const bool few_bins = few_bins_decide(errors, goal);
         samples.estimated_l1 =
             few_bins ? estimated_error_of_few_bins(errors) : estimated_error(errors);
-        return {std::move(samples), likely_error(errors), errors.edge_bins(), few_bins};
-    }
-
-    void see_frame(const View& view, BeamsToCheck which, double goal, const LocalPose& pose,
-                   const SliceFrame& frame, Samples& samples, BeamErrors& errors) const {
-        const PatchLimits limits = patch_limits(view);
-        FrameScan scan(*mesh_, *scene_, frame, pose, limits.range_max_m);
-        AdaptiveSlices adaptive(view, scene_->materials, scan);
-        QuadSampler sampler(scan, scene_->materials, limits, errors.sums(), samples.items);
-        StripQuads quads(scan, limits, sampler);
-        BeamCutter cutter(frame, quads, errors, samples, scene_->maps != nullptr);
-        BeamCheck check(view, which, scan, scene_->materials);
-        const auto most = [&] {
-            return options_.per_beam > 0 ? unlimited
-                                         : slice_error_limit(view.relative_l1, errors.edge_bins());
-        };
-        while (adaptive.scan_next(most())) {
-            // More draws decide if the estimate and its limit are on different sides of the goal.
-            const bool closely = likely_error(errors) <= goal && estimated_error(errors) > goal;
-            const double wrong_bins = goal * errors.bins_per_beam() * view.beams;
-            const bool drawn = check.look_at(adaptive, closely, wrong_bins);
-            for (const SliceResult* result : adaptive.slices())
-                cutter.add(*result);
-            if (!drawn) continue;
-            check.hand_over(errors);
-            cutter.replace(check.samples());
-        }
-        samples.dropped += scan.scene().dropped;
+        const double if_checked =
+            errors.of_others() > 0.0 ? likely_error_if_checked(errors) : samples.estimated_l1;
+        return {std::move(samples), if_checked, errors.edge_bins(), few_bins};
     }
 
     const Scene* scene_;

@@ -17,7 +17,7 @@ TEST_CASE("slices: drawn beams with any rates estimate a sum without bias") {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> any(0.03, 1.0);
     const int beams = test::sanitized ? 20'000 : 200'000;
-    BeamDraw draw;
+    BeamDraw draw(3);
     double estimate = 0.0;
     double sum = 0.0;
     double variance = 0.0;
@@ -34,7 +34,7 @@ TEST_CASE("slices: drawn beams with any rates estimate a sum without bias") {
 }
 
 TEST_CASE("slices: beams are drawn as often as their rates say, one in each unit") {
-    BeamDraw draw;
+    BeamDraw draw(3);
     double rates = 0.0;
     double draws = 0.0;
     for (int i = 0; i < 1000; ++i) {
@@ -46,7 +46,7 @@ TEST_CASE("slices: beams are drawn as often as their rates say, one in each unit
 }
 
 TEST_CASE("slices: a beam with a rate of 1 stands for itself alone") {
-    BeamDraw draw;
+    BeamDraw draw(3);
     for (int i = 0; i < 100; ++i) {
         REQUIRE(draw.weight(1.0) == 1.0);
         REQUIRE(draw.weight(7.5) == 1.0);

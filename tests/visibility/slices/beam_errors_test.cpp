@@ -3,6 +3,8 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <iterator>
+#include <utility>
 #include <vector>
 
 #include "visibility/slices/beam_check.h"
@@ -13,12 +15,12 @@ TEST_SUITE_BEGIN("slices");
 
 namespace {
 
-/// Ten bins of 1 m from 0 to 10 m, one beam.
+/// Ten bins of 1 m from 0 to 10 m.
 View ten_bins() {
     View view;
     view.range_max_m = 10.0;
     view.range_bins = 10;
-    view.beams = 1;
+    view.beams = 4;
     return view;
 }
 
@@ -45,8 +47,8 @@ BeamErrors errors_of_bins(const std::vector<int>& image, const std::vector<int>&
     BeamSums sums(ten_bins());
     for (const int bin : check)
         fill(bin, sums);
-    errors.add_check(sums, 1.0);
     errors.finish();
+    errors.check(0, sums, 1.0);
     return errors;
 }
 
@@ -84,10 +86,10 @@ TEST_CASE("slices: a drawn beam has its check's image, and stands for its neighb
         BeamErrors errors(ten_bins());
         errors.begin_beam(0);
         errors.sums().add({2.5F, 4.5F}, 2.0F, 4.5F, 1.0F);
+        errors.finish();
         BeamSums check(ten_bins());
         check.add(check_m, 1.0F, check_m.to, 1.0F);
-        errors.add_check(check, weight);
-        errors.finish();
+        errors.check(0, check, weight);
         return errors;
     };
     const BeamErrors whole = errors_with({2.5F, 5.5F}, 1.0);
@@ -104,16 +106,17 @@ TEST_CASE("slices: draws of equal weighted distances have no scatter, and certai
     // Each beam has bins 2 to 4, and its check one or two bins more: distances of 1 or 2.
     const auto deviation = [](const std::vector<std::pair<double, int>>& drawn) -> double {
         BeamErrors errors(ten_bins());
-        int beam = 0;
-        for (const auto& [weight, more] : drawn) {
-            errors.begin_beam(beam++);
+        for (int beam = 0; beam < std::ssize(drawn); ++beam) {
+            errors.begin_beam(beam);
             errors.sums().add({2.5F, 4.5F}, 2.0F, 4.5F, 1.0F);
-            BeamSums check(ten_bins());
-            const float to = 4.5F + static_cast<float>(more);
-            check.add({2.5F, to}, 1.0F, to, 1.0F);
-            errors.add_check(check, weight);
         }
         errors.finish();
+        for (int beam = 0; beam < std::ssize(drawn); ++beam) {
+            BeamSums check(ten_bins());
+            const float to = 4.5F + static_cast<float>(drawn[beam].second);
+            check.add({2.5F, to}, 1.0F, to, 1.0F);
+            errors.check(beam, check, drawn[beam].first);
+        }
         return errors.others_deviation();
     };
     CHECK(deviation({{4.0, 1}, {2.0, 2}}) == 0.0);
@@ -122,6 +125,58 @@ TEST_CASE("slices: draws of equal weighted distances have no scatter, and certai
     // 4 and 5 bins.
     CHECK(deviation({{2.0, 1}, {2.0, 2}}) ==
           doctest::Approx(std::sqrt(0.5 * 0.5 * 2.0 * 2.0) / 9.0));
+}
+
+TEST_CASE("slices: a further draw knows the others anew, and earlier checks remain") {
+    // Beams 0 to 3 have bins 2 to 4, and their checks one bin more: distance 1 each.
+    BeamErrors errors(ten_bins());
+    for (int beam = 0; beam < 4; ++beam) {
+        errors.begin_beam(beam);
+        errors.sums().add({2.5F, 4.5F}, 2.0F, 4.5F, 1.0F);
+    }
+    errors.finish();
+    CHECK(errors.occupied_bins() == 12.0);
+    BeamSums check(ten_bins());
+    check.add({2.5F, 5.5F}, 1.0F, 5.5F, 1.0F);
+    errors.start_draw();
+    errors.check(1, check, 4.0);
+    CHECK(errors.of_others() == doctest::Approx(3.0 / 13.0));
+    errors.start_draw();
+    CHECK(errors.of_others() == 0.0);
+    errors.check(0, check, 3.0);
+    CHECK(errors.draws() == 1);
+    CHECK(errors.of_checked() == doctest::Approx(2.0 / 14.0));
+    CHECK(errors.of_others() == doctest::Approx(2.0 / 14.0));
+    CHECK(likely_error(errors) == doctest::Approx(0.0023 + 2.0 / 14.0 * (1.0 + 1.414)));
+    CHECK(likely_error_if_checked(errors) == doctest::Approx(0.0023 + 4.0 / 14.0));
+}
+
+TEST_CASE("slices: the limit of few draws is that of Student's distribution") {
+    // Three draws with weighted distances of 2, 4 and 2: two thirds of 2 degrees of freedom, and
+    // Student's 95 % quantile for 1.33 is 4.3; the series gives 3.6. Seven draws: 4 degrees, 2.132.
+    const auto times_deviation = [](int draws) -> double {
+        View view = ten_bins();
+        view.beams = draws;
+        BeamErrors errors(view);
+        for (int beam = 0; beam < draws; ++beam) {
+            errors.begin_beam(beam);
+            errors.sums().add({2.5F, 4.5F}, 2.0F, 4.5F, 1.0F);
+        }
+        errors.finish();
+        errors.start_draw();
+        for (int beam = 0; beam < draws; ++beam) {
+            BeamSums check(view);
+            const float to = beam % 2 == 0 ? 5.5F : 6.5F;
+            check.add({2.5F, to}, 1.0F, to, 1.0F);
+            errors.check(beam, check, 2.0);
+        }
+        const double above = estimated_error(errors) - likely_error(errors);
+        const double bins = 1.645 * 0.853 * errors.root_of_squares();
+        return std::sqrt(above * above - bins * bins) / (1.414 * errors.others_deviation());
+    };
+    CHECK(times_deviation(3) > 3.0);
+    CHECK(times_deviation(7) == doctest::Approx(2.132).epsilon(0.02));
+    CHECK(times_deviation(61) == doctest::Approx(1.684).epsilon(0.01));
 }
 
 TEST_CASE("slices: neighbours that err alike are one run") {
