@@ -90,7 +90,7 @@ class BeamErrors {
     std::vector<Finished> finished_;  ///< by beam
     std::vector<float> intensities_;
 
-    std::vector<float> of_check_;  ///< of one beam
+    std::vector<float> of_check_;  ///< one beam
 };
 
 }  // namespace sonarsim

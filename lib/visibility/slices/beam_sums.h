@@ -22,7 +22,7 @@ struct BeamImage {
 /// The difference d of two images of a beam.
 struct BeamDistance {
     double absolute = 0.0;  ///< the sum over the bins of |d|
-    double squares = 0.0;   ///< of d^2
+    double squares = 0.0;   ///< the sum of d^2
     /// The sum of the squared sums over runs of bins in which d has one sign.
     double runs = 0.0;
 };
