@@ -87,7 +87,7 @@ class BeamErrors {
     double variance_ = 0.0;
     int draws_ = 0;
     double last_ = 0.0;               ///< the weighted distance of the last of these draws
-    std::vector<Finished> finished_;  ///< by beam
+    std::vector<Finished> finished_;  ///< one per beam
     std::vector<float> intensities_;
 
     std::vector<float> of_check_;  ///< one beam
