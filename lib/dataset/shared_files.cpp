@@ -1,5 +1,7 @@
 #include "dataset/shared_files.h"
 
+#include <algorithm>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -31,6 +33,12 @@ std::string class_list(const nlohmann::ordered_json& description) {
     return text;
 }
 
+/// True for a COCO file of the pictures of single pings.
+bool shows_pings(const SharedProduct& product) {
+    return product.kind == SharedProduct::Kind::coco &&
+           (product.picture == CocoPicture::polar || product.picture == CocoPicture::fan);
+}
+
 }  // namespace
 
 void write_shared_products(const Layout& layout, const Mission& mission,
@@ -39,16 +47,18 @@ void write_shared_products(const Layout& layout, const Mission& mission,
     const std::vector<SplitPart> part_of_pose =
         split.is_on() ? split_poses(split, layout.poses)
                       : std::vector<SplitPart>(layout.poses, SplitPart::none);
+    const std::vector<SharedProduct> products = shared_products(mission);
+    std::vector<SharedProduct> of_pings;
+    std::ranges::copy_if(products, std::back_inserter(of_pings), shows_pings);
+    write_coco(layout, description, of_pings, part_of_pose);
     std::vector<std::string> coco_files;  // written so far
-    for (const SharedProduct& product : shared_products(mission)) {
+    for (const SharedProduct& product : products) {
         switch (product.kind) {
             case SharedProduct::Kind::coco:
                 if (product.picture == CocoPicture::record) {
                     write_record_coco(layout, description, product);
                 } else if (product.picture == CocoPicture::scan) {
                     write_scan_coco(layout, mission, description, product);
-                } else {
-                    write_coco(layout, description, product, part_of_pose);
                 }
                 coco_files.push_back(product.file);
                 break;

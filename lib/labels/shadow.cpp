@@ -23,10 +23,10 @@ bool fill_gaps(std::span<std::uint16_t> ids) {
 }
 
 bool has_dark_bins(std::span<const std::uint8_t> covered, std::span<const std::uint8_t> occupied) {
-    bool dark = false;
+    std::uint8_t dark = 0;  // no bool, so that the loop becomes vectors
     for (std::size_t i = 0; i < covered.size(); ++i)
-        dark |= covered[i] > occupied[i];
-    return dark;
+        dark |= covered[i] > occupied[i] ? std::uint8_t{1} : std::uint8_t{0};
+    return dark != 0;
 }
 
 /// Gives the dark bins their owners. False: some have none. No branches, so that the loop becomes

@@ -40,8 +40,7 @@ std::vector<ObjectMask> object_masks(std::span<const std::uint16_t> ids, int hei
     std::vector<std::uint32_t> place_of_id;  // 1 + index into `growing`
     for (std::size_t from = 0, to = 0; from < ids.size(); from = to) {
         const std::uint16_t id = ids[from];
-        for (to = from + 1; to < ids.size() && ids[to] == id;)
-            ++to;
+        to = end_of_run(ids, from);
         if (id == 0) continue;
         if (place_of_id.size() <= id) place_of_id.resize(id + std::size_t{1}, 0);
         if (place_of_id[id] == 0) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -16,6 +18,20 @@ struct ObjectMask {
     /// top. They add up to all pixels; only the first may be 0.
     std::vector<std::uint32_t> runs;
 };
+
+/// The end of the run of equal ids that begins at a place.
+inline std::size_t end_of_run(std::span<const std::uint16_t> ids, std::size_t from) {
+    constexpr std::size_t at_once = 4;
+    const std::uint64_t same = ids[from] * std::uint64_t{0x0001000100010001};
+    std::size_t to = from + 1;
+    for (std::uint64_t next; to + at_once <= ids.size(); to += at_once) {
+        std::memcpy(&next, &ids[to], sizeof next);
+        if (next != same) break;
+    }
+    while (to < ids.size() && ids[to] == ids[from])
+        ++to;
+    return to;
+}
 
 /// The masks of a picture's objects, sorted by id. `ids` holds the columns one after the other,
 /// each `height` pixels from the top; 0 means no object.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "product/object_masks.h"
+
 namespace sonarsim {
 
 namespace {
@@ -18,16 +20,38 @@ std::uint16_t object_at(const PingLabels& labels, int range_bin, int beam) {
     return labels.object[static_cast<std::size_t>(beam) * labels.range_bins + range_bin];
 }
 
-void add_bin(SeenObject& seen, int i, int j) {
+/// Adds the bins [from, to) of beam j.
+void add_bins(SeenObject& seen, int from, int to, int j) {
     if (seen.bins == 0) {
-        seen.range_first = seen.range_last = i;
-        seen.beam_first = seen.beam_last = j;
+        seen.range_first = from;
+        seen.beam_first = j;
     }
-    seen.range_first = std::min(seen.range_first, i);
-    seen.range_last = std::max(seen.range_last, i);
-    seen.beam_first = std::min(seen.beam_first, j);
-    seen.beam_last = std::max(seen.beam_last, j);
-    ++seen.bins;
+    seen.range_first = std::min(seen.range_first, from);
+    seen.range_last = std::max(seen.range_last, to - 1);
+    seen.beam_last = j;
+    seen.bins += static_cast<std::uint64_t>(to - from);
+}
+
+/// Adds these bins one by one, since the order decides the last digits. The sums do not wait for
+/// each other, so that three take the time of one.
+void add_to_totals(std::span<const float> levels, std::span<const double> ranges_m,
+                   double azimuth_rad, BinTotals& totals) {
+    BinTotals sum = totals;
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+        sum.level += levels[k];
+        sum.range_m += ranges_m[k];
+        sum.azimuth_rad += azimuth_rad;
+    }
+    totals = sum;
+}
+
+/// Calls visit(id, from, to) for the runs of bins [from, to) of a beam that have an id.
+template <class Visit>
+void for_each_run(std::span<const std::uint16_t> ids, Visit visit) {
+    for (std::size_t from = 0, to = 0; from < ids.size(); from = to) {
+        to = end_of_run(ids, from);
+        if (ids[from] != 0) visit(ids[from], static_cast<int>(from), static_cast<int>(to));
+    }
 }
 
 /// The levels of a ping in the order of its labels, [beams, range bins].
@@ -85,20 +109,18 @@ void add_shadows(const PingLabels& labels, std::span<const PixelBox> fan_boxes,
     if (labels.object_shadow.empty()) return;
     for (int j = 0; j < labels.beams; ++j) {
         const std::size_t begin = static_cast<std::size_t>(j) * labels.range_bins;
-        // Most beams have no shadow; this loop is vectorised.
-        std::uint16_t any = 0;
-        for (int i = 0; i < labels.range_bins; ++i)
-            any |= labels.object_shadow[begin + i];
-        for (int i = 0; any != 0 && i < labels.range_bins; ++i) {
-            const std::size_t at = begin + i;
-            const std::uint16_t id = labels.object_shadow[at];
-            if (id == 0) continue;
+        const auto own = std::span(labels.object_shadow).subspan(begin, labels.range_bins);
+        for_each_run(own, [&](std::uint16_t id, int from, int to) {
             SeenObject& object = all[id - 1];
-            object.shadow.extend(j, i);
-            ++object.shadow_bins;
-            if (!fan_boxes.empty())
-                object.shadow_in_fan = joined(object.shadow_in_fan, fan_boxes[at]);
-        }
+            object.shadow.extend(j, from);
+            object.shadow.extend(j, to - 1);
+            object.shadow_bins += static_cast<std::uint64_t>(to - from);
+            if (fan_boxes.empty()) return;
+            PixelBox in_fan = object.shadow_in_fan;
+            for (int i = from; i < to; ++i)
+                in_fan = joined(in_fan, fan_boxes[begin + i]);
+            object.shadow_in_fan = in_fan;
+        });
     }
 }
 
@@ -150,16 +172,18 @@ std::vector<SeenObject> seen_objects(const Sonar& sonar, const SceneObjects& obj
     const auto middle = [](const std::vector<double>& edges, int k) {
         return 0.5 * (edges[k] + edges[k + 1]);
     };
+    std::vector<double> ranges_m;
+    for (int i = 0; i < labels.range_bins; ++i)
+        ranges_m.push_back(middle(sonar.range_edges_m, i));
     for (int j = 0; j < labels.beams; ++j) {
-        for (int i = 0; i < labels.range_bins; ++i) {
-            const std::uint16_t id = object_at(labels, i, j);
-            if (id == 0) continue;
-            add_bin(all[id - 1], i, j);
-            BinTotals& total = totals[id - 1];
-            total.level += levels[static_cast<std::size_t>(j) * labels.range_bins + i];
-            total.range_m += middle(sonar.range_edges_m, i);
-            if (fan) total.azimuth_rad += middle(sonar.azimuth_edges_rad, j);
-        }
+        const std::size_t begin = static_cast<std::size_t>(j) * labels.range_bins;
+        const double azimuth_rad = fan ? middle(sonar.azimuth_edges_rad, j) : 0.0;
+        const auto own = std::span(labels.object).subspan(begin, labels.range_bins);
+        for_each_run(own, [&](std::uint16_t id, int from, int to) {
+            add_bins(all[id - 1], from, to, j);
+            add_to_totals(std::span(levels).subspan(begin + from, to - from),
+                          std::span(ranges_m).subspan(from), azimuth_rad, totals[id - 1]);
+        });
     }
     add_shadows(labels, fan_boxes, all);
     const Contrasts contrasts(objects, labels, levels);

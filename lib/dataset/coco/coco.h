@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <vector>
 
 #include "dataset/layout.h"
@@ -14,12 +15,14 @@ namespace sonarsim {
 
 inline constexpr std::uint64_t ids_per_image = 65536;
 
-/// Writes a COCO file of the objects of every ping, from the files objects/NNNNNN.json. It holds
-/// one ping in memory at a time. The ids of images are 2 k + 1, for the fan 2 k + 2, with the index
-/// k of the ping in the mission; those of annotations are 65536 times the id of the image plus the
-/// instance. They are the same in every part of a split, and unique in all COCO files of a dataset.
+/// Writes COCO files of the objects of every ping, from the files objects/NNNNNN.json, which are
+/// read once. It holds one ping in memory at a time. The ids of images are 2 k + 1, for the fan 2 k
+/// + 2, with the index k of the ping in the mission; those of annotations are 65536 times the id of
+/// the image plus the instance. They are the same in every part of a split, and unique in all COCO
+/// files of a dataset.
 void write_coco(const Layout& layout, const nlohmann::ordered_json& description,
-                const SharedProduct& product, const std::vector<SplitPart>& part_of_pose);
+                std::span<const SharedProduct> products,
+                const std::vector<SplitPart>& part_of_pose);
 
 /// Writes a COCO file of the objects in the strips of a dataset (waterfalls and echograms), one
 /// picture per sonar. A row or column that stands for several pings shows the objects of each of

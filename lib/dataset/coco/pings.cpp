@@ -1,8 +1,9 @@
 #include <array>
-#include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "core/units.h"
 #include "dataset/coco/coco.h"
@@ -124,54 +125,86 @@ std::optional<CocoAnnotation> annotation_of(const Json& object, const PictureSer
     return annotation;
 }
 
+/// A COCO file while it is written.
+struct OpenCoco {
+    const SharedProduct& product;
+    std::vector<std::optional<PictureSeries>> series;  ///< by sensor
+    std::unique_ptr<CocoFile> file;
+
+    /// True for a ping whose picture it lists.
+    bool lists(const PingId& ping, const std::vector<SplitPart>& part_of_pose) const {
+        return series[ping.sensor] &&
+               (product.part == SplitPart::none || product.part == part_of_pose[ping.pose]);
+    }
+    /// The id of the picture of the ping with this index in the mission.
+    std::uint64_t image_id(std::uint64_t index) const {
+        return 2 * index + (product.picture == CocoPicture::fan ? 2 : 1);
+    }
+};
+
+/// Calls visit(ping, index) for each ping of the mission.
+template <class Visit>
+void for_each_ping(const Layout& layout, std::size_t poses, Visit visit) {
+    std::uint64_t index = 0;
+    for (std::uint32_t pose = 0; pose < poses; ++pose) {
+        for (std::uint32_t i = 0; i < layout.sensors.size(); ++i) {
+            if (pose % layout.sensors[i].every == 0) visit(PingId{pose, i}, index++);
+        }
+    }
+}
+
 }  // namespace
 
-void write_coco(const Layout& layout, const Json& description, const SharedProduct& product,
+void write_coco(const Layout& layout, const Json& description,
+                std::span<const SharedProduct> products,
                 const std::vector<SplitPart>& part_of_pose) {
-    std::vector<std::optional<PictureSeries>> series;
-    for (std::size_t i = 0; i < layout.sensors.size(); ++i) {
-        series.push_back(
-            series_of(layout.sensors[i], description.at("sensors").at(i), product.picture));
+    if (products.empty()) return;
+    std::vector<OpenCoco> all;
+    for (const SharedProduct& product : products) {
+        std::vector<std::optional<PictureSeries>> series;
+        for (std::size_t i = 0; i < layout.sensors.size(); ++i) {
+            series.push_back(
+                series_of(layout.sensors[i], description.at("sensors").at(i), product.picture));
+        }
+        all.push_back({product, std::move(series),
+                       std::make_unique<CocoFile>(layout.folder / product.file, description)});
+        all.back().file->begin_list("images");
     }
     const ClassTable classes = class_table(description);
-
-    const auto for_each_picture =
-        [&](const std::function<void(const PingId&, const PictureSeries&, std::uint64_t)>& visit) {
-            std::uint64_t index = 0;
-            for (std::uint32_t pose = 0; pose < part_of_pose.size(); ++pose) {
-                for (std::uint32_t i = 0; i < layout.sensors.size(); ++i) {
-                    if (pose % layout.sensors[i].every != 0) continue;
-                    const std::uint64_t id =
-                        2 * ++index - 1 + (product.picture == CocoPicture::fan ? 1 : 0);
-                    const bool listed =
-                        product.part == SplitPart::none || product.part == part_of_pose[pose];
-                    if (listed && series[i]) visit({pose, i}, *series[i], id);
-                }
-            }
-        };
-
-    CocoFile out(layout.folder / product.file, description);
-    out.begin_list("images");
-    for_each_picture([&](const PingId& ping, const PictureSeries& shown, std::uint64_t id) {
-        out.add({{"id", id},
-                 {"file_name", place_of_file(layout, ping, shown.picture)},
-                 {"width", shown.width},
-                 {"height", shown.height},
-                 {"sensor", layout.sensors[ping.sensor].name},
-                 {"ping", ping.pose}});
-    });
-    out.end_list();
-    out.begin_list("annotations");
-    PingFileReader reader(layout);
-    for_each_picture([&](const PingId& ping, const PictureSeries& shown, std::uint64_t id) {
-        const Json objects = Json::parse(reader.read(ping, shown.objects));
-        for (const Json& object : objects.at("objects")) {
-            if (const auto found = annotation_of(object, shown, product.picture, id, classes))
-                out.add(annotation_json(*found));
+    for_each_ping(layout, part_of_pose.size(), [&](const PingId& ping, std::uint64_t index) {
+        for (OpenCoco& one : all) {
+            if (!one.lists(ping, part_of_pose)) continue;
+            const PictureSeries& shown = *one.series[ping.sensor];
+            one.file->add({{"id", one.image_id(index)},
+                           {"file_name", place_of_file(layout, ping, shown.picture)},
+                           {"width", shown.width},
+                           {"height", shown.height},
+                           {"sensor", layout.sensors[ping.sensor].name},
+                           {"ping", ping.pose}});
         }
     });
-    out.end_list();
-    out.finish();
+    for (OpenCoco& one : all) {
+        one.file->end_list();
+        one.file->begin_list("annotations");
+    }
+    PingFileReader reader(layout);
+    for_each_ping(layout, part_of_pose.size(), [&](const PingId& ping, std::uint64_t index) {
+        Json objects;  // read once for all files, which takes most of the time
+        for (OpenCoco& one : all) {
+            if (!one.lists(ping, part_of_pose)) continue;
+            const PictureSeries& shown = *one.series[ping.sensor];
+            if (objects.is_null()) objects = Json::parse(reader.read(ping, shown.objects));
+            for (const Json& object : objects.at("objects")) {
+                if (const auto found = annotation_of(object, shown, one.product.picture,
+                                                     one.image_id(index), classes))
+                    one.file->add(annotation_json(*found));
+            }
+        }
+    });
+    for (OpenCoco& one : all) {
+        one.file->end_list();
+        one.file->finish();
+    }
 }
 
 }  // namespace sonarsim
