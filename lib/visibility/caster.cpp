@@ -215,21 +215,22 @@ Facet Caster::placed_facet(std::uint32_t index) const {
 }
 
 void Caster::cast_from(const RayOrigins& origins, std::span<const Eigen::Vector3f> directions,
-                       float reach_m, std::span<std::uint32_t> facets) const {
+                       float reach_m, RaySpread spread, std::span<std::uint32_t> facets) const {
     if (moments_.empty()) {
         const TracedLayer own{trees_->trees[0].get()};
-        trace_packets({&own, 1}, origins, directions, reach_m, facets);
+        trace_packets({&own, 1}, origins, directions, reach_m, spread, facets);
         return;
     }
     std::array<TracedLayer, 2> layers;
     for (std::size_t k = 0; k < moments_.size(); ++k)
         layers[k] = {moments_[k]->tree.get(), moments_[k]->first_facet};
-    trace_packets(std::span(layers).first(moments_.size()), origins, directions, reach_m, facets);
+    trace_packets(std::span(layers).first(moments_.size()), origins, directions, reach_m, spread,
+                  facets);
 }
 
 void Caster::cast(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f> directions,
-                  float reach_m, std::span<std::uint32_t> facets) const {
-    cast_from({&origin, 0}, directions, reach_m, facets);
+                  float reach_m, std::span<std::uint32_t> facets, RaySpread spread) const {
+    cast_from({&origin, 0}, directions, reach_m, spread, facets);
 }
 
 void Caster::cast(std::span<const Eigen::Vector3f> origins,
@@ -241,7 +242,7 @@ void Caster::cast(std::span<const Eigen::Vector3f> origins,
 void Caster::cast(std::span<const Eigen::Vector3f> origins,
                   std::span<const Eigen::Vector3f> directions, float reach_m,
                   std::span<std::uint32_t> facets) const {
-    cast_from({origins.data(), 1}, directions, reach_m, facets);
+    cast_from({origins.data(), 1}, directions, reach_m, RaySpread::close, facets);
 }
 
 }  // namespace sonarsim

@@ -13,6 +13,12 @@ namespace sonarsim {
 
 struct RayOrigins;
 
+/// The distance between neighbours in a list of rays. It decides on the time alone.
+enum class RaySpread {
+    close,  ///< they take the same way through the scene
+    wide    ///< they soon part
+};
+
 /// The data of a triangle that are needed once a ray has met it; 32 bytes, half a cache line.
 struct Facet {
     Eigen::Vector3f vertex;  ///< one of its corners, scene-local, m
@@ -40,9 +46,11 @@ class Caster {
     Caster moved(std::span<const Pose> T_local_body) const;
 
     /// Rays from one point: `facets[i]` is the facet that direction i meets within `reach_m`, or
-    /// `nothing`. Neighbours in the list should be neighbours in space. Scene-local frame.
+    /// `nothing`. Neighbours in the list should be neighbours in space, or else `spread` wide.
+    /// Scene-local frame.
     void cast(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f> directions,
-              float reach_m, std::span<std::uint32_t> facets) const;
+              float reach_m, std::span<std::uint32_t> facets,
+              RaySpread spread = RaySpread::close) const;
 
     /// Rays from many points. Neighbours in the list should be neighbours in space here, too, as
     /// specular reflections of neighbouring rays are.
@@ -77,7 +85,7 @@ class Caster {
     Caster(std::shared_ptr<const Trees> trees, std::vector<std::shared_ptr<const Moment>> moments);
     static std::shared_ptr<const Trees> make_trees(const Scene& scene);
     void cast_from(const RayOrigins& origins, std::span<const Eigen::Vector3f> directions,
-                   float reach_m, std::span<std::uint32_t> facets) const;
+                   float reach_m, RaySpread spread, std::span<std::uint32_t> facets) const;
     Facet placed_facet(std::uint32_t index) const;
     void find_box();
 

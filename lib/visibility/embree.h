@@ -42,17 +42,19 @@ inline float flush_to_zero(float component) {
     return std::fabs(component) < rest ? 0.0F : component;
 }
 
-/// rtcIntersect8 for rays that lie close together; the arguments are Embree's own.
-inline void intersect_coherent_8(const int* valid, RTCScene tree, RTCRayHit8& rays) {
+/// rtcIntersect8; the arguments are Embree's own. `close`: the rays lie close together. Embree then
+/// traverses its tree with the whole packet, else with each ray where the packet divides.
+inline void intersect_8(const int* valid, RTCScene tree, bool close, RTCRayHit8& rays) {
 #if SONARSIM_EMBREE == 3
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    context.flags =
+        close ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     rtcIntersect8(valid, tree, &context, &rays);
 #else
     RTCIntersectArguments arguments;
     rtcInitIntersectArguments(&arguments);
-    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    arguments.flags = close ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
     rtcIntersect8(valid, tree, &rays, &arguments);
 #endif
 }

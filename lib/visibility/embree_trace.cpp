@@ -30,7 +30,7 @@ void take_hits(RTCRayHit8& rays, int count, const TracedLayer& layer,
 }  // namespace
 
 void trace_packets(std::span<const TracedLayer> layers, const RayOrigins& origins,
-                   std::span<const Eigen::Vector3f> directions, float reach_m,
+                   std::span<const Eigen::Vector3f> directions, float reach_m, RaySpread spread,
                    std::span<std::uint32_t> facets) {
     alignas(64) RTCRayHit8 rays;
     alignas(64) int valid[packet];
@@ -63,7 +63,7 @@ void trace_packets(std::span<const TracedLayer> layers, const RayOrigins& origin
         const auto own = facets.subspan(first, count);
         std::ranges::fill(own, no_hit);
         for (const TracedLayer& layer : layers) {
-            intersect_coherent_8(valid, layer.tree, rays);
+            intersect_8(valid, layer.tree, spread == RaySpread::close, rays);
             take_hits(rays, count, layer, own);
         }
     }

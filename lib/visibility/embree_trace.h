@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "visibility/caster.h"
 #include "visibility/embree.h"
 
 namespace sonarsim {
@@ -27,7 +28,7 @@ struct RayOrigins {
 /// Traces rays in packets to the nearest hit in any layer: `facets[i]` is the facet that ray i
 /// meets within `reach_m`, or RTC_INVALID_GEOMETRY_ID.
 void trace_packets(std::span<const TracedLayer> layers, const RayOrigins& origins,
-                   std::span<const Eigen::Vector3f> directions, float reach_m,
+                   std::span<const Eigen::Vector3f> directions, float reach_m, RaySpread spread,
                    std::span<std::uint32_t> facets);
 
 }  // namespace sonarsim

@@ -52,7 +52,7 @@ class ColumnCaster {
         for (const ViewColumn& column : view_columns_) {
             add_column(column, column.across, 0.5 * column.width, 0, sampling_.rays, true);
         }
-        cast(in_tiles());
+        cast(in_tiles(), RaySpread::close);
     }
 
     /// Casts edge strips over those parts of a column that disagree with a neighbour.
@@ -85,7 +85,7 @@ class ColumnCaster {
                 }
             }
         }
-        cast_new_rays();
+        cast_new_rays(RaySpread::close);
     }
 
     /// Splits the gaps between neighbouring rays until each is certain enough.
@@ -111,7 +111,7 @@ class ColumnCaster {
                     split_angle(out_.rays[gap.below], out_.rays[gap.above], reach_m_);
                 add_ray(out_.columns[gap.column].across, sincos_small(along), along);
             }
-            cast_new_rays();
+            cast_new_rays(RaySpread::wide);
             next_gaps.clear();
             for (int k = 0; k < static_cast<int>(gaps.size()); ++k) {
                 const Gap& gap = gaps[k];
@@ -163,18 +163,20 @@ class ColumnCaster {
         out_.rays.push_back({direction(view_.shape, across, along), angle});
     }
 
-    /// The rays of the whole columns, in tiles of 4 columns by 4 rays. Rays with similar directions
-    /// traverse Embree's tree together, twice as fast as column by column.
+    /// The rays of the whole columns, in tiles. Rays with similar directions traverse Embree's tree
+    /// together, twice as fast as column by column. A packet of a fan has one elevation: at grazing
+    /// incidence neighbours in azimuth meet nearer places than neighbours in elevation.
     std::vector<int> in_tiles() const {
-        constexpr int side = 4;
+        const int across = view_.shape == ViewShape::fan ? 8 : 4;
+        constexpr int along = 4;
         const int columns = static_cast<int>(out_.whole_columns);
         const int n = sampling_.rays;
         std::vector<int> order;
         order.reserve(static_cast<std::size_t>(columns) * n);
-        for (int c0 = 0; c0 < columns; c0 += side) {
-            for (int i0 = 0; i0 < n; i0 += side) {
-                for (int i = i0; i < std::min(i0 + side, n); ++i) {
-                    for (int c = c0; c < std::min(c0 + side, columns); ++c) {
+        for (int c0 = 0; c0 < columns; c0 += across) {
+            for (int i0 = 0; i0 < n; i0 += along) {
+                for (int i = i0; i < std::min(i0 + along, n); ++i) {
+                    for (int c = c0; c < std::min(c0 + across, columns); ++c) {
                         order.push_back(c * n + i);
                     }
                 }
@@ -183,14 +185,14 @@ class ColumnCaster {
         return order;
     }
 
-    void cast_new_rays() {
+    void cast_new_rays(RaySpread spread) {
         std::vector<int> order(out_.rays.size() - cast_count_);
         std::iota(order.begin(), order.end(), static_cast<int>(cast_count_));
-        cast(order);
+        cast(order, spread);
     }
 
     /// Casts the rays that have not been cast, in the given order.
-    void cast(const std::vector<int>& order) {
+    void cast(const std::vector<int>& order, RaySpread spread) {
         const std::size_t count = order.size();
         directions_.resize(count);
         facets_.resize(count);
@@ -198,7 +200,7 @@ class ColumnCaster {
             directions_[i] = pose_.rotation * out_.rays[order[i]].direction;
         }
         if (water_.profile) return cast_bent(order);
-        caster_.cast(pose_.position, directions_, reach_m_ * (1.0F + overreach), facets_);
+        caster_.cast(pose_.position, directions_, reach_m_ * (1.0F + overreach), facets_, spread);
         const Eigen::Matrix3f R_sensor_local = pose_.rotation.transpose();
         const float nearest_m = nearest_share * reach_m_;
         for (std::size_t i = 0; i < count; ++i) {

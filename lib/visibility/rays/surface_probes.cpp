@@ -91,7 +91,8 @@ double share_of_dark_bins(const Scene& scene, const Caster& caster, const View& 
     const std::vector<SurfaceProbe> probes =
         draw_probes(scene, view, pose, image.every, count, directions);
     std::vector<std::uint32_t> facets(probes.size());
-    caster.cast(pose.position, directions, static_cast<float>(view.range_max_m), facets);
+    caster.cast(pose.position, directions, static_cast<float>(view.range_max_m), facets,
+                RaySpread::wide);
     // Surface that is nearer than its point by more than this hides it.
     const float slack_m = 0.01F * static_cast<float>(view.bin_m());
     std::vector<ProbedBin> seen;
