@@ -172,9 +172,9 @@ std::vector<SeenObject> seen_objects(const Sonar& sonar, const SceneObjects& obj
     const auto middle = [](const std::vector<double>& edges, int k) {
         return 0.5 * (edges[k] + edges[k + 1]);
     };
-    std::vector<double> ranges_m;
+    std::vector<double> ranges_m(labels.range_bins);
     for (int i = 0; i < labels.range_bins; ++i)
-        ranges_m.push_back(middle(sonar.range_edges_m, i));
+        ranges_m[i] = middle(sonar.range_edges_m, i);
     for (int j = 0; j < labels.beams; ++j) {
         const std::size_t begin = static_cast<std::size_t>(j) * labels.range_bins;
         const double azimuth_rad = fan ? middle(sonar.azimuth_edges_rad, j) : 0.0;

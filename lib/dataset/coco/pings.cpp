@@ -128,7 +128,7 @@ std::optional<CocoAnnotation> annotation_of(const Json& object, const PictureSer
 /// A COCO file while it is written.
 struct OpenCoco {
     const SharedProduct& product;
-    std::vector<std::optional<PictureSeries>> series;  ///< by sensor
+    std::vector<std::optional<PictureSeries>> series;  ///< indexed by sensor
     std::unique_ptr<CocoFile> file;
 
     /// True for a ping whose picture it lists.
