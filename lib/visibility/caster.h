@@ -8,16 +8,11 @@
 
 #include "core/pose.h"
 #include "scene/scene.h"
+#include "visibility/ray_spread.h"
 
 namespace sonarsim {
 
 struct RayOrigins;
-
-/// The distance between neighbours in a list of rays. It decides on the time alone.
-enum class RaySpread {
-    close,  ///< they take the same way through the scene
-    wide    ///< they soon part
-};
 
 /// The data of a triangle that are needed once a ray has met it; 32 bytes, half a cache line.
 struct Facet {

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "visibility/caster.h"
 #include "visibility/embree.h"
+#include "visibility/ray_spread.h"
 
 namespace sonarsim {
 
