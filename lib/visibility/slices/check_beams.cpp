@@ -115,7 +115,7 @@ void replace_checked(const CheckedBeams& checked, bool keeps_compared, Samples& 
     std::uint32_t begin = 0;
     for (int beam = 0; beam + 1 < std::ssize(samples.beam_begin); ++beam) {
         const std::uint32_t end = samples.beam_begin[beam + 1];
-        const std::span<const Sample> before(&samples.items[begin], end - begin);
+        const auto before = std::span<const Sample>(samples.items).subspan(begin, end - begin);
         const auto of_beam = items.size();
         const bool is_checked = next != order.end() && checked.beams[*next] == beam;
         if (!is_checked) items.insert(items.end(), before.begin(), before.end());
