@@ -41,9 +41,10 @@ std::vector<Uncertain> uncertain_beams(std::deque<SweptFrame>& frames) {
     return out;
 }
 
-/// Draws about `count` of the beams and checks them. The others are returned.
+/// Draws about `count` of the beams, each with the least rate or more, and checks them. The others
+/// are returned.
 std::vector<Uncertain> draw_and_check(const std::vector<Uncertain>& beams, double count,
-                                      std::uint32_t number, BeamErrors& errors) {
+                                      double least_rate, std::uint32_t number, BeamErrors& errors) {
     double sum = 0.0;
     for (const Uncertain& beam : beams)
         sum += beam.difference;
@@ -56,7 +57,8 @@ std::vector<Uncertain> draw_and_check(const std::vector<Uncertain>& beams, doubl
         const double times =
             mean > 0.0 ? std::min(beam.difference / mean, most_times_the_mean) : 1.0;
         const double own = least_share_of_rate + (1.0 - least_share_of_rate) * times;
-        const double weight = draw.weight(mean_rate < 1.0 ? mean_rate * own : 1.0);
+        const double rate = mean_rate < 1.0 ? std::max(mean_rate * own, least_rate) : 1.0;
+        const double weight = draw.weight(rate);
         if (weight > 0.0) {
             const SweptFrame::Check check = beam.frame->check(beam.index);
             errors.check(check.beam, check.image, weight);
@@ -94,9 +96,9 @@ void check_drawn(std::deque<SweptFrame>& frames, double goal, BeamErrors& errors
     for (std::uint32_t number = 0; !others.empty(); ++number) {
         // Drawn beams of too few bins would miss the errors of others: if the image just meets its
         // goal, as many of their bins are wrong as one cause may make wrong.
-        count = std::max(count, all * share_with_one_cause(errors, goal));
-        const double before = all - static_cast<double>(others.size());
-        others = draw_and_check(others, std::max(count - before, 1.0), number, errors);
+        const double least_rate = share_with_one_cause(errors, goal);
+        const double more = count - (all - static_cast<double>(others.size()));
+        others = draw_and_check(others, std::max(more, 1.0), least_rate, number, errors);
         // The first draws are too few to give up after them.
         const bool hopeless = number > 0 && likely_error_if_checked(errors) > goal;
         if (estimated_error(errors) <= goal || hopeless) break;

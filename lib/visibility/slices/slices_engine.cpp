@@ -147,7 +147,7 @@ class SlicesEngine final : public VisibilityEngine {
             swept.emplace_back(ping, frame, samples, errors, checked);
         errors.finish();
         if (draws) {
-            check_drawn(swept, fixed ? unbounded : goal, errors);
+            check_drawn(swept, goal, errors);
         } else {
             check_all(view, swept, errors);
         }
