@@ -64,6 +64,9 @@ class AdaptiveSlices {
     /// Scans the next gaps of the frame. Returns false if there are none left.
     bool scan_next(const SliceErrorLimit& most);
 
+    /// The first of the gaps that were scanned last.
+    std::uint32_t first_gap() const { return first_gap_; }
+
     /// The new slices whose strips are complete on both sides, from low u to high.
     std::span<const SliceResult* const> slices() const { return done_; }
 

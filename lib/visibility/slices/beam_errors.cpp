@@ -59,7 +59,8 @@ double BeamErrors::root_of_runs() const {
 void BeamErrors::end_beam() {
     if (beam_ < 0) return;
     const Bins bins = bins_of(sums_);
-    add(bins, 1.0);
+    add(bins, 1.0, before_checks_);
+    add(bins, 1.0, total_);
     const std::size_t begin = intensities_.size();
     sums_.append_intensities(intensities_);
     finished_[beam_] = {bins, sums_.first(), begin, intensities_.size() - begin};
@@ -78,8 +79,8 @@ void BeamErrors::start_draw() {
 /// itself alone has none.
 void BeamErrors::check(int beam, BeamSums& check, double weight) {
     const Finished& finished = finished_[beam];
-    add(finished.bins, -1.0);
-    add(bins_of(check), 1.0);
+    add(finished.bins, -1.0, total_);
+    add(bins_of(check), 1.0, total_);
     const double before = checked_.absolute;
     add_distance({finished.first, std::span(intensities_).subspan(finished.begin, finished.count)},
                  check);
@@ -102,10 +103,10 @@ void BeamErrors::add_distance(const BeamImage& image, const BeamSums& check) {
     checked_.runs += d.runs;
 }
 
-void BeamErrors::add(const Bins& bins, double times) {
-    total_.signal += times * bins.signal;
-    total_.edge_bins += times * bins.edge_bins;
-    total_.occupied += times * bins.occupied;
+void BeamErrors::add(const Bins& bins, double times, Bins& sum) {
+    sum.signal += times * bins.signal;
+    sum.edge_bins += times * bins.edge_bins;
+    sum.occupied += times * bins.occupied;
 }
 
 /// The sum of the intensities of all bins, and of the probable errors of edge bins.

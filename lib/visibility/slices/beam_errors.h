@@ -36,6 +36,11 @@ class BeamErrors {
     /// The expected error of edge bins over the finished beams.
     double edge_bins() const { return of_signal(total_.edge_bins); }
 
+    /// The same as if no beam was checked.
+    double edge_bins_before_checks() const {
+        return before_checks_.signal > 0.0 ? before_checks_.edge_bins / before_checks_.signal : 0.0;
+    }
+
     /// The distance of the checked beams from their checks.
     double of_checked() const { return of_signal(checked_.absolute); }
 
@@ -76,11 +81,12 @@ class BeamErrors {
     void end_beam();
     static Bins bins_of(BeamSums& sums);
     void add_distance(const BeamImage& image, const BeamSums& check);
-    void add(const Bins& bins, double times);
+    static void add(const Bins& bins, double times, Bins& sum);
     double of_signal(double x) const { return total_.signal > 0.0 ? x / total_.signal : 0.0; }
 
     BeamSums sums_;
     int beam_ = -1;
+    Bins before_checks_;
     Bins total_;
     BeamDistance checked_;
     double others_ = 0.0;

@@ -60,8 +60,7 @@ std::vector<Uncertain> draw_and_check(const std::vector<Uncertain>& beams, doubl
         const double rate = mean_rate < 1.0 ? std::max(mean_rate * own, least_rate) : 1.0;
         const double weight = draw.weight(rate);
         if (weight > 0.0) {
-            const SweptFrame::Check check = beam.frame->check(beam.index);
-            errors.check(check.beam, check.image, weight);
+            beam.frame->check(beam.index, weight);
         } else {
             others.push_back(beam);
         }
@@ -73,20 +72,6 @@ std::vector<Uncertain> draw_and_check(const std::vector<Uncertain>& beams, doubl
 
 bool draws_beams(const View& view) {
     return view.beams > few_beams && is_coarse(view.relative_l1);
-}
-
-void check_all(const View& view, std::deque<SweptFrame>& frames, BeamErrors& errors) {
-    std::vector<BeamSums> shared(frames_share_beams(view) ? view.beams : 0, BeamSums(view));
-    for (const Uncertain& beam : uncertain_beams(frames)) {
-        const SweptFrame::Check check = beam.frame->check(beam.index);
-        if (shared.empty()) {
-            errors.check(check.beam, check.image, 1.0);
-        } else {
-            shared[check.beam].add(check.image);
-        }
-    }
-    for (int beam = 0; beam < std::ssize(shared); ++beam)
-        errors.check(beam, shared[beam], 1.0);
 }
 
 void check_drawn(std::deque<SweptFrame>& frames, double goal, BeamErrors& errors) {
@@ -106,23 +91,36 @@ void check_drawn(std::deque<SweptFrame>& frames, double goal, BeamErrors& errors
     }
 }
 
-void replace_checked(const CheckedBeams& checked, bool keeps_compared, Samples& samples) {
-    if (checked.beams.empty()) return;
-    std::vector<std::size_t> order(checked.beams.size());
+void sweep_and_draw(const SlicesPing& ping, std::span<const SliceFrame> frames, double goal,
+                    SlicesImage& image) {
+    std::deque<SweptFrame> swept;
+    for (const SliceFrame& frame : frames)
+        swept.emplace_back(ping, frame, image);
+    image.errors.finish();
+    check_drawn(swept, goal, image.errors);
+    for (const SweptFrame& frame : swept)
+        image.samples.dropped += frame.dropped();
+}
+
+void replace_checked(bool keeps_compared, SlicesImage& image) {
+    const std::vector<int>& checked = image.checked;
+    if (checked.empty()) return;
+    Samples& samples = image.samples;
+    std::vector<std::size_t> order(checked.size());
     std::iota(order.begin(), order.end(), 0U);
-    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return checked.beams[i]; });
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return checked[i]; });
     std::vector<Sample> items;
-    items.reserve(samples.items.size() + checked.samples.items().size());
+    items.reserve(samples.items.size() + image.checked_samples.items().size());
     auto next = order.begin();
     std::uint32_t begin = 0;
     for (int beam = 0; beam + 1 < std::ssize(samples.beam_begin); ++beam) {
         const std::uint32_t end = samples.beam_begin[beam + 1];
         const auto before = std::span<const Sample>(samples.items).subspan(begin, end - begin);
         const auto of_beam = items.size();
-        const bool is_checked = next != order.end() && checked.beams[*next] == beam;
+        const bool is_checked = next != order.end() && checked[*next] == beam;
         if (!is_checked) items.insert(items.end(), before.begin(), before.end());
-        for (; next != order.end() && checked.beams[*next] == beam; ++next) {
-            const std::span<const Sample> row = checked.samples[*next];
+        for (; next != order.end() && checked[*next] == beam; ++next) {
+            const std::span<const Sample> row = image.checked_samples[*next];
             items.insert(items.end(), row.begin(), row.end());
         }
         if (is_checked && keeps_compared) {

@@ -15,9 +15,6 @@ namespace sonarsim {
 /// whole.
 bool draws_beams(const View& view);
 
-/// Checks all beams that may have errors.
-void check_all(const View& view, std::deque<SweptFrame>& frames, BeamErrors& errors);
-
 /// Checks beams that are drawn at random, until the estimate meets the goal or all are checked. It
 /// also stops if checks alone cannot meet the goal.
 ///
@@ -28,8 +25,12 @@ void check_all(const View& view, std::deque<SweptFrame>& frames, BeamErrors& err
 /// badly the disagreement predicts D.
 void check_drawn(std::deque<SweptFrame>& frames, double goal, BeamErrors& errors);
 
+/// Scans the slices of a view's frames, and checks beams that are drawn.
+void sweep_and_draw(const SlicesPing& ping, std::span<const SliceFrame> frames, double goal,
+                    SlicesImage& image);
+
 /// Replaces the samples of checked beams by those of their checks. `keeps_compared`: both go to
 /// Samples::compared.
-void replace_checked(const CheckedBeams& checked, bool keeps_compared, Samples& samples);
+void replace_checked(bool keeps_compared, SlicesImage& image);
 
 }  // namespace sonarsim

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <deque>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -137,29 +136,21 @@ class SlicesEngine final : public VisibilityEngine {
         const int per_beam =
             fixed ? options_.per_beam : std::max(slices_for(view.relative_l1), least_slices);
         const SlicesPing ping{*mesh_, *scene_, view, pose, fixed};
-        Samples samples;
-        samples.beam_begin.assign(view.beams + 1, 0);
-        BeamErrors errors(view);
         const std::vector<SliceFrame> frames = slice_frames(view, per_beam);
-        CheckedBeams checked;
-        std::deque<SweptFrame> swept;
-        for (const SliceFrame& frame : frames)
-            swept.emplace_back(ping, frame, samples, errors, checked);
-        errors.finish();
+        SlicesImage image(view);
         if (draws) {
-            check_drawn(swept, goal, errors);
+            sweep_and_draw(ping, frames, goal, image);
         } else {
-            check_all(view, swept, errors);
+            sweep_and_check(ping, frames, image);
         }
-        replace_checked(checked, scene_->maps != nullptr, samples);
-        for (const SweptFrame& frame : swept)
-            samples.dropped += frame.dropped();
+        replace_checked(scene_->maps != nullptr, image);
+        const BeamErrors& errors = image.errors;
         const bool few_bins = few_bins_decide(errors, goal);
-        samples.estimated_l1 =
+        image.samples.estimated_l1 =
             few_bins ? estimated_error_of_few_bins(errors) : estimated_error(errors);
         const double if_checked =
-            errors.of_others() > 0.0 ? likely_error_if_checked(errors) : samples.estimated_l1;
-        return {std::move(samples), if_checked, errors.edge_bins(), few_bins};
+            errors.of_others() > 0.0 ? likely_error_if_checked(errors) : image.samples.estimated_l1;
+        return {std::move(image.samples), if_checked, errors.edge_bins(), few_bins};
     }
 
     const Scene* scene_;

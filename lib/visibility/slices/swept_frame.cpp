@@ -37,43 +37,121 @@ SliceErrorLimit slice_error_limit(double relative_l1, double edge_bins) {
             .carry_over = coarse ? 0.25 : 0.0};
 }
 
+/// Scans the slices of a frame, and adds its beams to the image. `after_beam` is called when the
+/// slices of a beam are known, but not yet the borders of the last of them.
+template <typename AfterBeam>
+void sweep(const SlicesPing& ping, FrameScan& scan, AdaptiveSlices& adaptive, SlicesImage& image,
+           AfterBeam after_beam) {
+    const PatchLimits limits = patch_limits(ping.view);
+    BeamErrors& errors = image.errors;
+    QuadSampler sampler(scan, ping.scene.materials, limits, errors.sums(), image.samples.items);
+    StripQuads quads(scan, limits, sampler);
+    BeamCutter cutter(scan.frame(), quads, errors, image.samples);
+    const auto most = [&] {
+        return ping.any_error
+                   ? unlimited
+                   : slice_error_limit(ping.view.relative_l1, errors.edge_bins_before_checks());
+    };
+    while (adaptive.scan_next(most())) {
+        for (const SliceResult* result : adaptive.slices())
+            cutter.add(*result);
+        after_beam();
+    }
+}
+
+/// The number of a beam in its view.
+int beam_at(const SliceFrame& frame, std::uint32_t gap) {
+    return frame.first_beam + static_cast<int>(gap) / frame.slices_per_beam;
+}
+
+FrameScan scan_of(const SlicesPing& ping, const SliceFrame& frame) {
+    return {ping.mesh, ping.scene, frame, ping.pose, patch_limits(ping.view).range_max_m};
+}
+
+/// Notes that the last samples are those of the check of a beam.
+void end_check(int beam, SlicesImage& image) {
+    image.checked.push_back(beam);
+    image.checked_samples.end_row();
+}
+
+/// A beam ends with the first slice of the next one, so its check waits for that slice.
+void sweep_and_check(const SlicesPing& ping, const SliceFrame& frame, SlicesImage& image) {
+    FrameScan scan = scan_of(ping, frame);
+    AdaptiveSlices adaptive(ping.view, ping.scene.materials, scan);
+    BeamCheck check(ping.view, scan, ping.scene.materials, image.checked_samples.items());
+    BeamSums* waiting = nullptr;
+    const auto add_waiting = [&] {
+        if (waiting != nullptr) image.errors.check(image.checked.back(), *waiting, 1.0);
+        waiting = nullptr;
+    };
+    sweep(ping, scan, adaptive, image, [&] {
+        add_waiting();
+        if (!adaptive.uncertain()) return;
+        waiting = &check.look_at(adaptive);
+        end_check(beam_at(frame, adaptive.first_gap()), image);
+    });
+    image.errors.finish();
+    add_waiting();
+    image.samples.dropped += scan.scene().dropped;
+}
+
+/// The check of a beam is the sum of its frames' checks, those without errors included.
+void sweep_and_check_shared(const SlicesPing& ping, std::span<const SliceFrame> frames,
+                            SlicesImage& image) {
+    std::vector<BeamSums> sums(ping.view.beams, BeamSums(ping.view));
+    for (const SliceFrame& frame : frames) {
+        FrameScan scan = scan_of(ping, frame);
+        AdaptiveSlices adaptive(ping.view, ping.scene.materials, scan);
+        BeamCheck check(ping.view, scan, ping.scene.materials, image.checked_samples.items());
+        sweep(ping, scan, adaptive, image, [&] {
+            const int beam = beam_at(frame, adaptive.first_gap());
+            sums[beam].add(check.look_at(adaptive));
+            end_check(beam, image);
+        });
+        image.samples.dropped += scan.scene().dropped;
+    }
+    image.errors.finish();
+    for (int beam = 0; beam < std::ssize(sums); ++beam)
+        image.errors.check(beam, sums[beam], 1.0);
+}
+
 }  // namespace
+
+SlicesImage::SlicesImage(const View& view) : errors(view) {
+    samples.beam_begin.assign(view.beams + 1, 0);
+}
 
 bool frames_share_beams(const View& view) {
     return view.beams <= 2;
 }
 
-SweptFrame::SweptFrame(const SlicesPing& ping, const SliceFrame& frame, Samples& samples,
-                       BeamErrors& errors, CheckedBeams& checked)
-    : frame_(frame),
-      checked_(checked),
-      scan_(ping.mesh, ping.scene, frame, ping.pose, patch_limits(ping.view).range_max_m),
-      adaptive_(ping.view, ping.scene.materials, scan_),
-      check_(ping.view, scan_, ping.scene.materials, checked.samples.items()) {
-    const PatchLimits limits = patch_limits(ping.view);
-    QuadSampler sampler(scan_, ping.scene.materials, limits, errors.sums(), samples.items);
-    StripQuads quads(scan_, limits, sampler);
-    BeamCutter cutter(frame, quads, errors, samples);
-    const auto most = [&] {
-        return ping.any_error ? unlimited
-                              : slice_error_limit(ping.view.relative_l1, errors.edge_bins());
-    };
-    while (adaptive_.scan_next(most())) {
-        for (const SliceResult* result : adaptive_.slices())
-            cutter.add(*result);
-        if (adaptive_.uncertain() || frames_share_beams(ping.view)) adaptive_.keep(kept_);
+void sweep_and_check(const SlicesPing& ping, std::span<const SliceFrame> frames,
+                     SlicesImage& image) {
+    if (frames_share_beams(ping.view)) {
+        sweep_and_check_shared(ping, frames, image);
+        return;
     }
+    for (const SliceFrame& frame : frames)
+        sweep_and_check(ping, frame, image);
 }
 
-SweptFrame::Check SweptFrame::check(std::size_t uncertain) {
+SweptFrame::SweptFrame(const SlicesPing& ping, const SliceFrame& frame, SlicesImage& image)
+    : frame_(frame),
+      image_(image),
+      scan_(scan_of(ping, frame)),
+      adaptive_(ping.view, ping.scene.materials, scan_),
+      check_(ping.view, scan_, ping.scene.materials, image.checked_samples.items()) {
+    sweep(ping, scan_, adaptive_, image, [&] {
+        if (adaptive_.uncertain()) adaptive_.keep(kept_);
+    });
+}
+
+void SweptFrame::check(std::size_t uncertain, double weight) {
     adaptive_.restore(kept_, uncertain);
     BeamSums& sums = check_.look_at(adaptive_);
-    const auto per_beam = static_cast<std::uint32_t>(frame_.slices_per_beam);
-    const std::uint32_t beam_of_frame = kept_.beams[uncertain].first_gap / per_beam;
-    const int beam = frame_.first_beam + static_cast<int>(beam_of_frame);
-    checked_.beams.push_back(beam);
-    checked_.samples.end_row();
-    return {beam, sums};
+    const int beam = beam_at(frame_, kept_.beams[uncertain].first_gap);
+    end_check(beam, image_);
+    image_.errors.check(beam, sums, weight);
 }
 
 }  // namespace sonarsim

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
+#include <vector>
 
 #include "scene/scene.h"
 #include "visibility/slices/adaptive_slices.h"
@@ -20,41 +22,42 @@ struct SlicesPing {
     bool any_error = false;  ///< the number of slices is fixed
 };
 
-/// The samples of checked beams.
-struct CheckedBeams {
-    std::vector<int> beams;  ///< in any order; several frames may share one
-    Rows<Sample> samples;    ///< a row for each of them
+/// The image of a ping by its slices, and by its checks.
+struct SlicesImage {
+    explicit SlicesImage(const View& view);
+
+    Samples samples;
+    BeamErrors errors;
+    std::vector<int> checked;      ///< beams in any order; several frames may share one
+    Rows<Sample> checked_samples;  ///< a row for each of them
 };
 
 /// True if several frames make the image of one beam together.
 bool frames_share_beams(const View& view);
 
+/// Scans the slices of a view's frames, and checks all beams that may have errors.
+void sweep_and_check(const SlicesPing& ping, std::span<const SliceFrame> frames,
+                     SlicesImage& image);
+
 /// A frame whose slices were scanned. Beams that may have errors were kept and can be checked.
 class SweptFrame {
   public:
-    /// Adds the samples of the frame's beams to `samples`, and their image to `errors`. Samples of
-    /// checks go to `checked`, which must outlive it, like the ping and the frame.
-    SweptFrame(const SlicesPing& ping, const SliceFrame& frame, Samples& samples,
-               BeamErrors& errors, CheckedBeams& checked);
+    /// Adds the frame's beams to the image, which must outlive it, like the ping and the frame. No
+    /// other frame shares its beams.
+    SweptFrame(const SlicesPing& ping, const SliceFrame& frame, SlicesImage& image);
 
-    /// The beams that may have errors. If several frames share a beam, each has its part of it.
+    /// The beams that may have errors.
     const std::vector<KeptGaps::Beam>& uncertain() const { return kept_.beams; }
 
-    /// The check of a beam, or of the frame's part of it.
-    struct Check {
-        int beam;         ///< its number in the view
-        BeamSums& image;  ///< valid until the next check of the frame
-    };
-
-    /// Checks such a beam.
-    Check check(std::size_t uncertain);
+    /// Checks such a beam, which stands for `weight` beams, after BeamErrors::finish().
+    void check(std::size_t uncertain, double weight);
 
     /// Number of patches that were dropped so far.
     std::uint64_t dropped() const { return scan_.scene().dropped; }
 
   private:
     const SliceFrame& frame_;
-    CheckedBeams& checked_;
+    SlicesImage& image_;
     FrameScan scan_;
     AdaptiveSlices adaptive_;
     KeptGaps kept_;

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -33,27 +34,33 @@ Scene random_rods(std::mt19937& random) {
     return scene;
 }
 
-/// A swept view, whose beams are not checked yet.
-struct SweptView {
+/// A view of a scene that is to be swept.
+struct UnsweptView {
     View view = fan_view();
     ClusterMesh mesh;
+    SlicesPing ping;
     std::vector<SliceFrame> frames;
-    Samples samples;
-    BeamErrors errors;
-    CheckedBeams checked;
+    SlicesImage image;
+
+    explicit UnsweptView(const Scene& scene)
+        : mesh(make_clusters(scene)),
+          ping{mesh, scene, view, {Eigen::Matrix3f::Identity(), {0, 0, 0}}},
+          frames(slice_frames(view, 1)),
+          image(view) {}
+
+    UnsweptView(const UnsweptView&) = delete;
+    UnsweptView& operator=(const UnsweptView&) = delete;
+};
+
+/// A swept view, whose beams are not checked yet.
+struct SweptView : UnsweptView {
     std::deque<SweptFrame> swept;
 
-    explicit SweptView(const Scene& scene)
-        : mesh(make_clusters(scene)), frames(slice_frames(view, 1)), errors(view) {
-        const SlicesPing ping{mesh, scene, view, {Eigen::Matrix3f::Identity(), {0, 0, 0}}};
-        samples.beam_begin.assign(view.beams + 1, 0);
+    explicit SweptView(const Scene& scene) : UnsweptView(scene) {
         for (const SliceFrame& frame : frames)
-            swept.emplace_back(ping, frame, samples, errors, checked);
-        errors.finish();
+            swept.emplace_back(ping, frame, image);
+        image.errors.finish();
     }
-
-    SweptView(const SweptView&) = delete;
-    SweptView& operator=(const SweptView&) = delete;
 
     std::size_t uncertain() const {
         std::size_t count = 0;
@@ -83,20 +90,47 @@ TEST_CASE("slices: the first draw estimates the distance of all beams without bi
     double truth = 0.0;
     for (int i = 0; i < scenes; ++i) {
         const Scene scene = random_rods(random);
-        SweptView all(scene);
-        check_all(all.view, all.swept, all.errors);
-        CHECK(all.checked.beams.size() == all.uncertain());
+        UnsweptView all(scene);
+        sweep_and_check(all.ping, all.frames, all.image);
         SweptView some(scene);
-        check_drawn(some.swept, std::numeric_limits<double>::max(), some.errors);
-        CHECK(some.checked.beams.size() < all.checked.beams.size());
-        const double change =
-            some.errors.of_checked() + some.errors.of_others() - all.errors.of_checked();
+        CHECK(all.image.checked.size() == some.uncertain());
+        BeamErrors& errors = some.image.errors;
+        check_drawn(some.swept, std::numeric_limits<double>::max(), errors);
+        CHECK(some.image.checked.size() < all.image.checked.size());
+        const double of_all = all.image.errors.of_checked();
+        const double change = errors.of_checked() + errors.of_others() - of_all;
         sum += change;
         squares += change * change;
-        truth += all.errors.of_checked();
+        truth += of_all;
     }
     CHECK(std::fabs(sum) < 4.0 * std::sqrt(squares));
     CHECK(std::sqrt(squares) < 0.3 * truth);  // else the test could hardly fail
+}
+
+TEST_CASE("slices: checks in the sweep and checks of kept slices give the same") {
+    std::mt19937 random(13);
+    for (int i = 0; i < (test::sanitized ? 2 : 10); ++i) {
+        const Scene scene = random_rods(random);
+        UnsweptView all(scene);
+        sweep_and_check(all.ping, all.frames, all.image);
+        SweptView kept(scene);
+        for (SweptFrame& frame : kept.swept) {
+            for (std::size_t k = 0; k < frame.uncertain().size(); ++k)
+                frame.check(k, 1.0);
+        }
+        const BeamErrors& a = all.image.errors;
+        const BeamErrors& b = kept.image.errors;
+        CHECK(a.of_checked() == doctest::Approx(b.of_checked()).epsilon(1e-12));
+        CHECK(a.edge_bins() == doctest::Approx(b.edge_bins()).epsilon(1e-12));
+        REQUIRE(all.image.checked == kept.image.checked);
+        const auto& one = all.image.checked_samples.items();
+        const auto& other = kept.image.checked_samples.items();
+        REQUIRE(one.size() == other.size());
+        const auto same = [](const Sample& x, const Sample& y) {
+            return x.position == y.position && x.area_m2 == y.area_m2;
+        };
+        CHECK(std::ranges::equal(one, other, same));
+    }
 }
 
 TEST_CASE("slices: beams are drawn until the estimate meets the goal, or checks cannot meet it") {
@@ -108,10 +142,11 @@ TEST_CASE("slices: beams are drawn until the estimate meets the goal, or checks 
         for (const double goal : {0.1, 0.05, 0.03, 0.02, 0.001}) {
             CAPTURE(goal);
             SweptView one(scene);
-            check_drawn(one.swept, goal, one.errors);
-            const std::size_t checks = one.checked.beams.size();
-            const bool met = estimated_error(one.errors) <= goal;
-            CHECK((met || checks == one.uncertain() || likely_error_if_checked(one.errors) > goal));
+            const BeamErrors& errors = one.image.errors;
+            check_drawn(one.swept, goal, one.image.errors);
+            const std::size_t checks = one.image.checked.size();
+            const bool met = estimated_error(errors) <= goal;
+            CHECK((met || checks == one.uncertain() || likely_error_if_checked(errors) > goal));
             if (goal == 0.1) coarse += checks;
             if (goal == 0.02) fine += checks;
         }
@@ -120,21 +155,21 @@ TEST_CASE("slices: beams are drawn until the estimate meets the goal, or checks 
 }
 
 TEST_CASE("slices: samples of checked beams replace those of the scan, in the order of beams") {
-    Samples samples;
+    SlicesImage image(fan_view());
+    Samples& samples = image.samples;
     samples.items = {sample_of(1), sample_of(2), sample_of(3)};
     samples.beam_begin = {0, 2, 3, 3, 3};
-    CheckedBeams checked;
     // Beam 2 was empty; two frames share it. Beam 0 gets one sample.
-    checked.beams = {2, 0, 2};
+    image.checked = {2, 0, 2};
     const auto add = [&](std::initializer_list<std::uint32_t> instances) {
         for (const std::uint32_t instance : instances)
-            checked.samples.items().push_back(sample_of(instance));
-        checked.samples.end_row();
+            image.checked_samples.items().push_back(sample_of(instance));
+        image.checked_samples.end_row();
     };
     add({21, 22});
     add({11});
     add({23});
-    replace_checked(checked, true, samples);
+    replace_checked(true, image);
     CHECK(samples.beam_begin == std::vector<std::uint32_t>{0, 1, 2, 5, 5});
     std::vector<std::uint32_t> instances;
     for (const Sample& sample : samples.items)
