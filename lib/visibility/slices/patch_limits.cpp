@@ -19,6 +19,14 @@ constexpr float shortest_patch = 0.25F;
 // without a warning.
 constexpr float most_wedge = 1.0F;
 
+// In range bins, at fine goals; in proportion to the goal, and for patches longer than
+// `long_patch`. The tread of a stair is seen edge-on between an oblique edge and a straight one. A
+// parallelogram had a third of its area in the last bin, in which it outweighs the riser: the drawn
+// lattice 24150 missed the goal of 1 % by 1.8 times. At 3 % its error would fall from 4.6 to 3.8 %,
+// but a ping of the lifeboat would take 6 % longer.
+constexpr float most_grazing_wedge = 1.0F;
+constexpr float long_patch = 2.0F;
+
 // With this limit the energy of a flat floor in a cone is off by 0.5 %, without it by 54 %; the
 // mean of its echo over all ranges by 0.4 % instead of 8 %, since a wedge lies farther out than its
 // middle.
@@ -30,8 +38,13 @@ PatchLimits patch_limits(const View& view) {
     const auto bin_m = static_cast<float>(view.bin_m());
     const auto finer = static_cast<float>(std::clamp(view.relative_l1 / 0.03, 0.1, 1.0));
     const float of_bin = finer * bin_m;
-    PatchLimits limits{most_sag * of_bin, most_excess * of_bin, shortest_patch * of_bin,
-                       is_coarse(view.relative_l1) ? most_wedge * bin_m : 0.0F,
+    const bool coarse = is_coarse(view.relative_l1);
+    PatchLimits limits{most_sag * of_bin,
+                       most_excess * of_bin,
+                       shortest_patch * of_bin,
+                       coarse ? most_wedge * bin_m : 0.0F,
+                       most_grazing_wedge * of_bin,
+                       coarse ? std::numeric_limits<float>::infinity() : long_patch * bin_m,
                        static_cast<float>(view.range_max_m)};
     if (view.shape == ViewShape::cone) limits.widest_ratio = widest_ratio;
     return limits;

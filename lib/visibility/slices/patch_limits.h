@@ -18,7 +18,11 @@ struct PatchLimits {
     float shortest_m;  ///< no patch is cut shorter
     /// Largest difference in range span between the two sides of a patch that joins two strips.
     float most_wedge_m;
-    float range_max_m;  ///< greatest range of interest
+    /// The same between the two sides of a long patch of grazing surface, whose area in its last
+    /// bin counts.
+    float grazing_wedge_m;
+    float long_grazing_m;  ///< shorter patches have any wedge
+    float range_max_m;     ///< greatest range of interest
     /// Largest ratio of a patch's widths at its two ends, since a parallelogram is equally wide at
     /// both.
     float widest_ratio = std::numeric_limits<float>::infinity();

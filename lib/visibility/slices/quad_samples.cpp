@@ -21,6 +21,10 @@ constexpr float least_width_share = 0.05F;
 // extend from one range to at most this many times that range.
 constexpr float longest_ratio = 1.5F;
 
+// Surface at a smaller cosine to the line of sight is grazing: so dark that it dims a bin of other
+// surface by its area alone. Chosen.
+constexpr float grazing_cosine = 0.1F;
+
 // Rounding margin for the area of a quadrilateral that is narrow in the picture.
 constexpr float area_rounding = 1.01F;
 
@@ -193,12 +197,19 @@ void QuadSampler::add_patch(const Quad& quad, const QuadPoints& corners, float f
     const Eigen::Array4f& r = corners.range;
     const float across = 0.5F * std::fabs(r[1] + r[2] - r[0] - r[3]);
     const float along = 0.5F * std::fabs(r[2] + r[3] - r[0] - r[1]);
-    const float excess = across + along - (r.maxCoeff() - r.minCoeff());
-    if (excess <= limits_.excess_m) {
+    const float farthest = r.maxCoeff();
+    const float length = farthest - r.minCoeff();
+    float excess = (across + along - length) / limits_.excess_m;
+    const float height_m = scan_.scene().facets[quad.facet_index].height_m;
+    if (height_m < grazing_cosine * farthest && length > limits_.long_grazing_m) {
+        const float wedge = std::fabs(std::fabs(r[3] - r[0]) - std::fabs(r[2] - r[1]));
+        excess = std::max(excess, wedge / limits_.grazing_wedge_m);
+    }
+    if (excess <= 1.0F) {
         add_sample(quad, corners);
         return;
     }
-    const int parts = static_cast<int>(std::min(std::ceil(excess / limits_.excess_m), most_parts));
+    const int parts = static_cast<int>(std::min(std::ceil(excess), most_parts));
     QuadSide last = quad.low;
     for (int i = 1; i <= parts; ++i) {
         const float share = static_cast<float>(i) / static_cast<float>(parts);

@@ -1,10 +1,12 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <random>
 
 #include "core/units.h"
 #include "support/scenes.h"
 #include "visibility/slices/fixtures.h"
+#include "visibility/slices/sampled_image.h"
 #include "visibility/slices/slices_engine.h"
 
 using namespace sonarsim;
@@ -74,6 +76,38 @@ TEST_CASE("slices: a pole at the very border of the view ends its last beam once
         REQUIRE(samples.beam_begin.size() == 5);
         CHECK(std::ranges::is_sorted(samples.beam_begin));
         CHECK(samples.beam_begin.back() == samples.items.size());
+    }
+}
+
+// A stair whose tread is seen edge-on. In the bin of the riser lie the last d of the tread, as dark
+// as its cosine, and the riser of height h. A bin's intensity is the mean over its area, so it is
+// h / (h + d) of the riser's, for any near edge of the tread.
+TEST_CASE("slices: a grazing tread with an oblique near edge has its area in the last bin") {
+    View view = fan_view();
+    view.relative_l1 = 0.01;
+    const auto bin = static_cast<float>(view.bin_m());
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> any(0.0F, 1.0F);
+    for (int k = 0; k < 20; ++k) {
+        CAPTURE(k);
+        const int last_bin = 100 + static_cast<int>(40.0F * any(random));
+        const float d = (0.1F + 0.5F * any(random)) * bin;
+        const float far = 0.2F + static_cast<float>(last_bin) * bin + d;
+        const float slope = 1.0F + 2.0F * any(random);
+        const float h = 0.01F + 0.02F * any(random);
+        Scene scene = test::empty_scene();
+        const std::uint32_t rock = test::add_material(scene, 0.5F);
+        const float low = -0.01F;
+        test::add_quad(scene, {far - 1.5F - 0.5F * slope, -0.5F, low}, {far, -0.5F, low},
+                       {far, 0.5F, low}, {far - 1.5F + 0.5F * slope, 0.5F, low}, rock);
+        test::add_quad(scene, {far, -0.5F, low}, {far, 0.5F, low}, {far, 0.5F, low + h},
+                       {far, -0.5F, low + h}, rock);
+        const SampledImage image = image_of(scene, view, seen(scene, view, Pose{}, 1));
+        for (const int beam : {31, 32}) {
+            const float intensity = image.intensity(beam * view.range_bins + last_bin);
+            const float of_riser = 0.5F * h / (h + d);
+            CHECK(intensity == doctest::Approx(of_riser).epsilon(0.05));
+        }
     }
 }
 
