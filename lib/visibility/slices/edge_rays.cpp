@@ -58,17 +58,22 @@ class BeamEdges {
     /// cuts a patch into pieces that are all as deep as those at its middle (paper/footprint.cpp).
     /// Along a half edge e of depth d the range is r + d s + c s^2, s in [-1, 1], with c = (e^2 -
     /// d^2) / (2 r). The first of n pieces begins 2 c (n - 1) / n^2 before the patch, at most c
-    /// / 2. Two edges u and v add a term of at most u . v / r.
+    /// / 2. Two edges u and v of depths d and f add a term of at most (u . v - d f) / r.
     struct SampleSpan {
         Interval bins;
         float slack;
     };
 
     SampleSpan span_of(const Sample& sample) const {
-        const float edges = 0.25F * (sample.edge_u.squaredNorm() + sample.edge_v.squaredNorm()) +
-                            std::fabs(sample.edge_u.dot(sample.edge_v));
-        const float bends = edges / (sample.position.norm() * static_cast<float>(view_.bin_m()));
-        return {bins_of(view_, sample), std::min(rounding + bends, widest_slack)};
+        const float range = sample.position.norm();
+        const float d = sample.position.dot(sample.edge_u) / range;
+        const float f = sample.position.dot(sample.edge_v) / range;
+        const float across =
+            sample.edge_u.squaredNorm() - d * d + sample.edge_v.squaredNorm() - f * f;
+        const float both = std::fabs(sample.edge_u.dot(sample.edge_v) - d * f);
+        const float bends = (0.25F * std::max(across, 0.0F) + both) / range;
+        const float bend_bins = bends / static_cast<float>(view_.bin_m());
+        return {bins_of(view_, sample), std::min(rounding + bend_bins, widest_slack)};
     }
 
     float area(int beam, int bin) const {
