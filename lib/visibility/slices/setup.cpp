@@ -18,7 +18,7 @@ constexpr float edge_on_share = 1e-7F;
 /// The line in the near plane between two corners on it.
 EdgeLine near_line(const Corner& a, const Corner& b) {
     const float slope = b.u != a.u ? (b.w - a.w) / (b.u - a.u) : 0.0F;
-    return {a.u, a.w, slope, 1.0F / a.X, 0.0F, {}};
+    return {a.u, a.w, slope, a.q, 0.0F, {}};
 }
 
 }  // namespace
