@@ -87,12 +87,14 @@ void add_two(const Boxes& boxes, std::size_t k, BinSum& to) {
 
 /// Adds the part of box k that lies beyond its first two bins. `first` is its first bin.
 void add_rest(const Boxes& boxes, std::size_t k, BinSum* first) {
-    const int more = boxes.last[k] - boxes.first[k];
-    for (int i = 2; i <= more; ++i) {
-        const float share = i < more ? 1.0F : boxes.last_share[k];
-        first[i].weight += boxes.density[k].first * share;
-        first[i].echo += boxes.density[k].second * share;
+    const Pair density = boxes.density[k];
+    BinSum* const last = first + (boxes.last[k] - boxes.first[k]);
+    for (BinSum* whole = first + 2; whole != last; ++whole) {
+        whole->weight += density.first;
+        whole->echo += density.second;
     }
+    last->weight += density.first * boxes.last_share[k];
+    last->echo += density.second * boxes.last_share[k];
 }
 
 }  // namespace

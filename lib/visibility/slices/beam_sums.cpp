@@ -73,8 +73,12 @@ void BeamSums::add(const BeamSums& other) {
 }
 
 void BeamSums::append_intensities(std::vector<float>& out) const {
+    if (last_ < first_) return;
+    const std::size_t begin = out.size();
+    out.resize(begin + static_cast<std::size_t>(last_ - first_ + 1));
+    float* const __restrict to = out.data() + begin;
     for (int i = first_; i <= last_; ++i)
-        out.push_back(intensity(i));
+        to[i - first_] = intensity(i);
 }
 
 void BeamSums::clear() {

@@ -17,7 +17,7 @@ Corner crossing(const Corner& a, const Corner& b, float nearest_m) {
     const float share = (nearest_m - a.X) / (b.X - a.X);
     const float U = a.U + share * (b.U - a.U);
     const float W = a.W + share * (b.W - a.W);
-    return {nearest_m, U, W, U / nearest_m, W / nearest_m};
+    return {nearest_m, U, W, U / nearest_m, W / nearest_m, 1.0F / nearest_m};
 }
 
 }  // namespace
@@ -26,13 +26,13 @@ EdgeLine edge_line(const Corner& p, const Corner& q, float nearest_m) {
     const bool swap = std::tie(p.X, p.U, p.W) < std::tie(q.X, q.U, q.W);
     const Corner& a = swap ? q : p;
     const Corner& b = swap ? p : q;
-    EdgeLine line{a.u, a.w, 0.0F, 1.0F / a.X, 0.0F, {std::min(a.u, b.u), std::max(a.u, b.u)}};
+    EdgeLine line{a.u, a.w, 0.0F, a.q, 0.0F, {std::min(a.u, b.u), std::max(a.u, b.u)}};
     if (b.X > nearest_m) {
         const float across = b.u - a.u;
         // No slice meets a vertical edge.
         if (across == 0.0F) return line;
         line.w_slope = (b.w - a.w) / across;
-        line.q_slope = (1.0F / b.X - line.q) / across;
+        line.q_slope = (b.q - line.q) / across;
         return line;
     }
     const float dX = b.X - a.X;

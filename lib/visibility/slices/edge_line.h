@@ -11,14 +11,15 @@ namespace sonarsim {
 struct Corner {
     float X, U, W;
     float u, w;
+    float q;  ///< 1 / X
 };
 
 using Corners = std::array<Corner, 3>;
 
-/// `p` is in the frame; points nearer than `nearest_m` in front have no projection.
+/// `p` is in the frame; points nearer than `nearest_m` in front have no projection and no q.
 inline Corner corner_at(const Eigen::Vector3f& p, float nearest_m) {
     const float inverse = p.x() > nearest_m ? 1.0F / p.x() : 0.0F;
-    return {p.x(), p.y(), p.z(), p.y() * inverse, p.z() * inverse};
+    return {p.x(), p.y(), p.z(), p.y() * inverse, p.z() * inverse, inverse};
 }
 
 /// w and q = 1 / X along an edge of the picture plane, linear in u.

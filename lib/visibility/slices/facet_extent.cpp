@@ -59,7 +59,8 @@ const FacetExtent& FacetExtents::of(std::uint32_t facet_index) {
         const Corners corners = setup_.corners_of(facet.facet);
         extent = {u_of(corners, facet.facet), range_of(corners, facet.height_m)};
         if (std::isinf(extent.u.from) || std::isinf(extent.u.to)) {
-            extent.range_m = followed(extent.range_m, with_neighbours(corners, facet));
+            extent.range_m =
+                followed(extent.range_m, with_neighbours(corners, facet, extent.range_m));
         }
         const Interval& component = scene_.component_u[mesh_.facets[facet.facet].component];
         extent.u = {std::max(extent.u.from, component.from), std::min(extent.u.to, component.to)};
@@ -67,9 +68,9 @@ const FacetExtent& FacetExtents::of(std::uint32_t facet_index) {
     return extent;
 }
 
-/// The range of a triangle and of those over its sides.
-Interval FacetExtents::with_neighbours(const Corners& corners, const FrontFacet& facet) const {
-    Interval all = range_of(corners, facet.height_m);
+/// The range of a triangle, `all`, and of those over its sides.
+Interval FacetExtents::with_neighbours(const Corners& corners, const FrontFacet& facet,
+                                       Interval all) const {
     for (int side = 0; side < 3; ++side) {
         const std::uint32_t vertex = mesh_.beyond[facet.facet][side];
         if (vertex == ClusterMesh::nothing) continue;

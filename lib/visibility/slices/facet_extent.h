@@ -26,7 +26,7 @@ class FacetExtents {
 
   private:
     Interval u_of(const Corners& corners, std::uint32_t facet) const;
-    Interval with_neighbours(const Corners& corners, const FrontFacet& facet) const;
+    Interval with_neighbours(const Corners& corners, const FrontFacet& facet, Interval all) const;
     bool goes_on(const Corners& corners, int side, std::uint32_t facet) const;
 
     const ClusterMesh& mesh_;

@@ -1,6 +1,7 @@
 #include "visibility/slices/range_profile.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/overlapped_bins.h"
@@ -8,6 +9,24 @@
 namespace sonarsim {
 
 namespace {
+
+// Sums over bins are made in so many parts, so that loops vectorise. Arrays have room for as many
+// dark bins behind the last one.
+constexpr int parts_of_sum = 8;
+
+/// The sum of term(i) over the bins [first, last), and over dark bins up to a whole vector.
+template <class Term>
+float sum_over_bins(int first, int last, const Term& term) {
+    std::array<float, parts_of_sum> parts{};
+    for (int begin = first; begin < last; begin += parts_of_sum) {
+        for (int k = 0; k < parts_of_sum; ++k)
+            parts[k] += term(begin + k);
+    }
+    float sum = 0.0F;
+    for (const float part : parts)
+        sum += part;
+    return sum;
+}
 
 /// Four points of a plane of the scene in the directions (1, u, w).
 struct PlanePoints {
@@ -33,8 +52,8 @@ RangeProfile::RangeProfile(const View& view)
       per_m_(static_cast<float>(1.0 / view.bin_m())),
       bins_(view.range_bins),
       per_range_(view.range_bins),
-      weight_(view.range_bins, 0.0F),
-      echo_(view.range_bins, 0.0F) {
+      weight_(view.range_bins + parts_of_sum, 0.0F),
+      echo_(view.range_bins + parts_of_sum, 0.0F) {
     for (int i = 0; i < bins_; ++i)
         per_range_[i] = per_m_ / (min_bins_ + static_cast<float>(i) + 0.5F);
 }
@@ -97,10 +116,12 @@ void RangeProfile::add(float from_m, float to_m, float weight, float height_m, f
 }
 
 void RangeProfile::finish() {
-    for (int i = first_; i < last_; ++i) {
-        echo_[i] = weight_[i] > 0.0F ? echo_[i] / weight_[i] : 0.0F;
-        sum_ += echo_[i];
-    }
+    float* const __restrict echo = echo_.data();
+    const float* const __restrict weight = weight_.data();
+    sum_ = sum_over_bins(first_, last_, [&](int i) {
+        echo[i] = weight[i] > 0.0F ? echo[i] / weight[i] : 0.0F;
+        return echo[i];
+    });
 }
 
 float RangeProfile::change(const RangeProfile& a, const RangeProfile& b,
@@ -118,12 +139,10 @@ float RangeProfile::change(const RangeProfile& a, const RangeProfile& b,
 }
 
 float RangeProfile::difference(const RangeProfile& a, const RangeProfile& b) {
-    float sum = 0.0F;
-    const int first = std::min(a.first_, b.first_);
-    const int last = std::max(a.last_, b.last_);
-    for (int i = first; i < last; ++i)
-        sum += std::fabs(a.echo_[i] - b.echo_[i]);
-    return sum;
+    const float* const echo_a = a.echo_.data();
+    const float* const echo_b = b.echo_.data();
+    return sum_over_bins(std::min(a.first_, b.first_), std::max(a.last_, b.last_),
+                         [&](int i) { return std::fabs(echo_a[i] - echo_b[i]); });
 }
 
 }  // namespace sonarsim

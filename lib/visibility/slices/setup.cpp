@@ -18,7 +18,7 @@ constexpr float edge_on_share = 1e-7F;
 /// The line in the near plane between two corners on it.
 EdgeLine near_line(const Corner& a, const Corner& b) {
     const float slope = b.u != a.u ? (b.w - a.w) / (b.u - a.u) : 0.0F;
-    return {a.u, a.w, slope, 1.0F / a.X, 0.0F, {}};
+    return {a.u, a.w, slope, a.q, 0.0F, {}};
 }
 
 }  // namespace
@@ -121,22 +121,29 @@ void SliceSetup::add_triangle(const Corners& corners, std::uint32_t facet) {
     if (!add_facet(facet, a)) return;
     const EdgeLine whole = edge_line(*first, *last, nearest_m_);
     const bool above = middle->w > whole.w_at(middle->u);
-    const auto part = [&](const Corner& from, const Corner& to) {
+    const std::uint32_t between = find_slice_(middle->u);
+    const auto part = [&](const Corner& from, const Corner& to, const SlicesOfPart& slices) {
+        if (!wants_part({from.u, to.u}, slices)) return;
         const EdgeLine other = edge_line(from, to, nearest_m_);
-        add_trapezoid(above ? whole : other, above ? other : whole, from.u, to.u);
+        add_trapezoid(above ? whole : other, above ? other : whole, {from.u, to.u});
     };
-    part(*first, *middle);
-    part(*middle, *last);
+    part(*first, *middle, {begin, between});
+    part(*middle, *last, {between, end});
 }
 
 /// Notes a triangle that slices meet outside of the view only: the view shows a corner of it
 /// between two of them.
 void SliceSetup::note_clipped(const Corners& corners, std::uint32_t facet, Interval u) {
     const auto& [a, b, c] = corners;
+    const auto [lowest, highest] = std::minmax({a.w, b.w, c.w});
+    // The view's borders are nowhere nearer to w = 0 than at u = 0.
+    if (frame_.tan_low <= 0.0F && frame_.tan_high >= 0.0F && frame_.tan_low <= lowest &&
+        highest <= frame_.tan_high)
+        return;
     // The view's borders depend on u, so the part between them is found in two steps.
     for (int step = 0; step < 2; ++step) {
         const Interval w = w_over(frame_, {std::max(u.from, u_low_), std::min(u.to, u_high_)});
-        if (w.from <= std::min({a.w, b.w, c.w}) && std::max({a.w, b.w, c.w}) <= w.to) return;
+        if (w.from <= lowest && highest <= w.to) return;
         u = u_between(corners, w);
         if (!(u.from < u.to && u.from <= u_high_ && u.to > u_low_)) return;
     }
@@ -174,7 +181,8 @@ void SliceSetup::add_part_in_front(const Corners& corners, std::uint32_t facet) 
             if (low == nullptr || line.w_at(middle) < low->w_at(middle)) low = &line;
             if (high == nullptr || line.w_at(middle) >= high->w_at(middle)) high = &line;
         }
-        if (low != high) add_trapezoid(*low, *high, u[k], u[k + 1]);
+        if (low != high && wants_part({u[k], u[k + 1]}, {find_slice_(u[k]), find_slice_(u[k + 1])}))
+            add_trapezoid(*low, *high, {u[k], u[k + 1]});
     }
 }
 
@@ -198,20 +206,24 @@ bool SliceSetup::add_facet(std::uint32_t facet, const Corner& corner) {
     return true;
 }
 
-/// Adds a part of the last facet. A part between two slices is noted, or added on request.
-void SliceSetup::add_trapezoid(const EdgeLine& low, const EdgeLine& high, float from, float to) {
-    if (!(from < to)) return;
-    const std::uint32_t first = find_slice_(from);
-    const bool met = first < find_slice_(to);
-    const auto facet_index = static_cast<std::uint32_t>(out_.facets.size() - 1);
-    const std::uint32_t facet = out_.facets[facet_index].facet;
+/// True if the part of the last facet over an extent in u is to be added. A part between two slices
+/// is noted, or added on request.
+bool SliceSetup::wants_part(const Interval& u, const SlicesOfPart& slices) {
+    if (!(u.from < u.to)) return false;
+    const bool met = slices.first < slices.next;
     if (met == lazy_) {
-        if (met || first == 0 || first == frame_.slices.size()) return;
-        out_.in_gaps.push_back({facet, first - 1, false});
-        return;
+        if (!met && slices.first > 0 && slices.first < frame_.slices.size())
+            out_.in_gaps.push_back({out_.facets.back().facet, slices.first - 1, false});
+        return false;
     }
-    if (met) first_slice_.push_back(first);
-    out_.trapezoids.push_back({low, high, from, to, facet_index});
+    if (met) first_slice_.push_back(slices.first);
+    return true;
+}
+
+/// Adds a part of the last facet, for which wants_part() is true.
+void SliceSetup::add_trapezoid(const EdgeLine& low, const EdgeLine& high, const Interval& u) {
+    const auto facet_index = static_cast<std::uint32_t>(out_.facets.size() - 1);
+    out_.trapezoids.push_back({low, high, u.from, u.to, facet_index});
 }
 
 }  // namespace sonarsim

@@ -78,6 +78,12 @@ class SliceSetup {
     Eigen::Vector3f turned(const Eigen::Vector3f& local) const { return R_frame_local_ * local; }
 
   private:
+    /// The first slices at or behind either end of a part in u; if equal, no slice meets the part.
+    struct SlicesOfPart {
+        std::uint32_t first;
+        std::uint32_t next;
+    };
+
     bool in_view(const TriangleCluster& cluster) const;
     void add_cluster(const TriangleCluster& cluster);
     void add_triangle(const Corners& corners, std::uint32_t facet);
@@ -85,7 +91,8 @@ class SliceSetup {
     void add_part_in_front(const Corners& corners, std::uint32_t facet);
     void widen_component(std::uint32_t facet, const Interval& by);
     bool add_facet(std::uint32_t facet, const Corner& corner);
-    void add_trapezoid(const EdgeLine& low, const EdgeLine& high, float from, float to);
+    bool wants_part(const Interval& u, const SlicesOfPart& slices);
+    void add_trapezoid(const EdgeLine& low, const EdgeLine& high, const Interval& u);
 
     const ClusterMesh& mesh_;
     const SliceFrame& frame_;

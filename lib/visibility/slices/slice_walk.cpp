@@ -105,6 +105,10 @@ const std::vector<Segment>& SliceWalk::step(int s) {
     for (std::uint32_t k = by_slice.begin[s]; k < by_slice.begin[s + 1]; ++k)
         fresh_.push_back(not_evaluated(by_slice.items[k]));
     evaluate(*scene_, u, fresh_);
+    if (fresh_.empty()) {
+        std::swap(active_, old_);
+        return active_;
+    }
     std::ranges::sort(fresh_, before);
     active_.resize(old_.size() + fresh_.size());
     std::ranges::merge(old_, fresh_, active_.begin(), before);
