@@ -66,10 +66,12 @@ void add_slices(const Strips& strips, int first, int last, double centre, SliceF
 /// Frames whose axis along is the pole of the view: slices are meridians between two latitudes.
 void add_meridians(const Strips& strips, double latitude_low, double latitude_high,
                    const Eigen::Matrix3d& axes, std::vector<SliceFrame>& frames) {
-    const int sectors = std::max(
+    const int enough = std::max(
         1, static_cast<int>(std::ceil(strips.count * strips.width / widest_sector - 1e-9)));
-    // A sector ends with a beam unless there are too few of them.
-    const int whole = strips.count / strips.per_beam >= sectors ? strips.per_beam : 1;
+    // A sector has whole beams, or lies in one beam.
+    const int beams = strips.count / strips.per_beam;
+    const int sectors = beams >= enough ? enough : beams * ((enough + beams - 1) / beams);
+    const int whole = beams >= enough ? strips.per_beam : 1;
     const auto begin_of = [&](int s) -> int {
         return whole * static_cast<int>(static_cast<long>(strips.count / whole) * s / sectors);
     };
