@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
+#include <span>
 #include <vector>
 
 #include "core/elementary.h"
 #include "core/units.h"
 #include "support/draws.h"
+#include "support/lattice_builder.h"
+#include "support/lattices_kept_aside.h"
 #include "validation/shapes.h"
 
 namespace sonarsim::test {
@@ -18,204 +20,164 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// Draws one lattice into a scene, about the origin, some two units wide.
-class Builder {
-  public:
-    Builder(Draws& draws, Scene& scene) : draws_(draws), scene_(scene), welded_(draws.half()) {
-        material_ = shapes::add_material(scene, draws.between(0.2F, 0.9F));
-        scene.instances.emplace_back("lattice");
-    }
-
-    /// A prism from a to b. Welded bars that meet in a node share its vertex.
-    void bar(const Vector3f& a, const Vector3f& b, float radius, int sides) {
-        const Vector3f along = b - a;
-        const Vector3f u = along.unitOrthogonal() * radius;
-        const Vector3f v = along.normalized().cross(u);
-        const auto rim = [&](const Vector3f& centre, int k) -> Vector3f {
-            const SinCos at = sincos(2.0 * pi * (k % sides) / sides);
-            return centre + static_cast<float>(at.cos) * u + static_cast<float>(at.sin) * v;
-        };
-        for (int k = 0; k < sides; ++k) {
-            quad(rim(a, k), rim(a, k + 1), rim(b, k + 1), rim(b, k));
-            if (!welded_) continue;
-            triangle(a, rim(a, k), rim(a, k + 1));
-            triangle(b, rim(b, k), rim(b, k + 1));
+/// A girder of four chords with frames and diagonals, as of a crane.
+void truss(LatticeBuilder& lattice) {
+    Draws& draws = lattice.draws();
+    const int bays = draws.whole(3, 9);
+    const float half = draws.between(0.08F, 0.3F);
+    const float radius = draws.scale(0.004F, 0.03F);
+    const int sides = draws.whole(3, 8);
+    const auto node = [&](int bay, int k) -> Vector3f {
+        const float x = -1.0F + 2.0F * static_cast<float>(bay) / static_cast<float>(bays);
+        return {x, k == 1 || k == 2 ? half : -half, k >= 2 ? half : -half};
+    };
+    for (int bay = 0; bay <= bays; ++bay) {
+        for (int k = 0; k < 4; ++k) {
+            const int next = (k + 1) % 4;
+            lattice.bar(node(bay, k), node(bay, next), radius, sides);
+            if (bay == bays) continue;
+            lattice.bar(node(bay, k), node(bay + 1, k), 1.5F * radius, sides);
+            lattice.bar(node(bay, bay % 2 == 0 ? k : next), node(bay + 1, bay % 2 == 0 ? next : k),
+                        radius, sides);
         }
     }
+}
 
-    void quad(const Vector3f& a, const Vector3f& b, const Vector3f& c, const Vector3f& d) {
-        triangle(a, b, c);
-        triangle(a, c, d);
-    }
-
-    /// A girder of four chords with frames and diagonals, as of a crane.
-    void truss() {
-        const int bays = draws_.whole(3, 9);
-        const float half = draws_.between(0.08F, 0.3F);
-        const float radius = draws_.scale(0.004F, 0.03F);
-        const int sides = draws_.whole(3, 8);
-        const auto node = [&](int bay, int k) -> Vector3f {
-            const float x = -1.0F + 2.0F * static_cast<float>(bay) / static_cast<float>(bays);
-            return {x, k == 1 || k == 2 ? half : -half, k >= 2 ? half : -half};
-        };
-        for (int bay = 0; bay <= bays; ++bay) {
-            for (int k = 0; k < 4; ++k) {
-                const int next = (k + 1) % 4;
-                bar(node(bay, k), node(bay, next), radius, sides);
-                if (bay == bays) continue;
-                bar(node(bay, k), node(bay + 1, k), 1.5F * radius, sides);
-                bar(node(bay, bay % 2 == 0 ? k : next), node(bay + 1, bay % 2 == 0 ? next : k),
-                    radius, sides);
-            }
+/// A net of ropes that sags and billows.
+void net(LatticeBuilder& lattice) {
+    Draws& draws = lattice.draws();
+    const int cells = draws.whole(6, 24);
+    const float radius = draws.scale(0.001F, 0.01F);
+    const float sag = draws.between(0.0F, 0.5F);
+    const float slack = draws.between(0.0F, 0.3F) / static_cast<float>(cells);
+    std::vector<Vector3f> nodes;
+    for (int i = 0; i <= cells; ++i) {
+        for (int j = 0; j <= cells; ++j) {
+            const float y = -1.0F + 2.0F * static_cast<float>(i) / static_cast<float>(cells);
+            const float z = -1.0F + 2.0F * static_cast<float>(j) / static_cast<float>(cells);
+            nodes.push_back(Vector3f(sag * (y * y + 0.5F * z), y, z) + slack * draws.in_ball());
         }
     }
-
-    /// A net of ropes that sags and billows.
-    void net() {
-        const int cells = draws_.whole(6, 24);
-        const float radius = draws_.scale(0.001F, 0.01F);
-        const float sag = draws_.between(0.0F, 0.5F);
-        const float slack = draws_.between(0.0F, 0.3F) / static_cast<float>(cells);
-        std::vector<Vector3f> nodes;
-        for (int i = 0; i <= cells; ++i) {
-            for (int j = 0; j <= cells; ++j) {
-                const float y = -1.0F + 2.0F * static_cast<float>(i) / static_cast<float>(cells);
-                const float z = -1.0F + 2.0F * static_cast<float>(j) / static_cast<float>(cells);
-                nodes.push_back(Vector3f(sag * (y * y + 0.5F * z), y, z) +
-                                slack * draws_.in_ball());
-            }
-        }
-        const auto at = [&](int i, int j) -> const Vector3f& { return nodes[i * (cells + 1) + j]; };
-        for (int i = 0; i <= cells; ++i) {
-            for (int j = 0; j <= cells; ++j) {
-                if (i < cells) bar(at(i, j), at(i + 1, j), radius, 3);
-                if (j < cells) bar(at(i, j), at(i, j + 1), radius, 3);
-            }
+    const auto at = [&](int i, int j) -> const Vector3f& { return nodes[i * (cells + 1) + j]; };
+    for (int i = 0; i <= cells; ++i) {
+        for (int j = 0; j <= cells; ++j) {
+            if (i < cells) lattice.bar(at(i, j), at(i + 1, j), radius, 3);
+            if (j < cells) lattice.bar(at(i, j), at(i, j + 1), radius, 3);
         }
     }
+}
 
-    /// A flight of stairs with rails and posts.
-    void stairs() {
-        const int treads = draws_.whole(6, 20);
-        const float half = draws_.between(0.15F, 0.5F);
-        const float depth = draws_.between(0.8F, 1.6F) / static_cast<float>(treads);
-        const float radius = draws_.scale(0.004F, 0.02F);
-        const auto foot = [&](int k, float side) -> Vector3f {
-            const float t = -1.0F + 2.0F * static_cast<float>(k) / static_cast<float>(treads);
-            return {0.8F * t, side * half, 0.7F * t};
-        };
-        const Vector3f up(0.0F, 0.0F, draws_.between(0.2F, 0.5F));
-        for (int k = 0; k < treads; ++k) {
-            const Vector3f to_back(depth, 0.0F, 0.0F);
-            quad(foot(k, -1), foot(k, 1), foot(k, 1) + to_back, foot(k, -1) + to_back);
-            for (const float side : {-1.0F, 1.0F}) {
-                bar(foot(k, side), foot(k + 1, side), radius, 4);
-                bar(foot(k, side) + up, foot(k + 1, side) + up, radius, 6);
-                bar(foot(k, side), foot(k, side) + up, radius, 6);
-            }
+/// A flight of stairs with rails and posts.
+void stairs(LatticeBuilder& lattice) {
+    Draws& draws = lattice.draws();
+    const int treads = draws.whole(6, 20);
+    const float half = draws.between(0.15F, 0.5F);
+    const float depth = draws.between(0.8F, 1.6F) / static_cast<float>(treads);
+    const float radius = draws.scale(0.004F, 0.02F);
+    const auto foot = [&](int k, float side) -> Vector3f {
+        const float t = -1.0F + 2.0F * static_cast<float>(k) / static_cast<float>(treads);
+        return {0.8F * t, side * half, 0.7F * t};
+    };
+    const Vector3f up(0.0F, 0.0F, draws.between(0.2F, 0.5F));
+    for (int k = 0; k < treads; ++k) {
+        const Vector3f to_back(depth, 0.0F, 0.0F);
+        lattice.quad(foot(k, -1), foot(k, 1), foot(k, 1) + to_back, foot(k, -1) + to_back);
+        for (const float side : {-1.0F, 1.0F}) {
+            lattice.bar(foot(k, side), foot(k + 1, side), radius, 4);
+            lattice.bar(foot(k, side) + up, foot(k + 1, side) + up, radius, 6);
+            lattice.bar(foot(k, side), foot(k, side) + up, radius, 6);
         }
     }
+}
 
-    /// Pipes that turn at right angles.
-    void pipes() {
-        const int count = draws_.whole(2, 8);
-        for (int n = 0; n < count; ++n) {
-            Vector3f at = draws_.in_ball();
-            const float radius = draws_.scale(0.006F, 0.08F);
-            const int sides = draws_.whole(6, 14);
-            int axis = draws_.whole(0, 2);
-            for (int k = draws_.whole(3, 7); k > 0; --k) {
-                Vector3f next = at;
-                next[axis] = draws_.between(-1, 1);
-                if ((next - at).norm() < 3.0F * radius) continue;
-                bar(at, next, radius, sides);
-                at = next;
-                axis = (axis + draws_.whole(1, 2)) % 3;
-            }
+/// Pipes that turn at right angles.
+void pipes(LatticeBuilder& lattice) {
+    Draws& draws = lattice.draws();
+    const int count = draws.whole(2, 8);
+    for (int n = 0; n < count; ++n) {
+        Vector3f at = draws.in_ball();
+        const float radius = draws.scale(0.006F, 0.08F);
+        const int sides = draws.whole(6, 14);
+        int axis = draws.whole(0, 2);
+        for (int k = draws.whole(3, 7); k > 0; --k) {
+            Vector3f next = at;
+            next[axis] = draws.between(-1, 1);
+            if ((next - at).norm() < 3.0F * radius) continue;
+            lattice.bar(at, next, radius, sides);
+            at = next;
+            axis = (axis + draws.whole(1, 2)) % 3;
         }
     }
+}
 
-    /// Leaves on stems.
-    void leaves() {
-        const int count = draws_.whole(60, 400);
-        const float length = draws_.scale(0.05F, 0.25F);
-        const float stem = draws_.scale(0.001F, 0.01F);
-        const Vector3f root(0.0F, 0.0F, -1.0F);
-        for (int n = 0; n < count; ++n) {
-            const Vector3f at = draws_.in_ball();
-            const Vector3f along = length * draws_.in_ball().normalized();
-            const Vector3f sideways = draws_.in_ball().normalized();
-            const Vector3f across = draws_.between(0.1F, 0.4F) * along.cross(sideways);
-            quad(at, at + 0.5F * along + across, at + along, at + 0.5F * along - across);
-            if (n % 8 == 0) bar(root, at, stem, 3);
+/// Leaves on stems.
+void leaves(LatticeBuilder& lattice) {
+    Draws& draws = lattice.draws();
+    const int count = draws.whole(60, 400);
+    const float length = draws.scale(0.05F, 0.25F);
+    const float stem = draws.scale(0.001F, 0.01F);
+    const Vector3f root(0.0F, 0.0F, -1.0F);
+    for (int n = 0; n < count; ++n) {
+        const Vector3f at = draws.in_ball();
+        const Vector3f along = length * draws.in_ball().normalized();
+        const Vector3f sideways = draws.in_ball().normalized();
+        const Vector3f across = draws.between(0.1F, 0.4F) * along.cross(sideways);
+        lattice.quad(at, at + 0.5F * along + across, at + along, at + 0.5F * along - across);
+        if (n % 8 == 0) lattice.bar(root, at, stem, 3);
+    }
+}
+
+/// A wheel of two rims with spokes and braces.
+void wheel(LatticeBuilder& lattice) {
+    Draws& draws = lattice.draws();
+    const int count = draws.whole(10, 40);
+    const float half = draws.between(0.03F, 0.2F);
+    const float radius = draws.scale(0.003F, 0.02F);
+    const auto rim = [&](int k, float side) -> Vector3f {
+        const SinCos at = sincos(2.0 * pi * (k % count) / count);
+        return {side * half, static_cast<float>(at.cos), static_cast<float>(at.sin)};
+    };
+    for (int k = 0; k < count; ++k) {
+        lattice.bar(rim(k, -1), rim(k, 1), radius, 5);
+        for (const float side : {-1.0F, 1.0F}) {
+            lattice.bar(rim(k, side), rim(k + 1, side), radius, 5);
+            lattice.bar({side * half, 0, 0}, rim(k, side), 0.6F * radius, 4);
+            lattice.bar(rim(k, side), rim(k + 1, -side), 0.6F * radius, 4);
         }
     }
+}
 
-    /// A wheel of two rims with spokes and braces.
-    void wheel() {
-        const int count = draws_.whole(10, 40);
-        const float half = draws_.between(0.03F, 0.2F);
-        const float radius = draws_.scale(0.003F, 0.02F);
-        const auto rim = [&](int k, float side) -> Vector3f {
-            const SinCos at = sincos(2.0 * pi * (k % count) / count);
-            return {side * half, static_cast<float>(at.cos), static_cast<float>(at.sin)};
-        };
-        for (int k = 0; k < count; ++k) {
-            bar(rim(k, -1), rim(k, 1), radius, 5);
-            for (const float side : {-1.0F, 1.0F}) {
-                bar(rim(k, side), rim(k + 1, side), radius, 5);
-                bar({side * half, 0, 0}, rim(k, side), 0.6F * radius, 4);
-                bar(rim(k, side), rim(k + 1, -side), 0.6F * radius, 4);
-            }
+/// A ladder with a cage of hoops.
+void ladder(LatticeBuilder& lattice) {
+    Draws& draws = lattice.draws();
+    const int rungs = draws.whole(8, 24);
+    const int cage = draws.whole(6, 12);
+    const float half = draws.between(0.1F, 0.25F);
+    const float radius = draws.scale(0.004F, 0.02F);
+    const auto height = [&](int k) -> float {
+        return -1.0F + 2.0F * static_cast<float>(k) / static_cast<float>(rungs);
+    };
+    const auto hoop = [&](int k, int n) -> Vector3f {
+        const SinCos at = sincos(pi * n / cage);
+        return {2.0F * half * static_cast<float>(at.sin), half * static_cast<float>(at.cos),
+                height(k)};
+    };
+    for (int k = 0; k < rungs; ++k) {
+        lattice.bar({0, half, height(k)}, {0, -half, height(k)}, radius, 6);
+        for (int n = 0; n <= cage; ++n) {
+            if (k % 2 == 0 && n < cage) lattice.bar(hoop(k, n), hoop(k, n + 1), radius, 4);
+            if (n % 2 == 0) lattice.bar(hoop(k, n), hoop(k + 1, n), radius, 4);
         }
     }
+}
 
-    /// A ladder with a cage of hoops.
-    void ladder() {
-        const int rungs = draws_.whole(8, 24);
-        const int cage = draws_.whole(6, 12);
-        const float half = draws_.between(0.1F, 0.25F);
-        const float radius = draws_.scale(0.004F, 0.02F);
-        const auto height = [&](int k) -> float {
-            return -1.0F + 2.0F * static_cast<float>(k) / static_cast<float>(rungs);
-        };
-        const auto hoop = [&](int k, int n) -> Vector3f {
-            const SinCos at = sincos(pi * n / cage);
-            return {2.0F * half * static_cast<float>(at.sin), half * static_cast<float>(at.cos),
-                    height(k)};
-        };
-        for (int k = 0; k < rungs; ++k) {
-            bar({0, half, height(k)}, {0, -half, height(k)}, radius, 6);
-            for (int n = 0; n <= cage; ++n) {
-                if (k % 2 == 0 && n < cage) bar(hoop(k, n), hoop(k, n + 1), radius, 4);
-                if (n % 2 == 0) bar(hoop(k, n), hoop(k + 1, n), radius, 4);
-            }
-        }
-    }
-
-  private:
-    void triangle(const Vector3f& a, const Vector3f& b, const Vector3f& c) {
-        const auto first = static_cast<std::uint32_t>(scene_.vertices.size());
-        scene_.vertices.insert(scene_.vertices.end(), {a, b, c});
-        scene_.triangles.push_back({first, first + 1, first + 2});
-        scene_.triangle_material.push_back(material_);
-        scene_.triangle_instance.push_back(0);
-    }
-
-    Draws& draws_;
-    Scene& scene_;
-    bool welded_;
-    std::uint32_t material_ = 0;
-};
-
-using Shape = std::pair<const char*, void (Builder::*)()>;
-constexpr std::array<Shape, 7> shapes_of_lattices{{{"truss", &Builder::truss},
-                                                   {"net", &Builder::net},
-                                                   {"stairs", &Builder::stairs},
-                                                   {"pipes", &Builder::pipes},
-                                                   {"leaves", &Builder::leaves},
-                                                   {"wheel", &Builder::wheel},
-                                                   {"ladder", &Builder::ladder}}};
+constexpr std::array<LatticeShape, 7> known_shapes{{{"truss", truss},
+                                                    {"net", net},
+                                                    {"stairs", stairs},
+                                                    {"pipes", pipes},
+                                                    {"leaves", leaves},
+                                                    {"wheel", wheel},
+                                                    {"ladder", ladder}}};
 
 /// A sonar for things of size `size_m` at `distance_m`.
 SonarConfig draw_sonar(Draws& draws, std::uint32_t number, float size_m, float distance_m) {
@@ -248,15 +210,17 @@ SonarConfig draw_sonar(Draws& draws, std::uint32_t number, float size_m, float d
 
 }  // namespace
 
-Lattice draw_lattice(std::uint32_t number) {
+Lattice draw_lattice(std::uint32_t number, ShapeSet set) {
     Draws draws(number);
     Lattice out;
     out.scene = shapes::empty_scene();
-    const auto& [name, build] = shapes_of_lattices[static_cast<std::size_t>(
-        draws.whole(0, static_cast<int>(shapes_of_lattices.size()) - 1))];
-    out.shape = name;
-    Builder builder(draws, out.scene);
-    (builder.*build)();
+    const std::span<const LatticeShape> choice =
+        set == ShapeSet::known ? std::span<const LatticeShape>(known_shapes) : shapes_kept_aside();
+    const LatticeShape& shape =
+        choice[static_cast<std::size_t>(draws.whole(0, static_cast<int>(choice.size()) - 1))];
+    out.shape = shape.name;
+    LatticeBuilder builder(draws, out.scene);
+    shape.build(builder);
     const float size = draws.scale(0.5F, 4.0F);  // half of its length, m
     const float distance = size * draws.scale(1.2F, 6.0F);
     out.sonar = draw_sonar(draws, number, size, distance);

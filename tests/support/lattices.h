@@ -19,10 +19,14 @@ struct Lattice {
     SonarConfig sonar;
 };
 
+/// Known: trusses, nets, stairs, pipes, leaves, wheels and ladders. The estimates of the engines
+/// were developed on such scenes. Kept aside: shapes that were used for judging alone.
+enum class ShapeSet : std::uint8_t { known, kept_aside };
+
 /// Draws scene `number`: the shape, its size, thickness, orientation and distance, whether its bars
 /// share vertices, a floor behind it in half of the scenes, and the sonar's angles. The kind of the
 /// sonar depends on the number: half of them are imaging sonars. The same number gives the same
 /// scene.
-Lattice draw_lattice(std::uint32_t number);
+Lattice draw_lattice(std::uint32_t number, ShapeSet set = ShapeSet::known);
 
 }  // namespace sonarsim::test
