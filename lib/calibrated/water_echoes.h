@@ -86,6 +86,9 @@ void add_particle_amplitudes(const CalibratedModel& model, const Beams& beams,
                            amplitudes.re[k] = amplitude * phase.cos;
                            amplitudes.im[k] = amplitude * phase.sin;
                        }
+                       // Echoes up to a whole vector are added, too.
+                       for (int k = points.count; k < echoes.count; ++k)
+                           amplitudes.re[k] = amplitudes.im[k] = 0.0F;
                        add_amplitudes(beams, points, echoes, amplitudes, grid);
                    });
 }

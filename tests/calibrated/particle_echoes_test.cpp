@@ -180,6 +180,29 @@ TEST_SUITE("calibrated") {
         CHECK(sum / seeds == doctest::Approx(2.0).epsilon(0.2));
     }
 
+    // Targets are added eight at a time, in blocks of 256. What fills up the last eight has no
+    // echo. It had the amplitudes of the block before, in the first bins.
+    TEST_CASE("particles: nothing is added behind the last target of a block") {
+        View view = point_view(ViewShape::fan, 20.0, 40.0, 5);
+        view.range_bins = 2000;
+        InstrumentConfig config = point_instrument(Aperture::line, 4.0);
+        config.pulse.resolution_m = 0.01;
+        config.speckle.mode = SpeckleMode::scene;
+        BeamSines sines;
+        for (int k = 0; k <= 5; ++k)
+            sines.edges.push_back(std::sin(radians(4.0 * k - 10.0)));
+        for (int k = 0; k < 5; ++k)
+            sines.middles.push_back(std::sin(radians(4.0 * (k + 0.5) - 10.0)));
+        const CalibratedModel model = calibrated_model(config, {}, view, sines);
+        std::vector<Eigen::Vector3f> places;  // from 2.5 m on
+        for (int k = 0; k < 300; ++k)
+            places.emplace_back(2.5F + 0.06F * static_cast<float>(k), 0.0F, 0.0F);
+        const std::vector<float> image = image_of_traced(model, view, ping_of_points(places), {});
+        constexpr int before = 40 * 5;  // bins from 2.0 to 2.4 m
+        CHECK(*std::max_element(image.begin(), image.begin() + before) < 1e-18F);
+        CHECK(*std::max_element(image.begin(), image.end()) > 1e-7F);
+    }
+
     // The object of the bins is the target, where it is stronger than the floor behind.
     TEST_CASE("particles: labels at their bin and beam") {
         SonarConfig config = calibrated(kind_of(SonarKind::imaging).keys.defaults, 2e5);
