@@ -14,9 +14,6 @@ namespace sonarsim {
 
 namespace {
 
-// A single bin decides about the share of fewer.
-constexpr double fewest_bins = 16.0;
-
 // Stretched further than this, in footprints, a footprint says nothing about where it lies.
 constexpr float farthest_shift = 16.0F;
 
@@ -148,7 +145,7 @@ double missed_multipath(const View& view, int columns_per_beam, const Samples& s
     }
     const double alone = bins.count(by_even_columns) + bins.count(by_odd_columns);
     const double common = bins.count(by_even_columns | by_odd_columns);
-    if (alone + common < fewest_bins) return none;
+    if (alone + common == 0.0) return none;
     const double in_one_image = 0.5 * alone + common;
     const double found = common / in_one_image;
     // An image of every second column misses 1 - found; the image of all columns half as much. So

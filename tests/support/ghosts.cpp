@@ -155,7 +155,7 @@ std::vector<float> ghost_reference(const Ghost& ghost, const View& view, std::ui
     return image;
 }
 
-int lit_bins(const std::vector<float>& image) {
+int occupied_bins(const std::vector<float>& image) {
     return static_cast<int>(std::ranges::count_if(image, [](float x) { return x > 0.0F; }));
 }
 

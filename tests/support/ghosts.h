@@ -10,8 +10,8 @@
 
 namespace sonarsim::test {
 
-// Bodies beside mirrors, and their ghosts: the echoes over a second surface. Each facet of a body
-// has its ghost in bins of its own.
+// Bodies near a wall or under the water's surface, and their ghosts: the echoes over that second
+// surface. Each facet of a body has its ghost in bins of its own.
 
 struct Ghost {
     std::string shape;  ///< "ball", "box", "cylinder", "balls"
@@ -19,21 +19,21 @@ struct Ghost {
     Pose T_world_sensor;
 };
 
-/// Draws scene `number`: the body, its facets, place and pose, the mirror, and the sonar's pose.
-/// The same number gives the same scene.
+/// Draws scene `number`: the body, its facets, place and pose, the second surface, and the sonar's
+/// pose. The same number gives the same scene.
 Ghost draw_ghost(std::uint32_t number);
 
 /// The multipath image [range bins, beams] of paths from about `rays` random directions of the
 /// view, each followed by itself: a brute-force reference.
 std::vector<float> ghost_reference(const Ghost& ghost, const View& view, std::uint32_t rays);
 
-/// The number of bins that are not dark.
-int lit_bins(const std::vector<float>& image);
+/// The number of bins with an echo.
+int occupied_bins(const std::vector<float>& image);
 
 /// A ping's multipath against the reference.
 struct GhostError {
-    double missed = 0.0;       ///< share of the reference's bins that are dark in the ping
-    double by_mistake = 0.0;   ///< share of the ping's bins that are dark in the reference
+    double missed = 0.0;       ///< share of the reference's bins that are empty in the ping
+    double by_mistake = 0.0;   ///< share of the ping's bins that are empty in the reference
     double relative_l1 = 0.0;  ///< error of the multipath image
     double estimate = 0.0;     ///< see missed_multipath()
 };
