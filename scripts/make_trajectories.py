@@ -37,7 +37,7 @@ def seafloor_pass():
 
 
 def wreck_pass():
-    """A pass along the wreck, 16 m beside its keel and 7 m up: sideways, the bow 15 degrees down."""
+    """A pass along the wreck, 16 m off its keel and 7 m up: sideways, the bow 15 degrees down."""
     count, rate_hz, speed = 80, 5, 2
     for k in range(count):
         x = (k - (count - 1) / 2) * speed / rate_hz

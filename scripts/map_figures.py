@@ -119,8 +119,8 @@ def errors(options, folder):
         for sensor in ("imaging", "side"):
             usual, fine = (images(folder / f"{out}{number}", sensor) for out in ("usual", "fine"))
             off = [apart(image, truth) for image, truth in zip(usual, fine, strict=True)]
-            told = estimates(folder / f"usual{number}", sensor)
-            cells += [f"{100 * sum(x) / len(x):.1f} %" for x in (off, told)]
+            stated = estimates(folder / f"usual{number}", sensor)
+            cells += [f"{100 * sum(x) / len(x):.1f} %" for x in (off, stated)]
         print(f"| {name} | {' | '.join(cells)} |", flush=True)
 
 

@@ -90,7 +90,7 @@ def save(plot, path):
     figure, axes = plot
     label_ticks(axes)
     axes.legend(fontsize=9)
-    # matplotlib stamps an SVG with the time unless told not to; a PNG has no such entry.
+    # matplotlib stamps an SVG with the time unless asked not to; a PNG has no such entry.
     figure.savefig(path, dpi=100, metadata={"Date": None} if path.suffix == ".svg" else None)
     plt.close(figure)
 

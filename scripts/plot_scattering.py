@@ -31,8 +31,8 @@ def strengths(program, materials, khz):
     """The grazing angles in degrees and the strengths in dB by material."""
     done = subprocess.run([program, "materials", materials, "--frequency-khz", str(khz), "--json"],
                           check=True, capture_output=True, text=True)
-    told = json.loads(done.stdout)
-    return told["grazing_deg"], told["strength_db"]
+    reported = json.loads(done.stdout)
+    return reported["grazing_deg"], reported["strength_db"]
 
 
 def main():

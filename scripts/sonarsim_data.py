@@ -177,7 +177,7 @@ class Sensor:
         return Sample(self, index % len(self))
 
     def records(self, name):
-        """All records of a name, as an array that is mapped, not read; its axes are told by axes()."""
+        """All records of a name, as an array that is mapped, not read; its axes are given by axes()."""
         if name not in self._arrays:
             path = self.folder / self._records[name]["file"]
             self._arrays[name] = np.load(path, mmap_mode="r")

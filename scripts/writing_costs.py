@@ -64,10 +64,10 @@ def per_output(program, out, rounds):
     least = {}
     for _ in range(rounds):
         for name, arguments in cases.items():
-            told, seconds, _, _, size = run(program, out, [*TANK, "-j1", *arguments])
-            ms = 1e3 * seconds / told["pings"]
+            reported, seconds, _, _, size = run(program, out, [*TANK, "-j1", *arguments])
+            ms = 1e3 * seconds / reported["pings"]
             if name not in least or ms < least[name][0]:
-                least[name] = (ms, size / told["pings"])
+                least[name] = (ms, size / reported["pings"])
     base = least["nothing"][0]
     print("| written | ms per ping | times the ping | kB per ping |\n|---|---|---|---|")
     for name, (ms, size) in least.items():
@@ -112,8 +112,8 @@ def per_label(program, out, rounds):
                 # These labels belong to pictures, which are not written here.
                 if "metadata" in place and ("`fan`" in name or "`coco`" in name):
                     continue
-                told, seconds, _, _, _ = run(program, out, [*LAP, "-j1", *arguments, *other])
-                ms = 1e3 * seconds / told["pings"]
+                reported, seconds, _, _, _ = run(program, out, [*LAP, "-j1", *arguments, *other])
+                ms = 1e3 * seconds / reported["pings"]
                 least[name, place] = min(least.get((name, place), ms), ms)
     print("| labels | " + " | ".join(
         f"{place} ({least['no labels', place]:.2f} ms)" for place in beside) + " |")
@@ -132,13 +132,13 @@ def many(program, out, pings):
             for count in (pings // 10, pings):
                 mission = pathlib.Path(folder, "small.yaml")
                 mission.write_text(SMALL.format(root=ROOT, pings=count))
-                told, _, peak, files, size = run(
+                reported, _, peak, files, size = run(
                     program, out, [str(mission), "--set", f"output.pack={form}"])
-                spent = told["thread_seconds"]
+                spent = reported["thread_seconds"]
                 share = (spent["encode"] + spent["write"]) / sum(spent.values())
-                seconds = told["seconds"]
-                print(f"| {'packed' if form == 'tar' else 'loose'} | {told['pings']} | {files} | "
-                      f"{told['pings_per_s']:.0f} | {files / seconds:.0f} | "
+                seconds = reported["seconds"]
+                print(f"| {'packed' if form == 'tar' else 'loose'} | {reported['pings']} | {files} | "
+                      f"{reported['pings_per_s']:.0f} | {files / seconds:.0f} | "
                       f"{size / seconds / 1e6:.1f} | {100 * share:.0f} % | {peak:.0f} |", flush=True)
 
 

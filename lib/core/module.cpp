@@ -11,7 +11,7 @@ namespace sonarsim {
 
 namespace {
 
-/// Modules lie below the folder of the program or of its tests in a build tree, and beside bin/
+/// Modules lie below the folder of the program or of its tests in a build tree, and next to bin/
 /// after an installation. A program that only links the library finds the installed ones. "": none.
 std::filesystem::path file_of_module(const std::string& name) {
     const std::filesystem::path file = "lib/sonarsim/libsonarsim_" + name + ".so";

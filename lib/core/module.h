@@ -8,7 +8,7 @@ namespace sonarsim {
 inline constexpr const char* image_module = "images";
 inline constexpr const char* image_package = "libopenimageio-dev";
 
-/// The address of `symbol` in lib/sonarsim/libsonarsim_NAME.so beside or above the program. A
+/// The address of `symbol` in lib/sonarsim/libsonarsim_NAME.so next to or above the program. A
 /// module links a library that few missions need, so that the program starts without it. It stays
 /// loaded. InputError without the module, or without the library that it links: the sentence names
 /// `package`, Debian's package to build the module with.

@@ -19,7 +19,7 @@ std::string difference_between(const nlohmann::ordered_json& found,
 /// A file of a dataset.
 struct DescribedFile {
     std::string name;                         ///< relative to the folder of the dataset
-    const DescribedSensor* sensor = nullptr;  ///< null for files beside the sensors
+    const DescribedSensor* sensor = nullptr;  ///< null for files that belong to no sensor
     std::string kind;                         ///< "polar", ..., "packs", "records", or empty
 };
 

@@ -94,7 +94,7 @@ std::vector<PingId> list_pings(const Mission& mission, std::size_t poses);
 /// pack are in one shard.
 int shard_of(const Layout& layout, const PingId& ping, std::size_t index, int shards);
 
-// The page that `sonarsim gallery` puts beside the files of a dataset. It is no part of the
+// The page that `sonarsim gallery` puts next to the files of a dataset. It is no part of the
 // dataset: dataset.json and SHA256SUMS do not list it, and a run that replaces the dataset removes
 // it.
 

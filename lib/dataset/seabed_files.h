@@ -8,7 +8,7 @@
 
 namespace sonarsim {
 
-// The truth of a bed that was made, beside the pings: OUT/seabed/.
+// The truth of a bed that was made, next to the pings: OUT/seabed/.
 
 /// world z of the cells, a GeoTIFF in the mission's x and y, which scene.heightmap reads.
 inline constexpr const char* seabed_heights_name = "seabed/heights.tif";

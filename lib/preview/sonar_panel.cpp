@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t series_pings = 120;  // pings of a waterfall or an echogram
 constexpr FanStyleConfig fan_style{FanColours::amber, true, true};
 constexpr int axis_px = 20;    // height of the axis below a waterfall
-constexpr int number_px = 52;  // width of the numbers beside an echogram
+constexpr int number_px = 52;  // width of the numbers next to an echogram
 
 /// The poses of `count` pings of a sonar up to `last`; fewer at the start of the trajectory.
 std::vector<std::uint32_t> poses_until(const Sonar& sonar, std::uint32_t last, std::size_t count) {

@@ -79,8 +79,8 @@ float relief(const Slope& slope, float stretched) {
     const float east = stretched * slope.east;
     const float north = stretched * slope.north;
     // The unit vector to the light is (-1/2, 1/2, sqrt(1/2)); the normal (-east, -north, 1) / norm.
-    const float lit = 1.0F + 0.70710678F * (east - north);
-    return std::clamp(lit / std::sqrt(1.0F + east * east + north * north), 0.25F, 1.6F);
+    const float shade = 1.0F + 0.70710678F * (east - north);
+    return std::clamp(shade / std::sqrt(1.0F + east * east + north * north), 0.25F, 1.6F);
 }
 
 Rgb scaled(Rgb colour, float by) {

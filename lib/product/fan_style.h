@@ -14,7 +14,7 @@
 namespace sonarsim {
 
 /// The style of a sonar's fans, made once: a colour map, rings of equal range and lines of equal
-/// azimuth. Ranges are written beside the starboard edge of the sector, or beside the boresight if
+/// azimuth. Ranges are written along the starboard edge of the sector, or along the boresight if
 /// it is wider than 180 degrees; bearings below the largest range, "P" for port and "S" for
 /// starboard. The frame is that of the plain fan, so that boxes still fit.
 struct FanStyle {

@@ -7,9 +7,9 @@
 
 #include "scene/maps/ground_maps.h"
 #include "scene/scene.h"
-#include "visibility/surface_points.h"
 #include "visibility/caster.h"
 #include "visibility/local_pose.h"
+#include "visibility/surface_points.h"
 #include "visibility/view.h"
 
 namespace sonarsim {
@@ -47,7 +47,7 @@ using PointSink = std::function<void(const SurfacePoint&)>;
 
 /// Casts rays in two ways, about twice as many over the directions of the view as to points of the
 /// surface, and weights each ray by the density of both. Rays over directions find wide objects and
-/// may pass beside thin ones; rays to points find a wire of any thinness, since every triangle has
+/// may miss thin ones; rays to points find a wire of any thinness, since every triangle has
 /// points. The expected number of rays that meet a patch of area A is d A, where d is the sum of
 ///
 ///     (v . n) / (r^2 dOmega)   for one ray per dOmega, and

@@ -122,7 +122,7 @@ TEST_SUITE("calibrated") {
         for (const int rows : {1, 7, 8, 9, 61}) {
             CAPTURE(rows);
             EchoGrid grid = random_powers(rows, 2, random);
-            // An amplitude may be imaginary, and the places beside the bins do not count.
+            // An amplitude may be imaginary, and the places next to the bins do not count.
             grid.column(0)[1] = 0.5F;
             grid.column(1)[std::ptrdiff_t{2} * rows] = 0.5F;
             std::size_t occupied = 0;

@@ -230,7 +230,7 @@ TEST_SUITE("calibrated") {
         }
     }
 
-    TEST_CASE("plates: materials without roughness keep their image beside one with it") {
+    TEST_CASE("plates: materials without roughness keep their image next to one with it") {
         for (const SonarKind kind : {SonarKind::imaging, SonarKind::scanning}) {
             Scene scene = scene_of_plate(0.01);
             scene.materials[0].roughness_m.reset();

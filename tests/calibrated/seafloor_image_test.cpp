@@ -171,7 +171,7 @@ TEST_SUITE("calibrated") {
     }
 
     TEST_CASE(
-        "sea bed: other materials keep every bit beside it, and a prepared model is the same") {
+        "sea bed: other materials keep every bit next to it, and a prepared model is the same") {
         const CalibratedModel model = fan_model();
         const Scene mixed = scene_of_beds();
         Scene steel_alone;

@@ -236,7 +236,7 @@ TEST_SUITE("calibrated") {
             const auto without = image_of(sonar, direct_echoes_alone, 0);
             const auto alone = image_of(sonar, multipath_alone, 0);
             const auto with = image_of(sonar, mean_of_all, 0);
-            // The filter of powers swings a little below 0 beside a glint, as it does with direct
+            // The filter of powers swings a little below 0 next to a glint, as it does with direct
             // echoes: by some thousandths of the power that is added there. The transform over all
             // beams rounds by some 1e-7 of the brightest of a row.
             const View& view = sonar.settings.view;

@@ -71,7 +71,7 @@ TEST_SUITE("calibrated") {
                 const auto turn = static_cast<float>(cell % cells.turns) + 0.5F;
                 place(cells.middle_sine(cell / cells.turns), -1.2F + 0.2F * turn);
             }
-            place(-0.61F, 0.0F);  // before the first sine, behind the last, beside the turns
+            place(-0.61F, 0.0F);  // before the first sine, behind the last, next to the turns
             place(0.46F, 0.0F);
             place(0.0F, -1.21F);
             place(0.0F, 1.01F);

@@ -65,7 +65,7 @@ TEST_SUITE("checks") {
         CHECK(run.warnings().empty());
     }
 
-    TEST_CASE("image warnings: a blind sensor beside a seeing one") {
+    TEST_CASE("image warnings: a blind sensor next to a seeing one") {
         Run run;
         run.blind_left();
         CHECK(

@@ -98,9 +98,9 @@ class Browser:
     def wait_for_complaint(self):
         """The warnings and errors on the console, once there is one."""
         for _ in range(200):
-            told = self.complaints()
-            if told:
-                return "\n".join(told)
+            reported = self.complaints()
+            if reported:
+                return "\n".join(reported)
             time.sleep(0.05)
         raise AssertionError("no warning on the console")
 

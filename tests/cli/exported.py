@@ -176,14 +176,14 @@ def check_imagefolder(folder):
 
 def check_croissant(folder):
     """The rules of Croissant 1.0 and the files that it names. Returns the classes and {part: the records}."""
-    told = json.loads((folder / "croissant.json").read_text())
-    assert told["@type"] == "sc:Dataset" and told["conformsTo"] == "http://mlcommons.org/croissant/1.0"
-    assert all(isinstance(told[key], str) for key in ("name", "description", "license"))
-    ids = [one["@id"] for one in told["distribution"] + told["recordSet"]]
-    ids += [field["@id"] for one in told["recordSet"] for field in one["field"]]
+    reported = json.loads((folder / "croissant.json").read_text())
+    assert reported["@type"] == "sc:Dataset" and reported["conformsTo"] == "http://mlcommons.org/croissant/1.0"
+    assert all(isinstance(reported[key], str) for key in ("name", "description", "license"))
+    ids = [one["@id"] for one in reported["distribution"] + reported["recordSet"]]
+    ids += [field["@id"] for one in reported["recordSet"] for field in one["field"]]
     assert len(ids) == len(set(ids))
     files, pictures = {}, set()
-    for one in told["distribution"]:
+    for one in reported["distribution"]:
         assert one["@type"] in ("cr:FileObject", "cr:FileSet") and one["encodingFormat"]
         if one["@type"] == "cr:FileObject":
             data = (folder / one["contentUrl"]).read_bytes()
@@ -195,7 +195,7 @@ def check_croissant(folder):
             pictures |= found
     assert pictures == set(folder.glob("*/*.png"))
     sets, classes = {}, None
-    for one in told["recordSet"]:
+    for one in reported["recordSet"]:
         assert one["@type"] == "cr:RecordSet" and one["key"]["@id"] in ids
         if one["@id"] == "classes":
             classes = [row["classes/name"] for row in one["data"]]

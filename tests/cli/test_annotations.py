@@ -67,8 +67,8 @@ class Annotations(Labelled):
         self.assert_renders("--out", "all")
         _, every = self.annotations("coco", "all")
         for key, field in (("min_visible_share", "visible_share"), ("min_contrast_db", "contrast_db")):
-            told = sorted(abs(one[field]) for one in every.values() if one[field] is not None)
-            limit = (told[len(told) // 2 - 1] + told[len(told) // 2]) / 2
+            reported = sorted(abs(one[field]) for one in every.values() if one[field] is not None)
+            limit = (reported[len(reported) // 2 - 1] + reported[len(reported) // 2]) / 2
             rules = ALL.replace(key + ": 0", f"{key}: {limit}")
             self.assert_renders("--set", f"labels.{key}={limit}", "--out", key)
             _, some = self.annotations("coco", key)

@@ -71,17 +71,17 @@ class Calibrate(Sandbox):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("real: 2 pings fitted, 2 judged", result.stdout)
         self.assertIn("cannot be separated here", result.stdout)
-        told = json.loads((self.folder / "mine.json").read_text())
-        gamma = told["estimates"]["receiver.gamma"]
+        reported = json.loads((self.folder / "mine.json").read_text())
+        gamma = reported["estimates"]["receiver.gamma"]
         self.assertLess(abs(gamma["value"] - GAMMA), 0.03)
         self.assertLess(gamma["low"], gamma["value"])
-        self.assertGreater(told["agree"]["held_out"], told["agree"]["start"])
+        self.assertGreater(reported["agree"]["held_out"], reported["agree"]["start"])
         preset = (self.folder / "mine.yaml").read_text()
         self.assertRegex(preset, r"\n    gamma: 0\.\d+  # fit: 0\.\d+ to 0\.\d+\n")
         self.assertIn("\n  frequency_hz: 1e6  # sheet\n", preset)
         self.assertIn("\nrange_bins: 240  # file", preset)
         self.assertEqual(self.run_sonarsim("preset", "mine.yaml").returncode, 0)
-        self.assertEqual(json.loads(self.calibrate("--json").stdout), told)
+        self.assertEqual(json.loads(self.calibrate("--json").stdout), reported)
         self.assertEqual(self.calibrate("-q").stdout, "")
 
     def test_what_is_refused(self):

@@ -83,12 +83,12 @@ class Coco(Labelled):
                 rows, _ = read_png(self.out / image["file_name"].replace(
                     "image/" if labels == "instance" else "fan/", labels + "/"))
                 self.assertEqual((len(rows), len(rows[0])), (image["height"], image["width"]))
-                told = {}
+                reported = {}
                 for y, row in enumerate(rows):
                     for x, value in enumerate(row):
                         if value:
-                            told.setdefault(value, set()).add((x, y))
-                self.assertEqual(seen.get(image["id"], {}), told, image)
+                            reported.setdefault(value, set()).add((x, y))
+                self.assertEqual(seen.get(image["id"], {}), reported, image)
                 self.assertTrue((self.out / image["file_name"]).exists())
             ids += list(images)
         self.assertEqual(len(ids), len(set(ids)))  # none is there twice, images and masks of both
@@ -110,26 +110,26 @@ class Coco(Labelled):
         for image, file, upright in zip(coco["images"], ("sss/instance.npy", "sounder/instance.npy"),
                                         (False, True)):
             rows = read_ids(self.out / file, upright)
-            told = {}
+            reported = {}
             for one in coco["annotations"]:
                 if one["image_id"] != image["id"]:
                     continue
                 pixels = mask_of(one["segmentation"])
                 self.assertEqual((one["bbox"], one["area"]), (box_of(pixels), len(pixels)))
-                told.setdefault(one["instance_id"], []).append(pixels)
+                reported.setdefault(one["instance_id"], []).append(pixels)
             expected = {}
             for y, row in enumerate(rows):
                 for x, value in enumerate(row):
                     if value:
                         expected.setdefault(value, set()).add((x, y))
-            self.assertEqual({key: set().union(*parts) for key, parts in told.items()}, expected)
-            self.assertEqual(sum(len(p) for parts in told.values() for p in parts),
+            self.assertEqual({key: set().union(*parts) for key, parts in reported.items()}, expected)
+            self.assertEqual(sum(len(p) for parts in reported.values() for p in parts),
                              sum(len(pixels) for pixels in expected.values()))
             # The walls are always in sight: an annotation a side of the side-scan sonar, none across.
-            sides = sorted({x >= 46 for x, _ in pixels} for pixels in told[1])
+            sides = sorted({x >= 46 for x, _ in pixels} for pixels in reported[1])
             self.assertEqual(sides, [{False, True}] if upright else [{False}, {True}])
             if not upright:
-                self.assertEqual([(box_of(p)[1], box_of(p)[3]) for p in told[2]], [(0, 5), (45, 5)])
+                self.assertEqual([(box_of(p)[1], box_of(p)[3]) for p in reported[2]], [(0, 5), (45, 5)])
 
     def test_coco_of_scans(self):
         """Every pixel of a round picture holds the instance of the bin that its centre lies in."""
@@ -159,9 +159,9 @@ class Coco(Labelled):
                     value = bins[int((distance - least) / (4 - least) * 40)]
                     if value:
                         expected.setdefault(value, set()).add((column, row))
-            told = {one["instance_id"]: mask_of(one["segmentation"]) for one in coco["annotations"]
+            reported = {one["instance_id"]: mask_of(one["segmentation"]) for one in coco["annotations"]
                     if one["image_id"] == image["id"]}
-            self.assertEqual({key: set(pixels) for key, pixels in told.items()}, expected)
+            self.assertEqual({key: set(pixels) for key, pixels in reported.items()}, expected)
             self.assertTrue(expected)
 
     def test_coco_against_the_published_format(self):

@@ -34,18 +34,18 @@ class Collection(Sandbox):
         self.assertTrue(all(one == found[0] for one in found))
         self.assertEqual({name: digest(self.folder / name) for name in "abc"}, parts)
         out = self.folder / "a-b-c"
-        told = json.loads((out / "collection.json").read_text())
-        self.assertIs(told["complete"], True)
-        folders = [dataset["folder"] for dataset in told["datasets"]]
+        reported = json.loads((out / "collection.json").read_text())
+        self.assertIs(reported["complete"], True)
+        folders = [dataset["folder"] for dataset in reported["datasets"]]
         self.assertEqual(sorted(folders), ["box", "box-2", "pool"])
         self.assertEqual(digest(out / "pool"), parts["b"])
         self.assertEqual({json.dumps(digest(out / f)) for f in ("box", "box-2")},
                          {json.dumps(parts["a"]), json.dumps(parts["c"])})
         # Each has one instance, of a class that is named after the material.
-        self.assertEqual([d["instance_id_offset"] for d in told["datasets"]], [0, 1, 2])
-        names = {c["id"]: c["name"] for c in told["classes"]}
+        self.assertEqual([d["instance_id_offset"] for d in reported["datasets"]], [0, 1, 2])
+        names = {c["id"]: c["name"] for c in reported["classes"]}
         self.assertEqual(sorted(names), list(range(1, len(names) + 1)))
-        for dataset in told["datasets"]:
+        for dataset in reported["datasets"]:
             own = json.loads((out / dataset["folder"] / "dataset.json").read_text())["labels"]
             for one in own["classes"]:
                 self.assertEqual(names[dataset["class_ids"][str(one["id"])]], one["name"])

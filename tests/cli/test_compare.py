@@ -56,12 +56,12 @@ class Compare(Sandbox):
             self.assert_renders("--set", f"seed={seed}", "--out", f"out{seed}")
         result = self.assert_compares("out1", "out2", "--out", "compared")
         self.assertIn("figures agree", result.stdout)
-        told = json.loads((self.folder / "compared/compare.json").read_text())
-        self.assertEqual(told["format"], "sonarsim comparison")
-        self.assertTrue(told["same"], result.stdout)
-        self.assertEqual(told["figures_agreeing"], sum(one["agrees"] for one in told["figures"]))
+        reported = json.loads((self.folder / "compared/compare.json").read_text())
+        self.assertEqual(reported["format"], "sonarsim comparison")
+        self.assertTrue(reported["same"], result.stdout)
+        self.assertEqual(reported["figures_agreeing"], sum(one["agrees"] for one in reported["figures"]))
         self.assertTrue((self.folder / "compared/compare.svg").read_text().startswith("<svg"))
-        self.assertEqual(json.loads(self.assert_compares("out1", "out2", "--json").stdout), told)
+        self.assertEqual(json.loads(self.assert_compares("out1", "out2", "--json").stdout), reported)
         self.assertEqual(self.assert_compares("out1", "out2", "-q").stdout, "")
         self.assert_refused(self.compare("out1", "out2", "--out", "compared"), "holds a comparison already")
         # The levels of an instrument are in dataset.json: less at full scale is more of everything.
@@ -69,17 +69,17 @@ class Compare(Sandbox):
         self.assert_renders("--set", "seed=3", "--out", "out3", "--set", "sensors.fls.instrument.receiver.noise_db="
                             f"{scale['noise_db']}", "--set", "sensors.fls.instrument.receiver.full_scale_db="
                             f"{scale['full_scale_db'] - 2}")
-        told = json.loads(self.assert_compares("out1", "out3", "--json").stdout)
-        self.assertFalse(told["same"])
-        self.assertTrue(any(one["differs"] for one in told["figures"] if "level" in one["name"]), told["figures"])
-        self.assertTrue(told["change_first"]["keys"])
+        reported = json.loads(self.assert_compares("out1", "out3", "--json").stdout)
+        self.assertFalse(reported["same"])
+        self.assertTrue(any(one["differs"] for one in reported["figures"] if "level" in one["name"]), reported["figures"])
+        self.assertTrue(reported["change_first"]["keys"])
 
     def test_a_recording_of_arrays(self):
         self.assert_renders()
         self.write("out/recording.yaml", RECORDING + "bearing_first_deg: -29\nbearing_last_deg: 29\n")
-        told = json.loads(self.assert_compares("out", "out", "--json", "--pings", "1").stdout)
-        self.assertEqual(told["agreement"], 1.0)
-        self.assertEqual(told["real"]["pings"], 1)
+        reported = json.loads(self.assert_compares("out", "out", "--json", "--pings", "1").stdout)
+        self.assertEqual(reported["agreement"], 1.0)
+        self.assertEqual(reported["real"]["pings"], 1)
 
     def test_every_kind_of_sonar_loose_and_packed(self):
         self.write("path.csv", path_csv(72))
@@ -89,10 +89,10 @@ class Compare(Sandbox):
         self.assert_renders("--out", "packed", "--set", "output.pack=tar")
         self.assert_refused(self.compare("out", "packed"), "several sensors", "fls, sss, sounder, head, mbes")
         for sensor in ("fls", "sss", "sounder", "head", "mbes"):
-            told = json.loads(self.assert_compares("out", "packed", "--sensor", sensor, "--real-sensor", sensor,
+            reported = json.loads(self.assert_compares("out", "packed", "--sensor", sensor, "--real-sensor", sensor,
                                                    "--json").stdout)
-            self.assertEqual((told["agreement"], told["same"]), (1.0, True), sensor)
-            self.assertEqual(told["real"]["pings"], 72)
+            self.assertEqual((reported["agreement"], reported["same"]), (1.0, True), sensor)
+            self.assertEqual(reported["real"]["pings"], 72)
         self.assert_refused(self.compare("out", "out", "--sensor", "fls", "--real-sensor", "sss"), "one kind")
 
     def test_what_is_refused(self):

@@ -249,12 +249,12 @@ class Reader(Sandbox):
                             (("sensors", 0, "pings"), 1 << 70),
                             (("sensors", 3, "records", "file"), "../secret/x.npy"),
                             (("sensors",), 5)):
-            told = json.loads(sound)
-            inner = told
+            reported = json.loads(sound)
+            inner = reported
             for key in keys[:-1]:
                 inner = inner[key]
             inner[keys[-1]] = value
-            self.write("out/dataset.json", json.dumps(told))
+            self.write("out/dataset.json", json.dumps(reported))
             with self.subTest(keys=keys, value=value), self.assertRaises(ValueError):
                 self.open()
         for text in ("[" * 200000, "7", "{"):

@@ -31,12 +31,12 @@ class Export(Exported):
         self.assertEqual(names, [one["name"] for one in self.dataset()["labels"]["classes"]])
         self.assertEqual({part: len(pictures) for part, pictures in found.items()},
                          {"train": 2 + 3, "val": 1 + 3})
-        told = {**found["train"], **found["val"]}
+        reported = {**found["train"], **found["val"]}
         expected = self.coco_boxes("coco_fan")
-        self.assertEqual(set(told), set(expected))
+        self.assertEqual(set(reported), set(expected))
         for name, boxes in expected.items():
-            self.assertEqual(len(told[name]), len(boxes))
-            for own, box in zip(sorted(told[name]), sorted(boxes)):
+            self.assertEqual(len(reported[name]), len(boxes))
+            for own, box in zip(sorted(reported[name]), sorted(boxes)):
                 self.assertTrue(all(abs(a - b) < 0.011 for a, b in zip(own, box)), (own, box))
         for part, pictures in found.items():
             for name in pictures:
@@ -80,11 +80,11 @@ class Export(Exported):
                 self.assertTrue(all(abs(a - b) < 0.011 for a, b in zip(own, box)), (own, box))
         self.assertEqual(sum(map(len, found["train"].values())), len(kept))
         self.assert_exports("--sensor", "fls", "--sensor", "mbes", form="coco", dest="again")
-        told = json.loads((self.folder / "again/annotations/instances_train.json").read_text())
-        self.assertEqual([one["name"] for one in told["categories"]], ["pillar"])
+        reported = json.loads((self.folder / "again/annotations/instances_train.json").read_text())
+        self.assertEqual([one["name"] for one in reported["categories"]], ["pillar"])
         fields = ("bbox", "area", "iscrowd", "range_m", "bearing_deg", "contrast_db", "visible_share",
                   "shadow_bbox", "shadow_contrast_db")
-        listed = [[str(one[key]) for key in fields] for one in told["annotations"]]
+        listed = [[str(one[key]) for key in fields] for one in reported["annotations"]]
         self.assertEqual(sorted(listed), sorted([str(one[key]) for key in fields]
                                                 for one in coco["annotations"]))
         self.edit("mission.yaml", "{box: both,", "{background: [walls, pillar], box: both,")
@@ -287,12 +287,12 @@ class Export(Exported):
                 self.assertEqual([p.name for p in self.folder.glob("dest*")], [])
         path.write_text(sound)
         described = (self.out / "dataset.json").read_text()
-        told = json.loads(described)
-        picture = next(one for one in told["sensors"] if one["name"] == "sss")["pictures"][0]
+        reported = json.loads(described)
+        picture = next(one for one in reported["sensors"] if one["name"] == "sss")["pictures"][0]
         for along, each in ((None, 0), (None, "x"), ("y", 2)):
             picture.pop("pings_along", None)
             picture.update({"pings_per_pixel": each, **({"pings_along": along} if along else {})})
-            self.write("out/dataset.json", json.dumps(told))
+            self.write("out/dataset.json", json.dumps(reported))
             self.assert_refused(self.export(), "out/")
         self.write("out/dataset.json", described)
         fan = self.out / "fls/fan/000000.png"

@@ -34,9 +34,9 @@ class Formats(Exported):
         self.assert_exports(*TILES, form="coco")
         found = check_coco(self.dest)
         self.assertEqual(set(found), {"train", "val"})
-        told = {**found["train"], **found["val"]}
+        reported = {**found["train"], **found["val"]}
         for name, objects in self.masks_of_fans().items():
-            self.assertEqual(told[name], objects)
+            self.assertEqual(reported[name], objects)
         self.assert_exports(*TILES, "--polygons", form="coco", dest="polygons")
         outlines = check_coco(self.folder / "polygons")
         for part, pictures in found.items():
@@ -49,12 +49,12 @@ class Formats(Exported):
         self.assert_exports("--without", "walls", form="masks")
         classes, found = check_masks(self.dest)
         self.assertEqual(classes, ["background", "pillar"])
-        told = {**found["train"], **found["val"]}
+        reported = {**found["train"], **found["val"]}
         names = {one["id"]: one["name"] for one in self.dataset()["labels"]["classes"]}
         for name, objects in self.masks_of_fans().items():
             expected = set().union(*(pixels for category, _, _, pixels in objects
                                      if names[category] == "pillar"))
-            pixels = {(x, y) for y, row in enumerate(told[name]) for x, v in enumerate(row) if v}
+            pixels = {(x, y) for y, row in enumerate(reported[name]) for x, v in enumerate(row) if v}
             self.assertEqual(pixels, expected)
 
     def test_lists_of_objects(self):
@@ -80,9 +80,9 @@ class Formats(Exported):
     def test_the_card(self):
         self.assert_exports("--licence", "cc-by-4.0", form="imagefolder")
         card = (self.dest / "README.md").read_text()
-        told = self.dataset()
+        reported = self.dataset()
         self.assertIn('license: "cc-by-4.0"\n', card)
-        for text in (told["mission"], told["mission_hash"], str(told["seed"]), told["program_version"]):
+        for text in (reported["mission"], reported["mission_hash"], str(reported["seed"]), reported["program_version"]):
             self.assertIn(text, card)
         python = python_with("yaml")
         if python:

@@ -65,9 +65,9 @@ class Gallery(Sandbox):
         for index, table in (("fan", "fan"), ("image", "polar")):
             boxes = next(v for v in fls["views"] if v["title"] == table)["boxes"]
             coco = "coco.json" if index == "image" else "coco_fan.json"
-            told = json.loads((self.out / "labels" / coco).read_text())
-            names = {image["id"]: image["file_name"] for image in told["images"]}
-            for annotation in told["annotations"]:
+            reported = json.loads((self.out / "labels" / coco).read_text())
+            names = {image["id"]: image["file_name"] for image in reported["images"]}
+            for annotation in reported["annotations"]:
                 ping = int(names[annotation["image_id"]][-10:-4])
                 self.assertIn([annotation["bbox"], annotation["segmentation"]["counts"]],
                               [[box[1:5], box[5]["mask"]] for box in boxes[ping]])
@@ -75,10 +75,10 @@ class Gallery(Sandbox):
         records = json.loads((self.out / "labels/coco_records.json").read_text())
         for sensor, image in zip(shown["sensors"][1:3], records["images"], strict=True):
             view, = sensor["views"]
-            told = [a["bbox"] for a in records["annotations"] if a["image_id"] == image["id"]]
+            reported = [a["bbox"] for a in records["annotations"] if a["image_id"] == image["id"]]
             (left, top), (x_step, y_step) = view["origin"], view["step"]
             self.assertEqual([[(x - left) / x_step, (y - top) / y_step, w / x_step, h / y_step]
-                              for _, x, y, w, h, _ in view["boxes"]], told, sensor["name"])
+                              for _, x, y, w, h, _ in view["boxes"]], reported, sensor["name"])
         # The boxes of a scanning sonar are those of each sweep.
         scans = json.loads((self.out / "labels/coco_scans.json").read_text())
         view, = shown["sensors"][3]["views"]

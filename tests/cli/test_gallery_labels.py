@@ -28,12 +28,12 @@ class GalleryLabels(GalleryCase):
         for k, variant in enumerate(drawn):
             # A seed of 64 bits keeps its digits: as a number JavaScript would round it.
             self.assertEqual(json_in(page, f"dataset-{k}")["seed"], str(variant["seed"]))
-            told = float(about["datasets"][k]["facts"]["water.sound_speed_m_s"])
-            self.assertAlmostEqual(told, variant["drawn"]["water.sound_speed_m_s"], delta=0.05)
+            reported = float(about["datasets"][k]["facts"]["water.sound_speed_m_s"])
+            self.assertAlmostEqual(reported, variant["drawn"]["water.sound_speed_m_s"], delta=0.05)
         verified = self.run_sonarsim("verify", "out")
         self.assertEqual(verified.returncode, 0, verified.stderr)
         self.assertNotIn("index.html", verified.stderr)
-        # A variant that is missing is told, and the page shows the others.
+        # A variant that is missing is reported, and the page shows the others.
         shutil.rmtree(self.out / "variant_0001")
         about = json_in(self.gallery(), "page")
         self.assertEqual((about["missing"], len(about["datasets"])), (1, 2))
@@ -64,10 +64,10 @@ class GalleryLabels(GalleryCase):
             lines = file.read_text().split("\n")
             for k, line in enumerate(lines):
                 if '"iscrowd"' in line:  # an annotation
-                    told = json.loads(line.rstrip(",")) | {
+                    reported = json.loads(line.rstrip(",")) | {
                         "iscrowd": 1, "range_m": 1.23456789, "side": "port", "contrast_db": None,
                         "shadow_bbox": [1, 2, 3, 4]}
-                    lines[k] = json.dumps(told, separators=(",", ":")) + "," * line.endswith(",")
+                    lines[k] = json.dumps(reported, separators=(",", ":")) + "," * line.endswith(",")
             file.write_text("\n".join(lines))
         sensors = {sensor["name"]: sensor for sensor in dataset_of(self.gallery())["sensors"]}
         fan = sensors["fls"]["views"][0]["boxes"][0][0][5]
@@ -136,9 +136,9 @@ class GalleryLabels(GalleryCase):
 
     def check_masks(self, window):
         """The strips that the page draws are the pixels of COCO's own definition."""
-        told = json.loads((self.out / "variant_0000/labels/coco_fan.json").read_text())
-        image = next(i for i in told["images"] if (i["sensor"], i["ping"]) == ("fls", 0))
-        own = [a for a in told["annotations"] if a["image_id"] == image["id"]]
+        reported = json.loads((self.out / "variant_0000/labels/coco_fan.json").read_text())
+        image = next(i for i in reported["images"] if (i["sensor"], i["ping"]) == ("fls", 0))
+        own = [a for a in reported["annotations"] if a["image_id"] == image["id"]]
         strips = window.run("return shown_boxes().map(box => strips_of(box[5].mask, view().mask_height))")
         self.assertEqual(len(own), len(strips))
         for annotation, found in zip(own, strips, strict=True):
@@ -176,10 +176,10 @@ class GalleryLabels(GalleryCase):
 
     def check_objects(self, window):
         """A click in the plan selects; the steps are the pings whose labels have the object."""
-        told = json.loads((self.out / "variant_0000/labels/coco_fan.json").read_text())
-        poses = {i["id"]: i["ping"] for i in told["images"] if i["sensor"] == "fls"}
+        reported = json.loads((self.out / "variant_0000/labels/coco_fan.json").read_text())
+        poses = {i["id"]: i["ping"] for i in reported["images"] if i["sensor"] == "fls"}
         instance = window.run("return data.labels.findIndex(one => one.name === 'pillar_2')") + 1
-        seen = sorted(poses[a["image_id"]] for a in told["annotations"]
+        seen = sorted(poses[a["image_id"]] for a in reported["annotations"]
                       if a["image_id"] in poses and a["instance_id"] == instance)
         window.run(f"""
             const [left, top, right, bottom] = plan.areas.find(area => area[4] === {instance - 1});
@@ -193,7 +193,7 @@ class GalleryLabels(GalleryCase):
         which = window.run("return document.getElementById('which').textContent")
         self.assertEqual(which, f"pillar_2 (pillar): ping 1 of {len(seen)} that show it")
         first_row = "return [...document.querySelector('#meta tr').cells].map(cell => cell.textContent)"
-        area, = (a["area"] for a in told["annotations"]
+        area, = (a["area"] for a in reported["annotations"]
                  if poses.get(a["image_id"]) == seen[0] and a["instance_id"] == instance)
         self.assertEqual(window.run(first_row), ["pillar_2: area", str(area)])
         steps = []
@@ -227,10 +227,10 @@ class GalleryLabels(GalleryCase):
         self.assertTrue(window.run("return document.getElementById('pings').hidden"))
         for k, folder in enumerate(("", "variant_0002")):
             window.run(f"document.querySelectorAll('#scopes button')[{k}].click()")
-            told = json.loads((self.out / folder / "labels/statistics.json").read_text())
+            reported = json.loads((self.out / folder / "labels/statistics.json").read_text())
             for file in ("", "labels/coco_records.json"):
                 window.run(f"chosen.file = '{file}'; show_statistics()")
-                tally = told["files"][file] if file else told["all"]
+                tally = reported["files"][file] if file else reported["all"]
                 self.assertEqual(window.run(rows)[1:], [
                     [one["name"], *(str(one[key]) for key in ("objects", "pictures", "annotations", "ignored"))]
                     for one in tally["classes"]])

@@ -172,9 +172,9 @@ class Heightmap(Composed):
         self.assert_same(MAP % ("bed.png", ", size_m: [12, 10], origin_m: [0, 0], height_scale: 0.001, "
                                            "height_offset_m: -3"))
         self.map_mission(", pixel_m: 0.25, origin_m: [3, 4]")
-        told = json.loads(self.run_sonarsim("inspect", "bed.png", "--pixel-m", "0.25", "--json").stdout)
-        self.assertEqual(told["bounds_min_m"][:2], [0.125, 0.125])
-        self.assertEqual(told["instances"], [{"name": "heightmap", "triangles": 2 * 47 * 39}])
+        reported = json.loads(self.run_sonarsim("inspect", "bed.png", "--pixel-m", "0.25", "--json").stdout)
+        self.assertEqual(reported["bounds_min_m"][:2], [0.125, 0.125])
+        self.assertEqual(reported["instances"], [{"name": "heightmap", "triangles": 2 * 47 * 39}])
 
     def test_with_a_scene_file(self):
         """Both are there, and the heightmap is the bottom."""

@@ -1,5 +1,5 @@
 """`sonarsim import-holoocean`: the mission says what the scenario says, is valid, and what is wrong or has
-no counterpart is told with its place. Presets that come with the program are found from anywhere."""
+no counterpart is reported with its place. Presets that come with the program are found from anywhere."""
 import json
 import pathlib
 import re
@@ -86,9 +86,9 @@ class HoloOcean(Sandbox):
             self.assertIn("\n" + line + "\n", text)
         self.assertIn("# without a counterpart: InitOctreeRange", text)
         warnings = result.stderr
-        for told in ("4:24: 'octree_min' has no counterpart", "8:23: 'DVLSensor' is left out", "15:9: 'InitOctreeRange' has no counterpart",
+        for reported in ("4:24: 'octree_min' has no counterpart", "8:23: 'DVLSensor' is left out", "15:9: 'InitOctreeRange' has no counterpart",
                      "where the socket 'SonarSocket' sits"):
-            self.assertIn("scenario.json:" + told if told[0].isdigit() else told, warnings)
+            self.assertIn("scenario.json:" + reported if reported[0].isdigit() else reported, warnings)
         result = self.run_sonarsim("validate", "imported.yaml", "--json")
         self.assertEqual(result.returncode, 0, result.stderr)
         sensors = json.loads(result.stdout.splitlines()[-1])["sensors"]
@@ -129,11 +129,11 @@ class HoloOcean(Sandbox):
         result = self.import_sensors([{"sensor_type": "QuantumSonar"}, {"sensor_type": "IMUSensor"},
                                       {"sensor_type": "GPUImagingSonar"}])
         self.assertEqual(result.returncode, 0, result.stderr)
-        told = [line for line in result.stderr.splitlines() if "QuantumSonar" in line]
-        self.assertEqual(len(told), 1)
+        reported = [line for line in result.stderr.splitlines() if "QuantumSonar" in line]
+        self.assertEqual(len(reported), 1)
         for types in KINDS.values():
             for sonar in types:
-                self.assertIn(sonar, told[0])
+                self.assertIn(sonar, reported[0])
         self.assertNotIn("RaycastImagingSonar", next(line for line in result.stderr.splitlines()
                                                      if "IMUSensor" in line))
 

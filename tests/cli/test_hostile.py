@@ -167,9 +167,9 @@ class Hostile(Sandbox):
             self.assertNotIn("json.exception", result.stderr)
 
     def test_the_gallery_believes_no_count(self):
-        told = json.loads(json.dumps(self.sound))
-        told["poses"] = told["sensors"][0]["pings"] = 10_000_000
-        self.write("out/dataset.json", json.dumps(told))
+        reported = json.loads(json.dumps(self.sound))
+        reported["poses"] = reported["sensors"][0]["pings"] = 10_000_000
+        self.write("out/dataset.json", json.dumps(reported))
         self.assert_refused(self.run_sonarsim("gallery", "out"), "trajectory.tum", "has 2 poses")
 
     def test_variants_behind_a_link(self):

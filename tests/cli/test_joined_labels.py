@@ -134,8 +134,8 @@ class JoinedLabels(Labelled):
         self.assertEqual(result.returncode, 0, result.stderr)
         # The labels of all have the folder "labels".
         self.check_joined(["basin", "labels-2", "pool"], {})
-        told = json.loads((self.out / "collection.json").read_text())
-        self.assertEqual(told["classes"], [{"id": one["id"], "name": one["name"]}
+        reported = json.loads((self.out / "collection.json").read_text())
+        self.assertEqual(reported["classes"], [{"id": one["id"], "name": one["name"]}
                                            for one in self.load("labels/coco.json")["categories"]])
         own = json.loads((self.out / "pool/labels/coco_val.json").read_text())
         some = self.load("labels/coco_val.json")

@@ -21,9 +21,9 @@ class Labels(Labelled):
                 folder = self.out / image["sensor"]
                 boxes = (folder / f"{prefix}yolo/{number}.txt").read_text().splitlines()
                 outlines = (folder / f"{prefix}yolo_polygons/{number}.txt").read_text().splitlines()
-                told = [one for one in coco["annotations"] if one["image_id"] == image["id"]]
-                self.assertEqual((len(boxes), len(outlines)), (len(told), len(told)))
-                for one, box, outline in zip(told, boxes, outlines):
+                reported = [one for one in coco["annotations"] if one["image_id"] == image["id"]]
+                self.assertEqual((len(boxes), len(outlines)), (len(reported), len(reported)))
+                for one, box, outline in zip(reported, boxes, outlines):
                     left, top, width, height = one["bbox"]
                     self.assertEqual(int(box.split()[0]), one["category_id"] - 1)
                     expected = ((left + width / 2) / w, (top + height / 2) / h, width / w, height / h)

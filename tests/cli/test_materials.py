@@ -30,9 +30,9 @@ class Inspect(Sandbox):
         result = self.run_sonarsim("inspect", "box.gltf", "--materials", "materials.csv")
         row = result.stdout.split("reflection\n")[1].splitlines()[0].split()
         self.assertEqual(row, ["Concrete", "2400", "3200", f"{reflection:.3f}"])
-        told = json.loads(self.run_sonarsim("inspect", "box.gltf", "--materials", "materials.csv",
+        reported = json.loads(self.run_sonarsim("inspect", "box.gltf", "--materials", "materials.csv",
                                             "--json").stdout)
-        self.assertAlmostEqual(told["acoustics"]["Concrete"]["reflection"], reflection, places=12)
+        self.assertAlmostEqual(reported["acoustics"]["Concrete"]["reflection"], reflection, places=12)
         self.write("box.gltf", box_gltf(material="Granite"))
         result = self.run_sonarsim("inspect", "box.gltf", "--materials", "materials.csv")
         self.assertIn("Granite   not in materials.csv", result.stdout)
@@ -70,11 +70,11 @@ class Scattering(Sandbox):
 
     def test_json(self):
         for khz, strength in ((400, -24.6), (100, -25.0)):
-            told = json.loads(self.run_sonarsim("materials", "beds.csv", "--json", "--frequency-khz",
+            reported = json.loads(self.run_sonarsim("materials", "beds.csv", "--json", "--frequency-khz",
                                                 str(khz)).stdout)
-            self.assertEqual(told["grazing_deg"], list(range(1, 91)))
-            self.assertAlmostEqual(told["strength_db"]["sand"][19], strength, delta=0.1)
-            self.assertAlmostEqual(told["strength_db"]["plain"][89], -30, delta=0.001)
+            self.assertEqual(reported["grazing_deg"], list(range(1, 91)))
+            self.assertAlmostEqual(reported["strength_db"]["sand"][19], strength, delta=0.1)
+            self.assertAlmostEqual(reported["strength_db"]["plain"][89], -30, delta=0.001)
 
     def test_the_tables_in_the_docs(self):
         """Every row of docs/calibrated.md under `| 100 kHz |` and `| 400 kHz |` is what is printed."""
@@ -86,9 +86,9 @@ class Scattering(Sandbox):
             printed = self.run_sonarsim("materials", str(ROOT / "scenes" / "materials.csv"),
                                         "--frequency-khz", str(khz)).stdout.splitlines()
             self.assertEqual(printed[1].split(), rows[start][1:])
-            told = {line.split()[0]: line.split()[1:] for line in printed[2:]}
+            reported = {line.split()[0]: line.split()[1:] for line in printed[2:]}
             for name, *strengths in rows[start + 2:start + 7]:
-                self.assertEqual(told[name], strengths, f"{name} at {khz} kHz")
+                self.assertEqual(reported[name], strengths, f"{name} at {khz} kHz")
 
     @unittest.skipUnless(python_with("matplotlib"), "needs matplotlib")
     def test_the_picture_in_the_docs(self):

@@ -112,18 +112,18 @@ class Meshes(Composed):
         self.succeeds("validate", "mission.yaml")
         self.succeeds("preview", "mission.yaml", "--out", "preview.png")
         self.assert_renders()
-        told = json.loads(self.succeeds("inspect", "floor.obj", "--json").stdout)
-        self.assertEqual(told["materials"], [{"name": "Concrete", "triangles": 2}])
-        self.assertEqual(told["instances"], [{"name": "crate", "triangles": 2}])
+        reported = json.loads(self.succeeds("inspect", "floor.obj", "--json").stdout)
+        self.assertEqual(reported["materials"], [{"name": "Concrete", "triangles": 2}])
+        self.assertEqual(reported["instances"], [{"name": "crate", "triangles": 2}])
 
     def test_inspect_takes_units_and_up(self):
         self.put("drum.stl", text_stl(*drum(300, 900)))
-        told = json.loads(self.succeeds("inspect", "drum.stl", "--units", "mm", "--up", "z",
+        reported = json.loads(self.succeeds("inspect", "drum.stl", "--units", "mm", "--up", "z",
                                             "--json").stdout)
-        self.assertAlmostEqual(told["bounds_max_m"][2], 0.9, places=6)
-        self.assertEqual(told["questions"], [])
-        told = json.loads(self.succeeds("inspect", "drum.stl", "--json").stdout)
-        self.assertEqual(told["questions"], [
+        self.assertAlmostEqual(reported["bounds_max_m"][2], 0.9, places=6)
+        self.assertEqual(reported["questions"], [])
+        reported = json.loads(self.succeeds("inspect", "drum.stl", "--json").stdout)
+        self.assertEqual(reported["questions"], [
             "it is 900 m long: millimetres? units: mm",
             "drum.stl lies on its side with y up and would stand with z up: does its z point up? up: z"])
         text = self.succeeds("inspect", "drum.stl").stdout
@@ -148,10 +148,10 @@ class Meshes(Composed):
         scripts = pathlib.Path(__file__).resolve().parents[2] / "scripts"
         subprocess.run([sys.executable, "-B", scripts / "make_scenes.py", "anchor", "--out", self.folder],
                        check=True, capture_output=True)
-        told = json.loads(self.succeeds("inspect", "anchor.obj", "--units", "mm", "--up", "z",
+        reported = json.loads(self.succeeds("inspect", "anchor.obj", "--units", "mm", "--up", "z",
                                         "--json").stdout)
-        self.assertEqual([part["name"] for part in told["instances"]], ["shank", "head", "shackle"])
-        self.assertEqual([round(x, 3) for x in told["bounds_max_m"]], [0.346, 0.390, 1.245])
+        self.assertEqual([part["name"] for part in reported["instances"]], ["shank", "head", "shackle"])
+        self.assertEqual([round(x, 3) for x in reported["bounds_max_m"]], [0.346, 0.390, 1.245])
         self.objects(["{name: anchor, file: anchor.obj, units: mm, up: z, position_m: [4, 1, 0], "
                       "place: on_bottom, bury_m: 0.05}"])
         self.edit("mission.yaml", "output:\n", "output:\n  labels: [instance]\n")
@@ -209,8 +209,8 @@ class Meshes(Composed):
     def test_names_in_any_encoding(self):
         """Latin-1 and control characters become text that JSON and a terminal can have."""
         self.put("a.obj", obj(*triangles_of(box_mesh())).encode().replace(b"o crate", b"o Stra\xdfe\x1b[2J"))
-        told = json.loads(self.succeeds("inspect", "a.obj", "--json").stdout)
-        self.assertEqual(told["instances"], [{"name": "Stra\\xdfe\\x1b[2J", "triangles": 12}])
+        reported = json.loads(self.succeeds("inspect", "a.obj", "--json").stdout)
+        self.assertEqual(reported["instances"], [{"name": "Stra\\xdfe\\x1b[2J", "triangles": 12}])
 
     def test_an_mtl_is_not_read(self):
         """Nothing in the file can name another that is then opened."""

@@ -173,10 +173,10 @@ class Messages(Sandbox):
                                 "range_bins: 2048\n    azimuth_bins: 512")["mission.yaml"]))
         result = self.validate("--json")
         self.assertEqual(result.returncode, 0, result.stderr)
-        told = json.loads(result.stdout)
-        warned = [one for one in told["warnings"] if one["number"] == "W34"]
-        self.assertEqual(len(warned), 1, told["warnings"])
-        self.assertIn(f"{1e-9 * told['bytes']:.1f} GB", warned[0]["what"])
+        reported = json.loads(result.stdout)
+        warned = [one for one in reported["warnings"] if one["number"] == "W34"]
+        self.assertEqual(len(warned), 1, reported["warnings"])
+        self.assertIn(f"{1e-9 * reported['bytes']:.1f} GB", warned[0]["what"])
 
     def test_another_mission_of_a_folder(self):
         self.assert_renders()

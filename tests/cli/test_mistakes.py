@@ -191,18 +191,18 @@ class Mistakes(Sandbox):
     def test_a_sound_mission_has_no_warning(self):
         result = self.validate("--strict")
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
-        told = json.loads(result.stdout)
-        self.assertEqual(told["warnings"], [])
-        seen = told["sensors"]["fls"]["survey"]
+        reported = json.loads(result.stdout)
+        self.assertEqual(reported["warnings"], [])
+        seen = reported["sensors"]["fls"]["survey"]
         self.assertEqual((seen["pings_tried"], seen["blind"]), (10, 0))
         # Five metres above the bottom, which ripples by two centimetres.
         self.assertTrue(4.9 < seen["altitude_m"][0] <= seen["altitude_m"][1] <= 5.0, seen)
         # The beam's lower edge is 40 degrees down, the upper 20: 5 m / sin 40 and beyond 12 m.
         self.assertAlmostEqual(seen["first_echo_m"][0], 5 / math.sin(math.radians(40)), delta=0.3)
         self.assertEqual(set(seen["seen_most"]), {"sand", "mine"})
-        self.assertGreater(told["hours"], 0)
-        self.assertGreater(told["set_up_seconds"], 0)
-        self.assertGreater(told["bytes"], 0)
+        self.assertGreater(reported["hours"], 0)
+        self.assertGreater(reported["set_up_seconds"], 0)
+        self.assertGreater(reported["bytes"], 0)
         self.assertFalse(self.out.exists())
 
     def test_each_is_told(self):
@@ -222,8 +222,8 @@ class Mistakes(Sandbox):
                 mine = [m for m in messages if m.startswith(number) and words in m]
                 self.assertEqual(len(mine), 1, messages)
                 self.assertIn((number, mine[0]), [(line["code"], line["message"]) for line in lines])
-                told = [w for w in json.loads(result.stdout)["warnings"] if w["number"] == number]
-                self.assertTrue(told, result.stdout)
+                reported = [w for w in json.loads(result.stdout)["warnings"] if w["number"] == number]
+                self.assertTrue(reported, result.stdout)
 
     def test_all_errors_at_once(self):
         self.make({"mission.yaml": MISSION.replace("azimuth_deg", "azimut_deg")

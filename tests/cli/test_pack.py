@@ -62,11 +62,11 @@ class Pack(Sandbox):
     def test_a_ping_is_found_without_looking(self):
         self.assert_renders()
         for sensor in self.dataset()["sensors"]:
-            told = sensor["packs"]
+            reported = sensor["packs"]
             for ping in range(POSES):
-                pack = self.out / (told["file"] % (ping // told["pings"]))
+                pack = self.out / (reported["file"] % (ping // reported["pings"]))
                 with tarfile.open(pack) as archive:
-                    for member in told["members"].values():
+                    for member in reported["members"].values():
                         self.assertIn(member % ping, archive.getnames())
             self.assertEqual(sensor["files"], {})
 

@@ -63,8 +63,8 @@ class FanStyle(Sandbox):
         plain, styled = digest(self.folder / "plain"), digest(self.folder / "styled")
         self.assertEqual(plain.keys(), styled.keys())
         differ = {name for name in plain if plain[name] != styled[name]}
-        told = {"dataset.json", "mission.resolved.yaml", "journal.txt", "SHA256SUMS"}
-        self.assertEqual(differ - told, {f"fls/fan/{k:06d}.png" for k in range(6)})
+        reported = {"dataset.json", "mission.resolved.yaml", "journal.txt", "SHA256SUMS"}
+        self.assertEqual(differ - reported, {f"fls/fan/{k:06d}.png" for k in range(6)})
         first = "fls/fan/000000.png"
         headers = [png_header((self.folder / d / first).read_bytes()) for d in ("plain", "styled")]
         self.assertEqual([h[2] for h in headers], [0, 2])

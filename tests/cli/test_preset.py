@@ -11,7 +11,7 @@ SENSOR = "    kind: imaging\n"
 
 
 class Preset(Sandbox):
-    def told(self, *arguments):
+    def reported(self, *arguments):
         result = self.run_sonarsim("preset", *arguments, "--json")
         self.assertEqual(result.returncode, 0, result.stderr)
         return json.loads(result.stdout)
@@ -21,30 +21,30 @@ class Preset(Sandbox):
         for line in ("preset      gemini_720is\n", "source      ", " dB re 1 uPa, auto\n",
                      "Mean echo and noise are equal at (bottoms at 20 degrees of grazing)", "sphere "):
             self.assertIn(line, text)
-        told = self.told("gemini_720is")
-        self.assertEqual(told["level_unit"], "dB re 1 uPa")
-        self.assertEqual((told["source_level"], told["noise"], told["full_scale"]), ("auto",) * 3)
-        ranges = told["noise_range_m"]
+        reported = self.reported("gemini_720is")
+        self.assertEqual(reported["level_unit"], "dB re 1 uPa")
+        self.assertEqual((reported["source_level"], reported["noise"], reported["full_scale"]), ("auto",) * 3)
+        ranges = reported["noise_range_m"]
         self.assertLess(ranges["mud"], ranges["sand"])
         self.assertLess(ranges["sand"], ranges["rock"])
 
     def test_the_range_of_a_sphere_is_the_sonar_equation(self):
-        told = self.told("gemini_720is")
-        r = told["noise_range_m"]["sphere"]
-        echo = told["source_level_db"] - 20 - 40 * math.log10(r) - 2 * told["absorption_db_per_m"] * r
-        self.assertAlmostEqual(echo, told["noise_db"], places=6)
+        reported = self.reported("gemini_720is")
+        r = reported["noise_range_m"]["sphere"]
+        echo = reported["source_level_db"] - 20 - 40 * math.log10(r) - 2 * reported["absorption_db_per_m"] * r
+        self.assertAlmostEqual(echo, reported["noise_db"], places=6)
 
     def test_more_source_level_and_less_noise_reach_farther(self):
-        base = self.told("gemini_720is")
+        base = self.reported("gemini_720is")
         for setting, key, by in (("instrument.power_w=1000", "source_level_db", 10.0),
                                  ("instrument.receiver.noise_figure_db=3", "noise_db", -3.0)):
-            other = self.told("gemini_720is", "--set", f"sensors.sonar.{setting}")
+            other = self.reported("gemini_720is", "--set", f"sensors.sonar.{setting}")
             self.assertAlmostEqual(other[key] - base[key], by, places=1)
             self.assertGreater(other["noise_range_m"]["sand"], base["noise_range_m"]["sand"])
 
     def test_a_file(self):
         self.write("mine.yaml", "kind: echosounder\nmodel: calibrated\n")
-        self.assertEqual(self.told("mine.yaml")["grazing_angle_deg"], 90)
+        self.assertEqual(self.reported("mine.yaml")["grazing_angle_deg"], 90)
         self.write("mine.yaml", "kind: echosounder\n")
         self.assert_refused(self.run_sonarsim("preset", "mine.yaml"), "mine.yaml", "model: calibrated")
         self.write("mine.yaml", "kind: echosounder\nmodel: calibrated\nazimut_bins: 3\n")
@@ -55,7 +55,7 @@ class Preset(Sandbox):
                             "there are: aris_3000")
 
     def test_all_of_them(self):
-        names = [one["preset"] for one in self.told()]
+        names = [one["preset"] for one in self.reported()]
         self.assertEqual(names, sorted(p.stem for p in (ROOT / "configs" / "sensors").glob("*.yaml")))
         table = self.run_sonarsim("preset").stdout.splitlines()
         self.assertEqual(len(table), len(names) + 2)
@@ -69,11 +69,11 @@ class Preset(Sandbox):
     def test_a_dataset_has_the_numbers_that_auto_came_to(self):
         self.calibrated("{frequency_hz: 9e5}")
         self.assertEqual(self.run_sonarsim("render", "mission.yaml").returncode, 0)
-        told = json.loads((self.folder / "out" / "dataset.json").read_text())["sensors"][0]["instrument"]
-        self.assertEqual(told["echo_level_unit"], "dB re 1 uPa")
-        self.assertGreater(told["source_level_db"], 150)
-        self.assertGreater(told["noise_db"], 0)
-        self.assertGreater(told["full_scale_db"], told["noise_db"])
+        reported = json.loads((self.folder / "out" / "dataset.json").read_text())["sensors"][0]["instrument"]
+        self.assertEqual(reported["echo_level_unit"], "dB re 1 uPa")
+        self.assertGreater(reported["source_level_db"], 150)
+        self.assertGreater(reported["noise_db"], 0)
+        self.assertGreater(reported["full_scale_db"], reported["noise_db"])
         self.assertIn("noise_db: auto", (self.folder / "out" / "mission.resolved.yaml").read_text())
 
     def test_levels_in_two_units_are_refused(self):

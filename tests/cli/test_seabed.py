@@ -66,14 +66,14 @@ class TestSeabed(Composed):
         rocks in the labels, and the share of each material."""
         self.write("mission.yaml", self.RICH)
         self.assert_renders()
-        told = json.loads((self.out / "seabed/seabed.json").read_text())
-        grid = told["grid"]
+        reported = json.loads((self.out / "seabed/seabed.json").read_text())
+        grid = reported["grid"]
         data = (self.out / "seabed/heights.tif").read_bytes()
         heights = array.array("f", data[-4 * grid["rows"] * grid["columns"]:])
         self.assertTrue(-4 < min(heights) < max(heights) < -1)
         instances = {one["name"]: one for one in self.dataset()["labels"]["instances"]}
-        self.assertGreater(len(told["rocks"]), 20)
-        for rock in told["rocks"]:
+        self.assertGreater(len(reported["rocks"]), 20)
+        for rock in reported["rocks"]:
             labelled = instances[rock["name"]]["box_world_m"]
             for side in ("min", "max"):
                 for a, b in zip(rock["box_world_m"][side], labelled[side], strict=True):
@@ -86,13 +86,13 @@ class TestSeabed(Composed):
             bed = heights[row * grid["columns"] + column]
             # The bed within half a cell of the middle has nearly its height.
             self.assertAlmostEqual(bottom + rock["buried"] * (top - bottom), bed, delta=0.25)
-        self.assertEqual([one["material"] for one in told["materials"]], ["Concrete", "steel"])
-        self.assertAlmostEqual(sum(one["share"] for one in told["materials"]), 1)
+        self.assertEqual([one["material"] for one in reported["materials"]], ["Concrete", "steel"])
+        self.assertAlmostEqual(sum(one["share"] for one in reported["materials"]), 1)
         names = {one["id"]: one["name"] for one in self.dataset()["labels"]["classes"]}
         self.assertEqual({names[one["class"]] for one in instances.values() if one["name"].startswith("rock_")},
                          {"rock"})
         self.assertIn("plants", instances)
-        self.assertGreater(len(told["pockmarks"]) + len(told["scars"]), 0)
+        self.assertGreater(len(reported["pockmarks"]) + len(reported["scars"]), 0)
         annotated = json.loads((self.out / "labels/coco.json").read_text())
         classes = {one["id"]: one["name"] for one in annotated["categories"]}
         self.assertEqual({classes[one["category_id"]] for one in annotated["annotations"]} - {"crate"}, {"rock"})
@@ -151,8 +151,8 @@ class TestSeabed(Composed):
                   "  - {key: scene.seabed.ripples.length_m, uniform: [0.8, 1.6]}\n"
                   "  - {key: scene.seabed.roughness.spectral_exponent, uniform: [2.5, 3.5]}\noutput:\n")
         self.assert_renders()
-        told = json.loads((self.out / "variants.json").read_text())
-        self.assertEqual(len({json.dumps(one["drawn"]) for one in told["variants"]}), 3)
+        reported = json.loads((self.out / "variants.json").read_text())
+        self.assertEqual(len({json.dumps(one["drawn"]) for one in reported["variants"]}), 3)
         images = [digest(self.out / f"variant_000{k}/fls/polar")["000000.npy"] for k in range(3)]
         self.assertEqual(len(set(images)), 3)
 

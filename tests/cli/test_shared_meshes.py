@@ -24,11 +24,11 @@ class Shared(Composed):
 
     def test_shared_is_what_copied_is(self):
         """One mesh and three transforms: within rounding the picture of three crates."""
-        told, images = {}, {}
+        reported, images = {}, {}
         for repeats in ("copied", "shared"):
             self.assert_renders("--overwrite", "--set", "engine=rays", "--set",
                                 f"scene.repeats={repeats}")
-            told[repeats] = self.dataset()
+            reported[repeats] = self.dataset()
             images[repeats] = struct.unpack(
                 f"<{48 * 32}f", (self.out / "fls/polar/000000.npy").read_bytes()[-4 * 48 * 32:])
         first = digest(self.out)
@@ -38,12 +38,12 @@ class Shared(Composed):
         a, b = images["shared"], images["copied"]
         self.assertNotEqual(a, b)
         self.assertLess(sum(abs(x - y) for x, y in zip(a, b)) / sum(b), 1e-3)
-        self.assertEqual(told["copied"]["scene"]["triangles"], 128 + 3 * 12)
-        self.assertNotIn("copies", told["copied"]["scene"])
-        use = told["shared"]["scene"]
+        self.assertEqual(reported["copied"]["scene"]["triangles"], 128 + 3 * 12)
+        self.assertNotIn("copies", reported["copied"]["scene"])
+        use = reported["shared"]["scene"]
         self.assertEqual((use["triangles"], use["shared_meshes"], use["copies"]), (128, 1, 3))
-        for one, other in zip(told["shared"]["labels"]["instances"],
-                              told["copied"]["labels"]["instances"]):
+        for one, other in zip(reported["shared"]["labels"]["instances"],
+                              reported["copied"]["labels"]["instances"]):
             for end in ("min", "max"):
                 for x, y in zip(one["box_world_m"].pop(end), other["box_world_m"].pop(end)):
                     self.assertAlmostEqual(x, y, places=5)

@@ -1,4 +1,4 @@
-"""What is told to shells, to man and to users of --help and --version: all of it from the same texts."""
+"""Texts for shells, for man and for users of --help and --version: all of it from the same texts."""
 import json
 import re
 import shutil

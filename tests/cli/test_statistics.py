@@ -56,25 +56,25 @@ class Statistics(Labelled):
 
     def check(self, folder, joined=False):
         """Returns what the file says."""
-        told = json.loads((folder / "labels/statistics.json").read_text())
+        reported = json.loads((folder / "labels/statistics.json").read_text())
         files = {f"labels/{path.name}": json.loads(path.read_text())
                  for path in (folder / "labels").glob("coco*.json")}
-        self.assertEqual(sorted(told["files"]), sorted(files))
+        self.assertEqual(sorted(reported["files"]), sorted(files))
         for name, file in files.items():
-            self.assertEqual(told["files"][name], tally_of([file], told["edges"], joined), name)
+            self.assertEqual(reported["files"][name], tally_of([file], reported["edges"], joined), name)
         # Fans show the pings of the polar images once more.
         whole = [f"labels/coco{sort}.json" for sort in ("", "_records", "_scans")]
         whole = [files[name] for name in whole if name in files]
-        self.assertEqual(told["all"], tally_of(whole, told["edges"], joined))
-        return told
+        self.assertEqual(reported["all"], tally_of(whole, reported["edges"], joined))
+        return reported
 
     def test_a_dataset(self):
         printed = self.assert_renders().stdout
-        told = self.check(self.out)
-        pillar = next(one for one in told["all"]["classes"] if one["name"] == "pillar")
+        reported = self.check(self.out)
+        pillar = next(one for one in reported["all"]["classes"] if one["name"] == "pillar")
         self.assertEqual(pillar["objects"], 2)
         self.assertGreater(pillar["pictures"], 2)
-        pictures = f"{told['all']['pictures']} pictures, {told['all']['without_objects']} without an object"
+        pictures = f"{reported['all']['pictures']} pictures, {reported['all']['without_objects']} without an object"
         row = f"pillar {pillar['objects']:>8}"
         status = self.run_sonarsim("status", "out")
         for text in (printed, status.stdout):
@@ -82,7 +82,7 @@ class Statistics(Labelled):
             self.assertIn(row, " ".join(text.split("pillar")[0:1]) + text[text.index("pillar"):])
             self.assertIn("pixels: ", text)
         machine = json.loads(self.run_sonarsim("status", "out", "--json").stdout)
-        self.assertEqual(machine["labels"], told["all"])
+        self.assertEqual(machine["labels"], reported["all"])
         verified = self.run_sonarsim("verify", "out")
         self.assertEqual(verified.returncode, 0, verified.stderr)
 
@@ -112,10 +112,10 @@ class Statistics(Labelled):
                                                  "{train: 0.5, val: 0.25, test: 0.25}\n") + VARY)
         render = ("render", "variants.yaml")
         self.assertEqual(self.run_sonarsim(*render).returncode, 0)
-        told = self.check(self.out, joined=True)
+        reported = self.check(self.out, joined=True)
         each = [self.check(folder) for folder in sorted(self.out.glob("variant_*"))]
-        self.assertEqual(told["all"]["pictures"], sum(one["all"]["pictures"] for one in each))
-        pillars = [one["all"]["classes"] for one in (told, *each)]
+        self.assertEqual(reported["all"]["pictures"], sum(one["all"]["pictures"] for one in each))
+        pillars = [one["all"]["classes"] for one in (reported, *each)]
         pillars = [next(c["objects"] for c in classes if c["name"] == "pillar") for classes in pillars]
         self.assertEqual(pillars, [8, 2, 2, 2, 2])  # those of different fields are different
         whole = digest(self.out)
@@ -130,7 +130,7 @@ class Statistics(Labelled):
         self.assertEqual(self.run_sonarsim(*render).returncode, 0)
         self.assertEqual(digest(self.out), whole)
         machine = json.loads(self.run_sonarsim("status", "out", "--json").stdout)
-        self.assertEqual(machine["labels"], told["all"])
+        self.assertEqual(machine["labels"], reported["all"])
 
     def test_values_of_annotations(self):
         """Random values, some on the borders of the histograms, some absent, some ignored."""
@@ -157,10 +157,10 @@ class Statistics(Labelled):
             path.write_text("\n".join(lines))
         shutil.rmtree(self.out / "labels")  # the run makes them anew from those of the variants
         self.assertEqual(self.run_sonarsim("render", "variants.yaml").returncode, 0)
-        told = self.check(self.out, joined=True)["all"]
-        self.assertGreater(sum(one["ignored"] for one in told["classes"]), 0)
+        reported = self.check(self.out, joined=True)["all"]
+        self.assertGreater(sum(one["ignored"] for one in reported["classes"]), 0)
         for axis in AXES:
-            self.assertGreater(sum(sum(one[axis]) for one in told["classes"]), 0, axis)
+            self.assertGreater(sum(sum(one[axis]) for one in reported["classes"]), 0, axis)
         printed = self.run_sonarsim("status", "out").stdout
         for title in ("range, m: ", "pixels: ", "visible share: ", "contrast, dB: "):
             self.assertIn(title, printed)
@@ -171,9 +171,9 @@ class Statistics(Labelled):
                             "output.pack=tar")
         done = self.run_sonarsim("merge", "--different", "one", "two", "out")
         self.assertEqual(done.returncode, 0, done.stderr)
-        told = self.check(self.out, joined=True)
+        reported = self.check(self.out, joined=True)
         status = json.loads(self.run_sonarsim("status", "out", "--json").stdout)
-        self.assertEqual((status["datasets"], status["labels"]), (2, told["all"]))
+        self.assertEqual((status["datasets"], status["labels"]), (2, reported["all"]))
         self.assertEqual(self.run_sonarsim("verify", "out").returncode, 0)
 
     def test_a_class_that_is_hardly_there(self):
@@ -234,11 +234,11 @@ class Statistics(Labelled):
         done = self.run_sonarsim("render", "configs/minefield_variants.yaml", "--set", "variants=3",
                                  "--out", "out")
         self.assertEqual(done.returncode, 0, done.stderr)
-        told = self.check(self.out, joined=True)
-        self.assertEqual(told["all"]["pictures"], 3 * (9 + 1))  # a waterfall beside nine images
+        reported = self.check(self.out, joined=True)
+        self.assertEqual(reported["all"]["pictures"], 3 * (9 + 1))  # a waterfall beside nine images
         drawn = [self.dataset(folder)["labels"]["instances"] for folder in self.out.glob("variant_*")]
         mines = sum("mine" in instance["name"] for instances in drawn for instance in instances)
-        found = next(one for one in told["all"]["classes"] if one["name"] == "mine")
+        found = next(one for one in reported["all"]["classes"] if one["name"] == "mine")
         self.assertLessEqual(found["objects"], mines)
         self.assertGreater(found["objects"], 0)
 

@@ -15,15 +15,15 @@ class Status(Sandbox):
 
     def test_shards_one_after_the_other(self):
         self.assert_renders("--shard", "2/3")
-        told = self.status("out")
+        reported = self.status("out")
         # Six pings, of which shard 2 of 3 has those with the indices 1 and 4.
-        self.assertEqual(told["state"], "interrupted")
-        self.assertEqual(told["pings"], {"done": 2, "all": 6})
-        self.assertEqual(told["sensors"], {"fls": {"done": 2, "all": 6}})
-        self.assertEqual([(s["shard"], s["of"], s["state"], s["pings"]["done"]) for s in told["shards"]],
+        self.assertEqual(reported["state"], "interrupted")
+        self.assertEqual(reported["pings"], {"done": 2, "all": 6})
+        self.assertEqual(reported["sensors"], {"fls": {"done": 2, "all": 6}})
+        self.assertEqual([(s["shard"], s["of"], s["state"], s["pings"]["done"]) for s in reported["shards"]],
                          [(1, 3, "not begun", 0), (2, 3, "done", 2), (3, 3, "not begun", 0)])
-        self.assertIsNone(told["seconds_left"])
-        # Another shard in a folder of its own: both together are told.
+        self.assertIsNone(reported["seconds_left"])
+        # Another shard in a folder of its own: both together are reported.
         self.assert_renders("--shard", "1/3", "--out", "other")
         self.assertEqual(self.status("out", "other")["pings"], {"done": 4, "all": 6})
         text = self.run_sonarsim("status", "out", "other").stdout
@@ -31,8 +31,8 @@ class Status(Sandbox):
         self.assertIn("shard 3/3   0 of 2, not begun\n", text)
         self.assert_renders("--shard", "1/3")
         self.assert_renders("--shard", "3/3")
-        told = self.status("out")
-        self.assertEqual((told["state"], told["pings"], told["shards"]),
+        reported = self.status("out")
+        self.assertEqual((reported["state"], reported["pings"], reported["shards"]),
                          ("complete", {"done": 6, "all": 6}, []))
 
     def test_while_it_runs(self):
@@ -41,18 +41,18 @@ class Status(Sandbox):
                                "output.fan=false", "--set", "output.image=false", "-j1"],
                               cwd=self.folder, stdout=subprocess.DEVNULL) as process:
             try:
-                told = {}
-                while process.poll() is None and not told.get("pings_per_s"):
+                reported = {}
+                while process.poll() is None and not reported.get("pings_per_s"):
                     time.sleep(0.1)
                     if (self.out / "dataset.json").exists():
-                        told = self.status("out")
-                self.assertEqual(told["state"], "running")
-                self.assertGreater(told["pings"]["done"], 0)
-                self.assertGreater(told["seconds_left"], 0)
+                        reported = self.status("out")
+                self.assertEqual(reported["state"], "running")
+                self.assertGreater(reported["pings"]["done"], 0)
+                self.assertGreater(reported["seconds_left"], 0)
             finally:
                 process.terminate()
-        told = self.status("out")
-        self.assertEqual((told["state"], told["pings_per_s"]), ("interrupted", 0))
+        reported = self.status("out")
+        self.assertEqual((reported["state"], reported["pings_per_s"]), ("interrupted", 0))
 
     def test_variants(self):
         mission = (self.folder / "mission.yaml").read_text()

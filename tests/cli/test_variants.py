@@ -142,8 +142,8 @@ class Variants(Sandbox):
     def test_validate_counts(self):
         result = self.run_sonarsim("validate", "mission.yaml", "--json")
         self.assertEqual(result.returncode, 0, result.stderr)
-        told = json.loads(result.stdout)
-        self.assertEqual((told["variants"], told["pings"]), (6, 36))
+        reported = json.loads(result.stdout)
+        self.assertEqual((reported["variants"], reported["pings"]), (6, 36))
         text = self.run_sonarsim("validate", "mission.yaml").stdout
         self.assertIn("variants    6\n", text)
         self.assertIn("36 pings", text)

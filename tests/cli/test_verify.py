@@ -169,17 +169,17 @@ class Verify(Sandbox):
 
     def test_a_description_that_lies(self):
         """Whatever it claims, the answer comes at once and is short."""
-        told = self.dataset()
-        told["poses"] = 10_000_000
-        for sensor in told["sensors"]:
-            sensor["pings"] = -(-told["poses"] // sensor["every"])
-        self.write("out/dataset.json", json.dumps(told))
+        reported = self.dataset()
+        reported["poses"] = 10_000_000
+        for sensor in reported["sensors"]:
+            sensor["pings"] = -(-reported["poses"] // sensor["every"])
+        self.write("out/dataset.json", json.dumps(reported))
         result = self.verify()
         self.assertEqual(result.returncode, 1)
         self.assertIn("more errors", result.stderr)
         for value in (10 ** 18, "many"):
-            told["sensors"][0]["pings"] = value
-            self.write("out/dataset.json", json.dumps(told))
+            reported["sensors"][0]["pings"] = value
+            self.write("out/dataset.json", json.dumps(reported))
             self.assert_refused(self.verify(), "dataset.json", "'sensors[0].pings'")
 
 

@@ -54,11 +54,11 @@ TEST_SUITE("core") {
                     CAPTURE(roll);
                     CAPTURE(pitch);
                     CAPTURE(yaw);
-                    const Rpy told = rpy_from_rotation(rotation_from_rpy(roll, pitch, yaw));
+                    const Rpy stated = rpy_from_rotation(rotation_from_rpy(roll, pitch, yaw));
                     // At a pitch of -1.57 roll and yaw depend on a cosine of 8e-4.
-                    CHECK(std::abs(told.roll - roll) < 1e-12);
-                    CHECK(std::abs(told.pitch - pitch) < 1e-12);
-                    CHECK(std::abs(told.yaw - yaw) < 1e-12);
+                    CHECK(std::abs(stated.roll - roll) < 1e-12);
+                    CHECK(std::abs(stated.pitch - pitch) < 1e-12);
+                    CHECK(std::abs(stated.yaw - yaw) < 1e-12);
                 }
             }
         }
@@ -73,11 +73,11 @@ TEST_SUITE("core") {
         for (const double pitch : {-0.5 * pi, 0.5 * pi}) {
             for (const double yaw : {-2.0, 0.0, 1.0}) {
                 const Eigen::Quaterniond rotation = rotation_from_rpy(0.7, pitch, yaw);
-                const Rpy told = rpy_from_rotation(rotation);
-                CHECK(told.roll == 0.0);
-                CHECK(std::abs(told.pitch - pitch) < 1e-8);
+                const Rpy stated = rpy_from_rotation(rotation);
+                CHECK(stated.roll == 0.0);
+                CHECK(std::abs(stated.pitch - pitch) < 1e-8);
                 const Eigen::Matrix3d difference =
-                    rotation_from_rpy(told.roll, told.pitch, told.yaw).toRotationMatrix() -
+                    rotation_from_rpy(stated.roll, stated.pitch, stated.yaw).toRotationMatrix() -
                     rotation.toRotationMatrix();
                 CHECK(difference.norm() < 1e-8);
             }

@@ -159,7 +159,7 @@ TEST_SUITE("dataset") {
     }
 
     // Whatever stands in dataset.json, each command refuses it with a sentence or does its work,
-    // and no file beside the dataset changes.
+    // and no file next to the dataset changes.
     TEST_CASE("dataset file: a sound one changed at random is refused or read") {
         const TemporaryFolder folder;
         const std::filesystem::path out = folder.path / "out";

@@ -84,7 +84,7 @@ TEST_SUITE("dataset") {
         const Matrix clean = read_npy(out / "front/clean/000000.npy");
         REQUIRE(instance.size() == front.size());
         REQUIRE(clean.values.size() == front.size());
-        std::uint64_t lit = 0;
+        std::uint64_t occupied = 0;
         for (int i = 0; i < front.range_bins; ++i) {
             for (int j = 0; j < front.beams; ++j) {
                 const std::size_t pixel = static_cast<std::size_t>(i) * front.beams + j;
@@ -94,10 +94,10 @@ TEST_SUITE("dataset") {
                 REQUIRE((clean.values[pixel] > 0.0F) == (front.object[bin] > 0));
                 REQUIRE(std::isnan(elevation.values[pixel]) ==
                         std::isnan(front.elevation_rad[bin]));
-                lit += front.object[bin] > 0;
+                occupied += front.object[bin] > 0;
             }
         }
-        CHECK(lit > 50);
+        CHECK(occupied > 50);
 
         const auto row = data_of<std::uint16_t>(out / "sss/instance.npy", {"<u2", {4, 192}});
         const PingLabels sss = labels_of(2);
@@ -123,7 +123,7 @@ TEST_SUITE("dataset") {
         std::uint64_t area = 0;
         for (const auto& object : seen["objects"])
             area += object["area_bins"].get<std::uint64_t>();
-        CHECK(area == lit);
+        CHECK(area == occupied);
     }
 
     TEST_CASE("labels: the same bytes for any number of threads, after a resume and overwritten") {

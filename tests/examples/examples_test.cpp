@@ -36,9 +36,9 @@ TEST_CASE("example of a sonar: its record shows a wall ahead at its range") {
     const std::vector<float> row = record_values(kind.record, config, ping.intensity, 0.0F);
     REQUIRE(row.size() == kind.record.values(config));
     // Surface begins at 7.03 m and ends where the cone of half-angle 7.5 degrees does.
-    const auto lit = [](float value) { return value > 0.0F; };
-    const auto first = std::ranges::find_if(row, lit) - row.begin();
-    const auto count = std::ranges::count_if(row, lit);
+    const auto occupied = [](float value) { return value > 0.0F; };
+    const auto first = std::ranges::find_if(row, occupied) - row.begin();
+    const auto count = std::ranges::count_if(row, occupied);
     const auto bin_of = [&](double range) {
         return static_cast<int>((range - config.range_min_m) / sonar.settings.view.bin_m());
     };

@@ -13,7 +13,7 @@
 #include "scene/images/tiff_tags.h"
 #include "scene/images/whole_tiff.h"
 
-// Any bytes as a TIFF and as the world file beside it: a grid of finite numbers, none, or
+// Any bytes as a TIFF and as the world file next to it: a grid of finite numbers, none, or
 // InputError.
 
 using namespace sonarsim;

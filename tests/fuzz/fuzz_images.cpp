@@ -26,10 +26,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     write_file(file, std::string_view(reinterpret_cast<const char*>(data), size));
     try {
         const Image image = read_image(file);
-        const std::size_t told = static_cast<std::size_t>(image.width) *
-                                 static_cast<std::size_t>(image.height) *
-                                 static_cast<std::size_t>(image.channels);
-        if (told == 0 || told > most_image_values || image.values.size() != told) std::abort();
+        const std::size_t stated = static_cast<std::size_t>(image.width) *
+                                   static_cast<std::size_t>(image.height) *
+                                   static_cast<std::size_t>(image.channels);
+        if (stated == 0 || stated > most_image_values || image.values.size() != stated)
+            std::abort();
     } catch (const InputError&) {
         return 0;
     }

@@ -156,7 +156,7 @@ TEST_SUITE("job") {
         CHECK(read_file(out / "camera/image/000001.png", 100) == "a photograph");
     }
 
-    TEST_CASE("folder: what others put beside a dataset stays, whatever it is called") {
+    TEST_CASE("folder: what others put next to a dataset stays, whatever it is called") {
         const TemporaryFolder temporary;
         Mission mission = small_mission(temporary.path / "out");
         const fs::path& out = mission.output.folder;

@@ -177,11 +177,11 @@ TEST_CASE("cone labels: the shadow of a box lies where rays of its beams are hid
         int expected = 0, found = 0, both = 0;
         for (std::size_t k = 0; k < out.labels.size(); ++k) {
             const bool dark = hidden[k] > 0 && seen[k] == 0;
-            const bool told = out.labels.shadow[k] > 0;
+            const bool stated = out.labels.shadow[k] > 0;
             expected += dark;
-            found += told;
-            both += dark && told;
-            if (told) CHECK(out.labels.shadow[k] >= 2);  // a side of the box
+            found += stated;
+            both += dark && stated;
+            if (stated) CHECK(out.labels.shadow[k] >= 2);  // a side of the box
         }
         CHECK(expected > 300);
         MESSAGE("shadow ", expected, " ", found, " ", both);

@@ -39,9 +39,9 @@ TEST_CASE("labels: the elevation of a floor is that of its range") {
                 const double spread = slope * sonar.settings.view.bin_m() / std::sqrt(12.0);
                 ++bins;
                 CHECK(std::fabs(theta - truth) < 0.5 * slope * sonar.settings.view.bin_m());
-                const double told = out.labels.elevation_spread_rad[out.at(i, j)];
-                CHECK(told > 0.0);
-                CHECK(told / spread < 2.0);
+                const double stated = out.labels.elevation_spread_rad[out.at(i, j)];
+                CHECK(stated > 0.0);
+                CHECK(stated / spread < 2.0);
             }
         }
         CHECK(bins > 1000);
@@ -136,16 +136,16 @@ TEST_CASE("labels: a wall on the border of the bottom has heights") {
         const PingLabels labels =
             label_ping(traced, sonar.settings, scene, group_objects(scene, {}), *engine,
                        {.elevation = true, .height = true, .bottom = &bottom});
-        int lit = 0;
+        int occupied = 0;
         for (std::size_t k = 0; k < labels.size(); ++k) {
             const bool seen = !std::isnan(labels.elevation_rad[k]);
             REQUIRE(std::isnan(labels.height_m[k]) == !seen);
             if (!seen) continue;
-            ++lit;
+            ++occupied;
             // Surface as far above the sonar as below it falls into one bin.
             CHECK(std::fabs(labels.height_m[k] - 2.0F) < 0.2F);
         }
-        CHECK(lit > 50);
+        CHECK(occupied > 50);
     }
 }
 

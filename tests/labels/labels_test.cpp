@@ -105,7 +105,7 @@ TEST_CASE("labels: a panel before a wall, its shadow, and water that is open") {
             const bool straight = high < panel - 0.02;
             const bool beside = low > panel + 0.02 && high < wall - 0.02;
             if (!straight && !beside && low < wall + 0.02) continue;
-            // The nearest bins of either that are lit whole.
+            // The nearest bins of either that are occupied whole.
             const double to_edge = 1.0 / std::cos(0.5 * (low + high));
             const std::size_t near = out.at(bin_at(sonar, 3.0 * to_edge + 0.005), j);
             const std::size_t far = out.at(bin_at(sonar, 6.0 * to_edge + 0.01), j);
@@ -138,20 +138,20 @@ TEST_CASE("labels: two things in one bin share its echo by area and reflection")
     for (const EngineKind type : engine_types) {
         CAPTURE(static_cast<int>(type));
         const Labelled out = label(scene, sonar, Pose{}, type);
-        double lit = 0.0;
+        double occupied = 0.0;
         double agree = 0.0;
         double share = 0.0;
         for (std::size_t k = 0; k < out.labels.size(); ++k) {
             if (out.labels.object[k] == 0) continue;
-            ++lit;
+            ++occupied;
             agree += out.labels.object[k] == 2 && out.labels.second[k] == 1;
             share += out.labels.share[k];
             const float sum = out.labels.share[k] + out.labels.second_share[k];
             CHECK(sum == doctest::Approx(1.0).epsilon(1e-5));
         }
-        REQUIRE(lit > 100.0);
-        CHECK(agree / lit > 0.98);
-        CHECK(share / lit == doctest::Approx(0.75).epsilon(0.02));
+        REQUIRE(occupied > 100.0);
+        CHECK(agree / occupied > 0.98);
+        CHECK(share / occupied == doctest::Approx(0.75).epsilon(0.02));
     }
 }
 
@@ -182,7 +182,7 @@ TEST_CASE(
 }
 
 TEST_CASE("labels: shadows are the same whether or not objects are asked for") {
-    // Alone they take another way to the bins that are lit, by multipath as well.
+    // Alone they take another way to the bins that are occupied, by multipath as well.
     const TankWithGhosts the_tank;
     std::ptrdiff_t shadows = 0;
     for (const Pose& pose : tank_poses()) {
@@ -212,7 +212,7 @@ TEST_CASE("labels: in the tank the objects are those that rays without number fi
         for (const EngineKind type : engine_types) {
             CAPTURE(static_cast<int>(type));
             const Labelled out = label(scene, sonar, pose, type);
-            double lit = 0.0;
+            double occupied = 0.0;
             double same = 0.0;
             double unexplained = 0.0;
             for (std::size_t bin = 0; bin < out.labels.size(); ++bin) {
@@ -220,24 +220,24 @@ TEST_CASE("labels: in the tank the objects are those that rays without number fi
                 const double* const most = std::max_element(echo, echo + count);
                 const double total = std::accumulate(echo, echo + count, 0.0);
                 if (total == 0.0 || out.labels.object[bin] == 0) continue;
-                ++lit;
-                const auto told = static_cast<std::size_t>(out.labels.object[bin]) - 1;
-                same += most == echo + told;
+                ++occupied;
+                const auto stated = static_cast<std::size_t>(out.labels.object[bin]) - 1;
+                same += most == echo + stated;
                 // Another object is named only where both are there, or at the edge of a bin, where
                 // a footprint reaches over: then a neighbour has it.
-                bool near = echo[told] > 0.0;
+                bool near = echo[stated] > 0.0;
                 for (const int step :
                      {-1, 1, -sonar.settings.view.range_bins, sonar.settings.view.range_bins}) {
                     const std::ptrdiff_t next = static_cast<std::ptrdiff_t>(bin) + step;
                     if (next < 0 || next >= static_cast<std::ptrdiff_t>(out.labels.size()))
                         continue;
-                    near = near || echoes[static_cast<std::size_t>(next) * count + told] > 0.0;
+                    near = near || echoes[static_cast<std::size_t>(next) * count + stated] > 0.0;
                 }
                 unexplained += !near;
             }
-            REQUIRE(lit > 500.0);
-            CHECK(same / lit > 0.99);
-            CHECK(unexplained / lit < 0.001);
+            REQUIRE(occupied > 500.0);
+            CHECK(same / occupied > 0.99);
+            CHECK(unexplained / occupied < 0.001);
         }
     }
 }

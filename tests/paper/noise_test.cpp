@@ -49,7 +49,7 @@ std::vector<float> noisy(float value, int rows, int columns, float add, float mu
 
 TEST_SUITE_BEGIN("ping");
 
-TEST_CASE("the range noise of an echo does not depend on the echoes beside it") {
+TEST_CASE("the range noise of an echo does not depend on the echoes next to it") {
     // Alone an echo is the tail of a vector; among others it is part of a whole one or of a tail.
     const PhiloxKey key = stream_key(8, 1, 4, Stream::range_noise);
     for (const bool fades : {false, true}) {
@@ -199,14 +199,14 @@ TEST_CASE("each quarter of a block of pixels follows the laws by itself" *
 TEST_CASE("what lights a pixel does not change what the others draw") {
     // If a block of pixels is dark, nothing is drawn for the multiplicative noise.
     std::vector<float> dark(3 * 128, 0.0F);
-    std::vector<float> lit = dark;
-    lit[130] = 1.0F;
+    std::vector<float> occupied = dark;
+    occupied[130] = 1.0F;
     const PixelNoise noise{0.5F, 0.2F, 0.3F, std::vector<float>(3, 1.0F),
                            std::vector<float>(128, 1.0F)};
     add_pixel_noise(dark, noise, {7, 8});
-    add_pixel_noise(lit, noise, {7, 8});
+    add_pixel_noise(occupied, noise, {7, 8});
     for (std::size_t k = 0; k < dark.size(); ++k)
-        CHECK((dark[k] == lit[k]) == (k != 130));
+        CHECK((dark[k] == occupied[k]) == (k != 130));
 }
 
 TEST_CASE("the additive noise grows with the row's and the column's scale") {

@@ -52,7 +52,7 @@ TEST_SUITE("product") {
         CHECK_FALSE(annotation_box(object, {}, LabelBox::shadow).has_value());
     }
 
-    TEST_CASE("contrast: the level of an object over that beside it at the same range") {
+    TEST_CASE("contrast: the level of an object over that next to it at the same range") {
         // 9 lines of 3 bins. The background grows tenfold from bin to bin, as with range; the
         // object, lines 4 and 5 of the bins 0 and 1, is four times as bright: 6.0 dB.
         LevelMap map{9, 3, {}, {}, {}};
@@ -66,7 +66,7 @@ TEST_SUITE("product") {
                 if (is_object) object[3 * line + bin] = 2;
             }
         }
-        // Another object beside it, bright, and a dark shadow of that: neither counts.
+        // Another object next to it, bright, and a dark shadow of that: neither counts.
         object[3 * 3 + 0] = 3;
         level[3 * 3 + 0] = 1000.0F;
         shadow[3 * 6 + 1] = 3;
@@ -79,7 +79,7 @@ TEST_SUITE("product") {
         const auto found = contrast_db(map, map.object, 2, box, is_background);
         REQUIRE(found.has_value());
         CHECK(*found == doctest::Approx(6.0206).epsilon(1e-4));
-        // Nothing beside it but its like: no surroundings.
+        // Nothing next to it but its like: no surroundings.
         std::ranges::fill(object, std::uint16_t{2});
         CHECK_FALSE(contrast_db(map, map.object, 2, {0, 8, 0, 2}, is_background).has_value());
     }

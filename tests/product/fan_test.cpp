@@ -268,8 +268,8 @@ TEST_SUITE("product") {
     }
 
     TEST_CASE("fan: bins much smaller than a pixel are averaged, not picked") {
-        // Every other beam is lit; 20 to 60 px from the apex, 3 to 10 beams share a pixel. Picking
-        // would give black and white, averaging gives half.
+        // Every other beam is occupied; 20 to 60 px from the apex, 3 to 10 beams share a pixel.
+        // Picking would give black and white, averaging gives half.
         const Sonar sonar = fan_sonar(120, 0, 512, 512);
         Ping ping = uniform_ping(sonar, 0.0F);
         for (std::size_t i = 0; i < ping.intensity.size(); i += 2)

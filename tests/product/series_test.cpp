@@ -87,7 +87,7 @@ TEST_SUITE("product") {
         CHECK(worst <= 1);
     }
 
-    TEST_CASE("gain: one lit value in a hundred is brighter") {
+    TEST_CASE("gain: one occupied value in a hundred is brighter") {
         Gain gain;
         CHECK(gain.white() == 1.0);
         std::vector<float> values(5000, 0.0F);

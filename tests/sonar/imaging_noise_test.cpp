@@ -49,7 +49,7 @@ TEST_CASE("noise is a function of seed, sensor and ping; without it the seed doe
 TEST_CASE("the mean over 1,000 seeds agrees with theory") {
     // A wall within one scatterer cell, so that a ping has one w: the echo moves as a whole and
     // every bin that it then covers holds I exp(-w / lambda). The wall's ranges span
-    // [D, D + 0.2 mm], far less than a bin, so bin [a, b) is lit when D + w falls into it:
+    // [D, D + 0.2 mm], far less than a bin, so bin [a, b) is occupied when D + w falls into it:
     // E[I'] = int_a^b I e^(-w/lambda) e^(-w/lambda) / lambda dw
     //       = I / 2 (e^(-2 (a-D)/lambda) - e^(-2 (b-D)/lambda)), with a, b >= D.
     // Pixel noise adds s sigma sqrt(pi / 2) and halves the rest (m = 0.5); clipping at 0 does not
@@ -105,7 +105,7 @@ TEST_CASE("the narrowest lobe that a mission can ask for leaves finite scales") 
 
 TEST_CASE("range noise drops what it pushes beyond the range") {
     // A wall just inside range_max and a noise of many bins: without the drop the last bin would
-    // be lit in almost every ping.
+    // be occupied in almost every ping.
     Scene scene = empty_scene();
     const std::uint32_t m = add_material(scene, 1.0F);
     add_quad(scene, {2.45F, -1, -1}, {2.45F, 1, -1}, {2.45F, 1, 1}, {2.45F, -1, 1}, m);
@@ -118,14 +118,14 @@ TEST_CASE("range noise drops what it pushes beyond the range") {
     config.noise.scatterer_m = 1000.0;
     const Sonar sonar = make_sonar(config, {});
     const auto engine = make_rays_engine(scene);
-    int lit = 0;
+    int occupied = 0;
     for (std::uint64_t seed = 0; seed < 1000; ++seed) {
         const Ping ping = render_ping(sonar, scene, *engine, Pose{}, {seed, 0});
-        lit += ping.at(99, 0) > 0.0F;
+        occupied += ping.at(99, 0) > 0.0F;
         if (ping.counts.out_of_range > 0) CHECK(ping.at(99, 0) == 0.0F);
     }
     // P(w within the last bin's 0.02 m) is about 0.02.
-    CHECK(lit < 50);
+    CHECK(occupied < 50);
 }
 
 TEST_SUITE_END();

@@ -77,7 +77,7 @@ TEST_CASE("a floor below the sonar: I = R H / r in every bin, from the right bin
               const bool inside = i > first_bin && i < last_bin && j > 24 && j < 40;
               return inside ? R * H / bin_centre(sonar, i) : -1.0;
           }) < 3e-3);
-    // Wherever the whole image is lit, whichever beam.
+    // Wherever the whole image is occupied, whichever beam.
     CHECK(relative_l1(ping, [&](int i, int j) {
               return ping.at(i, j) > 0.0F ? R * H / bin_centre(sonar, i) : -1.0;
           }) < 0.01);

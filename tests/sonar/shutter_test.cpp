@@ -63,7 +63,7 @@ bool is_bright(const Ping& ping, int beam) {
 TEST_SUITE("sonar") {
     // The beam at the azimuth b, of the group g, points at b + w (g P + 2 r / c) of the world, so
     // that it shows a plate where the two overlap. That is shear: azimuth moves with time. Here
-    // w P = 2 degrees and w 2 r / c = 0.533 degrees, so that a beam lies 0.033 degrees beside the
+    // w P = 2 degrees and w 2 r / c = 0.533 degrees, so that a beam lies 0.033 degrees outside the
     // middle of a plate, with all of the plate in it, or 0.967 degrees at least, with none of it.
     // One beam in five shows a plate.
     TEST_CASE("shutter: a fan that yaws shears the picture by its rate times the time") {

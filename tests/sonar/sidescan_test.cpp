@@ -94,7 +94,7 @@ TEST_CASE("sidescan: a box casts a shadow of length r h / (H - h) on its far sid
         ++last;
     CHECK(std::fabs(sonar.range_edges_m[first] - r) <= 2.0 * sonar.settings.view.bin_m());
     CHECK(std::fabs(sonar.range_edges_m[last] - (r + length)) <= 2.0 * sonar.settings.view.bin_m());
-    // Before the box, and on the other side, the bottom is lit.
+    // Before the box, and on the other side, the bottom is occupied.
     CHECK(ping.at(sidescan_bin(sonar, 6.5), 1) > 0.0F);
     for (int i = sidescan_bin(sonar, H) + 1; i < ping.range_bins; ++i)
         CHECK(ping.at(i, 0) > 0.0F);

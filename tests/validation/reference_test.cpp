@@ -93,13 +93,13 @@ TEST_CASE("the reference sees a ball of 2 cm at 8 m and a wire of 4 mm at 5 m") 
     }
     // 64 rays per bin of a whole image are the minimum.
     const Reference reference = cast_reference(caster, scene, view, Pose{}, {0.01, 64.0});
-    std::vector<float> lit;
+    std::vector<float> occupied;
     for (const float x : reference.intensity) {
-        if (x > 0.0F) lit.push_back(x);
+        if (x > 0.0F) occupied.push_back(x);
     }
-    REQUIRE(lit.size() == 2);
-    CHECK(lit[0] / wire == doctest::Approx(1.0).epsilon(0.01));
-    CHECK(lit[1] / (0.5 * R) == doctest::Approx(1.0).epsilon(0.01));
+    REQUIRE(occupied.size() == 2);
+    CHECK(occupied[0] / wire == doctest::Approx(1.0).epsilon(0.01));
+    CHECK(occupied[1] / (0.5 * R) == doctest::Approx(1.0).epsilon(0.01));
     CHECK(reference.moved < 0.01);
 }
 

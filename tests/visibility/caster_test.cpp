@@ -48,7 +48,7 @@ TEST_SUITE("visibility") {
         CHECK(!still.may_meet({5, 0, 0}, {1, 0, 0}));
         CHECK(!still.may_meet({5, 0, 0}, {0, 1, 0}));
         CHECK(!still.may_meet({0, -5, 0}, Eigen::Vector3f(0.9F, -0.1F, 0).normalized()));
-        // It leads towards the box and passes beside it, which this test does not exclude.
+        // It leads towards the box and passes next to it, which this test does not exclude.
         CHECK(still.may_meet({5, 0, 0}, Eigen::Vector3f(-0.1F, 1, 0).normalized()));
         scene.bodies.push_back(std::move(body));
         const Caster moved =

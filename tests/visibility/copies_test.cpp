@@ -65,7 +65,7 @@ TEST_SUITE("visibility") {
         }
     }
 
-    TEST_CASE("copies: beside a body that moves both are met") {
+    TEST_CASE("copies: next to a body that moves both are met") {
         const std::vector<Eigen::Affine3d> places{placed({6.0, 0.0, 0.0}, 1.0, 0.0),
                                                   placed({6.0, 4.0, 0.0}, 1.0, 0.0)};
         Scene scene = spheres(places, Eigen::Vector3d::Zero());

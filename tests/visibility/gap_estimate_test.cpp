@@ -105,7 +105,7 @@ TEST_CASE("facets of one plane are parted half way, and nothing is uncertain") {
     }
 }
 
-TEST_CASE("beside nothing, the next ray goes to where the plane leaves the reach") {
+TEST_CASE("without a neighbour, the next ray goes to where the plane leaves the reach") {
     // A floor 1 mm below the sonar leaves the reach at asin(1e-4), in one two-hundredth of the gap.
     const CastRay floor = on_plane(-0.01, 1, {0, 0, -1e-3F}, {0, 0, 1});
     const CastRay nothing = nothing_at(0.01);

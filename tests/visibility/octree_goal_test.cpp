@@ -86,26 +86,26 @@ TEST_CASE("octree goal: a warning gives the error of leaves that are too large" 
         CAPTURE(warnings[0]);
         CHECK(warnings[0].find("octree.leaf_m of ") != std::string::npos);
         const std::string mark = "off by about ";
-        const double told = std::stod(warnings[0].substr(warnings[0].find(mark) + mark.size()));
-        CHECK(0.01 * told > 0.7 * error);
-        CHECK(0.01 * told < 3.0 * error);
+        const double stated = std::stod(warnings[0].substr(warnings[0].find(mark) + mark.size()));
+        CHECK(0.01 * stated > 0.7 * error);
+        CHECK(0.01 * stated < 3.0 * error);
     }
 }
 
 TEST_CASE("octree goal: which pings are checked depends on their poses, not on their order") {
     const View view = sonar_for(0.03).settings.view;
-    std::array<std::vector<std::string>, 2> told;
+    std::array<std::vector<std::string>, 2> stated;
     for (const int turn : {0, 1}) {
         GoalCheck check;
         for (int i = 0; i < 100; ++i) {
             const int k = turn == 0 ? i : 99 - i;
             if (const auto place = check.place_for(view, pose_at(k))) *place = 0.02 + 0.001 * k;
         }
-        told[turn] = check.warnings(0.0);
+        stated[turn] = check.warnings(0.0);
     }
-    REQUIRE(told[0].size() == 1);
-    CHECK(told[0] == told[1]);
-    CHECK(told[0][0].find("of the 8 pings") != std::string::npos);
+    REQUIRE(stated[0].size() == 1);
+    CHECK(stated[0] == stated[1]);
+    CHECK(stated[0][0].find("of the 8 pings") != std::string::npos);
 }
 
 TEST_CASE("octree goal: a goal that is met is no matter for a warning") {

@@ -34,15 +34,15 @@ double lit_beyond_limb(float distance_m, double leaf_m) {
         render_ping(sonar, scene, *make_octree_engine(scene, {leaf_m}), Pose{}, {1, 0});
     const double centre_m = Eigen::Vector3f(distance_m, 0.1F, 0.05F).norm();
     const double limb_m = std::sqrt(centre_m * centre_m - sphere_radius_m * sphere_radius_m);
-    double lit = 0.0;
+    double occupied = 0.0;
     double beyond = 0.0;
     for (std::size_t k = 0; k < ping.intensity.size(); ++k) {
         if (ping.intensity[k] == 0.0F) continue;
-        lit += 1.0;
+        occupied += 1.0;
         beyond += sonar.range_edges_m[k / ping.beams] > limb_m + 0.5 * leaf_m;
     }
-    REQUIRE(lit > 0.0);
-    return beyond / lit;
+    REQUIRE(occupied > 0.0);
+    return beyond / occupied;
 }
 
 /// An upright square across the boresight, of material 0.

@@ -32,7 +32,7 @@ constexpr std::array<StatisticsAxis, statistics_axes> axes{
     StatisticsAxis{"visible_share", "visible share", share_edges},
     StatisticsAxis{"contrast_db", "contrast, dB", contrast_edges}};
 
-/// An object: the folder of its dataset beside others, and its id there.
+/// An object: the folder of its dataset among others, and its id there.
 using ObjectKey = std::pair<std::string, std::uint64_t>;
 
 /// A class while it is counted.

@@ -122,7 +122,7 @@ constexpr LabelFile label_files[] = {
     {Label::multipath_only, "multipath_only", {}, {}, &multipath_alone},
 };
 
-/// Records of sonars without images, of which their COCO files are made beside those of the
+/// Records of sonars without images, of which their COCO files are made next to those of the
 /// instances.
 constexpr LabelFile annotation_records[] = {
     {Label::coco, object_shadow_record, ids<&PingLabels::object_shadow>, {}, {}, "instances"},

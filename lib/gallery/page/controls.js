@@ -1,4 +1,4 @@
-// What stands beside the picture, buttons and keys.
+// The buttons and keys next to the picture.
 
 // The values of the selected object's label at this ping: [name, value].
 function details_of_selected() {

@@ -28,7 +28,7 @@ function numbered(pattern, number) {
   return pattern.replace(/%0(\d)d/, (_, digits) => String(number).padStart(Number(digits), '0'));
 }
 
-// Pictures of archives were copied into a folder beside the page.
+// Pictures of archives were copied into a folder next to the page.
 const in_page = (shown, file) => shown.unpacked ? file : path_of(file);
 
 // The file that a view shows at a ping.

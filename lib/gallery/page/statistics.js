@@ -46,7 +46,7 @@ function histogram_of(classes, axis) {
 }
 
 function show_statistics() {
-  const told = chosen.whole ? page.statistics : data.statistics;
+  const counts = chosen.whole ? page.statistics : data.statistics;
   const scopes = [['all datasets', true], [page.datasets[state.dataset].folder || 'the dataset', false]];
   const offered = page.datasets.length > 1 ? scopes : scopes.slice(1);
   buttons($('scopes'), offered.map(one => one[0]), offered.findIndex(one => one[1] === chosen.whole), k => {
@@ -55,18 +55,18 @@ function show_statistics() {
   });
   $('tallies').textContent = '';
   $('files').textContent = '';
-  if (!told) {
+  if (!counts) {
     $('tallies').append(element('p', 'None: they are made with the label coco, once all pings are there.'));
     return;
   }
-  const files = ['', ...Object.keys(told.files)];
+  const files = ['', ...Object.keys(counts.files)];
   if (!files.includes(chosen.file)) chosen.file = '';
   buttons($('files'), files.map(file => file ? file.split('/').pop() : 'all pictures'), files.indexOf(chosen.file), k => {
     chosen.file = files[k];
     show_statistics();
   });
-  const tally = chosen.file ? told.files[chosen.file] : told.all;
-  for (const warning of chosen.file ? [] : told.warnings) $('tallies').append(element('p', warning, 'warning'));
+  const tally = chosen.file ? counts.files[chosen.file] : counts.all;
+  for (const warning of chosen.file ? [] : counts.warnings) $('tallies').append(element('p', warning, 'warning'));
   $('tallies').append(element('p', `${tally.pictures} pictures, ${tally.without_objects} without an object`));
   $('tallies').append(table_of(['class', 'objects', 'pictures', 'labels', 'ignored'], tally.classes.map(one =>
     [[swatch(class_colour(one.name)), one.name], ...['objects', 'pictures', 'annotations', 'ignored'].map(key => `${one[key]}`)])));

@@ -153,7 +153,7 @@ std::vector<HardCase> hard_sonar_limits() {
              .truth = edge_law,
              .bounds = {0.002, 0.02}},
             {.name = "a seam on a beam's edge",
-             .stresses = "nothing may reach the beam beside",
+             .stresses = "nothing may reach the beam next to it",
              .expected = "R H / r on one side",
              .scene = halves,
              .trial = over_seam,

@@ -9,7 +9,7 @@ namespace sonarsim {
 namespace {
 
 // If a gap holds more triangles than this, every n-th is looked at and stands for n of them: a
-// finely cut surface has thousands, and the slices beside it predict it well.
+// finely cut surface has thousands, and the neighbouring slices predict it well.
 constexpr std::uint32_t most_unseen = 16;
 
 Groups by_gap(const SliceScene& scene, const SliceFrame& frame) {

@@ -99,7 +99,7 @@ TEST_SUITE("scene") {
         CHECK(load(gltf).triangles.size() == 1);
     }
 
-    TEST_CASE("glTF: as text, with data URI and with files beside and below") {
+    TEST_CASE("glTF: as text, with data URI and with files next to and below") {
         GltfBuilder gltf = one_triangle();
         const std::string binary = gltf.binary;
         const TemporaryFolder folder;

@@ -99,7 +99,7 @@ TEST_CASE("a pixel without a height is a hole of the triangles that need it") {
     heights[5] = unknown;
     // Each of the four cells around it keeps the triangle of its other three corners.
     CHECK(triangles() == 18 - 4);
-    // A corner of the map: one cell, which keeps the triangle beside the hole.
+    // A corner of the map: one cell, which keeps the triangle next to the hole.
     heights[5] = 3.0F;
     heights[0] = unknown;
     CHECK(triangles() == 17);

@@ -175,14 +175,14 @@ double worst_beam(const std::vector<double>& image, const std::vector<double>& t
     for (int j = 0; j < view.beams; ++j) {
         double apart = 0.0;
         double sum = 0.0;
-        int lit = 0;
+        int occupied = 0;
         for (int i = 0; i < view.range_bins; ++i) {
             const std::size_t k = static_cast<std::size_t>(j) * view.range_bins + i;
             apart += std::fabs(image[k] - truth[k]);
             sum += truth[k];
-            lit += truth[k] > 0.0 ? 1 : 0;
+            occupied += truth[k] > 0.0 ? 1 : 0;
         }
-        if (lit >= 16) worst = std::max(worst, apart / std::max(sum, whole / view.beams));
+        if (occupied >= 16) worst = std::max(worst, apart / std::max(sum, whole / view.beams));
     }
     return worst;
 }
