@@ -39,7 +39,7 @@ struct Neighbour {
     std::uint32_t vertex;
     int faces = 0;
     std::uint32_t first_face = 0;
-    /// The edge to it separates materials or instances, or has one side only.
+    /// The edge to it separates materials or instances, has one side only, or is a fold.
     bool is_border = false;
 };
 
@@ -179,7 +179,7 @@ class Merger {
                 auto known = std::ranges::find(neighbours_, corner, &Neighbour::vertex);
                 if (known == neighbours_.end())
                     known = neighbours_.insert(known, {corner, 0, f, false});
-                else if (!alike(known->first_face, f))
+                else if (!alike(known->first_face, f) || is_fold(v, corner, known->first_face, f))
                     known->is_border = true;
                 if (++known->faces > 2) return false;
             }
@@ -197,6 +197,18 @@ class Merger {
         const std::uint32_t t = faces_[g].triangle;
         return scene_.triangle_material[s] == scene_.triangle_material[t] &&
                scene_.triangle_instance[s] == scene_.triangle_instance[t];
+    }
+
+    /// True if two faces lie on the same side of their common edge. The sheets of a panel with two
+    /// sides meet so: all their faces have one plane, and the edge is still the panel's outline.
+    bool is_fold(std::uint32_t v, std::uint32_t to, std::uint32_t f, std::uint32_t g) const {
+        const Eigen::Vector3d along = place(to) - place(v);
+        const auto side = [&](std::uint32_t face) -> Eigen::Vector3d {
+            const auto& [a, b, c] = faces_[face].corners;
+            const std::uint32_t third = a != v && a != to ? a : (b != v && b != to ? b : c);
+            return along.cross(place(third) - place(v));
+        };
+        return side(f).dot(side(g)) > 0.0;
     }
 
     bool may_move(std::uint32_t v, const Neighbour& to) const {

@@ -84,6 +84,29 @@ TEST_CASE("slices: flat faces keep their area and outline in a few triangles") {
     }
 }
 
+TEST_CASE("slices: a panel with two sides keeps both") {
+    // Corners 0 to 3 of a unit square; 4 is its middle. The sides share the corners and are cut
+    // along different diagonals, or one of them at the middle.
+    for (const bool has_middle : {false, true}) {
+        CAPTURE(has_middle);
+        Scene scene = test::empty_scene();
+        const std::uint32_t material = test::add_material(scene, 0.5F);
+        scene.vertices = {{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}, {0, 0.5F, 0.5F}};
+        scene.triangles = {{0, 1, 2}, {0, 2, 3}};
+        if (has_middle)
+            scene.triangles.insert(scene.triangles.end(),
+                                   {{1, 0, 4}, {2, 1, 4}, {3, 2, 4}, {0, 3, 4}});
+        else
+            scene.triangles.insert(scene.triangles.end(), {{1, 0, 3}, {1, 3, 2}});
+        scene.triangle_material.assign(scene.triangles.size(), material);
+        scene.triangle_instance.assign(scene.triangles.size(), 0);
+        const auto merged = with_flat_faces_merged(scene, each_by_itself(scene));
+        REQUIRE(merged);
+        CHECK(merged->triangles.size() == 4);
+        CHECK(area_of(*merged) == doctest::Approx(2.0).epsilon(1e-6));
+    }
+}
+
 TEST_CASE("slices: curved faces keep their triangles") {
     Scene scene = test::empty_scene();
     test::add_sphere(scene, {5, 0, 0}, 0.5F, test::add_material(scene, 0.5F), 16);
