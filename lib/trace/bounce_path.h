@@ -13,8 +13,8 @@ inline constexpr std::uint32_t no_material = 0xFFFFFFFFU;
 struct BouncePath {
     std::uint32_t sample = 0;  ///< index into Samples::items
     std::uint32_t ray = 0;     ///< the traced ray that found the second surface
-    /// The arrival from the second point p, one-way equivalent range and beam, and by how much both
-    /// change along the half edges of the sample's footprint; 0 for scattered sound.
+    /// The arrival from the second point p: one-way equivalent range and beam, and their changes
+    /// along the half edges of the sample's footprint; 0 for scattered sound.
     float range_m = 0.0F, range_u = 0.0F, range_v = 0.0F;
     float beam = 0.0F, beam_u = 0.0F, beam_v = 0.0F;  ///< in beams; its integer part is the beam
     float intensity = 0.0F;  ///< R_i R_h (q . v_p), Eq. 1-3; 0 for scattered sound
