@@ -23,7 +23,7 @@ std::vector<double> edges(double low, double high, int bins);
 /// along its x, so that azimuth runs from starboard (-) to port (+).
 void set_mount(Sonar& sonar, const KindOfSonar& kind);
 
-/// The mount, the view and the range edges of a sonar, by its configuration and its kind.
+/// A sonar with the mount, the view and the range edges of its configuration and its kind.
 Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
                    const KindOfSonar& kind);
 
