@@ -8,7 +8,8 @@ namespace sonarsim {
 
 namespace {
 
-// Values that a patch of speckle may have at either end of the scale. Each pulls at the moments.
+// The values of a patch of speckle that may lie at either end of the scale. Each biases the
+// moments.
 constexpr double most_at_an_end = 0.003;
 
 /// The scaled values of a patch.
