@@ -103,8 +103,8 @@ void add_ping_motions(const Mission& mission, const Trajectory& trajectory, cons
         if (!sonar.config.moves_in_ping) continue;
         if (sonar.config.multipath.method != MultipathMethod::none) {
             throw InputError("sensor '" + sonar.config.name +
-                             "': multipath is made for a sonar that stands still in a ping; leave "
-                             "out multipath or moves_in_ping");
+                             "': multipath supports only a sonar at rest during a ping; leave out "
+                             "multipath or moves_in_ping");
         }
         std::vector<PingMotion> motions;
         for (std::size_t pose = 0; pose < trajectory.size(); ++pose)
@@ -127,8 +127,8 @@ void leave_out_glints(std::span<Sonar> sonars, Scene& scene) {
         sonar.settings.coherent = nullptr;
         scene.warnings.push_back(
             "sensors." + sonar.config.name +
-            ".moves_in_ping: the coherent echo of smooth faces (materials with roughness_m) is "
-            "made for a sonar at rest, so they scatter incoherently");
+            ".moves_in_ping: the coherent echo of smooth faces (materials with roughness_m) "
+            "supports only a sonar at rest, so they scatter incoherently");
     }
 }
 

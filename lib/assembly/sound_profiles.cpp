@@ -104,9 +104,10 @@ std::vector<ProfilePointConfig> points_of_file(const std::filesystem::path& file
 void refuse_straight_sound(const Mission& mission) {
     for (const SonarConfig& sensor : mission.sensors) {
         if (sensor.multipath.method == MultipathMethod::none) continue;
-        throw InputError("sensor '" + sensor.name +
-                         "': multipath goes straight, and water.profile bends sound; leave out "
-                         "one of the two");
+        throw InputError(
+            "sensor '" + sensor.name +
+            "': multipath needs straight paths, and water.profile bends sound; leave out "
+            "one of the two");
     }
 }
 
@@ -148,7 +149,7 @@ void warn_of_lost_glints(std::span<const Sonar> sonars, Scene& scene) {
     if (std::ranges::none_of(sonars, adds) || !coherent || coherent->plates.empty()) return;
     scene.warnings.push_back(
         "water.profile bends sound, and the coherent echo of smooth faces (materials with "
-        "roughness_m) is made for straight sound alone: they scatter incoherently. Leave out "
+        "roughness_m) needs straight paths: they scatter incoherently. Leave out "
         "roughness_m, or water.profile where bending does not matter");
 }
 
