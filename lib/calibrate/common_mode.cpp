@@ -51,7 +51,7 @@ double excess_db(const Recording& recording, const LawFit& law, const NoiseFit& 
     return db_of_neper_ahead * sum / count;
 }
 
-/// The last beam in one direction before as many quiet ones as a gap has.
+/// The last beam in one direction before a gap of beams that do not stand out.
 int end_of(const std::vector<bool>& loud, int from, int step) {
     int last = from;
     for (int j = from; j >= 0 && j < std::ssize(loud) && std::abs(j - last) <= most_gap; j += step)

@@ -23,7 +23,7 @@ struct PatchField {
     }
 };
 
-/// Half the mean square difference of values so many rows and beams apart.
+/// Half the mean square difference of values that lie `rows` and `beams` apart.
 double structure(const PatchField& field, int rows, int beams) {
     if (rows >= field.rows || beams >= field.beams) return std::numeric_limits<double>::quiet_NaN();
     double sum = 0.0;

@@ -191,8 +191,8 @@ class SurfaceEchoFinder {
         });
     }
 
-    /// Adds the echo of piece k of a block in a beam. What a line array receives of a piece in
-    /// several beams belongs to one patch.
+    /// Adds the echo of piece k of a block in a beam. The echoes of a piece in several beams of a
+    /// line array belong to one patch.
     template <class PatchOfPiece>
     void add_echo(int beam, int k, float power, PatchOfPiece patch_of_piece) {
         const auto at = static_cast<std::uint32_t>(patch_echoes_.size());

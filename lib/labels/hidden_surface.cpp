@@ -37,7 +37,7 @@ struct SolidAngles {
     double visible = 0.0, hidden = 0.0;
 };
 
-/// The ray that goes on behind the end of a sight line, from the pose of transmission.
+/// The ray that continues behind the end of a sight line, from the pose of transmission.
 Ray ray_behind(const SightLine& line, const PingMotion& motion, ViewShape shape) {
     if (motion.is_still())
         return {line.direction * (line.range_m * (1.0F + step_behind)), line.direction};

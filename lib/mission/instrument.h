@@ -24,7 +24,7 @@ enum class BeamSpacing { equal_angle, equal_sine };
 
 enum class SpeckleMode {
     scene,  ///< scatterers stay in place in the scene
-    ping,   ///< scatterers are drawn anew for every ping
+    ping,   ///< scatterers are drawn for every ping
     none    ///< no speckle, the mean power
 };
 

@@ -29,7 +29,7 @@ struct DirectEchoes {
     Echoes echoes = {};                    ///< the samples that were added last
     std::vector<std::uint32_t> ends = {};  ///< the ends of the echoes of each of them
 
-    /// Eq. 4-8. Returns how many echoes lie out of range.
+    /// Eq. 4-8. Returns the number of echoes out of range.
     std::uint64_t add(std::span<const Sample> samples, BinSums& sums) {
         direct_echoes(samples, scene.materials, bins.bin_m, lattice, echoes, ends);
         add_range_noise(echoes, range_noise, draws);
@@ -37,7 +37,7 @@ struct DirectEchoes {
     }
 };
 
-/// Adds the multipath echoes of beam j to its bins. Returns how many lie out of range.
+/// Adds the multipath echoes of beam j to its bins. Returns the number out of range.
 std::uint64_t accumulate_beam(const MultipathEchoes& bounced, int j, const RangeBins& bins,
                               BinSums& sums) {
     return accumulate(bounced.echoes, bounced.beam_begin[j], bounced.beam_begin[j + 1], bins, sums);

@@ -35,7 +35,7 @@ void add_azimuth(Sonar& sonar);
 std::shared_ptr<const EchoModel> make_echo_model(Sonar& sonar, const KindOfSonar& kind,
                                                  const WaterConfig& water);
 
-/// For metadata, where what is absent is null.
+/// For metadata: an absent value is null.
 nlohmann::ordered_json number_or_null(const std::optional<double>& value);
 
 }  // namespace sonarsim

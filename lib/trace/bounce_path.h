@@ -8,7 +8,7 @@ namespace sonarsim {
 inline constexpr std::uint32_t no_material = 0xFFFFFFFFU;
 
 /// A multipath path: from the sonar to a sample, reflected there to a second surface, and from that
-/// back to the sonar. Where the water's surface mirrors the sound on its way (`by_water_surface`),
+/// back to the sonar. If the water's surface reflects the sound on its way (`by_water_surface`),
 /// the second surface is its image in the water's surface.
 struct BouncePath {
     std::uint32_t sample = 0;  ///< index into Samples::items
@@ -24,9 +24,9 @@ struct BouncePath {
     std::uint32_t material =
         no_material;        ///< index into Scene::materials; no_material: the water's surface
     float strength = 1.0F;  ///< strength of the second surface, as in Sample
-    float water_reflection = 1.0F;  ///< R of the water's surface where it mirrors the sound, else 1
+    float water_reflection = 1.0F;  ///< R of the water's surface if it reflects the sound, else 1
     bool by_water_surface = false;
-    /// The second surface mirrors the sound away from the sonar. A rough surface scatters some of
+    /// The second surface reflects the sound away from the sonar. A rough surface scatters some of
     /// it back, which the paper's model does not have.
     bool scattered = false;
 };

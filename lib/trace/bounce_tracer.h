@@ -23,7 +23,7 @@ struct BounceHit {
     float strength = 1.0F;    ///< as in Sample
     std::uint32_t material =
         no_material;                ///< index into Scene::materials; none: the water's surface
-    float water_reflection = 1.0F;  ///< R of the water's surface where it mirrors the sound, else 1
+    float water_reflection = 1.0F;  ///< R of the water's surface if it reflects the sound, else 1
     bool exists = false;
 };
 

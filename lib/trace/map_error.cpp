@@ -55,7 +55,7 @@ double error_of_maps(const Scene& scene, const View& view, const Pose& T_world_s
     // The pieces of a side-scan end where bins do: their means are exact.
     if (view.shape == ViewShape::port_starboard) return 0.0;
     constexpr int blocks = 128;  // equal parts of the range
-    // One block in so many is compared. A view of few beams needs all, since the borders of a map
+    // One block in `every` is compared. A view of few beams needs all, since the borders of a map
     // may lie in few of them.
     const int every = std::clamp(view.beams / 8, 1, 16);
     constexpr double coarser = 2.0;

@@ -60,7 +60,7 @@ struct BinSums {
 };
 
 /// Adds every echo to the bins that its box in range covers, in proportion to the overlap. Parts
-/// outside the range are dropped. Returns how many echoes lay wholly outside.
+/// outside the range are dropped. Returns the number of echoes wholly outside.
 std::uint64_t accumulate(const RangeBoxes& echoes, const RangeBins& bins, BinSums& sums);
 
 /// The same for the echoes [begin, end).

@@ -14,7 +14,7 @@ namespace sonarsim {
 
 namespace {
 
-// Chosen, but for the rise; docs/compare.md has the errors on drawn steps.
+// Chosen, except for the rise; docs/compare.md has the errors on drawn steps.
 constexpr double least_contrast = 4.0;     // 6 dB
 constexpr double most_full = 0.03;         // share of clipped bins
 constexpr double most_misfit = 0.25;       // a quarter's mean off, by the bright level

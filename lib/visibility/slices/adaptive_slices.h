@@ -34,7 +34,7 @@ struct Strip {
 };
 
 /// The border between the strips of two neighbouring slices: midway, or where all surface of one of
-/// them ends, so that the other's goes on up to there.
+/// them ends, so that the other's surface continues up to that end.
 float strip_border(const SliceResult& low, const SliceResult& high);
 
 /// An interval between two neighbouring slices of a beam.

@@ -14,8 +14,9 @@ namespace {
 // of the error. Set after a drawn lattice of 64 beams was missed with 16 of them.
 constexpr int few_beams = 64;
 
-// The number of beams that are drawn first, and how many times more are checked after each further
-// draw. Chosen for cost, on all beams of each ping of the lifeboat, the wreck and the tank.
+// The number of beams that are drawn first, and the factor by which each further draw raises the
+// number of checked beams. Chosen for cost, on all beams of each ping of the lifeboat, the wreck
+// and the tank.
 constexpr double first_draws = 8.0;
 constexpr double times_the_draws = 4.0;
 
