@@ -20,8 +20,7 @@ struct SurfaceShare {
     std::uint32_t triangle;
     std::uint32_t copy;  ///< index into Scene::copies, or `no_copy`
     float area_m2;
-    float
-        share;  ///< in proportion to the number of bins that a thin object of its length occupies
+    float share;  ///< in proportion to the number of bins that a thin object of its length occupies
 };
 
 /// The corners of the triangle, scene-local.
