@@ -60,7 +60,7 @@ std::string surface_warning(const Mission& mission, const Assembly& assembly) {
     }
     const std::string name = "scene.water_surface ";
     if (pings == 0) {
-        // It ends the water, and depths count from it.
+        // It bounds the water, and depths count from it.
         if (some_water_scatters(mission) || mission.water.profile || config.scatters) return "";
         return name +
                "has no effect because no sensor has multipath: set sensors.NAME.multipath.method";
@@ -182,8 +182,8 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
                              mission.scene.place.location);
         }
     });
-    // Checks of motions need the trajectory, checks of surfaces the materials: without these, only
-    // the files themselves are checked.
+    // Checks of motions need the trajectory, and checks of surfaces need the materials. Without
+    // these only the files themselves are checked.
     if (errors.count() > 0) errors.attempt([&] { read_scene_files(mission, models); });
     errors.raise();
     SceneParts parts = place_scene(mission, assembly.trajectory, assembly.sonars, models);

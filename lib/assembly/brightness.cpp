@@ -24,7 +24,7 @@ constexpr double share_below_white = 0.99;       // quantile of the occupied bin
 // A few glints far above all other echoes, as in the calibrated model, are allowed to saturate.
 constexpr double share_usual = 0.9;
 constexpr double most_above_usual = 10.0;
-constexpr double nothing_seen = 1.0;  // any value will do
+constexpr double nothing_seen = 1.0;  // any value works
 
 /// Rounds up to two digits. It multiplies and divides, since the last bit of powers and logarithms
 /// depends on the library.
@@ -87,7 +87,7 @@ Brightness find_full_scales(const Mission& mission, const Scene& scene,
         out.full_scales.assign(sonars.size(), mission.output.full_scale);
         return out;
     }
-    // An own arena throws if there is no memory for more threads; Embree would end the program.
+    // A separate arena throws if there is no memory for more threads; Embree would end the program.
     tbb::task_arena arena;
     arena.execute([&] {
         out.caster = std::make_shared<const Caster>(scene);

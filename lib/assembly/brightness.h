@@ -14,7 +14,7 @@ namespace sonarsim {
 
 struct Brightness {
     std::vector<double> full_scales;       ///< for each sonar
-    std::shared_ptr<const Caster> caster;  ///< made over the scene on the way; null: none was
+    std::shared_ptr<const Caster> caster;  ///< over the scene, if one was made; null: none
 };
 
 /// The intensity that becomes white in pictures, by sonar: output.full_scale, or for `auto` the 99

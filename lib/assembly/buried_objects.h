@@ -11,12 +11,12 @@
 
 namespace sonarsim {
 
-/// The ways of sound into the sea beds of a scene, at the frequency of a sonar.
+/// The sediments of the sea beds of a scene, at the frequency of a sonar.
 std::vector<SedimentPath> sediments_of(const Mission& mission, const Scene& scene,
                                        const Sonar& sonar);
 
-/// Gives the sonars the objects among the files of the scene that are buried. find_targets() comes
-/// before. InputError for one that is too large.
+/// Sets the buried objects of the scene's files in the sonars. Call find_targets() before.
+/// InputError for an object that is too large.
 void bury_objects(const Mission& mission, std::span<const PlacedFile> files, const Scene& scene,
                   std::span<Sonar> sonars);
 

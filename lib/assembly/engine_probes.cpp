@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t most_probes = 3;  // per sonar
 
-/// The rays that a sonar needs; a goal of 0: slices will do.
+/// The rays that a sonar needs; a goal of 0: slices suffice.
 RaysNeed rays_need(const Sonar& sonar) {
     const View& view = sonar.settings.view;
     const RaysNeed of_model = sonar.settings.model->rays_need(view);

@@ -21,7 +21,7 @@ namespace sonarsim {
 
 namespace {
 
-/// 1 for the instances that a map lies on. What moves has none.
+/// 1 for the instances that a map lies on. Moving instances have no map.
 std::vector<char> instances_of(const LaidMapConfig& map, const std::string& section,
                                const SceneConfig& config, const Scene& scene) {
     std::vector<std::string> patterns = map.instances;
@@ -110,7 +110,7 @@ void warn_of_place(const TexelFrame& frame, const std::string& section, Scene& s
                              "; write the point of the map that is x = 0, y = 0 as origin_m");
 }
 
-/// Reads one map; its faults name the mission.
+/// Reads one map; its errors name the mission.
 template <class Read>
 auto read_map(const LaidMapConfig& map, const Read& read) {
     try {

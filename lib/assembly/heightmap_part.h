@@ -14,19 +14,19 @@
 
 namespace sonarsim {
 
-/// A box around the ground within the range of every ping, world x and y. What lies beyond it
-/// returns no echo and hides nothing that does.
+/// A box around the ground within the range of any ping, world x and y. Ground outside returns no
+/// echo and hides no surface that does.
 Eigen::AlignedBox2d seen_by(std::span<const Sonar> sonars, const Trajectory& vehicle);
 
 /// Patterns of the instances that are the bottom: scene.bottom, else the heightmap or the seabed.
 std::vector<std::string> bottom_patterns(const SceneConfig& scene);
 
-/// `seen`, and the ground that still objects may stand on; world x and y.
+/// `seen` and the ground that objects at rest may stand on; world x and y.
 Eigen::AlignedBox2d needed_ground(const SceneConfig& scene, const Eigen::AlignedBox2d& seen,
                                   Shapes& shapes);
 
-/// The placed heightmap of a scene, if it has one: no more of it is made than `seen` and what still
-/// objects may stand on.
+/// The placed heightmap of a scene, if it has one: only `seen` and the ground that objects at rest
+/// may stand on.
 std::optional<PlacedFile> heightmap_of(const SceneConfig& scene, const Eigen::AlignedBox2d& seen,
                                        Shapes& shapes);
 

@@ -123,7 +123,7 @@ std::uint32_t add_instance(const ParticlesConfig& config, const std::string& nam
     return static_cast<std::uint32_t>(scene.instances.size() - 1);
 }
 
-/// Refuses a name that the scene has already: a label could not tell the two.
+/// Refuses a name that the scene already has: labels could not distinguish the two.
 void require_new_name(const ParticlesConfig& config, const Scene& scene) {
     const auto is_it = [&](const std::string& name) {
         return name == config.name || name.starts_with(config.name + "_");

@@ -23,14 +23,15 @@ Eigen::Vector3d rotation_vector(Eigen::Quaterniond q) {
     return 2.0 * arctan2(sine, q.w()) / sine * q.vec();
 }
 
-/// The motion of a sonar at a pose: the difference of its neighbours by their time apart.
+/// The motion of a sonar at a pose: the difference of the neighbouring poses over their time
+/// difference.
 PingMotion motion_at(const Trajectory& trajectory, std::size_t pose, const Sonar& sonar,
                      double sound_speed_m_s) {
     const TimedPose& before = trajectory[pose > 0 ? pose - 1 : 0];
     const TimedPose& after = trajectory[std::min(pose + 1, trajectory.size() - 1)];
     const double dt = after.t_s - before.t_s;
     if (!(dt > 0.0)) return {};
-    // The mount's places, without a turn of its head from ping to ping.
+    // The poses of the mount, without the turn of the head from ping to ping.
     const Pose from = before.T_world_vehicle * sonar.T_vehicle_sensor;
     const Pose to = after.T_world_vehicle * sonar.T_vehicle_sensor;
     const Eigen::Vector3d turn_world =
@@ -42,7 +43,7 @@ PingMotion motion_at(const Trajectory& trajectory, std::size_t pose, const Sonar
             sound_speed_m_s};
 }
 
-/// The motions of the objects at a pose, as those of a sonar.
+/// The motions of the objects at a pose, computed like those of a sonar.
 std::vector<ObjectMotion> object_motions_at(const Scene& scene, std::span<const Trajectory> bodies,
                                             const Trajectory& trajectory, std::size_t pose) {
     const double before = trajectory[pose > 0 ? pose - 1 : 0].t_s;
@@ -69,8 +70,8 @@ double swept_hz(const SonarConfig& config, double sound_speed_m_s) {
     return pulse_band(config.instrument.pulse, bin_m, sound_speed_m_s).sweep_hz;
 }
 
-/// Range shift by speed of a pulse that sweeps over B in T: sound whose frequency f is raised by
-/// 2 v f / c fits the pulse earlier by that over B / T if it sweeps up.
+/// Range shift over speed of a pulse that sweeps over B in T. Sound whose frequency f is raised by
+/// 2 v f / c fits an up-sweep earlier by this shift over B / T.
 double doppler_of(const SonarConfig& config, double sound_speed_m_s) {
     const PulseConfig& pulse = config.instrument.pulse;
     const double shift_s =
@@ -85,7 +86,7 @@ DopplerLoss doppler_loss_of(const SonarConfig& config, double sound_speed_m_s) {
     return {.band_s_per_m = hz_s_per_m / swept_hz(config, sound_speed_m_s)};
 }
 
-/// Adds what the speed of a target does to the pulse of this sonar.
+/// Sets the Doppler shift and loss of the sonar's pulse.
 void add_doppler(const SonarConfig& config, double sound_speed_m_s, PingMotion& motion) {
     const Sweep sweep = config.instrument.pulse.sweep;
     if (config.model != ModelKind::calibrated || sweep == Sweep::none) return;
@@ -102,8 +103,8 @@ void add_ping_motions(const Mission& mission, const Trajectory& trajectory, cons
         if (!sonar.config.moves_in_ping) continue;
         if (sonar.config.multipath.method != MultipathMethod::none) {
             throw InputError("sensor '" + sonar.config.name +
-                             "': multipath is made for a sonar that stands still in a ping; leave "
-                             "out multipath or moves_in_ping");
+                             "': multipath supports only a sonar at rest during a ping; leave out "
+                             "multipath or moves_in_ping");
         }
         std::vector<PingMotion> motions;
         for (std::size_t pose = 0; pose < trajectory.size(); ++pose)
@@ -126,8 +127,8 @@ void leave_out_glints(std::span<Sonar> sonars, Scene& scene) {
         sonar.settings.coherent = nullptr;
         scene.warnings.push_back(
             "sensors." + sonar.config.name +
-            ".moves_in_ping: the coherent echo of smooth faces (materials with roughness_m) is "
-            "made for a sonar at rest, so they scatter incoherently");
+            ".moves_in_ping: the coherent echo of smooth faces (materials with roughness_m) "
+            "supports only a sonar at rest, so they scatter incoherently");
     }
 }
 

@@ -11,7 +11,7 @@ namespace sonarsim {
 /// The length of a unit, m.
 double metres(LengthUnit unit);
 
-/// A file as the mission says it is read, not placed yet.
+/// A file with the mission's options for reading it, not placed yet.
 PlacedFile file_of(const std::filesystem::path& path, const MeshConfig& mesh,
                    const MissionPlace& place);
 PlacedFile file_of(const ObjectConfig& object);
@@ -21,7 +21,7 @@ PlacedFile file_of(const HeightmapConfig& map);
 /// "'tyre'", or "'tyre.stl'" for an object without a name.
 std::string title_of(const ObjectConfig& object);
 
-/// The farthest that a sonar of the mission sees, m.
+/// The greatest range of the mission's sonars, m.
 double farthest_range_m(const Mission& mission);
 
 }  // namespace sonarsim

@@ -18,7 +18,7 @@ Trajectory poses_of(const TrajectoryConfig& config);
 /// drawn for every ping, and with the movements of `vehicle.motion`.
 Trajectory vehicle_poses(const Mission& mission);
 
-/// The poses that the vehicle's navigation reports at true poses; empty when it reports the truth.
+/// The poses that the vehicle's navigation reports; empty if it reports the true ones.
 Trajectory navigation_poses(const Mission& mission, const Trajectory& truth);
 
 }  // namespace sonarsim

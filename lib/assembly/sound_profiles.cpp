@@ -24,8 +24,8 @@ struct Temperature {
     double celsius;
 };
 
-// Chosen: a mixed layer of 50 m over a thermocline is what mid latitudes have in winter, one of 8 m
-// what a shelf sea has in August. Below 100 m nothing changes but the pressure.
+// Chosen: mid latitudes in winter have a mixed layer of 50 m over a thermocline, a shelf sea in
+// August one of 8 m. Below 100 m only the pressure changes.
 std::vector<Temperature> temperatures(NamedProfile named, double celsius) {
     constexpr double deepest_m = 8000.0;
     switch (named) {
@@ -41,7 +41,7 @@ std::vector<Temperature> temperatures(NamedProfile named, double celsius) {
     }
 }
 
-/// The speed is not linear in temperature: nodes this close have it to 0.02 m/s.
+/// The speed is not linear in temperature; nodes at this distance keep the error below 0.02 m/s.
 constexpr double thermocline_step_m = 2.0;
 constexpr double deep_step_m = 500.0;
 
@@ -100,13 +100,14 @@ std::vector<ProfilePointConfig> points_of_file(const std::filesystem::path& file
     return points;
 }
 
-/// The places of the mission that know of straight sound alone.
+/// The mission's keys that require straight paths of sound.
 void refuse_straight_sound(const Mission& mission) {
     for (const SonarConfig& sensor : mission.sensors) {
         if (sensor.multipath.method == MultipathMethod::none) continue;
-        throw InputError("sensor '" + sensor.name +
-                         "': multipath goes straight, and water.profile bends sound; leave out "
-                         "one of the two");
+        throw InputError(
+            "sensor '" + sensor.name +
+            "': multipath needs straight paths, and water.profile bends sound; leave out "
+            "one of the two");
     }
 }
 
@@ -148,7 +149,7 @@ void warn_of_lost_glints(std::span<const Sonar> sonars, Scene& scene) {
     if (std::ranges::none_of(sonars, adds) || !coherent || coherent->plates.empty()) return;
     scene.warnings.push_back(
         "water.profile bends sound, and the coherent echo of smooth faces (materials with "
-        "roughness_m) is made for straight sound alone: they scatter incoherently. Leave out "
+        "roughness_m) needs straight paths: they scatter incoherently. Leave out "
         "roughness_m, or water.profile where bending does not matter");
 }
 

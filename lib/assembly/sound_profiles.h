@@ -12,12 +12,12 @@ namespace sonarsim {
 /// be read.
 SoundProfile sound_profile(const SoundProfileConfig& config, const Mission& mission);
 
-/// Gives the scene its profile of sound speed, and the sonars that by which they make soundings.
-/// InputError where the mission has something that goes straight.
+/// Sets the scene's profile of sound speed, and the profile by which the sonars compute soundings.
+/// InputError if the mission has a key that requires straight paths of sound.
 void add_sound_profiles(const Mission& mission, Scene& scene, std::span<Sonar> sonars);
 
-/// The engine alone samples small and smooth objects in water that bends sound. Adds a warning to
-/// the scene if that loses the coherent echo of smooth faces.
+/// In water that bends sound only the engine samples small and smooth objects. Adds a warning to
+/// the scene if this loses the coherent echo of smooth faces.
 void warn_of_lost_glints(std::span<const Sonar> sonars, Scene& scene);
 
 }  // namespace sonarsim

@@ -19,7 +19,7 @@ namespace {
 
 // These are chosen.
 constexpr int most_left_out = 16;
-constexpr double share_of_goal = 0.25;  // that thinning may take
+constexpr double share_of_goal = 0.25;  // that thinning may use
 constexpr std::size_t most_poses = 3;   // for each sonar; the lowest one is added
 
 std::vector<double> image_of(const HeightPatches& patches, const std::vector<std::size_t>& seen,
@@ -91,7 +91,7 @@ Thinning thin_heights(const PlacedFile& map, std::span<const Sonar> sonars,
                     });
                 const std::vector<double> whole = image_of(patches, seen, 1, part);
                 for (std::size_t k = 0; k < change.size() && !whole.empty(); ++k) {
-                    // A coarser grid than one that fails is not tried.
+                    // Grids coarser than one that fails are not tried.
                     if (change[k] > share_of_goal * relative_l1) break;
                     change[k] = std::max(
                         change[k], image_change(image_of(patches, seen, 2 << k, part), whole));

@@ -21,14 +21,14 @@ struct Thinning {
 /// soundings, no objects on the bottom and no multipath. It reads the map.
 bool may_be_thinned(const Mission& mission, const PlacedFile& map, SceneFiles& models);
 
-/// The second part of that.
+/// The second of these conditions.
 bool has_no_truth_of_heights(const Mission& mission);
 
 /// The greatest of 1, 2, 4, 8 and 16 for which every n-th row and column of a map is enough for the
-/// sonars: their images change by no more than a quarter of `relative_l1`. That is measured: rays
-/// see a part of each sonar's view from a few poses of the trajectory, one of them the lowest,
-/// once over all heights and once over those that are kept. The greatest change of these images is
-/// Thinning::error. A map with unknown heights keeps all. InputError as read_heights().
+/// sonars: their images change by no more than a quarter of `relative_l1`. The change is measured
+/// with rays over a part of each sonar's view from a few poses of the trajectory, one of them the
+/// lowest: once over all heights and once over those that are kept. The greatest change of these
+/// images is Thinning::error. A map with unknown heights keeps all. InputError as read_heights().
 Thinning thin_heights(const PlacedFile& map, std::span<const Sonar> sonars,
                       const Trajectory& vehicle, double relative_l1, ImageReader& images);
 

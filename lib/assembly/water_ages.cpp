@@ -14,7 +14,7 @@ namespace sonarsim {
 
 namespace {
 
-/// Ages by which the water's speckle grows older.
+/// The ages by which the water's speckle grows older.
 struct AgeScales {
     double per_s, per_m, per_rad;
 };
@@ -32,7 +32,7 @@ AgeScales age_scales(const Sonar& sonar, const WaterConfig& water) {
             .per_rad = 1.0 / width_rad};
 }
 
-/// Older water is independent all the same.
+/// Beyond this age the speckle is independent anyway.
 constexpr double most_step = 2.0;
 
 /// `to` is the later pose.

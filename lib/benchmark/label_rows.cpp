@@ -17,8 +17,8 @@ struct LabelKind {
     LabelRequest request;
 };
 
-/// The kinds by the names that output.labels has for them. Those that are found together share a
-/// row: `semantic` needs what `class` needs, `yolo` what `coco` needs.
+/// The kinds by the names that output.labels has for them. Labels that need the same computation
+/// share a row: `semantic` and `class`, `yolo` and `coco`.
 std::vector<LabelKind> label_kinds(const Bottom* bottom) {
     std::vector<LabelKind> kinds{{"instance", {.objects = true}},
                                  {"class", {.classes = true}},

@@ -81,7 +81,7 @@ std::vector<MultipathRow> measure_sonar(const Mission& mission, const PingSet& p
     const std::string& name = sonar.config.name;
     const std::vector<MultipathConfig> settings = multipath_settings(sonar.config.multipath);
     std::vector<MultipathTrial> trials{
-        trial_of(sonar, none, mission, pings)};  // then exact, the others
+        trial_of(sonar, none, mission, pings)};  // then the exact method, then the others
     for (const MultipathConfig& setting : settings)
         trials.push_back(trial_of(sonar, setting, mission, pings));
 

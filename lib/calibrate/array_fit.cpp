@@ -24,8 +24,8 @@ constexpr double most_wavelengths = 5000.0;
 constexpr double coarse_step = 0.05;
 constexpr double fine_step = 0.004;
 constexpr double fine_reach = 0.6;
-// The error that the model's interpolation between the columns of its grid leaves in a correlation:
-// the root mean square over eight drawn arrays.
+// The error of a correlation by the model's interpolation between the columns of its grid: the root
+// mean square over eight drawn arrays.
 constexpr double model_error = 0.002;
 // Chi^2 of one degree of freedom stays below it in 95 of 100 cases.
 constexpr double chi2_95 = 3.84;

@@ -12,11 +12,11 @@
 
 namespace sonarsim {
 
-/// Squared correlation of the complex amplitudes of two beams whose sines differ by `u`. Each
-/// element has noise of its own, and w(x) goes into both beams with the phases of their directions.
+/// Squared correlation of the complex amplitudes of two beams whose sines differ by `u`. The
+/// elements have independent noise, and w(x) enters both beams with the phases of their directions.
 /// So the correlation is the integral of w^2 exp(2 pi i u L x) over that of w^2, the Fourier
-/// transform of the squared weights; phase errors cancel. Speckle has the same: its scatterers are
-/// independent, and the overlap of two patterns is that transform as well.
+/// transform of the squared weights; phase errors cancel. Speckle has the same correlation: its
+/// scatterers are independent, and the overlap of two patterns is that transform, too.
 double beam_correlation(const LineArray& array, double u);
 
 /// The correlations of log powers 1 to patch_lags beams apart that an array has, the mean over all
@@ -29,14 +29,14 @@ std::array<double, patch_lags> predicted_beam_correlations(const LineArray& arra
 struct ArrayFit {
     Bounded width_deg;
     Bounded side_lobe_db;
-    bool taper_known = false;  ///< else only the two together are
+    bool taper_known = false;  ///< false: only width and taper together are known
 };
 
 /// The array with the least chi^2 = d' C^-1 d, d the measured correlations less its own and C their
 /// covariance. An interval has all widths, or all tapers, that some array within 3.84 of the least
 /// has (the profile of the likelihood; Wilks 1938). So a taper at the end of its range, or one that
-/// the width can stand in for, has a wide interval. Nothing for fewer than 24 units. The taper
-/// counts as known when its interval is narrower than 8 dB.
+/// the width can compensate, has a wide interval. Nothing for fewer than 24 units. The taper counts
+/// as known when its interval is narrower than 8 dB.
 std::optional<ArrayFit> fit_array(const BeamCorrelations& seen, const std::vector<double>& sines,
                                   const LogStatistics& statistics);
 

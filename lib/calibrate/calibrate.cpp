@@ -163,7 +163,7 @@ void calibrate_soundings(const SplitRecording& parts, const SonarConfig& start,
     };
 }
 
-/// Says so when the judged pings have other figures than the fitted ones: no instrument with
+/// Adds a note if the judged pings have other figures than the fitted ones: no instrument with
 /// constant numbers has both.
 void note_change(Calibration& out) {
     const auto changed =

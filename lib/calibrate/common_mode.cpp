@@ -15,7 +15,8 @@ namespace sonarsim {
 namespace {
 
 constexpr double db_of_neper_ahead = 4.342944819032518;
-// Beams stand out by so many times the spread of the others, and by 0.4 dB at least.
+// Beams stand out if they exceed the others by this many times their spread, and by at least 0.4
+// dB.
 constexpr double deviations_of_ahead = 4.0;
 constexpr double least_over_db = 0.4;
 // A side lobe and the null before it.
@@ -34,7 +35,7 @@ double excess_db(const Recording& recording, const LawFit& law, const NoiseFit& 
     const double full_value = full_value_of(recording);
     double sum = 0.0, count = 0.0;
     for (std::size_t b = 0; b < noise.used.size(); ++b) {
-        // An echo that stays is straight ahead as well.
+        // A constant echo is straight ahead as well.
         if (!noise.used[b].alone || weights[b] == 0.0) continue;
         const double level = noise.at(noise.used[b].range_m) / db_of_neper_ahead;
         for (const RecordedPing& ping : recording.pings) {
@@ -50,7 +51,7 @@ double excess_db(const Recording& recording, const LawFit& law, const NoiseFit& 
     return db_of_neper_ahead * sum / count;
 }
 
-/// The last beam in one direction before as many quiet ones as a gap has.
+/// The last beam in one direction before a gap of beams that do not stand out.
 int end_of(const std::vector<bool>& loud, int from, int step) {
     int last = from;
     for (int j = from; j >= 0 && j < std::ssize(loud) && std::abs(j - last) <= most_gap; j += step)
@@ -122,13 +123,13 @@ Bounded common_mode(const Recording& recording, const LawFit& law, const NoiseFi
     // An error of the law scales all levels.
     const Bounded& scale = law.companding == Companding::log ? law.dynamic_range_db : law.gamma;
     widen(over, over.value * scale.half_width() / scale.value);
-    // Half as strong as the noise of a beam is 1.8 dB more; less may be anything else.
+    // Common noise of half the noise of a beam adds 1.8 dB; a smaller excess may have other causes.
     if (!(over.low >= 0.5)) return none_seen;
     const auto shared = [&](double over_db, double width) {
         return db_of_power(power_of_db(over_db) - 1.0) -
                db_of_power(pattern_power(beam, width, sines[ahead]));
     };
-    // A narrower beam has less of it off its axis.
+    // A narrower beam receives less of it off its axis.
     return {shared(over.value, width_deg.value), shared(over.low, width_deg.high),
             shared(over.high, width_deg.low)};
 }

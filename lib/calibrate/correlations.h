@@ -16,8 +16,7 @@ struct Correlations {
 };
 
 /// The correlations of some patches, weighted by place: one less structure function by variance.
-/// The variance is that of values half a patch apart, so a correlation that lasts longer is not
-/// seen.
+/// The variance is that of values half a patch apart, so longer correlations do not show.
 Correlations correlations_of(const std::vector<PatchMoments>& patches,
                              const std::vector<std::size_t>& chosen,
                              const std::vector<double>& weights);
@@ -29,9 +28,9 @@ struct BeamCorrelations {
     int units = 0;  ///< independent ones
 };
 
-/// The covariance is that of a ratio of sums over independent units: with the structure S and the
-/// variance V of a unit, r = 1 - sum S / sum V moves by ((1 - r) V - S) / sum V with it. Noise is
-/// new in every ping, so each patch is a unit; of echoes, which may stay, each place is.
+/// The covariance is that of a ratio of sums over independent units: a unit with the structure S
+/// and the variance V changes r = 1 - sum S / sum V by ((1 - r) V - S) / sum V. Noise is new in
+/// every ping, so each patch is a unit. Echoes may be constant, so for them each place is a unit.
 BeamCorrelations beam_correlations(const std::vector<PatchMoments>& patches,
                                    const std::vector<std::size_t>& chosen, bool new_in_each_ping);
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t least_patches_of_offset = 24;
 constexpr double least_mean_of_offset = 6.0;
-// Patches whose means differ by less than this share (standard deviation) tell no line.
+// Patches whose means differ by less than this share (standard deviation) do not determine a line.
 constexpr double least_spread_of_means = 0.1;
 // The variance that rounding adds to values of whole steps.
 constexpr double rounding = 1.0 / 12.0;

@@ -23,27 +23,27 @@ struct StartInstrument {
     double absorption_db_per_m = 0.0;
 };
 
-/// One key of `instrument` that the pings give.
+/// One key of `instrument` that the pings determine.
 struct KeyEstimate {
     std::string key;  ///< as "receiver.gamma"
     Bounded number;
     std::string word;  ///< in place of the number: "log"
 };
 
-/// The part of an instrument that its images or records tell.
+/// The part of an instrument that its images or records determine.
 struct ImageFit {
     LawFit law;
     std::optional<Bounded> offset;  ///< the one of a power law
     std::optional<NoiseFit> noise;
     std::optional<Bounded> pulse_bins;
-    bool pulse_of_echoes = false;  ///< there was no noise to take it from
+    bool pulse_of_echoes = false;  ///< fitted to echoes, without noise
     std::optional<ArrayFit> array;
     std::optional<TextureFit> texture;  ///< the bottom's
-    bool law_of_echoes = false;         ///< there was no noise to take the law from
+    bool law_of_echoes = false;         ///< fitted to echoes, without noise
     InstrumentConfig config;            ///< the start with what was fitted
     double noise_re_full_scale_db = 0.0;
     std::vector<KeyEstimate> estimates;
-    std::vector<std::string> notes;  ///< says what the pings do not tell, and why
+    std::vector<std::string> notes;  ///< reasons why the pings do not determine a number
 };
 
 }  // namespace sonarsim

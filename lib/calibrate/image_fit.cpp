@@ -128,7 +128,7 @@ void set_texture(const Recording& recording, ImageFit& fit) {
 /// The texture of echoes, and their pulse without it.
 void fit_texture_of(const Recording& recording, const PatchClasses& classes,
                     const std::vector<double>& sines, ImageFit& fit) {
-    // With a pulse and a law of noise the texture is the scene's alone.
+    // If pulse and law are those of noise, the texture is that of the scene alone.
     if (!fit.pulse_bins || !fit.noise || !fit.pulse_of_echoes) return;
     const BeamConfig& beam = fit.config.beam;
     std::array<double, patch_lags> of_beams{};
@@ -142,7 +142,7 @@ void fit_texture_of(const Recording& recording, const PatchClasses& classes,
     set_texture(recording, fit);
 }
 
-/// The patches that tell pulse and array, and what they tell.
+/// The patches that determine pulse and array, and their fit.
 void fit_pulse_and_array(const Recording& recording, ImageFit& fit) {
     const PatchClasses classes = classified(recording, fit.law, fit.noise);
     fit.pulse_of_echoes = classes.noise.size() < least_noise_patches;
@@ -157,8 +157,8 @@ void fit_pulse_and_array(const Recording& recording, ImageFit& fit) {
     set_pulse(recording.range_step_m, fit);
 }
 
-/// Levels by the noise, and the noise that all elements share. Only differences of levels show, so
-/// noise_db is that of the start and full_scale_db is fitted.
+/// Levels by the noise, and the noise that all elements share. Pings show only differences of
+/// levels, so noise_db is that of the start and full_scale_db is fitted.
 void fit_levels(const Recording& recording, const StartInstrument& start, ImageFit& fit) {
     ReceiverConfig& receiver = fit.config.receiver;
     const double noise_db = start.levels.noise_db;

@@ -15,8 +15,8 @@ namespace {
 constexpr std::size_t least_patches_of_law = 24;
 constexpr double most_offset = 0.3;
 
-/// The places of patches that are noise, for a second fit of the law: noise is Rayleigh's for sure,
-/// and an even patch of echoes may still hold a texture.
+/// The places of noise patches, for a second fit of the law: noise is surely Rayleigh distributed,
+/// but an even patch of echoes may hold a texture.
 std::vector<bool> noise_places(const PatchClasses& classes) {
     std::vector<bool> out;
     if (classes.noise.size() < least_patches_of_law) return out;
@@ -26,7 +26,7 @@ std::vector<bool> noise_places(const PatchClasses& classes) {
     return out;
 }
 
-/// The places where hardly any value is 0. A patch must not be chosen by its own zeros.
+/// The places with hardly any values of 0. A patch must not be chosen by its own zeros.
 std::vector<bool> whole_places(const PatchClasses& classes, const LawFit& law, double full_value) {
     const auto count = static_cast<std::size_t>(classes.places);
     std::vector<double> sums(count), counts(count);
@@ -62,9 +62,9 @@ std::optional<Bounded> chosen_offset(const Recording& recording, double of_start
     return seen;
 }
 
-/// Noise has one shape at all levels, which a texture and several samples deny to echoes. So its
-/// offset counts where the intervals of the two do not meet, else the one of all patches, which is
-/// the better known.
+/// Noise has one shape at all levels; echoes with a texture or several samples do not. So if the
+/// intervals of the two offsets do not meet, that of noise counts, else that of all patches, which
+/// is more accurate.
 void prefer_offset_of_noise(const Recording& recording, const std::vector<bool>& places,
                             ImageFit& fit) {
     const std::optional<Bounded> of_noise =
@@ -161,7 +161,7 @@ void set_offset(ImageFit& fit) {
     } else {
         fit.config.receiver.offset = fit.offset->value;
         fit.estimates.push_back({"receiver.offset", *fit.offset, ""});
-        // A greater offset makes all values greater, and gamma smaller.
+        // A greater offset raises all values and lowers gamma.
         const double per_offset = fit.law.gamma.value / fit.law.mean_share;
         const Bounded statistical = fit.law.gamma;
         const auto both = [](double one, double other) {
@@ -210,7 +210,7 @@ void fit_law_of_image(const Recording& recording, const StartInstrument& start, 
     const LogStatistics statistics = second_statistics(recording, classes, fit);
     if (fit.offset && !fit.law_of_echoes) prefer_offset_of_noise(recording, places, fit);
     if (fit.law_of_echoes && !fit.noise) places = whole_places(classes, fit.law, full_value);
-    // The first law saw all levels, noise may have one.
+    // The first law was fitted to all levels; noise may have only one.
     fit.law = fit_law(recording.pings, full_value, statistics, places,
                       fit.offset ? fit.offset->value : receiver.offset, fit.law.companding);
     fit.law.slope = slope;
@@ -227,7 +227,7 @@ void fit_law_of_image(const Recording& recording, const StartInstrument& start, 
 
 void set_law_of_image(const Recording& recording, const StartInstrument& start, ImageFit& fit) {
     if (fit.texture && fit.law_of_echoes) {
-        // The law took the variance of the texture for that of speckle.
+        // The law attributed the variance of the texture to speckle.
         const double factor = std::sqrt(1.0 - std::min(fit.texture->share.value, 0.9));
         const double error = 0.5 * fit.texture->share.half_width() / (factor * factor);
         for (Bounded* const scale : {&fit.law.gamma, &fit.law.dynamic_range_db}) {

@@ -7,13 +7,13 @@ namespace sonarsim {
 /// Patches that a fit of noise needs.
 inline constexpr std::size_t least_noise_patches = 24;
 
-/// The patches that tell pulse and array: noise, or echoes where there is too little of it.
+/// The patches that determine pulse and array: noise, or echoes if there is too little noise.
 const std::vector<std::size_t>& chosen_patches(const PatchClasses& classes, const ImageFit& fit);
 
 /// Fits offset, law and looks, and finds the noise.
 void fit_law_of_image(const Recording& recording, const StartInstrument& start, ImageFit& fit);
 
-/// Takes the texture out of the law, and sets offset, bits and law.
+/// Removes the texture's effect from the law, and sets offset, bits and law.
 void set_law_of_image(const Recording& recording, const StartInstrument& start, ImageFit& fit);
 
 }  // namespace sonarsim

@@ -141,7 +141,7 @@ void add_noise_levels(Judged& judged, const std::vector<NoiseBlock>& measured) {
         for (std::size_t k = third * rows.size() / 3; k < (third + 1) * rows.size() / 3; ++k) {
             const auto same = [&](const NoiseBlock& block) { return block.row == rows[k].row; };
             const auto at = std::find_if(measured.begin(), measured.end(), same);
-            // Noise below an echo that stays takes two pings to be seen.
+            // Noise below a constant echo shows only in two pings.
             if (at == measured.end() || !rows[k].alone) continue;
             levels.push_back(at->level_db);
             predicted += judged.noise.at(at->range_m);

@@ -21,10 +21,10 @@ struct Figure {
     bool agrees() const;
 };
 
-/// The figures of pings, and what an instrument predicts for them by closed forms: distribution of
-/// the amplitude under the instrument's own law, correlations along range and beams of noise and of
-/// echoes, level of the noise by range. `of_fit` says which blocks and beams count as noise.
-/// Figures that the pings do not have are left out.
+/// The figures of pings, and an instrument's predictions of them by closed forms: distribution of
+/// the amplitude under the instrument's own law, correlations of noise and of echoes along range
+/// and beams, level of the noise by range. `of_fit` defines the blocks and beams that count as
+/// noise. Figures that the pings do not have are left out.
 std::vector<Figure> figures_of(const Recording& recording, const InstrumentConfig& instrument,
                                double noise_re_full_scale_db, double absorption_db_per_m,
                                const std::optional<NoiseFit>& of_fit);

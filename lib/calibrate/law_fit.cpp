@@ -14,14 +14,14 @@ constexpr double db_of_neper = 4.342944819032518;  // for powers: 10 / ln 10
 constexpr std::size_t least_patches = 8;
 // Between the laws' slopes of 1 and 0.
 constexpr double power_law_slope = 0.5;
-// Patches of about one level do not tell the slope.
+// Patches of about one level do not determine the slope.
 constexpr double least_spread_of_levels = 0.1;
 // The error that a finite patch, its trend and the steps of the values leave in a law.
 constexpr double least_error = 0.01;
 
 // Noise whose least powers, a share p, become 0 lacks p (0.8 - 2 ln p) of the variance pi^2 / 6 of
-// its logarithm: half a per cent at this share. A patch must not be chosen by its own zeros, for
-// that would cut the tail off as well.
+// its logarithm: half a per cent at this share. A patch must not be chosen by its own zeros, since
+// that would truncate the tail, too.
 constexpr double most_cut_off = 5e-4;
 
 double log_of_value(double value, double step) {
@@ -87,7 +87,7 @@ double spread_of_levels(const LawPatches& patches) {
     return std::sqrt(std::max(square / n - sum * sum / (n * n), 0.0));
 }
 
-/// The share of the variance that a third of a patch leaves, along range.
+/// The correlation of logarithms a third of a patch apart, along range.
 double lasting_correlation(const LawPatches& patches) {
     double structure = 0.0, variance = 0.0;
     for (const std::size_t k : patches.even) {
@@ -126,7 +126,7 @@ LawPatches law_patches(const std::vector<RecordedPing>& pings, double full_value
     };
     out.values = moments([](double v, int) { return v; });
     out.logs = moments([&](double v, int) { return log_of_value(v + offset * full_value, step); });
-    // Evenness is that of the logarithms, in which no law makes loud patches uneven.
+    // Evenness is measured in logarithms, since there no law makes strong patches uneven.
     out.even = speckle_patches(out.logs, full_value > 15.0 ? 6.0 : 0.0);
     out.places = speckle_grid(pings.front()).places();
     if (out.even.size() < least_patches) {

@@ -11,10 +11,10 @@
 
 namespace sonarsim {
 
-/// The companding law as the values of homogeneous speckle tell it. There the amplitude A has
-/// Rayleigh's distribution at every level. With v = M A^g the logarithm of v has the same variance
-/// at every level, (g / 2)^2 times that of ln P, and v a standard deviation proportional to
-/// its mean. With v = M (1 + 20 log10(A) / range) v itself has the same variance at every level.
+/// The companding law by the values of homogeneous speckle, whose amplitude A is Rayleigh
+/// distributed at every level. With v = M A^g the logarithm of v has the same variance at every
+/// level, (g / 2)^2 times that of ln P, and v a standard deviation proportional to its mean. With v
+/// = M (1 + 20 log10(A) / range) v itself has the same variance at every level.
 struct LawFit {
     Companding companding = Companding::gamma;
     Bounded gamma;             ///< for `gamma` and `linear`
@@ -36,7 +36,7 @@ struct LawFit {
     bool cuts_off(double mean_power, double full_value) const;
 };
 
-/// The law that an instrument is said to have.
+/// The law in an instrument's configuration.
 LawFit stated_law(const ReceiverConfig& receiver, const LogStatistics& statistics);
 
 /// The largest value that pings can have: the recording's, else the largest one that they have.

@@ -12,12 +12,12 @@ namespace {
 
 constexpr double db_of_neper_power = 4.342944819032518;
 constexpr int groups_of_beams = 8;
-// A block on the law is within so many dB of it.
+// A block is on the law if it is within this many dB of it.
 constexpr double near_db = 0.8;
 constexpr std::size_t least_blocks = 6;
 constexpr double least_share = 0.12;
-// The level of speckle is known to so many dB at best: the trend within a block and the law's
-// error.
+// The level of speckle is accurate to this many dB at best, by the trend within a block and the
+// law's error.
 constexpr double least_level_db = 0.1;
 
 /// The sums over the values of one block of one ping and the next one.
@@ -95,7 +95,7 @@ NoiseBlock block_of(const BlockSums& sums, const LawFit& law, int row, double ra
     out.level_db = db_of_neper_power * (mean - law.statistics.mean);
     out.even = sums.zeros < 0.003 * sums.count;
     if (sums.pairs > 0.0) {
-        // Log powers that have nothing in common differ by twice their variance.
+        // The difference of independent log powers has twice their variance.
         const double kept = 1.0 - 0.5 * sums.log_difference / sums.pairs / expected;
         const double power = sums.powers / sums.pairs;
         const double half = 0.5 * sums.power_difference / sums.pairs;
@@ -196,7 +196,7 @@ Candidate lowest_law(const std::vector<NoiseBlock>& blocks, double absorption_db
     for (const double from_m : starts_of(blocks)) {
         for (int log_factor = 0; log_factor <= 60; ++log_factor) {
             Candidate here = best_level(blocks, absorption_db_per_m, {1.0 * log_factor, from_m});
-            // A start of its own has to be worth three blocks.
+            // A start above 0 must gain at least three blocks.
             if (from_m > 0.0) here.score -= 3.0;
             if (here.score > best.score) best = here;
         }

@@ -15,7 +15,7 @@ struct NoiseBlock {
     double range_m = 0.0;
     double level_db = 0.0;  ///< re full scale
     bool even = false;      ///< beams and pings have one level, and no value is 0
-    bool alone = false;     ///< nothing of it stays from ping to ping, so there is no echo in it
+    bool alone = false;     ///< no part is constant from ping to ping, so it has no echo
     bool whole = false;     ///< hardly a value is 0
 };
 
@@ -29,10 +29,10 @@ struct AheadBeams {
     bool holds(int beam) const { return first <= beam && beam < end; }
 };
 
-/// The part that changes from ping to ping, by range. Noise N is new in every ping, and an echo of
-/// a still scene is not. With M the mean of the powers A and B of a place in two pings, the mean of
-/// (A - B)^2 is 2 (2 M N - N^2), for one look at one sample. Where pings have nothing in common, N
-/// is M. The beams `ahead` do not count.
+/// The part that changes from ping to ping, by range. Noise N is new in every ping; an echo of a
+/// scene at rest is constant. With M the mean of the powers A and B of a place in two pings, the
+/// mean of (A - B)^2 is 2 (2 M N - N^2), for one look at one sample. If pings are independent, N is
+/// M. The beams `ahead` do not count.
 std::vector<NoiseBlock> noise_blocks(const Recording& recording, const LawFit& law,
                                      const AheadBeams& ahead = {});
 
@@ -40,7 +40,7 @@ std::vector<NoiseBlock> noise_blocks(const Recording& recording, const LawFit& l
 struct NoiseFit {
     Bounded level_db;  ///< noise less full scale, extrapolated to 1 m without absorption
     Bounded tvg_log;
-    Bounded tvg_from_m;            ///< 0 where the pings do not tell it
+    Bounded tvg_from_m;            ///< 0 if the pings do not determine it
     std::vector<NoiseBlock> used;  ///< the blocks that lie on it
     Bounded common_mode_db;        ///< re the noise of a beam; value below -50: none seen
     AheadBeams ahead;              ///< the beams that do not count
@@ -49,8 +49,8 @@ struct NoiseFit {
     double at(double range_m) const;
 };
 
-/// The lowest law of this form on which many blocks lie, for echoes only add to noise. Nothing when
-/// no such law holds at least 6 blocks and an eighth of all.
+/// The lowest law of this form on which many blocks lie, since echoes only add to noise. Nothing
+/// when no such law holds at least 6 blocks and an eighth of all.
 std::optional<NoiseFit> fit_noise(const std::vector<NoiseBlock>& blocks,
                                   double absorption_db_per_m);
 

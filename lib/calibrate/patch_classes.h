@@ -17,9 +17,9 @@ struct PatchClasses {
     int places = 0;
 };
 
-/// Patches whose rows are all blocks of `noise` without echoes, and with hardly a value of 0, are
-/// noise, without those straight ahead. Even patches 6 dB above it are echoes; without noise, all
-/// even patches are.
+/// Patches are noise if all their rows are blocks of `noise` without echoes and with hardly any
+/// values of 0, except for those straight ahead. Even patches 6 dB above it are echoes; without
+/// noise, all even patches are.
 PatchClasses classified(const Recording& recording, const LawFit& law,
                         const std::optional<NoiseFit>& noise);
 

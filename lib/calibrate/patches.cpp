@@ -8,7 +8,8 @@ namespace sonarsim {
 
 namespace {
 
-// Values that a patch of speckle may have at either end of the scale. Each pulls at the moments.
+// The values of a patch of speckle that may lie at either end of the scale. Each biases the
+// moments.
 constexpr double most_at_an_end = 0.003;
 
 /// The scaled values of a patch.
@@ -22,7 +23,7 @@ struct PatchField {
     }
 };
 
-/// Half the mean square difference of values so many rows and beams apart.
+/// Half the mean square difference of values that lie `rows` and `beams` apart.
 double structure(const PatchField& field, int rows, int beams) {
     if (rows >= field.rows || beams >= field.beams) return std::numeric_limits<double>::quiet_NaN();
     double sum = 0.0;

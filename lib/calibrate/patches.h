@@ -9,7 +9,7 @@
 
 namespace sonarsim {
 
-/// Structure functions reach so many bins and beams.
+/// The greatest lag of structure functions, in bins and beams.
 inline constexpr int patch_lags = 8;
 
 /// The moments of one patch of one ping. They come from differences of values of the patch, so the

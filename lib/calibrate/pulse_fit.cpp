@@ -17,7 +17,8 @@ constexpr int table_steps = 149;    // steps of 0.05 bins
 constexpr int steps_of_drawn = 75;  // steps of 0.1 bins
 // The error that taps of whole bins leave in a pulse, as a share of it.
 constexpr double least_half_width = 0.01;
-// The draws for several samples err by 0.005 in a correlation, which changes by 0.25 with a bin.
+// The draws for several samples have an error of 0.005 in a correlation, which changes by 0.25 for
+// a bin of width.
 constexpr double least_half_width_of_drawn = 0.025;
 
 using Lags = std::array<double, patch_lags>;
@@ -87,7 +88,7 @@ std::array<double, patch_lags> PulseModel::correlations(double resolution_bins) 
 
 PulseTable pulse_table(const PulseModel& model) {
     PulseTable out;
-    // Drawn rows take longer: their steps are coarser.
+    // Drawn rows take longer, so their steps are coarser.
     const int steps = model.receiver.samples > 1 ? steps_of_drawn : table_steps;
     for (int k = 0; k < steps; ++k) {
         out.bins.push_back(shortest_bins + (longest_bins - shortest_bins) * k / (steps - 1));

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int least_soundings = 100;
 constexpr std::size_t least_angles = 6;
-// A standard deviation is so many times the median size of normal numbers.
+// The standard deviation of normal numbers over the median of their sizes.
 constexpr double deviation_of_median = 1.4826;
 
 struct Sums {

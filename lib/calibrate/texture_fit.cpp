@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t least_echo_patches = 24;
 constexpr double errors_off_zero = 3.3;
 constexpr int edges = 24;
-// A texture that leaves more than this of a correlation explains nothing.
+// A texture that leaves more than this of a correlation unexplained is rejected.
 constexpr double most_left = 0.05;
 constexpr double half_patch = 12.0;  // bins
 
@@ -108,7 +108,7 @@ std::optional<TextureFit> fit_texture(const EchoPatches& echoes, const PulseMode
     if (classes.echoes.size() < least_echo_patches) return {};
     const PulseTable pulses = pulse_table(model);
     const bool has_beams = echoes.beam_step_m > 0.0;
-    // The variance is that of values half a patch apart, which longer squares would share.
+    // The variance is that of values half a patch apart, which larger squares would share.
     const double least_m = echoes.range_step_m;
     const double most_m = half_patch * echoes.range_step_m;
     const double count = has_beams ? 2.0 * patch_lags : 1.0 * patch_lags;

@@ -24,15 +24,15 @@ LineArray receiving_array(const BeamConfig& beam) {
     return array;
 }
 
-/// Adds the first two floats of `values`. One place at a time: neighbouring echoes meet in places,
-/// and a processor waits where it reads half of what it has just written.
+/// Adds the first two floats of `values`. One cell at a time: neighbouring echoes share cells, and
+/// a processor waits if it reads half of a value that it has just written.
 void add_two(float* to, __m128 values) {
     auto* const place = reinterpret_cast<__m128i*>(to);
     const __m128 before = _mm_castsi128_ps(_mm_loadl_epi64(place));
     _mm_storel_epi64(place, _mm_castps_si128(_mm_add_ps(before, values)));
 }
 
-/// The places in the grid that the echoes of a block go to, and their shares in the next bin and
+/// The cells of the grid that receive the echoes of a block, and their shares in the next bin and
 /// the next column.
 struct Targets {
     PatchBlock::Array<std::int32_t> place;
@@ -50,7 +50,7 @@ struct Targets {
         }
     }
 
-    /// Adds (a, b, a, b) to the four places about echo k, a and b being the two floats of one.
+    /// Adds (a, b, a, b) to the four cells around echo k; a and b are the two floats of one.
     void add_shared(int k, __m128 value, float* first, std::size_t stride) const {
         const __m128 rows =
             _mm_fmadd_ps(_mm_set1_ps(next_row[k]), _mm_setr_ps(-1.0F, -1.0F, 1.0F, 1.0F),

@@ -10,15 +10,15 @@
 
 namespace sonarsim {
 
-/// The beams that a line array forms of what it hears. Its point spread is that of the far field at
-/// every range: the instrument is taken to focus.
+/// The beams that a line array forms. Its point spread is that of the far field at every range: the
+/// instrument is taken to focus.
 struct ArrayBeams {
     Beamformer amplitudes, powers;
     ElementNoise noise;
 };
 
-/// `beam_sines`: of the azimuths that the beams look at. `noise`: its power in a beam;
-/// `common_mode`: of what all elements share, in the beam straight ahead; `taps`: of the noise's
+/// `beam_sines`: the sines of the beams' azimuths. `noise`: its power in a beam. `common_mode`: the
+/// power of the noise that all elements share, in the beam straight ahead. `taps`: the noise's
 /// filter along range.
 ArrayBeams array_beams(const BeamConfig& beam, const std::vector<double>& beam_sines, double noise,
                        double common_mode, const std::vector<float>& taps);
@@ -36,18 +36,18 @@ inline float scalloping_gain(const ArrayBeams& beams) {
     return beams.amplitudes.scalloping_gain();
 }
 
-/// Finds the columns of echoes. What lies outside the grid loses its power; returns how many do.
+/// Finds the columns of echoes. Echoes outside the grid get the power 0; returns their number.
 std::uint64_t find_columns(const ArrayBeams& beams, const PatchBlock& pieces, PointEchoes& echoes);
 
-/// Adds powers to the real parts of the grid, shared between the four places around each echo.
+/// Adds powers to the real parts of the grid, shared between the four cells around each echo.
 void add_powers(const ArrayBeams& beams, const PatchBlock& pieces, const PointEchoes& echoes,
                 EchoGrid& grid);
 /// The same for complex amplitudes.
 void add_amplitudes(const ArrayBeams& beams, const PatchBlock& pieces, const PointEchoes& echoes,
                     const Amplitudes& amplitudes, EchoGrid& grid);
 
-/// Adds the powers of echoes that come back from other places than they were sent to. The columns
-/// and powers are those of `back`.
+/// Adds the powers of echoes that return from another place than they were sent to. The columns and
+/// powers are those of `back`.
 inline void add_bistatic_powers(const ArrayBeams& beams, const PathEndpoint& /*out*/,
                                 const PathEndpoint& back, EchoGrid& grid) {
     add_powers(beams, back.places, back.echoes, grid);

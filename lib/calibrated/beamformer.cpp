@@ -14,10 +14,10 @@ namespace sonarsim {
 
 namespace {
 
-// Columns outside the outer beams: for echoes that lie between a beam and the edge of the view, and
-// for what an outer beam is interpolated from.
+// Columns outside the outer beams: for echoes between a beam and the edge of the view, and for the
+// interpolation of an outer beam.
 constexpr int margin = 5;
-// Free columns behind the last one, so that an outer beam does not show at the other side.
+// Free columns behind the last one, so that an outer beam does not wrap to the other side.
 constexpr int gap = 12;
 
 /// The share of [at - 1/2, at + 1/2] steps that lies within [-half, half] steps.
@@ -35,7 +35,7 @@ Complexes element_weights(const LineArray& array, double elements) {
     Complexes out;
     for (int k = -reach; k <= reach; ++k) {
         const double share = covered(k, 0.5 * elements);
-        // The weight of an element at the end is that of the part which lies within the aperture.
+        // An element at the end has the weight of its part within the aperture.
         const double x = std::clamp(k / elements, -0.5, 0.5);
         out.push_back(array.weight(x) * (share / elements));
     }
@@ -43,7 +43,7 @@ Complexes element_weights(const LineArray& array, double elements) {
 }
 
 /// Applies the errors of the array's elements. Their mean side lobe is their variance over their
-/// number, so that the errors of more or fewer samples of the aperture have more or less variance.
+/// number, so the variance of the errors is scaled to the number of samples of the aperture.
 void add_element_errors(const LineArray& array, const ElementsConfig& elements, double samples,
                         Complexes& weights) {
     if (!elements.exist()) return;
@@ -82,7 +82,7 @@ double window(double x) {
     return bessel(shape * std::sqrt(std::max(1.0 - x * x, 0.0))) / bessel(shape);
 }
 
-/// The complex numbers of 8 bins of a column, apart.
+/// The complex numbers of 8 bins of a column: real parts and imaginary parts.
 void load_bins(const float* bins, ComplexLanes& out) {
     const __m256 low = _mm256_loadu_ps(bins);
     const __m256 high = _mm256_loadu_ps(bins + lanes_at_once);
@@ -121,7 +121,7 @@ SineGrid sine_grid(const LineArray& array, const std::vector<double>& beam_sines
     const auto beams = static_cast<int>(beam_sines.size());
     SineGrid grid;
     grid.step = 1.0 / (3.0 * array.wavelengths);
-    // Beams that are even in sine lie on columns, where these are fine enough.
+    // Equally spaced beams lie on columns, if these are fine enough.
     const double spacing = beams > 1 ? (high - low) / (beams - 1) : 0.0;
     bool even = beams > 1;
     for (int j = 0; j < beams; ++j)
@@ -146,7 +146,7 @@ Beamformer::Beamformer(const LineArray& array, const std::vector<double>& beam_s
     add_element_errors(array, element_errors, elements, weights);
     if (powers) {
         weights = correlated(weights);
-        // The transform holds no more elements than its size.
+        // The transform has at most as many elements as its size.
         const int excess = (static_cast<int>(weights.size()) - size + 1) / 2;
         if (excess > 0) weights = Complexes(weights.begin() + excess, weights.end() - excess);
     }
@@ -156,7 +156,8 @@ Beamformer::Beamformer(const LineArray& array, const std::vector<double>& beam_s
     double between = 0.0;
     double noise = 0.0;
     for (int k = -reach; k <= reach; ++k) {
-        // An echo between two columns is shared by both: the triangle's transform is undone.
+        // An echo between two columns is shared by both, which multiplies by a triangle's
+        // transform; the weight undoes it.
         const double triangle = sinc(static_cast<double>(k) / size);
         const std::complex<double> weight = weights[k + reach] / (triangle * triangle);
         const SinCos turn = sincos(-2.0 * pi * k * ahead / size);
@@ -171,7 +172,7 @@ Beamformer::Beamformer(const LineArray& array, const std::vector<double>& beam_s
         between += std::norm(weight) * (2.0 + sincos(2.0 * pi * k / size).cos) / 3.0;
     }
     scalloping_gain_ = static_cast<float>(between / in_columns);
-    // The power of noise in a beam is the sum over elements of both parts.
+    // The power of noise in a beam is the sum over elements and both parts.
     unit_sigma_ = static_cast<float>(std::sqrt(0.5 / noise));
 
     bool on_columns = true;

@@ -24,9 +24,9 @@ struct ElementNoiseOfPing {
     FilteredNoise drawn;
 };
 
-/// Turns what arrives at a line array into beams. A grid of sines is the array's aperture seen
-/// through a Fourier transform: one value per element, each to be weighted, its noise to be added,
-/// and transformed back; beams between the columns of the grid are interpolated.
+/// Forms the beams of a line array. The Fourier transform of a grid of sines is the signal over the
+/// array's aperture, one value per element. Each is weighted, its noise is added, and it is
+/// transformed back. Beams between the columns of the grid are interpolated.
 class Beamformer {
   public:
     /// `beam_sines` are the sines of the beams' middles. `powers`: the grid holds powers, and the
@@ -39,7 +39,7 @@ class Beamformer {
     int elements() const { return static_cast<int>(weights_.size()); }
     /// Scalloping correction: mean power over positions between two columns / power in a column.
     float scalloping_gain() const { return scalloping_gain_; }
-    /// The sigma of the elements that makes a noise of power 1 in a beam.
+    /// The sigma of the elements for a noise of power 1 in a beam.
     float element_sigma_of_unit() const { return unit_sigma_; }
 
     struct Scratch {

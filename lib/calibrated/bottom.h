@@ -20,7 +20,7 @@ struct Backscatter {
     /// [AngularTable::size] The parts D and K of sigma of a sea bed; empty: the above holds.
     std::vector<float> diffuse, specular;
 
-    /// sigma where `sine` is that of the grazing angle, v . n. By Lambert's rule and facets it is
+    /// sigma at the sine of the grazing angle, v . n. By Lambert's rule and facets it is
     ///
     ///     mu sin^2 + R / (8 pi s^2 sin^4) exp(-1 / (2 s^2 tan^2))
     ///
@@ -29,18 +29,17 @@ struct Backscatter {
     /// "High-Frequency Seafloor Acoustics", Springer 2007, chapter 13). A sea bed has D + K.
     float at(float sine) const;
 
-    /// sigma of sound that comes and goes at grazing angles of these sines, and whose facets face
-    /// halfway between the two directions, v . n of which is `half`:
+    /// sigma for incident and scattered sound at grazing angles of these sines. Its facets face
+    /// halfway between the two directions; `half` is v . n of that direction:
     ///
     ///     mu sin_in sin_out + R / (8 pi s^2 half^4) exp(-(1 - half^2) / (2 s^2 half^2))
     ///
-    /// A sea bed has sqrt(D(sine_in) D(sine_out)) + K(half). Both ways along one direction it is
-    /// at(sine).
+    /// A sea bed has sqrt(D(sine_in) D(sine_out)) + K(half). For backscatter it is at(sine).
     float between(float sine_in, float sine_out, float half) const;
 };
 
-/// Values by the sine of the grazing angle. They are dense where the Kirchhoff integral is steep,
-/// near normal incidence: entry k has the sine 1 - (k / steps)^2.
+/// Values by the sine of the grazing angle. They are dense near normal incidence, where the
+/// Kirchhoff integral is steep: entry k has the sine 1 - (k / steps)^2.
 struct AngularTable {
     static constexpr int steps = 1024;
     static constexpr int size = steps + 2;  ///< the last two are the same, for interpolation
@@ -75,7 +74,7 @@ std::vector<float> slopes_of(std::span<const Material> materials);
 Backscatter backscatter(double lambert_db, double reflection, double slope_rms);
 Backscatter backscatter(const SeafloorScattering& sea_bed);
 
-/// `exp_neg` is 0 from here on. Facets need no more: a power of 1e-19 is left.
+/// `exp_neg` is 0 from here on. This suffices for facets: a power of 1e-19 is left.
 inline constexpr float fades_at = 43.0F;
 /// The same for absorption, which a gain may compensate: the least power that floats hold.
 inline constexpr float least_loss = 87.0F;

@@ -11,8 +11,8 @@ namespace sonarsim {
 
 namespace {
 
-// Head-on a resolution cell has no end on the surface: its length is taken to be this many times
-// that of the pulse at the most. With more, objects of a few centimetres would hold few scatterers.
+// The greatest length of a resolution cell on the surface, in pulse lengths; at normal incidence it
+// is unbounded. With more, objects of a few centimetres would hold few scatterers.
 constexpr float longest_on_surface = 4.0F;
 
 template <class T>
@@ -27,7 +27,7 @@ struct Vectors {
         y[k] = v.y();
         z[k] = v.z();
     }
-    /// Turned into the world.
+    /// A vector rotated into the world.
     void turn(const Eigen::Matrix3f& R, int count) {
         for (int k = 0; k < count; ++k) {
             const float a = x[k];
@@ -71,9 +71,9 @@ T along(std::int32_t axis, T x, T y, T z) {
     return axis == 0 ? x : axis == 1 ? y : z;
 }
 
-/// The edge that cells should have where a surface is seen from a range at a grazing angle of
-/// `sine`, squared. A resolution cell is longer on the surface than in range by one over the cosine
-/// of that angle, and cells are larger by as much.
+/// The squared edge of cells for a surface at a range and a grazing angle of `sine`. On the surface
+/// a resolution cell is longer than in range by one over the cosine of that angle, and cells are
+/// larger by the same factor.
 float wanted_edge2(const ScattererCells& cells, float range, float sine) {
     const float cosine2 = 1.0F - sine * sine;
     const float longer2 =
@@ -81,7 +81,7 @@ float wanted_edge2(const ScattererCells& cells, float range, float sine) {
     const float grazing2 = cells.edge_per_root_range * cells.edge_per_root_range * range;
     const float depth2 = cells.greatest_depth_m * cells.greatest_depth_m;
     const float width = cells.width_rad * range;
-    // No wider than a beam where it is length that makes them larger.
+    // Cells that are larger because of the length are no wider than a beam.
     return std::min(std::min(grazing2 * std::sqrt(longer2), depth2 * longer2),
                     std::max(std::min(grazing2, depth2), width * width));
 }
@@ -90,8 +90,8 @@ float power_of_two(std::int32_t exponent) {
     return std::bit_cast<float>((127 + exponent) << 23);
 }
 
-/// The level of the smaller cells, and the share w of the larger ones that are not split, so that
-/// there are as many scatterers as wanted: to a larger cell, 4 smaller ones, w + 4 (1 - w) of them.
+/// The level of the smaller cells, and the share w of the larger ones that are not split. A larger
+/// cell is 4 smaller ones, so it has w + 4 (1 - w) scatterers on average, the wanted number.
 void find_levels(const Surfaces& surfaces, const ScattererCells& cells, CellFootprints& out) {
     const float per_area = 1.0F / (cells.least_edge_m * cells.least_edge_m);
     const std::int32_t top = cells.levels - 1;
@@ -184,8 +184,8 @@ void find_rows(const Surfaces& surfaces, CellFootprints& out) {
         out.row_end[k] = static_cast<std::int32_t>(any_area ? end : begin);
         out.least[k] = std::floor(0.5F * (inner - inner_reach));
         out.greatest[k] = std::floor(0.5F * (inner + inner_reach));
-        // About a line along the edge that goes further along the outer axis: along the inner one
-        // it goes twice as far at the most.
+        // Around a line along the edge that extends further along the outer axis. Along the inner
+        // axis it extends at most twice as far.
         const bool by_u = std::fabs(outer_u) >= std::fabs(outer_v);
         const float slope = by_u ? inner_u / outer_u : inner_v / outer_v;
         const float other = by_u ? inner_v - slope * outer_v : inner_u - slope * outer_u;

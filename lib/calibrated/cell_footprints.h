@@ -12,10 +12,10 @@ namespace sonarsim {
 /// The footprints of samples on the lattice of cells. A footprint is a sample projected along the
 /// axis of the world that it faces most: a parallelogram in the plane of the other two, called the
 /// first and the second axis. The drawing in docs/calibrated.md, section 2, shows it. Between the
-/// ranges at which one level of cells or the next is right, some of the larger cells hold one
-/// scatterer each, and the others are split into four. Lengths are in edges of the smaller cells,
-/// from a corner of the lattice near the sample (the base), so that floats hold them. A structure
-/// of arrays, so that loops over the samples vectorise.
+/// ranges of two levels of cells, some of the larger cells hold one scatterer each, and the others
+/// are split into four. Lengths are in edges of the smaller cells, from a corner of the lattice
+/// near the sample (the base), so that floats hold them. A structure of arrays, so that loops over
+/// the samples vectorise.
 struct CellFootprints {
     static constexpr int most = 32;
     template <class T>

@@ -12,7 +12,7 @@ struct Clutter {
     std::vector<float> strength;  ///< [steps] quantiles; empty: 1 everywhere
 };
 
-/// nu = 0 has none.
+/// nu = 0: no clutter.
 Clutter gamma_clutter(double shape, double edge_m);
 
 }  // namespace sonarsim

@@ -10,7 +10,7 @@ namespace sonarsim {
 
 namespace {
 
-// The natural logarithm of it is that of a normal float, and its value is 0 in every companding.
+// The smallest power for the logarithm: it is a normal float, and every companding makes it 0.
 constexpr float least_power = 1e-37F;
 
 /// The function from the natural logarithm of the power, at most 0, to a value in [0, 1].

@@ -8,8 +8,8 @@
 
 namespace sonarsim {
 
-/// The numbers that the instrument delivers: powers by full scale, clipped at 1, turned into whole
-/// numbers of `bits` bits with the greatest M, where A is the root of the power:
+/// The integers that the instrument delivers, of `bits` bits, with M the greatest. They follow from
+/// the powers over full scale, clipped at 1; A is the root of the power:
 ///
 ///     gamma     M A^gamma
 ///     log       M (1 + 20 log10(A) / dynamic_range_db), 0 below

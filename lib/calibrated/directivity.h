@@ -7,10 +7,10 @@
 namespace sonarsim {
 
 // The directivity of a pattern of power p, 1 on its axis: 4 pi / integral of p over all directions.
-// For noise that is equal from all sides it is the ratio of echo to noise that a beam gains.
+// In isotropic noise it is the gain of a beam in the ratio of echo to noise.
 
-/// Mean of the squared weights of an array over the square of their mean: 1 if they are uniform.
-/// Noise of an array with a taper is greater by this than that of a uniform one.
+/// Mean of the squared weights of an array over the square of their mean: 1 if they are uniform. An
+/// array with a taper has more noise than a uniform one by this factor.
 double taper_loss(const LineArray& array);
 
 /// A line: 2 L / lambda for uniform weights.
@@ -27,7 +27,8 @@ double piston_directivity(double width_rad);
 /// both together (exact for Gaussian beams).
 double receiving_directivity(const BeamConfig& beam);
 
-/// The transmitter: a fan sends evenly into its azimuth, others send with the receiving beam.
+/// The transmitter: a fan transmits evenly into its azimuth, others transmit with the receiving
+/// beam.
 double transmitting_directivity(const BeamConfig& beam, const View& view);
 
 }  // namespace sonarsim

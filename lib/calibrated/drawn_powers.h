@@ -9,7 +9,7 @@ namespace sonarsim {
 
 /// The form in which mean powers are added to a cell of a grid.
 enum class PowerForm {
-    power,     ///< they are added to the power that is there
+    power,     ///< they are added to the power in the cell
     amplitude  ///< a complex normal amplitude of that power is added
 };
 

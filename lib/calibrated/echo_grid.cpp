@@ -12,8 +12,8 @@ namespace {
 constexpr std::size_t floats_per_line = 16;
 
 std::size_t stride_of(int rows, std::size_t front) {
-    // One bin behind the last as well, then whole cache lines, of an odd number: with a power of
-    // two all columns would compete for the same places of the cache.
+    // Room for one bin behind the last, in an odd number of whole cache lines: with a power of two
+    // all columns would compete for the same sets of the cache.
     const std::size_t lines =
         (front + 2 * (static_cast<std::size_t>(rows) + 1)) / floats_per_line + 1;
     return (lines | 1U) * floats_per_line;

@@ -8,7 +8,7 @@
 
 namespace sonarsim {
 
-/// Points of equal distance in the sine of the angle to the array's axis plane.
+/// Columns at equal steps of the sine of the angle to the plane across the array.
 struct SineGrid {
     double first = 0.0;  ///< sine of column 0
     double step = 1.0;
@@ -16,8 +16,8 @@ struct SineGrid {
 };
 
 /// The echoes before the receiver: a complex amplitude or, in its real part, a power for every
-/// range bin and every column of a sine grid. A column is contiguous: echoes of one beam come one
-/// after the other, and 8 bins make a cache line.
+/// range bin and every column of a sine grid. A column is contiguous, since echoes come beam by
+/// beam; 8 bins make a cache line.
 class EchoGrid {
   public:
     EchoGrid(int rows, int columns);
@@ -34,11 +34,11 @@ class EchoGrid {
     void add(const EchoGrid& more);
     /// The number of cells that hold an echo.
     std::size_t occupied() const;
-    /// Convolves every column with the pulse. Returns how many cells held an echo before.
+    /// Convolves every column with the pulse. Returns the number of cells that held an echo before.
     std::size_t convolve_pulse(const RangeTaps& taps);
 
   private:
-    // One bin before the first takes what lies between the two; seven more fill the cache line.
+    // One bin before the first takes echoes between the two; seven more fill the cache line.
     static constexpr std::size_t front = 16;
 
     int rows_;

@@ -26,7 +26,8 @@ std::vector<std::complex<double>> element_errors(const ElementsConfig& elements,
 /// The number of an array's elements, half a wavelength apart.
 double element_count(const LineArray& array);
 
-/// The amplitude off the axis of an array without errors of phase, with those of its elements.
+/// The amplitude off the axis of an array with the errors of its elements. `array` has no errors of
+/// phase.
 std::complex<double> pattern_with_errors(const LineArray& array, const ElementsConfig& elements,
                                          ElementAxis axis, double u);
 

@@ -19,8 +19,8 @@ namespace {
 
 constexpr double grazing_deg = 20.0;
 
-/// A fan that is thinner than this in elevation profiles: it stands upright, and its width along a
-/// range bin is that in elevation.
+/// A fan thinner than this in elevation is a profiler: it stands upright, and its elevation is the
+/// width along a range bin.
 constexpr double thickest_profile_deg = 5.0;
 
 /// Integral over [-end, end] of an even function by midpoints.
@@ -48,7 +48,7 @@ double piston_solid_angle(double width_rad, double end_rad) {
 
 /// The two-way power of a side-scan array at the sine u.
 double near_power(const ExpectedEcho& echo, double u, double range_m) {
-    // Nearer than the array is long the pattern is that at its length.
+    // At ranges below the array's length the pattern is that at its length.
     const double range = std::max(range_m, echo.along.wavelengths * echo.wavelength_m);
     return square(std::norm(unfocused_pattern(echo.along, u, echo.wavelength_m, 1.0 / range)));
 }
@@ -67,7 +67,7 @@ double spreading_and_absorption_db(const ExpectedEcho& echo, double range_m) {
     return 4.0 * db_of_power(range_m) + 2.0 * echo.absorption_db_per_m * range_m;
 }
 
-/// The bottom that echoes at once.
+/// The insonified area of the bottom.
 double cell_area_m2(const ExpectedEcho& echo, double range_m) {
     if (echo.aperture == Aperture::piston) {
         // Limited by the beam, or by the ring that the pulse covers.
@@ -98,7 +98,7 @@ ExpectedEcho expected_echo(const InstrumentConfig& instrument, const WaterConfig
     if (beam.aperture == Aperture::piston) {
         out.far_integral = piston_solid_angle(width, 0.5 * view.elevation_rad);
     } else if (beam.aperture == Aperture::line) {
-        // The transmitter is even in azimuth.
+        // The transmitter is uniform in azimuth.
         if (beam.elevation_width_deg > 0.0 && view.elevation_rad < radians(thickest_profile_deg))
             out.along = line_array(radians(beam.elevation_width_deg), beam.elevation_side_lobe_db);
         out.far_integral = taper_loss(out.along) / out.along.wavelengths;

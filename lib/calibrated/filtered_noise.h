@@ -29,8 +29,8 @@ class FilteredNoise {
     /// `taps`: 2 reach + 1, with a sum of squares of 1, so that the filter keeps the power.
     FilteredNoise(const NoiseChannels& channels, const std::vector<float>& taps, PhiloxKey key);
 
-    /// Goes to the bins `row` to `row` + 7. The white noise of bins in front of the first one and
-    /// behind the last one is drawn, too, as far as the filter reaches.
+    /// Moves to the bins `row` to `row` + 7. The white noise of bins before the first and behind
+    /// the last one is drawn, too, as far as the filter reaches.
     void go_to(int row);
     /// The noise of these bins in a channel.
     ComplexLanes of(int channel) const;

@@ -17,7 +17,7 @@ constexpr double most_bend_rad = 0.1;
 constexpr double most_turn_rad = 0.1;
 constexpr int most_pieces = 100'000;
 // An edge is integrated in pieces while 2 k s^2 / r is less than this, s being the distance from
-// the point next to the foot. The error of what is left out is one by this.
+// the point next to the foot. The relative error of the rest is about one over this.
 constexpr double many_turns_rad = 200.0;
 
 std::complex<double> turned(double radians) {
@@ -50,7 +50,7 @@ double piece_length(const Geometry& of, const EdgeLimits& limits, double s, doub
     // The phase 2 k r bends by 2 k (H^2 + d^2) / r^3 at most.
     double length = std::sqrt(8.0 * most_bend_rad * range / (2.0 * of.k));
     if (d != 0.0) length = std::min(length, most_turn_rad * flat2 / std::fabs(d));
-    // The angle turns fastest at s = 0: the pieces before it are shorter and shorter.
+    // The angle turns fastest at s = 0, so pieces get shorter towards it.
     if (s < 0.0) length = std::min(length, std::max(-0.3 * s, most_turn_rad * std::fabs(d)));
     if (limits.sine > 0.0) length = std::min(length, limits.sine * range);
     if (limits.depth_m > 0.0)
@@ -63,7 +63,7 @@ struct EdgeLine {
     const Geometry& of;
     Eigen::Vector3d next;  ///< that point
     Eigen::Vector3d unit;
-    double d;  ///< its distance from the foot, positive if the edge goes round it
+    double d;  ///< its distance from the foot, positive if the edge winds around it
 
     double range(double s) const { return std::sqrt(of.height_m * of.height_m + d * d + s * s); }
 
@@ -89,7 +89,7 @@ void add_pieces(const EdgeLine& line, double begin, double end, const EdgeLimits
         const double next_range = line.range(next);
         const double middle = 0.5 * (s + next);
         const double middle_range = line.range(middle);
-        // A straight line of phase over the piece, at its mean by Simpson's rule.
+        // The phase is linear over the piece, about its mean by Simpson's rule.
         const double half_turn = of.k * (next_range - range);
         const double fades = sinc(half_turn / pi);
         echoes.push_back(
@@ -100,8 +100,9 @@ void add_pieces(const EdgeLine& line, double begin, double end, const EdgeLimits
     }
 }
 
-/// Adds the integral over a stretch of an edge where its phase is never even: that of g(s) exp(i f)
-/// is the difference of g exp(i f) / (i f') at its ends, f = 2 k r, g = weight d / (d^2 + s^2).
+/// Adds the integral over a stretch of an edge without a stationary phase: the integral of g(s)
+/// exp(i f) is the difference of g exp(i f) / (i f') at its ends, f = 2 k r, g = weight d / (d^2 +
+/// s^2).
 void add_ends(const EdgeLine& line, double begin, double end, std::vector<PlateEcho>& echoes) {
     if (!(end > begin)) return;
     for (const double s : {begin, end}) {
@@ -114,7 +115,7 @@ void add_ends(const EdgeLine& line, double begin, double end, std::vector<PlateE
     }
 }
 
-/// Adds the echoes of an edge. Returns the angle that it takes about the foot.
+/// Adds the echoes of an edge. Returns the angle that it subtends at the foot.
 double add_edge(const Geometry& of, const PlateEdge& edge, const EdgeLimits& limits,
                 std::vector<PlateEcho>& echoes) {
     const Eigen::Vector3d along = edge.to - edge.from;
@@ -126,7 +127,7 @@ double add_edge(const Geometry& of, const PlateEdge& edge, const EdgeLimits& lim
     const double end = begin + edge_m;
     const EdgeLine line{of, edge.from - begin * unit, unit, of.normal.dot(from_foot.cross(unit))};
     if (edge.seen) {
-        // Further out, the phase turns many times before it bends.
+        // Further out the phase is nearly linear over many turns.
         const double even = std::sqrt(many_turns_rad * line.range(0.0) / (2.0 * of.k));
         add_ends(line, begin, std::min(end, -even), echoes);
         add_pieces(line, std::max(begin, -even), std::min(end, even), limits, echoes);

@@ -23,20 +23,20 @@ struct EdgeLimits {
 /// A part of a plate's echo: the specular point, or a piece of an edge.
 struct PlateEcho {
     Eigen::Vector3d point;           ///< sensor frame, m
-    double range_m;                  ///< the point's
-    std::complex<double> amplitude;  ///< at the sonar, by that of the source at 1 m
+    double range_m;                  ///< range of the point
+    std::complex<double> amplitude;  ///< at the sonar, over that of the source at 1 m
 };
 
 /// The coherent echo of a plate from a point source and receiver, without absorption, appended to
-/// `echoes`. The plate's echo is the sum of their amplitudes. Its edges go round it in one sense,
-/// those of its holes in the other. Hidden edges add no echo.
+/// `echoes`. The plate's echo is the sum of their amplitudes. Its edges wind around it in one
+/// sense, those of its holes in the other. Hidden edges add no echo.
 ///
 /// The Kirchhoff integral over the plate, at kr >> 1, H being the sonar's height over its plane, is
 ///
 ///     p = i V / lambda  integral of (H / r^3) exp(2 i k r) dA,    dA = r dr dphi,
 ///
 /// phi being the azimuth about the foot of the perpendicular. The integral over r is that of
-/// exp(2 i k r) / r^2, about exp(2 i k r) / (2 i k r^2). It leaves the plate's boundary:
+/// exp(2 i k r) / r^2, about exp(2 i k r) / (2 i k r^2). An integral over the boundary is left:
 ///
 ///     p = V H / (4 pi) (integral of exp(2 i k r) / r^2 dphi - exp(2 i k H) / H^2 integral of dphi)
 ///

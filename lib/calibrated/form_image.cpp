@@ -14,7 +14,7 @@ namespace sonarsim {
 
 namespace {
 
-// If speckle is drawn for each ping; the expected image of the tank is then off by 1.8 %.
+// For speckle that is drawn for each ping. The expected image of the tank is then off by 1.8 %.
 constexpr float deeper_patches = 2.0F;  // factor on the size of patches in range
 
 /// The steps that form an image, and their common data. `Beams`: ArrayBeams or TransducerBeams.
@@ -76,7 +76,7 @@ class ImageFormer {
             add_coherent(of_powers ? *coherent : grid);
         }
 
-        // 5. The water's volume. Bins that hold nothing else count as empty.
+        // 5. The water's volume. Bins with its echo alone count as empty.
         const bool has_water = context_.terms.direct && model_.water;
         const std::size_t seen_bins = has_water ? grid.occupied() : 0;
         if (has_water)
@@ -190,7 +190,7 @@ class ImageFormer {
         });
     }
 
-    /// Takes their coherent share from the areas of pieces. `phase2`: by facet.
+    /// Reduces the areas of pieces by their coherent share. `phase2`: by facet.
     static void keep_incoherent(std::span<const float> phase2, TargetPieces& pieces) {
         PatchBlock& points = pieces.points;
         for (int k = 0; k < points.count; ++k) {
@@ -204,7 +204,7 @@ class ImageFormer {
     /// Hands the echoes of targets to `use`, a block of pieces at a time.
     template <class Use>
     void find_targets(const TargetSurface& targets, Use use) {
-        // Pieces that are joined to a cell need not be smaller than it.
+        // Pieces that are joined by cell need not be smaller than the cell.
         const TargetCells& cells = model_.target_cells;
         const PointLimits limits =
             speckle_ == SpeckleMode::none

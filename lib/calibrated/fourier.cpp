@@ -125,8 +125,8 @@ void Fourier::odd_step(const ComplexLanes* from, ComplexLanes* to) const {
     }
 }
 
-/// Stockham's: a step of radix 3 or 5 and one of radix 2 where the size asks for them, the others
-/// of radix 4. Each reads one array in order and writes the other in order; nothing is sorted.
+/// Stockham's algorithm: steps of radix 4, and one of radix 3 or 5 and one of radix 2 where the
+/// size needs them. Each reads and writes an array in order; nothing is sorted.
 template <bool inverse>
 void Fourier::transform(ComplexLanes* data, ComplexLanes* scratch) const {
     ComplexLanes* from = data;

@@ -5,7 +5,7 @@
 
 namespace sonarsim {
 
-/// So many transforms are done side by side, one in each lane of a vector.
+/// The number of transforms at a time, one in each lane of a vector.
 inline constexpr int lanes_at_once = 8;
 
 using Lanes = std::array<float, lanes_at_once>;

@@ -5,8 +5,8 @@
 
 namespace sonarsim {
 
-/// The levels of an instrument in the unit of its source level, and what those that are `auto`
-/// follow from; section 4 of docs/calibrated.md.
+/// The levels of an instrument in the unit of its source level, and the quantities from which
+/// `auto` levels follow; section 4 of docs/calibrated.md.
 struct InstrumentLevels {
     double source_level_db = 0.0;
     double noise_db = 0.0;       ///< power in a beam
@@ -27,8 +27,8 @@ struct InstrumentLevels {
 /// - Noise: thermal noise, raised by noise figure and efficiency, and that of the wind, in the band
 ///   of the matched filter, less the receiving directivity index. If the source level is relative,
 ///   so is the noise, to that of the rule.
-/// - Full scale: after TVG and companding, the bottom of sand at half of the range is a third of
-///   the largest value, or less if the noise at range_max_m would else be above two thirds.
+/// - Full scale: after TVG and companding, a sand bottom at half of the range is a third of the
+/// largest value, or less, so that the noise at range_max_m is at most two thirds.
 InstrumentLevels instrument_levels(const InstrumentConfig& instrument, const WaterConfig& water,
                                    const View& view);
 

@@ -8,7 +8,7 @@
 #include <initializer_list>
 
 // Eight numbers at a time, so that the code that uses them reads like code for one number. An
-// operation is one instruction: what it rounds is part of the images.
+// operation is one instruction: its rounding is part of the images.
 
 namespace sonarsim {
 

@@ -11,9 +11,9 @@
 
 namespace sonarsim {
 
-// Levels are legal over 600 dB, their sums over many times that, and a float holds 380 dB to either
-// side of 1. What follows keeps all of them finite. Within what instruments have it changes
-// nothing.
+// Missions may set levels over 600 dB and sums of many times that, but a float holds 380 dB to
+// either side of 1. These limits keep all values finite. They change nothing at the levels of real
+// instruments.
 
 /// The dB that are added to the powers of the grid of echoes, which are ratios to the source level,
 /// so that floats hold the noise of the receiver and the echoes above it. `noise_db` and

@@ -13,7 +13,8 @@ namespace sonarsim {
 
 namespace {
 
-/// The pattern of any pedestal at one t: of its even part and of its cosine, each of unit weight.
+/// The pattern of any pedestal at one t: the parts of the uniform weight and of the cosine, each of
+/// unit weight.
 struct PatternParts {
     double even, cosine;
 
@@ -30,8 +31,8 @@ double pattern(double pedestal, double t) {
     return pattern_parts(t).at(pedestal);
 }
 
-/// The pattern where its highest side lobe is. The main lobe ends between t = 1 and 2, and side
-/// lobes fall soon after.
+/// The pattern from t = 1 to 5, which contains its highest side lobe: the main lobe ends between 1
+/// and 2, and side lobes fall soon after.
 std::vector<PatternParts> side_lobe_parts() {
     std::vector<PatternParts> out;
     for (int k = 200; k <= 1000; ++k)

@@ -22,9 +22,9 @@ struct LineArray {
     std::complex<double> weight(double x) const;
 };
 
-/// The amplitude that the array without errors of phase has off its axis, u the sine of the angle;
-/// 1 on the axis. The Fourier transform of its weight:
-/// (p sinc(t) + (1 - p) / 2 (sinc(t) + (sinc(t + 1) + sinc(t - 1)) / 2)) / ((1 + p) / 2), t = u L.
+/// The amplitude off the axis of the array without errors of phase; u is the sine of the angle, and
+/// it is 1 on the axis. It is the Fourier transform of the weight: (p sinc(t) + (1 - p) / 2
+/// (sinc(t) + (sinc(t + 1) + sinc(t - 1)) / 2)) / ((1 + p) / 2), t = u L.
 double line_pattern(const LineArray& array, double u);
 
 /// The array whose highest side lobe is `side_lobe_db` (-42 to -13.3) below its axis and whose

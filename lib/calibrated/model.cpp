@@ -17,9 +17,9 @@ namespace {
 
 // On the tank the expected image is within 0.7 % of that of much smaller patches.
 constexpr float most_depth_by_bin = 0.5F;
-// A beam of the view, or two, are often a few per cent wider than a step or two.
+// One or two beams of the view are often a few per cent wider than one or two steps.
 constexpr float most_sine_by_step = 1.1F;
-// As a share of the half-power width: the pattern bends within it.
+// As a share of the half-power width, within which the pattern bends.
 constexpr double most_by_width = 0.1;
 
 constexpr double no_common_mode_db = -300.0;

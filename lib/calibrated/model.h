@@ -26,8 +26,8 @@
 
 namespace sonarsim {
 
-/// The calibrated echo model, docs/calibrated.md: an instrument, ready to turn what a sonar saw
-/// into the echo levels that it measures.
+/// The calibrated echo model, docs/calibrated.md: an instrument, ready to turn traced surface into
+/// the echo levels that it measures.
 struct CalibratedModel final : EchoModel {
     InstrumentConfig instrument;
     InstrumentLevels levels;
@@ -50,9 +50,8 @@ struct CalibratedModel final : EchoModel {
     double absorption_db_per_m = 0.0;
     double wavelength_m = 0.0;
     double water_density_kg_m3 = 0.0;
-    std::vector<Material>
-        prepared_materials;  ///< the scene that the model was prepared for has them
-    Scattering scattering;   ///< the scattering of these
+    std::vector<Material> prepared_materials;  ///< materials of the scene of prepared()
+    Scattering scattering;                     ///< the scattering of these materials
     /// Its parts on and below sea beds; nothing: the whole echo comes from their surface.
     std::optional<SedimentScattering> sediment;
     PulseFloor pulse_floor;
@@ -80,7 +79,7 @@ struct CalibratedModel final : EchoModel {
     std::vector<std::uint16_t> raw(const Ping& ping) const override;
 };
 
-/// The sines of the azimuths that the beams of a fan look at, and of the edges between them.
+/// The sines of the azimuths of a fan's beams, and of the edges between them.
 struct BeamSines {
     std::vector<double> middles, edges;  ///< the edges are one more
 };

@@ -13,8 +13,8 @@ namespace {
 // In the order in which they enter an image.
 constexpr std::array<std::string_view, 2> calibrated_terms{"speckle", "receiver_noise"};
 
-// The beam of a side-scan sonar is narrow within its view: the columns of rays that the goal asks
-// for are wider than it. Chosen; docs/calibrated.md has a table of the errors.
+// The beam of a side-scan sonar is narrower than the columns of rays that the goal requires.
+// Chosen; docs/calibrated.md has a table of the errors.
 constexpr int columns_along_track = 4;
 
 }  // namespace
@@ -48,8 +48,8 @@ std::span<const std::string_view> CalibratedModel::random_terms() const {
 RaysNeed CalibratedModel::rays_need(const View& view) const {
     if (view.shape == ViewShape::port_starboard)
         return {.goal = view.relative_l1, .columns = columns_along_track};
-    // In a cone slices are off by up to 1 %, which their estimate does not show; rays are as fast
-    // there and have a third of that error.
+    // In a cone slices are off by up to 1 %, which their estimate does not include; rays are as
+    // fast and have a third of that error.
     return {.goal = view.shape == ViewShape::cone ? view.relative_l1 : 0.0};
 }
 

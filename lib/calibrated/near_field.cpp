@@ -11,8 +11,8 @@ namespace sonarsim {
 
 namespace {
 
-// From one entry to the next the phase at the ends of the array, of which the square of the pattern
-// has twice as much, changes by this.
+// The change of the phase at the ends of the array from one entry to the next. The squared pattern
+// has twice this phase.
 constexpr double phase_by_entry = 0.3;
 
 /// The phase at the ends of the array at curvature 1, rad.
@@ -20,7 +20,8 @@ double end_phase(const LineArray& array, double wavelength_m) {
     return 0.25 * pi * array.wavelengths * array.wavelengths * wavelength_m;
 }
 
-/// So many steps along the array that the phase turns by less than a quarter of a radian in each.
+/// The number of steps along the array, so that the phase turns by less than a quarter of a radian
+/// in each.
 int steps_for(double bend, double turn) {
     return 32 + static_cast<int>(4.0 * (std::fabs(bend) + std::fabs(turn)));
 }
@@ -36,8 +37,8 @@ constexpr double most_products = 1e9;
 
 /// Fills the table by Fourier transforms over the array, of several curvatures at once: half a
 /// second where sums take a minute. The sines are those of the transform. `bend` is the phase of
-/// the last curvature, `turn` that of the greatest sine, `half` how many sines there are to a side
-/// at least.
+/// the last curvature, `turn` that of the greatest sine, `half` the least number of sines on a
+/// side.
 void fill_by_transforms(const LineArray& array, double bend, double turn, int half,
                         UnfocusedBeam& out) {
     const int steps = 2 * (steps_for(bend, turn) / 4);

@@ -15,14 +15,14 @@ namespace sonarsim {
 ///     angle
 ///
 /// with x = position / L (Fresnel's approximation). Far beyond L^2 / lambda it is line_pattern();
-/// nearer, the beam is as wide as the array is long. `curvature` is 1 / r.
+/// at shorter range the beam is as wide as the array. `curvature` is 1 / r.
 std::complex<double> unfocused_pattern(const LineArray& array, double u, double wavelength_m,
                                        double curvature_per_m);
 
 /// A table of its square, the two-way pattern.
 struct UnfocusedBeam {
-    /// At the sine u of the angle off the axis and at a range; nearer than the array is long it is
-    /// the pattern at its length. `u` lies within the table.
+    /// The value at the sine u of the angle off the axis and at a range; at ranges below the
+    /// array's length it is that at its length. `u` must lie within the table.
     std::complex<float> at(float u, float range_m) const;
 
     float greatest_sine = 1.0F;  ///< at the ends of the table
@@ -32,7 +32,7 @@ struct UnfocusedBeam {
     std::vector<std::complex<float>> values;  ///< [curvatures, sines]
 };
 
-/// From `range_min_m` on, for angles up to that whose sine is `greatest_sine`.
+/// The table from `range_min_m` on, for sines up to `greatest_sine`.
 UnfocusedBeam unfocused_beam(const LineArray& array, double wavelength_m, double range_min_m,
                              double greatest_sine);
 

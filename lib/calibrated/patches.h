@@ -26,7 +26,7 @@ struct PatchBlock {
     Array<std::uint32_t> sample{};  ///< index into the samples that are cut, if they are
 };
 
-/// The greatest size of a piece. In every direction the least of these holds.
+/// The greatest size of a piece. The least of these limits applies in every direction.
 struct PointLimits {
     float depth_m = 0.0F;         ///< in range; 0: any
     float sine = 0.0F;            ///< across the beams, y / range; 0: any

@@ -43,9 +43,9 @@ PlateSurface surface_of(const PlateOfPing& plate, const PlateScene& scene) {
     return out;
 }
 
-/// The plate in whose place a cylinder reflects: next to its specular line, the phase 2 k r over
-/// the arc is even within a stretch of the width w. With D the distance of the sonar from the axis
-/// and r from the line, 2 k r grows by k a D t^2 / r over an angle t, and
+/// The plate in whose place a cylinder reflects. Next to its specular line the phase 2 k r over the
+/// arc is stationary within a stretch of the width w. With D the distance of the sonar from the
+/// axis and r from the line, 2 k r grows by k a D t^2 / r over an angle t, and
 ///
 ///     |integral of exp(i k a D t^2 / r) a dt| = sqrt(pi a r / (k D)) = sqrt(a r lambda / (2 D)) =
 ///     w.
@@ -70,7 +70,8 @@ PlateOfPing plate_of(const StripOfPing& strip, double wavelength_m) {
 }
 
 /// Makes one echo of the parts from `first` on if the plate is a point to the beams and bins. Parts
-/// of a small plate nearly cancel each other, and beams and bins weigh each by interpolation.
+/// of a small plate nearly cancel each other, and interpolation between beams and bins would
+/// disturb this.
 void join_parts(const PlateOfPing& plate, const EdgeLimits& limits, std::size_t first,
                 std::vector<PlateEcho>& echoes) {
     if (echoes.size() < first + 2) return;
@@ -98,7 +99,7 @@ struct PlateBlock {
     PointEchoes echoes;
     Amplitudes amplitudes;
 
-    /// Returns how many of the parts are outside the view or the range.
+    /// Returns the number of parts outside the view or the range.
     std::uint64_t fill(std::span<const PlateEcho> parts, const PlateScene& scene,
                        const SonarEquation& equation) {
         points.count = static_cast<int>(parts.size());
@@ -131,7 +132,7 @@ struct PlateBlock {
         return outside;
     }
 
-    /// Gives the unit amplitudes the sizes that the echoes have by now.
+    /// Scales the unit amplitudes to the present powers of the echoes.
     void scale() {
         for (int k = 0; k < echoes.count; ++k) {
             const float size = std::sqrt(echoes.power[k]);

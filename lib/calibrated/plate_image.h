@@ -16,7 +16,7 @@
 
 namespace sonarsim {
 
-/// The coherent surface of a ping and what their echoes depend on.
+/// The coherent surface of a ping, and the quantities that its echoes depend on.
 struct PlateScene {
     const CoherentSurface& surface;
     std::span<const Material> materials;
@@ -24,8 +24,8 @@ struct PlateScene {
     double wavelength_m = 0.0;
 };
 
-/// Adds the complex amplitudes of the plates' coherent echoes to the grid. Returns how many of
-/// their parts lie outside the view, the range or the beams.
+/// Adds the complex amplitudes of the plates' coherent echoes to the grid. Returns the number of
+/// their parts outside the view, the range or the beams.
 template <class Beams>
 std::uint64_t add_plate_amplitudes(const Beams& beams, const PlateScene& scene,
                                    const SonarEquation& equation, const PointLimits& limits,
@@ -42,8 +42,8 @@ extern template std::uint64_t add_plate_amplitudes(const ArrayBeams&, const Plat
 ///
 /// Heights z of a rough face are normal with the RMS height h. The phase 2 k z sin g of an echo at
 /// the grazing angle g then has the mean of exp(i 2 k z sin g), exp(-(2 k h sin g)^2 / 2): that is
-/// the factor on the coherent amplitude (Eckart 1953). The face reflects as much power in all,
-/// whatever h is. So the incoherent echo, which the sonar equation gives for 2 k h >> 1, keeps
+/// the factor on the coherent amplitude (Eckart 1953). The total power that the face reflects does
+/// not depend on h. So the incoherent echo, which the sonar equation gives for 2 k h >> 1, keeps
 ///
 ///     1 - exp(-(2 k h sin g)^2).
 ///

@@ -10,10 +10,10 @@ namespace sonarsim {
 
 namespace {
 
-/// The half-power width at which line_array() is asked for a band: any small angle will do.
+/// The half-power width for which line_array() designs a band: any small angle works.
 constexpr double unit_width = 1e-3;
 
-// Pulses longer than this many bins are cut off at it.
+// Pulses are cut off at this many bins.
 constexpr double most_reach = 64.0;
 
 /// The bins to either side of a pulse's middle that have its main lobe and two side lobes.
@@ -22,8 +22,7 @@ int reach_of(double resolution_bins) {
 }
 
 /// The square root of the spectrum that noise has in bins behind a matched filter, `frequency` in
-/// cycles per bin. The pulse's band is `width` cycles per bin wide, and what is beyond half a cycle
-/// folds.
+/// cycles per bin. The pulse's band is `width` cycles per bin wide; beyond half a cycle it folds.
 double noise_amplitude(const LineArray& band, double width, double frequency) {
     const double most = std::ceil(0.5 * width);
     double sum = 0.0;
@@ -77,7 +76,7 @@ RangeTaps range_taps(double resolution_bins, double side_lobe_db, bool squared) 
         power += taps[m] * taps[m];
         if (m > 0) neighbours += taps[m] * taps[m - 1];
     }
-    // A spline cannot follow a pulse as short as a bin: it is given the same energy.
+    // A spline cannot follow a pulse as short as a bin; it gets the same energy.
     const double of_spline = squared ? sum : 2.0 / 3.0 * power + 1.0 / 3.0 * neighbours;
     double energy = 0.0;
     for (int k = -steps * out.reach; k <= steps * out.reach; ++k) {
@@ -110,7 +109,7 @@ std::vector<float> noise_taps(double resolution_bins, double side_lobe_db) {
         one_side.push_back(tap);
         energy += (m == 0 ? 1.0 : 2.0) * tap * tap;
     }
-    // Taps are left out from the ends on, up to a thousandth of the energy.
+    // Drops taps at the ends, up to a thousandth of the energy.
     double left_out = 0.0;
     while (one_side.size() > 1) {
         const double more = 2.0 * one_side.back() * one_side.back();

@@ -11,7 +11,7 @@ namespace sonarsim {
 // The stages of a receiver behind its beams and its gain; section 4 of
 // docs/calibrated.md. Each is off by default.
 
-/// True if something of it changes an image behind its beams.
+/// True if any stage changes an image.
 bool has_faults(const ReceiverConfig& receiver);
 
 /// Makes one row of `samples` rows of an image of powers: [rows * samples, beams] becomes [rows,

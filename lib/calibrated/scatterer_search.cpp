@@ -82,7 +82,7 @@ void list_cells(const CellFootprints& p, int k, std::uint32_t key, CellList& who
             const Ints8 row = along_first ? inner : outer;
             const Ints8 bits =
                 cell_bits(base_i + column, base_j + row, p.level[k] + 1, p.axis[k], key);
-            // Not the bits themselves: they place the cell's point.
+            // Other bits than those that place the cell's point.
             const Ints8 other_bits = bits * Ints8(0x9E3779B1U);
             const unsigned is_whole = (first_split > (other_bits >> 8)).bits();
             whole.add(in_row & is_whole, column, row, bits);
@@ -93,7 +93,8 @@ void list_cells(const CellFootprints& p, int k, std::uint32_t key, CellList& who
 }
 
 /// Finds the cells whose points lie on samples and makes scatterers of them. A batch of samples
-/// goes through each step together: the processor knows the length of a loop well before it begins.
+/// passes each step together, so that the processor knows the length of a loop well before it
+/// begins.
 class Search {
   public:
     Search(PhiloxKey key, Scatterers& block, const std::function<void(const Scatterers&)>& use)
@@ -270,7 +271,7 @@ void Search::complete(const Run& run) {
         const Floats8 height = along(p.height[of], p.height_u[of], p.height_v[of]);
         const Floats8 fours = floor(height * (Floats8(0.375F) - size * 0.125F));
         number(axis, p.base_axis[of], (to_ints(fours) << 2) + 1);
-        // The phase is that of the scatterer's place in the beam. With the phase of another place
+        // The phase belongs to the scatterer's place in the beam. With the phase of another place
         // in the cell, speckle would decorrelate faster than the aperture allows.
         const Ints8 bits = Ints8::load(bits_.data() + k);
         point_along_first(bits).store(block_.within[first].data() + k);

@@ -13,14 +13,14 @@ namespace {
 using Floats = PatchBlock::Array<float>;
 using Words = PatchBlock::Array<std::uint32_t>;
 
-// Cells no longer than this share of the resolution in range: the scatterer's phase holds for all
-// of the cell, which would otherwise show as speckle that is longer than the pulse.
+// The greatest length of cells as a share of the resolution in range. All of a cell has its
+// scatterer's phase; longer cells would make speckle longer than the pulse.
 constexpr double most_of_resolution = 0.75;
 
 // Cells in a resolution cell where there are fewer scatterers than one in it.
 constexpr double cells_for_few = 4.0;
 
-// Levels that cells are larger by where sound meets a surface head-on than where it grazes it.
+// The number of levels by which cells are larger at normal than at grazing incidence.
 constexpr int steep_levels = 1;
 
 /// 32 bits that look random by 64 (the finaliser of MurmurHash3, put to the words in turn).
@@ -72,8 +72,8 @@ void name_cells(const Scatterers& block, int count, Words& low, Words& high) {
     }
 }
 
-/// The phase, in turns, of the way to each scatterer and back. It is taken in double: at 40 m and
-/// 2 MHz the last bit of a float is 0.07 rad.
+/// The two-way phase of each scatterer, in turns. It is computed in double: at 40 m and 2 MHz the
+/// last bit of a float is 0.07 rad.
 void find_phases(const Scatterers& block, int count, const SonarInScene& sonar, double turns_per_m,
                  Floats& turns) {
     for (int k = 0; k < count; ++k) {
@@ -96,8 +96,8 @@ void find_strengths_of_many(const Words& words, int count, Floats& strength) {
         strength[k] = -natural_log(unit_float(words[k]));
 }
 
-/// The strengths of few scatterers. A cell of the area A holds one with the probability n A, n of
-/// them being on a square metre, and its strength is one over that.
+/// The strengths of sparse scatterers, n to a square metre. A cell of the area A holds one with the
+/// probability n A, and its strength is one over that.
 void find_strengths_of_few(const Words& words, int count, const PatchBlock& pieces,
                            const PointEchoes& echoes, float per_m2, Floats& strength) {
     for (int k = 0; k < count; ++k) {

@@ -16,7 +16,7 @@ namespace sonarsim {
 /// own, all by the cell's number. Their edge doubles from one level to the next.
 ///
 /// With one scatterer in a resolution cell or more, each stands for many: its strength is
-/// exponential. With fewer, some cells of the lattice have none, and the others have all the same
+/// exponential. With fewer, some cells of the lattice are empty, and all others have the same
 /// strength per m^2 of the surface.
 struct ScattererCells {
     float least_edge_m = 0.0F;         ///< level 0
@@ -25,15 +25,15 @@ struct ScattererCells {
     float width_rad = 0.0F;            ///< width of a resolution cell
     int levels = 1;
     double turns_per_m = 0.0;  ///< two-way phase: 2 / wavelength
-    /// Scatterers per m^2 at a range of 1 m, by one over the range at others; 0: one in each cell.
+    /// Scatterers per m^2 at a range of 1 m, falling as one over the range; 0: one in each cell.
     float few_per_m2 = 0.0F;
 
     float edge_of(int level) const { return least_edge_m * static_cast<float>(1 << level); }
 };
 
 /// Cells with `per_cell` scatterers to a resolution cell of `resolution_m` in range and `width_rad`
-/// across, but no longer in range than the resolution. For less than one, cells with four, of which
-/// as many are empty as it takes.
+/// across, but no longer in range than the resolution. For less than one the cells have four to a
+/// resolution cell, of which enough are empty.
 ScattererCells scatterer_cells(double per_cell, double resolution_m, double width_rad,
                                double range_min_m, double wavelength_m);
 
@@ -57,7 +57,7 @@ void draw_amplitudes(const Scatterers& block, const PointEchoes& echoes,
                      const ScattererCells& cells, const SonarInScene& sonar, PhiloxKey key,
                      Amplitudes& out);
 
-/// Multiplies the powers of echoes by the strength of the clutter where they come from.
+/// Multiplies the powers of echoes by the strength of the clutter at their places.
 void add_clutter(const PatchBlock& pieces, const Clutter& clutter, const SonarInScene& sonar,
                  PhiloxKey key, PointEchoes& echoes);
 

@@ -20,8 +20,8 @@ Number squared(Number x) {
     return x * x;
 }
 
-/// The root with a positive imaginary part, of a number that has one, too. The C library's is not
-/// the same on every processor.
+/// The root with a positive imaginary part, of a number with one. The C library's root differs
+/// between processors.
 Complex root(Complex z) {
     const double size = std::sqrt(std::norm(z));
     // The larger part is found first, so that nothing cancels.
@@ -173,7 +173,7 @@ double SeafloorScattering::kirchhoff(double grazing_rad) const {
 }
 
 double SeafloorScattering::perturbation(double grazing_rad) const {
-    // Nearer to normal incidence the Kirchhoff integral stands for it.
+    // Nearer to normal incidence the Kirchhoff integral replaces it.
     const SinCos angle = sincos(std::clamp(grazing_rad, 1e-3, joint_rad_));
     const double rho = bed_.density_ratio;
     const Complex contrast = (squared((rho - 1.0) * angle.cos) + rho * rho - index2_) /
@@ -217,7 +217,7 @@ double SeafloorScattering::share(double grazing_rad) const {
 
 double SeafloorScattering::unshadowed_share(double grazing_rad) const {
     const SinCos angle = sincos(grazing_rad);
-    // The angle by the slope. Above 2 the report has no shadows.
+    // The tangent of the angle over the slope. Above 2 the report has no shadows.
     const double t = angle.sin / std::max(angle.cos * shadowing_slope_, 1e-9);
     if (t > 2.0) return 1.0;
     if (t <= 0.0) return 0.0;
@@ -247,8 +247,8 @@ double SeafloorScattering::lag_m(double grazing_rad) const {
 }
 
 double SeafloorScattering::specular(double grazing_rad) const {
-    // The report has no Kirchhoff integral below 40 degrees, and no shadows on it. Here it reaches
-    // down to grazing incidence where the roughness is large.
+    // The report has no Kirchhoff integral below 40 degrees, and no shadows on it. Here it extends
+    // down to grazing incidence if the roughness is large.
     return unshadowed_share(grazing_rad) * share(grazing_rad) * kirchhoff(grazing_rad);
 }
 

@@ -56,7 +56,7 @@ class SeafloorScattering {
     double perturbation(double grazing_rad) const;
     double composite(double grazing_rad) const;
     double volume(double grazing_rad) const;
-    /// The share of the Kirchhoff integral where it and `composite` join.
+    /// The share of the Kirchhoff integral at its joint with `composite`.
     double share(double grazing_rad) const;
     /// The share of the surface that is not in the shadow of its own slopes, by the report, Eq. 43
     /// to 45.

@@ -59,9 +59,9 @@ void spread_below(const EchoGrid& lagged, EchoGrid& energy) {
     for (int column = 0; column < energy.columns(); ++column) {
         const float* const added_lag = lagged.column(column);
         float* const cells = energy.column(column);
-        double left = 0.0;      // energy that is still in the sediment
+        double left = 0.0;      // energy still in the sediment
         double left_lag = 0.0;  // the same times its lag, in bins
-        // An echo before the first bin's middle is shared with the bin before it.
+        // An echo before the middle of the first bin is shared with the bin before.
         for (std::ptrdiff_t row = -1; row < energy.rows(); ++row) {
             left += cells[2 * row];
             left_lag += added_lag[2 * row];
@@ -71,7 +71,7 @@ void spread_below(const EchoGrid& lagged, EchoGrid& energy) {
             cells[2 * row] = static_cast<float>((1.0 - stays) * left);
             left *= stays;
             left_lag *= stays;
-            // A float cannot hold less when it is added to the echo itself.
+            // Less than this is lost when a float adds it to the echo itself.
             if (left < 1e-30) left = left_lag = 0.0;
         }
     }

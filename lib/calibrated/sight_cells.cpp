@@ -18,7 +18,7 @@ constexpr int fewest_cells = 4;
 constexpr int most_cells = 128;
 constexpr int cone_rings = 48;
 constexpr int cone_turns = 16;
-// A cell is integrated over so many directions along either side.
+// The number of directions along either side over which a cell is integrated.
 constexpr int parts = 4;
 // The range at which a transducer is in its far field, m.
 constexpr float far_m = 1e6F;
@@ -27,7 +27,7 @@ int cells_over(double extent) {
     return std::clamp(static_cast<int>(std::ceil(extent / cell_rad)), fewest_cells, most_cells);
 }
 
-/// The axis, then the two axes between which the turn is measured.
+/// The axis of symmetry, then the two axes from which the turn is measured.
 std::array<int, 3> axes_of(int axis) {
     if (axis == 1) return {1, 0, 2};
     return axis == 2 ? std::array{2, 0, 1} : std::array{0, 1, 2};

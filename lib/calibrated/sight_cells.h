@@ -13,7 +13,7 @@
 namespace sonarsim {
 
 /// Places in the sensor frame, in arrays so that loops vectorise. `most` is a multiple of the lanes
-/// of a vector: places behind `count` are worked out, too.
+/// of a vector: places behind `count` are computed, too.
 struct SightPlaces {
     static constexpr int most = 256;
 
@@ -39,8 +39,8 @@ struct SightCells {
     float middle_sine(int s) const {
         return first_sine + (static_cast<float>(s) + 0.5F) * sine_step;
     }
-    /// The cells that an edge spans, from its half and the place of its middle: the number of
-    /// pieces of it that are no longer than a cell, at most 64.
+    /// The number of pieces, at most 64, that cut an edge so that none is longer than a cell, by
+    /// its half and the place of its middle.
     int spanned(const Eigen::Vector3f& half_edge, const Eigen::Vector3f& towards,
                 float range_m) const;
     /// Fills the ranges and the cells of places.

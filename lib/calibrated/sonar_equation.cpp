@@ -12,7 +12,7 @@ namespace sonarsim {
 
 namespace {
 
-/// `exp_neg` of bottom.h, 8 at a time: what a compiler makes of a loop over it takes twice as long.
+/// `exp_neg` of bottom.h, 8 at a time; a compiled loop over it takes twice as long.
 Floats8 exp_neg_of_8(Floats8 x, float longest = fades_at) {
     const Floats8 turns = least(x, longest) * 1.44269504F;
     const Floats8 whole = floor(turns);
@@ -60,8 +60,8 @@ class BackscatterTable {
           inverse_slope2_(scattering.materials, &Backscatter::inverse_slope2),
           sea_beds_(scattering.sea_beds.empty() ? nullptr : scattering.sea_beds.data()) {}
 
-    /// Adds two ways to scatter; the one that a material does not follow is 0. Neighbours mostly
-    /// have one material, so that one of the two can be left out.
+    /// Adds two kinds of scattering; the one that a material does not have is 0. Neighbours mostly
+    /// have one material, so one of the two can be skipped.
     Floats8 at(const std::uint32_t* numbers, Floats8 sine) const {
         const Floats8 lambert = lambert_.at(numbers);
         const Floats8 facet = facet_.at(numbers);

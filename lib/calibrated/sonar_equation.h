@@ -46,7 +46,7 @@ struct PointEchoes {
     PatchBlock::Array<float> column;  ///< column of the grid, if beams are formed
 };
 
-/// One end of the paths over a mirror: the sound departs there or arrives from there.
+/// One end of the specular paths: the sound departs towards it or arrives from it.
 struct PathEndpoint {
     const PatchBlock& places;
     const PointEchoes& echoes;
@@ -61,8 +61,8 @@ struct Amplitudes {
 void weigh_by_elevation(const ElevationPattern& pattern, const PatchBlock& pieces, int count,
                         PointEchoes& echoes);
 
-/// Fills all of `echoes` but their columns. What lies outside the range has power 0; returns how
-/// many do.
+/// Fills `echoes` except for their columns. Echoes outside the range have power 0; returns their
+/// number.
 std::uint64_t apply_sonar_equation(const PatchBlock& pieces, const Scattering& scattering,
                                    const SonarEquation& equation, PointEchoes& echoes);
 

@@ -11,7 +11,7 @@ namespace sonarsim {
 
 namespace {
 
-/// The ends of a block of ways that sound takes: the pieces, or their images.
+/// The ends of a block of paths: the pieces, or their images.
 struct Ends {
     PatchBlock places;
     PointEchoes echoes;                  ///< ranges of the places; the rest is filled by add_block
@@ -36,7 +36,7 @@ void put_place(Ends& ends, int k, const SpecularPath::Place& place, float s, flo
     ends.echoes.range_m[k] = arrival_range(p);
 }
 
-/// Finds the power that is sent towards the ends.
+/// Finds the power that is transmitted towards the ends.
 void direct_ends(Ends& ends, int count, const ElevationPattern& pattern) {
     ends.places.count = count;
     ends.echoes.count = count;
@@ -45,7 +45,7 @@ void direct_ends(Ends& ends, int count, const ElevationPattern& pattern) {
     ends.sent = ends.echoes.power;
 }
 
-/// The echoes that go out to some ends and come back from the others.
+/// The echoes that go out to some ends and return from the others.
 void use_reciprocal_path(const PiecesOfPaths& block, const Ends& out, Ends& back,
                          const UseBlock& use) {
     for (int k = 0; k < block.count; ++k) {
@@ -82,7 +82,7 @@ std::uint64_t use_block(const SonarEquation& equation, PiecesOfPaths& block, con
     return outside;
 }
 
-/// Into how many pieces an edge is cut, of which each is a point both directly and in the mirror.
+/// The number of pieces of an edge, so that each is a point both at its place and at its image.
 int pieces_of_both(const SpecularPath& piece, const Eigen::Vector3f SpecularPath::Place::*edge,
                    const PointLimits& limits) {
     int most = 1;

@@ -11,8 +11,8 @@
 
 namespace sonarsim {
 
-/// A block of echoes that come back from other places than they were sent to, with powers and range
-/// bins as PointEchoes has them.
+/// A block of echoes that return from another place than they were sent to, with powers and range
+/// bins as in PointEchoes.
 struct SpecularBlock {
     PathEndpoint out;    ///< the ranges of its echoes are those of the places
     PatchBlock& places;  ///< the echoes come back from these
@@ -20,24 +20,24 @@ struct SpecularBlock {
     std::span<const std::uint32_t> path;  ///< index into the paths
 };
 
-/// Finds the echoes over a mirror, and calls `use` for blocks of them. With the
-/// piece at the range r and its image at the range s,
+/// Finds the echoes of specular paths, and calls `use` for blocks of them. With the piece at the
+/// range r and its image at the range s,
 ///
 ///     EL = SL + S + 10 log R + 10 log A + D - 20 log r - 20 log s - alpha (r + s)    dB,
 ///
 /// in the range bin of (r + s) / 2: the mirror is taken for flat, so that sound spreads as if it
-/// came from the image. S is that of sound which comes and goes along two directions
-/// (Backscatter::between). Sound comes by either way round, with the same power: out to the image
-/// and back from the piece, and the reverse. D is the sonar's pattern towards where it sends,
-/// times the one towards where it hears.
+/// came from the image. S is bistatic, for the two directions (Backscatter::between). Sound takes
+/// the path in both senses with the same power: out to the image and back from the piece, and the
+/// reverse. D is the transmitting pattern towards the one end times the receiving pattern towards
+/// the other.
 ///
-/// Returns how many of these echoes lie outside the range.
+/// Returns the number of these echoes outside the range.
 std::uint64_t find_specular_echoes(std::span<const SpecularPath> paths,
                                    std::span<const Backscatter> materials,
                                    const SonarEquation& equation, const PointLimits& limits,
                                    const std::function<void(const SpecularBlock&)>& use);
 
-/// Adds the powers of these echoes to the real parts of the grid. Returns how many of them lie
+/// Adds the powers of these echoes to the real parts of the grid. Returns the number of them
 /// outside the range or the beams.
 template <class Beams>
 std::uint64_t add_specular_powers(const Beams& beams, std::span<const SpecularPath> pieces,

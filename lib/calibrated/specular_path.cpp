@@ -9,12 +9,12 @@ namespace sonarsim {
 
 namespace {
 
-/// `water` is null for a path that the water's surface does not mirror.
+/// `water` is null for a path without a reflection at the water's surface.
 SpecularPath specular_path(const BouncePath& path, const Sample& sample, const WaterMirror* water) {
     const auto reflected = [&](const Eigen::Vector3f& v) -> Eigen::Vector3f {
         return water ? water->reflect_direction(v) : v;
     };
-    // As in find_bounces: from the mirror image of the sonar through p_i sound goes straight on.
+    // As in find_bounces(): the path from the image of the sonar through p_i is straight.
     const Eigen::Vector3f from = 2.0F * sample.normal.dot(sample.position) * sample.normal;
     const Eigen::Vector3f through = sample.position - from;
     const float along = through.dot(path.normal);

@@ -20,7 +20,7 @@ namespace sonarsim {
 namespace {
 
 // Patches may be larger than those of an image, since their echoes are spread over bins and beams.
-// Over a depth d at the range r the power changes by the share 4 d / r.
+// Over a depth d at the range r the power changes by 4 d / r of itself.
 constexpr float most_depth_in_bins = 2.0F;
 
 /// The greatest size of a patch of labels.
@@ -51,7 +51,7 @@ std::vector<Sample> samples_of(const TargetSurface& targets) {
     return out;
 }
 
-/// Finds the echoes of a ping as an image has them, but for speckle. `Beams`: ArrayBeams or
+/// Finds the echoes of a ping as in its image, but without speckle. `Beams`: ArrayBeams or
 /// TransducerBeams.
 template <class Beams>
 class SurfaceEchoFinder {
@@ -191,8 +191,8 @@ class SurfaceEchoFinder {
         });
     }
 
-    /// Adds the echo of piece k of a block in a beam. What a line array receives of a piece in
-    /// several beams belongs to one patch.
+    /// Adds the echo of piece k of a block in a beam. The echoes of a piece in several beams of a
+    /// line array belong to one patch.
     template <class PatchOfPiece>
     void add_echo(int beam, int k, float power, PatchOfPiece patch_of_piece) {
         const auto at = static_cast<std::uint32_t>(patch_echoes_.size());
@@ -213,8 +213,8 @@ class SurfaceEchoFinder {
     }
 
     /// Calls use(beam, piece, power) for every beam that receives a piece's echo. A line array
-    /// receives it in the beams of its sines, which span `half_sine` of the piece to either side:
-    /// the array's side lobes are left out. `out`: where the sound was sent to, if not to the
+    /// receives it in the beams of its sines, `half_sine` to either side of the piece's; the
+    /// array's side lobes are left out. `out`: the places to which the sound was sent, if not the
     /// pieces.
     template <class HalfSine, class Use>
     void for_each_beam(const PatchBlock& pieces, const PointEchoes& echoes, const PathEndpoint* out,

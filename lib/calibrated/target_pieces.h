@@ -17,8 +17,8 @@
 //
 // With u = tan t it is R a^2 / (4 s^2) times the integral of u sqrt(1 + u^2) exp(-u^2 / (2 s^2))
 // du, that is R a^2 / 4 (1 + s^2 + ...): the target strength 20 log(a / 2) + 10 log R for any small
-// slope. The highlight has the size a s. Any surface with two radii of curvature also gives
-// R a b / 4: area counts by how fast the normal turns in it.
+// slope. The highlight has the size a s. A surface with two radii of curvature gives R a b / 4: the
+// echo depends on the area over which the normal turns by an angle.
 //
 // A mesh of flat triangles whose normals n = sum w_i n_i are interpolated has that area if each
 // piece counts by more than its own. On a sphere the corners' normals point along the corners, so
@@ -32,8 +32,8 @@
 
 namespace sonarsim {
 
-/// Facets further off the direction to the sonar than this many slopes send back nothing: 54 dB
-/// less than at its middle.
+/// Facets further off the direction to the sonar than this many slopes have no echo; it would be 54
+/// dB below that of the highlight's middle.
 inline constexpr float highlight_slopes = 5.0F;
 
 /// Pieces of targets, and the facets that they are parts of.
@@ -130,7 +130,8 @@ void cut_targets(std::span<const TargetFacet> facets, const PointLimits& limits,
             pieces.facet[at] = f;
             pieces.curvature_m[at] = facet.curvature_m;
             if (pieces.with_edges) {
-                // From the middle of a side to that of the opposite one, for both pairs of sides.
+                // The vectors from the middle of a side to that of the opposite one, for both pairs
+                // of sides.
                 const auto& [a, b, c, d] = part.corners;
                 pieces.edge_u[at] =
                     0.25F * ((b.u + c.u - a.u - d.u) * u + (b.v + c.v - a.v - d.v) * v);

@@ -20,7 +20,7 @@ enum Term : int { power_term, range_term, x_term, y_term, z_term, highlight_term
 /// The number of the cell at an offset from the middle one, 21 bits.
 std::uint64_t cell_at(float offset, float size) {
     constexpr float most = 1e5F;
-    // Rounded, halves away from 0: std::round() is a call for each number.
+    // Rounds halves away from 0. std::round() would be a call for each number.
     const float exact = offset / size;
     const float towards_0 = std::trunc(exact);
     const bool further = std::fabs(exact - towards_0) >= 0.5F;
@@ -204,7 +204,7 @@ void TargetScatterers::finish(const TargetCells& cells, const SonarEquation& equ
                         static_cast<std::uint32_t>(cell.number >> 32U)},
                        key);
             const float highlight = cell.sums[highlight_term];
-            // 1 if the cell holds all of the highlight and nothing else.
+            // 1 if the cell holds exactly the highlight.
             const float steady = highlight > 0.0F ? highlight / middle.highlight_power *
                                                         (highlight / cell.sums[power_term])
                                                   : 0.0F;

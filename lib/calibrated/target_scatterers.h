@@ -27,8 +27,8 @@ struct TargetCells {
 /// scatterer. The cells are counted from the middle of the highlight, where facets face the sonar.
 /// So a highlight smaller than a cell is one scatterer, at its place, with the highlight's energy,
 /// and does not flicker as the sonar moves. The scatterers of a larger highlight, and those of
-/// other surface, have exponential strengths, with all shades between the two. A scatterer keeps
-/// its phase and its draw from ping to ping.
+/// other surface, have exponential strengths; the transition is gradual. A scatterer keeps its
+/// phase and its draw from ping to ping.
 class TargetScatterers {
   public:
     using ScattererUse = std::function<void(const PatchBlock&, PointEchoes&, Amplitudes&)>;

@@ -65,7 +65,7 @@ void add_between_bins(float* column, float row, float re, float im) {
 
 float SineTable::at(float sine) const {
     const float most = static_cast<float>(values.size() - 2);
-    // In this order what is no number becomes 0.
+    // In this order of arguments NaN becomes 0.
     const float where = std::min(most, std::max(0.0F, (sine - from) * per_unit));
     const float whole = std::floor(where);
     const float* const entry = values.data() + static_cast<int>(whole);

@@ -66,18 +66,18 @@ void add_powers(const TransducerBeams& beams, const PatchBlock& pieces, const Po
 void add_amplitudes(const TransducerBeams& beams, const PatchBlock& pieces,
                     const PointEchoes& echoes, const Amplitudes& amplitudes, EchoGrid& grid);
 
-/// Finds the power with which a beam receives an echo of power 1 from each piece, both ways.
+/// Finds the two-way power with which a beam receives an echo of power 1 from each piece.
 void find_gains(const TransducerBeams& beams, int beam, const PatchBlock& pieces,
                 const PointEchoes& echoes, PatchBlock::Array<float>& gains);
 
-/// Adds the powers of echoes that come back from other places than they were sent to: each beam
-/// hears what it has sent itself. The powers and bins are those of `back`.
+/// Adds the powers of echoes that return from another place than they were sent to: each beam
+/// receives only the sound that it has transmitted. The powers and bins are those of `back`.
 void add_bistatic_powers(const TransducerBeams& beams, const PathEndpoint& out,
                          const PathEndpoint& back, EchoGrid& grid);
 
 /// Fills the image [bins, beams] with the power in the grid, of `powers` or of amplitudes, and the
-/// noise. Beside powers there may be amplitudes in `coherent`, else null. Noise belongs to the bin,
-/// the beam and the key.
+/// noise. `coherent` may hold amplitudes in addition to powers, else it is null. Noise belongs to
+/// the bin, the beam and the key.
 void beamform(const TransducerBeams& beams, const EchoGrid& grid, bool powers,
               const EchoGrid* coherent, bool noisy, PhiloxKey key, std::span<const float> row_gain,
               std::span<float> image);

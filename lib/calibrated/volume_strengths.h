@@ -4,7 +4,7 @@
 
 namespace sonarsim {
 
-/// The water as an instrument has it: what is `auto` in it is that of the instrument's usual water.
+/// The water of an instrument: `auto` values become those of the instrument's usual water.
 WaterConfig water_of(const WaterConfig& water, const InstrumentConfig& instrument);
 
 /// The volume scattering cross-section of the water without its layers, m^2 per m^3: that of

@@ -31,7 +31,7 @@ double absorption_db_per_m(double frequency_hz, const WaterState& water) {
     const double s = water.salinity_psu;
     const double z = water.depth_m;
     const double kelvin = t + 273.0;
-    // The speed that the authors fitted with; not Mackenzie's.
+    // The speed that the authors used in their fit; not Mackenzie's.
     const double c = 1412.0 + 3.21 * t + 1.19 * s + 0.0167 * z;
 
     const double boric = 8.86 / c * power_of_ten(0.78 * water.ph - 5.0);

@@ -33,8 +33,8 @@ double mean_along_track(const std::variant<TransducerBeams, ArrayBeams>& beams, 
     return sum / steps;
 }
 
-/// Adds a constant to the rows from one range to another, of a row whose values are the sums of
-/// all before: a bin that a border cuts has its share.
+/// Adds a constant from one range to another to rows of differences, whose running sums are the
+/// values. A bin that a border cuts gets its share.
 class RowDifferences {
   public:
     RowDifferences(const WaterColumn& water, int rows)
@@ -61,8 +61,8 @@ class RowDifferences {
     int rows_;
 };
 
-/// The stretch of a ray, [from, to], on which its depth lies between two. `fall`: the depth that it
-/// gains by metre.
+/// The stretch of a ray, [from, to], on which its depth lies between two depths. `fall`: its gain
+/// in depth per metre.
 std::array<float, 2> stretch_between(float depth_m, float fall, float top_m, float bottom_m) {
     const bool inside = depth_m >= top_m && depth_m < bottom_m;
     if (std::fabs(fall) < 1e-6F) return {0.0F, inside ? no_end : 0.0F};
@@ -121,7 +121,7 @@ std::optional<WaterColumn> water_column(const WaterConfig& water, double frequen
 std::vector<float> received_water(const WaterColumn& water, std::span<const float> ends_m,
                                   const Pose& T_world_sensor,
                                   const std::optional<double>& surface_z_m, int rows) {
-    // One more row takes what a border at the last bin leaves for the next.
+    // One more row, for the part of a border in the last bin that belongs to the next.
     const std::size_t stride = static_cast<std::size_t>(rows) + 1;
     std::vector<float> out(stride * water.sight.channels);
     const Eigen::Matrix3f R_world_sensor = T_world_sensor.rotation.toRotationMatrix().cast<float>();

@@ -16,8 +16,8 @@ namespace sonarsim {
 // The echoes of the water's volume and surface and of point targets in it, section 5 of
 // docs/calibrated.md. `Beams`: ArrayBeams or TransducerBeams.
 
-/// Adds the echoes of the water's volume. Its speckle belongs to whole ages; between two of them it
-/// is their sum by weights whose squares add up to 1, as the gain that drifts is.
+/// Adds the echoes of the water's volume. Its speckle is drawn at whole ages. Between two of them
+/// it is their sum with weights whose squares add up to 1, like the drifting gain.
 template <class Beams>
 void add_water_column(const CalibratedModel& model, const Beams& beams, const TracedPing& traced,
                       const FormContext& context, bool of_powers, float speckle_gain,
@@ -65,8 +65,8 @@ void find_particles(const CalibratedModel& model, const Beams& beams,
     });
 }
 
-/// Adds the amplitudes of point targets to a grid. A target keeps its phase from ping to ping;
-/// that of its way turns by the range.
+/// Adds the amplitudes of point targets to a grid. A target keeps its own phase from ping to ping;
+/// the phase of the path follows from the range.
 template <class Beams>
 void add_particle_amplitudes(const CalibratedModel& model, const Beams& beams,
                              const SeenParticles& particles, const PingDraws& draws,
@@ -117,8 +117,8 @@ void add_surface_powers(const CalibratedModel& model, const Beams& beams,
     });
 }
 
-/// Adds the echo of the water's surface. Its waves are others in each ping, and so are the
-/// amplitudes where the scatterers of the scene have the same in all of them.
+/// Adds the echo of the water's surface. Its waves differ in each ping, and so do their amplitudes,
+/// even where scatterers of the scene keep theirs.
 template <class Beams>
 void add_water_surface(const CalibratedModel& model, const Beams& beams,
                        std::span<const Sample> surface, const FormContext& context,

@@ -10,13 +10,13 @@ namespace {
 
 constexpr float ends_nowhere = std::numeric_limits<float>::infinity();
 
-// Pieces of surface count for the cell of their middle, so a cell that is covered wholly may have
-// less than its solid angle. This share, which is chosen, also closes a cell that is cut by an
-// edge.
+// The share of a cell's solid angle that closes it; chosen. Pieces of surface count for the cell of
+// their middle, so a wholly covered cell may have less than its solid angle. A cell that an edge
+// cuts is closed as well.
 constexpr float least_cover = 0.2F;
 
-/// Sums over the pieces of surface in each cell. Pieces are collected, since many find their cells
-/// faster together.
+/// Sums over the pieces of surface in each cell. Pieces are collected, since finding their cells is
+/// faster for many at a time.
 class CoveredCells {
   public:
     explicit CoveredCells(const SightCells& cells)
@@ -81,9 +81,9 @@ class CoveredCells {
     std::array<float, SightPlaces::most> covers_{};
 };
 
-/// The view cuts cells at its border, and pieces of surface have their middles farther in. So the
-/// water of a cut cell that no piece ends goes as far as that of its neighbours that the view
-/// has more of.
+/// The view cuts cells at its border, and the middles of pieces of surface lie farther inside. So
+/// the water of a cut cell without a piece ends where it does in the neighbours with more of their
+/// area in the view.
 void end_at_borders(const SightCells& cells, std::vector<float>& ends) {
     const std::vector<float> found = ends;
     for (int cell = 0; cell < cells.count(); ++cell) {

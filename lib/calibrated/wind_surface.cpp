@@ -12,11 +12,12 @@ namespace sonarsim {
 namespace {
 
 constexpr double high_from_hz = 10e3;
-// Below this angle both models are taken at it: their strengths go to 0 or to infinity.
+// Both models are evaluated at no less than this angle: below it their strengths go to 0 or
+// infinity.
 constexpr double least_grazing_rad = radians(0.1);
 
-/// The mean square slope of the waves. Below 1 m/s the report has 0.034, which jumps there: 0.0034
-/// is what the other branch has at 1 m/s, 4.6e-3 ln 2.1.
+/// The mean square slope of the waves. Below 1 m/s the report has 0.034, which jumps there; 0.0034
+/// is the value of the other branch at 1 m/s, 4.6e-3 ln 2.1.
 double square_slope(double wind_m_s) {
     return wind_m_s < 1.0 ? 0.0034 : 4.6e-3 * logarithm(2.1 * wind_m_s * wind_m_s);
 }
@@ -75,7 +76,7 @@ double high_frequency(double grazing_rad, double wind_m_s, double khz) {
 
 double low_frequency(double grazing_rad, double wind_m_s, double frequency_hz) {
     constexpr double knots = 3600.0 / 1852.0;
-    // In a calm the fit has no limit.
+    // In a calm the fit grows without bound.
     const double wind_kn = knots * std::max(wind_m_s, 0.5);
     const double b = 158.0 * power(wind_kn * power(frequency_hz, 1.0 / 3.0), -0.58);
     const double log_10_b = logarithm(b) / ln_10;

@@ -22,7 +22,7 @@ std::vector<Warning> find_warnings(const Mission& mission, const Assembly& assem
 /// heights of the mission, engine and fans.
 std::vector<Warning> warnings_before_pings(const Mission& mission, const Assembly& assembly);
 
-/// W01: anything that reading the scene left out or found odd.
+/// W01: the findings of reading the scene.
 std::vector<Warning> reading_warnings(const Scene& scene);
 
 /// The size of the scene, which way up it is, and parts that are in it twice.
@@ -33,7 +33,7 @@ std::vector<Warning> scene_warnings(const Mission& mission, const Assembly& asse
 std::vector<Warning> material_warnings(const WaterConfig& water, const Scene& scene);
 
 /// Values that hardly fit the rest of the mission: angles of sonars and objects that look like
-/// radians, heights that are not read, a depth far from the vehicle's.
+/// radians, unused heights, a depth far from the vehicle's.
 std::vector<Warning> mission_warnings(const Mission& mission, const Trajectory& trajectory);
 
 /// Attitudes: angles that look like radians, quaternions that look like w x y z.
@@ -60,8 +60,8 @@ std::vector<Warning> unseen_objects(const Mission& mission, const Assembly& asse
 std::vector<Warning> unseen_particles(const Mission& mission, const Assembly& assembly,
                                       const VisibilityEngine& rays);
 
-/// Adds to W04, W12 and W17 the question whether something is read in a wrong unit, for whatever is
-/// about three orders larger or smaller than the ranges of the sonars allow.
+/// Adds to W04, W12 and W17 a question about the unit of files whose size is about three orders of
+/// magnitude off the ranges of the sonars.
 void ask_for_units(const Mission& mission, const Scene& scene, std::vector<Warning>& warnings);
 
 /// An estimate of the memory of one ping of a sonar.

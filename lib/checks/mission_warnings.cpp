@@ -55,7 +55,7 @@ std::string name_of(const ObjectConfig& object) {
            printable(object.name.empty() ? object.file.filename().string() : object.name) + "'";
 }
 
-/// The height of an object on the bottom is not read.
+/// The height of an object on the bottom is not used.
 void judge_height(const ObjectConfig& object, std::vector<Warning>& out) {
     const double z_m = object.position_m[2];
     if (object.place_on != ObjectPlace::on_bottom || z_m == 0.0) return;
@@ -81,8 +81,8 @@ void judge_water(const Mission& mission, std::vector<Warning>& out) {
 }
 
 /// The depth of the water decides on absorption and on sound_speed_m_s: auto. Fifty metres change
-/// the speed by 0.8 m/s. Only a trajectory that lies wholly below the surface tells
-/// where that is.
+/// the speed by 0.8 m/s. Only a trajectory that lies wholly below the surface shows where the
+/// surface is.
 void judge_depth(const Mission& mission, const Trajectory& trajectory, std::vector<Warning>& out) {
     constexpr double least_m = 50.0;
     if (!has_calibrated(mission)) return;

@@ -87,7 +87,7 @@ std::array<double, 3> facing(const Scene& scene) {
     const std::size_t step = 1 + triangles_of_copies(scene) / most_of_copies;
     for (const MeshCopy& copy : scene.copies) {
         const SharedMesh& mesh = scene.shared_meshes[copy.mesh];
-        // It scales alike along all axes: areas grow by the square.
+        // The scale is uniform, so areas grow by its square.
         const Eigen::Matrix3d turned = copy.T_world_mesh.linear();
         const double grown = turned.col(0).norm() * static_cast<double>(step);
         for (std::size_t t = 0; t < mesh.triangles.size(); t += step)

@@ -86,7 +86,7 @@ double distance_to(const Scene& scene, const Eigen::Vector3d& point) {
     return Eigen::AlignedBox3d(scene.bounds_min, scene.bounds_max).exteriorDistance(point);
 }
 
-/// True if a height is out of reach above the scene, and its negative, as a depth has it, is not.
+/// True if a height is out of range above the scene, but its negative, a depth, is not.
 bool looks_like_depth(const Scene& scene, double z_m, double reach_m) {
     const double highest_m = scene.bounds_max.z() + reach_m;
     return z_m > highest_m && -z_m > scene.bounds_min.z() && -z_m < highest_m;
@@ -114,7 +114,7 @@ bool faces_up(const Scene& scene) {
     return up > 0.1 * either;
 }
 
-/// Counts a sonar where no vehicle can be. docs/warnings.md says why these are the limits.
+/// Counts poses at which no vehicle can be. docs/warnings.md gives the reasons for the limits.
 void judge_place(const Scene& scene, bool open_upwards, std::span<const Eigen::AlignedBox3d> boxes,
                  const Pose& T_world_sensor, const Surroundings& around, SonarSurvey& out) {
     std::size_t above = 0;

@@ -171,7 +171,7 @@ std::vector<Warning> unseen_objects(const Mission& mission, const Assembly& asse
     }
     const std::string not_looked_for =
         looked_for > most_objects
-            ? fmt::format(" ({} more were not looked for)", looked_for - most_objects)
+            ? fmt::format(" ({} more were not tested)", looked_for - most_objects)
             : "";
     std::vector<Warning> out;
     const auto warn = [&](const std::vector<std::string>& names, const char* what,
@@ -183,9 +183,9 @@ std::vector<Warning> unseen_objects(const Mission& mission, const Assembly& asse
                                    names_text(names) + not_looked_for, cure));
     };
     warn(never_in_view, " not in view",
-         "move what is named into the view of a sonar, or the trajectory towards it");
+         "move these into the view of a sonar, or the trajectory towards them");
     warn(hidden, " in view but not seen",
-         "what is named may lie behind, below or within something else, or be smaller than a beam");
+         "these may lie behind, below or within other surface, or be smaller than a beam");
     return out;
 }
 

@@ -9,8 +9,7 @@ namespace {
 // A figure that is a text has the format {:s}.
 constexpr std::array table{
     WarningText{
-        WarningCode::reading, "{0:s}", "",
-        "anything that reading the scene leaves out or finds odd",
+        WarningCode::reading, "{0:s}", "", "parts that reading the scene drops, and odd values",
         "points and lines, vertices that floats round, a CSV in g/cm^3 or km/s, a z that an "
         "object on the bottom does not use, a water.depth_m far from the vehicle's"},
     WarningText{WarningCode::scene_huge, "it is {0:.4g} x {1:.4g} x {2:.4g} m",
@@ -74,19 +73,19 @@ constexpr std::array table{
                 "sonar is meant to be in it"},
     WarningText{
         WarningCode::blind, "{0} of {1} pings are blind: they see no surface within the range",
-        "W13 to W17, which sonarsim validate prints, say why; the trajectory may leave the scene",
+        "sonarsim validate prints the reason as W13 to W17; the trajectory may leave the scene",
         "one blind ping", "it takes as long as the others and shows nothing"},
     WarningText{WarningCode::range_too_short,
-                "in {0} of {1} pings its range ends too early: what is in view begins at {2:.4g} "
-                "to {3:.4g} m, and range_max_m is {4:.4g}",
+                "in {0} of {1} pings its range ends too early: the surface in view begins at "
+                "{2:.4g} to {3:.4g} m, and range_max_m is {4:.4g}",
                 "raise range_max_m or sail nearer{5:s}", "one blind ping", "as W12"},
     WarningText{
         WarningCode::range_begins_late,
-        "in {0} of {1} pings all that is in view ends by {2:.4g} m, and range_min_m is {3:.4g}",
+        "in {0} of {1} pings all surface in view ends by {2:.4g} m, and range_min_m is {3:.4g}",
         "lower range_min_m", "one blind ping", "as W12"},
     WarningText{
         WarningCode::elevation_too_narrow,
-        "in {0} of {1} pings there is surface within the range above or below its view alone, the "
+        "in {0} of {1} pings the surface within the range lies only above or below its view, the "
         "nearest at elevations of {2:.0f} to {3:.0f} degrees, and {4:s} is {5:.4g}",
         "raise {4:s}, or tilt the sonar with mount.rpy_deg", "one blind ping", "as W12"},
     WarningText{WarningCode::looks_elsewhere,
@@ -116,10 +115,10 @@ constexpr std::array table{
                 "ordinary screens show such pixels as black"},
     WarningText{WarningCode::unseen_object, "{0:s} by any of the pings that were tried: {1:s}",
                 "{2:s}",
-                "an object with a name or a class that none of four pings of each sonar sees, "
-                "those that look at it most directly",
+                "an object with a name or a class that none of four pings of each sonar sees; the "
+                "tested pings look at it most directly",
                 "each try takes a ping, and few objects are visible only from the side; the first "
-                "200 objects are looked for"},
+                "200 objects are tested"},
     WarningText{WarningCode::radians, "{0:s} look like radians ({1:s})", "write angles in degrees",
                 "headings more than 30 degrees off the track, and within 15 if read as radians; or "
                 "the largest angle a multiple of pi / 2 to 0.1 %; or an angle of a sonar or an "
@@ -139,7 +138,7 @@ constexpr std::array table{
                 "the engine derives or measures its error; it knows its memory"},
     WarningText{WarningCode::doubled_triangles,
                 "node '{0:s}' and node '{1:s}' share {2} triangles; {3} of its {4} stand in two "
-                "nodes: nothing decides which of the two is seen there, and labelled",
+                "nodes: it is arbitrary which of the two is visible and labelled",
                 "take them out of one of the two",
                 "more than 1 % of the scene's triangles have exactly the same corners in two nodes",
                 "two bodies that touch may share a few, a part that was written twice shares all. "
@@ -152,7 +151,7 @@ constexpr std::array table{
         "the process",
         "the memory of a ping is estimated with 4 samples a bin, as with surface in all of them. "
         "If not even one ping has room, validate makes none to measure its time"},
-    WarningText{WarningCode::few_variants, "of {0} variants none is left for {1:s}",
+    WarningText{WarningCode::few_variants, "none of {0} variants is left for {1:s}",
                 "render more, or leave the part out", "a part of the split gets no variant",
                 "nothing can be trained or tested with it"},
     WarningText{WarningCode::no_locks,
@@ -187,18 +186,18 @@ constexpr std::array table{
                 "the sector is thinner than a pixel at its far end",
                 "most rows of the picture then have no pixel in the sector"},
     WarningText{WarningCode::rare_class,
-                "of {0} pictures hardly any shows an object of these classes: {1:s}",
+                "hardly any of {0} pictures shows an object of these classes: {1:s}",
                 "place more of them, lead the trajectory past them or render more variants",
                 "at most ten pictures with a label of the class, and at most one picture in ten",
                 "a network that sees a class in ten pictures does not learn it; where there are "
                 "few pictures, one in ten is not few"},
-    WarningText{WarningCode::disk_full,
-                "the dataset takes about {0:.1f} GB, and its disk has {1:.1f} GB free",
-                "render fewer pings or files (output), or write to another disk with --out",
-                "the size that validate estimates is above what is free, and nothing is rendered "
-                "yet",
-                "the estimate is the mean of a few pings; a run that fills the disk stops, and "
-                "goes on once there is room"},
+    WarningText{
+        WarningCode::disk_full,
+        "the dataset takes about {0:.1f} GB, and its disk has {1:.1f} GB free",
+        "render fewer pings or files (output), or write to another disk with --out",
+        "validate estimates a greater size than the free space, and nothing is rendered yet",
+        "the estimate is the mean of a few pings; a run that fills the disk stops, and "
+        "goes on once there is room"},
     WarningText{
         WarningCode::multipath_missed,
         "{0} of {1} pings may miss more than 5 % of the bins with multipath, or fill others by "
@@ -210,13 +209,12 @@ constexpr std::array table{
         "accuracy.relative_l1 holds for direct echoes: a facet that is narrower than a column of "
         "rays hardly counts for them, but its echo over a second surface may have bins of its "
         "own. The standard error of a few bins is large, and the estimate includes twice that"},
-    WarningText{
-        WarningCode::unseen_particles,
-        "no ping that was looked at sees a target of these groups of scene.particles: {0:s}",
-        "move them into the view of a sonar, raise their count, or leave them out",
-        "a group of which no target is in view, and before the surface, in any of up to "
-        "200 pings of each sonar",
-        "they cost time in each ping and have no label"},
+    WarningText{WarningCode::unseen_particles,
+                "no tested ping sees a target of these groups of scene.particles: {0:s}",
+                "move them into the view of a sonar, raise their count, or leave them out",
+                "a group without a target in view and in front of the surface in up to 200 pings "
+                "of each sonar",
+                "they cost time in each ping and have no label"},
 };
 
 constexpr bool is_in_order() {

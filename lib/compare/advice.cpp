@@ -18,7 +18,7 @@ constexpr std::string_view levels_of_noise =
 constexpr std::string_view levels_of_bottom =
     "instrument.source_level_db, instrument.receiver.full_scale_db, the material's lambert_db";
 
-// The first rule that fits holds.
+// The first rule that matches applies.
 constexpr std::array rules{
     Rule{"points", "beams", "instrument.beam.width_deg, aberration_rad"},
     Rule{"points", "ranges", "instrument.pulse.resolution_m, range_bins"},

@@ -4,8 +4,8 @@
 
 namespace sonarsim {
 
-/// The keys of a mission that a figure follows first, "instrument.receiver.noise_db, ..."; the keys
-/// are those of a sensor but for `scene`.
+/// The keys of a mission that affect a figure most, "instrument.receiver.noise_db, ...": keys of a
+/// sensor, or of `scene`.
 std::string keys_behind(const std::string& figure);
 
 }  // namespace sonarsim

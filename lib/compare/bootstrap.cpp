@@ -24,7 +24,7 @@ int unit_of(const Cell& cell, Units units) {
     return units == Units::locations ? cell.location : cell.ping;
 }
 
-/// The cells of a mean joined by unit, since a draw gives all of these one weight.
+/// The cells of a mean summed by unit, since a draw gives all cells of a unit the same weight.
 Measured joined(const Measured& figure, Units units) {
     if (figure.reduce == Reduce::quantile || units == Units::cells) return figure;
     Measured out = figure;
@@ -136,14 +136,14 @@ int count_of(const Measured& figure, Units units) {
     return static_cast<int>(found.size());
 }
 
-/// The draws of the Bayesian bootstrap of n units vary by (n - 1) / (n + 1) of what they should.
+/// The Bayesian bootstrap of n units has (n - 1) / (n + 1) of the true variance.
 double corrected(double drawn, int units) {
     return units > 1 ? drawn * (units + 1.0) / (units - 1.0) : 0.0;
 }
 
 struct Variance {
     double locations = 0.0;
-    double pings = 0.0;  ///< in excess of what cells make
+    double pings = 0.0;  ///< in excess of that of cells
     double all() const { return locations + pings; }
 };
 

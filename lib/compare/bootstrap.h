@@ -17,8 +17,8 @@ struct Estimate {
     double p = 1.0;        ///< two-sided, of no difference
 };
 
-/// True where the places of two recordings, or their pings, are the same, so that what both share
-/// there falls out of the difference.
+/// True if two recordings have the same places, or the same pings, so that their common part
+/// cancels in the difference.
 struct Pairing {
     bool locations = false;
     bool pings = false;

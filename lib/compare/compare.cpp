@@ -67,8 +67,8 @@ void adjust(std::vector<ComparedFigure>& figures) {
     }
 }
 
-/// A figure of places that both recordings have differs only if their exchange says so, too: tails
-/// that a few bright places make are not Student's. One without any variance has no such tails.
+/// A figure of places that both recordings have must also differ by their exchange, since a few
+/// bright places make other tails than Student's. A figure without variance has no such tails.
 void adjust_by_exchange(std::vector<ComparedFigure>& figures, const std::vector<double>& p) {
     for (std::size_t i = 0; i < figures.size(); ++i) {
         if (figures[i].estimate.difference_error == 0.0) continue;
@@ -86,8 +86,8 @@ std::vector<double> sum_of(const std::vector<std::vector<double>>& counts) {
     return sum;
 }
 
-/// The Jensen-Shannon divergence below which 95 % of the draws lie that deal all places of both
-/// recordings out anew; where places are the same, each is dealt by itself.
+/// The 95 % quantile of the Jensen-Shannon divergence over draws that redistribute all places of
+/// both recordings; common places are exchanged one by one.
 double usual_distance(const MeasuredHistogram& real, const MeasuredHistogram& simulated,
                       bool is_paired, std::uint32_t seed) {
     std::vector<double> drawn(exchanges);
@@ -131,8 +131,8 @@ ComparedHistogram compared(const MeasuredHistogram& real, const MeasuredHistogra
     return out;
 }
 
-/// The zones of both: of one grid those of the mean of both, so that chance in one recording does
-/// not move its zones against the other's.
+/// The zones of both recordings. With a common grid they are those of the mean of both, so that
+/// chance in one recording does not shift its zones against the other's.
 std::pair<Zones, Zones> zones_of_both(const RecordedImages& real, const RecordedImages& simulated,
                                       bool has_one_grid) {
     std::vector<double> a = mean_powers_of(real);
@@ -231,7 +231,7 @@ Comparison compare_recordings(const Recording& real, const Recording& simulated,
     in_parallel(pairs.size(), [&](std::size_t i) {
         figures[i] = compared(*pairs[i].first, *pairs[i].second, both.pairing, seed);
     });
-    // A figure without an error says nothing: it was found at fewer than eight places.
+    // A figure without an error is ignored: it was found at fewer than eight places.
     std::vector<ExchangedFigure> exchanged;
     for (std::size_t i = 0; i < figures.size(); ++i) {
         if (figures[i].estimate.degrees == 0.0) continue;

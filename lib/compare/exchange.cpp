@@ -64,7 +64,7 @@ std::vector<double> exchange_p(const std::vector<ExchangedFigure>& figures, std:
     std::vector<std::vector<double>> sizes(figures.size());
     in_parallel(figures.size(),
                 [&](std::size_t k) { sizes[k] = standardised_differences(figures[k], seed); });
-    // From the smallest difference up: each competes with those that are not larger.
+    // From the smallest difference up: each is compared with those that are not larger.
     std::vector<std::size_t> order(figures.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, {}, [&](std::size_t k) { return sizes[k][0]; });
@@ -78,7 +78,7 @@ std::vector<double> exchange_p(const std::vector<ExchangedFigure>& figures, std:
         }
         out[k] = as_great / (exchange_draws + 1.0);
     }
-    // A figure is no more certain than one with a larger difference.
+    // A figure is no more significant than one with a larger difference.
     for (std::size_t i = order.size(); i-- > 1;)
         out[order[i - 1]] = std::max(out[order[i - 1]], out[order[i]]);
     return out;

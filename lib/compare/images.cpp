@@ -10,7 +10,7 @@ namespace sonarsim {
 namespace {
 
 constexpr int most_strip_pings = 64;
-/// Values from here on, as a share of the largest, are taken as clipped.
+/// Values above this share of the largest count as clipped.
 constexpr double clipped_share = 0.995;
 
 /// Images of one beam whose columns are consecutive pings.

@@ -11,7 +11,7 @@ namespace sonarsim {
 
 namespace {
 
-/// Images in which edges are sought. More of the same places would say little more.
+/// The number of images in which edges are sought. More images of the same places would add little.
 constexpr std::size_t most_images = 32;
 
 /// The step from a beam to the next, in degrees.

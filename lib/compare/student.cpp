@@ -23,7 +23,7 @@ double student_tails(double t, double degrees) {
         const double weight = k == 0 ? 1.0 : (k % 2 == 1 ? 4.0 : 2.0);
         if (cosine > 1e-300) sum += weight * power(cosine, n - 1.0);
     }
-    // At a right angle the density is 0, but for n = 1, where it is 1.
+    // At a right angle the density is 0, except for n = 1, where it is 1.
     if (n <= 1.0) sum += 1.0;
     return std::clamp(2.0 * factor * sum * step / 3.0, 0.0, 1.0);
 }

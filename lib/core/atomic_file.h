@@ -8,8 +8,8 @@
 
 namespace sonarsim {
 
-/// A temporary name for a file while it is written: a reader sees the old file or the whole new
-/// one. The destructor removes a file that was not committed.
+/// A file that has a temporary name while it is written: a reader sees the old file or the whole
+/// new one. The destructor removes a file that was not committed.
 class AtomicFile {
   public:
     explicit AtomicFile(const std::filesystem::path& path);

@@ -36,7 +36,7 @@ void limit(int resource, rlim_t most) {
     setrlimit(static_cast<__rlimit_resource_t>(resource), &both);
 }
 
-/// The address space that this process has already, in bytes.
+/// The address space that this process uses, in bytes.
 std::size_t address_space() {
     std::size_t pages = 0;
     std::ifstream("/proc/self/statm") >> pages;
@@ -79,7 +79,7 @@ using Size = std::uint64_t;
                             const ChildLimits& limits) {
     for (const int number : {SIGINT, SIGTERM, SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGXCPU, SIGPIPE})
         std::signal(number, SIG_DFL);
-    // The last words of a library that dies would confuse the user.
+    // The messages of a library that crashes would confuse the user.
     const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
     if (nowhere >= 0) {
         dup2(nowhere, STDOUT_FILENO);
@@ -109,7 +109,7 @@ using Size = std::uint64_t;
 
 using Clock = std::chrono::steady_clock;
 
-/// Waits until there is something to read, or the other end is closed. False after the deadline.
+/// Waits until there are bytes to read, or the other end is closed. False after the deadline.
 bool wait_for_bytes(int from, Clock::time_point deadline) {
     for (;;) {
         const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
@@ -233,7 +233,7 @@ void ChildProcess::refuse(bool in_time) {
 
 void ChildProcess::end() {
     if (child_ < 0) return;
-    // Not by closing its channel: another child may have a copy of that.
+    // Closing its channel would not end it: another child may have a copy of the channel.
     kill(child_, SIGKILL);
     status_of(child_);
     close(channel_);

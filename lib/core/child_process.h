@@ -8,18 +8,18 @@ namespace sonarsim {
 
 /// Limits of a child process, for each of its answers.
 struct ChildLimits {
-    std::size_t memory_bytes = 0;  ///< beyond what it starts with
+    std::size_t memory_bytes = 0;  ///< in addition to the memory at its start
     unsigned long cpu_s = 0;
-    /// Time by the clock, also for a child that waits for a lock nobody opens; 0: any.
+    /// Wall-clock time, which also ends a child that waits for a lock; 0: no limit.
     double wall_s = 0.0;
 };
 
 /// Gives bytes to the parent.
 using ChildOutput = std::function<void(const void* bytes, std::size_t size)>;
 
-/// A child process that works on requests, one after the other: for a library that takes long to
-/// load, and which a damaged file makes crash, loop or take all memory. Changes that the
-/// work makes in memory are lost; it must not use threads or locks that other threads may hold. Not
+/// A child process that works on requests, one after the other. It is for a library that takes long
+/// to load, and that may crash, loop or use up memory on a damaged file. The work's changes of
+/// memory are lost, and it must not use threads or locks that other threads may hold. Not
 /// thread-safe.
 class ChildProcess {
   public:
@@ -30,9 +30,9 @@ class ChildProcess {
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
 
-    /// The bytes that the work hands over for a request. It starts the child if there is none.
-    /// InputError if the child ends before it has answered; the sentence says how. The next request
-    /// then starts another one. std::system_error if there can be no child.
+    /// The bytes that the work outputs for a request. It starts the child if there is none.
+    /// InputError, with the reason, if the child ends before it has answered; the next request then
+    /// starts another child. std::system_error if no child can be started.
     std::string answer(const std::string& request);
 
     /// Ends the child, until another request.
@@ -48,7 +48,7 @@ class ChildProcess {
     int channel_ = -1;  ///< requests and answers
 };
 
-/// The answer of a child that has one request.
+/// The answer of a child process that handles one request.
 std::string bytes_of_child(const std::function<void(const ChildOutput&)>& work,
                            const ChildLimits& limits);
 

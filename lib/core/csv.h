@@ -21,9 +21,8 @@ struct CsvTable {
 
 /// Reads comma-separated text. Lines that start with '#' and blank lines are skipped; a byte order
 /// mark and CRLF line ends are tolerated. A field may be quoted ("a, b"; "" is one quote), but may
-/// not span lines. InputError with file:line when there is no header, when a row has a field count
-/// other than the header's, when a quote is out of place, when there are more than 1024 columns,
-/// or when the text is binary.
+/// not span lines. InputError with file:line for a missing header, a row with another number of
+/// fields than the header, a misplaced quote, more than 1024 columns, or binary text.
 CsvTable parse_csv(std::string_view text, const std::string& file_name);
 
 /// parse_csv of a file of at most `limit_bytes`.

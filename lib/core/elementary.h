@@ -8,10 +8,10 @@
 
 #include "core/units.h"
 
-// Elementary functions with the same result on every processor. The C library's choose a variant by
-// the processor that they run on, and the variants differ in the last bit. Those that are called in
-// inner loops are branch-free, so that a loop over them vectorises. Only sqrt, floor and fma of
-// <cmath> are used: IEEE 754 fixes their results.
+// Elementary functions with the same result on every processor. The C library's functions choose a
+// variant by the processor, and the variants differ in the last bit. Functions for inner loops are
+// branch-free, so that the loops vectorise. Only sqrt, floor and fma of <cmath> are used: IEEE 754
+// fixes their results.
 
 namespace sonarsim {
 

@@ -16,8 +16,8 @@ struct Location {
     std::string text() const;
 };
 
-/// The user's input is wrong. The message says where, what is wrong and what would be right, one
-/// line for each error; the program ends with exit code 2.
+/// Wrong input by the user. The message names the place, the fault and the cure, one line for each
+/// error; the program ends with exit code 2.
 class InputError : public std::runtime_error {
   public:
     InputError(const Location& where, const std::string& what);

@@ -30,7 +30,7 @@ class Descriptor {
     Descriptor& operator=(const Descriptor&) = delete;
 
     int get() const { return fd_; }
-    /// Closes and reports what close() says: some file systems report a full disk only here.
+    /// Returns the result of close(): some file systems report a full disk only here.
     bool close() { return ::close(std::exchange(fd_, -1)) == 0; }
 
   private:

@@ -20,9 +20,8 @@ void write_file(const std::filesystem::path& path, std::string_view bytes);
 /// As write_file(); when it returns, the file survives a power cut.
 void write_file_durably(const std::filesystem::path& path, std::string_view bytes);
 
-/// Makes durable whatever was written to the file system that holds `folder`: one call for a
-/// thousand files costs a fraction of a thousand fsync() calls. std::system_error when the disk
-/// refuses.
+/// Makes all that was written to the file system of `folder` durable. One call for a thousand files
+/// costs a fraction of a thousand fsync() calls. std::system_error when the disk refuses.
 void sync_file_system(const std::filesystem::path& folder);
 
 /// Throws std::system_error for errno with the text "`what` `path`: ...", as in "cannot write PATH:

@@ -8,7 +8,7 @@
 
 namespace sonarsim {
 
-/// Calls `body` for 0 to count - 1, on all threads of the arena, in any order.
+/// Calls `body` for 0 to count - 1 on all threads of the arena, in any order.
 template <class Body>
 void in_parallel(std::size_t count, const Body& body) {
     char begun = 0;

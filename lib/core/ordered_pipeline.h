@@ -25,7 +25,7 @@ void ordered_pipeline(std::size_t count, std::size_t in_flight, const std::atomi
     char done = 0;
     const auto feed = [&](tbb::flow_control& flow) SONARSIM_CALLED_BY_TBB -> std::size_t {
         tsan_acquire(&next);
-        tsan_acquire(&done);  // the slot of the result that has left
+        tsan_acquire(&done);  // the slot of the result that was finished
         const ReleaseAtEnd fed{&done};
         if (next == count || stop) {
             flow.stop();

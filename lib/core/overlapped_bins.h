@@ -8,7 +8,7 @@ namespace sonarsim {
 /// The bins [i, i + 1), i from 0 to count - 1, that an interval overlaps. All lengths are in bins.
 template <class Real>
 struct OverlappedBins {
-    Real from, to;  ///< the interval, without what lies beyond the bins
+    Real from, to;  ///< the interval, clipped to the bins
     int begin = 0;  ///< the first bin
     int end = 0;    ///< one behind the last bin; equal to `begin` if there is none
 

@@ -10,7 +10,7 @@
 
 namespace sonarsim {
 
-// The bootstrap: numbers are estimated again with drawn weights of the units that they come from.
+// The bootstrap estimates numbers again with random weights of the units of the sample.
 
 /// The number of times that each of `count` units is drawn when `count` are drawn with replacement.
 inline std::vector<double> drawn_counts(int count, PhiloxKey key) {
@@ -28,8 +28,8 @@ inline double drawn_weight(PhiloxBlock unit, PhiloxKey key) {
     return -natural_log(unit_float(philox(unit, key).x0));
 }
 
-/// The variances of the numbers that `estimate` makes of the draws 0, 1, ... Numbers that are not
-/// finite do not count. `near` has numbers about which the draws lie.
+/// The variances of the numbers that `estimate` returns for the draws 0, 1, ... Numbers that are
+/// not finite do not count. `near` are numbers near the draws.
 template <class Estimate>
 std::vector<double> drawn_variances(const std::vector<double>& near, int draws,
                                     const Estimate& estimate) {

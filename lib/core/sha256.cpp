@@ -57,8 +57,8 @@ void store(const TwoRegisters& from, State& state) {
     _mm_storeu_si128(reinterpret_cast<__m128i*>(&state[4]), _mm_alignr_epi8(dchg, feba, 8));
 }
 
-/// The same with the SHA instructions, for several streams of bytes side by side: each instruction
-/// waits for the last one of its stream, so that four streams take 2.2 times the time of one.
+/// The same with the SHA instructions, for several interleaved streams of bytes: each instruction
+/// waits for the last one of its stream, so four streams take only 2.2 times as long as one.
 template <std::size_t streams>
 __attribute__((target("sha"))) void blocks_by_sha_instructions(
     std::span<State* const, streams> states, std::span<const char* const, streams> bytes,
@@ -74,7 +74,7 @@ __attribute__((target("sha"))) void blocks_by_sha_instructions(
         __m128i words[streams][16];
         for (std::size_t s = 0; s < streams; ++s)
             before[s] = now[s];
-            // Unrolled, the words stay in registers: a store and a load would delay every round.
+            // Unrolling keeps the words in registers: a store and a load would delay every round.
 #pragma GCC unroll 16
         for (std::ptrdiff_t i = 0; i < 16; ++i) {  // four rounds each
 #pragma GCC unroll 4
@@ -119,7 +119,7 @@ bool has_sha_instructions() {
 
 constexpr std::size_t most_streams = 4;
 
-/// Works `count` blocks of each stream into its state.
+/// Adds `count` blocks of each stream to its state.
 void work_in_all(std::span<State* const> states, std::span<const char* const> blocks,
                  std::size_t count) {
     const auto take = [&]<std::size_t streams>(std::integral_constant<std::size_t, streams>) {
@@ -144,7 +144,7 @@ constexpr std::size_t bytes_of_block = 64;
 constexpr State first_state{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
                             0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
 
-/// The digest of `all_bytes` bytes, of which `rest` is not worked into the state.
+/// The digest of `all_bytes` bytes, of which `rest` is not in the state yet.
 std::string digest_of(State state, std::string_view rest, std::uint64_t all_bytes) {
     const std::size_t blocks = rest.size() / bytes_of_block;
     work_in(state, rest.data(), blocks);

@@ -7,8 +7,7 @@
 
 namespace sonarsim {
 
-/// The SHA-256 of several byte strings. Four at a time are worked out side by side, which takes
-/// 2.2 times the time of one.
+/// The SHA-256 of several byte strings. Four at a time take 2.2 times as long as one.
 std::vector<std::string> sha256_of_all(std::span<const std::string_view> texts);
 
 }  // namespace sonarsim

@@ -35,8 +35,7 @@ Json describe_drawn(const DrawnValues& drawn) {
 
 namespace {
 
-/// The point targets that a ping reaches, by object: how many of its targets, their mean place, and
-/// the strength of all of them together.
+/// The point targets that a ping reaches, by object: their number, mean place and total strength.
 Json describe_particles(const Assembly& assembly, const FinishedPing& finished, double time_s) {
     struct Sum {
         int count = 0;

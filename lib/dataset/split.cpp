@@ -68,7 +68,7 @@ std::vector<SplitPart> split_poses(const SplitConfig& config, std::size_t poses)
     for (const SplitPart part : parts_of(config)) {
         if (std::ranges::find(of_pose, part) != of_pose.end()) continue;
         throw InputError(config.place.location,
-                         "of " + std::to_string(poses) + " poses none is left for '" +
+                         "none of " + std::to_string(poses) + " poses is left for '" +
                              std::string(split_part_names[static_cast<std::size_t>(part)]) +
                              "': take a smaller gap, fewer rounds, or leave the part out");
     }

@@ -63,7 +63,7 @@ ExportDestination::ExportDestination(const fs::path& dest, const Json& identity,
                          "holds something else than an unfinished export; remove it");
     lock_.emplace(lock_alone(part_));
     for (const fs::directory_entry& entry : fs::directory_iterator(part_)) {
-        // The mark is the last to go, since the folder is recognised by it.
+        // The mark is removed last, since it identifies the folder.
         if (entry.path().filename() != mark_name) fs::remove_all(entry.path());
     }
     write_file_durably(part_ / mark_name, json_text(identity));

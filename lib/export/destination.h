@@ -9,7 +9,7 @@
 namespace sonarsim {
 
 /// The folder of an export. Files are written into DEST.part, which gets the name DEST once it is
-/// whole. A hidden file, .sonarsim-export.json, says what the export is of.
+/// whole. A hidden file, .sonarsim-export.json, identifies the datasets of the export.
 class ExportDestination {
   public:
     /// `identity` stands for the datasets and options. InputError when DEST holds anything but this

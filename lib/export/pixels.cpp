@@ -83,7 +83,7 @@ std::uint8_t grey_of(double share) {
 }
 
 std::string PixelReader::file(const SourcePicture& picture) {
-    // A link could bring a file of this machine into what is handed on.
+    // A link could copy a private file of this machine into the export.
     if (!fs::is_regular_file(fs::symlink_status(picture.file)))
         throw InputError({picture.file.string()},
                          "is missing or no file; sonarsim verify says more");

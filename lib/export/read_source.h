@@ -10,9 +10,9 @@
 
 namespace sonarsim {
 
-/// Describes what there is to export. InputError, before anything is read for long, when a dataset
-/// is not complete or damaged, has no label `coco`, or has no pictures of 8 bits of a sensor, with
-/// the key to set; when no sensor or class has a name in `options`.
+/// Describes the datasets to export. InputError, before any long reading, when a dataset is not
+/// complete or damaged, has no label `coco`, or has no pictures of 8 bits of a sensor, with the key
+/// to set; when no sensor or class has a name in `options`.
 ExportSource read_export_source(const std::filesystem::path& folder, const ExportOptions& options);
 
 /// The objects in the pictures of a dataset by the ids of these. InputError, with the line, for a

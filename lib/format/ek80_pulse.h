@@ -6,7 +6,7 @@
 
 namespace sonarsim {
 
-/// A stage of the receiver of an EK80: a filter, behind which one of so many samples is kept.
+/// A stage of the receiver of an EK80: a filter, behind which one of `decimation` samples is kept.
 struct EkFilter {
     int decimation = 1;
     std::vector<std::complex<float>> taps;

@@ -19,7 +19,7 @@ constexpr std::uint16_t auto_device_data = 2301;
 constexpr double period_s = 25e-9;
 constexpr double gradian = pi / 200.0;
 
-/// The message at the begin of bytes, if its sum is right.
+/// The message at the beginning of the bytes, if its checksum is right.
 std::optional<std::string_view> checked_message(std::string_view bytes) {
     if (bytes.size() < ping_header + 2) return std::nullopt;
     const std::size_t length = ping_header + field_at<std::uint16_t>(bytes, 2);

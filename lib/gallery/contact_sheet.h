@@ -14,7 +14,7 @@ namespace sonarsim {
 struct SheetOptions {
     std::string sensor;                 ///< this sensor alone; empty: all
     std::optional<std::uint64_t> ping;  ///< this one, counted from 0
-    std::size_t most = 36;              ///< at most so many pictures of each sensor of one dataset
+    std::size_t most = 36;              ///< most pictures of each sensor of one dataset
     /// The child that draws has room for the libraries, a picture of 2^28 bytes and what it is
     /// scaled with.
     ChildLimits limits{std::size_t{4} << 30, 600, 300.0};

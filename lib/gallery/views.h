@@ -28,7 +28,7 @@ nlohmann::ordered_json views_of(const std::filesystem::path& folder,
                                 const nlohmann::ordered_json& sensor, const CocoBoxes& coco,
                                 const BoxLabels& labels);
 
-/// A sentence about what a sensor has and the page cannot show; empty where it shows everything.
+/// A sentence about data of a sensor that the page cannot show; empty if it shows everything.
 std::string note_about(const nlohmann::ordered_json& sensor, const nlohmann::ordered_json& views);
 
 }  // namespace sonarsim

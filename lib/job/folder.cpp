@@ -152,9 +152,10 @@ void remove_dataset(const Layout& layout, const Mission& mission) {
 
 void begin_dataset(const Layout& layout, const CommonFiles& files) {
     fs::create_directories(layout.folder);
-    // First and durably: a folder without it that holds anything else is not ours to write into.
+    // First and durably, since a run does not write into a folder that holds other files but not
+    // this one.
     write_file_durably(layout.folder / description_name, json_text(files.description));
-    // The sums hold again only when the dataset is complete.
+    // The sums are valid again only when the dataset is complete.
     fs::remove(layout.folder / checksums_name);
     write_file(layout.folder / mission_name, files.mission);
     write_file(layout.folder / trajectory_name, files.trajectory);

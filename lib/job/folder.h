@@ -25,7 +25,7 @@ std::string mission_differences(const std::filesystem::path& dataset, const std:
 FolderState inspect_folder(const Layout& layout, const nlohmann::ordered_json& description,
                            const std::string& mission);
 
-/// True if a folder holds nothing but what a run that was killed at its beginning left.
+/// True if a folder holds only files of a run that was killed at its beginning.
 bool is_unused(const std::filesystem::path& folder);
 
 /// InputError when the path is a symbolic link. `what` is what a user writes there: "a dataset".

@@ -186,7 +186,7 @@ std::optional<Json> read_variants(const fs::path& folder) {
 std::vector<fs::path> folders_of_variants(const fs::path& folder, const Json& json) {
     std::vector<fs::path> folders;
     const Json variants = json.value("variants", Json::array());
-    // Names are not taken from the file: whatever it says, nothing outside the folder is meant.
+    // Names are not taken from the file, so it cannot name anything outside the folder.
     for (std::size_t i = 0; i < variants.size(); ++i)
         folders.push_back(folder / variant_folder(static_cast<int>(i)));
     return folders;

@@ -17,7 +17,8 @@ double spread_at_one_range(const EchoPatch& patch) {
     const float u = d.dot(patch.edge_u);
     const float v = d.dot(patch.edge_v);
     // Over the parallelogram, (s, t) in [-1, 1]^2, sin(theta) = z / r changes by
-    // (dz - (z / r) dr) / r along an edge. What goes with range is not spread at one range.
+    // (dz - (z / r) dr) / r along an edge. The part that is in proportion to range does not spread
+    // at one range.
     const double sine_u = (patch.edge_u.z() - d.z() * u) / range;
     const double sine_v = (patch.edge_v.z() - d.z() * v) / range;
     const double depth_2 = static_cast<double>(u) * u + static_cast<double>(v) * v;
@@ -28,11 +29,11 @@ double spread_at_one_range(const EchoPatch& patch) {
 
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
 
-/// Bins are worked out in blocks of this many.
+/// Bins are computed in blocks of this many.
 constexpr int block = 16;
 
 /// Elevations and spreads of at most a block of bins, from the echo and its moments. Two loops
-/// without branches: compilers make vectors of them.
+/// without branches, so that they vectorise.
 void find_bins(const double* __restrict echo, const double* __restrict first,
                const double* __restrict second, int count, float* __restrict elevation,
                float* __restrict spread) {
@@ -42,7 +43,7 @@ void find_bins(const double* __restrict echo, const double* __restrict first,
         const double total = occupied ? echo[i] : 1.0;
         const double sine = std::min(std::max(first[i] / total, -1.0), 1.0);
         const double cosine = std::sqrt((1.0 - sine) * (1.0 + sine));
-        // d(theta) = d(sin theta) / cos(theta); where cos is 0, no more than a half circle.
+        // d(theta) = d(sin theta) / cos(theta), limited to a half circle where cos is 0.
         const double deviation = std::sqrt(std::max(second[i] / total - sine * sine, 0.0));
         const double least = std::max(std::max(cosine, deviation / pi), 1e-9);
         sines[i] = static_cast<float>(occupied ? sine : none);
@@ -98,7 +99,7 @@ void ElevationFinder::find(std::uint32_t row, std::span<float> elevation_rad,
     std::ranges::fill(spread_rad, none);
     const BinSumRows<3>::Row sums = sums_.row(row);
     const auto [echo, first, second] = sums.of;
-    // Most bins between occupied ones hold water.
+    // Most blocks hold water alone and are skipped.
     for (int from = sums.first; from < sums.last; from += block) {
         const int count = std::min(block, sums.last - from);
         const std::span<const double> echoes(echo + from, count);

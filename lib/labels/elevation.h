@@ -15,7 +15,7 @@ class ElevationFinder {
 
     /// Begins the next patch.
     void begin(const EchoPatch& patch, const RangePath& path);
-    /// Works out these bins of the patch.
+    /// Computes these bins of the patch.
     void cover(const CoveredBins& covered);
     /// Adds an echo of the patch to these bins of a row.
     void add(std::uint32_t row, double echo, const CoveredBins& covered);

@@ -10,7 +10,8 @@ namespace {
 
 // Surface that lies below the bottom by at most this share of its range is on it: rounding.
 constexpr double on_bottom = 1e-4;
-// The same if sound bends or the sonar moves: apparent pieces are flat, their true surface is not.
+// The same if sound bends or the sonar moves: pieces are flat at their apparent places, but not at
+// their true ones.
 constexpr double on_bottom_where_bent = 2e-3;
 
 }  // namespace
@@ -28,7 +29,7 @@ bool HeightFinder::begin(const EchoPatch& patch, const RangePath& path) {
         (places_.is_measured() ? on_bottom : on_bottom_where_bent) * path.range_m;
     std::optional<double> below = bottom_.highest_below(at, tolerance);
     if (!below) {
-        // A wall on the border of the bottom: the bottom begins before it.
+        // A wall may stand on the border of the bottom; then the bottom begins in front of it.
         const Eigen::Vector3d before = at + tolerance * (places_.T_world_sensor.rotation *
                                                          patch.sample->normal.cast<double>());
         below = bottom_.highest_below(before, tolerance);

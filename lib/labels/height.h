@@ -15,15 +15,15 @@ class HeightFinder {
     /// `rows`: the number of beams that are summed at once. The bottom must outlive the finder.
     HeightFinder(const RangeBins& bins, int rows, const Bottom& bottom, const TruePlaces& places);
 
-    /// Begins the next patch. False: there is no bottom below it, so that it has no height.
+    /// Begins the next patch. False if there is no bottom below it, so that it has no height.
     bool begin(const EchoPatch& patch, const RangePath& path);
-    /// Works out these bins of the patch.
+    /// Computes these bins of the patch.
     void cover(const CoveredBins& covered);
     /// Adds an echo of the patch to these bins of a row.
     void add(std::uint32_t row, double echo, const CoveredBins& covered);
 
     /// The mean height of the echo of each bin above the highest bottom below it; NaN in bins
-    /// without an echo and where there is no bottom. Clears the row.
+    /// without an echo or without a bottom. Clears the row.
     void find(std::uint32_t row, std::span<float> height_m);
 
   private:

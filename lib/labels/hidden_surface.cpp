@@ -19,7 +19,8 @@ constexpr int most_surfaces_behind = 8;
 // rounding of floats and far below a bin.
 constexpr float step_behind = 1e-5F;
 
-/// An object that a sight line has met, and the node before it. The first one of a way is its own.
+/// An object that a sight line has met, and the node before it. The first node of a way refers to
+/// itself.
 struct WayNode {
     std::uint32_t object, before;
 };
@@ -36,7 +37,7 @@ struct SolidAngles {
     double visible = 0.0, hidden = 0.0;
 };
 
-/// The ray that goes on behind the end of a sight line, from the pose of transmission.
+/// The ray that continues behind the end of a sight line, from the pose of transmission.
 Ray ray_behind(const SightLine& line, const PingMotion& motion, ViewShape shape) {
     if (motion.is_still())
         return {line.direction * (line.range_m * (1.0F + step_behind)), line.direction};
@@ -45,8 +46,8 @@ Ray ray_behind(const SightLine& line, const PingMotion& motion, ViewShape shape)
     return {place * (1.0F + step_behind), place.normalized()};
 }
 
-/// Adds the pieces of hidden surface that lie in different beams of a line array. `whole` is all
-/// the surface that the line meets, a piece of the plane with this normal.
+/// Adds the pieces of hidden surface that lie in different beams of a line array. `whole` is the
+/// whole piece of surface that the line meets, in the plane with this normal.
 void add_to_cones(const SightLine& line, const HiddenPiece& whole, const Eigen::Vector3f& normal,
                   const ConeBeams& cones, std::vector<HiddenPiece>& pieces) {
     const Sample& sample = *line.sample;
@@ -70,8 +71,7 @@ void add_to_cones(const SightLine& line, const HiddenPiece& whole, const Eigen::
             if (beam < 0) continue;
             HiddenPiece piece = whole;
             piece.beam = static_cast<std::uint32_t>(beam);
-            // The quotient may be no number for a plane that is seen edge-on; fmax() leaves that
-            // out.
+            // The quotient may be NaN for a plane that is seen edge-on; fmax() ignores it.
             const float range_m = whole.range_m * along / normal.dot(direction);
             piece.range_m = std::fmin(std::fmax(range_m, least_m), greatest_m);
             piece.half_m = whole.half_m / static_cast<float>(std::max(rows, columns));
@@ -93,7 +93,7 @@ class LineTracer {
           range_max_m_(static_cast<float>(view.range_max_m)),
           solid_angles_(objects.objects.size()) {}
 
-    /// Keeps the lines that lead on to surface that is wanted.
+    /// Keeps the lines behind which wanted surface may lie.
     void begin(std::vector<SightLine>& lines) {
         nodes_.reserve(2 * lines.size());
         for (const SightLine& line : lines) {
@@ -104,7 +104,7 @@ class LineTracer {
         pieces_.reserve(2 * lines.size());
     }
 
-    /// Takes what a line has met. True: it goes on.
+    /// Records the surface that a line has met. True if the line continues.
     bool take(SightLine& line, const Intersection& met) {
         line.range_m = line.range_m * (1.0F + step_behind) + met.distance_m;
         if (!(line.range_m < range_max_m_)) return false;
@@ -142,7 +142,7 @@ class LineTracer {
     const ConeBeams& cones_;
     const SceneObjects& objects_;
     const ObjectDirections& directions_;
-    bool all_;  ///< objects hide and background does
+    bool all_;  ///< background hides surface, too
     float range_max_m_;
     std::vector<WayNode> nodes_;
     std::vector<SolidAngles> solid_angles_;  ///< indexed by object

@@ -20,7 +20,7 @@ struct HiddenPiece {
 /// The hidden surface of a ping. Sight lines continue behind the first surface that they meet; the
 /// surface that they meet there is hidden. A body hides its own far side.
 struct HiddenSurface {
-    /// The objects that hide: all, or those that are no background.
+    /// The objects that hide surface: all, or those that are no background.
     enum class By { all, objects };
 
     std::vector<HiddenPiece> pieces;  ///< layer by layer
@@ -29,9 +29,9 @@ struct HiddenSurface {
     std::vector<float> visible_shares;
 };
 
-/// Traces the hidden surface, but not where `directions` say that there is none. With `objects`
-/// only that which objects that are no background hide, or that of these objects, which lie in
-/// `directions`; this costs little where they are small. `cones` exist for a line array.
+/// Traces the hidden surface, but not in directions without any by `directions`. By::objects keeps
+/// only surface that objects, not background, hide, and hidden surface of these objects, which lie
+/// in `directions`; small objects cost little. `cones` exist for a line array.
 HiddenSurface find_hidden_surface(const TracedPing& traced, const ConeBeams& cones,
                                   const View& view, const SceneObjects& objects,
                                   const VisibilityEngine& engine,

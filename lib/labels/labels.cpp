@@ -27,8 +27,8 @@ struct Stretch {
     auto operator<=>(const Stretch&) const = default;  // NOLINT(modernize-use-nullptr): no pointer
 };
 
-/// The echoes of a beam surface by surface. Engines return neighbours in space one after the other,
-/// so that stretches are few and long.
+/// The echoes of a beam surface by surface. Engines return neighbours in space in sequence, so
+/// stretches are few and long.
 void find_stretches(const BeamEchoes& echoes, int beam, const SceneObjects& objects,
                     std::vector<Stretch>& stretches) {
     stretches.clear();
@@ -87,7 +87,7 @@ class BeamLabeller {
     }
 
     /// 1 for the bins of beam j that show surface, 0 for others. `labelled`: label() was called for
-    /// this beam. If not, this takes half of the time of label().
+    /// this beam. Without label() this takes half of its time.
     std::span<const std::uint8_t> occupied(int j, bool labelled) {
         occupied_.assign(bins_.count + 1, 0);
         if (labelled) {

@@ -20,10 +20,10 @@ struct LabelRequest {
     bool elevation = false;
     bool shadow = false;
     bool height = false;
-    /// Needs objects: what annotations say of the objects that are no background.
+    /// Needs objects: the data of annotations, for objects that are no background.
     bool annotations = false;
-    std::span<const ObjectSphere> annotated = {};  ///< around these objects, for annotations
-    /// Around all surface, world; null: not known. Shadows are then the same, but found slower.
+    std::span<const ObjectSphere> annotated = {};  ///< spheres around the annotated objects
+    /// A box around all surface, world; null: not known, which only slows shadows down.
     const Eigen::AlignedBox3d* surface = nullptr;
     const Bottom* bottom = nullptr;  ///< reference of heights; null: nothing has a height
 };
@@ -40,23 +40,23 @@ struct PingLabels {
     std::vector<float> second_share;
     std::vector<std::uint16_t> class_id;      ///< the class that gives most of the echo
     std::vector<std::uint16_t> material;      ///< the material that gives most of it
-    std::vector<float> multipath;             ///< share of the echo that came by a second surface
+    std::vector<float> multipath;             ///< share of the echo that came over a second surface
     std::vector<float> elevation_rad;         ///< mean of the visible surface; NaN without any
     std::vector<float> elevation_spread_rad;  ///< its standard deviation within the bin
     std::vector<float> height_m;              ///< above the bottom; NaN where there is none
-    std::vector<std::uint16_t> shadow;        ///< the object that hides the surface of a dark bin
-    /// For annotations: as `shadow`, of the objects that are no background alone.
+    std::vector<std::uint16_t> shadow;        ///< the object that hides the bin's surface
+    /// For annotations: as `shadow`, but only objects that are no background hide.
     std::vector<std::uint16_t> object_shadow;
     /// With the shadow or for annotations, by object: the visible share of its solid angle; NaN for
-    /// one out of view and, without the shadow, for background.
+    /// an object out of view and, without the shadow, for background.
     std::vector<float> visible_share;
 
     std::size_t size() const { return static_cast<std::size_t>(range_bins) * beams; }
 };
 
 /// Finds the origin of the echo of every bin of a traced ping, without noise: the echoes are those
-/// of EchoModel::surface_echoes(). A multipath echo counts for the surface that mirrors the sound.
-/// A pure function of its arguments; one ping on one thread.
+/// of EchoModel::surface_echoes(). A multipath echo counts for the specular surface. A pure
+/// function of its arguments; one ping on one thread.
 PingLabels label_ping(const TracedPing& traced, const PingSettings& settings, const Scene& scene,
                       const SceneObjects& objects, const VisibilityEngine& engine,
                       const LabelRequest& request);

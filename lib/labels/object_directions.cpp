@@ -51,8 +51,8 @@ ObjectDirections::ObjectDirections()
 
 bool ObjectDirections::is_empty_behind(const Eigen::Vector3f& direction, float range_m) const {
     if (from_sensor_.isEmpty()) return false;
-    // Beyond the nearest of the three planes that a line crosses outwards it is outside for good.
-    constexpr double step_behind = 1e-5;  // at which sight lines go on
+    // A line leaves the box for good at the nearest of the three planes that it crosses outwards.
+    constexpr double step_behind = 1e-5;  // gap at which sight lines continue
     const Eigen::Vector3d point =
         range_m * (1.0 + step_behind) * (rotation_ * direction.cast<double>());
     for (int axis = 0; axis < 3; ++axis) {

@@ -15,14 +15,14 @@ struct ObjectSphere {
 };
 
 /// The directions in which some of these objects may lie, on a grid of cells over the y and z of
-/// unit vectors in the sensor's frame. It errs to one side: it misses no object.
+/// unit vectors in the sensor's frame. It may include too many directions, but misses no object.
 class ObjectDirections {
   public:
     /// `surface` is a box around all surface, world; null or empty: not known.
     ObjectDirections(std::span<const ObjectSphere> spheres, const Eigen::AlignedBox3d* surface,
                      const Pose& T_world_sensor, double range_min_m, double range_max_m);
 
-    /// Sound bends, and an object may lie in every direction.
+    /// For sound that bends: an object may lie in every direction.
     ObjectDirections();
 
     /// True if an object may lie in the direction of a unit vector, beyond a range.

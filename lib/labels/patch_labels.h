@@ -16,8 +16,8 @@ struct PatchLabels {
     std::span<float> height_m;
 };
 
-/// Fills these labels. They share the bins that a patch covers, which are worked out once for it.
-/// Without a `bottom` nothing has a height.
+/// Fills these labels. The bins that a patch covers are computed once for all of them. Without a
+/// `bottom` nothing has a height.
 void label_patches(const SurfaceEchoes& echoes, const View& view, const TruePlaces& places,
                    const Bottom* bottom, const PatchLabels& labels);
 

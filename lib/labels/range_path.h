@@ -9,20 +9,20 @@
 
 namespace sonarsim {
 
-/// A patch of surface as a way through the bins.
+/// The path of a patch of surface through the range bins.
 struct RangePath {
     double range_m;             ///< centre
-    double before_m, after_m;   ///< extent of its range on either side
-    double depth_m;             ///< spanned by its half edges
+    double before_m, after_m;   ///< extent in range on either side of the centre
+    double depth_m;             ///< extent in range of its half edges
     double bend;                ///< squared length of the way per metre of range
     Eigen::Vector3f per_range;  ///< the way per metre of range, where range grows fastest
 };
 
 RangePath range_path(const EchoPatch& patch);
 
-/// The metres of RangePath::per_range from the centre to the range r. Along p + t e, where
-/// d . e = 1, the range is r^2 = r_0^2 + 2 r_0 t + e^2 t^2: a flat piece may span many bins, and
-/// its way is not linear in range.
+/// The length along RangePath::per_range from the centre to the range r, m. Along p + t e, where d
+/// . e = 1, the range is r^2 = r_0^2 + 2 r_0 t + e^2 t^2: a flat piece may span many bins, and its
+/// way is not linear in range.
 inline double way_to(const RangePath& path, double r) {
     const double more = (r - path.range_m) * (r + path.range_m);
     const double root = std::sqrt(std::max(path.range_m * path.range_m + path.bend * more, 0.0));
@@ -32,7 +32,7 @@ inline double way_to(const RangePath& path, double r) {
 /// Successive bins that a footprint covers.
 struct CoveredBins {
     static constexpr int at_once = 16;
-    /// Bins are worked out in vectors of this many. Beyond the last one the share is 0.
+    /// Bins are computed in vectors of this many. Beyond the last one the share is 0.
     static constexpr int lanes = 4;
 
     int first, count;
@@ -42,8 +42,8 @@ struct CoveredBins {
     std::array<double, at_once + 1> range_m, way;
 };
 
-/// Calls visit(covered) for the bins that the footprint covers, in order. They are worked out for
-/// some bins at a time: then compilers make vectors of way_to().
+/// Calls visit(covered) for the bins that the footprint covers, in order. Several bins at a time,
+/// so that way_to() vectorises.
 template <class Visit>
 void for_each_covered(const RangePath& path, const RangeBins& bins, Visit visit) {
     constexpr int at_once = CoveredBins::at_once;
@@ -65,7 +65,7 @@ void for_each_covered(const RangePath& path, const RangeBins& bins, Visit visit)
         covered.first = from;
         covered.count = std::min(at_once, end_bin - from);
         covered.whole = (covered.count + lanes - 1) / lanes * lanes;
-        // Two loops: compilers make vectors of each, not of one.
+        // Two loops vectorise; one would not.
         const auto start = static_cast<double>(from);
         for (int k = 0; k < covered.whole; ++k) {
             const double enters = std::max(low, start + k);
@@ -99,7 +99,7 @@ class BinSumRows {
             all.resize(static_cast<std::size_t>(rows) * stride_);
     }
 
-    /// The sums of the bins that are covered. Something is added to them.
+    /// The sums of the covered bins, to be added to.
     std::array<double*, sums> at(std::uint32_t row, const CoveredBins& covered) {
         Reached& reached = reached_[row];
         reached.first = std::min(reached.first, covered.first);

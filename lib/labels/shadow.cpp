@@ -6,7 +6,8 @@ namespace sonarsim {
 
 namespace {
 
-/// Gives each 0 the value that stands nearest to it; of two the lower one. False: all are 0.
+/// Replaces each 0 by the nearest other value; at equal distance by the lower one. False: all are
+/// 0.
 bool fill_gaps(std::span<std::uint16_t> ids) {
     const auto count = static_cast<int>(ids.size());
     int before = -1;
@@ -23,14 +24,14 @@ bool fill_gaps(std::span<std::uint16_t> ids) {
 }
 
 bool has_dark_bins(std::span<const std::uint8_t> covered, std::span<const std::uint8_t> occupied) {
-    std::uint8_t dark = 0;  // no bool, so that the loop becomes vectors
+    std::uint8_t dark = 0;  // no bool, so that the loop vectorises
     for (std::size_t i = 0; i < covered.size(); ++i)
         dark |= covered[i] > occupied[i] ? std::uint8_t{1} : std::uint8_t{0};
     return dark != 0;
 }
 
-/// Gives the dark bins their owners. False: some have none. No branches, so that the loop becomes
-/// vectors.
+/// Gives the bins in shadow their owners. False: some have none. No branches, so that the loop
+/// vectorises.
 bool name_dark_bins(std::span<const std::uint8_t> covered, std::span<const std::uint8_t> occupied,
                     std::span<const std::uint16_t> owners, std::span<std::uint16_t> shadow) {
     std::uint16_t without = 0;

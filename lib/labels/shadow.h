@@ -9,9 +9,9 @@
 
 namespace sonarsim {
 
-/// Finds the bins in shadow: surface falls into them, and none of it is visible. A bin in shadow
-/// gets the object that hides most of its surface, by solid angle, or that of the nearest bin in
-/// which sight lines end.
+/// Finds the bins in shadow: they hold surface, and none of it is visible. A bin in shadow gets the
+/// object that hides most of its surface by solid angle. If no sight line ends in it, it gets the
+/// object of the nearest bin in which one does.
 class ShadowFinder {
   public:
     /// `pieces`: the hidden surface. They must outlive the finder.
@@ -24,7 +24,7 @@ class ShadowFinder {
               std::span<std::uint16_t> shadow);
 
   private:
-    /// The index of an object's hidden surface in `pieces_`.
+    /// The index of a piece of hidden surface in `pieces_`.
     struct Place {
         std::uint32_t object, at;
 

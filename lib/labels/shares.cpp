@@ -12,7 +12,7 @@ struct Reach {
     int first, last;  ///< bins [first, last)
 };
 
-/// The bins that echoes can touch. Those that are no numbers touch none.
+/// The bins that echoes can reach. Echoes with NaN reach none.
 Reach reach_of(const RangeBoxes& echoes, std::span<const EchoRange> ranges, const RangeBins& bins) {
     float low = bins.min_m + bins.bin_m * static_cast<float>(bins.count);
     float high = bins.min_m;
@@ -22,7 +22,8 @@ Reach reach_of(const RangeBoxes& echoes, std::span<const EchoRange> ranges, cons
             high = std::max(high, echoes.range_m[k] + echoes.half_m[k]);
         }
     }
-    // accumulate() rounds otherwise, and widens an echo without depth: a bin more to either side.
+    // One bin more on either side, since accumulate() rounds differently and widens an echo without
+    // depth.
     const auto count = static_cast<float>(bins.count);
     const float per_bin = 1.0F / bins.bin_m;
     const float first = std::clamp((low - bins.min_m) * per_bin - 1.0F, 0.0F, count);
@@ -30,7 +31,7 @@ Reach reach_of(const RangeBoxes& echoes, std::span<const EchoRange> ranges, cons
     return {static_cast<int>(first), static_cast<int>(last)};
 }
 
-/// Puts one key's echoes of `count` bins before what is there, where they are larger.
+/// Merges one key's echoes of `count` bins into the two largest.
 void take_larger(const float* __restrict echo, int count, std::uint32_t id,
                  std::uint32_t* __restrict best, float* __restrict best_echo,
                  std::uint32_t* __restrict second, float* __restrict second_echo) {
@@ -47,7 +48,7 @@ void take_larger(const float* __restrict echo, int count, std::uint32_t id,
     }
 }
 
-/// The same where the largest alone is wanted.
+/// The same for the largest alone.
 void take_largest(const float* __restrict echo, int count, std::uint32_t id,
                   std::uint32_t* __restrict best, float* __restrict best_echo) {
     for (int i = 0; i < count; ++i) {

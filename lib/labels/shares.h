@@ -13,7 +13,7 @@ struct EchoRange {
     std::uint32_t begin, end;
 };
 
-/// The parts of the echo of a beam's bins that several sources (objects, say) add.
+/// The parts of the echo of a beam's bins by source, such as an object.
 struct BeamShares {
     /// The part of one source in the bins [first, last).
     struct Source {
@@ -51,9 +51,9 @@ struct Strongest {
 /// The number of the largest shares to find.
 enum class Ranks { first, first_and_second };
 
-/// Finds the keys with the largest parts in every bin. `key_of` turns the key of a source into the
-/// wanted one, such as the class of an object; parts of one key are summed first. Among equal parts
-/// the lower key wins.
+/// Finds the keys with the largest parts in every bin. `key_of` maps the key of a source to the
+/// wanted one, such as the class of an object; parts of one key are summed first. The lower key
+/// wins among equal parts.
 class StrongestFinder {
   public:
     template <class KeyOf>

@@ -9,11 +9,10 @@ namespace sonarsim {
 
 namespace {
 
-// Surface that is seen along its plane covers all ranges; its extent is limited to this share of
-// its range.
+// Surface that is seen edge-on covers all ranges; its extent is limited to this share of its range.
 constexpr float longest_half = 0.1F;
 
-/// Adds the sight line that leads to a sample.
+/// Adds the sight line behind a sample.
 void add_line(const Sample& sample, int beam, std::vector<SightLine>& lines) {
     if (beam < 0) return;
     const auto [range, departure, direction] = arrival_of(sample.position);
@@ -28,7 +27,7 @@ void add_line(const Sample& sample, int beam, std::vector<SightLine>& lines) {
                      .passed = number});
 }
 
-/// The change of a plane's range along the half edge of the footprint before it.
+/// The change of a plane's range along the half edge of the footprint in front of it.
 float range_along(const Eigen::Vector3f& edge, const Eigen::Vector3f& direction, float before_m,
                   const Eigen::Vector3f& normal, float range_m) {
     const Eigen::Vector3f turn = (edge - direction * direction.dot(edge)) / before_m;
@@ -59,7 +58,7 @@ float half_extent(const SightLine& line, float range_m, const Eigen::Vector3f& n
     const float half = range_along(sample.edge_u, line.direction, line.before_m, normal, range_m) +
                        range_along(sample.edge_v, line.direction, line.before_m, normal, range_m);
     const float most = longest_half * range_m;
-    // The quotient may be no number for a plane that is seen edge-on.
+    // The quotient may be NaN for a plane that is seen edge-on.
     return half < most ? half : most;
 }
 

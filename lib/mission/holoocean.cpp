@@ -186,7 +186,7 @@ std::string engine_remarks(const YamlNode& scenario, std::vector<std::string>& w
 
 ImportedMission import_holoocean(std::string_view text, const std::string& file,
                                  const HoloOceanWorld& world) {
-    // JSON is YAML, but for what no scenario holds.
+    // JSON is YAML, except for text that no scenario holds.
     const YamlNode scenario = read_document(text, file);
     ImportedMission mission;
     std::vector<std::string>& warnings = mission.warnings;

@@ -24,7 +24,7 @@ enum class BeamSpacing { equal_angle, equal_sine };
 
 enum class SpeckleMode {
     scene,  ///< scatterers stay in place in the scene
-    ping,   ///< scatterers are drawn anew for every ping
+    ping,   ///< scatterers are drawn for every ping
     none    ///< no speckle, the mean power
 };
 
@@ -89,7 +89,7 @@ enum class SampleRule { maximum, mean, rms };
 struct InterferenceConfig {
     double level_db = 0.0;  ///< above the noise; 0: none
     double length_m = 0.1;  ///< length of its pulse in range
-    double step_m = 1.0;    ///< it moves so far in range from ping to ping
+    double step_m = 1.0;    ///< its shift in range from ping to ping
 
     bool operator==(const InterferenceConfig&) const = default;
 };
@@ -111,7 +111,7 @@ struct ReceiverConfig {
     int samples = 1;  ///< for each range bin
     SampleRule combine = SampleRule::maximum;
     int looks = 1;                   ///< their powers are averaged
-    double offset = 0.0;             ///< taken from raw/, as a share of its largest value
+    double offset = 0.0;             ///< subtracted from raw/, as a share of its largest value
     double tvg_step_db = 0.0;        ///< 0: the TVG is smooth
     double blanking_m = 0.0;         ///< nothing is received up to this range
     double ring_down_db = 0.0;       ///< at range 0, above the noise; 0: none

@@ -234,8 +234,8 @@ void describe(Visitor& v, InstrumentConfig& c) {
     v.section("speckle", c.speckle, "interference of the echoes of many scatterers");
     v.section("receiver", c.receiver, "noise, TVG and the values of raw/");
     v.choice("usual_water", c.usual_water, usual_waters,
-             "what is in the water if water.content is `auto`: that in which such an instrument is "
-             "used");
+             "content of the water if water.content is `auto`: the water in which such an "
+             "instrument is used");
     v.flag("below_bottom", c.below_bottom,
            "the volume of the sediment echoes behind its surface, as a tail, in place of at it");
     require_one_unit(v, c);

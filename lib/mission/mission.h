@@ -50,10 +50,10 @@ struct WaterConfig {
     /// Mineral particles; without it by `content`.
     std::optional<double> suspended_mg_l = {};
     double suspended_um = 50.0;  ///< their diameter
-    /// RMS speed at which the scatterers drift apart; none: they are others in each ping.
+    /// RMS speed at which the scatterers drift apart; none: new scatterers in each ping.
     std::optional<double> drift_rms_m_s = {};
     std::array<double, 3> current_m_s{};             ///< moves all of them alike
-    std::optional<SoundProfileConfig> profile = {};  ///< sound bends by it; none: it goes straight
+    std::optional<SoundProfileConfig> profile = {};  ///< bends sound; none: paths are straight
     /// The profile by which the instruments turn angles and times to soundings; none: constant.
     std::optional<SoundProfileConfig> assumed_profile = {};
 
@@ -78,8 +78,8 @@ struct MultipathConfig {
     /// bins on a rough sea floor; 5 miss 2 % and take a tenth more rays.
     double delta_deg = 5.0;
     int columns_per_beam = 1;        ///< parts that the trace divides a beam into; fans only
-    int retraced = 0;                ///< most reflections on a way that sound takes out and back
-    double retraced_loss_db = 40.0;  ///< ways whose reflections take more are left out
+    int retraced = 0;                ///< most reflections on a retraced path
+    double retraced_loss_db = 40.0;  ///< paths with a greater loss are left out
 
     bool operator==(const MultipathConfig&) const = default;
 };
@@ -111,7 +111,7 @@ struct SonarConfig {
     SonarKind kind = SonarKind::imaging;
     MountConfig mount;
     int every = 1;                ///< the sonar pings at every n-th pose
-    bool moves_in_ping = false;   ///< sonar and objects move on while sound is under way
+    bool moves_in_ping = false;   ///< sonar and objects move during a ping
     ShutterConfig shutter;        ///< imaging sonars
     double azimuth_deg = 120.0;   ///< full angle
     double elevation_deg = 20.0;  ///< full angle
@@ -146,7 +146,7 @@ struct SlicesConfig {
 
 struct OctreeConfig {
     double leaf_m = 0.0;   ///< edge of the leaves; 0: derived from accuracy.relative_l1
-    int memory_mb = 512;   ///< above it the nodes not seen for longest are dropped
+    int memory_mb = 512;   ///< above it the least recently used nodes are dropped
     bool literal = false;  ///< exactly as the paper prints it, as a baseline
 
     bool operator==(const OctreeConfig&) const = default;

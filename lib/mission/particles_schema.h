@@ -55,13 +55,13 @@ void describe(Visitor& v, ParticlesConfig& c) {
     v.numbers("size_m", c.size_m, any_position_m, "size of the region along x, y and z");
     v.numbers("drift_m_s", c.drift_m_s, {-100, 100}, "velocity of all targets");
     v.number("rise_m_s", c.rise_m_s, between(0, 10),
-             "speed at which bubbles rise besides; at the top of the region they begin anew at its "
-             "bottom");
+             "speed at which bubbles rise, in addition; at the top of the region they start again "
+             "at its bottom");
     v.flag("buried", c.buried,
            "points that lie below the bottom, whose sea bed refracts and absorbs the sound on both "
            "ways; such a point above the bottom is not seen");
     v.choice("instances", c.instances, particle_instances,
-             "what is one object for labels: `each` target, or the whole `group`; `auto` takes the "
+             "the object of labels: `each` target, or the whole `group`; `auto` takes the "
              "group from 100 targets on");
     const bool is_fish = c.kind == ParticleKind::fish;
     const bool are_bubbles = c.kind == ParticleKind::bubbles;

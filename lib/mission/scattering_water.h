@@ -6,7 +6,7 @@
 
 namespace sonarsim {
 
-/// True if the water sends sound back, to a sonar whatever its usual water.
+/// True if the water scatters sound back to every sonar, whatever its usual water.
 inline bool scatters(const WaterConfig& water) {
     const bool has_content =
         water.content != WaterContent::none && water.content != WaterContent::automatic;
@@ -14,7 +14,7 @@ inline bool scatters(const WaterConfig& water) {
            water.suspended_mg_l.value_or(0.0) > 0.0;
 }
 
-/// True if the water sends sound back to some sonar.
+/// True if the water scatters sound back to some sonar.
 inline bool some_water_scatters(const Mission& mission) {
     const bool is_usual = mission.water.content == WaterContent::automatic;
     return scatters(mission.water) ||

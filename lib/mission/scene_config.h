@@ -43,7 +43,7 @@ struct ObjectConfig {
     ObjectPlace place_on = ObjectPlace::free;
     double bury_m = 0.0;  ///< burial depth of an object on the bottom
     bool align = false;   ///< upright on the bottom's slope
-    bool buried = false;  ///< sound reaches what lies below the bottom through it
+    bool buried = false;  ///< sound reaches its part below the bottom
     std::optional<TrajectoryConfig> trajectory;
     MissionPlace place;
 
@@ -66,7 +66,7 @@ struct ScatterConfig {
     std::array<double, 2> bury_m{};
     double spacing_m = 0.0;  ///< least distance between objects, seen from above
     bool align = false;
-    bool buried = false;  ///< as of an object
+    bool buried = false;  ///< as for an object
     int tries = 1000;     ///< number of places tried for each object
     MissionPlace place;
 
@@ -102,8 +102,8 @@ enum class RepeatedFiles { automatic, copied, shared };
 /// The surface of the water, which reflects sound from below.
 struct WaterSurfaceConfig {
     double height_m = 0.0;
-    double roughness = 0.0;  ///< share of the sound that is scattered away
-    bool scatters = false;   ///< sends sound back, by the speed of the wind
+    double roughness = 0.0;  ///< share of the sound that is not reflected specularly
+    bool scatters = false;   ///< scatters sound back, by the speed of the wind
 
     bool operator==(const WaterSurfaceConfig&) const = default;
 };

@@ -169,7 +169,7 @@ void describe(Visitor& v, SceneConfig& c) {
         "of `file`, else the first object");
     v.optional_section("heightmap", c.heightmap, "an image of heights, which is the bottom");
     v.optional_section("sediment_map", c.sediment_map,
-                       "an image whose pixels say what the ground is made of");
+                       "an image whose pixels are materials of the ground");
     v.optional_section("backscatter_map", c.backscatter_map,
                        "an image of decibels that are added to the strength of the ground");
     v.optional_section("seabed", c.seabed,

@@ -70,7 +70,7 @@ void describe(Visitor& v, WaterConfig& c) {
              "speed of the wind, for the noise of the sea in receiver.noise_db: auto");
     v.choice(
         "content", c.content, water_contents,
-        "what is in the water and sends sound back, for the calibrated model: `none` nothing, "
+        "content of the water that scatters sound, for the calibrated model: `none` nothing, "
         "`clear` -90 dB, `coastal` -75 dB, `plankton` -65 dB, `plume` -55 dB re 1 m^2 per m^3, "
         "each with its suspended_mg_l; `auto` is the usual_water of each instrument");
     v.number_or_auto("scattering_db_per_m3", c.scattering_db_per_m3, volume_strengths_db,
@@ -174,10 +174,10 @@ void describe(Visitor& v, Mission& c) {
     v.integer("seed", c.seed, "seed of all random draws; 0 is a seed like any other");
     v.section("water", c.water, "the water");
     v.section("scene", c.scene, "what the sonars look at", required);
-    v.section("trajectory", c.trajectory, "where the vehicle goes; exactly one of the three forms",
+    v.section("trajectory", c.trajectory, "path of the vehicle; exactly one of the three forms",
               required);
     v.section("vehicle", c.vehicle,
-              "how the vehicle departs from its trajectory, and what it reports");
+              "offset of the vehicle from its trajectory, its movements and its navigation");
     v.require(c.water.layers.empty() || c.scene.water_surface, {"water", "scene"},
               "water.layers are depths below the water's surface: give its height by "
               "scene.water_surface");
@@ -198,8 +198,8 @@ void describe(Visitor& v, Mission& c) {
               "calibrated model: the paper's has no energies that a point could add to. Give all "
               "sensors model: calibrated, or leave these keys out");
     v.require(!is_seen || !c.water.profile, {"scene", "water"},
-              "scene.particles, scene.water_surface.scatters and buried objects are seen along "
-              "straight lines: leave out water.profile or these keys");
+              "scene.particles, scene.water_surface.scatters and buried objects need straight "
+              "paths of sound: leave out water.profile or these keys");
     v.section("accuracy", c.accuracy, "error goal of the images");
     v.choice("engine", c.engine, engine_kinds,
              "method that finds the visible surface. `auto` takes the slices; it takes the rays "
@@ -213,7 +213,7 @@ void describe(Visitor& v, Mission& c) {
            "node applies");
     v.section("labels", c.labels,
               "which objects are annotated in COCO files and for YOLO, and how");
-    v.section("output", c.output, "what is written, and where");
+    v.section("output", c.output, "files to write, and their folder");
     v.integer("variants", c.variants, between(0, 1e6),
               "number of variants of the mission, each a dataset with a seed of its own; 0 renders "
               "the mission as it stands");

@@ -26,7 +26,7 @@ template <class Visitor>
 void describe(Visitor& v, ShutterConfig& c) {
     v.integer("groups", c.groups, between(1, 64),
               "number of groups in which the beams transmit, one after the other; a ping takes "
-              "nearly so many times the time to render");
+              "nearly that many times as long to render");
     v.choice("order", c.order, shutter_orders,
              "`in_turn`: a group is a part of the sector, from starboard to port; `interleaved`: "
              "every n-th beam");
@@ -52,12 +52,11 @@ void describe(Visitor& v, MultipathConfig& c) {
     v.number("delta_deg", c.delta_deg, between(0, 180),
              "largest angle between the normals within a cluster");
     v.integer("columns_per_beam", c.columns_per_beam, between(1, 16),
-              "trace each beam of a fan as so many narrower ones: more of the echoes of small "
-              "facets are found, and a ping takes so many times as long");
-    v.integer(
-        "retraced", c.retraced, between(0, 16),
-        "calibrated model: sound also goes over up to so many reflections out, and over up to "
-        "so many back, as the echoes behind the wall of a tank do; 0: none");
+              "number of narrower beams that each beam of a fan is traced as: more echoes of small "
+              "facets are found, and a ping takes that many times as long");
+    v.integer("retraced", c.retraced, between(0, 16),
+              "calibrated model: most reflections on the way out, and on the way back, of further "
+              "echoes, as behind the wall of a tank; 0: none");
     v.number("retraced_loss_db", c.retraced_loss_db, between(0, 300),
              "ways are followed until the reflections of out and back together take more "
              "than this");
@@ -112,13 +111,13 @@ void require_insonified(Visitor& v, const SonarConfig& c) {
 template <class Visitor>
 void describe_motion(Visitor& v, SonarConfig& c) {
     v.flag("moves_in_ping", c.moves_in_ping,
-           "the sonar goes on moving and turning while sound is under way, and so do objects and "
-           "targets in the water; otherwise all stand still in a ping");
+           "the sonar moves and turns during a ping, and so do objects and targets in the water; "
+           "otherwise all are at rest during a ping");
     if (c.kind == SonarKind::imaging) {
         v.section("shutter", c.shutter, "beams that transmit one after the other");
         v.require(c.shutter.groups == 1 || c.moves_in_ping, {"shutter", "moves_in_ping"},
-                  "shutter.groups needs moves_in_ping: true: a sonar that stands still in a ping "
-                  "has all beams from one pose");
+                  "shutter.groups needs moves_in_ping: true: a sonar at rest during a ping has all "
+                  "beams from one pose");
         v.require(c.shutter.groups <= c.azimuth_bins, {"shutter", "azimuth_bins"},
                   "shutter.groups must be at most azimuth_bins");
     }

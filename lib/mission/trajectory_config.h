@@ -31,7 +31,7 @@ struct WaypointTrajectoryConfig {
     bool operator==(const WaypointTrajectoryConfig&) const = default;
 };
 
-/// Parallel lines over a rectangle at constant height, run to and fro.
+/// Parallel lines over a rectangle at constant height, in alternating directions.
 struct LawnmowerTrajectoryConfig {
     std::array<double, 2> area_min_m{};  ///< x, y
     std::array<double, 2> area_max_m{};
@@ -54,7 +54,7 @@ struct MotionConfig {
     bool operator==(const MotionConfig&) const = default;
 };
 
-/// Standard deviations of the errors of what a vehicle's navigation reports.
+/// Standard deviations of the errors of a vehicle's navigation.
 struct NavigationConfig {
     double position_m = 0.0;
     double depth_m = 0.0;
@@ -67,7 +67,7 @@ struct NavigationConfig {
     bool operator==(const NavigationConfig&) const = default;
 };
 
-/// The offset of a vehicle from its trajectory, its movements and what it knows of them.
+/// The offset of a vehicle from its trajectory, its movements and its navigation.
 struct VehicleConfig {
     std::array<double, 3> offset_m{};  ///< world frame
     std::array<double, 3> turn_deg{};  ///< roll, pitch, yaw, vehicle frame

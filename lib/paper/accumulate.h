@@ -8,7 +8,8 @@
 
 namespace sonarsim {
 
-/// The area-weighted mean of each bin, Eq. 9; 0 where it saw no surface. Returns how many did.
+/// The area-weighted mean of each bin, Eq. 9; 0 in bins without surface. Returns the number of bins
+/// with surface.
 std::uint64_t mean_of_bins(const BinSums& sums, std::span<float> intensity);
 
 /// Writes the means of `beams` beams, `by_beam` [beams, range bins], into as many columns of

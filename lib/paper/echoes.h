@@ -20,8 +20,7 @@ struct Echoes : RangeBoxes {
 
 /// Turns the samples of a beam into echoes of intensity I = R (v . n), Eq. 4-6. A footprint that
 /// spans several bins or scatterer cells is cut into pieces, each of them an echo that is spread
-/// evenly over [range - half, range + half]. `ends` becomes where the echoes of each
-/// sample end.
+/// evenly over [range - half, range + half]. `ends` becomes the end of each sample's echoes.
 void direct_echoes(std::span<const Sample> samples, std::span<const Material> materials,
                    float bin_m, const ScattererLattice& lattice, Echoes& echoes,
                    std::vector<std::uint32_t>& ends);

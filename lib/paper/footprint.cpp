@@ -6,8 +6,8 @@ namespace sonarsim {
 
 namespace {
 
-// A bin averages over its pieces; more of them than this change neither its mean nor its speckle by
-// what can be seen (the contrast of a mean over 64 draws is an eighth of one draw's).
+// A bin averages over its pieces. More of them than this change neither its mean nor its speckle
+// visibly: the contrast of a mean over 64 draws is an eighth of one draw's.
 constexpr float most_pieces_per_bin = 64.0F;
 
 /// The squared length of (x, y, z) in the order in which Eigen adds.
@@ -58,7 +58,7 @@ void find_depths(Footprints& f) {
     }
 }
 
-/// Into pieces no larger than a scatterer cell.
+/// Cuts footprints into pieces no larger than a scatterer cell.
 void cut_for_cells(float bin_m, float cell_m, Footprints& f) {
     const int count = f.count;
     for (int k = 0; k < count; ++k) {

@@ -12,7 +12,7 @@
 
 namespace sonarsim {
 
-/// Pieces wanted along either edge of a footprint; at least 1, not yet whole.
+/// Pieces along either edge of a footprint; at least 1, before rounding to whole numbers.
 struct Pieces {
     float u = 1.0F;
     float v = 1.0F;
@@ -36,7 +36,7 @@ struct Footprints {
     int count = 0;  ///< number of samples, rounded up to whole vectors with the last sample
     Vectors position, edge_u, edge_v;  ///< m, sensor frame
     Floats height_m, area_m2, reflection;
-    Vectors cell, cell_u, cell_v;  ///< the first three in scatterer cells, when there is noise
+    Vectors cell, cell_u, cell_v;  ///< the same in scatterer cells, if there is noise
 
     Floats range_m, depth_u_m,
         depth_v_m;   ///< range of the centre; extent in range of each half edge
@@ -47,7 +47,7 @@ struct Footprints {
 };
 
 /// Makes the footprints of at most `Footprints::most` samples and cuts them: into one piece per
-/// scatterer cell or, where there are none, so that no piece is deeper than the bins can tell.
+/// scatterer cell or, without cells, so that no piece is deeper than the bins resolve.
 void cut_footprints(std::span<const Sample> samples, std::span<const Material> materials,
                     float bin_m, const ScattererLattice& lattice, Footprints& footprints);
 

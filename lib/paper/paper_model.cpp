@@ -19,7 +19,7 @@ namespace {
 constexpr std::array<std::string_view, 3> terms_by_name{"range_noise", "pixel_noise", "streaks"};
 enum Term : std::size_t { range_noise_term, pixel_noise_term, streaks_term };
 
-/// Adds the echoes of the visible surface to the bins of a beam. Holds what all beams share.
+/// Adds the echoes of the visible surface to the bins of a beam. All beams share one.
 struct DirectEchoes {
     const Scene& scene;
     const RangeBins& bins;
@@ -29,7 +29,7 @@ struct DirectEchoes {
     Echoes echoes = {};                    ///< the samples that were added last
     std::vector<std::uint32_t> ends = {};  ///< the ends of the echoes of each of them
 
-    /// Eq. 4-8. Returns how many echoes lie out of range.
+    /// Eq. 4-8. Returns the number of echoes out of range.
     std::uint64_t add(std::span<const Sample> samples, BinSums& sums) {
         direct_echoes(samples, scene.materials, bins.bin_m, lattice, echoes, ends);
         add_range_noise(echoes, range_noise, draws);
@@ -37,7 +37,7 @@ struct DirectEchoes {
     }
 };
 
-/// Adds the multipath echoes of beam j to its bins. Returns how many lie out of range.
+/// Adds the multipath echoes of beam j to its bins. Returns the number out of range.
 std::uint64_t accumulate_beam(const MultipathEchoes& bounced, int j, const RangeBins& bins,
                               BinSums& sums) {
     return accumulate(bounced.echoes, bounced.beam_begin[j], bounced.beam_begin[j + 1], bins, sums);
@@ -60,7 +60,7 @@ void PaperModel::form(const TracedPing& traced, const FormContext& context, Ping
     add_range_noise(bounced.echoes, noise, context.draws.of(Stream::multipath_range_noise));
     ping.counts.echoes = bounced.echoes.size();
 
-    // 3, 4, 5. Beam by beam the same for the visible surface, Eq. 4-8; the mean of bins, Eq. 9.
+    // 3, 4, 5. By beam: the same for the visible surface, Eq. 4-8; the mean of bins, Eq. 9.
     DirectEchoes direct{context.scene, bins, lattice, noise, context.draws.of(Stream::range_noise)};
     ImageColumns columns(bins.count, ping.beams, ping.intensity);
     RowAreas areas(bins.count);
@@ -112,7 +112,7 @@ PaperModel paper_model(const SonarConfig& config, const PaperSonar& sonar) {
         radians(noise.lobe_sigma_deg > 0.0 ? noise.lobe_sigma_deg : config.azimuth_deg / 8.0);
     for (std::size_t j = 0; j < sonar.beam_azimuths_rad.size(); ++j) {
         const double phi = sonar.beam_azimuths_rad[j];
-        // The narrowest lobes that a mission can ask for have no width left in radians.
+        // The narrowest lobes that a mission may set underflow to 0 in radians.
         const double sigmas = phi == 0.0 ? 0.0 : phi / sigma;
         model.pixel_noise.lobe_scale[j] =
             static_cast<float>(1.0 + 0.5 * exponential(-0.5 * sigmas * sigmas));

@@ -34,8 +34,8 @@ struct PaperSonar {
     int beams;
 };
 
-/// The model with the noise and the streaks of the mission. Over the beams of a fan the pixel noise
-/// has the lobe of Eq. 10, 1 + 0.5 exp(-phi^2 / (2 sigma^2)), if the mission asks for it.
+/// The model with the noise and the streaks of the mission. If the mission asks for it, the pixel
+/// noise of a fan has the lobe of Eq. 10 over its beams, 1 + 0.5 exp(-phi^2 / (2 sigma^2)).
 PaperModel paper_model(const SonarConfig& config, const PaperSonar& sonar);
 
 }  // namespace sonarsim

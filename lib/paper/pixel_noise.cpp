@@ -16,8 +16,7 @@ constexpr std::size_t half_block = pixels_per_block / 2;
 
 using Lane = std::array<float, pixels_per_block>;
 
-// The second word of a Philox counter says what the draw is for; the first is the number of the
-// draw.
+// The second word of a Philox counter is the purpose of the draw, the first its number.
 constexpr std::uint32_t additive = 0;
 constexpr std::uint32_t multiplicative = 1;
 
@@ -63,7 +62,7 @@ void draw_normal(std::uint32_t block, PhiloxKey key, Lane& out) {
 }
 
 bool any_signal(std::span<const float> pixels) {
-    // Without an early return: the whole block in vectors is faster than stopping at the first.
+    // No early return: the whole block in vectors is faster.
     int occupied = 0;
     for (const float pixel : pixels)
         occupied |= pixel != 0.0F ? 1 : 0;

@@ -18,8 +18,8 @@ struct PixelNoise {
 };
 
 /// I'' = I (m + w_m) + s w_a, Eq. 12, for every pixel of `image` [rows, columns], where s is the
-/// product of its two scales. Negative results become 0; returns how many did. What a pixel draws
-/// depends on the key, its row and its column alone.
+/// product of its two scales. Negative results become 0; returns their number. The draws of a pixel
+/// depend on the key, its row and its column alone.
 std::uint64_t add_pixel_noise(std::span<float> image, const PixelNoise& noise, PhiloxKey key);
 
 }  // namespace sonarsim

@@ -27,7 +27,7 @@ void add_range_noise(Echoes& echoes, const RangeNoise& noise, PhiloxKey key) {
     const float keep = noise.fades ? 0.0F : 1.0F;
     const std::size_t whole = echoes.size() / lanes_of_philox * lanes_of_philox;
     for (std::size_t begin = 0; begin < echoes.size();) {
-        // In place where whole vectors are left: nothing needs the names of cells after this.
+        // In place while whole vectors are left: the names of cells are not needed after this.
         const std::size_t count =
             begin < whole ? std::min(block, whole - begin) : echoes.size() - begin;
         std::array<std::uint32_t, lanes_of_philox> last_low{}, last_high{};

@@ -19,8 +19,8 @@ struct RangeNoise {
 ScattererLattice scatterer_lattice(const RangeNoise& noise, const Scene& scene,
                                    const Pose& T_world_sensor);
 
-/// Every scatterer cell draws w from the exponential distribution of mean lambda; its echoes come
-/// w later (Eq. 7) and, where the noise fades, weaker by exp(-w / lambda) (Eq. 8).
+/// Every scatterer cell draws w from the exponential distribution of mean lambda. Its echoes arrive
+/// w later (Eq. 7) and, if the noise fades, weaker by exp(-w / lambda) (Eq. 8).
 void add_range_noise(Echoes& echoes, const RangeNoise& noise, PhiloxKey key);
 
 }  // namespace sonarsim

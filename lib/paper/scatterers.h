@@ -16,12 +16,13 @@ struct ScattererLattice {
     bool exists() const { return edge_m > 0.0F; }
 };
 
-/// From the sensor frame to the cells of a lattice. Its constructor is inline so that loops that
-/// write echoes keep it in registers: that of one in another file might have kept its address.
+/// The transform from the sensor frame to the cells of a lattice. Its constructor is inline, so
+/// that loops that write echoes keep it in registers: a function in another file might keep its
+/// address.
 struct CellFrame {
     explicit CellFrame(const ScattererLattice& lattice) {
-        // In cells. Planes of a scene often lie on round coordinates. Were faces of cells to
-        // coincide with them, rounding would put neighbouring points into one cell or the other.
+        // In cells. It keeps the faces of cells off round coordinates, on which planes of a scene
+        // often lie: rounding would put neighbouring points of such a plane into different cells.
         const Eigen::Vector3f offset(0.381966F, 0.618034F, 0.272019F);
         const float per_cell = lattice.exists() ? 1.0F / lattice.edge_m : 0.0F;
         rotation = per_cell * lattice.R_world_sensor;

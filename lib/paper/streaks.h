@@ -35,7 +35,7 @@ std::vector<Sample> at_normal_incidence(std::span<const Sample> samples, float l
 
 /// If the share at normal incidence reaches the threshold, the row I of `image` [rows, columns]
 /// becomes 1 - (1 - I)^2 (add, Eq. 14) or I^2 (reduce, Eq. 15). I is clamped to [0, 1] first, since
-/// the former falls above 1. Returns the number of changed rows.
+/// Eq. 14 falls above 1. Returns the number of changed rows.
 std::uint64_t add_streaks(std::span<float> image, const RowAreas& areas, const Streaks& streaks);
 
 }  // namespace sonarsim

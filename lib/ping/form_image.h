@@ -20,10 +20,10 @@ struct PingKey {
     std::uint32_t ping = 0;  ///< index of the pose on the trajectory
 };
 
-/// The image of a traced ping by the sonar's echo model, with the terms that both `terms` and the
-/// settings have. A pure function: the same arguments give the same bytes. `settings` may differ
-/// from those of the trace except for the view. The counts and the times of the ping include the
-/// trace; its multipath is counted only if it is in the image.
+/// Forms the image of a traced ping by the sonar's echo model, with the terms that are in both
+/// `terms` and the settings. A pure function: the same arguments give the same bytes. `settings`
+/// may differ from those of the trace except for the view. The counts and the times of the ping
+/// include the trace; its multipath is counted only if it is in the image.
 Ping form_image(const TracedPing& traced, const PingSettings& settings, const Scene& scene,
                 const PingKey& key, const Terms& terms = {});
 

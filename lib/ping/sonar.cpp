@@ -18,7 +18,7 @@ double column_at(const Sonar& sonar, double azimuth_rad) {
         return 0.5 * (1.0 + azimuth_rad / (0.5 * view.azimuth_rad)) * view.beams;
     const std::vector<double>& edges = sonar.azimuth_edges_rad;
     const auto above = std::upper_bound(edges.begin() + 1, edges.end() - 1, azimuth_rad);
-    // A line array's beams are about even in sine.
+    // The beams of a line array are about equally spaced in sine.
     const double low = sincos(above[-1]).sin;
     const double share = (sincos(azimuth_rad).sin - low) / (sincos(above[0]).sin - low);
     return static_cast<double>(above - edges.begin()) - 1.0 + share;

@@ -18,7 +18,7 @@ struct Sonar {
     PingSettings settings;
     std::vector<double> range_edges_m;      ///< range_bins + 1
     std::vector<double> azimuth_edges_rad;  ///< fan only: beams + 1, from starboard (-) to port (+)
-    std::vector<double> beam_azimuths_rad;  ///< fan only: the azimuths that the beams look at
+    std::vector<double> beam_azimuths_rad;  ///< fan only: azimuths of the beams' axes
     bool equal_azimuth = true;              ///< the beams of a fan are equal in azimuth
     /// The angles of a head that turns from ping to ping about the sensor's z axis, positive to
     /// port; they repeat. Empty for a fixed sonar.
@@ -28,10 +28,10 @@ struct Sonar {
     std::vector<double> range_bias_m;
     // For soundings, where sound bends; null: it goes straight.
     std::shared_ptr<const SoundProfile> true_profile;
-    std::shared_ptr<const SoundProfile> assumed_profile;  ///< the instrument believes in it
-    /// Its motion in the ping from each pose of the trajectory; null: it stands still in a ping.
+    std::shared_ptr<const SoundProfile> assumed_profile;  ///< the instrument assumes it
+    /// Its motion during a ping, by pose of the trajectory; null: it stands still.
     std::shared_ptr<const std::vector<PingMotion>> motions;
-    /// The objects that move then, by pose; null: they stand still in a ping.
+    /// The objects that move during a ping, by pose; null: all stand still.
     std::shared_ptr<const std::vector<std::vector<ObjectMotion>>> object_motions;
     /// TracedPing::water_age by pose; null: none.
     std::shared_ptr<const std::vector<double>> water_ages;

@@ -31,7 +31,7 @@ struct ObjectFacts {
 
 enum class Annotated { yes, as_crowd, no };
 
-/// Tells if a picture annotates an object.
+/// True if a picture annotates an object.
 Annotated is_annotated(const ObjectFacts& facts, const LabelConfig& rules);
 
 /// The box of an annotation; nothing if there is none of this sort.

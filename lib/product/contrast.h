@@ -25,13 +25,13 @@ struct LevelMap {
     std::span<const float> level;
 };
 
-/// The level of what bears an id in `marks` (the objects or the shadows of a map, within `box`)
-/// over that of its surroundings, dB; nothing if it has none or if both are silent. Surroundings
-/// are the bins of the same range on either side, as far as what is marked is wide there and at
-/// least two bins, that show background alone: no other object and no shadow of one. They stand for
-/// what would be there without the object. Levels are means, those of the surroundings with as many
-/// bins in each range as are marked. Limited to 100 dB either way.
-/// `is_background` is 1 for the ids of background.
+/// The level of the bins with an id in `marks` (the objects or the shadows of a map, within `box`)
+/// over that of their surroundings, dB; nothing without surroundings or if both have no echo.
+/// Surroundings are bins of the same range on either side, over the width of the marked bins there
+/// and at least two, that show only background: no other object and no shadow of one. They stand
+/// for the image without the object. Levels are means, those of the surroundings with as many bins
+/// in each range as are marked. Limited to 100 dB either way. `is_background` is 1 for the ids of
+/// background.
 std::optional<double> contrast_db(const LevelMap& map, std::span<const std::uint16_t> marks,
                                   std::uint16_t id, const BinBox& box,
                                   std::span<const std::uint8_t> is_background);

@@ -7,7 +7,7 @@ namespace sonarsim {
 
 namespace {
 
-/// -1 outside the sector.
+/// The bin of a place; -1 outside the sector.
 std::int32_t bin_at(const Sonar& sonar, const FanPlace& place) {
     const View& view = sonar.settings.view;
     if (!is_inside_sector(view, place)) return -1;

@@ -35,7 +35,7 @@ struct SeenObject {
     PixelBox shadow_in_fan;                    ///< empty: no fan, or no pixel of it
 };
 
-/// The facts by which an annotation of a picture that shows so many pixels of an object is chosen.
+/// The facts by which an annotation of an object with this number of pixels in a picture is chosen.
 ObjectFacts facts_of(const SeenObject& seen, const SceneObjects& objects, std::uint64_t pixels);
 
 /// The objects in a ping, sorted by id. `labels` gives the object of each bin, `ping` the levels.

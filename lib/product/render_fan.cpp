@@ -148,8 +148,8 @@ void weigh_bins(const FanMap& map, const KernelTable& beam_kernel,
         sums);
 }
 
-/// The grey values of at most `fan_block` pixels: 255 sqrt(scale * sum), rounded. What lies beyond
-/// the last pixel is anything.
+/// The grey values of at most `fan_block` pixels: 255 sqrt(scale * sum), rounded. Values beyond the
+/// last pixel are arbitrary.
 void shade(const std::array<float, fan_block>& sums, float scale,
            std::array<std::uint8_t, fan_block>& grey) {
     const auto eight = [&](std::size_t p) {

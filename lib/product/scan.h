@@ -23,7 +23,7 @@ std::string scan_file_name(const std::string& stem, std::size_t sweep,
                            const std::string& extension);
 
 /// The angles of the head, radians, positive to port, from the first ping until they repeat. In a
-/// full turn the head keeps turning, from astern over starboard; it sweeps a sector to and fro.
+/// full turn the head keeps turning, from astern over starboard; it sweeps a sector back and forth.
 std::vector<double> scan_angles_rad(const SonarConfig& config);
 
 /// The edges of the steps, from starboard (-) to port (+): scan_steps() + 1.

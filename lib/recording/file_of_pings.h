@@ -18,7 +18,8 @@ namespace sonarsim {
 
 inline constexpr std::size_t largest_file_of_pings = std::size_t{1} << 31;
 
-/// `read` of the bytes of a file. InputError with its name where `read` finds it damaged.
+/// The result of `read` for the bytes of a file. InputError with its name if `read` finds it
+/// damaged.
 template <class Read>
 auto parsed_file(const std::filesystem::path& path, const Read& read) {
     const std::string bytes = read_file(path, largest_file_of_pings);
@@ -29,11 +30,11 @@ auto parsed_file(const std::filesystem::path& path, const Read& read) {
     }
 }
 
-/// Adds to the number of values of a recording. InputError where they become too many.
+/// Adds to the number of values of a recording. InputError if they become too many.
 void count_values(std::size_t more, const std::filesystem::path& path, std::size_t& values);
 
-/// Adds the soundings of a file to a recording. InputError where neither the file nor
-/// recording.yaml has the speed of sound.
+/// Adds the soundings of a file to a recording. InputError if neither the file nor recording.yaml
+/// has the speed of sound.
 void add_soundings(const std::vector<LoggedSoundings>& pings, const std::filesystem::path& path,
                    const RecordingFile& file, std::size_t& values, Recording& recording);
 

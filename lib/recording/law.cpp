@@ -19,7 +19,7 @@ double power_of(const RecordedLaw& law, double value) {
 }
 
 std::vector<float> powers_of(const RecordedLaw& law, std::span<const float> values) {
-    // Instruments deliver few different values: each is undone once.
+    // Instruments deliver few different values, so the law is inverted once for each.
     constexpr std::size_t known = 65536;
     std::vector<float> of_whole(known, -1.0F);
     std::vector<float> powers(values.size());

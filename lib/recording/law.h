@@ -8,7 +8,7 @@
 namespace sonarsim {
 
 /// The power A^2 that a value stands for, 1 for `full_value` (for the value 1 where the law has no
-/// `full_value`). A value of 0 has the power 0, but by `decibel` that of its lowest level.
+/// `full_value`). A value of 0 has the power 0, but for `decibel` that of the lowest level.
 double power_of(const RecordedLaw& law, double value);
 
 /// power_of() of all values of a ping.

@@ -195,7 +195,7 @@ Recording read_dataset_recording(const fs::path& folder, const RecordingOptions&
     } else {
         read_records(source, raw_records ? *raw_records : *source.sensor->records, recording);
     }
-    // The time of a ping stands in its metadata; no figure needs more than the order.
+    // The time of a ping is in its metadata, but figures need only the order.
     for (std::size_t k = 0; k < recording.pings.size(); ++k)
         recording.pings[k].time_s = static_cast<double>(k);
     check_recording(recording, folder.string());

@@ -30,7 +30,7 @@ void take_law(const std::optional<LoggedDecibels>& decibels, const RecordingFile
     recording.law.full_value = decibels->full_value;
 }
 
-/// Takes from the first file what holds for all.
+/// Takes the values that hold for all files from the first one.
 void take_facts_of_log(const SonarLog& log, const RecordingFile& file, Recording& recording) {
     const RecordedKind kind = kind_of_log(log.kind);
     if (kind != file.kind)

@@ -11,7 +11,7 @@ namespace sonarsim {
 
 namespace {
 
-/// Takes from the first ping what holds for all.
+/// Takes the values that hold for all pings from the first one.
 void take_facts(const OculusPing& first, const RecordingFile& file, Recording& recording) {
     recording.range_step_m = first.range_step_m;
     recording.first_range_m = 0.5 * first.range_step_m;

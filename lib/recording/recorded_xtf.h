@@ -12,7 +12,7 @@ namespace sonarsim {
 /// ping.
 void read_xtf_pings(const RecordingFile& file, std::size_t most_pings, Recording& recording);
 
-/// The same of a multibeam's soundings.
+/// The same for a multibeam's soundings.
 void read_xtf_pings_of_soundings(const RecordingFile& file, std::size_t most_pings,
                                  Recording& recording);
 

@@ -20,7 +20,7 @@ struct RecordedLaw {
     double exponent = 0.5;    ///< the one of `gamma`
     double range_db = 0;      ///< the one of `decibel`
     double full_value = 255;  ///< the largest value that the instrument delivers; 0 for none
-    double offset = 0;        ///< share of `full_value` that the instrument takes from the values
+    double offset = 0;        ///< share of `full_value` that the instrument subtracts
 };
 
 /// The kinds of data that instruments deliver.

@@ -48,7 +48,7 @@ struct PlacedFile {
     /// frame of a body that moves.
     Eigen::Affine3d T_world_file = Eigen::Affine3d::Identity();
     bool moves = false;
-    bool buried = false;  ///< sound reaches what lies below the bottom through it
+    bool buried = false;  ///< sound reaches its part below the bottom
     Location place = {};  ///< in the mission, for messages
 };
 

@@ -48,7 +48,7 @@ double power_reflection(double density_kg_m3, double sound_speed_m_s, const Wate
 struct WaterSurface {
     double height_m = 0.0;    ///< world
     float reflection = 0.0F;  ///< power reflection coefficient
-    /// Speed of the wind by whose waves it sends sound back; empty: the sonar does not see it.
+    /// Speed of the wind whose waves scatter sound back; empty: the surface has no echo.
     std::optional<double> wind_m_s = {};
 };
 
@@ -106,14 +106,14 @@ struct Scene {
     double vertex_rounding_m = 0.0;
     std::optional<WaterSurface> water_surface;
     std::shared_ptr<const GroundMaps> maps;  ///< maps laid on instances; null: none
-    /// Sound bends by it; null: sound goes straight at the speed of `Water`.
+    /// The profile that bends sound; null: paths are straight at the speed of `Water`.
     std::shared_ptr<const SoundProfile> sound_profile;
     SceneRejects rejects;
     std::vector<std::string> warnings;  ///< sentences for the user
 };
 
-/// True if `vertex_rounding_m` spoils the scene. That is so if it is more than a millimetre, about
-/// the finest range bin (8,192 of them over 10 m), or more than 1e-4 of a scene below 10 m; and
+/// True if `vertex_rounding_m` spoils the scene: it is more than a millimetre, about the finest
+/// range bin (8,192 of them over 10 m), or more than 1e-4 of a scene below 10 m. It must also be
 /// more than 1e-6 of the scene, since floats about its own centre have errors of up to 6e-8.
 bool has_coarse_vertices(const Scene& scene);
 

@@ -4,16 +4,16 @@
 
 namespace sonarsim {
 
-/// The least lengths, in ranges of the sonars, of what may be a file of another unit: an object is
-/// rarely longer than what two sonars see from its middle, and a place often is.
+/// The least lengths, in ranges of the sonars, from which a file may have another unit. An object
+/// is rarely longer than two ranges, and a place often is.
 inline constexpr double long_object = 2.0;
 inline constexpr double long_place = 300.0;
-/// The range that stands for those of a mission where there is none, m.
+/// The range for a mission without sonars, m.
 inline constexpr double usual_range_m = 50.0;
 
-/// "650 m long: millimetres? units: mm" for what is read in metres, is longer than `ranges` times
-/// `range_m`, and in millimetres would be shorter than the range; the same for what is read in
-/// millimetres and should be in metres. "" for anything else.
+/// "650 m long: millimetres? units: mm" for a length that is read in metres, is more than `ranges`
+/// times `range_m`, and in millimetres would be less than the range; likewise for one that is read
+/// in millimetres and should be in metres. "" for any other.
 std::string unit_question(double length_m, double unit_m, double range_m, double ranges);
 
 }  // namespace sonarsim

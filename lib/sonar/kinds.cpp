@@ -5,7 +5,7 @@
 
 namespace sonarsim {
 
-// Each is in the file of its name.
+// Each is defined in the file of its name.
 KindOfSonar imaging_kind();
 KindOfSonar profiling_kind();
 KindOfSonar sidescan_kind();

@@ -28,10 +28,10 @@ struct KindOfSonar {
     bool range_noise_fades;  ///< late echoes are weaker, Eq. 8
     bool has_images;         ///< a ping is an image: range by azimuth
     RecordShape record = {};
-    /// Completes a sonar that common_sonar() has begun; null when nothing is left to do.
+    /// Completes the sonar of common_sonar(); null if nothing is left to do.
     void (*finish)(Sonar& sonar) = nullptr;
-    /// Adds the measured values of a ping to its metadata, besides the altitude; null for a sonar
-    /// that measures nothing.
+    /// Adds the measured values of a ping to its metadata, in addition to the altitude; null for a
+    /// sonar that measures nothing.
     void (*measure)(const PingView& view, nlohmann::ordered_json& json) = nullptr;
 };
 

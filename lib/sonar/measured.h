@@ -11,9 +11,8 @@ namespace sonarsim {
 /// The distance from a sonar straight down to the scene, m. None if there is nothing below.
 std::optional<double> altitude_m(const VisibilityEngine& engine, const Pose& T_world_sensor);
 
-/// The measured values for the metadata of a ping: the true altitude, that is the distance from the
-/// sonar straight down to the scene, and the values of the sonar's kind. An absent value is null;
-/// the whole is null for kinds that measure nothing.
+/// The measured values for the metadata of a ping: altitude_m() and the values of the sonar's kind.
+/// An absent value is null; the result is null for kinds that measure nothing.
 nlohmann::ordered_json measured(const PingView& view, const VisibilityEngine& engine);
 
 }  // namespace sonarsim

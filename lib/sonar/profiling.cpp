@@ -21,8 +21,8 @@ void add_azimuth_and_offsets(Sonar& sonar) {
 
 }  // namespace
 
-/// A multibeam profiling sonar (section V): an imaging sonar whose elevation is so narrow that it
-/// makes one bin. Looks down.
+/// A multibeam profiling sonar (section V): an imaging sonar with one narrow bin of elevation.
+/// Looks down.
 KindOfSonar profiling_kind() {
     SonarConfig defaults;
     defaults.kind = SonarKind::profiling;

@@ -11,15 +11,16 @@
 
 namespace sonarsim {
 
-/// The pictures that are made of the records of all pings.
+/// The pictures of the records of all pings.
 enum class RecordPictures {
     none,
     strip,   ///< one, a row or a column per ping
-    sweeps,  ///< one for each sweep of a turning head, round
+    sweeps,  ///< a round one for each sweep of a turning head
 };
 
-/// The record of a kind of sonar: what a ping becomes in NAME.npy, which holds all pings of a
-/// sensor. It is a selection of the ping's bins, or, without pictures, whatever its writer makes.
+/// The record of a kind of sonar: the row of a ping in NAME.npy, which holds all pings of a sensor.
+/// It is a selection of the ping's bins; the writer of a record without pictures may make it of
+/// other values.
 struct RecordShape {
     std::string_view name;                 ///< name of the file; "": the kind has no record
     bool OutputConfig::*wanted = nullptr;  ///< the mission's key that asks for it
@@ -30,7 +31,7 @@ struct RecordShape {
     /// The bin of the ping's image [range, beam] that each value shows; -1: none. Null: a record
     /// has the bins of the sonar's one beam.
     std::vector<std::int32_t> (*bins)(const SonarConfig& config) = nullptr;
-    /// Adds what a reader needs to know of the values to the sensor's block in dataset.json.
+    /// Adds the description of the values to the sensor's block in dataset.json.
     void (*describe)(const Sonar& sonar, nlohmann::ordered_json& sensor) = nullptr;
     /// The record has two sides, port and starboard of the track: XTF and mosaics are made of it.
     bool two_sides = false;

@@ -7,7 +7,7 @@ namespace sonarsim {
 
 namespace {
 
-/// The one beam has no lobe across: the head turns past everything.
+/// Sets no azimuth of the beam, so that its noise has no lobe: the head turns over all azimuths.
 void turn_head(Sonar& sonar) {
     const double half = 0.5 * sonar.settings.view.azimuth_rad;
     sonar.azimuth_edges_rad = edges(-half, half, 1);
@@ -27,9 +27,9 @@ void describe_sweeps(const Sonar& sonar, nlohmann::ordered_json& sensor) {
 }  // namespace
 
 /// A mechanical scanning sonar, such as a Ping360 or a Micron: a single beam whose head turns a
-/// step from ping to ping, all the way round or to and fro over a sector. Looks forward, the head
-/// turns about the vertical. The paper has none. Defaults are those of the Ping360's data sheet
-/// (Blue Robotics): beam 2 x 25 degrees, from 0.75 m, 400 steps to the turn.
+/// step from ping to ping, all the way round or back and forth over a sector. It looks forward, and
+/// the head turns about the vertical. The paper has no such sonar. Defaults are those of the
+/// Ping360's data sheet (Blue Robotics): beam 2 x 25 degrees, from 0.75 m, 400 steps to the turn.
 KindOfSonar scanning_kind() {
     SonarConfig defaults;
     defaults.kind = SonarKind::scanning;

@@ -119,7 +119,7 @@ BeamSines beam_sines(const BeamConfig& beam, const View& view) {
     return sines;
 }
 
-/// Sets the azimuths of beams that are not equal in azimuth, too.
+/// Also sets the azimuths of beams that are not equal in azimuth.
 CalibratedModel instrument_model(Sonar& sonar, const WaterConfig& water) {
     const InstrumentConfig& instrument = sonar.config.instrument;
     const BeamConfig& beam = instrument.beam;

@@ -23,7 +23,7 @@ std::vector<double> edges(double low, double high, int bins);
 /// along its x, so that azimuth runs from starboard (-) to port (+).
 void set_mount(Sonar& sonar, const KindOfSonar& kind);
 
-/// The mount, the view and the range edges of a sonar, by its configuration and its kind.
+/// A sonar with the mount, the view and the range edges of its configuration and its kind.
 Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
                    const KindOfSonar& kind);
 
@@ -35,7 +35,7 @@ void add_azimuth(Sonar& sonar);
 std::shared_ptr<const EchoModel> make_echo_model(Sonar& sonar, const KindOfSonar& kind,
                                                  const WaterConfig& water);
 
-/// For metadata, where what is absent is null.
+/// For metadata: an absent value is null.
 nlohmann::ordered_json number_or_null(const std::optional<double>& value);
 
 }  // namespace sonarsim

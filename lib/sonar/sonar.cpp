@@ -22,7 +22,7 @@ Sonar make_sonar(const KindOfSonar& kind, const SonarConfig& config, const Accur
     PingSettings& settings = sonar.settings;
     settings.model = make_echo_model(sonar, kind, water);
     settings.guard_beams = settings.model->guard_beams();
-    // Multipath goes on from the samples, so that it needs those of every beam.
+    // Multipath starts at the samples, so it needs those of every beam.
     if (settings.multipath.on) {
         settings.guard_beams.joined = 1;
         if (settings.view.shape == ViewShape::fan)
@@ -60,7 +60,7 @@ std::optional<Sonar> drawn_sonar(const Mission& mission, const Sonar& sonar, std
 
 namespace {
 
-/// The trace of one transmission of a ping, so long after the first.
+/// The trace of one transmission of a ping, `later_s` after the first.
 TracedPing trace_at(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
                     const Pose& T_world_sensor, std::uint32_t pose, double later_s,
                     const PingMotion& motion, const Terms& terms) {

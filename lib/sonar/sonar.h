@@ -22,21 +22,21 @@ Sonar make_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
 Sonar make_sonar(const KindOfSonar& kind, const SonarConfig& config, const AccuracyConfig& accuracy,
                  const WaterConfig& water = {});
 
-/// Gives the sonars whose echo model adds energies the objects of the scene that may be targets,
-/// and the faces that reflect coherently. Without them the engine alone samples small and shiny
+/// Sets the objects of the scene that may be targets, and the faces that reflect coherently, in the
+/// sonars whose echo model adds energies. Without them only the engine samples small and shiny
 /// objects.
 void find_targets(std::span<Sonar> sonars, const Scene& scene);
 
 /// The sonar at a pose, with the numbers that the mission's `vary` draws for every ping; nothing if
-/// none of them is of this sonar.
+/// `vary` names no key of this sonar.
 std::optional<Sonar> drawn_sonar(const Mission& mission, const Sonar& sonar, std::uint32_t pose);
 
 /// The group in which each beam of a fan transmits.
 std::vector<int> groups_of_beams(const ShutterConfig& shutter, int beams);
 
-/// Traces a ping from a pose of the vehicle, and its later groups of beams from where it is then;
-/// `pose` is the index of that pose on the trajectory, on which the angle of a turning head
-/// depends.
+/// Traces a ping from a pose of the vehicle, and its later groups of beams from the vehicle's later
+/// poses. `pose` is the index of the pose on the trajectory; the angle of a turning head depends on
+/// it.
 TracedPing trace(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
                  const Pose& T_world_vehicle, std::uint32_t pose, const Terms& terms = {});
 

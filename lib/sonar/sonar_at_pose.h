@@ -7,8 +7,8 @@
 
 namespace sonarsim {
 
-/// A sonar at a pose: with the numbers that the mission's `vary` draws for every ping or, if none of
-/// them is of this sonar, the sonar itself, which must outlive this.
+/// A sonar at a pose, with the numbers that the mission's `vary` draws for every ping. If `vary`
+/// names no key of this sonar, it is the sonar itself, which must outlive this.
 class SonarAtPose {
   public:
     SonarAtPose(const Mission& mission, const Sonar& sonar, std::uint32_t pose)

@@ -8,16 +8,16 @@
 // Arrivals: what the clock and the array of a sonar measure of sound from a point. Everything after
 // the trace takes ranges and directions from here, and nothing else derives them from positions.
 // Positions are those that a sonar measures (visibility/engine.h): half of the way at one speed, in
-// the direction from which the sound comes. So sound seems to go straight, and to come back the way
-// it went, even where a profile bends it; trace/true_place.h has the place in the world.
+// the direction from which the sound comes. So paths are straight and retraced here even where a
+// profile bends the sound; trace/true_place.h gives the place in the world.
 
 namespace sonarsim {
 
 /// The arrival of the sound that a point sends back.
 struct Arrival {
     float range_m;              ///< one-way equivalent slant range, m: half of the two-way path
-    Eigen::Vector3f departure;  ///< unit, sensor frame: where the sound leaves to
-    Eigen::Vector3f direction;  ///< unit, sensor frame: where the sound comes from
+    Eigen::Vector3f departure;  ///< unit, sensor frame: direction of departure
+    Eigen::Vector3f direction;  ///< unit, sensor frame: from which the sound comes
 };
 
 /// The range of a point in the sensor frame, m.
@@ -31,7 +31,7 @@ inline Arrival arrival_of(const Eigen::Vector3f& point) {
     return {range, direction, direction};
 }
 
-/// The range of a path whose legs to and from the second surface are in all so long, m.
+/// The range of a two-way path of out_m + back_m, m.
 inline float arrival_range(float out_m, float back_m) {
     return 0.5F * (out_m + back_m);
 }
@@ -45,8 +45,8 @@ inline ArrivalLane arrival_at(float x, float y, float z) {
     return {range, x / range, y / range, z / range};
 }
 
-// Ranges of the pieces that footprints are cut into, in fused arithmetic: within a last bit or two
-// of arrival_range().
+// Ranges of the pieces that footprints are cut into, in fused arithmetic: they agree with
+// arrival_range() to the last bit or two.
 inline float piece_range(float x, float y, float z) {
     return std::sqrt(std::fma(x, x, std::fma(y, y, z * z)));
 }

@@ -8,13 +8,13 @@ namespace sonarsim {
 inline constexpr std::uint32_t no_material = 0xFFFFFFFFU;
 
 /// A multipath path: from the sonar to a sample, reflected there to a second surface, and from that
-/// back to the sonar. Where the water's surface mirrors the sound on its way (`by_water_surface`),
+/// back to the sonar. If the water's surface reflects the sound on its way (`by_water_surface`),
 /// the second surface is its image in the water's surface.
 struct BouncePath {
     std::uint32_t sample = 0;  ///< index into Samples::items
     std::uint32_t ray = 0;     ///< the traced ray that found the second surface
-    /// The arrival from the second point p, one-way equivalent range and beam, and by how much both
-    /// change along the half edges of the sample's footprint; 0 for scattered sound.
+    /// The arrival from the second point p: one-way equivalent range and beam, and their changes
+    /// along the half edges of the sample's footprint; 0 for scattered sound.
     float range_m = 0.0F, range_u = 0.0F, range_v = 0.0F;
     float beam = 0.0F, beam_u = 0.0F, beam_v = 0.0F;  ///< in beams; its integer part is the beam
     float intensity = 0.0F;  ///< R_i R_h (q . v_p), Eq. 1-3; 0 for scattered sound
@@ -24,9 +24,9 @@ struct BouncePath {
     std::uint32_t material =
         no_material;        ///< index into Scene::materials; no_material: the water's surface
     float strength = 1.0F;  ///< strength of the second surface, as in Sample
-    float water_reflection = 1.0F;  ///< R of the water's surface where it mirrors the sound, else 1
+    float water_reflection = 1.0F;  ///< R of the water's surface if it reflects the sound, else 1
     bool by_water_surface = false;
-    /// The second surface mirrors the sound away from the sonar. A rough surface scatters some of
+    /// The second surface reflects the sound away from the sonar. A rough surface scatters some of
     /// it back, which the paper's model does not have.
     bool scattered = false;
 };

@@ -27,7 +27,8 @@ bool hit_its_start(const Ray& ray, const Intersection& hit) {
     return std::fabs(hit.distance_m * hit.normal.dot(ray.direction)) <= hit.rounding_m;
 }
 
-/// Sets what a hit of the scene says of its surface. `point` is where it lies, not its image.
+/// Sets the material, the strength and the reflection at a hit. `point` is its true place, not its
+/// image.
 void set_surface(const BounceTracer& context, const Intersection& hit, const Eigen::Vector3f& point,
                  BounceHit& out) {
     MappedPoint surface{hit.material, 1.0F};
@@ -39,8 +40,8 @@ void set_surface(const BounceTracer& context, const Intersection& hit, const Eig
     out.reflection = context.materials[surface.material].reflection * surface.strength;
 }
 
-/// Follows those of the rays that meet the water's surface before anything else (`hits`), and
-/// appends the mirror images of what they hit.
+/// Reflects the rays that meet the water's surface before anything else (`hits`), and appends the
+/// mirror images of the points that they hit.
 void trace_surface_reflection(const BounceTracer& context, std::span<const Ray> rays,
                               std::span<const Intersection> hits,
                               std::vector<BounceHit>& second_hits, MultipathCounts& counts) {

@@ -23,17 +23,17 @@ struct BounceHit {
     float strength = 1.0F;    ///< as in Sample
     std::uint32_t material =
         no_material;                ///< index into Scene::materials; none: the water's surface
-    float water_reflection = 1.0F;  ///< R of the water's surface where it mirrors the sound, else 1
+    float water_reflection = 1.0F;  ///< R of the water's surface if it reflects the sound, else 1
     bool exists = false;
 };
 
 /// The role of the water's surface for rays that meet it.
 enum class SurfaceRole {
     target,     ///< the rays hit the water's surface
-    reflector,  ///< the water's surface mirrors the rays to what they hit; other rays hit nothing
+    reflector,  ///< the water's surface reflects the rays; rays that miss it hit nothing
 };
 
-/// Follows sound from the samples on.
+/// Follows sound that the samples reflect.
 struct BounceTracer {
     const View& view;
     const Samples& samples;
@@ -61,13 +61,13 @@ struct BounceTracer {
     }
 };
 
-/// The direction in which a mirror sends on what comes along `direction`: r of Eq. 1.
+/// The specular reflection of `direction`: r of Eq. 1.
 inline Eigen::Vector3f specular_direction(const Eigen::Vector3f& direction,
                                           const Eigen::Vector3f& normal) {
     return direction - 2.0F * normal.dot(direction) * normal;
 }
 
-/// Traces the samples and appends what their rays hit to `second_hits`. Far from the scene's
+/// Traces the samples and appends the hits of their rays to `second_hits`. Far from the scene's
 /// origin, or on a large triangle, rounding may put the start of a ray below its surface; such a
 /// ray is traced once more from above the rounding.
 void trace_bounces(const BounceTracer& context, std::span<const std::uint32_t> sources,

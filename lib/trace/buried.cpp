@@ -31,7 +31,7 @@ double refraction_angle(double speed_ratio, double height_m, double depth_m, dou
 struct BuriedSight {
     Eigen::Vector3d leaves;   ///< direction in which sound leaves for it
     Eigen::Vector3d arrives;  ///< direction in which that sound arrives there
-    double range_m;           ///< half of the two-way time, as a way in water
+    double range_m;           ///< half of the two-way time times the speed of sound in water
     double echo;              ///< echo_through_bottom()
 };
 

@@ -16,8 +16,8 @@ namespace sonarsim {
 struct SedimentPath {
     double speed_ratio = 0.0;  ///< speed of sound to that of the water; 0: no sea bed
     double density_ratio = 0.0;
-    /// Power falls as e^-(loss r) for a way r in the sediment, out and back, besides what it loses
-    /// in the water r / speed_ratio that stands for this way.
+    /// Two-way power falls as e^-(loss r) over a path r in the sediment, in addition to the
+    /// absorption of the water path r / speed_ratio of equal time.
     double loss_per_m = 0.0;
 };
 
@@ -26,38 +26,35 @@ struct WayIntoBottom {
     double angle_rad;  ///< to the normal, in the water
     double in_water_m;
     double in_sediment_m;
-    /// Spreading: a solid angle of 1 sr at the sonar has this area at the place, m^2, across the
-    /// way.
+    /// Spreading: the area of a ray tube of 1 sr at the place, m^2, across the path.
     double spread_m2;
     double transmitted;  ///< share of the power that passes the surface, one way
 
-    /// Half of the two-way time, as a way in the water.
+    /// Half of the two-way time times the speed of sound in water.
     double range_m(const SedimentPath& sediment) const {
         return in_water_m + in_sediment_m / sediment.speed_ratio;
     }
 };
 
-/// The refracted way to a place at a depth below a plane, from a height above it, `across_m` along
-/// it.
+/// The refracted path from a height above a plane to a depth below it, `across_m` apart along it.
 WayIntoBottom way_into_bottom(const SedimentPath& sediment, double height_m, double depth_m,
                               double across_m);
 
-/// The echo of a point of 1 m^2 at the end of that way by that of one in the water at its range:
-/// with T the share that passes, n the ratio of speeds and L^2 the spread, T^2 n^2 r^4 / L^4 times
-/// the loss. The way back spreads over L^2 / n^2, since solid angles in the sediment are wider by
-/// n^2 cos / cos, and areas across the way in the water by the inverse of the cosines.
+/// The echo of a point of 1 m^2 at the end of that path over the echo of one in the water at its
+/// range: T^2 n^2 r^4 / L^4 times the loss, with T the transmitted share, n the ratio of speeds and
+/// L^2 the spread. The way back spreads over L^2 / n^2, since solid angles in the sediment are
+/// wider by n^2 cos / cos, and areas across the way in the water by the inverse of the cosines.
 double echo_through_bottom(const SedimentPath& sediment, const WayIntoBottom& way);
 
-/// The place at which the sonar sees a buried point: in the direction in which sound leaves for it,
-/// at its two-way time, with its echo as its section. `hit`: what the straight line to it meets
-/// first, which gives the plane of the bottom. `sediments`: by material. Nothing if that is no sea
-/// bed above it.
+/// The apparent place of a buried point: in the direction of departure, at the range of its two-way
+/// time, with its echo as its section. `hit`: the first hit of the straight line to it, which gives
+/// the plane of the bottom. `sediments`: by material. Nothing unless it lies below a sea bed.
 std::optional<Sample> seen_buried(std::span<const SedimentPath> sediments, const Sample& point,
                                   const Intersection& hit);
 
-/// The part of a buried object as the sonar sees it: at such a place, and turned so that its normal
-/// has the angle to the sight line that it has to the sound in the sediment. Nothing, too, if it
-/// faces away from that. `hit`: what a ray from the sonar near the part meets first.
+/// The same for a part of a buried object. It is turned so that its normal makes the same angle
+/// with the sight line as with the sound in the sediment. Nothing, too, if it faces away from that
+/// sound. `hit`: the first hit of a ray from the sonar near the part.
 std::optional<TargetFacet> seen_buried(std::span<const SedimentPath> sediments,
                                        const TargetFacet& part, const Ray& ray,
                                        const Intersection& hit);

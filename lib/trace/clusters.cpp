@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t none = 0xFFFFFFFFU;
 
-// So many clusters of its tile are compared with a sample before it starts one of its own. A tile
+// A sample is compared with at most this many clusters of its tile before it starts its own. A tile
 // with more normals than this is rubble, in which clusters have hardly a second member.
 constexpr int most_comparisons = 16;
 
@@ -54,7 +54,7 @@ class Tiling {
     float per_sine_;
 };
 
-/// A cluster that is being filled, known by its first sample; one of the list of its hash bucket.
+/// A cluster that is being filled: its first sample, and the next cluster of its hash bucket.
 struct OpenCluster {
     Tile tile;
     Eigen::Vector3f normal;
@@ -118,7 +118,7 @@ Clusters cluster_samples(const View& view, const Samples& samples, const Cluster
         for (std::uint32_t i = samples.beam_begin[j]; i < samples.beam_begin[j + 1]; ++i) {
             const Sample& sample = samples.items[i];
             const float range = arrival_range(sample.position);
-            // Beyond the range, the path over a second surface is longer still.
+            // A sample out of range needs no trace: its path over a second surface is longer still.
             if (!(range > 0.0F && range < range_max)) continue;
             cluster[i] = table.cluster_of(tiling.of(sample, range, j), sample.normal);
         }

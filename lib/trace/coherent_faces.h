@@ -34,7 +34,7 @@ struct SceneStrip {
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< unit, of the facet
     std::uint32_t material = 0;
     std::uint32_t instance = 0;
-    bool mapped = false;  ///< as of a plate
+    bool mapped = false;  ///< as for a plate
 };
 
 /// Two plates at right angles that meet in a seam.
@@ -49,7 +49,7 @@ struct SceneTrihedral {
     Eigen::Vector3f apex;
 };
 
-/// All of it at rest and of copies. Bodies that move have none.
+/// The faces of the scene at rest and of copies. Moving bodies have none.
 struct CoherentFaces {
     std::vector<ScenePlate> plates;
     std::vector<SceneStrip> strips;

@@ -25,7 +25,7 @@ struct PlateOfPing {
     std::vector<PlateEdge> edges;
     Eigen::Vector3d normal;       ///< unit, away from the sonar
     double height_m = 0.0;        ///< the sonar's height above its plane
-    bool foot_seen = true;        ///< so is the foot of the perpendicular, if it is on the plate
+    bool foot_seen = true;        ///< the foot of the perpendicular is visible
     std::uint32_t material = 0;   ///< index into Scene::materials
     std::vector<Mirror> mirrors;  ///< the faces of a corner; empty: the plate itself reflects
     float strength = 1.0F;        ///< factor on its power, from a map
@@ -39,7 +39,7 @@ struct StripOfPing {
     float strength = 1.0F;       ///< factor on its power, from a map
 };
 
-/// The plane of a face that reflects coherently. What scatters incoherently on it is less.
+/// The plane of a face that reflects coherently. It scatters less sound incoherently.
 struct FaceOfPing {
     std::uint32_t instance = 0;  ///< index into Scene::instances
     std::uint32_t material = 0;  ///< index into Scene::materials
@@ -55,8 +55,8 @@ struct CoherentSurface {
     bool has_echoes() const { return !plates.empty() || !strips.empty(); }
 };
 
-/// The rectangle along a line that reaches so far to either side of it. `across`: unit, at right
-/// angles to the line.
+/// The rectangle along a line from `left_m` on one side of it to `right_m` on the other. `across`:
+/// unit, at right angles to the line.
 PlateOfPing plate_along(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                         const Eigen::Vector3d& across, double left_m, double right_m);
 

@@ -23,7 +23,7 @@ constexpr float meeting_share = 1e-3F;
 constexpr int parts_of_seam = 16;
 constexpr int directions_of_aperture = 64;
 constexpr int halvings = 12;
-// A corner is seen if its faces are, so far from the middle of the aperture: a share of the range.
+// A corner is visible if its faces are, this share of the range from the middle of the aperture.
 constexpr double aim_by_range = 0.01;
 constexpr double least_reach = 1e-3;  // a share of the smallest face
 

@@ -21,7 +21,7 @@ namespace sonarsim {
 /// Fills the dihedrals and trihedrals from the plates.
 void find_corners(CoherentFaces& faces);
 
-/// A face of a corner in the sensor frame, seen from a point of it.
+/// A face of a corner in the sensor frame.
 struct CornerFace {
     Eigen::Vector3d outwards;  ///< its normal, unit, towards the sonar
     std::vector<std::array<Eigen::Vector3d, 2>> border;

@@ -14,9 +14,9 @@ struct DopplerLoss {
 };
 
 /// The share of the power that the filter passes. The filter of a tone sums the echo over T with
-/// the phases of the transmitted pulse: sinc^2 of the turns. A sweep fits the filter's at the
-/// shifted range, but for the share a of the band at its ends: (1 - a)^2. Both are the pulse's
-/// ambiguity function, for even amplitudes.
+/// the phases of the transmitted pulse: sinc^2 of the turns. A sweep fits the filter at the shifted
+/// range, except for the share a of the band at its ends: (1 - a)^2. Both are the pulse's ambiguity
+/// function, for even amplitudes.
 double passed_by_filter(const DopplerLoss& loss, double recedes_m_s);
 
 }  // namespace sonarsim

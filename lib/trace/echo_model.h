@@ -34,15 +34,15 @@ class EchoModel {
     /// Fills the image [range bins, beams] of `ping`, its counts and its seconds. The image must be
     /// 0 before. The same arguments give the same bytes.
     virtual void form(const TracedPing& traced, const FormContext& context, Ping& ping) const = 0;
-    /// The echoes of a traced ping and the surface that each comes from, for labels. `patches`: the
-    /// visible surface as well.
+    /// The echoes of a traced ping and the surface that each comes from, for labels. With `patches`
+    /// the visible surface, too.
     virtual SurfaceEchoes surface_echoes(const TracedPing& traced, const View& view,
                                          const Scene& scene, bool patches) const = 0;
     /// The names of the model's random terms, in the order in which they enter an image.
     virtual std::span<const std::string_view> random_terms() const = 0;
 
-    /// This model with all that it needs of the scene but not of a ping, found once for all pings;
-    /// nullptr if it needs nothing. A model that was not prepared forms the same images, slower.
+    /// This model with the data that depend on the scene alone, found once for all pings; nullptr
+    /// if it needs none. A model that was not prepared forms the same images, slower.
     virtual std::shared_ptr<const EchoModel> prepared(const Scene& /*scene*/) const { return {}; }
 
     /// The guard beams that the model needs.

@@ -33,7 +33,7 @@ void add_faces(const FaceMesh& mesh, std::uint32_t instance, bool mapped, Cohere
     }
 }
 
-/// The materials of a scene that reflect coherently, and where its maps may lay them.
+/// The materials of a scene that reflect coherently, and the instances on which maps may lay them.
 class CoherentMaterials {
   public:
     explicit CoherentMaterials(const Scene& scene) : maps_(scene.maps.get()) {
@@ -46,7 +46,7 @@ class CoherentMaterials {
 
     bool any() const { return std::ranges::find(coherent_, 1) != coherent_.end(); }
     bool is_mapped(std::uint32_t instance) const { return maps_ && maps_->lie_on(instance); }
-    /// True if a surface of this material of its own may reflect coherently.
+    /// True if a surface may reflect coherently by its own material or by its maps.
     bool may_reflect(std::uint32_t material, bool mapped) const {
         return coherent_[material] != 0 || (mapped && in_texels_);
     }

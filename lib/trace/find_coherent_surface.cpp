@@ -20,9 +20,10 @@ namespace sonarsim {
 namespace {
 
 constexpr int parts_of_edge = 8;
-// A ray meets the plate this far from the border, by the length of the part of the edge.
+// A ray meets the plate this far inside its border, as a share of the length of the part of the
+// edge.
 constexpr double inset_by_part = 0.05;
-// A plate that is less wide than this share of its range is cut where it is hidden.
+// A partly hidden plate is cut into parts if it is smaller than this share of its range.
 constexpr double small_plate = 0.1;
 constexpr float parts_of_plate = 8.0F;
 
@@ -127,7 +128,7 @@ class CoherentSurfaceFinder {
             out_.plates.push_back(std::move(at));
     }
 
-    /// Any coherent material may lie on a plane with maps.
+    /// Adds the plane with each coherent material, since a map may lay any of them on it.
     void add_faces_of_texels(FaceOfPing face) {
         for (std::uint32_t m = 0; m < scene_.materials.size(); ++m) {
             if (!scene_.materials[m].roughness_m) continue;
@@ -149,8 +150,8 @@ class CoherentSurfaceFinder {
 
     enum class Seen { none, partly, all };
 
-    /// Finds the edges of a plate that are in view and not hidden. Returns how many of those in
-    /// view are not hidden.
+    /// Finds the edges of a plate that are in view and not hidden. Returns whether all, some or
+    /// none of those in view are visible.
     Seen find_seen(PlateOfPing& plate) const {
         SeenPoints points;
         std::vector<std::pair<std::size_t, bool*>> asked;
@@ -176,8 +177,9 @@ class CoherentSurfaceFinder {
         return count == std::ssize(asked) ? Seen::all : Seen::partly;
     }
 
-    /// Adds those parts of a plate that are not hidden, each with a border of its own. A hidden
-    /// part of the border alone would leave the rest without what cancels it.
+    /// Adds those parts of a plate that are not hidden, each with a border of its own. The
+    /// diffraction of a border is right only if it is closed: without its hidden part the rest
+    /// would not cancel.
     void add_seen_parts(const ScenePlate& plate, const PlateOfPing& whole, float size_m) {
         SeenPoints points;
         std::vector<PlateOfPing> parts;
@@ -254,7 +256,8 @@ class CoherentSurfaceFinder {
         return true;
     }
 
-    /// Adds those whose faces are seen. `plates`: the faces, indices into CoherentFaces::plates.
+    /// Adds the apertures whose faces are visible. `plates`: the faces, indices into
+    /// CoherentFaces::plates.
     void add_apertures(std::vector<Aperture> apertures, std::span<const std::uint32_t> plates) {
         for (Aperture& aperture : apertures) {
             const bool in_view = std::ranges::all_of(

@@ -11,7 +11,7 @@ namespace sonarsim {
 
 namespace {
 
-/// A part of a sample, in the sensor frame and from above.
+/// A part of a sample, in the sensor frame and on the map.
 struct MapPiece {
     Eigen::Vector3f position, u, v;  ///< centre and half edges
     GroundFootprint ground;
@@ -71,9 +71,9 @@ class MapLayer {
 
   private:
     static constexpr double depth_in_bins = 0.5;
-    static constexpr int parts_of_cone = 8;  ///< across what no beams divide
+    static constexpr int parts_of_cone = 8;  ///< across a cone or a side, which no beams divide
     static constexpr int most_halvings = 16;
-    static constexpr float whole_piece = 0.95F;  ///< less than a fortieth of it is not cut off
+    static constexpr float whole_piece = 0.95F;  ///< parts below a fortieth are not cut off
 
     Eigen::Vector2d from_above(const Eigen::Vector3f& v) const { return R_ * v.cast<double>(); }
 
@@ -93,7 +93,7 @@ class MapLayer {
                             R * piece.u.cast<double>(), R * piece.v.cast<double>());
     }
 
-    /// The extent of an edge by what a piece may have.
+    /// The extent of an edge over the greatest extent of a piece.
     float size_of(const Eigen::Vector3f& half_edge, const Arrival& at) const {
         const float depth = half_edge.dot(at.direction);
         const float across = 2.0F / at.range_m;
@@ -109,7 +109,7 @@ class MapLayer {
         const float size_u = size_of(piece.u, at);
         const float size_v = size_of(piece.v, at);
         if (size_v > size_u) piece.swap_edges();
-        // In this order of arguments NaN, of a piece at the sonar, ends here.
+        // A piece at the sonar has NaN; in this order of arguments it is not cut.
         if (std::max(size_u, size_v) > 1.0F && halvings > 0) {
             for (const double low : {-1.0, 0.0}) {
                 MapPiece half = piece.between(low, low + 1.0);
@@ -118,13 +118,13 @@ class MapLayer {
             }
             return;
         }
-        // Strips that lie side by side along the edge with the lesser depth blur ranges the least.
+        // Strips along the edge with the greater depth would blur ranges more.
         if (std::fabs(piece.u.dot(at.direction)) > std::fabs(piece.v.dot(at.direction)))
             piece.swap_edges();
         add_by_bins(piece, at, out);
     }
 
-    /// Cuts a piece that lies in two range bins where they meet: its parts have means of their own.
+    /// Cuts a piece at the border between two range bins, so that each part has its own mean.
     void add_by_bins(MapPiece piece, const Arrival& at, std::vector<Sample>& out) {
         const float depth = piece.v.dot(at.direction);
         const float farthest = at.range_m + std::fabs(depth);

@@ -11,7 +11,7 @@ namespace sonarsim {
 
 namespace {
 
-// Beams that tell of all.
+// The most beams to compare.
 constexpr std::size_t most_beams = 16;
 
 /// One of the two images of some beams.
@@ -55,8 +55,8 @@ double error_of_maps(const Scene& scene, const View& view, const Pose& T_world_s
     // The pieces of a side-scan end where bins do: their means are exact.
     if (view.shape == ViewShape::port_starboard) return 0.0;
     constexpr int blocks = 128;  // equal parts of the range
-    // One in so many of them is looked at. The borders of a map may lie in few of them, so that a
-    // side-scan of two beams needs all.
+    // One block in `every` is compared. A view of few beams needs all, since the borders of a map
+    // may lie in few of them.
     const int every = std::clamp(view.beams / 8, 1, 16);
     constexpr double coarser = 2.0;
     Samples usual;

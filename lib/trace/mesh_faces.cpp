@@ -110,7 +110,7 @@ class FaceFinder {
             const double longest = std::max({u.norm(), v.norm(), (u - v).norm()});
             const Eigen::Vector3d cross = u.cross(v);
             normals_.emplace_back(cross.normalized());
-            // An error of a vertex turns the triangle by as much as it is of its height.
+            // An error of a vertex turns the triangle by the error over the triangle's height.
             const double error = rounding * p[0].cast<double>().norm();
             slack_.push_back(one_plane_rad + error * longest / std::max(cross.norm(), 1e-30));
         }
@@ -130,8 +130,7 @@ class FaceFinder {
     }
 
   private:
-    /// The cosine of the turn from one triangle to the other one of an edge, whatever way round
-    /// their corners go.
+    /// The cosine of the angle between the two triangles of an edge, whatever their winding.
     double turn_at(const TriangleSide& a, const TriangleSide& b) const {
         const double cosine = normals_[a.triangle].dot(normals_[b.triangle]);
         return a.from == b.to ? cosine : -cosine;
@@ -197,8 +196,8 @@ class FaceFinder {
             }
             if (!(reach[0] < most_reach_ratio * reach[1] && reach[1] < most_reach_ratio * reach[0]))
                 continue;
-            // Faces of a circle turn by as much as they reach: from its middle on, a face turns by
-            // its share of the angle.
+            // Faces of a circle turn in proportion to their width: each turns by its share of the
+            // angle.
             const float same = faces[0]->normal.dot(faces[1]->normal) < 0.0F ? -1.0F : 1.0F;
             const Eigen::Vector3f normal =
                 (reach[1] * faces[0]->normal + reach[0] * same * faces[1]->normal).normalized();

@@ -14,15 +14,15 @@ namespace sonarsim {
 
 namespace {
 
-// Stretched further than this, in footprints, a footprint says nothing about where it lies.
+// A footprint is shifted to the middle of its column if that is at most this many half widths away.
 constexpr float farthest_shift = 16.0F;
 
 constexpr float most_pieces = 64.0F;
 
-// More beams than twice these would cost time and tell little more.
+// More beams than twice this many cost time and hardly improve the estimate.
 constexpr int enough_beams = 128;
 
-// The images that occupy a bin.
+// Bits: the images that occupy a bin.
 constexpr unsigned by_even_columns = 1;
 constexpr unsigned by_odd_columns = 2;
 
@@ -61,7 +61,7 @@ class OccupiedBins {
         }
     }
 
-    /// The number of bins that just these images occupy.
+    /// The number of bins that exactly these images occupy.
     double count(unsigned images) const {
         return static_cast<double>(std::ranges::count(images_, static_cast<std::uint8_t>(images)));
     }

@@ -12,8 +12,9 @@ namespace sonarsim {
 
 namespace {
 
-// Below this |r . n_h|, half a degree, the second plane is seen edge-on: where the ray meets it is
-// finer than a float position, and farther off than the plane can stand for the surface.
+// Below this |r . n_h|, half a degree, the second plane is seen edge-on: floats are too coarse for
+// the point where the ray meets it, and the point is too far off for the plane to stand for the
+// surface.
 constexpr float least_cosine = 0.01F;
 
 // Two traced members of a cluster have hit one plane when each point lies on the other's plane to
@@ -48,7 +49,7 @@ Outcome reflect(const BounceTracer& context, const Sample& sample, const Plane& 
                 BouncePath& out) {
     const BounceHit& second = *plane.hit;
     if (!second.exists) return &MultipathCounts::missed;
-    // The sound hit the far side of what the sonar faces.
+    // The sound hit the side that the sonar does not see.
     const Eigen::Vector3f sonar = context.sonar();
     if (!(second.normal.dot(second.point - sonar) < 0.0F)) return &MultipathCounts::hidden;
     const Eigen::Vector3f image = 2.0F * sample.normal.dot(sample.position) * sample.normal;
@@ -89,13 +90,13 @@ Outcome reflect(const BounceTracer& context, const Sample& sample, const Plane& 
     return &MultipathCounts::bounces;
 }
 
-/// The paths that come back, and those that the second surface mirrors away from the sonar.
+/// The paths that return, and those that the second surface reflects away from the sonar.
 struct Followed {
     std::vector<BouncePath> bounces, turned_away;
 };
 
-/// Reflects one sample off the plane, and keeps what comes back. Returns whether the sample has to
-/// be traced by itself.
+/// Reflects one sample off the plane, and keeps the path if it returns. Returns whether the sample
+/// has to be traced by itself.
 bool follow(const BounceTracer& context, std::uint32_t sample, std::uint32_t ray,
             const Plane& plane, Followed& followed, MultipathCounts& counts) {
     const Sample& source = context.samples.items[sample];
@@ -122,7 +123,7 @@ bool follow(const BounceTracer& context, std::uint32_t sample, std::uint32_t ray
     return false;
 }
 
-/// Traces the samples and reflects each off what its own ray hit.
+/// Traces the samples and reflects each off the plane that its own ray hit.
 void follow_traced(const BounceTracer& context, std::span<const std::uint32_t> sources,
                    std::vector<BounceHit>& second_hits, Followed& followed,
                    MultipathCounts& counts) {
@@ -171,7 +172,7 @@ void drop_hidden(const BounceTracer& context, const std::vector<BounceHit>& seco
     });
 }
 
-/// Follows the sound of all samples to what `context` says of second surfaces.
+/// Follows the sound of all samples to the second surfaces that `context` allows.
 std::vector<BouncePath> follow_all(const BounceTracer& context, const Clusters& clusters,
                                    MultipathCounts& counts) {
     // The first and the last member of every cluster are traced.

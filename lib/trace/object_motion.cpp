@@ -7,7 +7,7 @@ namespace sonarsim {
 
 namespace {
 
-/// The place with the shift of a pulse that sweeps.
+/// The place with the range shift of a pulse that sweeps.
 Eigen::Vector3d shifted(const PingMotion& sonar, const Eigen::Vector3d& place,
                         const Eigen::Vector3d& velocity) {
     const Eigen::Vector3d direction = place.normalized();
@@ -28,7 +28,7 @@ class ObjectMover {
 
     struct Moved {
         Eigen::Vector3d place;
-        Eigen::Matrix3d turn;  ///< takes directions to those of then
+        Eigen::Matrix3d turn;  ///< turns directions from the ping's time to the moment of meeting
     };
     Moved moved(const ObjectMotion& motion, const Eigen::Vector3d& place) const {
         const Eigen::Quaterniond to_sensor = T_world_sensor_.rotation.conjugate();
@@ -51,7 +51,7 @@ class ObjectMover {
         return {shifted(sonar_, met, velocity), turn.toRotationMatrix()};
     }
 
-    /// The speed at which a place recedes from the sonar; null: it stands still.
+    /// The speed at which a place recedes from the sonar. `motion` is null if it stands still.
     double recedes_m_s(const ObjectMotion* motion, const Eigen::Vector3d& place) const {
         Eigen::Vector3d velocity = -sonar_.velocity_m_s;
         if (motion != nullptr) {

@@ -14,7 +14,7 @@ namespace sonarsim {
 /// The motion of an object of the scene in a ping, at constant rates.
 struct ObjectMotion {
     std::uint32_t instance = 0;  ///< index into Scene::instances
-    Eigen::Vector3d centre_m;    ///< it turns about this place at the ping's time, world
+    Eigen::Vector3d centre_m;    ///< the centre of its rotation at the ping's time, world
     Eigen::Vector3d velocity_m_s, turn_rad_s;  ///< world
 };
 
@@ -28,20 +28,20 @@ struct MovingObjects {
 double meeting_time(double sound_speed_m_s, const Eigen::Vector3d& place,
                     const Eigen::Vector3d& velocity_m_s);
 
-/// The place that a sonar at rest measures for a point that is at `place` at transmission: where
-/// the sound meets it, with the shift of a pulse that sweeps.
+/// The place that a sonar at rest measures for a point that is at `place` at transmission: the
+/// place where the sound meets it, with the range shift of a pulse that sweeps.
 Eigen::Vector3d met_place(const PingMotion& sonar, const Eigen::Vector3d& place,
                           const Eigen::Vector3d& velocity_m_s);
 
 /// Moves the samples and facets of objects from where they are at the time of the ping to where
-/// the sound meets them. The pose is that of the transmission; of the sonar's motion the speed of
-/// sound and the shift count here, the rest is for move_in_ping().
+/// the sound meets them. The pose is that of the transmission. Only the speed of sound and the
+/// range shift of `sonar` are used; move_in_ping() applies the sonar's motion.
 void move_objects(const MovingObjects& moving, const PingMotion& sonar, const Pose& T_world_sensor,
                   std::span<Sample> samples);
 void move_objects(const MovingObjects& moving, const PingMotion& sonar, const Pose& T_world_sensor,
                   std::span<TargetFacet> facets);
 
-/// Weakens the echoes of what approaches or recedes, by the motion of sonar and object.
+/// Weakens echoes by their Doppler shift, from the motion of sonar and object.
 void fade_by_doppler(const MovingObjects& moving, const PingMotion& sonar,
                      const Pose& T_world_sensor, std::span<Sample> samples);
 void fade_by_doppler(const MovingObjects& moving, const PingMotion& sonar,

@@ -16,8 +16,8 @@ namespace sonarsim {
 struct Particle {
     Eigen::Vector3d start_m;  ///< place at time 0, world
     Eigen::Vector3d velocity_m_s;
-    /// Its height goes round between these, if the second is greater: a bubble at the top begins
-    /// anew at the bottom.
+    /// Its height wraps between these, if the second is greater: a bubble at the top starts again
+    /// at the bottom.
     double bottom_m = 0.0, top_m = 0.0;
     float section_m2 = 0.0F;     ///< backscattering cross-section: 10 log of it is the strength
     std::uint32_t material = 0;  ///< index into Scene::materials
@@ -25,7 +25,7 @@ struct Particle {
     bool buried = false;         ///< in the sediment
 };
 
-/// The point targets of a scene as one sonar, at its frequency, sees them.
+/// The point targets of a scene, with their strengths at the frequency of one sonar.
 struct Particles {
     std::vector<Particle> all;
     std::vector<double> time_s;                ///< since the first ping, by pose of the trajectory
@@ -43,7 +43,7 @@ struct SeenParticles {
 };
 
 /// The particles in view that no surface hides. One ray tests each. Buried ones are seen through
-/// the sea bed above them (trace/buried.h). In a ping with motion they go on by their velocity.
+/// the sea bed above them (trace/buried.h). In a ping with motion they move on with their velocity.
 SeenParticles seen_particles(const Particles& particles, double time_s, const View& view,
                              const GuardBeams& guard_beams, const VisibilityEngine& engine,
                              const Pose& T_world_sensor, const PingMotion& motion);

@@ -10,27 +10,27 @@ namespace sonarsim {
 
 namespace {
 
-/// The share of the motion in a ping that the frame of a measured direction has made.
+/// The moment whose frame measures directions, as a share of the two-way time.
 double share_of(ViewShape shape) {
     return shape == ViewShape::fan ? 1.0 : 0.5;
 }
 
-/// The time of sound to a place and back to where the sonar is then: the greater root of
-/// |p - v t| = c t - |p|, which is t = 2 (c |p| - v . p) / (c^2 - v^2).
+/// The time of sound to a place and back to the moving sonar: the greater root of |p - v t| = c t -
+/// |p|, which is t = 2 (c |p| - v . p) / (c^2 - v^2).
 double two_way_time(const PingMotion& motion, const Eigen::Vector3d& place) {
     const double c = motion.sound_speed_m_s;
     const Eigen::Vector3d& v = motion.velocity_m_s;
     return 2.0 * (c * place.norm() - v.dot(place)) / (c * c - v.squaredNorm());
 }
 
-/// The shift in range of a pulse that sweeps.
+/// The range shift of a pulse that sweeps.
 double range_shift(const PingMotion& motion, const Eigen::Vector3d& place) {
     if (motion.doppler_s == 0.0) return 0.0;
     return -motion.doppler_s * motion.velocity_m_s.dot(place.normalized());
 }
 
-/// Over a patch the time of return changes by 2 / c for each metre, in which a sonar moves by
-/// thousandths of that and turns by less than 1e-3: its edges are only turned.
+/// The edges of a patch are only turned. Its parts differ in two-way time by 2 / c for each metre;
+/// in this time a sonar moves by thousandths of a metre and turns by less than 1e-3.
 Sample moved(const PingMotion& motion, ViewShape shape, const Sample& sample) {
     const Eigen::Vector3d place = sample.position.cast<double>();
     const double time = two_way_time(motion, place);
@@ -90,11 +90,11 @@ Eigen::Vector3d measured_place(const PingMotion& motion, ViewShape shape,
 
 Eigen::Vector3d unmoved_place(const PingMotion& motion, ViewShape shape,
                               const Eigen::Vector3d& measured) {
-    // The place lies at s + l d, where the sonar has moved by s meanwhile and d is the direction in
-    // the frame at transmission. Its two-way time, in which s and d count, is that of the measured
-    // range without the shift of a pulse that sweeps. It grows by 2 / c for each metre of l, all
-    // but for the speed of the sonar, so that this comes a thousand times nearer each time.
-    // The shift depends on the direction of the place alone and comes near as fast.
+    // The place is s + l d, with s the sonar's motion meanwhile and d the direction in the frame at
+    // transmission. Its two-way time must be that of the measured range less the range shift.
+    // Newton's steps in l take the derivative 2 / c of a sonar at rest. It is off by the ratio of
+    // the speeds of sonar and sound, so each step reduces the error about a thousandfold, and that
+    // of the shift as well.
     Eigen::Vector3d place = measured;
     double length = measured.norm();
     for (int k = 0; k < 4; ++k) {

@@ -29,30 +29,29 @@ struct PingMotion {
 /// The rotation by a vector's length about it.
 Eigen::Quaterniond rotation_by(const Eigen::Vector3d& turn_rad);
 
-/// The motion as the sonar has it at a later transmission, in its frame of then.
+/// The same motion in the sonar's frame at a later transmission.
 PingMotion motion_after(const PingMotion& motion, double later_s);
-/// The pose of the sonar then.
+/// The pose of the sonar at that transmission.
 Pose pose_after(const PingMotion& motion, const Pose& T_world_sensor, double later_s);
 
-/// The place that a moving sonar measures for one in its frame at transmission. The range is half
-/// of the way there from the place of transmission and back to that of reception, with the shift of
-/// a pulse that sweeps. The direction is
-/// that from the pose of reception in a fan, whose array measures it. In a side-scan sonar or a
-/// cone, where only the product of transmitting and receiving pattern counts, it is that from the
-/// pose half way between them.
+/// The place that a moving sonar measures for `place`, which is in its frame at transmission. The
+/// range is half of the path out from the pose of transmission and back to that of reception, with
+/// the range shift of a pulse that sweeps. The array of a fan measures the direction from the pose
+/// of reception. In a side-scan sonar or a cone only the product of the transmitting and receiving
+/// patterns matters, so the direction is that from the pose half way between them.
 Eigen::Vector3d measured_place(const PingMotion& motion, ViewShape shape,
                                const Eigen::Vector3d& place);
 
-/// The place that is measured so: the inverse of measured_place().
+/// The inverse of measured_place().
 Eigen::Vector3d unmoved_place(const PingMotion& motion, ViewShape shape,
                               const Eigen::Vector3d& measured);
 
-/// Gives the samples of a fan to the beams of their azimuths; what lies outside the sector goes to
-/// `outside_sector`, and what lies there may come from it.
+/// Sorts the samples of a fan and those of `outside_sector` into the beams of their azimuths.
+/// Samples outside the sector end in `outside_sector`.
 void sort_into_beams(const View& view, Samples& samples, std::vector<Sample>& outside_sector);
 
-/// Moves the visible surface of a sonar at rest to where the moving sonar measures it. In a fan
-/// surface goes to the beam of its azimuth; what leaves the sector goes to `outside_sector`.
+/// Moves the visible surface of a sonar at rest to where the moving sonar measures it. The samples
+/// of a fan are then sorted into beams again.
 void move_in_ping(const PingMotion& motion, const View& view, Samples& samples,
                   std::vector<Sample>& outside_sector);
 /// The same for facets of targets.

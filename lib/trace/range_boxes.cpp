@@ -25,16 +25,16 @@ struct Boxes {
     int least, greatest;                            ///< the least `first`, the greatest `last`
 };
 
-/// The boxes of the echoes [begin, begin + count). Those wholly outside the range add 0 to the
-/// first bin; returns how many they are. No branches, so that the loop becomes vectors; inlined, so
-/// that compilers see that `boxes` is not among the echoes.
+/// The boxes of the echoes [begin, begin + count). Echoes wholly outside the range add 0 to the
+/// first bin; returns their number. No branches, so that the loop becomes vectors; inlined, so that
+/// compilers see that `boxes` is not among the echoes.
 [[gnu::always_inline]] inline int find_boxes(const RangeBoxes& echoes, std::size_t begin,
                                              std::size_t count, const RangeBins& bins,
                                              Boxes& boxes) {
     const float per_bin = 1.0F / bins.bin_m;
     const float range_min_m = bins.min_m;
     const auto end = static_cast<float>(bins.count);
-    // In bins: an echo without depth still needs a width to be divided by.
+    // In bins. An echo without depth needs a width, since its weight is divided by it.
     constexpr float least_half = 1e-3F;
     const float* const __restrict range_m = echoes.range_m.data() + begin;
     const float* const __restrict half_m = echoes.half_m.data() + begin;
@@ -133,8 +133,8 @@ std::uint64_t accumulate(const RangeBoxes& echoes, std::size_t begin, std::size_
         const std::size_t count = std::min(boxes_per_block, end - from);
         outside += find_boxes(echoes, from, count, bins, boxes);
         sums.include(boxes.least, boxes.greatest + 1);
-        // The sums have to be added to one by one. Most boxes cover two bins or one, which is the
-        // same here: to tell them apart would be mispredicted half the time.
+        // Boxes of one and of two bins, which are the most, take the same path: a branch between
+        // them would be mispredicted half the time.
         for (std::size_t k = 0; k < count; ++k) {
             BinSum* const first = bin_0 + boxes.first[k];
             add_two(boxes, k, *first);
@@ -155,7 +155,8 @@ void mark_occupied(const RangeBoxes& echoes, std::size_t begin, std::size_t end,
             const int first = boxes.first[k];
             const int last = boxes.last[k];
             occupied[first] = 1;
-            // Again the first one where the box ends in it: a branch would often be mispredicted.
+            // This is the first bin again if the box ends in it: a branch would often be
+            // mispredicted.
             occupied[first + (boxes.share[k].second > 0.0F ? 1 : 0)] = 1;
             for (int i = first + 2; i < last; ++i)
                 occupied[i] = 1;

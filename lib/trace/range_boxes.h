@@ -26,7 +26,7 @@ inline RangeBins range_bins(const View& view) {
 /// Echoes of pieces of surface, each spread evenly over [range - half, range + half]. Arrays, so
 /// that loops vectorise.
 struct RangeBoxes {
-    std::vector<float> range_m;    ///< slant range, of the middle of its extent
+    std::vector<float> range_m;    ///< slant range of the middle of the extent
     std::vector<float> half_m;     ///< half its extent in range
     std::vector<float> weight;     ///< the unit is the echo model's: the paper's is area, m^2
     std::vector<float> intensity;  ///< its echo is weight times intensity
@@ -60,7 +60,7 @@ struct BinSums {
 };
 
 /// Adds every echo to the bins that its box in range covers, in proportion to the overlap. Parts
-/// outside the range are dropped. Returns how many echoes lay wholly outside.
+/// outside the range are dropped. Returns the number of echoes wholly outside.
 std::uint64_t accumulate(const RangeBoxes& echoes, const RangeBins& bins, BinSums& sums);
 
 /// The same for the echoes [begin, end).

@@ -13,11 +13,11 @@ namespace sonarsim {
 
 namespace {
 
-// Paths are tried so many at a time, which bounds the memory. Chosen.
+// At most this many paths are tried at a time, to bound the memory. Chosen.
 constexpr std::size_t most_untried = 4096;
 
-/// The surface that a way meets as the sonar sees it: all sound that met the source goes on to it.
-/// When the place on the source moves along an edge, that behind it stays in its plane.
+/// The surface that a way meets at its apparent place. It takes all sound that met the source. When
+/// the place on the source moves along an edge, the place behind it moves in its own plane.
 bool unfold(const Sample& source, const Way& way, const Meeting& at, Sample& out) {
     const Arrival arrival = arrival_of(source.position);
     const float range = way.length_m + at.distance_m;
@@ -74,7 +74,7 @@ RetracedSurface retraced_surface(const Multipath& multipath, const TraceContext&
         for (std::size_t i = 0; i < ways.size(); ++i) {
             Way& way = ways[i];
             const Meeting at = meeting_at(trace, water, way.ray, hits[i]);
-            // Sound that comes back over a shorter way has a nearer echo.
+            // Up to twice the range: sound may return over a shorter way.
             const float range = way.length_m + at.distance_m;
             if (!(range < 2.0F * range_max)) continue;
             const Sample& source = samples.items[way.source];

@@ -10,7 +10,7 @@
 
 namespace sonarsim {
 
-/// Asks which points the sonar sees.
+/// Finds which points the sonar sees.
 class SeenPoints {
   public:
     /// Returns the number of the question.

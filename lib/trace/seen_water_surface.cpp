@@ -11,9 +11,9 @@ namespace sonarsim {
 
 namespace {
 
-// The directions of the view are cut into cells, at first of this size or so many, then in four
-// where a cell reaches over too much range. These numbers are chosen. With them the area in a bin
-// is right to 1 % (water_surface_test.cpp).
+// The directions of the view are cut into cells of this size or this many; a cell that spans too
+// much range is cut in four. These numbers are chosen. With them the area in a bin is right to 1 %
+// (water_surface_test.cpp).
 constexpr double first_cell_rad = radians(2.0);
 constexpr double least_cells = 16.0;
 constexpr float most_range_share = 1.0F / 8.0F;
@@ -22,7 +22,7 @@ constexpr int most_cuts = 7;
 
 /// A rectangle of azimuth and elevation.
 struct Cell {
-    double azimuth, elevation;  ///< the middle has these
+    double azimuth, elevation;  ///< angles of the middle
     double half_azimuth, half_elevation;
 };
 

@@ -10,9 +10,9 @@
 
 namespace sonarsim {
 
-/// The surface of the water that a sonar below it sees: in its view, and for a side-scan sonar all
-/// around the track, since the sound of its sides' patterns comes back from above as well. Material
-/// and instance of the samples are 0. One ray decides on the visibility of each.
+/// The water's surface that a sonar below it sees: in its view, and for a side-scan sonar all
+/// around the track, since its beam patterns reach upwards as well. Material and instance of the
+/// samples are 0. One ray decides on the visibility of each.
 std::vector<Sample> seen_water_surface(const WaterMirror& surface, const View& view,
                                        const GuardBeams& guard_beams,
                                        const VisibilityEngine& engine, const Pose& T_world_sensor,

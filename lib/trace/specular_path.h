@@ -5,9 +5,8 @@
 
 namespace sonarsim {
 
-/// A piece of surface that a sonar sees in two places: at least one of them is an image, over other
-/// surfaces that send sound on to it. Sound goes out to one of the two places and comes back from
-/// the other.
+/// A piece of surface that a sonar sees in two places. At least one of them is an image over
+/// specular surfaces. Sound goes out to one of the two places and comes back from the other.
 struct SpecularPath {
     /// A place and how it moves along the piece's half edges, m in the sensor's frame.
     struct Place {
@@ -18,8 +17,8 @@ struct SpecularPath {
     /// The image source: in the direction of departure, at the length of the reflected path.
     Place image_source;
     float area_m2 = 0.0F;
-    /// Sines of the angles that the surface makes with the way to the piece, with the way by the
-    /// mirror, and with the direction midway between them.
+    /// Sines of the grazing angles on the piece: of the way to `point`, of the way to
+    /// `image_source`, and of the direction midway between them.
     float sine_of_point = 0.0F, sine_of_image = 0.0F, sine_between = 0.0F;
     float reflection = 0.0F;     ///< share of the power that the mirrors on the path reflect
     std::uint32_t material = 0;  ///< index into Scene::materials

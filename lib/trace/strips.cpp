@@ -55,7 +55,7 @@ LongSide free_side(const MeshFace& face, const Eigen::Vector3f& axis,
     return out;
 }
 
-/// A strip across its rulings, at a share of the way from the first to the second.
+/// The ruling of a strip at a share of the way from the first one to the second.
 struct Across {
     Eigen::Vector3d ends[2];   ///< on the facet
     Eigen::Vector3d normal;    ///< unit
@@ -97,7 +97,7 @@ std::optional<SceneStrip> strip_of(const MeshFace& face) {
     for (int k = 0; k < 2; ++k) {
         if (!sides[k].empty) continue;
         sides[k] = free_side(face, axis, k == 0 ? Eigen::Vector3f(-across) : across);
-        // It turns on this side as it does on the other.
+        // The surface is taken to turn on this side as it does on the other.
         const Eigen::Vector3f there = sides[1 - k].normal;
         sides[k].normal = 2.0F * face.normal.dot(there) * face.normal - there;
     }

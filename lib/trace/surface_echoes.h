@@ -32,16 +32,15 @@ struct EchoPatch {
     const Sample* sample;
 };
 
-/// The echoes of a traced ping where a beam and a bin receive them, before beam pattern and pulse
-/// spread them and without random terms: what labels are made of. Echoes of one bin are in one
-/// unit. Samples are those of the traced ping, which must outlive this, or of
-/// `target_samples`.
+/// The echoes of a traced ping by beam and bin, before beam pattern and pulse spread them and
+/// without random terms. Labels are made of them. Echoes of one bin are in one unit. Samples are
+/// those of the traced ping, which must outlive this, or of `target_samples`.
 struct SurfaceEchoes {
     SurfaceEchoes() = default;
     SurfaceEchoes(SurfaceEchoes&&) = default;  ///< a copy would point into the original
 
     BeamEchoes direct;
-    BeamEchoes multipath;  ///< the samples are those that mirror the sound
+    BeamEchoes multipath;  ///< the samples are those that reflect the sound
     /// The visible surface; empty if it was not asked for.
     std::vector<EchoPatch> patches;
     std::vector<PatchEcho> patch_echoes;

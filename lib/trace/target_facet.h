@@ -25,11 +25,11 @@ struct TargetFacet {
     bool buried = false;                     ///< seen through the bottom, so at its apparent place
 };
 
-/// The differences between the normals of a facet and the directions to the sonar, as vectors.
-/// There is a highlight where their length is below some slopes of the material.
+/// The differences between the normals of a facet and the directions to the sonar, as vectors. A
+/// highlight lies where they are shorter than a few slopes of the material.
 struct FacetTurn {
     Eigen::Vector3f along_u, along_v;  ///< change from the first corner to the second and the third
-    float least;                       ///< length: no part of the facet is nearer than this
+    float least;                       ///< lower bound of the length on the facet
 
     explicit FacetTurn(const TargetFacet& facet) {
         const auto& p = facet.corners;

@@ -78,8 +78,8 @@ Eigen::Vector3d cross_of(const TargetShape& shape, const Corners& c) {
     return (shape.vertices[c[1]].cast<double>() - a).cross(shape.vertices[c[2]].cast<double>() - a);
 }
 
-/// Adds the triangles to the shape: each once, none without area. A triangle that is there twice,
-/// with its two sides, is one surface and has one echo.
+/// Adds the triangles to the shape: each once, none without area. A triangle that occurs twice,
+/// once for each side, is one surface and has one echo.
 void add_triangles(const std::vector<Corners>& triangles, std::span<const std::uint32_t> materials,
                    TargetShape& shape) {
     std::vector<std::pair<Corners, std::size_t>> sorted;
@@ -146,9 +146,9 @@ bool is_smooth(const TargetShape& shape, const MeshEdge& a, const MeshEdge& b) {
            of_b < most_height_ratio * of_a;
 }
 
-/// The pairs of triangles that share an edge, from sorted edges; `use` gets both sides of it. Edges
-/// of one triangle, of three or more, and those whose triangles wind in different senses are left
-/// out. Returns whether there are none of these.
+/// The pairs of triangles that share an edge, from sorted edges; `use` gets both sides of it. Skips
+/// edges of one triangle or of three and more, and those whose triangles differ in winding. Returns
+/// true if there are no such edges.
 template <class Use>
 bool each_shared_edge(const std::vector<MeshEdge>& edges, Use use) {
     bool all = true;

@@ -16,23 +16,25 @@ namespace sonarsim {
 
 namespace {
 
-// A target's size, or that of its highlight, is less than this many resolution cells. An engine
-// takes a sample in a cell or more: of 4 x 4 cells it has the energy to 1 / sqrt(16), 1 dB.
+// The triangles of an object are sampled if it, or its highlight, is smaller than this many
+// resolution cells. An engine has a sample per cell: over 4 x 4 cells its energy is right to 1 /
+// sqrt(16), 1 dB.
 constexpr float most_cells = 4.0F;
-// The views of sonars of one or two beams are as wide as 3 to 14 beams in the presets: a part of
-// this many is half a beam or less.
+// In the presets the views of sonars of one or two beams are 3 to 14 beamwidths wide, so a 32nd of
+// them is half a beamwidth or less.
 constexpr double least_parts = 32.0;
 // The sonar is outside of the ball around a target.
 constexpr float least_distance_by_radius = 1.05F;
 // The size of the parts whose visibility is found by one ray, as a share of a target's diameter. An
 // edge that hides a target is off by up to half a part, which is 0.5 dB where it hides half.
 constexpr float part_by_diameter = 1.0F / 8.0F;
-// Within this many slopes lies the power of a highlight but for exp(-3^2 / 2), a hundredth.
+// All but exp(-3^2 / 2), a hundredth, of the power of a highlight lies within this many slopes.
 constexpr float highlight_reach = 3.0F;
-// A highlight of the size a s, a its radius of curvature and s the slope, has parts of this many
-// a s: one ray decides on erf(0.75 / sqrt(2))^2 of its power at most, 0.3.
+// The size of the parts of a highlight over its own size a s, a the radius of curvature and s the
+// slope: one ray decides on at most erf(0.75 / sqrt(2))^2 of its power, 0.3.
 constexpr float part_by_highlight = 1.5F;
-// They are no smaller than this share of a resolution cell: an image shows no more of an edge.
+// Parts are no smaller than this share of a resolution cell: an image does not show more of an
+// edge.
 constexpr float least_part_by_cell = 0.25F;
 
 /// The width in which a view resolves directions, or an engine samples them, rad.
@@ -95,7 +97,7 @@ class TargetSampler {
         for (const Eigen::Vector3f& p : shape.vertices)
             vertices_.push_back(target.T_sensor_shape * p);
         const Eigen::Matrix3f R = target.T_sensor_shape.linear() / target.scale;
-        // Sound that is refracted may meet what faces away from the straight line.
+        // Refracted sound may meet triangles that face away from the straight line.
         const bool is_outside = shape.closed && is_buried(target.placed->instance);
         last_point_.reset();
         parts_.reserve(parts_.size() + 2 * shape.triangles.size());
@@ -148,8 +150,8 @@ class TargetSampler {
     };
 
     static bool is_reached(const Aim& aim, const Intersection& hit) {
-        // Nothing is in the way: the ray slipped past the outline of the target, where vertices
-        // were moved to join them.
+        // The ray hit nothing: it passed the outline of the target, where vertices were moved to
+        // join them.
         if (!std::isfinite(hit.distance_m)) return true;
         const float slack = (hit.rounding_m + aim.slack_m) / std::max(aim.cosine, 1e-3F);
         return hit.distance_m + slack >= aim.range_m;

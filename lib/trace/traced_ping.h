@@ -35,7 +35,7 @@ struct TraceSettings {
     std::shared_ptr<const CoherentFaces> coherent;  ///< null: none
     std::shared_ptr<const Particles> particles;     ///< point targets in the water; null: none
     std::shared_ptr<const BuriedObjects> buried;    ///< null: none
-    bool sees_water_surface = false;                ///< if that scatters
+    bool sees_water_surface = false;                ///< if the surface scatters
 };
 
 /// The surface that a sonar insonified from one pose. It holds no noise: any number of images may
@@ -45,7 +45,7 @@ struct TracedPing {
     PingMotion motion;
     Samples samples;                     ///< the visible surface
     std::vector<Sample> outside_sector;  ///< the visible surface in the guard beams
-    TargetSurface targets;               ///< takes the place of the samples of its instances
+    TargetSurface targets;               ///< replaces the samples of its instances
     CoherentSurface coherent;            ///< reflects coherently; samples may lie on it as well
     SeenParticles particles;
     std::vector<Sample> water_surface;  ///< material and instance are 0
@@ -53,8 +53,8 @@ struct TracedPing {
     RetracedSurface retraced;
     /// The age of the water's speckle; none: it is new.
     std::optional<double> water_age;
-    /// The group in which each beam transmits, and the traces of all groups but the first, which
-    /// is this one. Empty: all beams transmit at once.
+    /// The group in which each beam transmits, and the traces of all groups after the first, whose
+    /// trace is this one. Empty: all beams transmit at once.
     std::vector<int> group_of_beam;
     std::vector<TracedPing> later_groups;
     /// The estimated share of bins with multipath that `bounces` do not reach, see
@@ -71,7 +71,7 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
                       const Terms& terms = {}, const PingMotion& motion = {},
                       const MovingObjects& objects = {});
 
-/// Finds the multipath of a traced ping anew, as `settings` have it.
+/// Finds the multipath of a traced ping again, with these settings.
 void trace_multipath(const TraceSettings& settings, const Scene& scene,
                      const VisibilityEngine& engine, TracedPing& traced);
 

@@ -8,8 +8,8 @@
 
 namespace sonarsim {
 
-/// The place in the world of what a sonar measures at a place in its own frame. `profile` bends the
-/// sound between; null: it goes straight.
+/// The place in the world of a place that a sonar measures in its own frame. `profile` bends the
+/// sound; null: paths are straight.
 inline Eigen::Vector3d true_place(const SoundProfile* profile, const Pose& T_world_sensor,
                                   const Eigen::Vector3d& measured) {
     if (!profile) return T_world_sensor.rotation * measured + T_world_sensor.translation;

@@ -12,14 +12,14 @@ namespace sonarsim {
 
 namespace {
 
-/// The end of a way may lie so far from its piece: half a bin, and the rounding of the rays. The
-/// latter is chosen.
+/// The greatest distance between the end of a way and its piece: half a bin and the rounding of the
+/// rays, which is chosen.
 float slack_at(const View& view, float range_m) {
     return 0.5F * static_cast<float>(view.bin_m()) + 1e-3F * range_m;
 }
 
-/// A piece of surface, or its image: place, normal, direction of the sound of the way that met it,
-/// and half edges.
+/// A piece of surface, or its image: place, normal, direction of the incident sound, and half
+/// edges.
 struct Piece {
     Eigen::Vector3f at, normal, direction, u, v;
 };
@@ -39,7 +39,7 @@ bool is_bounce(const Way& way, unsigned chosen) {
            (way.reflections == 1 || (way.reflections == 2 && way.reflectors[1].is_water));
 }
 
-/// The image of a piece over those of the reflectors whose bits are set.
+/// The image of a piece over the reflectors whose bits are set.
 Piece image_over(const Way& way, unsigned chosen, Piece piece) {
     for (int k = way.reflections - 1; k >= 0; --k) {
         if ((chosen >> static_cast<unsigned>(k)) & 1U) piece = image_over(way.reflectors[k], piece);
@@ -47,7 +47,7 @@ Piece image_over(const Way& way, unsigned chosen, Piece piece) {
     return piece;
 }
 
-/// True if an image is among those of this piece. The way to it has the fewer reflections.
+/// True if the image is known for this piece. The way to it has the fewer reflections.
 bool is_known(const Eigen::Vector3f& image, int reflections, float slack_m,
               std::span<UntriedPath> of_piece) {
     for (UntriedPath& known : of_piece) {

@@ -18,12 +18,12 @@ namespace sonarsim {
 struct UntriedPath {
     SpecularPath path;
     Eigen::Vector3f place;  ///< the piece itself, in the scene
-    int reflections;        ///< their number on the other way
+    int reflections;        ///< on the other way
 };
 
 /// Adds the images of a piece over some of the reflectors of the way that met it, in their order,
-/// or over none of them. `seen` is the piece as the way has it. Images that find_bounces() has, and
-/// those outside the view, are left out.
+/// or over none of them. `seen` is the piece at its image over the way. Images that find_bounces()
+/// has, and those outside the view, are left out.
 void add_untried_paths(const TraceContext& trace, const BeamLocator& field, const Way& way,
                        const Meeting& at, const Sample& seen, std::vector<UntriedPath>& untried);
 

@@ -12,7 +12,7 @@ namespace sonarsim {
 
 namespace {
 
-/// The guard beams on one side of the view, where they are wider than its beams.
+/// The guard beams on one side of the view, if they are wider than its beams.
 View guard_view(const View& view, const GuardBeams& guard_beams) {
     View side = view;
     side.beams = guard_beams.count;

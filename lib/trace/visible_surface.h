@@ -18,10 +18,10 @@ struct VisibleSurface {
 struct GuardBeams {
     int count = 0;        ///< on either side
     double beam_rad = 0;  ///< width of each; 0: as wide as the beams of the view
-    /// So many beams of the view are traced as one at goals from 2 % on: a divisor of their number
-    /// and, without `beam_rad`, of `count`.
+    /// The number of neighbouring beams that are traced as one at error goals of 2 % and above: a
+    /// divisor of the number of beams and, without `beam_rad`, of `count`.
     int joined = 1;
-    int divided = 1;  ///< each beam of a fan is traced as so many
+    int divided = 1;  ///< number of beams that each beam of a fan is traced as
 };
 
 /// The view in which surface is traced: the sonar's view with guard beams on either side.
@@ -38,8 +38,8 @@ std::vector<Sight> sights(const View& view, const GuardBeams& guard_beams,
 /// that of the view's borders on the horizontal plane. `position` is in the sensor frame, m.
 bool is_reached(const View& view, const Eigen::Vector3f& position);
 
-/// The surface within the view and, in the guard beams, that which the cones of its beams reach.
-/// The first of several joined beams has the samples of all of them.
+/// The surface within the view, and in the guard beams the surface that the cones of its beams
+/// reach. The first of several joined beams has the samples of all of them.
 VisibleSurface visible_surface(const View& view, const GuardBeams& guard_beams,
                                const VisibilityEngine& engine, const Pose& T_world_sensor);
 

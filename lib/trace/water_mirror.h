@@ -10,8 +10,8 @@
 
 namespace sonarsim {
 
-/// The water's surface in the sensor's frame. Sound that it mirrors goes on in a straight line in
-/// the world's mirror image, in which the sonar is at `image`.
+/// The water's surface in the sensor's frame. The path of reflected sound is straight in the
+/// world's mirror image, in which the sonar is at `image`.
 struct WaterMirror {
     Eigen::Vector3f up;  ///< unit
     float height_m;      ///< height of the surface above the sonar

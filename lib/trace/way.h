@@ -41,19 +41,19 @@ struct Way {
     float length_m = 0.0F;     ///< up to it
     float reflected = 1.0F;    ///< share of the power after the reflections so far
     Eigen::Matrix3f unfold =
-        Eigen::Matrix3f::Identity();  ///< directions of the scene to those of the world folded out
+        Eigen::Matrix3f::Identity();  ///< turns directions of the scene into those of the images
     int reflections = 0;
     std::array<Reflector, most_kept> reflectors;  ///< the first of them
 };
 
-/// Goes on behind a reflection.
+/// Continues the way behind a reflection.
 void reflect(const Meeting& at, Way& way);
 
 /// The first hits of the rays of ways. Their number is added to `counts`.
 std::vector<Intersection> cast_ways(const TraceContext& trace, std::span<const Way> ways,
                                     MultipathCounts& counts);
 
-/// The surface that a ray meets where it has this hit.
+/// The surface at the hit of a ray.
 Meeting meeting_at(const TraceContext& trace, const std::optional<WaterMirror>& water,
                    const Ray& ray, const Intersection& hit);
 

@@ -12,7 +12,7 @@ struct ImageError {
     double false_rate = 0.0;   ///< bins occupied only in A, per bin occupied in A
 };
 
-/// Two dark images have no error; any light against a dark truth is an error of 1.
+/// Two dark images have no error; against a dark truth any echo is an error of 1.
 ImageError image_error(std::span<const float> image, std::span<const float> truth);
 
 }  // namespace sonarsim

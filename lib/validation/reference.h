@@ -27,7 +27,7 @@ struct Reference {
 struct ReferenceGoal {
     double moved = 0.002;        ///< stop when Reference::moved is below this
     double rays_per_bin = 64.0;  ///< minimum mean number of rays per occupied bin
-    /// Stop at this number in any case; `moved` then says how far it got.
+    /// Stop at this number in any case; `moved` then is the change that was reached.
     std::uint64_t rays_max = 400'000'000;
 };
 

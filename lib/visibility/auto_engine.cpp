@@ -18,8 +18,8 @@ namespace {
 // goal.
 constexpr std::size_t few_triangles = 20'000;
 
-// Per sample, rays take 0.8 to 1.4 times as long as slices on the tank, the wreck and the sea
-// floor, so rays with half of the samples are faster.
+// A sample of the rays takes 0.8 to 1.4 times as long as one of the slices on the tank, the wreck
+// and the sea floor, so rays with half of the samples are faster.
 constexpr double most_samples_share = 0.5;
 
 // Goals to try rays with, as multiples of the view's goal. The density of rays was fitted to rough

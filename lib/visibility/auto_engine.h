@@ -24,17 +24,17 @@ RaysTrial try_rays(const Scene& scene, const View& view, std::span<const Probe> 
                    const VisibilityEngine& rays, const VisibilityEngine& slices);
 
 /// True if `auto` takes rays for a view: they meet its error goal with less than half of the
-/// samples. That is so over smooth surface with triangles narrower than a beam, where every
-/// triangle in view costs the slices time.
+/// samples. This happens over smooth surface with triangles narrower than a beam, since slices need
+/// time for every triangle in view.
 bool rays_are_better(const RaysTrial& trial, const View& view);
 
 /// Makes an engine of slices, or of rays for those views among the `probes` for which rays are
-/// better or required. Nothing is timed: the same scene and probes give the same choice everywhere.
-/// Scenes of few triangles get slices without a comparison; scenes with bodies or copies get rays,
-/// the only engine that traces them, and scenes of many triangles those of dense_rays.h. The
-/// estimated error of a ping by rays is the bound found on the probes, or the rays' own if they
-/// were required. `scene` must outlive the engine. `coverage` as for make_rays_engine(). Throws
-/// std::runtime_error when Embree cannot build its tree.
+/// better or required. The choice uses no times: the same scene and probes give the same choice
+/// everywhere. Scenes of few triangles get slices without a comparison; scenes with bodies or
+/// copies get rays, the only engine that traces them, and scenes of many triangles those of
+/// dense_rays.h. The estimated error of a ping by rays is the bound found on the probes, or the
+/// rays' own if they were required. `scene` must outlive the engine. `coverage` as for
+/// make_rays_engine(). Throws std::runtime_error when Embree cannot build its tree.
 std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const SlicesOptions& slices,
                                                    std::span<const Probe> probes,
                                                    bool coverage = false);

@@ -31,8 +31,8 @@ Facet make_facet(const Mesh& mesh, std::size_t triangle, std::uint32_t instance)
 
 }  // namespace
 
-/// The parts that never change: a tree of the scene's own triangles, one of each body and one of
-/// each shared mesh, the latter two in their own frames.
+/// The constant parts: a tree of the scene's own triangles, and one of each body and of each shared
+/// mesh in its own frame.
 struct Caster::Trees {
     /// A placed copy of a shared mesh, scene-local.
     struct PlacedCopy {
@@ -110,7 +110,7 @@ struct Caster::Moment {
     }
 
     void finish(const Trees& trees) {
-        // Isolated: a thread that waits for Embree must not begin another ping meanwhile.
+        // Isolated, so that a thread that waits for Embree does not begin another ping.
         tbb::this_task_arena::isolate([&] { rtcCommitScene(tree.get()); });
         check_embree(trees.device, "placing bodies and copies");
     }
@@ -185,8 +185,8 @@ std::shared_ptr<const Caster::Trees> Caster::make_trees(const Scene& scene) {
 }
 
 Caster Caster::moved(std::span<const Pose> T_local_body) const {
-    // Copies are many and at rest: the first tree holds them and is kept; bodies get a tree of
-    // their own. Without copies one tree holds everything, which is faster to trace.
+    // Copies are many and at rest, so the first tree holds them and is kept; bodies get their own
+    // tree. Without copies one tree holds everything, which is faster to trace.
     const bool has_copies = !trees_->copies.empty();
     auto moment = std::make_shared<Moment>(*trees_, has_copies ? moments_.front()->end : 0);
     if (!has_copies) moment->add_own(*trees_);

@@ -14,7 +14,7 @@ namespace sonarsim {
 
 struct RayOrigins;
 
-/// The data of a triangle that are needed once a ray has met it; 32 bytes, half a cache line.
+/// The data of a triangle that a ray has met; 32 bytes, half a cache line.
 struct Facet {
     Eigen::Vector3f vertex;  ///< one of its corners, scene-local, m
     std::uint32_t material;
@@ -36,8 +36,8 @@ class Caster {
     Caster(const Caster&);  ///< the copy shares the trees, which never change
     Caster& operator=(const Caster&) = delete;
 
-    /// The same trees with the bodies at these poses. The time grows with the number of bodies, not
-    /// with their triangles nor with copies of shared meshes. Scene-local frame.
+    /// The same trees with the bodies at these poses. The time grows with the number of bodies, but
+    /// not with their triangles or with copies of shared meshes. Scene-local frame.
     Caster moved(std::span<const Pose> T_local_body) const;
 
     /// Rays from one point: `facets[i]` is the facet that direction i meets within `reach_m`, or

@@ -15,18 +15,18 @@ namespace {
 
 using Corners = TriangleRuns::Corners;
 
-// The limits of elevation are cones. Within a sector of azimuth of no more than this a plane takes
-// their place; the limits then move by less than 2e-5 of the ground range.
+// The widest sector of azimuth in which a plane approximates a limit of elevation, which is a cone;
+// the limits move by less than 2e-5 of the ground range.
 constexpr double widest_sector_rad = 0.0125;
 
-// The rim of an echosounder's cone as planes that touch it: their corners lie 0.5 % further out.
+// The number of planes that touch an echosounder's cone and stand for it: their corners lie 0.5 %
+// further out.
 constexpr int cone_planes = ViewPolygon::most_planes;
 
-// A triangle counts as small where its corners say between which ranges it lies to within this
-// share of a bin.
+// A triangle is small if its corners give its interval of range to within this share of a bin.
 constexpr float rounding_bins = 0.05F;
 
-// Surface has to reach this far into a bin.
+// Surface covers a bin from this overlap on.
 constexpr float least_overlap_bins = 1e-3F;
 
 /// The bins of a view and which of them are covered.
@@ -161,7 +161,8 @@ class FanCoverage {
         return ranges;
     }
 
-    /// Between two borders that a triangle reaches over the ranges go on from one to the other.
+    /// Adds a large triangle. In a sector that it crosses from border to border, its ranges lie
+    /// between those at the two borders.
     void add_large(const Corners& corners, const std::array<float, 3>& at, int first, int last) {
         const Eigen::Vector3f normal = normal_of(corners);
         RangeInterval before = on_border(corners, borders_[first]);

@@ -11,15 +11,15 @@
 
 namespace sonarsim {
 
-/// 1 for the bins of a view that some surface falls into, seen or hidden, else 0: [beams, range
-/// bins], beam after beam. Surface nearer to a bin's border than a thousandth of the bin may count
-/// on either side.
+/// 1 for the bins of a view that contain surface, visible or hidden, else 0: [beams, range bins],
+/// beam after beam. Surface nearer to a bin's border than a thousandth of the bin may count on
+/// either side.
 std::vector<std::uint8_t> covered_bins(const TriangleRuns& surface, const View& view,
                                        const Pose& T_world_sensor,
                                        std::span<const Pose> T_world_body = {});
 
-/// Coverage of one scene, as an engine holds it. `ready`: the runs of triangles are made at once,
-/// for all pings; otherwise every call makes them, and a scene of a million triangles takes 10 ms.
+/// Coverage of one scene, for an engine. `ready`: the runs of triangles are made once for all
+/// pings; otherwise every call makes them, which takes 10 ms for a million triangles.
 class SceneCoverage {
   public:
     /// `scene` must outlive it.

@@ -18,21 +18,21 @@ constexpr std::size_t many_triangles = std::size_t{1} << 21;
 /// A density of rays (rays_engine.h) for a view.
 struct RaysDensity {
     int density;
-    /// Bound of the relative L1 of its images; NaN for the greatest density, whose images are known
-    /// by their own estimates alone.
+    /// Bound of the relative L1 of its images; NaN for the greatest density, whose images only have
+    /// their own estimates.
     double error;
 };
 
 /// The least density whose images meet the goal of a view on its probes, or the greatest if none
-/// does. The error of an image is no more than its change to that of the greatest density and the
+/// does. The error of an image is at most its change to that of the greatest density, plus the
 /// latter's estimate. The estimate of sparse rays alone does not suffice: over rough ground they
 /// miss surface at grazing incidence, which is dark and narrow, so their images are too bright and
 /// both sets of rays agree on it. Only parts of a fan are traced.
 RaysDensity density_for(const Scene& scene, const Caster& caster, const View& view,
                         std::span<const Probe> probes);
 
-/// Rays for every view, with density_for() it. A view without probes gets the greatest of the
-/// others. `coverage` as for make_rays_engine().
+/// Rays for every view, with the density of density_for(). A view without probes gets the greatest
+/// density of the others. `coverage` as for make_rays_engine().
 std::unique_ptr<VisibilityEngine> make_dense_rays_engine(const Scene& scene, const Caster& caster,
                                                          std::span<const Probe> probes,
                                                          bool coverage);

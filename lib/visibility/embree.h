@@ -43,7 +43,8 @@ inline float flush_to_zero(float component) {
 }
 
 /// rtcIntersect8; the arguments are Embree's own. `close`: the rays lie close together. Embree then
-/// traverses its tree with the whole packet, else with each ray where the packet divides.
+/// traverses its tree with the whole packet; otherwise it follows each ray where the packet
+/// divides.
 inline void intersect_8(const int* valid, RTCScene tree, bool close, RTCRayHit8& rays) {
 #if SONARSIM_EMBREE == 3
     RTCIntersectContext context;

@@ -31,7 +31,7 @@ struct Sample {
     float strength = 1.0F;
 };
 
-/// A beam as two sets of samples see it, whose images an engine's estimate compares.
+/// The samples of a beam in two sets, whose images an engine's estimate compares.
 struct ComparedBeam {
     int beam = 0;
     std::vector<Sample> one, other;
@@ -48,8 +48,7 @@ struct Samples {
     std::uint64_t dropped = 0;
     /// The engine's estimate of the relative L1 of the noise-free image; NaN if it has none.
     double estimated_l1 = std::numeric_limits<double>::quiet_NaN();
-    /// Beams that the estimate is from, in order; of scenes with maps, since engines know nothing
-    /// of these.
+    /// The beams of the estimate, in order. Only for scenes with maps, which engines ignore.
     std::vector<ComparedBeam> compared;
 
     std::span<const Sample> beam(int j) const {
@@ -92,9 +91,9 @@ class VisibilityEngine {
     virtual void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
                            std::span<Intersection> intersections) const = 0;
 
-    /// The same along the ways of sound from the sonar, which may bend: a ray starts at a place
-    /// that a sonar measures, leads on away from the sonar, and ends at another such place, if that
-    /// is no further than `reach_m` from the sonar.
+    /// The same along the paths of sound from the sonar, which may bend: a ray starts at an
+    /// apparent place, leads away from the sonar, and ends at another apparent place within
+    /// `reach_m` of the sonar.
     virtual void intersect_behind(const Pose& T_world_sensor, std::span<const Ray> rays,
                                   float /*reach_m*/, std::span<Intersection> intersections) const {
         intersect(T_world_sensor, rays, intersections);
@@ -120,9 +119,9 @@ class VisibilityEngine {
     /// Warnings about the results so far: sentences that name the keys to change.
     virtual std::vector<std::string> warnings() const { return {}; }
 
-    /// 1 for the bins of `view` that some surface falls into, seen or hidden, else 0: [beams, range
-    /// bins], beam after beam. Surface less than a thousandth of a bin deep may be left out.
-    /// Empty where sound bends: then it is not known.
+    /// 1 for the bins of `view` that contain surface, visible or hidden, else 0: [beams, range
+    /// bins], beam after beam. Surface less than a thousandth of a bin deep may be left out. Empty
+    /// if sound bends, since it is not known then.
     virtual std::vector<std::uint8_t> covered_bins(const View& view,
                                                    const Pose& T_world_sensor) const = 0;
 };

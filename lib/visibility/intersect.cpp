@@ -10,10 +10,10 @@ namespace sonarsim {
 
 namespace {
 
-/// Bound of the distance of o + d v from the plane of a facet through q, in float with a unit u of
-/// 2^-24. The error of n . (q - o) is 4 u |q - o|; that of d (n . v), with v rotated into the
-/// scene's axes, 9 u d; the rotation of o adds 6 u |o| and its translation u |o| in scene
-/// coordinates; the sum that makes p adds u (2 d + |o|) and the direction from the sonar to p 2 u
+/// Bound of the distance of p = o + d v from the plane of a facet through q, in float with a unit u
+/// of 2^-24. The error of n . (q - o) is 4 u |q - o|. The term d (n . v), with v rotated into the
+/// scene's axes, is off by 9 u d. The rotation of o adds 6 u |o|, and its translation u |o| in
+/// scene coordinates. The sum p adds u (2 d + |o|), and the direction from the sonar to p adds 2 u
 /// |p|.
 float plane_rounding(const Eigen::Vector3f& to_vertex, const Eigen::Vector3f& origin,
                      const Eigen::Vector3f& local_origin, float distance) {
@@ -30,7 +30,7 @@ void intersect_rays(const Caster& caster, const Eigen::Vector3d& scene_origin,
     const LocalPose pose = local_pose(T_world_sensor, scene_origin);
     const Intersection none{std::numeric_limits<float>::infinity(), 0.0F, Eigen::Vector3f::Zero(),
                             0, 0};
-    // Skips rays that surely meet nothing; most rays that leave a scene's walls and floor do.
+    // Skips rays that surely meet nothing, like most rays that leave a scene's walls and floor.
     std::vector<std::uint32_t> aimed;
     std::vector<Eigen::Vector3f> origins;
     std::vector<Eigen::Vector3f> directions;

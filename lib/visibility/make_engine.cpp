@@ -37,7 +37,7 @@ std::string unsupported(const EngineSettings& settings, const Scene& scene) {
     const bool is_octree = settings.type == EngineKind::octree;
     if (scene.sound_profile && (is_octree || settings.type == EngineKind::slices)) {
         return std::string(is_octree ? "engine: octree" : "engine: slices") +
-               " sees along straight lines, and water.profile bends them; use engine: auto or "
+               " needs straight paths of sound, and water.profile bends them; use engine: auto or "
                "engine: rays";
     }
     if (!scene.bodies.empty() && (is_octree || settings.type == EngineKind::slices)) {

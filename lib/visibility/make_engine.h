@@ -20,8 +20,7 @@ struct EngineSettings {
     SlicesOptions slices = {};  ///< for the slices only
     /// For `automatic` only; it takes the slices if there are none.
     std::vector<Probe> probes = {};
-    bool coverage =
-        false;  ///< covered_bins() will be called: what it needs is made with the engine
+    bool coverage = false;  ///< covered_bins() will be called: its data are made with the engine
     /// A caster over the scene, whose trees the rays and the slices then use; null: they make one.
     std::shared_ptr<const Caster> caster = {};
 };

@@ -11,7 +11,7 @@ namespace sonarsim {
 /// The rays that a sonar needs.
 struct RaysNeed {
     double goal = 0.0;  ///< above 0: use rays with this error goal, whatever the slices' error
-    int columns = 1;    ///< times the columns that the goal asks for, see make_rays_engine()
+    int columns = 1;    ///< factor on the columns of the goal, see make_rays_engine()
 };
 
 /// A view and a pose for the choice of an engine.

@@ -2,9 +2,9 @@
 
 namespace sonarsim {
 
-/// The distance between neighbours in a list of rays. It decides on the time alone.
+/// The distance between neighbours in a list of rays. It affects only the time.
 enum class RaySpread {
-    close,  ///< they take the same way through the scene
+    close,  ///< they take the same path through the scene
     wide    ///< they soon part
 };
 

@@ -40,7 +40,7 @@ struct SurfacePoint {
     Facet facet;
 };
 
-/// The material of a point and, where a map lies on it, what that says of it.
+/// The material of a point, from a map if one lies on it.
 MappedPoint surface_at(const SurfacePoint& point, const Scene& scene, const LocalPose& pose);
 
 using PointSink = std::function<void(const SurfacePoint&)>;

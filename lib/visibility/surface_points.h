@@ -20,15 +20,14 @@ struct SurfaceShare {
     std::uint32_t triangle;
     std::uint32_t copy;  ///< index into Scene::copies, or `no_copy`
     float area_m2;
-    float
-        share;  ///< in proportion: about the number of bins that a thin thing of its length lights
+    float share;  ///< in proportion to the number of bins that a thin object of its length occupies
 };
 
 /// The corners of the triangle, scene-local.
 std::array<Eigen::Vector3f, 3> corners_of(const Scene& scene, const SurfaceShare& share);
 
 /// The shares of every triangle that may be in view and in range, by ascending facet. A thin object
-/// crosses bins in proportion to its length, whatever its area; so shares follow length, and every
+/// crosses bins in proportion to its length, not its area, so shares follow length, and every
 /// triangle has one. If copies have millions of triangles in view, only every n-th of theirs has
 /// one; rays over directions meet the others.
 std::vector<SurfaceShare> surface_shares(const Scene& scene, const View& view,

@@ -11,7 +11,7 @@ namespace sonarsim {
 struct SoundProfile {
     std::vector<double> height_m;  ///< world, rising; one node at least
     std::vector<double> speed_m_s;
-    /// The speed by which instruments turn a time into a range: half of it by the two-way time.
+    /// The speed by which instruments convert times to ranges: half of it times the two-way time.
     double range_speed_m_s = 0.0;
 
     std::size_t layer_of(double height) const {

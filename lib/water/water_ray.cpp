@@ -17,11 +17,10 @@ constexpr double least_curvature = 1e-9;
 constexpr double rounding_m = 1e-5;
 // The speed changes by less than this share over a piece, so that series are exact to 1e-11.
 constexpr double largest_change = 0.1;
-// Chosen: the gradient jumps at a node, and a ray that grazes one is a caustic of the table, not of
-// the water. The jump of its tube is that of a ray with this sine of elevation at least.
+// The least sine of elevation in the jump of a tube at a node; chosen. The gradient jumps at a
+// node, and a ray that grazes one makes a caustic that the water does not have.
 constexpr double least_sine = 0.02;
-// A ray as level as this may cross a node again and again: then it goes on by this share of a
-// piece.
+// A nearly level ray may cross a node repeatedly; then it continues by this share of a piece.
 constexpr double level_sine = 1e-3;
 constexpr double level_share = 1e-3;
 
@@ -47,13 +46,13 @@ double length_to(const SoundProfile& profile, const WaterRay& ray, double node_m
     if (sine2 < 0.0) return infinite;  // it turns back before
     const double elevation = arctan2(side * std::sqrt(sine2), cosine);
     const double length = (elevation - ray.elevation_rad) / bend;
-    // A ray that stands at the node and leads to it meets it at once, whatever rounding says.
+    // A ray that starts at the node and leads to it meets it at once, despite rounding.
     if (side * at.sin >= 0.0 && length > -rounding_m) return std::max(length, 0.0);
     return length > 0.0 ? length : infinite;
 }
 
-/// Takes a ray that stands at a node into the next layer. The second derivative of the speed is a
-/// pulse there, which bends neighbours differently.
+/// Moves a ray at a node into the next layer. The second derivative of the speed is a pulse at the
+/// node, which bends neighbouring rays differently.
 void cross(const SoundProfile& profile, bool upwards, WaterRay& ray) {
     const std::size_t node = upwards ? ray.layer : ray.layer - 1;
     ray.height_m = profile.height_m[node];
@@ -142,7 +141,7 @@ Eigen::Vector3d place_of(const SoundProfile& profile, const Eigen::Vector3d& sou
     const auto length_left = [&](const WaterRay& at) {
         return (time - at.time_s) * profile.speed_in(at.layer, at.height_m);
     };
-    // The speed changes by little over the rest, so that each turn comes much nearer.
+    // The speed changes little over the rest, so each step converges fast.
     for (double left = length_left(ray); std::fabs(left) > 1e-9 * range_m;
          left = length_left(ray)) {
         if (left > 0.0)

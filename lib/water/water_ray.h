@@ -7,14 +7,14 @@
 
 namespace sonarsim {
 
-/// A ray of sound in its vertical plane, and how far it has come. Between two nodes of a profile it
-/// is an arc of the radius c / (g cos(elevation)).
+/// A ray of sound in its vertical plane, and its place along the way. Between two nodes of a
+/// profile it is an arc of the radius c / (g cos(elevation)).
 struct WaterRay {
     double along_m = 0.0;        ///< horizontal distance
     double height_m = 0.0;       ///< world
     double elevation_rad = 0.0;  ///< above the horizontal
     double time_s = 0.0;
-    /// Distance across the ray by the difference in elevation at the start from a neighbour; in
+    /// Distance across the ray to a neighbour over their difference in elevation at the start; in
     /// water of one speed it is the length. It changes its sign at a caustic.
     double tube_m = 0.0;
     double tube_per_m_s = 0.0;  ///< its growth with the integral of the speed along the ray
@@ -33,8 +33,8 @@ double length_with_sag(const SoundProfile& profile, const WaterRay& ray, double 
 /// Moves a ray on to the end of its layer, and by `longest_m` at most. Returns the length.
 double advance(const SoundProfile& profile, double longest_m, WaterRay& ray);
 
-/// The place from which sound comes that an instrument at `source` receives from the unit vector
-/// `direction` and at `range_m` by its clock. World.
+/// The true place of an echo that an instrument at `source` receives from the unit direction
+/// `direction` at the measured range `range_m`. World.
 Eigen::Vector3d place_of(const SoundProfile& profile, const Eigen::Vector3d& source,
                          const Eigen::Vector3d& direction, double range_m);
 

@@ -33,7 +33,7 @@ TEST_CASE("class warnings: at most ten pictures, and at most one in ten") {
     const std::vector<Warning> found = warnings_of(3, 200);
     REQUIRE(found.size() == 1);
     CHECK(sentence(found[0]).starts_with(
-        "W33 labels: of 200 pictures hardly any shows an object of these classes: 'mine' (3); "));
+        "W33 labels: hardly any of 200 pictures shows an object of these classes: 'mine' (3); "));
 }
 
 TEST_CASE("class warnings: one for all classes, with the names of the first") {

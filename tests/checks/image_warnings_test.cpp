@@ -68,11 +68,11 @@ TEST_SUITE("checks") {
     TEST_CASE("image warnings: a blind sensor next to a seeing one") {
         Run run;
         run.blind_left();
-        CHECK(
-            run.warnings() ==
-            Sentences{"W12 sensor 'left': 10 of 10 pings are blind: they see no surface within the "
-                      "range; W13 to W17, which sonarsim validate prints, say why; the trajectory "
-                      "may leave the scene"});
+        CHECK(run.warnings() ==
+              Sentences{
+                  "W12 sensor 'left': 10 of 10 pings are blind: they see no surface within the "
+                  "range; sonarsim validate prints the reason as W13 to W17; the trajectory may "
+                  "leave the scene"});
         run.sensors[1].brightest = 0.4F;
         for (const std::uint64_t pings : {7U, 1U}) {
             run.sensors[1].dark_pings = pings;
@@ -182,13 +182,13 @@ TEST_SUITE("checks") {
         config.val = config.test = 0.5;
         const std::vector<Warning> few = split_warnings(config, 1);
         REQUIRE(few.size() == 1);
-        CHECK(few[0].what == "of 1 variants none is left for 'test'");
+        CHECK(few[0].what == "none of 1 variants is left for 'test'");
         CHECK(split_warnings(config, 2).empty());
         config.train = 0.8;
         config.val = config.test = 0.1;
         REQUIRE(split_warnings(config, 2).size() == 1);
-        CHECK(split_warnings(config, 2)[0].what == "of 2 variants none is left for 'val', 'test'");
-        CHECK(split_warnings(config, 4)[0].what == "of 4 variants none is left for 'test'");
+        CHECK(split_warnings(config, 2)[0].what == "none of 2 variants is left for 'val', 'test'");
+        CHECK(split_warnings(config, 4)[0].what == "none of 4 variants is left for 'test'");
         CHECK(split_warnings(config, 0).empty());
     }
 

@@ -100,7 +100,7 @@ class BadObjects(Composed):
     def test_hidden_by_another(self):
         self.objects(["{name: a, file: crate.gltf, position_m: [5, 0, 1]}",
                       "{name: b, file: crate.gltf, scale: 0.5, position_m: [5, 0, 1]}"])
-        self.warned("W21 scene: 1 object is in view but not seen", "'b'; what is named may lie behind")
+        self.warned("W21 scene: 1 object is in view but not seen", "'b'; these may lie behind")
 
     def test_a_count_of_zero(self):
         self.scene("  file: floor.gltf\n  materials: materials.csv\n" +

@@ -127,7 +127,7 @@ class Labels(Labelled):
         refused(labels, "  split: {train: 0.8, val: 0.2, testing: 0.1}\n",
                 "mission.yaml:16:", "unknown key 'testing'; known here: train, val, test, gap, rounds")
         refused(labels, "  split: {train: 0.8, val: 0.1, test: 0.1}\n", "mission.yaml:16:",
-                "of 6 poses none is left for 'train'", "smaller gap")
+                "none of 6 poses is left for 'train'", "smaller gap")
         refused(labels, "  labels: [coco, boxes]\n", "mission.yaml:16:18: unknown labels 'boxes'")
         refused("fan_width_px: 64\n" + labels, "fan: false\n  labels: [fan]\n", "mission.yaml:16:11",
                 "'fan'", "output.fan: true")

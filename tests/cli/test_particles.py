@@ -51,7 +51,7 @@ class Particles(Composed):
         self.assertNotIn("W09", result.stdout + result.stderr)
         self.edit("mission.yaml", "position_m: [4, 0.5, 0.6]", "position_m: [-4, 0.5, 0.6]")
         result = self.run_sonarsim("validate", str(self.folder / "mission.yaml"))
-        self.assertIn("W36 scene.particles: no ping that was looked at sees a target of these groups of "
+        self.assertIn("W36 scene.particles: no tested ping sees a target of these groups of "
                       "scene.particles: 'fish'", result.stdout + result.stderr)
 
     def test_buried_ones_are_labelled_so(self):

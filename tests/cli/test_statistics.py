@@ -187,7 +187,7 @@ class Statistics(Labelled):
                   "  - {nodes: \"pillar*\", class: pillar}\n  - {nodes: buoy, class: buoy}\n")
         done = self.assert_renders()
         pictures = self.check(self.out)["all"]["pictures"]
-        sentence = (f"W33 labels: of {pictures} pictures hardly any shows an object of these classes: "
+        sentence = (f"W33 labels: hardly any of {pictures} pictures shows an object of these classes: "
                     "'buoy' (0); place more of them")
         self.assertIn(sentence, done.stderr)
         self.assertNotIn("'pillar' (", done.stderr)

@@ -89,7 +89,7 @@ class Variants(Sandbox):
         self.edit("mission.yaml", "  split: {train: 0.5, val: 0.25, test: 0.25}\n",
                   "  split: {train: 0.9, test: 0.1}\n")
         result = self.assert_renders("--overwrite", "--set", "variants=3")
-        self.assertRegex(result.stderr, r"mission.yaml:\d+.*of 3 variants none is left for 'test'")
+        self.assertRegex(result.stderr, r"mission.yaml:\d+.*none of 3 variants is left for 'test'")
         self.assertEqual([p.name for p in self.out.glob("split/*")], ["train.txt"])
         self.edit("mission.yaml", "  split: {train: 0.9, test: 0.1}\n", "")
         self.assert_renders("--overwrite")
@@ -106,7 +106,7 @@ class Variants(Sandbox):
         for command in ("validate", "render"):
             result = self.run_sonarsim(command, "mission.yaml", "--set", "variants=2", "--strict")
             self.assertEqual(result.returncode, 3, result.stderr)
-            self.assertRegex(result.stderr, r"mission.yaml:\d+.*of 2 variants none is left for 'val', "
+            self.assertRegex(result.stderr, r"mission.yaml:\d+.*none of 2 variants is left for 'val', "
                              r"'test'")
         self.assertEqual([p.name for p in self.out.glob("split/*")], ["train.txt"])
         self.assertEqual((self.out / "split/train.txt").read_text().split(),

@@ -14,7 +14,7 @@ namespace sonarsim {
 
 namespace {
 
-// Chosen, but for the rise; docs/compare.md has the errors on drawn steps.
+// Chosen, except for the rise; docs/compare.md has the errors on drawn steps.
 constexpr double least_contrast = 4.0;     // 6 dB
 constexpr double most_full = 0.03;         // share of clipped bins
 constexpr double most_misfit = 0.25;       // a quarter's mean off, by the bright level
@@ -29,8 +29,8 @@ constexpr double fine_enough = 0.01;  // a hundredth of a bin, or of the width
 using Parameters = Eigen::Matrix<double, 5, 1>;
 using Normal = Eigen::Matrix<double, 5, 5>;
 
-/// A window whose rows are joined into the means of their halves, [along, half]. A fit costs as
-/// much less, and two halves show a slant.
+/// A window whose rows are joined into the means of their halves, [along, half]. This makes a fit
+/// cheaper by the same factor, and two halves still show a slant.
 struct Grouped {
     static constexpr int groups = 2;
     std::vector<double> power;
@@ -82,7 +82,7 @@ Grouped grouped(const StepWindow& window) {
 /// The step's parameters: both levels, place, slant, and the logarithm of the width.
 struct Step {
     Parameters p;
-    double deviation;  ///< the width with what the slant adds within a group
+    double deviation;  ///< the width, widened by the slant within a group
 
     Step(const Parameters& parameters, double variance)
         : p(parameters), deviation(std::sqrt(exponential(2.0 * p[4]) + variance * p[3] * p[3])) {}
@@ -121,7 +121,7 @@ Parameters improved(const Grouped& window, const Step& step, double bright) {
     normal.diagonal().array() += 1e-12;
     const Parameters change = normal.ldlt().solve(right);
     Parameters out = step.p + change;
-    // Short steps of what enters the model in other ways than linearly.
+    // Limits the steps of the nonlinear parameters.
     constexpr std::array most{1.5, 0.3, 0.7};
     for (int k = 2; k < 5; ++k) {
         const double least = most[static_cast<std::size_t>(k - 2)];
@@ -166,7 +166,7 @@ Strips strips_of(const ImageView& image, const EdgeSearch& search, StepAlong alo
     return {0, image.beams, zone.from, zone.to, size.beams, size.ranges};
 }
 
-/// The middles of windows in which a strip steps most: more than anywhere within half a window.
+/// The middles of the windows with the greatest step of a strip within half a window.
 std::vector<int> steps_in(const Turned& image, const Strips& strips, int across) {
     std::vector<double> sums(1, 0.0);
     for (int i = strips.from; i < strips.to; ++i) {

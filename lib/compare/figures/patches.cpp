@@ -23,7 +23,7 @@ void add_orthonormal(std::vector<std::vector<double>>& basis, std::vector<double
             vector[i] -= share * other[i];
     }
     const double length = std::sqrt(product_of(vector, vector));
-    if (length < 1e-9) return;  // nothing is left where there is one column or row
+    if (length < 1e-9) return;  // a patch of one column or row leaves no remainder
     for (double& value : vector)
         value /= length;
     basis.push_back(std::move(vector));

@@ -9,7 +9,7 @@
 namespace sonarsim {
 
 /// The files of a side-scan sonar for the tools of the trade: waterfall.xtf, and mosaic.tif with
-/// mosaic.json. What the mission does not ask for is left out.
+/// mosaic.json. Files that the mission does not ask for are left out.
 std::vector<Product> swath_products(const WriterContext& context);
 
 /// `rows`: waterfall.npy.

@@ -13,7 +13,7 @@ struct SurfaceExtent {
     double vertex_rounding_m = 0.0;  ///< as in Scene
 };
 
-/// InputError for vertices that lie too far out.
+/// InputError for vertices beyond the limits of coordinates.
 SurfaceExtent find_extent(const OpenFile& file, ReadingLimit& limit);
 
 /// The same after a transform: a box around the moved box.

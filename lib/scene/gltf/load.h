@@ -19,8 +19,8 @@ struct OpenFile;  // scene/gltf/primitives.h
 inline constexpr std::size_t share_nothing = std::numeric_limits<std::size_t>::max();
 
 /// Reads .gltf or .glb files (their content says which), and .obj, .stl and .ply files as
-/// read_mesh() does, each where it is placed; those that move become bodies. The scene equals, bit
-/// by bit, that of one file with all their nodes, in their order and with their transforms.
+/// read_mesh() does, each where it is placed; those that move become bodies. The scene has the same
+/// bits as that of one file with all their nodes, in their order and with their transforms.
 ///
 /// World frame: (x, y, z)_world = (x, -z, y)_gltf, node transforms composed in double precision.
 /// Reads a file's default scene, else its first, else all root nodes. A triangle's material is

@@ -20,7 +20,7 @@ struct Texture {
 /// The images that the materials of a .gltf or .glb file name as baseColorTexture: embedded, or
 /// files in its folder or below. Several stand side by side. InputError as read_gltf(),
 /// ImageReader::read() and side_by_side(), for a file whose materials name none, and for one that
-/// is not laid by TEXCOORD_0 as it is.
+/// uses another TEXCOORD than TEXCOORD_0 or transforms it.
 Texture read_texture(const std::filesystem::path& gltf, ImageReader& images);
 
 }  // namespace sonarsim

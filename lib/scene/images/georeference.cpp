@@ -24,8 +24,8 @@ int geo_key(const TiffTags& tags, int key) {
     const auto found = tags.numbers.find(key_directory_tag);
     if (found == tags.numbers.end()) return 0;
     const std::vector<double>& words = found->second;
-    // A head of four, then for each key: its number, where its value stands (0: here), a count and
-    // the value.
+    // A header of four numbers, then for each key its number, the tag of its value (0: this one), a
+    // count and the value.
     for (std::size_t i = 4; i + 3 < words.size(); i += 4) {
         if (words[i] == key && words[i + 1] == 0.0) return static_cast<int>(words[i + 3]);
     }

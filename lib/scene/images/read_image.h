@@ -13,8 +13,8 @@ namespace sonarsim {
 bool is_image_file(const std::filesystem::path& path);
 
 /// Reads PNG, TIFF (GeoTIFF, BigTIFF) and OpenEXR images; their content says which. OpenImageIO
-/// does it in a child process, since damaged files make such libraries crash, and since it takes
-/// 0.3 s and threads to load: one child reads all images. It reads the first of several images in a
+/// reads them in a child process, since damaged files make such libraries crash, and since it needs
+/// 0.3 s and threads to load. One child reads all images. It reads the first of several images in a
 /// file. InputError for a file that is damaged, has another format or more values than
 /// `most_image_values`, and without OpenImageIO. Not thread-safe.
 class ImageReader {
@@ -23,10 +23,10 @@ class ImageReader {
 
     Image read(const std::filesystem::path& path);
 
-    /// The same for the bytes of a file, which have no place. `where` names them.
+    /// The same for the bytes of a file without a path. `where` names them in messages.
     Image read(std::string_view bytes, const Location& where);
 
-    /// Ends the child, which another image starts again.
+    /// Ends the child; another image starts it again.
     void end() { child_.end(); }
 
   private:

@@ -24,15 +24,15 @@ struct StoredNumbers {
     std::array<char, 2> meaning{};  ///< the word that makes it keep them
 };
 
-/// Reads it from a PNG or TIFF; other formats have nothing of it. InputError for a TIFF of other
-/// colours than red, green and blue, such as CMYK, for a palette with alpha, and for numbers
-/// with a sign or floats of an unusual size.
+/// Reads these facts from a PNG or TIFF; other formats need none. InputError for a TIFF of other
+/// colours than red, green and blue, such as CMYK, for a palette with alpha, and for numbers with a
+/// sign or floats of an unusual size.
 StoredNumbers read_stored_numbers(const std::filesystem::path& path, const std::string& format,
                                   const Location& where);
 
-/// Makes the numbers of an image those of its file, and colours of those that point into a palette.
-/// The mark of unknown pixels, a number, becomes an alpha of 0 there. InputError for a pixel beyond
-/// the palette.
+/// Restores the numbers of the file in an image, and replaces indices into a palette by colours.
+/// The mark of unknown pixels, a number, becomes an alpha of 0 in these. InputError for a pixel
+/// beyond the palette.
 void restore_numbers(const StoredNumbers& stored, const Location& where, Image& image);
 
 }  // namespace sonarsim

@@ -10,8 +10,8 @@
 // The power that a footprint sends back is the integral of the power of its points. A map is
 // constant within a texel, so that the mean over a footprint is the sum over texels of their power
 // times the share of the footprint that they cover: a texel smaller than a bin counts by its area.
-// It is found with probes along the footprint's longer edge. Each is a box as wide as the footprint
-// is across that edge, and has the exact integral of the map over it.
+// The mean is found with probes along the footprint's longer edge. Each is a box as wide as the
+// footprint is across that edge, with the exact integral of the map over it.
 
 namespace sonarsim {
 
@@ -19,7 +19,7 @@ namespace {
 
 constexpr int most_probes = 64;
 
-// A box of no width has no mean.
+// A box without width has no mean.
 constexpr double least_box_texels = 1e-3;
 
 /// Index of the texel at texel coordinates; nothing beyond the image.
@@ -176,7 +176,7 @@ std::optional<std::uint32_t> GroundMaps::material_over(std::uint32_t instance, s
     const std::uint32_t here = is_own ? own : materials_->materials[materials_->choice[*texel]];
     if (is_within_texel(frame, box)) return here;
     const TexelBox whole = whole_texels(box);
-    // All is the ground's own material where no texel of the box has another.
+    // If no texel of the box has another material, the ground's own one fills it.
     const bool is_alike =
         is_own ? std::ranges::all_of(counts_, [&](const auto& c) { return c.over(whole) == 0.0; })
                : counts_[materials_->choice[*texel]].over(whole) >= area_of(whole);
@@ -202,7 +202,7 @@ double GroundMaps::factor_over(const Eigen::Vector2d& world, const Eigen::Vector
         const auto texel = texel_at(frame, frame.texels(world));
         return texel ? static_cast<double>(strengths_->factor[*texel]) : 1.0;
     }
-    // Rounding may leave a little less than nothing of a factor near 0.
+    // Rounding may make a factor near 0 slightly negative.
     return std::max(0.0, 1.0 + gains_.over(box) / area_of(box));
 }
 

@@ -98,8 +98,7 @@ class GroundMaps {
     /// The same of a point on the plane of the maps: from above, or texture coordinates.
     MappedPoint at(std::uint32_t instance, std::uint32_t own, const Eigen::Vector2d& world) const;
 
-    /// The material and strength of all of a footprint, if a quick look says that they are alike
-    /// everywhere.
+    /// The material and strength of a footprint, if a quick test finds them uniform.
     std::optional<MappedPoint> alike_over(std::uint32_t instance, std::uint32_t own,
                                           const GroundFootprint& footprint) const;
 
@@ -116,7 +115,7 @@ class GroundMaps {
         return instance < on.size() && on[instance] != 0;
     }
 
-    /// The material of all of a footprint, if a quick look says that it has one.
+    /// The material of a footprint, if a quick test finds that it has only one.
     std::optional<std::uint32_t> material_over(std::uint32_t instance, std::uint32_t own,
                                                const GroundFootprint& footprint) const;
     /// The mean of the factors over a box around a point.

@@ -32,8 +32,8 @@ std::string format_of(const std::filesystem::path& path) {
     return extension.empty() ? "" : extension.substr(1);
 }
 
-/// The child hands over this of every part, then its names, positions and corners. The last head
-/// has `is_end`, and the reason as its `node` if the file is faulty.
+/// The child outputs this head for every part, then the part's names, positions and corners. The
+/// last head has `is_end`, and the reason as its `node` if the file is faulty.
 struct PartHead {
     std::uint64_t is_end = 0;
     std::uint64_t node_bytes = 0;
@@ -74,7 +74,7 @@ SonarsimReadMesh reader_for(const Location& where) {
 /// All parts of the file, as the child hands them over.
 std::string parts_of(const std::string& format, std::string_view bytes, const Location& where) {
     const SonarsimReadMesh read = reader_for(where);
-    // Many times what a sound file takes, also on a slow machine.
+    // Many times the time that an intact file needs on a slow machine.
     const unsigned long cpu_s = 30 + static_cast<unsigned long>(bytes.size() / 100'000);
     const ChildLimits limits{(std::size_t{1} << 29) + 64 * bytes.size(), cpu_s,
                              5.0 * static_cast<double>(cpu_s)};

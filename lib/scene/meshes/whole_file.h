@@ -5,8 +5,8 @@
 
 namespace sonarsim {
 
-/// The part of an STL that counts: a binary one without what exporters leave behind its triangles.
-/// InputError with the name of the file if it ends before its last triangle does.
+/// The relevant part of an STL: a binary one without the bytes that exporters leave behind its
+/// triangles. InputError with the name of the file if it ends before its last triangle does.
 std::string_view whole_stl(std::string_view bytes, const std::string& file);
 
 /// InputError with the name of the file if a PLY has a faulty header or ends before the last of

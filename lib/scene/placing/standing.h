@@ -8,10 +8,9 @@
 
 namespace sonarsim {
 
-/// True if a surface stands broadly along an axis that is an axis of its frame: the outline of what
-/// lies within a hundredth of its height above its lowest point takes a third of its outline, both
-/// seen along the axis. A box stands, and a tyre on its side; a ball, a lying cylinder and a tyre
-/// on its tread do not.
+/// True if a surface stands broadly along an axis of its frame: the outline of its lowest
+/// hundredth, seen along the axis, covers at least a third of its whole outline. A box stands, and
+/// a tyre on its side; a ball, a lying cylinder and a tyre on its tread do not.
 bool stands(const Surface& surface, int axis);
 
 /// "tyre.stl lies on its side ...: does its z point up? up: z" for a file that does not say which

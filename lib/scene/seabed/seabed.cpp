@@ -73,7 +73,7 @@ BedArea area_of_bed(const SeabedRule& rule) {
     return {0.0, 0.0, (*rule.size_m)[0], (*rule.size_m)[1]};
 }
 
-/// InputError for more things than have room.
+/// InputError for more items than the limit.
 void require_room(const SeabedRule& rule, const BedArea& area, double density_per_m2, double most,
                   const char* what) {
     const double count = (area[2] - area[0]) * (area[3] - area[1]) * density_per_m2;
@@ -108,7 +108,7 @@ double height_at(const Seabed& bed, double x_m, double y_m) {
     return z(0, 0) + v * (z(1, 0) - z(0, 0)) + u * (z(1, 1) - z(1, 0));
 }
 
-/// The same for hollows that reach so far from their middles. Each cell that one covers takes time.
+/// The same for hollows of this reach from their middles. Each covered cell takes time.
 void require_time(const SeabedRule& rule, const BedGrid& grid, double density_per_m2,
                   double reach_m, const char* what) {
     constexpr double most_hollows = 500000.0;

@@ -71,7 +71,7 @@ std::string rock_name(std::size_t index);
 /// The names of all materials that a bed names.
 std::vector<std::string> materials_of(const Seabed& bed);
 
-/// Makes a part of a bed. The same rule makes the same bed in every part, but for the numbers of
+/// Makes a part of a bed. The same rule makes the same bed in every part, except for the numbers of
 /// the rocks. InputError at the rule's place for a part with more than 2^25 heights, fewer than 2 x
 /// 2, or more than 50,000 rocks or 500,000 tufts.
 Seabed make_seabed(const SeabedRule& rule);

@@ -70,8 +70,8 @@ class FacetGroups {
         home->moments.area += moments.area;
         home->moments.first += moments.first;
         home->moments.second += moments.second;
-        // Opposite normals are not added, so that the sum stays away from zero: the last group
-        // takes all directions.
+        // The last group takes all directions. Opposite normals are not added, so that the sum
+        // stays away from zero.
         home->normal += moments.area * (best < 0.0 ? Eigen::Vector3d::Zero().eval() : normal);
         if (moments.area > home->largest) {
             home->largest = moments.area;

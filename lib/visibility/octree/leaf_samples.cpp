@@ -61,7 +61,7 @@ void add(const ProjectedFacet& facet, const ProjectionGrid& grid, DepthBuffer& d
          std::vector<ProjectedFacet>& facets) {
     depths.draw(facet);
     facets.push_back(facet);
-    // So near the axis the facet covers all azimuths, and its ends are meaningless.
+    // This near the axis the facet covers all azimuths, and its ends are meaningless.
     if (facet.half_beams > 0.5F * grid.beams_per_revolution) return;
     for (const float turn : {-grid.beams_per_revolution, grid.beams_per_revolution}) {
         ProjectedFacet other = facet;

@@ -26,7 +26,7 @@ namespace {
 /// a sphere; for single pings 0.25 to 1.56.
 constexpr double error_per_change = 0.7;
 
-/// A ping that is ready: nothing of it changes any more.
+/// A ping that is ready and constant.
 struct ReadyPing {
     Sight sight;
     PreparedView leaves;

@@ -105,9 +105,9 @@ class Octree {
   public:
     Octree(const Scene& scene, const Caster& caster, const OctreeOptions& options);
 
-    /// Finds the tiles in a view, roughly near before far ones, and makes their levels. Drops the
-    /// tiles that were not needed for longest when memory is short; if that does not suffice,
-    /// visit_leaves() makes the rest. Only one thread may prepare at a time.
+    /// Finds the tiles in a view, roughly near before far ones, and makes their levels. If memory
+    /// is short, drops the least recently used tiles; if that does not suffice, visit_leaves()
+    /// makes the rest. Only one thread may prepare at a time.
     PreparedView prepare(const View& view, const Pose& T_local_sensor, const LeafSize& leaf_size);
 
     /// Calls `take` for the leaves in view. Any number of threads may visit while another prepares.

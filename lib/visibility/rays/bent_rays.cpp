@@ -14,13 +14,13 @@ namespace sonarsim {
 
 namespace {
 
-// A facet that a chord meets this share beyond its end is met: neighbouring chords leave no crack.
+// A chord meets facets up to this share beyond its end, so that neighbouring chords leave no crack.
 constexpr float chord_overlap = 1e-5F;
 constexpr int newton_steps = 3;
-// Chosen: rays have no diffraction, which limits what a caustic gathers. A tube is never narrower
-// than this share of one in straight water: two-way 20 dB.
+// The least width of a tube, as a share of one in straight water: two-way 20 dB. Chosen:
+// diffraction limits the gain of a caustic, and rays have none.
 constexpr double least_spread = 0.1;
-// A ray as steep as this has no azimuth.
+// A ray steeper than this has no azimuth.
 constexpr double steep_cosine = 1e-6;
 
 /// Axes at a place of a ray: along it, across it in its plane (upwards), across it to port.
@@ -70,7 +70,7 @@ class BentCast {
     /// The ray at the end of the chord that it is cast along next.
     WaterRay next(const Way& way, float reach_m) const {
         WaterRay ray = way.at;
-        // Somewhat longer than the rest, so that the last chord ends beyond the reach.
+        // Slightly longer than the rest, so that the last chord ends beyond the reach.
         const double rest = 1.05 * length_to(ray, reach_m) + 1e-6 * static_cast<double>(reach_m);
         advance(profile_, std::min(rest, length_with_sag(profile_, ray, water_.sag_m)), ray);
         return ray;

@@ -13,12 +13,12 @@ namespace sonarsim {
 
 /// The water that bends rays.
 struct BentWater {
-    const SoundProfile* profile = nullptr;  ///< null: sound goes straight
+    const SoundProfile* profile = nullptr;  ///< null: paths are straight
     double origin_m = 0.0;                  ///< height of the scene's origin in the world
     double sag_m = 0.0;  ///< rays are cast as chords of their arcs, which are off by this at most
 };
 
-/// The surface that a ray met, by the water between.
+/// The effect of the water on the surface that a ray met.
 struct RayTube {
     Eigen::Vector3f normal;  ///< unit; it has the true angle to the ray, in the frame of its start
     float cosine = 0.0F;     ///< cosine of the true angle of incidence
@@ -26,7 +26,7 @@ struct RayTube {
     float strength = 1.0F;   ///< power by that of sound that spreads as the apparent range has it
 };
 
-/// The surface that a bent ray met, where it appears to a sonar that believes in straight rays.
+/// The surface that a bent ray met, at its apparent place.
 struct BentHit {
     std::uint32_t facet = Caster::nothing;
     float range_m = 0.0F;
@@ -35,8 +35,8 @@ struct BentHit {
     RayTube tube;            ///< scene-local
 };
 
-/// Casts rays that leave `position`, scene-local. `from_m` [rays] says up to which ranges they meet
-/// nothing; empty: they meet all.
+/// Casts rays that leave `position`, scene-local. `from_m` [rays] are the ranges up to which they
+/// meet nothing; empty: 0.
 void cast_bent_rays(const Caster& caster, const BentWater& water, const Eigen::Vector3f& position,
                     std::span<const Eigen::Vector3f> directions, std::span<const float> from_m,
                     float reach_m, std::span<BentHit> hits);
@@ -46,7 +46,7 @@ void intersect_bent_rays(const Caster& caster, const BentWater& water, const Loc
                          std::span<const Ray> rays, float reach_m,
                          std::span<Intersection> intersections);
 
-/// Gives a sample on an apparent plane, at the range `range_m`, its true area, angle and strength.
+/// Sets the true area, angle and strength of a sample on an apparent plane, at the range `range_m`.
 void spread(const RayTube& tube, float range_m, Sample& sample);
 
 }  // namespace sonarsim

@@ -228,7 +228,7 @@ class ColumnCaster {
         cast_count_ = out_.rays.size();
     }
 
-    /// The same along bent rays: a ray gets the plane that the surface appears to be.
+    /// The same along bent rays: a ray gets the apparent plane of the surface.
     void cast_bent(const std::vector<int>& order) {
         std::vector<BentHit> hits(order.size());
         cast_bent_rays(caster_, water_, pose_.position, directions_, {},

@@ -19,8 +19,8 @@ namespace sonarsim {
 
 namespace {
 
-// Probes of the estimate, as a share of the rays of a ping: they take about a hundredth of its
-// time.
+// The number of probes of the estimate over that of the rays of a ping: they take about a hundredth
+// of its time.
 constexpr std::size_t rays_per_probe = 128;
 constexpr std::size_t fewest_probes = 100;
 
@@ -57,7 +57,7 @@ class RaysEngine final : public VisibilityEngine {
             rays += columns.rays.size();
         }
         const SetDisagreement& image = comparison.result();
-        // Probes go straight.
+        // Probes are straight rays.
         if (scene_->sound_profile) {
             samples.estimated_l1 = image.error();
             return samples;

@@ -9,14 +9,14 @@
 namespace sonarsim {
 
 /// The ray tracing engine, based on Embree. `scene` must outlive it. `coverage`: covered_bins()
-/// will be called, so what it needs is made now. Throws std::runtime_error when Embree cannot build
-/// its tree (out of memory).
+/// will be called, so its data are made now. Throws std::runtime_error when Embree cannot build its
+/// tree (out of memory).
 std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene, bool coverage = false);
-/// More rays than a goal asks for.
+/// Factors on the number of rays of a goal.
 struct RaysExcess {
-    /// n: a goal that is n times as fine and n times as many columns. Rays that a goal asks for see
-    /// lines of a beam, and over ground that is rough within the width of a beam these differ from
-    /// the beam.
+    /// n: a goal that is n times as fine and n times as many columns. The rays of a goal sample
+    /// lines of a beam. Over ground that is rough within the width of a beam, these differ from the
+    /// beam.
     int density = 1;
     /// n > 1: n times as many columns with as many rays each, and an odd number of them. Beams that
     /// are narrower than the view receive the middle most: a column must lie there.

@@ -14,9 +14,9 @@ namespace sonarsim {
 /// A comparison of the noise-free images of two sets of rays, see RaySet.
 struct SetDisagreement {
     double signal = 0.0;        ///< signal of the image by all rays
-    double difference = 0.0;    ///< sum over bins that both sets light
-    double first_alone = 0.0;   ///< signal of bins that only the first set lights
-    double second_alone = 0.0;  ///< signal of bins that only the second set lights
+    double difference = 0.0;    ///< sum over bins that both sets occupy
+    double first_alone = 0.0;   ///< signal of bins that only the first set occupies
+    double second_alone = 0.0;  ///< signal of bins that only the second set occupies
     double squares = 0.0;       ///< squared differences of all bins
     int every = 1;              ///< these beams were compared: 0, every, 2 every, ...
     std::vector<std::uint8_t>

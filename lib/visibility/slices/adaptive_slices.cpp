@@ -9,8 +9,8 @@ namespace {
 
 // The expected error in a gap is this times share^(5/8) of the difference midway between its two
 // slices, where the gap covers `share` of a beam. The error is zero at the slices, hence a mean of
-// a third. In bins that other gaps fill as well, the difference counts by the share; in bins that
-// only this gap fills it counts in full, since a bin is as bright for a sliver as for a wall.
+// a third. In bins that other gaps fill as well, the difference counts by the share. In bins that
+// only this gap fills it counts in full, since a sliver makes a bin as bright as a wall does.
 constexpr float mean_of_difference = 0.33F;
 
 // A gap is split slightly off its middle, so that slices do not run along edges that are parallel
@@ -23,8 +23,8 @@ constexpr float least_share = 1.0F / 256.0F;
 // Two ends are equal if they differ by less than this share of the slice.
 constexpr float same_place = 2e-4F;
 
-// A piece that no slice meets belongs to the surface that they predict if it is no nearer than
-// this, in bins.
+// A piece that no slice meets belongs to the predicted surface if it is no nearer than this, in
+// bins.
 constexpr float same_range = 0.3F;
 
 /// x^(5/8) by square roots, which are the same on every processor; a library's power function is
@@ -150,7 +150,7 @@ void AdaptiveSlices::refine(const SliceErrorLimit& most) {
             if (!(b.difference > 0.0F) || width(b) < 2.0F * least_width(b.gap)) continue;
             if (worst == subgaps_.size() || b.difference > subgaps_[worst].difference) worst = i;
         }
-        // The mean lets a dim beam have a larger share of its signal in error than a bright one.
+        // The mean lets a dim beam have a larger relative error than a bright one.
         const double mean = 0.5 * (beam.signal + (sum_.signal + beam.signal) / times_);
         if (beam.difference <= most.share * mean + carry_over || worst == subgaps_.size()) {
             last_difference_ = beam.difference;
@@ -186,8 +186,8 @@ void AdaptiveSlices::estimate(Subgap& subgap) {
     if (!outstanding_.empty()) add_unseen(subgap);
 }
 
-/// Adds the change of the image by the outstanding pieces, which is certain, to the difference of
-/// the two predictions. The next slice goes through the largest of them.
+/// Adds the change of the image by the pieces that stand out, which is certain, to the difference
+/// of the two predictions. The next slice passes through the largest of these pieces.
 void AdaptiveSlices::add_unseen(Subgap& subgap) {
     unseen_.set(outstanding_, beam_width_);
     subgap.difference += RangeProfile::change(low_, high_, unseen_);
@@ -197,7 +197,8 @@ void AdaptiveSlices::add_unseen(Subgap& subgap) {
         subgap.split_u = u;
 }
 
-/// Finds the pieces between two slices that stand out from what the nearer slice predicts.
+/// Finds the pieces between two slices that stand out from the surface that the nearer slice
+/// predicts.
 void AdaptiveSlices::find_outstanding(const Subgap& subgap) {
     outstanding_.clear();
     const SliceResult& a = results_[subgap.low];

@@ -26,7 +26,7 @@ struct SliceErrorLimit {
     double carry_over;  ///< share of the allowance left by earlier beams that a beam may use
 };
 
-/// The part of a slice's surroundings that it stands for: its ends, moved to both sides.
+/// The strip that a slice stands for: its ends, moved to both sides.
 struct Strip {
     const SliceResult* slice;
     const MovedEnds* low;
@@ -34,7 +34,7 @@ struct Strip {
 };
 
 /// The border between the strips of two neighbouring slices: midway, or where all surface of one of
-/// them ends, so that the other's goes on up to there.
+/// them ends, so that the other's surface continues up to that end.
 float strip_border(const SliceResult& low, const SliceResult& high);
 
 /// An interval between two neighbouring slices of a beam.
@@ -70,7 +70,7 @@ class AdaptiveSlices {
     /// The new slices whose strips are complete on both sides, from low u to high.
     std::span<const SliceResult* const> slices() const { return done_; }
 
-    /// True if something other than what the slices of the last gaps predict may lie between them.
+    /// True if surface other than that predicted may lie between the slices of the last gaps.
     bool uncertain() const;
 
     /// The strips of the last gaps with more slices wherever two may miss something between them:
@@ -78,7 +78,7 @@ class AdaptiveSlices {
     /// The slices themselves stay as they are.
     std::span<const Strip> check_strips();
 
-    /// Appends what the last gaps are, for a later check of them.
+    /// Appends the last gaps to the kept ones, for a later check.
     void keep(KeptGaps& out) const;
 
     /// Makes kept gaps the last ones, for check_strips(). Nothing can be scanned afterwards.

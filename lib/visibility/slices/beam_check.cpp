@@ -21,11 +21,11 @@ constexpr double deviation_of_bins = 0.853;
 // Standard deviations of a one-sided limit with a confidence of 95 %.
 constexpr double deviations = 1.645;
 
-// A bar or an edge that slices misplace changes several neighbouring bins. Fewer bins than this may
-// be wrong by one cause. Chosen.
+// A bar or an edge that slices misplace changes several neighbouring bins: one cause makes fewer
+// bins than this wrong. Chosen.
 constexpr double bins_of_one_cause = 8.0;
 
-// The first look at a view of few bins suffices if its estimate is below this share of the goal;
+// The first pass over a view of few bins suffices if its estimate is below this share of the goal;
 // see BeamCheck.
 constexpr double enough_at_first = 0.25;
 

@@ -32,8 +32,8 @@ namespace sonarsim {
 /// s: much of D if few bins decide, and little of it otherwise.
 ///
 /// Bars of p = 0.22 / n have an error of 4 D, and with four times the slices of 0.7 D. If few bins
-/// decide, one such bar may have most of the error. So the first look at such a view suffices only
-/// if the estimate is below a quarter of the goal, and the second has four times the slices.
+/// decide, one such bar may have most of the error. So the first pass over such a view suffices
+/// only if the estimate is below a quarter of the goal, and the second has four times the slices.
 ///
 /// C has the patches of a third of the error goal and does not join them over slices. So D contains
 /// the errors of A's patches as well.
@@ -63,14 +63,16 @@ double likely_error(const BeamErrors& errors);
 double likely_error_if_checked(const BeamErrors& errors);
 
 /// Upper limit of the error of an image as a share of its signal. The confidence is 95 % if bins
-/// are independent. Few draws know their own scatter badly, so theirs is Student's limit.
+/// are independent. The variance of few draws is itself uncertain, so Student's distribution gives
+/// their limit.
 double estimated_error(const BeamErrors& errors);
 
-/// True if so few bins have an echo that those which one bar or edge fills may have an error above
-/// the goal.
+/// True if so few bins have an echo that the bins of one bar or edge may have an error above the
+/// goal.
 bool few_bins_decide(const BeamErrors& errors, double goal);
 
-/// The share of a ping in which one cause may make all the bins wrong that may be wrong at a goal.
+/// The number of bins that one cause may make wrong, as a share of the bins that may be wrong at
+/// the goal.
 double share_with_one_cause(const BeamErrors& errors, double goal);
 
 /// The same limit as estimated_error() if few bins decide and all beams were checked. Neighbours
@@ -80,7 +82,7 @@ double share_with_one_cause(const BeamErrors& errors, double goal);
 /// distribution with as many degrees of freedom gives the limit.
 double estimated_error_of_few_bins(const BeamErrors& errors);
 
-/// The estimate that suffices in a pass over a view of which few bins decide. The first pass is 1.
+/// The estimate that suffices in a pass over a view in which few bins decide. The first pass is 1.
 double enough_for_few_bins(double goal, int pass);
 
 }  // namespace sonarsim

@@ -10,15 +10,15 @@ namespace sonarsim {
 /// The image of a ping as its beams are finished, and two parts of its error as shares of the
 /// image's signal:
 ///
-/// - Edge bins, which surface only just fills or only just misses. A bin is as bright for a sliver
-///   of surface as for a wall, so rounding decides about it, and all slices have the same rounding.
-/// - The distance of beams from their check, an image by more slices (beam_check.h). The check is
-///   the image of these beams.
+/// - Edge bins, which surface only just fills or only just misses. A sliver of surface makes a bin
+/// as bright as a wall does, so rounding decides, and all slices have the same rounding. - The
+/// distance of beams from their check, an image by more slices (beam_check.h). The check is the
+/// image of these beams.
 class BeamErrors {
   public:
     explicit BeamErrors(const View& view);
 
-    /// Starts a beam; what is added to sums() later belongs to it. Beams come in order.
+    /// Starts a beam: later additions to sums() belong to it. Beams come in order.
     void begin_beam(int beam);
 
     BeamSums& sums() { return sums_; }

@@ -56,8 +56,7 @@ class BeamSums {
     float intensity(int i) const { return area(i) > 0.0F ? echo(i) / area(i) : 0.0F; }
     static constexpr int padding = 8;
 
-    /// Bins that some surface ends next to, as neighbours of the bins that it fills. Sorted by
-    /// nothing, and with repetitions.
+    /// Bins next to those at which surface ends. Unsorted, with repetitions.
     std::vector<int>& touched() { return touched_; }
 
   private:

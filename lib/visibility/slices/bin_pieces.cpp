@@ -27,13 +27,13 @@ using Corners3 = std::array<Eigen::Vector3f, 3>;
 using Places = std::array<double, 3>;
 
 /// Cuts a part at each border between its corners, beginning with a middle one. Calls `whole` with
-/// each piece and the number of the interval that holds it, from 0 to `intervals` - 1; what lies
-/// beyond is left out. `crossing` gives the point of a side at a border.
+/// each piece and the number of the interval that holds it, from 0 to `intervals` - 1, and drops
+/// pieces outside. `crossing` gives the point of a side at a border.
 template <typename Crossing, typename Whole>
 void cut_at_borders(const Corners3& part, const Places& at, int intervals, const Crossing& crossing,
                     const Whole& whole) {
     const auto [low, high] = std::minmax({at[0], at[1], at[2]});
-    // A part that reaches in by no more than rounding has no border to be cut at.
+    // A part that reaches in only by rounding has no border to cut at.
     if (!(high > border_rounding && low < intervals - border_rounding)) return;
     const double first = std::floor(low + border_rounding) + 1.0;
     if (!(high > first + border_rounding)) {
@@ -45,7 +45,7 @@ void cut_at_borders(const Corners3& part, const Places& at, int intervals, const
         std::clamp(std::round(0.5 * (low + high)), 0.0, static_cast<double>(intervals));
     const bool between = middle > low + border_rounding && middle < high - border_rounding;
     const double level = between ? middle : first;
-    // One corner is alone on its side.
+    // One corner lies alone on its side.
     int alone = 0;
     for (int k = 0; k < 3; ++k) {
         const bool above = at[k] > level;
@@ -128,7 +128,7 @@ class PieceCutter {
             const int longest = static_cast<int>(std::ranges::max_element(sides) - sides.begin());
             // The middle is at most two thirds of a median from a corner.
             if (!may_be_in_view(middle, sides[longest] * (2.0F / 3.0F))) continue;
-            // Parts at the sonar never get small against their range.
+            // Parts at the sonar never become small compared with their range.
             if (take(part, sides[longest]) || sides[longest] < 0.1F * bin_m_) continue;
             const Eigen::Vector3f& a = part[longest];
             const Eigen::Vector3f& b = part[(longest + 1) % 3];

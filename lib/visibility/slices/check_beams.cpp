@@ -14,13 +14,14 @@ namespace {
 // of the error. Set after a drawn lattice of 64 beams was missed with 16 of them.
 constexpr int few_beams = 64;
 
-// The number of beams that are drawn first, and how many times more are checked after each further
-// draw. Chosen for cost, on all beams of each ping of the lifeboat, the wreck and the tank.
+// The number of beams that are drawn first, and the factor by which each further draw raises the
+// number of checked beams. Chosen for cost, on all beams of each ping of the lifeboat, the wreck
+// and the tank.
 constexpr double first_draws = 8.0;
 constexpr double times_the_draws = 4.0;
 
-// A beam's rate is this share of the mean rate at least; the rest of it grows with the disagreement
-// of the beam's slices, up to so many times the mean. Chosen on the same three, whose estimates
+// A beam's rate is at least this share of the mean rate. The rest of it grows with the disagreement
+// of the beam's slices, up to this many times the mean. Chosen on the same three, whose estimates
 // have 0.71, 0.83 and 0.87 of the standard deviation that equal rates give.
 constexpr double least_share_of_rate = 0.5;
 constexpr double most_times_the_mean = 8.0;
@@ -79,12 +80,12 @@ void check_drawn(std::deque<SweptFrame>& frames, double goal, BeamErrors& errors
     const auto all = static_cast<double>(others.size());
     double count = first_draws;
     for (std::uint32_t number = 0; !others.empty(); ++number) {
-        // Drawn beams of too few bins would miss the errors of others: if the image just meets its
-        // goal, as many of their bins are wrong as one cause may make wrong.
+        // Drawn beams of too few bins would miss the errors of others. So many are drawn that, if
+        // the image just meets its goal, they hold as many wrong bins as one cause makes.
         const double least_rate = share_with_one_cause(errors, goal);
         const double more = count - (all - static_cast<double>(others.size()));
         others = draw_and_check(others, std::max(more, 1.0), least_rate, number, errors);
-        // The first draws are too few to give up after them.
+        // The first draws are too few to stop after them.
         const bool hopeless = number > 0 && likely_error_if_checked(errors) > goal;
         if (estimated_error(errors) <= goal || hopeless) break;
         count *= times_the_draws;

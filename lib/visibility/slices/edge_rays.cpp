@@ -15,7 +15,7 @@ namespace {
 
 constexpr PhiloxKey edge_key{0x65646765U, 0};
 
-// A bin is looked at if it has less surface than this share of its fuller neighbour's. Chosen.
+// A bin is tested if it has less surface than this share of its fuller neighbour's. Chosen.
 constexpr float looked_at_share = 0.1F;
 
 // In bins. Rounding decides whether a sample fills a bin that it reaches into by less than this.
@@ -25,7 +25,7 @@ constexpr float widest_slack = 0.5F;
 // A sample that would have to change its length by more than this share is left alone. Chosen.
 constexpr float most_change = 0.5F;
 
-// Most edge bins are right, and one ray that ends there shows it, so rays are cast in rounds.
+// Most edge bins are right, which one ray that ends there shows, so rays are cast in rounds.
 // Chosen.
 constexpr int rays_per_round = 8;
 constexpr int most_rounds = 8;
@@ -40,7 +40,7 @@ class BeamEdges {
             spans_.push_back(span_of(sample));
     }
 
-    /// Asks rays about the bins of the beam, and moves ends as they say.
+    /// Tests the bins of the beam with rays, and moves ends by the result.
     void settle(std::span<EdgeBin> edges) {
         for (int bin = 0; bin < view_.range_bins; ++bin) {
             if (!(area(beam_, bin) < looked_at_share * fullest_neighbour(bin))) continue;
@@ -54,11 +54,12 @@ class BeamEdges {
     }
 
   private:
-    /// The ranges of a sample, in bins, and how far its ends in an image may be from them. An image
-    /// cuts a patch into pieces that are all as deep as those at its middle (paper/footprint.cpp).
-    /// Along a half edge e of depth d the range is r + d s + c s^2, s in [-1, 1], with c = (e^2 -
-    /// d^2) / (2 r). The first of n pieces begins 2 c (n - 1) / n^2 before the patch, at most c
-    /// / 2. Two edges u and v of depths d and f add a term of at most (u . v - d f) / r.
+    /// The ranges of a sample, in bins, and the greatest distances of its ends in an image from
+    /// them. An image cuts a patch into pieces that are all as deep as those at its middle
+    /// (paper/footprint.cpp). Along a half edge e of depth d the range is r + d s + c s^2, s in
+    /// [-1, 1], with c = (e^2 - d^2) / (2 r). The first of n pieces begins 2 c (n - 1) / n^2 before
+    /// the patch, at most c / 2. Two edges u and v of depths d and f add a term of at most (u . v -
+    /// d f) / r.
     struct SampleSpan {
         Interval bins;
         float slack;

@@ -11,14 +11,14 @@
 
 namespace sonarsim {
 
-/// The answer of rays about a bin at the end of surface.
+/// The result of rays for a bin at the end of surface.
 enum class EdgeBin : std::uint8_t { not_asked, filled, dark };
 
 /// Casts rays to the samples at the ends of bins that they only just fill or only just miss, and
 /// moves the ends of these samples: a bin stays filled if one of its rays ends in it, and gets dark
-/// otherwise. A bin is as bright for a sliver of surface as for a wall, and all slices agree about
-/// an end that they all round alike. `image` is that of the samples. Returns what the rays say of
-/// the bins, [beams, range_bins].
+/// otherwise. A sliver of surface makes a bin as bright as a wall does, and all slices agree on an
+/// end that they all round alike. `image` is that of the samples. Returns the results of the bins,
+/// [beams, range_bins].
 std::vector<EdgeBin> settle_edge_bins(const Caster& caster, const View& view, const LocalPose& pose,
                                       const SampledImage& image, Samples& samples);
 

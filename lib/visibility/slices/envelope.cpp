@@ -16,8 +16,8 @@ constexpr Interval everywhere{-never, never};
 constexpr float narrowest_span = 2e-6F;
 
 // A narrow span is no crack if a whole face is as narrow and spans this share of its range: the
-// face is seen at less than 2 % of its width. It may have more area than all else in its bins.
-// Chosen.
+// face is seen at less than 2 % of its width. It may have more area than all other surface in its
+// bins. Chosen.
 constexpr float least_depth = 1e-4F;
 
 /// A sweep over w. One segment is on top; those below it are open.

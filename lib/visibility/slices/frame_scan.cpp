@@ -8,7 +8,7 @@ namespace sonarsim {
 
 namespace {
 
-// If a gap holds more triangles than this, every n-th is looked at and stands for n of them: a
+// If a gap holds more triangles than this, only every n-th is used and stands for n of them: a
 // finely cut surface has thousands, and the neighbouring slices predict it well.
 constexpr std::uint32_t most_unseen = 16;
 

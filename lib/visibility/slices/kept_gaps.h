@@ -18,7 +18,7 @@ class Rows {
         end_row();
     }
 
-    /// All that is added to items() belongs to the next row, until end_row().
+    /// Additions to items() belong to the next row, until end_row().
     std::vector<T>& items() { return items_; }
     const std::vector<T>& items() const { return items_; }
     void end_row() { ends_.push_back(items_.size()); }

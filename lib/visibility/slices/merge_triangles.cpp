@@ -70,7 +70,7 @@ bool on_plane(const Scene& scene, double most_m, const Face& face, std::uint32_t
     return std::fabs(face.normal.dot(scene.vertices[v].cast<double>()) - face.height) <= most_m;
 }
 
-/// Tells if there is enough to merge. It needs less memory than the faces of a Merger.
+/// Finds if there is enough to merge, with less memory than the faces of a Merger.
 class MergerTrial {
   public:
     MergerTrial(const Scene& scene, const std::vector<std::uint32_t>& welded)

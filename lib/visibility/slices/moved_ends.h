@@ -15,8 +15,8 @@ struct MovedEnd {
     float w;           ///< w that it is moved to
     float q;           ///< q of the surface that it follows
     std::uint32_t by;  ///< index of the end that it follows
-    /// Share of the way at which it reaches the view's border, on which it stays, and w there; 1:
-    /// it does not reach it.
+    /// Share of the way at which it reaches the view's border, on which it then stays, and w there;
+    /// 1: it does not reach the border.
     float stop;
     float w_stop;
 };

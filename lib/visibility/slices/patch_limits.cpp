@@ -21,9 +21,9 @@ constexpr float most_wedge = 1.0F;
 
 // In range bins, at fine goals; in proportion to the goal, and for patches longer than
 // `long_patch`. The tread of a stair is seen edge-on between an oblique edge and a straight one. A
-// parallelogram had a third of its area in the last bin, in which it outweighs the riser: the drawn
-// lattice 24150 missed the goal of 1 % by 1.8 times. At 3 % its error would fall from 4.6 to 3.8 %,
-// but a ping of the lifeboat would take 6 % longer.
+// parallelogram had a third of its area in the last bin, where it outweighs the riser: the error of
+// the drawn lattice 24150 was 1.8 times the goal of 1 %. At 3 % its error would fall from 4.6 to
+// 3.8 %, but a ping of the lifeboat would take 6 % longer.
 constexpr float most_grazing_wedge = 1.0F;
 constexpr float long_patch = 2.0F;
 

@@ -15,9 +15,9 @@
 
 namespace sonarsim {
 
-/// The image of a view by rays to random points of the surface. It shares nothing with the slices
-/// but the mesh, so it disagrees where both of their looks err alike. Points are drawn bin by bin,
-/// so a sliver of surface gets as many as a wall: a bin is as bright for either.
+/// The image of a view by rays to random points of the surface. It shares only the mesh with the
+/// slices, so it shows errors that the slices and their check have in common. Points are drawn bin
+/// by bin, so a sliver of surface gets as many as a wall, and a sliver makes a bin as bright.
 ///
 /// A bin's mean echo I is the quotient of two sums over its visible points, of w x and of w, where
 /// w is the area that a point represents and x its echo. Its variance is sum w^2 (x - I)^2 /

@@ -10,7 +10,7 @@ namespace sonarsim {
 
 namespace {
 
-// Sums over bins are made in so many parts, so that loops vectorise. Arrays have room for as many
+// The number of parts of sums over bins, so that loops vectorise. Arrays have room for this many
 // dark bins behind the last one.
 constexpr int parts_of_sum = 8;
 

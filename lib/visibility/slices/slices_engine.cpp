@@ -37,10 +37,10 @@ int slices_for(double relative_l1) {
 constexpr int most_passes = 3;
 constexpr double aimed_share = 0.8;
 
-// The same if few bins decide, and how many times the slices a further pass has. Fixed numbers of
-// 1, 4, 16 and 64 slices per beam leave median errors of 3.2, 1.0, 0.4 and 0.2 % in 48 drawn
-// lattices of one or two beams (13000 to 13149). Slices that are added where neighbours differ do
-// not converge so surely.
+// The same if few bins decide, and the factor on the slices of a further pass. Fixed numbers of 1,
+// 4, 16 and 64 slices per beam leave median errors of 3.2, 1.0, 0.4 and 0.2 % in 48 drawn lattices
+// of one or two beams (13000 to 13149). Slices that are added where neighbours differ do not
+// converge so surely.
 constexpr int most_passes_of_few = 4;
 constexpr int times_the_slices = 4;
 
@@ -128,8 +128,8 @@ class SlicesEngine final : public VisibilityEngine {
         estimate = std::max(estimate, points->error_of(settled, edges));
     }
 
-    /// One pass over a ping, as fine as `view` asks, with at least so many slices per beam; `goal`
-    /// is that of the mission.
+    /// One pass over a ping, as fine as `view` requires, with at least `least_slices` per beam;
+    /// `goal` is that of the mission.
     Pass see(const View& view, bool draws, double goal, const LocalPose& pose,
              int least_slices) const {
         const bool fixed = options_.per_beam > 0;

@@ -15,8 +15,8 @@ struct SlicesOptions {
 };
 
 /// The slices engine: half-planes through the sensor, exact along each. `scene` must outlive it.
-/// `coverage`: covered_bins() will be called, so what it needs is made now.
-/// Throws std::runtime_error when Embree, which traces the secondary rays, cannot build its tree.
+/// `coverage`: covered_bins() will be called, so its data are made now. Throws std::runtime_error
+/// when Embree, which traces the secondary rays, cannot build its tree.
 std::unique_ptr<VisibilityEngine> make_slices_engine(const Scene& scene,
                                                      const SlicesOptions& options,
                                                      bool coverage = false);

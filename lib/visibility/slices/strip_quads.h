@@ -11,8 +11,8 @@
 namespace sonarsim {
 
 /// Converts the strips of slices to quadrilaterals. If two adjacent strips show the same surface
-/// between the same lines, their quadrilaterals are joined. If surface ends within its strip, what
-/// the adjacent slice sees there goes on up to that end.
+/// between the same lines, their quadrilaterals are joined. If surface ends within its strip, the
+/// surface of the adjacent slice continues up to that end.
 class StripQuads {
   public:
     /// All arguments must outlive it.

@@ -28,8 +28,8 @@ double error_of_shapes(double relative_l1) {
 /// More slices do not meet goals near the error of shapes: the limit is at least an eighth of the
 /// goal.
 SliceErrorLimit slice_error_limit(double relative_l1, double edge_bins) {
-    // A coarse goal is used except for a tenth, the uncertainty of the estimate: beams share their
-    // allowance, and edge bins are subtracted. At 1 % errors are up to 1.15 times the estimate, so
+    // At a coarse goal beams share their allowance, nine tenths of the goal less the edge bins; the
+    // tenth is the uncertainty of the estimate. At 1 % errors are up to 1.15 times the estimate, so
     // every beam has to meet the goal by itself.
     const bool coarse = is_coarse(relative_l1);
     const double goal = coarse ? 0.9 * relative_l1 - edge_bins : relative_l1;
@@ -97,7 +97,7 @@ void sweep_and_check(const SlicesPing& ping, const SliceFrame& frame, SlicesImag
     image.samples.dropped += scan.scene().dropped;
 }
 
-/// The check of a beam is the sum of its frames' checks, those without errors included.
+/// The check of a beam is the sum of the checks of all its frames, also of those without errors.
 void sweep_and_check_shared(const SlicesPing& ping, std::span<const SliceFrame> frames,
                             SlicesImage& image) {
     std::vector<BeamSums> sums(ping.view.beams, BeamSums(ping.view));
