@@ -167,6 +167,7 @@ class SurfaceEchoFinder {
         out.direct = by_beam(direct_, beams);
         out.multipath = by_beam(multipath_, beams);
         out.cones = model_.cones;
+        out.main_lobe_alone = std::is_same_v<Beams, TransducerBeams>;
         out.target_samples = std::move(target_samples_);
         out.patches = std::move(found_);
         out.patch_echoes = std::move(patch_echoes_);
@@ -212,10 +213,9 @@ class SurfaceEchoFinder {
                 .sample = cut.sample};
     }
 
-    /// Calls use(beam, piece, power) for every beam that receives a piece's echo. A line array
-    /// receives it in the beams of its sines, `half_sine` to either side of the piece's; the
-    /// array's side lobes are left out. `out`: the places to which the sound was sent, if not the
-    /// pieces.
+    /// Calls use(beam, piece, power) for every beam that receives a piece's echo in its main lobe.
+    /// A line array receives it in the beams of its sines, `half_sine` to either side of the
+    /// piece's. `out`: the places to which the sound was sent, if not the pieces.
     template <class HalfSine, class Use>
     void for_each_beam(const PatchBlock& pieces, const PointEchoes& echoes, const PathEndpoint* out,
                        HalfSine half_sine, Use use) {
@@ -240,7 +240,8 @@ class SurfaceEchoFinder {
                     // A gain is that of both ways.
                     const float gain = out ? std::sqrt(sent_[k] * received_[k]) : received_[k];
                     const float power = echoes.power[k] * gain;
-                    if (power > 0.0F) use(beam, k, power);
+                    if (power > 0.0F && in_main_lobe(beams_, pieces, echoes, k))
+                        use(beam, k, power);
                 }
             }
         }

@@ -15,6 +15,7 @@ namespace sonarsim {
 namespace {
 
 constexpr int table_steps = 2048;
+constexpr float lobe_ends = 0.01F;  // two-way power, a share of that on the axis
 
 template <class Function>
 SineTable sine_table(double from, double to, Function value) {
@@ -150,6 +151,19 @@ void find_gains(const TransducerBeams& beams, int beam, const PatchBlock& pieces
     find_weights(beams, beam, pieces, echoes, weights);
     for (int k = 0; k < pieces.count; ++k)
         gains[k] = std::fma(weights.re[k], weights.re[k], weights.im[k] * weights.im[k]);
+}
+
+bool in_main_lobe(const TransducerBeams& beams, const PatchBlock& pieces, const PointEchoes& echoes,
+                  int k) {
+    const float range = echoes.range_m[k];
+    const auto reaches = [](std::complex<float> amplitude, std::complex<float> on_axis) {
+        return std::norm(amplitude) >= lobe_ends * std::norm(on_axis);
+    };
+    if (!beams.sides.empty())
+        return reaches(beams.along.at(piece_sine(pieces.z[k], range), range),
+                       beams.along.at(0.0F, range));
+    if (beams.aperture == Aperture::piston) return true;
+    return reaches(beams.pattern.at(piece_sine(pieces.y[k], range)), beams.pattern.at(0.0F));
 }
 
 void add_bistatic_powers(const TransducerBeams& beams, const PathEndpoint& out,

@@ -70,6 +70,12 @@ void add_amplitudes(const TransducerBeams& beams, const PatchBlock& pieces,
 void find_gains(const TransducerBeams& beams, int beam, const PatchBlock& pieces,
                 const PointEchoes& echoes, PatchBlock::Array<float>& gains);
 
+/// True if a piece lies in the main lobe of the narrow pattern: of a side along the track, of a
+/// head in azimuth. A disc has no narrow pattern. The main lobe ends at -20 dB two-way: the highest
+/// side lobe of an even line array has -26.5 dB.
+bool in_main_lobe(const TransducerBeams& beams, const PatchBlock& pieces, const PointEchoes& echoes,
+                  int k);
+
 /// Adds the powers of echoes that return from another place than they were sent to: each beam
 /// receives only the sound that it has transmitted. The powers and bins are those of `back`.
 void add_bistatic_powers(const TransducerBeams& beams, const PathEndpoint& out,

@@ -46,48 +46,12 @@ Ray ray_behind(const SightLine& line, const PingMotion& motion, ViewShape shape)
     return {place * (1.0F + step_behind), place.normalized()};
 }
 
-/// Adds the pieces of hidden surface that lie in different beams of a line array. `whole` is the
-/// whole piece of surface that the line meets, in the plane with this normal.
-void add_to_cones(const SightLine& line, const HiddenPiece& whole, const Eigen::Vector3f& normal,
-                  const ConeBeams& cones, std::vector<HiddenPiece>& pieces) {
-    const Sample& sample = *line.sample;
-    const int rows = beams_along(sample.edge_u, line, cones);
-    const int columns = beams_along(sample.edge_v, line, cones);
-    if (rows * columns == 1) return pieces.push_back(whole);
-    const auto share = 1.0F / static_cast<float>(rows * columns);
-    const float least_m = whole.range_m - whole.half_m;
-    const float greatest_m = whole.range_m + whole.half_m;
-    const float along = normal.dot(line.direction);
-    for (int i = 0; i < rows; ++i) {
-        for (int j = 0; j < columns; ++j) {
-            const Eigen::Vector3f to =
-                sample.position +
-                ((2.0F * static_cast<float>(i) + 1.0F) / static_cast<float>(rows) - 1.0F) *
-                    sample.edge_u +
-                ((2.0F * static_cast<float>(j) + 1.0F) / static_cast<float>(columns) - 1.0F) *
-                    sample.edge_v;
-            const Eigen::Vector3f direction = arrival_of(to).direction;
-            const int beam = cones.beam(direction.y());
-            if (beam < 0) continue;
-            HiddenPiece piece = whole;
-            piece.beam = static_cast<std::uint32_t>(beam);
-            // The quotient may be NaN for a plane that is seen edge-on; fmax() ignores it.
-            const float range_m = whole.range_m * along / normal.dot(direction);
-            piece.range_m = std::fmin(std::fmax(range_m, least_m), greatest_m);
-            piece.half_m = whole.half_m / static_cast<float>(std::max(rows, columns));
-            piece.solid_angle = whole.solid_angle * share;
-            pieces.push_back(piece);
-        }
-    }
-}
-
 /// Follows the sight lines of a ping.
 class LineTracer {
   public:
-    LineTracer(const ConeBeams& cones, const View& view, const SceneObjects& objects,
-               const ObjectDirections& directions, HiddenSurface::By by)
-        : cones_(cones),
-          objects_(objects),
+    LineTracer(const View& view, const SceneObjects& objects, const ObjectDirections& directions,
+               HiddenSurface::By by)
+        : objects_(objects),
           directions_(directions),
           all_(by == HiddenSurface::By::all),
           range_max_m_(static_cast<float>(view.range_max_m)),
@@ -109,10 +73,8 @@ class LineTracer {
         line.range_m = line.range_m * (1.0F + step_behind) + met.distance_m;
         if (!(line.range_m < range_max_m_)) return false;
         if (is_shadow(line)) {
-            const HiddenPiece hidden{line.beam, nodes_[line.first].object, line.range_m,
-                                     half_extent(line, line.range_m, met.normal), line.solid_angle};
-            cones_.exist() ? add_to_cones(line, hidden, met.normal, cones_, pieces_)
-                           : pieces_.push_back(hidden);
+            pieces_.push_back({line.beam, nodes_[line.first].object, line.range_m,
+                               half_extent(line, line.range_m, met.normal), line.solid_angle});
         }
         const std::uint32_t object = objects_.object_of(met.instance);
         if (!has_met(nodes_, line.passed, object)) {
@@ -139,7 +101,6 @@ class LineTracer {
         return is_shadow(line) || directions_.may_lie_behind(line.direction, line.range_m);
     }
 
-    const ConeBeams& cones_;
     const SceneObjects& objects_;
     const ObjectDirections& directions_;
     bool all_;  ///< background hides surface, too
@@ -151,12 +112,12 @@ class LineTracer {
 
 }  // namespace
 
-HiddenSurface find_hidden_surface(const TracedPing& traced, const ConeBeams& cones,
+HiddenSurface find_hidden_surface(const TracedPing& traced, const SurfaceEchoes& echoes,
                                   const View& view, const SceneObjects& objects,
                                   const VisibilityEngine& engine,
                                   const ObjectDirections& directions, HiddenSurface::By by) {
-    std::vector<SightLine> lines = sight_lines(traced, cones, view.beams);
-    LineTracer tracer(cones, view, objects, directions, by);
+    std::vector<SightLine> lines = sight_lines(traced, echoes, view.beams);
+    LineTracer tracer(view, objects, directions, by);
     tracer.begin(lines);
     std::vector<Ray> rays;
     std::vector<Intersection> met;

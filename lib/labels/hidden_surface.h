@@ -6,8 +6,8 @@
 #include "labels/object_directions.h"
 #include "ping/form_image.h"
 #include "scene/objects.h"
-#include "trace/cone_beams.h"
 #include "trace/range_boxes.h"
+#include "trace/surface_echoes.h"
 
 namespace sonarsim {
 
@@ -31,8 +31,8 @@ struct HiddenSurface {
 
 /// Traces the hidden surface, but not in directions without any by `directions`. By::objects keeps
 /// only surface that objects, not background, hide, and hidden surface of these objects, which lie
-/// in `directions`; small objects cost little. `cones` exist for a line array.
-HiddenSurface find_hidden_surface(const TracedPing& traced, const ConeBeams& cones,
+/// in `directions`; small objects cost little. `echoes` are those of the trace.
+HiddenSurface find_hidden_surface(const TracedPing& traced, const SurfaceEchoes& echoes,
                                   const View& view, const SceneObjects& objects,
                                   const VisibilityEngine& engine,
                                   const ObjectDirections& directions, HiddenSurface::By by);

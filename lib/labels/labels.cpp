@@ -170,7 +170,7 @@ PingLabels blank_labels(const View& view, const LabelRequest& request) {
 }
 
 /// The shadows that a request needs; empty without any.
-std::optional<PingShadows> find_shadows(const TracedPing& traced, const ConeBeams& cones,
+std::optional<PingShadows> find_shadows(const TracedPing& traced, const SurfaceEchoes& echoes,
                                         const View& view, const Scene& scene,
                                         const SceneObjects& objects, const VisibilityEngine& engine,
                                         const LabelRequest& request) {
@@ -181,7 +181,7 @@ std::optional<PingShadows> find_shadows(const TracedPing& traced, const ConeBeam
                 : ObjectDirections(request.annotated, request.surface, traced.T_world_sensor,
                                    view.range_min_m, view.range_max_m);
     const PingShadows::Wanted wanted{.of_all = request.shadow, .of_objects = request.annotations};
-    return std::optional<PingShadows>(std::in_place, wanted, traced, cones, view, objects, engine,
+    return std::optional<PingShadows>(std::in_place, wanted, traced, echoes, view, objects, engine,
                                       directions);
 }
 
@@ -194,7 +194,7 @@ PingLabels label_group(const TracedPing& traced, const PingSettings& settings, c
         settings.model->surface_echoes(traced, view, scene, request.elevation || request.height);
     BeamLabeller labeller(echoes, view, objects, request);
     std::optional<PingShadows> shadows =
-        find_shadows(traced, echoes.cones, view, scene, objects, engine, request);
+        find_shadows(traced, echoes, view, scene, objects, engine, request);
     if (shadows) labels.visible_share = shadows->visible_shares();
     const bool shares = request.objects || request.classes || request.materials;
     for (int j = 0; j < view.beams; ++j) {

@@ -4,13 +4,13 @@
 
 namespace sonarsim {
 
-PingShadows::PingShadows(Wanted wanted, const TracedPing& traced, const ConeBeams& cones,
+PingShadows::PingShadows(Wanted wanted, const TracedPing& traced, const SurfaceEchoes& echoes,
                          const View& view, const SceneObjects& objects,
                          const VisibilityEngine& engine, const ObjectDirections& directions)
     : range_bins_(view.range_bins) {
     using By = HiddenSurface::By;
     const RangeBins bins = range_bins(view);
-    hidden_ = find_hidden_surface(traced, cones, view, objects, engine, directions,
+    hidden_ = find_hidden_surface(traced, echoes, view, objects, engine, directions,
                                   wanted.of_all ? By::all : By::objects);
     of_all_.emplace(hidden_.pieces, bins, view.beams);
     if (wanted.of_objects) {
@@ -20,7 +20,7 @@ PingShadows::PingShadows(Wanted wanted, const TracedPing& traced, const ConeBeam
             of_objects_.emplace(by_objects_, bins, view.beams);
     }
     if (wanted.of_all) {
-        if (!cones.exist()) covered_ = engine.covered_bins(view, traced.T_world_sensor);
+        if (!echoes.cones.exist()) covered_ = engine.covered_bins(view, traced.T_world_sensor);
         if (covered_.empty()) covered_ = hidden_bins(hidden_.pieces, bins, view.beams);
         return;
     }

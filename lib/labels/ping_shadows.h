@@ -17,8 +17,8 @@ class PingShadows {
     };
 
     /// The arguments are those of find_hidden_surface().
-    PingShadows(Wanted wanted, const TracedPing& traced, const ConeBeams& cones, const View& view,
-                const SceneObjects& objects, const VisibilityEngine& engine,
+    PingShadows(Wanted wanted, const TracedPing& traced, const SurfaceEchoes& echoes,
+                const View& view, const SceneObjects& objects, const VisibilityEngine& engine,
                 const ObjectDirections& directions);
     /// Not copied: the finders refer to the members.
     PingShadows(const PingShadows&) = delete;

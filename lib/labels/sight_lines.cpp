@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "trace/arrivals.h"
 
@@ -12,19 +13,69 @@ namespace {
 // Surface that is seen edge-on covers all ranges; its extent is limited to this share of its range.
 constexpr float longest_half = 0.1F;
 
-/// Adds the sight line behind a sample.
-void add_line(const Sample& sample, int beam, std::vector<SightLine>& lines) {
+/// Adds a sight line behind a place of a sample.
+void add_line(const Sample& sample, const Eigen::Vector3f& place, float share_u, float share_v,
+              int beam, std::vector<SightLine>& lines) {
     if (beam < 0) return;
-    const auto [range, departure, direction] = arrival_of(sample.position);
+    const auto [range, departure, direction] = arrival_of(place);
     const auto number = static_cast<std::uint32_t>(lines.size());
     lines.push_back({.direction = departure,
                      .before_m = range,
                      .range_m = range,
-                     .solid_angle = sample.area_m2 * sample.height_m / (range * range * range),
+                     .solid_angle = share_u * share_v * sample.area_m2 * sample.height_m /
+                                    (range * range * range),
                      .sample = &sample,
+                     .share_u = share_u,
+                     .share_v = share_v,
                      .beam = static_cast<std::uint32_t>(beam),
                      .first = number,
                      .passed = number});
+}
+
+/// The number of parts, at least 1 and as wide as a beam, of an edge across the line of sight.
+int parts_of(const Eigen::Vector3f& half_edge, const Arrival& at, const ConeBeams& cones) {
+    constexpr float most = 64.0F;
+    const float across = (half_edge - at.direction * at.direction.dot(half_edge)).norm();
+    const float parts = 2.0F * across / at.range_m / cones.mean_width();
+    return static_cast<int>(std::ceil(std::clamp(parts, 1.0F, most)));
+}
+
+/// Adds the sight lines of a sample of a line array.
+void add_lines(const Sample& sample, const ConeBeams& cones, std::vector<SightLine>& lines) {
+    const Arrival at = arrival_of(sample.position);
+    const int rows = parts_of(sample.edge_u, at, cones);
+    const int columns = parts_of(sample.edge_v, at, cones);
+    const float share_u = 1.0F / static_cast<float>(rows);
+    const float share_v = 1.0F / static_cast<float>(columns);
+    for (int i = 0; i < rows; ++i) {
+        const float u = static_cast<float>(2 * i + 1) * share_u - 1.0F;
+        for (int j = 0; j < columns; ++j) {
+            const float v = static_cast<float>(2 * j + 1) * share_v - 1.0F;
+            const Eigen::Vector3f place = sample.position + u * sample.edge_u + v * sample.edge_v;
+            const int beam = cones.beam(arrival_of(place).direction.y());
+            add_line(sample, place, share_u, share_v, beam, lines);
+        }
+    }
+}
+
+/// For each sample, whether it has a direct echo. Targets have echoes of their own facets: their
+/// samples count if a facet of the same instance has one.
+std::vector<bool> received_samples(const SurfaceEchoes& echoes, const Samples& samples) {
+    std::vector<bool> received(samples.items.size());
+    std::vector<std::uint32_t> targets;
+    const Sample* const first = samples.items.data();
+    const Sample* const last = first + samples.items.size();
+    for (const Sample* const sample : echoes.direct.sample) {
+        if (!std::less<>()(sample, first) && std::less<>()(sample, last))
+            received[static_cast<std::size_t>(sample - first)] = true;
+        else if (std::ranges::find(targets, sample->instance) == targets.end())
+            targets.push_back(sample->instance);
+    }
+    for (std::size_t k = 0; k < received.size(); ++k) {
+        if (std::ranges::find(targets, samples.items[k].instance) != targets.end())
+            received[k] = true;
+    }
+    return received;
 }
 
 /// The change of a plane's range along the half edge of the footprint in front of it.
@@ -36,37 +87,39 @@ float range_along(const Eigen::Vector3f& edge, const Eigen::Vector3f& direction,
 
 }  // namespace
 
-std::vector<SightLine> sight_lines(const TracedPing& traced, const ConeBeams& cones, int beams) {
+std::vector<SightLine> sight_lines(const TracedPing& traced, const SurfaceEchoes& echoes,
+                                   int beams) {
     const Samples& samples = traced.samples;
     std::vector<SightLine> lines;
     lines.reserve(samples.items.size() + traced.outside_sector.size());
-    const auto beam_of_cones = [&](const Sample& sample) {
-        return cones.beam(arrival_of(sample.position).direction.y());
-    };
-    for (int j = 0; j < beams; ++j) {
-        for (const Sample& sample : samples.beam(j))
-            add_line(sample, cones.exist() ? beam_of_cones(sample) : j, lines);
+    if (echoes.cones.exist()) {
+        for (const std::vector<Sample>* const all : {&samples.items, &traced.outside_sector}) {
+            for (const Sample& sample : *all)
+                add_lines(sample, echoes.cones, lines);
+        }
+        return lines;
     }
-    if (!cones.exist()) return lines;
-    for (const Sample& sample : traced.outside_sector)
-        add_line(sample, beam_of_cones(sample), lines);
+    std::vector<bool> received;
+    if (echoes.main_lobe_alone) received = received_samples(echoes, samples);
+    for (int j = 0; j < beams; ++j) {
+        for (const Sample& sample : samples.beam(j)) {
+            if (received.empty() ||
+                received[static_cast<std::size_t>(&sample - samples.items.data())])
+                add_line(sample, sample.position, 1.0F, 1.0F, j, lines);
+        }
+    }
     return lines;
 }
 
 float half_extent(const SightLine& line, float range_m, const Eigen::Vector3f& normal) {
     const Sample& sample = *line.sample;
-    const float half = range_along(sample.edge_u, line.direction, line.before_m, normal, range_m) +
-                       range_along(sample.edge_v, line.direction, line.before_m, normal, range_m);
+    const auto along = [&](const Eigen::Vector3f& edge) {
+        return range_along(edge, line.direction, line.before_m, normal, range_m);
+    };
+    const float half = line.share_u * along(sample.edge_u) + line.share_v * along(sample.edge_v);
     const float most = longest_half * range_m;
     // The quotient may be NaN for a plane that is seen edge-on.
     return half < most ? half : most;
-}
-
-int beams_along(const Eigen::Vector3f& half_edge, const SightLine& line, const ConeBeams& cones) {
-    constexpr float most = 64.0F;
-    const float across = half_edge.y() - line.direction.y() * line.direction.dot(half_edge);
-    const float beams = 2.0F * std::fabs(across) / line.before_m / cones.mean_width();
-    return static_cast<int>(std::ceil(std::clamp(beams, 1.0F, most)));
 }
 
 }  // namespace sonarsim

@@ -4,31 +4,32 @@
 #include <cstdint>
 #include <vector>
 
-#include "trace/cone_beams.h"
+#include "trace/surface_echoes.h"
 #include "trace/traced_ping.h"
 
 namespace sonarsim {
 
-/// A sight line behind the visible surface.
+/// A sight line behind the visible surface. It stands for a part of its sample's footprint, whose
+/// half edges are these shares of the sample's.
 struct SightLine {
     Eigen::Vector3f direction;
     float before_m;  ///< range of its sample
     float range_m;   ///< length so far
     float solid_angle;
     const Sample* sample;
+    float share_u, share_v;
     std::uint32_t beam;
     std::uint32_t first;   ///< the first node of its way
     std::uint32_t passed;  ///< the last one
 };
 
-/// The sight lines of a ping, one to a sample. `cones` exist for a line array.
-std::vector<SightLine> sight_lines(const TracedPing& traced, const ConeBeams& cones, int beams);
+/// The sight lines of a ping, one to a sample. In a line array a sample may span many beams and
+/// much of the elevation: it has one line for each beam that it spans across and along.
+std::vector<SightLine> sight_lines(const TracedPing& traced, const SurfaceEchoes& echoes,
+                                   int beams);
 
 /// Half the extent in range of the surface that a sight line meets, a piece of the plane with this
 /// normal.
 float half_extent(const SightLine& line, float range_m, const Eigen::Vector3f& normal);
-
-/// The number of beams, at least 1, that a half edge of a line's sample spans.
-int beams_along(const Eigen::Vector3f& half_edge, const SightLine& line, const ConeBeams& cones);
 
 }  // namespace sonarsim

@@ -50,6 +50,8 @@ struct SurfaceEchoes {
     std::vector<Sample> target_samples;  ///< one for each facet of TracedPing::targets
     /// The beams of a line array; empty: those of the view.
     ConeBeams cones;
+    /// True if samples without a direct echo lie in side lobes: they show and hide nothing.
+    bool main_lobe_alone = false;
 };
 
 }  // namespace sonarsim

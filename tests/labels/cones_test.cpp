@@ -235,4 +235,31 @@ TEST_CASE("cone labels: the echoes of all kinds have the energies of the image")
     }
 }
 
+TEST_CASE("cone labels: the shadow of a large face has no holes and ends where it should") {
+    // A plate from x = 4 m, 1 m high, stands on a floor 2 m below the sonar. It hides the floor
+    // from x = 4 to x = 8. A beam of the sine s sees the place x of the floor at r^2 (1 - s^2) =
+    // x^2 + 4.
+    Scene scene = empty_scene();
+    const std::uint32_t m = add_material(scene, 0.4F);
+    add_floor(scene, 30.0F, -2.0F, m);
+    add_quad(scene, {4, -1, -2}, {4, 1, -2}, {4, 1, -1}, {4, -1, -1}, m);
+    const Sonar sonar = wide_fan(Spacing::sine);
+    for (const EngineKind type : {EngineKind::slices, EngineKind::rays}) {
+        CAPTURE(type);
+        const Labelled out = label(scene, sonar, Pose{}, type);
+        for (int j = beam_at(sonar, -0.1); j <= beam_at(sonar, 0.1); ++j) {
+            CAPTURE(j);
+            const double sine = std::sin(sonar.beam_azimuths_rad[j]);
+            const auto bin_of = [&](double x) {
+                return bin_at(sonar, std::sqrt((x * x + 4.0) / (1.0 - sine * sine)));
+            };
+            for (int i = bin_of(4.0) + 2; i < out.labels.range_bins; ++i) {
+                if (std::abs(i - bin_of(8.0)) < 2) continue;
+                CAPTURE(i);
+                CHECK((out.labels.shadow[out.at(i, j)] > 0) == (i < bin_of(8.0)));
+            }
+        }
+    }
+}
+
 TEST_SUITE_END();
