@@ -94,12 +94,13 @@ void check_header(std::string_view line, const Location& where) {
 
 }  // namespace
 
-CsvTable parse_csv(std::string_view text, const std::string& file_name) {
-    CsvTable table;
-    table.file = file_name;
+void for_each_csv_row(std::string_view text, const std::string& file_name,
+                      const std::function<void(CsvRow& row)>& visit) {
     constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
     if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
     check_text(text, file_name);
+    std::size_t columns = 0;
+    int header_line = 0;
     for (int number = 1; !text.empty(); ++number) {
         const std::size_t end = text.find('\n');
         const std::string_view line = trim(text.substr(0, end));
@@ -108,22 +109,31 @@ CsvTable parse_csv(std::string_view text, const std::string& file_name) {
 
         const Location where{file_name, number};
         check_utf8(line, where);
-        if (table.header.fields.empty()) check_header(line, where);
+        if (columns == 0) check_header(line, where);
         CsvRow row{number, split_fields(line, where)};
+        if (columns == 0) {
+            columns = row.fields.size();
+            header_line = number;
+        } else if (row.fields.size() != columns) {
+            throw InputError(where, std::to_string(row.fields.size()) + " fields, but the header " +
+                                        "in line " + std::to_string(header_line) + " has " +
+                                        std::to_string(columns));
+        }
+        visit(row);
+    }
+    if (columns == 0) throw InputError(Location{file_name}, "is empty; expected a header line");
+}
+
+CsvTable parse_csv(std::string_view text, const std::string& file_name) {
+    CsvTable table;
+    table.file = file_name;
+    for_each_csv_row(text, file_name, [&](CsvRow& row) {
         if (table.header.fields.empty()) {
             table.header = std::move(row);
-            continue;
+        } else {
+            table.rows.push_back(std::move(row));
         }
-        if (row.fields.size() != table.header.fields.size()) {
-            throw InputError(where, std::to_string(row.fields.size()) + " fields, but the header " +
-                                        "in line " + std::to_string(table.header.line) + " has " +
-                                        std::to_string(table.header.fields.size()));
-        }
-        table.rows.push_back(std::move(row));
-    }
-    if (table.header.fields.empty()) {
-        throw InputError(Location{file_name}, "is empty; expected a header line");
-    }
+    });
     return table;
 }
 

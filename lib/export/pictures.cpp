@@ -39,6 +39,13 @@ const Json* picture_per(const Json& sensor, const char* per) {
     return nullptr;
 }
 
+/// The path of a file of a dataset.
+fs::path own_file(const fs::path& folder, const std::string& name) {
+    if (is_own_file(folder, name)) return folder / name;
+    throw InputError({(folder / name).string()},
+                     "is missing, or lies behind a link; sonarsim verify says more");
+}
+
 /// The part of each pose, by the lists in split/.
 std::vector<SplitPart> parts_of_poses(const DatasetFile& file, const fs::path& folder,
                                       std::optional<SplitPart> part) {
@@ -48,7 +55,7 @@ std::vector<SplitPart> parts_of_poses(const DatasetFile& file, const fs::path& f
         const std::string list = split_file_of(split_part_names[k]);
         if (std::ranges::find(file.products, list) == file.products.end()) continue;
         has_split = true;
-        const std::string text = read_file(folder / list, std::size_t{1} << 30);
+        const std::string text = read_file(own_file(folder, list), std::size_t{1} << 30);
         for (std::size_t begin = 0; begin < text.size();) {
             const std::size_t end = std::min(text.find('\n', begin), text.size());
             const auto pose = parse_unsigned(std::string_view(text).substr(begin, end - begin));
@@ -91,7 +98,7 @@ class PictureLister {
         }
         dataset_.coco_files.push_back(coco);
         std::vector<std::uint64_t> seen(file_.sensors.size(), 0);
-        read_coco(dataset_.folder / coco, "images", [&](const CheckedJson& image) {
+        read_coco(own_file(dataset_.folder, coco), "images", [&](const CheckedJson& image) {
             const CheckedJson name = image.at("sensor");
             const auto found =
                 std::ranges::find(file_.sensors, name.text(), &DescribedSensor::name);
@@ -100,6 +107,7 @@ class PictureLister {
             if (std::ranges::find(sensors, index) == sensors.end()) return;
             SourcePicture picture = picture_of_image(image, index);
             if (sort == CocoPicture::record) {
+                if (seen[index] > 0) name.refuse("a sensor with one image");
                 add_strip_facts(index, picture, name);
             } else if (sort == CocoPicture::scan) {
                 add_sweep_facts(index, seen[index], picture, name);
@@ -127,8 +135,11 @@ class PictureLister {
         picture.height = static_cast<int>(image.at("height").whole(
             1, std::min(largest_side_px, most_pixels / static_cast<std::uint64_t>(picture.width))));
         const std::size_t pack = path.find(".tar/");
-        picture.file = dataset_.folder / path.substr(0, pack == path.npos ? pack : pack + 4);
         if (pack != path.npos) picture.member = path.substr(pack + 5);
+        if (pack != path.npos && std::ranges::count(picture.member, '.') < 2)
+            file_name.refuse("the path of a file in a pack, like fls-000000.fan.png");
+        picture.file =
+            own_file(dataset_.folder, path.substr(0, pack == path.npos ? pack : pack + 4));
         std::string stem = fs::path(path).filename().string();
         stem.resize(std::min(stem.find('.', picture.member.empty() ? 0 : picture.sensor.size()),
                              stem.size()));

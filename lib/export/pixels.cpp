@@ -33,12 +33,18 @@ const std::array<std::uint8_t, 65536>& grey_of_16_bits() {
     return table;
 }
 
-Pixels pixels_of_png(const std::string& bytes) {
+void require_size(int width, int height, const SourcePicture& picture) {
+    if (width != picture.width || height != picture.height)
+        throw std::runtime_error("has not the size that the COCO file says");
+}
+
+Pixels pixels_of_png(const std::string& bytes, const SourcePicture& picture) {
     std::istringstream stream(bytes);
     Pixels pixels;
     const auto& greys = grey_of_16_bits();
     const PngShape shape =
         read_png(stream, bytes.size(), [&](const PngShape& own, std::span<const std::uint8_t> row) {
+            require_size(own.width, own.height, picture);
             if (own.bits == 8) {
                 pixels.values.insert(pixels.values.end(), row.begin(), row.end());
                 return;
@@ -54,7 +60,7 @@ Pixels pixels_of_png(const std::string& bytes) {
 }
 
 /// The pixels of float32 [rows, columns].
-Pixels pixels_of_npy(const std::string& bytes, double full_scale) {
+Pixels pixels_of_npy(const std::string& bytes, const SourcePicture& picture) {
     const NpyFormat format = npy_format(bytes);
     const std::size_t header = npy_header(format).size();
     if (format.type != "<f4" || format.fortran_order || format.shape.size() != 2)
@@ -65,12 +71,13 @@ Pixels pixels_of_npy(const std::string& bytes, double full_scale) {
     if (bytes.size() != header + 4 * count) throw std::runtime_error("is cut off");
     Pixels pixels{
         static_cast<int>(format.shape[1]), static_cast<int>(format.shape[0]), 1, {}, true};
+    require_size(pixels.width, pixels.height, picture);
     pixels.values.resize(count);
     for (std::size_t k = 0; k < count; ++k) {
         float value = 0.0F;
         std::memcpy(&value, bytes.data() + header + 4 * k, 4);
-        pixels.values[k] =
-            grey_of(full_scale > 0.0 ? static_cast<double>(value) / full_scale : 0.0);
+        pixels.values[k] = grey_of(
+            picture.full_scale > 0.0 ? static_cast<double>(value) / picture.full_scale : 0.0);
     }
     return pixels;
 }
@@ -83,10 +90,6 @@ std::uint8_t grey_of(double share) {
 }
 
 std::string PixelReader::file(const SourcePicture& picture) {
-    // A link could copy a private file of this machine into the export.
-    if (!fs::is_regular_file(fs::symlink_status(picture.file)))
-        throw InputError({picture.file.string()},
-                         "is missing or no file; sonarsim verify says more");
     if (picture.member.empty()) return read_file(picture.file, largest_picture_bytes);
     OpenPack& pack = packs_[picture.sensor];
     if (pack.path != picture.file) {
@@ -110,23 +113,20 @@ std::string PixelReader::file(const SourcePicture& picture) {
 }
 
 Pixels PixelReader::read(const SourcePicture& picture, const std::string& bytes) const {
-    const std::string name = (picture.file / picture.member).string();
-    const std::string own = picture.member.empty() ? picture.file.string() : picture.member;
-    const bool is_array = own.ends_with(".npy");
-    if (!is_array && !own.ends_with(".png")) {
+    fs::path path = picture.file;
+    if (!picture.member.empty()) path /= picture.member;
+    const std::string name = path.string();
+    const bool is_array = name.ends_with(".npy");
+    if (!is_array && !name.ends_with(".png")) {
         throw InputError({name},
                          "is neither PNG nor .npy, of which pictures are exported; set "
                          "output.image: true, or for fans output.fan: true, and render it again");
     }
-    Pixels pixels;
     try {
-        pixels = is_array ? pixels_of_npy(bytes, picture.full_scale) : pixels_of_png(bytes);
+        return is_array ? pixels_of_npy(bytes, picture) : pixels_of_png(bytes, picture);
     } catch (const std::runtime_error& fault) {
         throw InputError({name}, fault.what());
     }
-    if (pixels.width != picture.width || pixels.height != picture.height)
-        throw InputError({name}, "has not the size that the COCO file says");
-    return pixels;
 }
 
 std::string png_of(const Pixels& pixels, const Frame& frame) {

@@ -28,7 +28,7 @@ std::uint8_t grey_of(double share);
 /// Reads the pictures of a dataset, loose or packed. It holds the files of one pack of each sensor.
 class PixelReader {
   public:
-    /// The bytes of the file. InputError when it is missing, is a link or is damaged.
+    /// The bytes of the file. InputError when it is missing or damaged.
     std::string file(const SourcePicture& picture);
 
     /// Decodes a picture into 8 bits. PNG files of 8 bits stay as they are; those of 16 bits, whose

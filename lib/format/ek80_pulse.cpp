@@ -18,6 +18,8 @@ using Complex = std::complex<double>;
 constexpr double most_pulse_samples = 1e5;
 constexpr std::size_t most_taps = 4096;
 constexpr std::size_t most_filters = 8;
+// A real gigabyte takes as many: 3e7 samples of four sectors, and pulses of 300.
+constexpr std::size_t most_products = 10'000'000'000;
 
 /// The sum of products; std::complex's own product looks for infinities.
 void add_product(const Complex& a, const Complex& b, Complex& sum) {
@@ -42,7 +44,15 @@ std::vector<Complex> filtered(const std::vector<Complex>& signal, const EkFilter
 
 }  // namespace
 
-std::vector<Complex> filtered_sweep(const EkSweep& sweep, const std::vector<EkFilter>& filters) {
+void add_products(std::size_t more, std::size_t& products) {
+    products += more;
+    if (products > most_products)
+        throw std::runtime_error(
+            "has sweeps or filters too long for its samples; take fewer pings");
+}
+
+std::vector<Complex> filtered_sweep(const EkSweep& sweep, const std::vector<EkFilter>& filters,
+                                    std::size_t& products) {
     if (filters.size() > most_filters)
         throw std::runtime_error("has more than 8 filters (FIL1 datagrams) of a channel");
     double step_s = sweep.sample_s;
@@ -67,8 +77,12 @@ std::vector<Complex> filtered_sweep(const EkSweep& sweep, const std::vector<EkFi
         const double mean_hz = sweep.start_hz + 0.5 * share * (sweep.end_hz - sweep.start_hz);
         signal.emplace_back(envelope * sincos(2.0 * pi * t * mean_hz).cos);
     }
-    for (const EkFilter& filter : filters)
+    for (const EkFilter& filter : filters) {
+        const std::size_t all = signal.size() + filter.taps.size();
+        add_products(filter.taps.size() * (all / static_cast<std::size_t>(filter.decimation) + 1),
+                     products);
         signal = filtered(signal, filter);
+    }
     return signal;
 }
 

@@ -23,10 +23,15 @@ struct EkSweep {
     bool operator==(const EkSweep&) const = default;
 };
 
+/// Adds to the products of all filters of a file. Throws std::runtime_error where they would take
+/// more than some twenty seconds.
+void add_products(std::size_t more, std::size_t& products);
+
 /// The sweep as it comes out of the receiver's filters. The samples before the first filter are as
 /// many times denser as its stages keep fewer. Throws std::runtime_error for impossible numbers.
 std::vector<std::complex<double>> filtered_sweep(const EkSweep& sweep,
-                                                 const std::vector<EkFilter>& filters);
+                                                 const std::vector<EkFilter>& filters,
+                                                 std::size_t& products);
 
 /// The matched filter: samples correlated with a pulse over the pulse's energy. An echo with the
 /// amplitude of the pulse becomes 1 where it begins.

@@ -42,6 +42,7 @@ struct Ek80Settings {
     double sound_speed_m_s = 0.0;
     std::map<std::string, Ek80Channel, std::less<>> channels;
     std::size_t pulse_values = 0;  ///< the number of those of all pulses so far
+    std::size_t products = 0;      ///< the number of those of their filters
 };
 
 /// The start tags of a name, without their brackets.
@@ -133,7 +134,7 @@ void take_filter(std::string_view datagram, Ek80Settings& settings) {
 }
 
 /// Makes the pulse of a channel that sweeps, unless it has it.
-void make_pulse(Ek80Channel& channel, std::size_t& pulse_values) {
+void make_pulse(Ek80Channel& channel, Ek80Settings& settings) {
     if (!channel.is_sweep || channel.pulse) return;
     if (channel.filters.empty())
         throw std::runtime_error("has sweeps without their filters (FIL1 datagrams)");
@@ -141,9 +142,9 @@ void make_pulse(Ek80Channel& channel, std::size_t& pulse_values) {
     for (const auto& [stage, filter] : channel.filters)
         filters.push_back(filter);
     channel.pulse = std::make_shared<const std::vector<std::complex<double>>>(
-        filtered_sweep(channel.sweep, filters));
-    pulse_values += channel.pulse->size();
-    if (pulse_values > most_pulse_values)
+        filtered_sweep(channel.sweep, filters, settings.products));
+    settings.pulse_values += channel.pulse->size();
+    if (settings.pulse_values > most_pulse_values)
         throw std::runtime_error("changes its sweeps too often; split the file");
 }
 
@@ -185,7 +186,7 @@ EkPing ek80_ping_of(std::string_view datagram, Ek80Settings& settings,
     take_samples(datagram, found->second.ohms, ping);
     const bool is_read = !wanted_hz || is_wanted(ping.frequency_hz, *wanted_hz);
     if (is_read && ping.count > 0 && ping.sectors > 0) {
-        make_pulse(found->second, settings.pulse_values);
+        make_pulse(found->second, settings);
         if (found->second.is_sweep) ping.pulse = found->second.pulse;
     }
     return ping;

@@ -131,6 +131,7 @@ SonarLog log_of_ek(const std::vector<EkPing>& pings, std::size_t most_pings,
     log.decibels = LoggedDecibels{-lowest_db, -lowest_db};
     log.frequency_hz = frequency;
     const EkPing* first = nullptr;
+    std::size_t products = 0;
     for (const EkPing& ping : pings) {
         if (ping.frequency_hz != frequency) continue;
         if (log.pings.size() == most_pings) break;
@@ -143,6 +144,7 @@ SonarLog log_of_ek(const std::vector<EkPing>& pings, std::size_t most_pings,
         if (ping.count != first->count || ping.offset != first->offset ||
             ping.sample_s != first->sample_s)
             throw std::runtime_error("changes its range; split the file there");
+        if (ping.pulse) add_products(ping.count * ping.pulse->size(), products);
         log.pings.push_back(logged_ek(ping));
     }
     return log;

@@ -75,7 +75,7 @@ Block header_of(std::string_view name, std::uint64_t bytes) {
 }  // namespace
 
 std::uint64_t tar_bytes(std::uint64_t file_bytes) {
-    return block + (file_bytes + block - 1) / block * block;
+    return block + (std::min(file_bytes, largest_member + 1) + block - 1) / block * block;
 }
 
 void append_to_tar(std::string& archive, std::string_view name, std::string_view bytes) {

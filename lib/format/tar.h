@@ -14,7 +14,8 @@ namespace sonarsim {
 /// Bytes at the end of an archive.
 inline constexpr std::uint64_t tar_end_bytes = 1024;
 
-/// The size of a file in an archive.
+/// The size of a file in an archive. One that no archive can hold counts as 8 GiB, so that sums of
+/// sizes do not wrap.
 std::uint64_t tar_bytes(std::uint64_t file_bytes);
 
 /// Adds a file to an archive in memory. Throws std::logic_error when the name has more than 100

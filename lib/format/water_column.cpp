@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::size_t longest_beam = 65535;
 constexpr std::size_t most_values = std::size_t{1} << 28;
+// Real beams begin near the sonar: a fan has a few times the values of its beams.
+constexpr std::size_t most_values_per_sample = 64;
 
 LoggedPing logged_water(const WaterPing& own, std::size_t ranges) {
     LoggedPing ping;
@@ -46,15 +48,21 @@ void check_water(const WaterPing& ping) {
 
 SonarLog log_of_water(const std::vector<WaterPing>& pings, const char* missing) {
     std::size_t ranges = 0;
+    std::size_t samples = 0;
     for (const WaterPing& ping : pings) {
-        for (const WaterBeam& beam : ping.beams)
+        for (const WaterBeam& beam : ping.beams) {
             ranges = std::max(ranges, beam.first + beam.samples.size());
+            samples += beam.samples.size();
+        }
     }
     if (pings.empty() || ranges == 0 || ranges > 2 * longest_beam)
         throw std::runtime_error(missing);
     const WaterPing& first = pings.front();
-    if (ranges * std::max<std::size_t>(first.beams.size(), 1) > most_values / pings.size())
+    const std::size_t values = ranges * std::max<std::size_t>(first.beams.size(), 1);
+    if (values > most_values / pings.size())
         throw std::runtime_error("has more than 268,435,456 values; take fewer pings");
+    if (values * pings.size() > most_values_per_sample * samples)
+        throw std::runtime_error("has beams that begin far beyond their few samples");
     SonarLog log;
     log.decibels = LoggedDecibels{127.5, 255.0};
     log.range_step_s = 1.0 / first.sample_hz;

@@ -25,6 +25,10 @@ namespace fs = std::filesystem;
 constexpr std::size_t largest_ping_file = std::size_t{1} << 32;
 
 std::string read_part_of(const fs::path& path, std::uint64_t offset, std::uint64_t bytes) {
+    if (bytes > largest_ping_file)
+        throw InputError(
+            {path.string()},
+            "is said by the journal to hold a file of more than 4 GiB; copy both again");
     std::ifstream file(path, std::ios::binary);
     std::string read(bytes, '\0');
     if (!file.seekg(static_cast<std::streamoff>(offset)) ||

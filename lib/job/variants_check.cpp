@@ -2,6 +2,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/file.h"
 #include "core/sha256.h"
 #include "dataset/coco/join.h"
 #include "dataset/layout.h"
@@ -58,8 +59,9 @@ void check_common_files(const fs::path& folder, const std::set<std::string>& exp
     const auto sums = read_checksums(sums_file);
     for (const std::string& name : expected) {
         const auto sum = sums.find(name);
-        if (!fs::is_regular_file(folder / name)) {
-            check.errors.push_back(name + ": is missing; " + render_variants_again);
+        if (!is_own_file(folder, name)) {
+            check.errors.push_back(name + ": is missing, or lies behind a link; " +
+                                   render_variants_again);
             continue;
         }
         ++check.files;

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/error.h"
+#include "core/file.h"
 #include "core/ordered_pipeline.h"
 #include "core/sha256.h"
 #include "core/text.h"
@@ -67,6 +68,9 @@ std::vector<Task> list_tasks(const fs::path& folder, const DatasetFile& dataset,
         const auto sum = sums.find(file.name);
         if (!fs::is_regular_file(folder / file.name)) {
             add_error(check, file.name + ": is missing; " + render_again);
+        } else if (!is_own_file(folder, file.name)) {
+            add_error(check, file.name +
+                                 ": lies behind a symbolic link; put the file itself in its place");
         } else if (sum != sums.end()) {
             tasks.push_back({file, sum->second, count_ids(file, dataset)});
         } else if (file.name != checksums_name && !sums.empty()) {

@@ -178,21 +178,25 @@ std::vector<std::string_view> split_blanks(std::string_view line) {
 }  // namespace
 
 Trajectory parse_csv_trajectory(std::string_view text, const std::string& file) {
-    const CsvTable table = parse_csv(text, file);
-    const std::vector<std::string>& header = table.header.fields;
-    const std::span<const Column> columns = columns_of(header, {file, table.header.line});
     Trajectory trajectory;
-    trajectory.reserve(table.rows.size());
-    std::vector<double> values(columns.size());
-    for (const CsvRow& row : table.rows) {
+    std::vector<std::string> header;
+    std::span<const Column> columns;
+    std::vector<double> values;
+    for_each_csv_row(text, file, [&](const CsvRow& row) {
         const Location where{file, row.line};
+        if (header.empty()) {
+            header = row.fields;
+            columns = columns_of(header, where);
+            values.resize(columns.size());
+            return;
+        }
         for (std::size_t c = 0; c < columns.size(); ++c) {
             const auto at = std::find(header.begin(), header.end(), columns[c].name);
             const auto& field = row.fields[static_cast<std::size_t>(at - header.begin())];
             values[c] = field_value(field, columns[c], where);
         }
         append(trajectory, pose_from(values, where), where);
-    }
+    });
     return require_poses(std::move(trajectory), file);
 }
 

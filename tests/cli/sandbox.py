@@ -9,6 +9,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import zlib
 
 SONARSIM = os.environ["SONARSIM"]
 # A dataset waits for its disk at every checkpoint, and hundreds are made here: where there is one, a
@@ -101,6 +102,14 @@ def path_csv(poses):
     """`poses` poses that turn slowly on the spot, five a second."""
     rows = [f"{0.2 * i:.1f},0,0,0,0,0,{3 * i}" for i in range(poses)]
     return "\n".join(["t_s,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg", *rows]) + "\n"
+
+
+def png_file(width, height, rows):
+    """A PNG file of 8 bits, whole if `rows` are: a zero and the pixels of each."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)) +
+            chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
 
 
 def digest(folder, without=()):

@@ -6,7 +6,7 @@ import unittest
 
 from exported import Exported, check_yolo
 from labelled import box_of, mask_of, read_png
-from sandbox import digest
+from sandbox import digest, png_file
 
 SPLIT = "\n  split: {train: 0.5, val: 0.5, gap: 0}"
 
@@ -304,6 +304,52 @@ class Export(Exported):
         fan.symlink_to(self.folder / "secret.png")
         self.assert_refused(self.export(), "fls/fan/000000.png")
         self.assertEqual([p.name for p in self.folder.glob("dest*")], [])
+
+    def test_links_within_a_dataset(self):
+        """They could bring files of this machine into the export, and are a fault of the dataset."""
+        self.edit("mission.yaml", "labels: [coco]", "labels: [coco]" + SPLIT)
+        self.assert_renders()
+        for folder, name in (("fls/fan", "fls/fan/000000.png"), ("labels", "labels/coco_fan.json"),
+                             ("split", "split/train.txt")):
+            with self.subTest(folder=folder):
+                (self.out / folder).rename(self.folder / "elsewhere")
+                (self.out / folder).symlink_to(self.folder / "elsewhere")
+                self.assert_refused(self.export(), "out/" + name, "behind a link")
+                verdict = self.run_sonarsim("verify", "out")
+                self.assertEqual(verdict.returncode, 1, verdict.stderr)
+                self.assertIn(name + ": lies behind a symbolic link", verdict.stderr)
+                (self.out / folder).unlink()
+                (self.folder / "elsewhere").rename(self.out / folder)
+        self.assertEqual(self.run_sonarsim("verify", "out").returncode, 0)
+
+    def test_files_of_another_kind(self):
+        self.assert_renders()
+        fans, records = self.out / "labels/coco_fan.json", self.out / "labels/coco_records.json"
+        sound = fans.read_text()
+        self.write("out/fls/x.tar", "")
+        fans.write_text(sound.replace("fls/fan/000000.png", "fls/x.tar/a.png", 1))
+        self.assert_refused(self.export(), "coco_fan.json", "a file in a pack")
+        fans.unlink()
+        os.mkfifo(fans)
+        self.assert_refused(self.export(), "labels/coco_fan.json")
+        fans.unlink()
+        fans.write_text(sound)
+        # A second image of a side-scan.
+        text = records.read_text()
+        line = next(one for one in text.splitlines() if '"sensor":"sss"' in one)
+        records.write_text(text.replace(line, line.rstrip(",") + ",\n" +
+                                        line.replace('"id":', '"id":99', 1)))
+        self.assert_refused(self.export("--sensor", "sss"), "coco_records.json", "a sensor with one image")
+        records.write_text(text)
+
+    def test_a_picture_of_another_size_is_not_unpacked(self):
+        self.assert_renders()
+        fan = self.out / "fls/fan/000000.png"
+        whole = fan.read_bytes()
+        # It says 200 rows, and has one.
+        fan.write_bytes(png_file(7, 200, b"\0" * 8))
+        self.assert_refused(self.export(), "out/fls/fan/000000.png: has not the size")
+        fan.write_bytes(whole)
 
 
 if __name__ == "__main__":

@@ -7,20 +7,11 @@ import shutil
 import struct
 import subprocess
 import unittest
-import zlib
 
-from sandbox import SONARSIM, Sandbox, digest, path_csv
+from sandbox import SONARSIM, Sandbox, digest, path_csv, png_file
 
 COMMANDS = (("verify", "out"), ("status", "out"), ("gallery", "out"), ("merge", "out", "merged"),
             ("merge", "--different", "out", "merged"), ("export", "out", "merged", "--format", "yolo"))
-
-
-def png_header(width, height):
-    """A PNG file that is whole but for its pixels."""
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)) +
-            chunk(b"IDAT", zlib.compress(b"\0")) + chunk(b"IEND", b""))
 
 
 class Hostile(Sandbox):
@@ -142,8 +133,8 @@ class Hostile(Sandbox):
             if os.environ["SANITIZED"] != "1":  # a sanitizer reserves more memory than that
                 resource.setrlimit(resource.RLIMIT_AS, (1 << 31, 1 << 31))
         sums = (self.out / "SHA256SUMS").read_text()
-        for name, data in (("fls/image/000000.png", png_header(1 << 30, 1)),
-                           ("fls/image/000000.png", png_header(1 << 20, 1 << 20)),
+        for name, data in (("fls/image/000000.png", png_file(1 << 30, 1, b"\0")),
+                           ("fls/image/000000.png", png_file(1 << 20, 1 << 20, b"\0")),
                            ("fls/polar/000000.npy", npy((1 << 32, 1 << 32)))):
             with self.subTest(name=name):
                 path = self.out / name

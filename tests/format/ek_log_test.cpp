@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <stdexcept>
+#include <vector>
 
 #include "core/elementary.h"
 #include "core/units.h"
+#include "format/ek80_pulse.h"
 #include "format/made_ek_logs.h"
 #include "format/message_of_log.h"
 #include "format/sonar_log.h"
@@ -108,6 +112,24 @@ TEST_SUITE("format") {
                                      1, "1.0E-05") +
                       ping;
         CHECK(message_of_log(sweeps).find("too often") != std::string::npos);
+    }
+
+    TEST_CASE("ek80: filters that would take minutes are refused") {
+        // Pulses of 1e5 samples in a ping of 120,000: 1.2e10 products.
+        constexpr int count = 120000;
+        const std::string file =
+            ek80_head() + ek80_filter("B", 1, 1, {1.0, 0.0}) +
+            ek80_parameter("B",
+                           "FrequencyStart=\"1\" FrequencyEnd=\"9\" Slope=\"0\" "
+                           "PulseDuration=\"1\"",
+                           1, "1.0E-05") +
+            ek80_ping("B", 4 + 256, count, std::string(4 * count, '\x11'));
+        CHECK(message_of_log(file).find("too long for its samples") != std::string::npos);
+        // A sweep of 1e5 samples and 4,096 taps: 4e8 products more.
+        const EkSweep sweep{1.0, 9.0, 1.0, 0.0, 1e-5};
+        const EkFilter filter{1, std::vector<std::complex<float>>(4096)};
+        std::size_t products = 9'900'000'000;
+        CHECK_THROWS_AS(filtered_sweep(sweep, {filter}, products), std::runtime_error);
     }
 
     TEST_CASE("ek60: power of one of two channels") {

@@ -58,6 +58,9 @@ TEST_SUITE("format") {
         }
         CHECK(message_of_log(kmall_datagram("#IIP", 1, "text")).find("no water column") !=
               std::string::npos);
+        // Two samples would make 120,002 values.
+        CHECK(message_of_log(kmall_water(1, {{-10.0, 60000, {1}}, {10.0, 60000, {1}}}))
+                  .find("begin far beyond") != std::string::npos);
     }
 
     TEST_CASE("kmall: drawn soundings, with blocks of any length") {

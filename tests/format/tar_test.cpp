@@ -56,6 +56,7 @@ TEST_SUITE("dataset") {
         }
         archive.append(tar_end_bytes, '\0');
         CHECK(read_back(archive) == files);
+        CHECK(tar_bytes(~std::uint64_t{0}) == 512 + (std::uint64_t{1} << 33));
     }
 
     TEST_CASE("tar: a file that is no archive of ours is refused") {

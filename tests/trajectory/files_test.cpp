@@ -84,6 +84,9 @@ TEST_SUITE("trajectory") {
         CHECK(csv_error("t_s,x_m,y_m,z_m\n") == "p.csv:1: no attitude" + expected);
         CHECK(csv_error("t_s,x_m,y_m,z_m,qx,qy,qz,qw,yaw_deg\n") ==
               "p.csv:1: two attitudes" + expected);
+        // The header comes first: any number of rows could follow it.
+        CHECK(csv_error("t_s,salinity\n1,2,3\n") ==
+              "p.csv:1: unknown column 'salinity'" + expected);
     }
 
     TEST_CASE("CSV rows: numbers that are none, not finite or absurd") {

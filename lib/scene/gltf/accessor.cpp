@@ -11,6 +11,8 @@ namespace sonarsim {
 namespace {
 
 constexpr std::size_t max_count = std::size_t{1} << 28;
+/// Elements without a bufferView are zeros, which take memory and no bytes of the file.
+constexpr std::size_t max_zeros = std::size_t{1} << 20;
 
 template <class T>
 T load(const unsigned char* bytes) {
@@ -90,7 +92,8 @@ Elements locate(const tinygltf::Model& model, int view_index, std::size_t offset
         throw InputError(where + ": byteStride " + std::to_string(stride) +
                          " is less than the size of an element, " + std::to_string(element_bytes));
     }
-    // json.cpp bounds offsets by 2^53 and `max_count` bounds the product, so nothing wraps.
+    // json_rules.h bounds offsets by 2^53 and strides by 2^31, `max_count` the count: nothing
+    // wraps.
     if (offset + stride * (count - 1) + element_bytes > view.byteLength) {
         throw InputError(where + ": claims " + std::to_string(count) + " elements; " + name +
                          " is too short for them (" + std::to_string(view.byteLength) + " bytes)");
@@ -161,6 +164,10 @@ Accessor open(const tinygltf::Model& model, int index, int type, std::size_t com
         to.stride = elements.stride;
     } else if (!from.sparse.isSparse) {
         throw InputError(where + ": has neither a bufferView nor sparse elements");
+    } else if (from.count > max_zeros) {
+        throw InputError(where + ": count " + std::to_string(from.count) +
+                         " needs a bufferView; without one it is at most " +
+                         std::to_string(max_zeros));
     }
     if (from.sparse.isSparse) open_sparse(model, from, to, where);
     return to;

@@ -65,7 +65,7 @@ inline constexpr std::array accessor{Rule{"bufferView", Kind::index},
                                      Rule{"sparse", Kind::object, Holds::one, sparse}};
 inline constexpr std::array buffer_view{Rule{"buffer", Kind::index}, Rule{"byteOffset", Kind::size},
                                         Rule{"byteLength", Kind::size},
-                                        Rule{"byteStride", Kind::size}};
+                                        Rule{"byteStride", Kind::index}};
 inline constexpr std::array buffer{Rule{"uri", Kind::uri}, Rule{"byteLength", Kind::length}};
 inline constexpr std::array document{Rule{"asset", Kind::object, Holds::one, asset},
                                      Rule{"scene", Kind::index},

@@ -9,38 +9,31 @@ namespace sonarsim {
 
 namespace {
 
-void add_primitive(const PlacedPrimitive& primitive, Surface& surface) {
-    const auto first = static_cast<std::uint32_t>(surface.vertices.size());
-    for (std::size_t i = 0; i < primitive.source.positions.count; ++i)
-        surface.vertices.push_back(corner(primitive, static_cast<std::uint32_t>(i)));
+constexpr std::uint32_t unused = 0xFFFFFFFFU;
+
+/// Adds triangles and the vertices that they use: a small file can claim any number of others.
+/// `slots` holds `unused` for each vertex, before and after.
+void add_primitive(const PlacedPrimitive& primitive, std::vector<std::uint32_t>& slots,
+                   Surface& surface) {
+    slots.resize(std::max(slots.size(), primitive.source.positions.count), unused);
+    std::vector<std::uint32_t> used;
     for (std::size_t i = 0; i < primitive.source.count; ++i) {
         std::array<std::uint32_t, 3> corners = triangle(primitive.source, i, primitive.where);
-        bool finite = true;
+        const bool finite = std::ranges::all_of(
+            corners, [&](std::uint32_t c) { return corner(primitive, c).allFinite(); });
+        if (!finite) continue;
         for (std::uint32_t& c : corners) {
-            c += first;
-            finite = finite && surface.vertices[c].allFinite();
-        }
-        if (finite) surface.triangles.push_back(corners);
-    }
-}
-
-/// The surface without unused vertices.
-Surface compact(const Surface& surface) {
-    constexpr std::uint32_t unused = 0xFFFFFFFFU;
-    std::vector<std::uint32_t> slots(surface.vertices.size(), unused);
-    Surface out;
-    for (const auto& corners : surface.triangles) {
-        std::array<std::uint32_t, 3>& own = out.triangles.emplace_back();
-        for (std::size_t k = 0; k < 3; ++k) {
-            std::uint32_t& slot = slots[corners[k]];
-            if (slot == unused) {
-                slot = static_cast<std::uint32_t>(out.vertices.size());
-                out.vertices.push_back(surface.vertices[corners[k]]);
+            if (slots[c] == unused) {
+                slots[c] = static_cast<std::uint32_t>(surface.vertices.size());
+                surface.vertices.push_back(corner(primitive, c));
+                used.push_back(c);
             }
-            own[k] = slot;
+            c = slots[c];
         }
+        surface.triangles.push_back(corners);
     }
-    return out;
+    for (const std::uint32_t c : used)
+        slots[c] = unused;
 }
 
 }  // namespace
@@ -68,9 +61,11 @@ Surface surface_of(const PlacedFile& file, SceneFiles& models, std::span<const s
     open.instance_of_mesh.assign(open.meshes.size(), 0);
     Surface surface;
     ReadingLimit limit;
-    for_each_primitive(
-        open, limit, [&](const PlacedPrimitive& primitive) { add_primitive(primitive, surface); });
-    return compact(surface);
+    std::vector<std::uint32_t> slots;
+    for_each_primitive(open, limit, [&](const PlacedPrimitive& primitive) {
+        add_primitive(primitive, slots, surface);
+    });
+    return surface;
 }
 
 }  // namespace sonarsim

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "scene/gltf/builder.h"
+#include "scene/gltf/primitives.h"
 
 using namespace sonarsim;
 using nlohmann::json;
@@ -125,8 +126,18 @@ TEST_SUITE("scene") {
                               {"indices", {{"bufferView", at}, {"componentType", 5121}}},
                               {"values", {{"bufferView", values}}}};
         gltf.document["meshes"][0]["primitives"][0]["mode"] = 5;
-        CHECK(load_error(gltf) ==
-              "x.glb: places more than 2^28 triangles (a primitive counts as 64 more)");
+        CHECK(
+            load_error(gltf) ==
+            "x.glb: mesh 'Tri' primitive 0: POSITION: count 268435456 needs a bufferView; without "
+            "one it is at most 1048576");
+        // A mesh may be placed many times.
+        ReadingLimit limit;
+        TriangleSource source;
+        source.count = 1 << 27;
+        limit.add(&source, "x.glb");
+        CHECK_THROWS_WITH_AS(
+            limit.add(&source, "x.glb"),
+            "x.glb: places more than 2^28 triangles (a primitive counts as 64 more)", InputError);
 
         GltfBuilder many = one_triangle();
         many.document["nodes"] = json::array();

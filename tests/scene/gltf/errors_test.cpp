@@ -87,6 +87,10 @@ TEST_SUITE("scene") {
               where + ": byteStride 8 is less than the size of an element, 12");
         CHECK(error_of([&](json& d) { view(d)["byteStride"] = 16; }) ==
               where + ": claims 3 elements; bufferView 0 is too short for them (36 bytes)");
+        // Without a limit 2 (2^63) + 12 wraps to 12.
+        CHECK(error_of([&](json& d) { view(d)["byteStride"] = 1ULL << 63; }) ==
+              "x.glb: bufferViews[0].byteStride: expected a whole number from 0 to 2147483647, "
+              "not 9223372036854775808");
         CHECK(error_of([&](json& d) { view(d)["buffer"] = 1; }) ==
               where + ": bufferView 0 lies in buffer 1, which does not exist");
         CHECK(error_of([&](json& d) { accessor(d)["bufferView"] = 9; }) ==
