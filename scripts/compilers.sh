@@ -3,7 +3,9 @@
 # build for the address sanitizer (clang++). debian13.sh does so with a newer g++.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-SONARSIM_BUILD=no ./scripts/setup.sh clang
+for preset in release asan; do
+    SONARSIM_PRESET=$preset SONARSIM_BUILD=no ./scripts/setup.sh
+done
 
 # As test.sh configures it, so that its build is used where there is one.
 export SONARSIM_JOINED=${SONARSIM_JOINED:-ON}

@@ -4,7 +4,7 @@
 #   sudo apt install ./build-package/sonarsim_*.deb
 set -euo pipefail
 cd "$(dirname "$0")/.."
-SONARSIM_BUILD=no ./scripts/setup.sh dpkg-dev pybind11-dev python3-dev
+SONARSIM_BUILD=no ./scripts/setup.sh dpkg-dev file pybind11-dev python3-dev
 cmake --preset "${SONARSIM_PRESET:-program}" -B build-package -DSONARSIM_TESTS=OFF -DCMAKE_INSTALL_PREFIX=/usr \
     -DSONARSIM_PYTHON=ON -DPython3_EXECUTABLE=/usr/bin/python3 >&2
 cmake --build build-package >&2

@@ -79,9 +79,11 @@ TEST_CASE("a report has a sane row per setting, as text, JSON and CSV" *
         CHECK(row.ms_per_ping.centre <= row.ms_per_ping.max);
         CHECK(row.pings_per_s > 0.0);
         CHECK(row.samples_per_ping.centre > 0.0);
-        CHECK(row.relative_l1.min <= row.relative_l1.max);
-        CHECK(row.miss_rate.centre >= 0.0);
-        CHECK(row.miss_rate.max <= 1.0);
+        // The literal octree alone misses bins.
+        const bool literal = row.setting.engine == "literal";
+        CHECK(row.relative_l1.max < (literal ? 0.3 : 0.1));
+        CHECK((row.miss_rate.centre > 0.0) == literal);
+        CHECK(row.miss_rate.max < 0.1);
         const PingSeconds& s = row.stages;
         CHECK(1e3 * (s.trace + s.accumulate + s.noise) <= 2.0 * row.ms_per_ping.max);
         CHECK(row.ms_bare > 0.0);

@@ -16,8 +16,8 @@ PAGES = ("README.md", "CONTRIBUTING.md", *(f"docs/{path.name}" for path in sorte
 
 # How a command begins: variables, then a script of the repository or a program.
 BEGINS = re.compile(r"""(?:[A-Z_]+=(?:"[^"]*"|\S+)\ )*
-                    (?:\./|\.ci/|scripts/|build/|for\ \w+\ in\ [^:;]*;\ do|
-                    (?:sonarsim|make|parallel|mkdir|ln|cd|cp|sudo|apt|python3|cmake|git|ctest)\ )""", re.VERBOSE)
+                    (?:\./|\.ci/|scripts/|build/|build-release/|for\ \w+\ in\ [^:;]*;\ do|
+                    (?:sonarsim|make|parallel|mkdir|ln|cd|cp|sudo|apt|python3|cmake|git|ctest|yolo)\ )""", re.VERBOSE)
 
 HOURS = "takes hours, or needs an idle machine"
 CI = "CI runs it: builds the program anew"
@@ -27,12 +27,14 @@ NOT_RUN = {
     "SONARSIM_PRESET=tsan ./scripts/test.sh": CI,
     ".ci/run": "runs this test",
     "ctest --test-dir build-release -R cli.render": "runs another test",
+    'build-release/tests/sonarsim_tests -tc="*part of a name*"': "names no test",
+    "yolo detect train model=yolo11n.pt data=detection/data.yaml": "needs Ultralytics, which is not part of sonarsim",
     "./scripts/fuzz.sh 60": CI,
     "./scripts/tidy.sh": CI,
     "./scripts/compilers.sh": CI,
     "./scripts/debian13.sh": "makes a chroot, and builds the program there",
-    "./scripts/package.sh": "builds the program anew",
-    "./scripts/package.sh && sudo apt install ./build-package/sonarsim_*.deb": "installs a package",
+    "./scripts/package.sh": CI,
+    "./scripts/package.sh && sudo apt install ./build-package/sonarsim_*.deb": CI,
     "./scripts/report.sh": HOURS,
     'SCENES="tank seafloor wreck lifeboat motorbike" ./scripts/report.sh': HOURS,
     "./scripts/scene_costs.py copies": HOURS,
@@ -69,7 +71,10 @@ INSTEAD = {
     "./scripts/render.sh configs/sediment_maps.yaml":
         "./scripts/render.sh configs/sediment_maps.yaml --set trajectory.rate_hz=0.5",
     "./scripts/render.sh configs/detection.yaml":
-        f"./scripts/render.sh configs/detection.yaml --set variants=2 --set trajectory.rate_hz=0.5 {TINY}",
+        f"./scripts/render.sh configs/detection.yaml --set variants=2 --set trajectory.rate_hz=0.5 {TINY}"
+        # Sixty fields of ten images.
+        " && grep -q '^variants: 60$' configs/detection.yaml && sonarsim validate configs/detection.yaml "
+        "--set variants=1 --out out/sixty --json | grep '\"pings\":10,'",
     "sonarsim merge PART... OUT": "sonarsim merge PART1 PART2 OUT",
     "sonarsim report mission.yaml": f"sonarsim report mission.yaml --engines slices {QUICK}",
     "sonarsim report mission.yaml --out out/report":
@@ -165,6 +170,7 @@ def fill(folder, clone):
     for program in ("build/sonarsim", "bin/sonarsim"):
         (folder / program).parent.mkdir()
         (folder / program).symlink_to(SONARSIM)
+    (folder / "build-release").symlink_to(pathlib.Path(SONARSIM).parent)
     if PYTHON is not None:
         (folder / "bin/python3").symlink_to(PYTHON)
     (folder / "share").mkdir()
@@ -183,7 +189,9 @@ def fill(folder, clone):
 
 
 def run(command, folder):
-    """What is wrong with a command, or nothing."""
+    """What is wrong with a command, or nothing. Tests of C++ run by themselves: their names are listed here."""
+    if "build-release/tests/" in command:
+        command += " --list-test-cases | grep 'filters: [1-9]'"
     environment = {name: value for name, value in os.environ.items()
                    if not name.startswith(("MAKE", "MFLAGS", "SLURM_"))}
     environment["PATH"] = f"{folder}/bin:{os.environ['PATH']}"
@@ -227,6 +235,16 @@ class DocumentedCommands(unittest.TestCase):
         self.assertGreater(len(there), 40)
         self.assertEqual((NOT_RUN.keys() | INSTEAD.keys() | DRAWN.keys()) - there, set())
         self.assertEqual(NOT_RUN.keys() & INSTEAD.keys(), set())
+
+    def test_packages_are_installed_with_sudo(self):
+        """Stand-ins for a user who is not root and lacks every package."""
+        for name, text in (("dpkg-query", "exit 1"), ("id", "echo 1000"), ("sudo", 'echo "sudo $@"')):
+            (self.folder / name).write_text(f"#!/bin/sh\n{text}\n")
+            (self.folder / name).chmod(0o755)
+        result = subprocess.run([self.clone / "scripts/setup.sh"], text=True, check=True, stdout=subprocess.PIPE,
+                                stderr=subprocess.STDOUT, env={"SONARSIM_BUILD": "no",
+                                                               "PATH": f"{self.folder}:{os.environ['PATH']}"})
+        self.assertRegex(result.stdout, r"\nsudo apt-get update .*\nsudo env .* apt-get install .* g\+\+ cmake ")
 
     def test_what_is_a_command(self):
         self.assertEqual(commands_of("text\n\n    sonarsim keys     prints keys\n    A=1 ./x.sh # why\n    I = R\n"

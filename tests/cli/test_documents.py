@@ -1,5 +1,5 @@
-"""What README.md and docs/dataset.md tell a reader to type: the first mission and the Python
-snippets. The snippets need numpy; they are skipped without."""
+"""What README.md and docs/dataset.md tell a reader to type, the first mission and the Python
+snippets, and figures that README.md states. The snippets need numpy; they are skipped without."""
 import json
 import pathlib
 import re
@@ -31,6 +31,23 @@ class Documents(Sandbox):
         result = self.run_sonarsim("render", ROOT / "tests" / "four_sonars.yaml", "--out", out,
                                    "--set", "trajectory.rate_hz=0.5", *options)
         self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_figures_of_the_readme(self):
+        self.assertIn("takes ten lines", README)
+        self.assertEqual(len(block(README, "yaml").splitlines()), 10)
+        self.assertIn("`survey` has these four sonars", README)
+        kinds = re.findall(r"^    kind: (\w+)$", (ROOT / "configs/survey.yaml").read_text(), re.MULTILINE)
+        self.assertEqual(sorted(kinds), ["echosounder", "imaging", "profiling", "sidescan"])
+
+    def test_error_and_speed_of_the_readme_are_those_of_the_table(self):
+        table = (ROOT / "docs/performance.md").read_text().split("<!-- report tank -->")[1]
+        row = re.search(r"^\| slices \| relative_l1=0.03 \|(.*)$", table, re.MULTILINE).group(1)
+        _, _, rate, error, *_ = [float(cell) for cell in re.findall(r"[\d.]+", row)]
+        words = " ".join(README.split())
+        stated = re.search(r"On the test tank the images have an error of ([\d.]+) %", words).group(1)
+        self.assertLess(error, float(stated))
+        stated = re.search(r"About ([\d,]+) images/s of 512 x 256 bins", words).group(1)
+        self.assertGreater(rate, float(stated.replace(",", "")))
 
     def first_mission(self):
         csv = re.search(r"\n    (material,.*)\n    (Hull,.*)\n", README)

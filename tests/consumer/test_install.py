@@ -1,15 +1,17 @@
-"""Installs a build into a temporary folder, and builds and runs a project that uses it there.
+"""Installs a build into a temporary folder, and builds and runs a project that uses it there. Where
+scripts/package.sh has left Debian packages in the build folder, they are unpacked instead.
 
     python3 tests/consumer/test_install.py <build folder> <compiler>
 """
+import os
 import pathlib
 import subprocess
 import sys
 import tempfile
 
 
-def run(*command):
-    result = subprocess.run([str(word) for word in command], capture_output=True, text=True)
+def run(*command, **options):
+    result = subprocess.run([str(word) for word in command], capture_output=True, text=True, **options)
     assert result.returncode == 0, f"{command}\n{result.stdout}{result.stderr}"
     return result.stdout
 
@@ -17,23 +19,39 @@ def run(*command):
 def main(build, compiler):
     consumer = pathlib.Path(__file__).resolve().parent
     with tempfile.TemporaryDirectory() as folder:
-        prefix, own = pathlib.Path(folder, "prefix"), pathlib.Path(folder, "build")
-        run("cmake", "--install", build, "--prefix", prefix)
+        prefix, own = pathlib.Path(folder, "usr"), pathlib.Path(folder, "build")
+        packages = list(pathlib.Path(build).glob("*.deb"))
+        for package in packages:
+            run("dpkg-deb", "-x", package, folder)
+        if not packages:
+            run("cmake", "--install", build, "--prefix", prefix)
         for name in ("bin/sonarsim", "share/doc/sonarsim/README.md", "share/doc/sonarsim/docs/model.md",
                      "share/sonarsim/scenes/tank.glb", "share/man/man1/sonarsim.1.gz",
-                     "share/bash-completion/completions/sonarsim", "share/sonarsim/mission.schema.json",
+                     "share/bash-completion/completions/sonarsim", "share/zsh/vendor-completions/_sonarsim",
+                     "share/fish/vendor_completions.d/sonarsim.fish", "share/sonarsim/mission.schema.json",
                      "share/sonarsim/scripts/sonarsim_data.py",
                      "share/sonarsim/scripts/slurm/render.sh", "lib/sonarsim/libsonarsim_meshes.so"):
             assert (prefix / name).exists(), f"not installed: {name}"
-        package = prefix / "lib/python3/dist-packages/sonarsim"
-        if (pathlib.Path(build) / "python/sonarsim").exists():
-            for name in ("__init__.py", "_sonarsim.pyi", "data.py", "data.pyi", "py.typed", "torch.py"):
-                assert (package / name).exists(), f"not installed: {name}"
-            assert len(list(package.glob("_sonarsim.*.so"))) == 1, list(package.iterdir())
-        run(prefix / "bin/sonarsim", "validate", prefix / "share/sonarsim/configs/tank_imaging.yaml")
+        python = prefix / "lib/python3/dist-packages"
+        for name in ("__init__.py", "_sonarsim.pyi", "data.py", "data.pyi", "py.typed", "torch.py"):
+            assert (python / "sonarsim" / name).exists(), f"not installed: {name}"
+        assert folder in run(sys.executable, "-Bc", "import sonarsim, sonarsim_data; print(sonarsim._sonarsim)",
+                             env={**os.environ, "PYTHONPATH": python})
+        share = prefix / "share/sonarsim"
+        run(prefix / "bin/sonarsim", "render", share / "configs/tank_imaging.yaml", "--set",
+            "trajectory.rate_hz=0.2", cwd=folder)
+        assert pathlib.Path(folder, "out/tank_imaging/SHA256SUMS").exists()
+        # It finds the instruments of the package.
+        pathlib.Path(folder, "mission.yaml").write_text(
+            f"scene: {{file: {share}/scenes/tank.glb, materials: {share}/scenes/materials.csv}}\n"
+            f"trajectory: {{file: {share}/trajectories/tank_loop.csv}}\n"
+            "sensors: {fls: {preset: sensors/gemini_720is.yaml}}\n")
+        run(prefix / "bin/sonarsim", "validate", "mission.yaml", cwd=folder)
         # It finds its module wherever the folders lie.
-        run(sys.executable, "-B", prefix / "share/sonarsim/scripts/make_scenes.py", "anchor", "--out", folder)
-        assert "shackle" in run(prefix / "bin/sonarsim", "inspect", pathlib.Path(folder, "anchor.obj"))
+        copy = pathlib.Path(folder, "copy")
+        run("cp", "-r", share, copy)
+        run("scripts/make_scenes.py", "anchor", cwd=copy)
+        assert "shackle" in run(prefix / "bin/sonarsim", "inspect", copy / "scenes/generated/anchor.obj")
         run("cmake", "-S", consumer, "-B", own, f"-DCMAKE_PREFIX_PATH={prefix}",
             f"-DCMAKE_CXX_COMPILER={compiler}", "-DCMAKE_BUILD_TYPE=Release",
             "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON")

@@ -39,14 +39,15 @@ TEST_SUITE("scene") {
               "glTF2/SchemaFailures/sceneWrongType.gltf", "glTF2/draco/2CylinderEngine.gltf",
               "glTF2/wrongTypes/badArray.gltf", "glTF/TwoBoxes/TwoBoxes.gltf"}) {
             CAPTURE(name);
-            if (outcome.contains(name)) CHECK(outcome[name] != "");
+            REQUIRE(outcome.contains(name));
+            CHECK(outcome[name] != "");
         }
         // A cube of edge 1 around the origin, 12 triangles, in three packagings.
         for (const char* name : {"glTF2/BoxTextured-glTF/BoxTextured.gltf",
                                  "glTF2/BoxTextured-glTF-Binary/BoxTextured.glb",
                                  "glTF2/BoxTextured-glTF-Embedded/BoxTextured.gltf"}) {
             CAPTURE(name);
-            if (!outcome.contains(name)) continue;
+            REQUIRE(outcome.contains(name));
             REQUIRE(outcome[name] == "");
             const Scene& box = scenes[name];
             CHECK(box.triangles.size() == 12);
@@ -54,6 +55,8 @@ TEST_SUITE("scene") {
         }
         const auto read = std::count_if(outcome.begin(), outcome.end(),
                                         [](const auto& entry) { return entry.second.empty(); });
-        MESSAGE(outcome.size() << " files, " << read << " read");
+        // With version 5.2.5 of the package, that of Debian 12.
+        CHECK(outcome.size() >= 53);
+        CHECK(read >= 35);
     }
 }
