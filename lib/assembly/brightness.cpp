@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 
 #include "assembly/engine_at.h"
@@ -45,12 +46,30 @@ float quantile(std::vector<float>& values, double share) {
     return values[static_cast<std::size_t>(index)];
 }
 
-/// Appends the intensities of the bins that see surface.
-void append_occupied(const Ping& clean, const Ping& ping, std::vector<float>& occupied) {
-    for (std::size_t i = 0; i < ping.intensity.size(); ++i) {
-        if (clean.intensity[i] > 0.0F && ping.intensity[i] > 0.0F)
-            occupied.push_back(ping.intensity[i]);
-    }
+/// 1 for the bins [range bins, beams] into which surface falls. In an image of the calibrated model
+/// nearly every bin has an echo of the water, a side lobe or the tail of a pulse.
+std::vector<std::uint8_t> bins_with_surface(const TracedPing& traced, const PingSettings& settings,
+                                            const Scene& scene) {
+    const RangeBins bins = range_bins(settings.view);
+    const auto beams = static_cast<std::size_t>(settings.view.beams);
+    std::vector<std::uint8_t> out(beams * static_cast<std::size_t>(bins.count));
+    std::vector<std::uint8_t> column;
+    const auto mark = [&](const TracedPing& group, int number) {
+        const SurfaceEchoes echoes =
+            settings.model->surface_echoes(group, settings.view, scene, false);
+        for (std::size_t j = 0; j < beams; ++j) {
+            if (!traced.group_of_beam.empty() && traced.group_of_beam[j] != number) continue;
+            column.assign(static_cast<std::size_t>(bins.count) + 1, 0);
+            for (const BeamEchoes* const of : {&echoes.direct, &echoes.multipath})
+                mark_occupied(of->boxes, of->beam_begin[j], of->beam_begin[j + 1], bins, column);
+            for (std::size_t i = 0; i + 1 < column.size(); ++i)
+                out[i * beams + j] = column[i];
+        }
+    };
+    mark(traced, 0);
+    for (std::size_t k = 0; k < traced.later_groups.size(); ++k)
+        mark(traced.later_groups[k], static_cast<int>(k) + 1);
+    return out;
 }
 
 double find_full_scale(const Mission& mission, const Scene& scene, const Trajectory& trajectory,
@@ -68,8 +87,13 @@ double find_full_scale(const Mission& mission, const Scene& scene, const Traject
         const TracedPing traced =
             trace(*then, scene, *engine_at(engine, motions, at.t_s), at.T_world_vehicle, pose);
         const PingKey key{mission.seed, pose};
-        append_occupied(form_image(traced, then->settings, scene, key, direct_echoes_alone),
-                        form_image(traced, then->settings, scene, key), occupied);
+        const Ping clean = form_image(traced, then->settings, scene, key, direct_echoes_alone);
+        const Ping ping = form_image(traced, then->settings, scene, key);
+        const std::vector<std::uint8_t> surface = bins_with_surface(traced, then->settings, scene);
+        for (std::size_t i = 0; i < surface.size(); ++i) {
+            if (surface[i] > 0 && clean.intensity[i] > 0.0F && ping.intensity[i] > 0.0F)
+                occupied.push_back(ping.intensity[i]);
+        }
     }
     if (occupied.empty()) return nothing_seen;
     const double white = std::min<double>(quantile(occupied, share_below_white),

@@ -57,10 +57,11 @@ std::string head_text(const Mission& mission, const Trajectory& trajectory, std:
 
 std::string title_of(const Sonar& sonar, std::uint32_t pose, double white) {
     const View& view = sonar.settings.view;
-    return fmt::format("{}   ping {}   {:.3g} - {:.3g} m   {} x {} bins   white = {:.3g}",
+    // A title that is too long loses its end, which is in the mission.
+    return fmt::format("{}   ping {}   {:.3g} - {:.3g} m   white = {:.3g}   {} x {} bins",
                        sonar.config.name + ": " + std::string(name_of(sonar.config.kind)),
-                       ping_at(sonar, pose), view.range_min_m, view.range_max_m, view.range_bins,
-                       view.beams, white);
+                       ping_at(sonar, pose), view.range_min_m, view.range_max_m, white,
+                       view.range_bins, view.beams);
 }
 
 /// `engine: auto` becomes the rays, since trying the engines takes longer than the few pings of a

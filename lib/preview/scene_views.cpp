@@ -162,10 +162,18 @@ std::vector<Ray> rays_around(const View& view) {
             rays.push_back(ray_along(direction_off_boresight(azimuth, 2.0 * pi * k / edge_steps)));
         return rays;
     }
-    for (int k = 0; k <= edge_steps; ++k)
-        rays.push_back(ray_along(direction_of(azimuth * (2.0 * k / edge_steps - 1.0), elevation)));
-    for (int k = edge_steps; k >= 0; --k)
-        rays.push_back(ray_along(direction_of(azimuth * (2.0 * k / edge_steps - 1.0), -elevation)));
+    const auto at = [&](double across, double up) {
+        rays.push_back(ray_along(direction_of(azimuth * across, elevation * up)));
+    };
+    for (int side = 0; side < 4; ++side) {
+        for (int k = 0; k < edge_steps; ++k) {
+            const double along = 2.0 * k / edge_steps - 1.0;
+            if (side == 0) at(along, 1.0);
+            if (side == 1) at(1.0, -along);
+            if (side == 2) at(-along, -1.0);
+            if (side == 3) at(-1.0, along);
+        }
+    }
     return rays;
 }
 

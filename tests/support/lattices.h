@@ -5,6 +5,7 @@
 
 #include "scene/scene.h"
 #include "sonar/sonar.h"
+#include "support/draws.h"
 
 namespace sonarsim::test {
 
@@ -28,5 +29,8 @@ enum class ShapeSet : std::uint8_t { known, kept_aside };
 /// sonar depends on the number: half of them are imaging sonars. The same number gives the same
 /// scene.
 Lattice draw_lattice(std::uint32_t number, ShapeSet set = ShapeSet::known);
+
+/// Places a shape about the origin, some two units wide, before a sonar, as draw_lattice() does.
+Lattice place_lattice(Draws& draws, std::uint32_t number, std::string shape, Scene scene);
 
 }  // namespace sonarsim::test

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "support/foreign_meshes.h"
 #include "support/lattice_errors.h"
 #include "support/sanitized.h"
 #include "validation/image_error.h"
@@ -151,7 +152,7 @@ TEST_CASE("lattices: goals are met, or the estimate says so" * doctest::skip(tes
 
 /// Prints the table of docs/performance.md: SONARSIM_LATTICES scenes from number SONARSIM_FIRST on,
 /// with the engine SONARSIM_ENGINE: slices, rays or octree. SONARSIM_SHAPES=kept_aside draws other
-/// shapes.
+/// shapes; the name of a folder draws the .glb files in it.
 TEST_CASE("table of errors and estimates on drawn lattices" * doctest::skip()) {
     const auto setting = [](const char* name, const char* otherwise) -> std::string {
         const char* const text = std::getenv(name);
@@ -163,13 +164,21 @@ TEST_CASE("table of errors and estimates on drawn lattices" * doctest::skip()) {
     EngineKind engine = EngineKind::slices;
     if (name == "rays") engine = EngineKind::rays;
     if (name == "octree") engine = EngineKind::octree;
-    const auto shapes = setting("SONARSIM_SHAPES", "known") == "kept_aside"
-                            ? test::ShapeSet::kept_aside
-                            : test::ShapeSet::known;
+    const std::string shapes = setting("SONARSIM_SHAPES", "known");
+    std::vector<test::ForeignMesh> meshes;
+    if (shapes != "known" && shapes != "kept_aside") {
+        meshes = test::foreign_meshes(shapes);
+        REQUIRE(!meshes.empty());
+    }
+    const auto draw = [&](std::uint32_t number) -> test::Lattice {
+        if (!meshes.empty()) return test::draw_foreign_mesh(number, meshes);
+        return test::draw_lattice(
+            number, shapes == "known" ? test::ShapeSet::known : test::ShapeSet::kept_aside);
+    };
     std::vector<test::LatticeError> all;
     for (int i = first; i < first + count; ++i) {
         const auto number = static_cast<std::uint32_t>(i);
-        const test::Lattice lattice = test::draw_lattice(number, shapes);
+        const test::Lattice lattice = draw(number);
         const Reference reference = test::lattice_reference(lattice, 8'000'000);
         for (const test::LatticeError& error :
              test::lattice_errors(number, lattice, reference, engine, {0.1, 0.03, 0.01}))
