@@ -47,12 +47,16 @@ float quantile(std::vector<float>& values, double share) {
 }
 
 /// 1 for the bins [range bins, beams] into which surface falls. In an image of the calibrated model
-/// nearly every bin has an echo of the water, a side lobe or the tail of a pulse.
+/// nearly every bin has an echo of the water, a side lobe or the tail of a pulse. An echogram is
+/// there to show such echoes, so all bins of a cone count, and its bottom may be white.
 std::vector<std::uint8_t> bins_with_surface(const TracedPing& traced, const PingSettings& settings,
                                             const Scene& scene) {
     const RangeBins bins = range_bins(settings.view);
     const auto beams = static_cast<std::size_t>(settings.view.beams);
-    std::vector<std::uint8_t> out(beams * static_cast<std::size_t>(bins.count));
+    const bool shows_water = settings.view.shape == ViewShape::cone;
+    std::vector<std::uint8_t> out(beams * static_cast<std::size_t>(bins.count),
+                                  shows_water ? 1 : 0);
+    if (shows_water) return out;
     std::vector<std::uint8_t> column;
     const auto mark = [&](const TracedPing& group, int number) {
         const SurfaceEchoes echoes =
