@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "assembly/sample_pings.h"
+#include "support/calibrated.h"
 #include "support/small_mission.h"
 
 using namespace sonarsim;
@@ -56,6 +57,22 @@ TEST_SUITE("assembly") {
             const double digits = scale * std::pow(10.0, 1.0 - std::floor(std::log10(scale)));
             CHECK(std::fabs(digits - std::round(digits)) < 1e-9);
         }
+    }
+
+    TEST_CASE("brightness: water does not decide what is white in a fan") {
+        // Most bins of the second sonar lie before and behind the walls of the tank, in water that
+        // scatters.
+        Mission mission = small_mission("out");
+        mission.output.full_scale = 0.0;
+        SonarConfig& clear = mission.sensors[0];
+        clear = calibrated(clear, 9e5);
+        clear.range_max_m = 30.0;
+        clear.range_bins = 144;
+        mission.sensors[1] = clear;
+        mission.sensors[1].name = "coastal";
+        mission.sensors[1].instrument.usual_water = WaterContent::coastal;
+        const std::vector<double> scales = scales_of(mission);
+        CHECK(scales[1] / scales[0] == doctest::Approx(1.0).epsilon(0.1));
     }
 
     TEST_CASE("brightness: auto is 1 where nothing is seen") {
