@@ -57,13 +57,17 @@ class LineTracer {
           range_max_m_(static_cast<float>(view.range_max_m)),
           solid_angles_(objects.objects.size()) {}
 
+    void add_visible(std::span<const SightLine> lines) {
+        for (const SightLine& line : lines)
+            solid_angles_[objects_.object_of(line.sample->instance)].visible += line.solid_angle;
+    }
+
     /// Keeps the lines behind which wanted surface may lie.
     void begin(std::vector<SightLine>& lines) {
+        nodes_.clear();
         nodes_.reserve(2 * lines.size());
-        for (const SightLine& line : lines) {
+        for (const SightLine& line : lines)
             nodes_.push_back({objects_.object_of(line.sample->instance), line.first});
-            solid_angles_[nodes_.back().object].visible += line.solid_angle;
-        }
         std::erase_if(lines, [&](const SightLine& line) { return !is_wanted(line); });
         pieces_.reserve(2 * lines.size());
     }
@@ -116,18 +120,32 @@ HiddenSurface find_hidden_surface(const TracedPing& traced, const SurfaceEchoes&
                                   const View& view, const SceneObjects& objects,
                                   const VisibilityEngine& engine,
                                   const ObjectDirections& directions, HiddenSurface::By by) {
-    std::vector<SightLine> lines = sight_lines(traced, echoes, view.beams);
-    LineTracer tracer(view, objects, directions, by);
-    tracer.begin(lines);
     std::vector<Ray> rays;
     std::vector<Intersection> met;
-    for (int layer = 0; layer < most_surfaces_behind && !lines.empty(); ++layer) {
+    const auto cast = [&](std::span<const SightLine> lines) {
         met.resize(lines.size());
         rays.clear();
         for (const SightLine& line : lines)
             rays.push_back(ray_behind(line, traced.motion, view.shape));
         engine.intersect_behind(traced.T_world_sensor, rays, static_cast<float>(view.range_max_m),
                                 met);
+    };
+    std::vector<SightLine> lines = sight_lines(traced, echoes, view.beams);
+    LineTracer tracer(view, objects, directions, by);
+    tracer.add_visible(lines);
+    tracer.begin(lines);
+    if (echoes.cones.exist()) {
+        // Nothing lies behind most floors and walls, so one line finds out before many are cast.
+        cast(lines);
+        std::vector<SightLine> with_surface;
+        for (std::size_t k = 0; k < lines.size(); ++k) {
+            if (std::isfinite(met[k].distance_m)) with_surface.push_back(lines[k]);
+        }
+        lines = divided(with_surface, echoes.cones);
+        tracer.begin(lines);
+    }
+    for (int layer = 0; layer < most_surfaces_behind && !lines.empty(); ++layer) {
+        cast(lines);
         std::size_t going_on = 0;
         for (std::size_t k = 0; k < lines.size(); ++k) {
             if (tracer.take(lines[k], met[k])) lines[going_on++] = lines[k];

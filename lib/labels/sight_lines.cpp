@@ -32,30 +32,16 @@ void add_line(const Sample& sample, const Eigen::Vector3f& place, float share_u,
                      .passed = number});
 }
 
-/// The number of parts, at least 1 and as wide as a beam, of an edge across the line of sight.
-int parts_of(const Eigen::Vector3f& half_edge, const Arrival& at, const ConeBeams& cones) {
+/// The number of parts, at least 1, of an edge across the line of sight: each spans one beam of the
+/// array, and two of their widths along the beam. With one width, 182 instead of 339 of 17,700 bins
+/// of shadow are too many (three pings of tank_layers), for 1.57 instead of 1.24 times the time.
+int parts_of(const Eigen::Vector3f& half_edge, const SightLine& line, const ConeBeams& cones) {
+    constexpr float along_beam = 2.0F;
     constexpr float most = 64.0F;
-    const float across = (half_edge - at.direction * at.direction.dot(half_edge)).norm();
-    const float parts = 2.0F * across / at.range_m / cones.mean_width();
+    const Eigen::Vector3f across = half_edge - line.direction * line.direction.dot(half_edge);
+    const float width = 0.5F * line.before_m * cones.mean_width();
+    const float parts = std::max(std::fabs(across.y()), across.norm() / along_beam) / width;
     return static_cast<int>(std::ceil(std::clamp(parts, 1.0F, most)));
-}
-
-/// Adds the sight lines of a sample of a line array.
-void add_lines(const Sample& sample, const ConeBeams& cones, std::vector<SightLine>& lines) {
-    const Arrival at = arrival_of(sample.position);
-    const int rows = parts_of(sample.edge_u, at, cones);
-    const int columns = parts_of(sample.edge_v, at, cones);
-    const float share_u = 1.0F / static_cast<float>(rows);
-    const float share_v = 1.0F / static_cast<float>(columns);
-    for (int i = 0; i < rows; ++i) {
-        const float u = static_cast<float>(2 * i + 1) * share_u - 1.0F;
-        for (int j = 0; j < columns; ++j) {
-            const float v = static_cast<float>(2 * j + 1) * share_v - 1.0F;
-            const Eigen::Vector3f place = sample.position + u * sample.edge_u + v * sample.edge_v;
-            const int beam = cones.beam(arrival_of(place).direction.y());
-            add_line(sample, place, share_u, share_v, beam, lines);
-        }
-    }
 }
 
 /// For each sample, whether it has a direct echo. Targets have echoes of their own facets: their
@@ -95,7 +81,8 @@ std::vector<SightLine> sight_lines(const TracedPing& traced, const SurfaceEchoes
     if (echoes.cones.exist()) {
         for (const std::vector<Sample>* const all : {&samples.items, &traced.outside_sector}) {
             for (const Sample& sample : *all)
-                add_lines(sample, echoes.cones, lines);
+                add_line(sample, sample.position, 1.0F, 1.0F,
+                         echoes.cones.beam(arrival_of(sample.position).direction.y()), lines);
         }
         return lines;
     }
@@ -109,6 +96,28 @@ std::vector<SightLine> sight_lines(const TracedPing& traced, const SurfaceEchoes
         }
     }
     return lines;
+}
+
+std::vector<SightLine> divided(std::span<const SightLine> lines, const ConeBeams& cones) {
+    std::vector<SightLine> out;
+    for (const SightLine& line : lines) {
+        const Sample& sample = *line.sample;
+        const int rows = parts_of(sample.edge_u, line, cones);
+        const int columns = parts_of(sample.edge_v, line, cones);
+        const float share_u = 1.0F / static_cast<float>(rows);
+        const float share_v = 1.0F / static_cast<float>(columns);
+        for (int i = 0; i < rows; ++i) {
+            const float u = static_cast<float>(2 * i + 1) * share_u - 1.0F;
+            for (int j = 0; j < columns; ++j) {
+                const float v = static_cast<float>(2 * j + 1) * share_v - 1.0F;
+                const Eigen::Vector3f place =
+                    sample.position + u * sample.edge_u + v * sample.edge_v;
+                const int beam = cones.beam(arrival_of(place).direction.y());
+                add_line(sample, place, share_u, share_v, beam, out);
+            }
+        }
+    }
+    return out;
 }
 
 float half_extent(const SightLine& line, float range_m, const Eigen::Vector3f& normal) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "trace/surface_echoes.h"
@@ -23,10 +24,13 @@ struct SightLine {
     std::uint32_t passed;  ///< the last one
 };
 
-/// The sight lines of a ping, one to a sample. In a line array a sample may span many beams and
-/// much of the elevation: it has one line for each beam that it spans across and along.
+/// The sight lines of a ping, one to a sample.
 std::vector<SightLine> sight_lines(const TracedPing& traced, const SurfaceEchoes& echoes,
                                    int beams);
+
+/// Parts of the sight lines of a line array, since a sample may span many beams and much of the
+/// elevation.
+std::vector<SightLine> divided(std::span<const SightLine> lines, const ConeBeams& cones);
 
 /// Half the extent in range of the surface that a sight line meets, a piece of the plane with this
 /// normal.
