@@ -53,10 +53,10 @@ std::vector<std::uint8_t> bins_with_surface(const TracedPing& traced, const Ping
                                             const Scene& scene) {
     const RangeBins bins = range_bins(settings.view);
     const auto beams = static_cast<std::size_t>(settings.view.beams);
-    const bool shows_water = settings.view.shape == ViewShape::cone;
-    std::vector<std::uint8_t> out(beams * static_cast<std::size_t>(bins.count),
-                                  shows_water ? 1 : 0);
-    if (shows_water) return out;
+    // A mean over a bin is 0 without surface, so that these images need no marks.
+    const bool all = settings.view.shape == ViewShape::cone || !settings.model->energies_add();
+    std::vector<std::uint8_t> out(beams * static_cast<std::size_t>(bins.count), all ? 1 : 0);
+    if (all) return out;
     std::vector<std::uint8_t> column;
     const auto mark = [&](const TracedPing& group, int number) {
         const SurfaceEchoes echoes =
