@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "calibrated/lanes.h"
 #include "calibrated/levels.h"
+#include "core/lanes.h"
 #include "core/units.h"
 #include "trace/arrivals.h"
 

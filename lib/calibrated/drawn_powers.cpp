@@ -3,8 +3,8 @@
 #include <array>
 #include <optional>
 
-#include "calibrated/lanes.h"
 #include "calibrated/normals.h"
+#include "core/lanes.h"
 
 namespace sonarsim {
 

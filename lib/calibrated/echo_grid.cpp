@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "calibrated/lanes.h"
+#include "core/lanes.h"
 
 namespace sonarsim {
 

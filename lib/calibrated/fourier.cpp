@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "calibrated/lanes.h"
 #include "core/elementary.h"
+#include "core/lanes.h"
 #include "core/units.h"
 
 namespace sonarsim {

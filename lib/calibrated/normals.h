@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "calibrated/lanes.h"
+#include "core/lanes.h"
 #include "core/random.h"
 #include "core/units.h"
 

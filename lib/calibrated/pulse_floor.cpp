@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "calibrated/decibel.h"
-#include "calibrated/lanes.h"
+#include "core/lanes.h"
 
 namespace sonarsim {
 

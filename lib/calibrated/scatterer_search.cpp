@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "calibrated/cell_footprints.h"
-#include "calibrated/lanes.h"
+#include "core/lanes.h"
 
 // The drawing in docs/calibrated.md, section 2, shows the steps: the rows of larger cells under a
 // footprint, those that are split, and the points that lie on it.

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "calibrated/lanes.h"
 #include "core/elementary.h"
+#include "core/lanes.h"
 #include "core/units.h"
 #include "trace/arrivals.h"
 

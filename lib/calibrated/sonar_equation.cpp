@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "calibrated/element_errors.h"
-#include "calibrated/lanes.h"
 #include "calibrated/levels.h"
 #include "calibrated/line_array.h"
+#include "core/lanes.h"
 #include "trace/arrivals.h"
 
 namespace sonarsim {

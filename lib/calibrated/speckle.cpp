@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "calibrated/lanes.h"
 #include "calibrated/normals.h"
+#include "core/lanes.h"
 
 namespace sonarsim {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "calibrated/lanes.h"
 #include "core/elementary.h"
+#include "core/lanes.h"
 
 namespace sonarsim {
 

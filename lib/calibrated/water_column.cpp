@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "calibrated/decibel.h"
-#include "calibrated/lanes.h"
 #include "calibrated/levels.h"
 #include "calibrated/volume_strengths.h"
+#include "core/lanes.h"
 #include "core/units.h"
 
 namespace sonarsim {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/lanes.h"
+
 namespace sonarsim {
 
 /// The bins [i, i + 1), i from 0 to count - 1, that an interval overlaps. All lengths are in bins.
@@ -24,5 +26,12 @@ struct OverlappedBins {
         return std::min(to, static_cast<Real>(i + 1)) - std::max(from, static_cast<Real>(i));
     }
 };
+
+/// The overlaps of [from, to) and the bins i to i + 7, in bins. Where i is a multiple of 8, a block
+/// of sums that was just written is read without waiting.
+inline Floats8 overlaps_of_eight(float from, float to, int i) {
+    const Floats8 bins = static_cast<float>(i) + to_floats(lane_numbers());
+    return greatest(least(to, bins + 1.0F) - greatest(from, bins), 0.0F);
+}
 
 }  // namespace sonarsim

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "calibrated/echo_grid.h"
-#include "calibrated/lanes.h"
 #include "calibrated/normals.h"
 #include "calibrated/speckle.h"
+#include "core/lanes.h"
 #include "core/normal_pair.h"
 #include "core/random.h"
 

@@ -23,9 +23,9 @@ constexpr float thinnest_error_rate = 0.16F;
 // The same for dark bins that surface approaches to within a thousandth of a bin: 11 of 42.
 constexpr float touched_error_rate = 0.26F;
 
-constexpr int lanes = BeamSums::padding;
+constexpr int at_once = BeamSums::padding;
 
-using Lanes = std::array<float, lanes>;
+using Lanes = std::array<float, at_once>;
 
 double sum_of(const Lanes& x) {
     double sum = 0.0;
@@ -114,8 +114,8 @@ BeamErrors::Bins BeamErrors::bins_of(BeamSums& sums) {
     Lanes all{};
     Lanes edge_bins{};
     Lanes occupied{};
-    for (int begin = sums.first(); begin <= sums.last(); begin += lanes) {
-        for (int k = 0; k < lanes; ++k) {
+    for (int begin = sums.first(); begin <= sums.last(); begin += at_once) {
+        for (int k = 0; k < at_once; ++k) {
             const int i = begin + k;
             const float fuller = std::max(sums.area(i - 1), sums.area(i + 1));
             const float intensity = sums.intensity(i);

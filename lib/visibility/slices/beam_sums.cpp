@@ -12,6 +12,9 @@ namespace {
 // Surface that ends within this distance of a bin's border touches the next bin, in bins.
 constexpr float touching_bins = 0.001F;
 
+// The least depth of surface, in bins: 16 steps of a float at 512 bins.
+constexpr float least_bins = 1e-3F;
+
 }  // namespace
 
 BeamDistance distance(const BeamImage& a, const BeamImage& b) {
@@ -42,7 +45,7 @@ BeamSums::BeamSums(const View& view)
 
 void BeamSums::add(const Interval& range_m, float area_m2, float height_m, float reflection) {
     const float low = range_m.from * per_m_ - min_bins_;
-    const float high = std::max(range_m.to * per_m_ - min_bins_, low + 1e-5F);
+    const float high = std::max(range_m.to * per_m_ - min_bins_, low + least_bins);
     const auto end = static_cast<float>(count_);
     if (!(high > 0.0F && low < end)) return;
     const float density = area_m2 / (high - low);
@@ -50,11 +53,11 @@ void BeamSums::add(const Interval& range_m, float area_m2, float height_m, float
         reflection * std::min(2.0F * height_m / (range_m.from + range_m.to), 1.0F);
     const int first = static_cast<int>(std::max(low, 0.0F));
     const int last = static_cast<int>(std::min(high, end - 0.5F));
-    const OverlappedBins bins(low, high, count_);
-    for (int i = first; i <= last; ++i) {
-        const float area = density * bins.overlap(i);
-        area_[i + 1] += area;
-        echo_[i + 1] += area * intensity;
+    const float to = std::min(high, end);
+    for (int i = first / lanes * lanes; i <= last; i += lanes) {
+        const Floats8 area = density * overlaps_of_eight(low, to, i);
+        add_to(&area_[i + 1], area);
+        add_to(&echo_[i + 1], intensity * area);
     }
     if (low - static_cast<float>(first) < touching_bins) touched_.push_back(first - 1);
     if (static_cast<float>(last + 1) - high < touching_bins) touched_.push_back(last + 1);

@@ -24,15 +24,19 @@ struct QuadPoints {
 };
 
 /// A visible part of a plane of the scene, between two verticals of the picture plane and two
-/// lines.
+/// lines. It has 16 numbers: PatchCorners reads them eight by eight.
 struct Quad {
     std::uint32_t facet_index;  ///< index of its FrontFacet
     bool widens;                ///< its u is that of w = 0 and grows with sqrt(1 + w^2)
     QuadSide low, high;
     float u, w;         ///< a point of the plane
     float q, q_u, q_w;  ///< 1 / X there, and its slopes
-    float q_least;
-    Interval range_m;  ///< range of the surface
+    float height_m;     ///< distance of the sensor from the plane
+    Interval range_m;   ///< range of the surface
+
+    /// A plane next to the slice whose q falls below this share has run away to infinity: its
+    /// triangle does not.
+    static constexpr float least_q_share = 1e-3F;
 
     float middle_low() const { return 0.5F * (low.low + high.low); }
     float middle_high() const { return 0.5F * (low.high + high.high); }
@@ -51,7 +55,8 @@ struct Quad {
     QuadPoints points(Eigen::Array4f at_u, const Eigen::Array4f& at_w) const {
         if (widens) at_u *= (1.0F + at_w * at_w).sqrt();
         const Eigen::Array4f secant = (1.0F + at_u * at_u + at_w * at_w).sqrt();
-        const Eigen::Array4f at_q = (q + q_u * (at_u - u) + q_w * (at_w - w)).max(q_least);
+        const Eigen::Array4f at_q =
+            (q + q_u * (at_u - u) + q_w * (at_w - w)).max(least_q_share * q);
         QuadPoints p;
         p.range = (secant / at_q).max(range_m.from).min(range_m.to);
         p.X = p.range / secant;

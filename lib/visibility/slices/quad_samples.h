@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -7,6 +8,7 @@
 #include "visibility/engine.h"
 #include "visibility/slices/beam_sums.h"
 #include "visibility/slices/frame_scan.h"
+#include "visibility/slices/patch_corners.h"
 #include "visibility/slices/patch_limits.h"
 #include "visibility/slices/quad.h"
 
@@ -32,13 +34,27 @@ class QuadSampler {
 
     void add(const Quad& quad);
 
+    /// Adds what waits, at the end of a beam.
+    void flush();
+
   private:
-    bool is_small(const QuadPoints& corners) const;
-    void cut(const RangeLine& line);
-    void add_narrow(const Quad& quad, float from, float to);
-    void add_patch(const Quad& quad, float from, float to);
-    void add_patch(const Quad& quad, const QuadPoints& corners, float from, float to);
-    void add_sample(const Quad& quad, const QuadPoints& corners);
+    /// The division of quadrilaterals that is already done.
+    enum Stage { whole, along_done, across_done, stages };
+
+    struct Waiting {
+        std::array<Quad, lanes> quads{};
+        int count = 0;
+    };
+
+    void add(Stage stage, const Quad& quad);
+    void flush(Stage stage);
+    void flush_after(Stage stage);
+    void cut_along(const Quad& quad);
+    void find_cuts(const RangeLine& line);
+    void cut_narrow(const Quad& quad, float from, float to);
+    void add_part(const Quad& quad, float from, float to);
+    void divide_across(const Quad& quad, float parts);
+    void add_sample(const Quad& quad, const Parallelograms& patches, int k);
 
     const FrameScan& scan_;
     const std::span<const Material> materials_;
@@ -48,6 +64,7 @@ class QuadSampler {
     std::vector<Sample>& out_;
     const Eigen::Matrix3f R_sensor_frame_;
     std::vector<float> cuts_;
+    std::array<Waiting, stages> waiting_;
 };
 
 }  // namespace sonarsim

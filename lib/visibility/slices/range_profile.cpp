@@ -51,7 +51,7 @@ RangeProfile::RangeProfile(const View& view)
     : min_bins_(static_cast<float>(view.range_min_m / view.bin_m())),
       per_m_(static_cast<float>(1.0 / view.bin_m())),
       bins_(view.range_bins),
-      per_range_(view.range_bins),
+      per_range_(view.range_bins + parts_of_sum, 0.0F),
       weight_(view.range_bins + parts_of_sum, 0.0F),
       echo_(view.range_bins + parts_of_sum, 0.0F) {
     for (int i = 0; i < bins_; ++i)
@@ -104,14 +104,17 @@ void RangeProfile::add(float from_m, float to_m, float weight, float height_m, f
     const float low = from_m * per_m_ - min_bins_;
     const float high = std::max(to_m * per_m_ - min_bins_, low + least_bins);
     const float density = weight / (high - low);
-    const OverlappedBins bins(low, high, bins_);
-    if (bins.empty()) return;
-    first_ = last_ == 0 ? bins.begin : std::min(first_, bins.begin);
-    last_ = std::max(last_, bins.end);
-    for (int i = bins.begin; i < bins.end; ++i) {
-        const float w = density * bins.overlap(i);
-        weight_[i] += w;
-        echo_[i] += w * reflection * std::min(height_m * per_range_[i], 1.0F);
+    if (!(high > 0.0F && low < static_cast<float>(bins_))) return;
+    const int first = static_cast<int>(std::max(low, 0.0F));
+    const float to = std::min(high, static_cast<float>(bins_));
+    const int end = static_cast<int>(std::ceil(to));
+    first_ = last_ == 0 ? first : std::min(first_, first);
+    last_ = std::max(last_, end);
+    for (int i = first / lanes * lanes; i < end; i += lanes) {
+        const Floats8 w = density * overlaps_of_eight(low, to, i);
+        const Floats8 cosine = least(height_m * Floats8::load(&per_range_[i]), 1.0F);
+        add_to(&weight_[i], w);
+        add_to(&echo_[i], w * reflection * cosine);
     }
 }
 

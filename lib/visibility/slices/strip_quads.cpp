@@ -8,9 +8,6 @@ namespace sonarsim {
 
 namespace {
 
-// A plane next to the slice whose q falls below this share has run away to infinity.
-constexpr float least_q_share = 1e-3F;
-
 /// Width of the frame's gaps, in u at u = 0; 1 % more, since they differ slightly.
 float gap_width(const SliceFrame& frame) {
     const std::size_t middle = frame.slices.size() / 2;
@@ -48,6 +45,7 @@ void StripQuads::add(const SliceResult& result, const MovedEnds& low, const Move
 void StripQuads::end_beam() {
     for (const Quad& quad : open_)
         out_.add(quad);
+    out_.flush();
     open_.clear();
     behind_.clear();
 }
@@ -62,8 +60,7 @@ void StripQuads::add_span(const Slice& slice, const VisibleSpan& span, const Spa
     quad.q = std::min(span.q_low, span.q_high);
     quad.q_u = -front.normal.y() / front.height_m;
     quad.q_w = -front.normal.z() / front.height_m;
-    // Next to the slice a plane may run away from the sensor, but its triangle does not.
-    quad.q_least = least_q_share * quad.q;
+    quad.height_m = front.height_m;
     quad.range_m = span.facet_extent.range_m;
     const Interval& extent = span.facet_extent.u;
     const SpanOutline part = cut(outline, extent);

@@ -37,14 +37,20 @@ struct Ints8 {
 struct Floats8 {
     __m256 v;
 
+    Floats8() = default;
     Floats8(__m256 values) : v(values) {}
     Floats8(float all) : v(_mm256_set1_ps(all)) {}
     static Floats8 load(const float* from) { return _mm256_loadu_ps(from); }
     void store(float* to) const { _mm256_storeu_ps(to, v); }
+
+    float operator[](int lane) const { return v[lane]; }
 };
 
 inline Mask8 operator&(Mask8 a, Mask8 b) {
     return {_mm256_and_ps(a.v, b.v)};
+}
+inline Mask8 operator|(Mask8 a, Mask8 b) {
+    return {_mm256_or_ps(a.v, b.v)};
 }
 
 inline Ints8 operator+(Ints8 a, Ints8 b) {
@@ -77,6 +83,7 @@ inline Ints8 halved(Ints8 a, Ints8 times) {
 inline Mask8 operator>(Ints8 a, Ints8 b) {
     return {_mm256_castsi256_ps(_mm256_cmpgt_epi32(a.v, b.v))};
 }
+/// 0 to 7.
 inline Ints8 lane_numbers() {
     return _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
 }
@@ -96,12 +103,22 @@ inline Floats8 operator/(Floats8 a, Floats8 b) {
 inline Mask8 operator<(Floats8 a, Floats8 b) {
     return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)};
 }
+/// Adds to eight numbers.
+inline void add_to(float* sums, Floats8 a) {
+    (Floats8::load(sums) + a).store(sums);
+}
 /// True where one of them is NaN.
 inline Mask8 operator!=(Floats8 a, Floats8 b) {
     return {_mm256_cmp_ps(a.v, b.v, _CMP_NEQ_UQ)};
 }
 inline Mask8 operator>=(Floats8 a, Floats8 b) {
     return {_mm256_cmp_ps(a.v, b.v, _CMP_GE_OQ)};
+}
+inline Mask8 operator>(Floats8 a, Floats8 b) {
+    return b < a;
+}
+inline Mask8 operator<=(Floats8 a, Floats8 b) {
+    return b >= a;
 }
 /// a b + c, rounded once.
 inline Floats8 fma(Floats8 a, Floats8 b, Floats8 c) {
@@ -119,6 +136,9 @@ inline Floats8 least(Floats8 a, Floats8 b) {
 inline Floats8 greatest(Floats8 a, Floats8 b) {
     return _mm256_max_ps(a.v, b.v);
 }
+inline Floats8 absolute(Floats8 a) {
+    return _mm256_andnot_ps(_mm256_set1_ps(-0.0F), a.v);
+}
 inline Floats8 sqrt(Floats8 a) {
     return _mm256_sqrt_ps(a.v);
 }
@@ -128,6 +148,10 @@ inline Floats8 floor(Floats8 a) {
 /// 0 in the lanes that are false.
 inline Floats8 where(Mask8 mask, Floats8 a) {
     return _mm256_and_ps(mask.v, a.v);
+}
+/// a in the lanes that are true, b in the others.
+inline Floats8 where(Mask8 mask, Floats8 a, Floats8 b) {
+    return _mm256_blendv_ps(b.v, a.v, mask.v);
 }
 inline Ints8 where(Mask8 mask, Ints8 a) {
     return _mm256_and_si256(_mm256_castps_si256(mask.v), a.v);
@@ -172,11 +196,9 @@ inline void store_complex(Floats8 re, Floats8 im, float* to) {
     _mm256_storeu_ps(to + lanes, _mm256_permute2f128_ps(low, high, 0x31));
 }
 
-/// The columns of 8 rows of 8 numbers that lie one after the other.
-inline std::array<Floats8, lanes> columns_of_eight(const float* rows) {
-    const auto row = [&](int k) {
-        return _mm256_loadu_ps(rows + static_cast<std::ptrdiff_t>(8) * k);
-    };
+/// The columns of 8 rows of 8 numbers. Row k + 1 begins `stride` numbers after row k.
+inline std::array<Floats8, lanes> columns_of_eight(const float* rows, std::ptrdiff_t stride = 8) {
+    const auto row = [&](int k) { return _mm256_loadu_ps(rows + stride * k); };
     const auto pairs = [&](int k, bool upper) {
         return upper ? _mm256_unpackhi_ps(row(k), row(k + 1))
                      : _mm256_unpacklo_ps(row(k), row(k + 1));

@@ -1,0 +1,193 @@
+#include "visibility/slices/patch_corners.h"
+
+namespace sonarsim {
+
+namespace {
+
+// Rounding margin for the area of a quadrilateral that is narrow in the picture.
+constexpr float area_rounding = 1.01F;
+
+// Surface at a smaller cosine to the line of sight is grazing: so dark that it dims a bin of other
+// surface by its area alone. Chosen.
+constexpr float grazing_cosine = 0.1F;
+
+Vectors8 operator+(const Vectors8& a, const Vectors8& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+Vectors8 operator-(const Vectors8& a, const Vectors8& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+Vectors8 operator*(Floats8 a, const Vectors8& b) {
+    return {a * b.x, a * b.y, a * b.z};
+}
+Vectors8 where(Mask8 mask, const Vectors8& a, const Vectors8& b) {
+    return {where(mask, a.x, b.x), where(mask, a.y, b.y), where(mask, a.z, b.z)};
+}
+Floats8 dot(const Vectors8& a, const Vectors8& b) {
+    return a.x * b.x + (a.y * b.y + a.z * b.z);
+}
+Vectors8 cross(const Vectors8& a, const Vectors8& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+Floats8 norm(const Vectors8& a) {
+    return sqrt(dot(a, a));
+}
+Vectors8 turned(const Eigen::Matrix3f& R, const Vectors8& a) {
+    const auto row = [&](int i) { return R(i, 0) * a.x + (R(i, 1) * a.y + R(i, 2) * a.z); };
+    return {row(0), row(1), row(2)};
+}
+/// x, within +-limit.
+Floats8 limited(Floats8 x, Floats8 limit) {
+    return least(greatest(x, 0.0F - limit), limit);
+}
+
+Floats8 nearest_corner(const PatchCorners& quads) {
+    const auto& [a, b, c, d] = quads.corners;
+    return least(least(a.range, b.range), least(c.range, d.range));
+}
+Floats8 farthest_corner(const PatchCorners& quads) {
+    const auto& [a, b, c, d] = quads.corners;
+    return greatest(greatest(a.range, b.range), greatest(c.range, d.range));
+}
+
+/// The areas of quadrilaterals, m^2. On a plane dA = X^3 du dw / h. Corners lie within the range of
+/// their surface. Where the plane reaches beyond it, this moves corners off the plane. They then
+/// span less area than is seen, or, if the surface is nearly edge-on and two u are nearly equal, an
+/// area along the line of sight that does not exist: up to hundreds of times that of the triangle.
+/// So the area of moved corners is that of their picture.
+Floats8 areas(const PatchCorners& quads) {
+    const auto& [a, b, c, d] = quads.corners;
+    const auto cube = [](Floats8 x) { return x * x * x; };
+    const Floats8 picture = absolute((c.u - a.u) * (d.w - b.w) - (d.u - b.u) * (c.w - a.w));
+    const auto area_at = [&](Floats8 X3) { return 0.5F * picture * X3 / quads.height_m; };
+    const Floats8 most_X = greatest(greatest(a.at.x, b.at.x), greatest(c.at.x, d.at.x));
+    const Floats8 mean_X3 = 0.25F * ((cube(a.at.x) + cube(c.at.x)) + (cube(b.at.x) + cube(d.at.x)));
+    const Floats8 area = 0.5F * norm(cross(c.at - a.at, d.at - b.at));
+    const Mask8 moved =
+        (nearest_corner(quads) <= quads.nearest_m) | (farthest_corner(quads) >= quads.farthest_m);
+    return where(moved, area_at(mean_X3), least(area, area_rounding * area_at(cube(most_X))));
+}
+
+/// The centroid of a trapezoid lies towards its wide end.
+Vectors8 centroids(const PatchCorners& quads, const Vectors8& middle) {
+    const auto& [a, b, c, d] = quads.corners;
+    const Floats8 one = norm(cross(b.at - a.at, c.at - a.at));
+    const Floats8 other = norm(cross(c.at - a.at, d.at - a.at));
+    const Floats8 per_weight = 1.0F / (3.0F * (one + other));
+    const Vectors8 sum = one * (a.at + b.at + c.at) + other * (a.at + c.at + d.at);
+    // Both vanish if the patch is as narrow as rounding.
+    return where(one + other > 0.0F, per_weight * sum, middle);
+}
+
+struct Extents {
+    Floats8 before, after;
+};
+
+/// As extent_of(); `e2_d2` is the squared edge less the squared depth.
+Extents extents_of(Floats8 e2_d2, Floats8 depth, Floats8 r) {
+    const Floats8 bend = greatest(e2_d2, 0.0F) / (2.0F * r);
+    const Floats8 before_foot = 0.25F * depth * depth / bend;
+    return {where(depth >= 2.0F * bend, depth - bend, before_foot), depth + bend};
+}
+
+/// Fits parallelograms to the ranges of their corners, so that they fill the bins that the surface
+/// fills, and no others. The deeper edge is lengthened and moved, by at most half.
+void fit_range(const PatchCorners& quads, Parallelograms& out) {
+    const Floats8 r = norm(out.position);
+    const Floats8 u = dot(out.position, out.edge_u) / r;
+    const Floats8 v = dot(out.position, out.edge_v) / r;
+    const Floats8 depth_u = absolute(u);
+    const Floats8 depth_v = absolute(v);
+    const Floats8 bend_u = dot(out.edge_u, out.edge_u) - depth_u * depth_u;
+    const Floats8 bend_v = dot(out.edge_v, out.edge_v) - depth_v * depth_v;
+    const Floats8 bend = (bend_u + bend_v) / (2.0F * r);
+    const Floats8 nearest = nearest_corner(quads);
+    const Floats8 farthest = farthest_corner(quads);
+    const Floats8 more = 0.5F * (farthest - nearest) - depth_u - depth_v;
+    const Floats8 shift = 0.5F * (farthest + nearest) - r - bend;
+    const Mask8 by_u = depth_u > depth_v;
+    const Floats8 deeper = greatest(depth_u, depth_v);
+    const Floats8 limit = 0.5F * deeper;
+    // If the foot of the perpendicular lies on the patch, the corners do not give the least range.
+    // Along an edge e with t in [-1, 1] the range is r + (u t + (e^2 - u^2) t^2 / 2 r): it has no
+    // minimum inside if |u| > (e^2 - u^2) / r, twice the bend. Four times the bend allows for both
+    // edges.
+    const Mask8 fits = deeper > 4.0F * bend;
+    const Floats8 move = where(fits, limited(shift, limit) / where(by_u, u, v));
+    const Floats8 stretch = where(fits, 1.0F + limited(more, limit) / deeper, 1.0F);
+    out.position = out.position + move * where(by_u, out.edge_u, out.edge_v);
+    out.edge_u = where(by_u, stretch, 1.0F) * out.edge_u;
+    out.edge_v = where(by_u, 1.0F, stretch) * out.edge_v;
+    const Extents along_u = extents_of(bend_u, depth_u, r);
+    const Extents along_v = extents_of(bend_v, depth_v, r);
+    out.nearest_m = where(fits, nearest, r - along_u.before - along_v.before);
+    out.farthest_m = where(fits, farthest, r + along_u.after + along_v.after);
+}
+
+}  // namespace
+
+PatchCorners corners_of(const std::array<Quad, lanes>& quads) {
+    static_assert(sizeof(Quad) == 16 * sizeof(float));
+    const auto* const numbers = reinterpret_cast<const float*>(quads.data());
+    // In the order of Quad's members; the first two of its numbers are no floats.
+    const std::array<Floats8, lanes> sides = columns_of_eight(numbers, 16);
+    const std::array<Floats8, lanes> plane = columns_of_eight(numbers + lanes, 16);
+    const Floats8 u = plane[0], w = plane[1];
+    const Floats8 q = plane[2], q_u = plane[3], q_w = plane[4];
+    const Floats8 height_m = plane[5], nearest_m = plane[6], farthest_m = plane[7];
+    const bool all_widen = quads[0].widens;
+    const auto corner = [&](Floats8 at_u, Floats8 at_w) -> PatchCorners::Corner {
+        if (all_widen) at_u = at_u * sqrt(1.0F + at_w * at_w);
+        const Floats8 secant = sqrt(1.0F + at_u * at_u + at_w * at_w);
+        const Floats8 at_q =
+            greatest(q + q_u * (at_u - u) + q_w * (at_w - w), Quad::least_q_share * q);
+        const Floats8 range = least(greatest(secant / at_q, nearest_m), farthest_m);
+        const Floats8 X = range / secant;
+        return {{X, at_u * X, at_w * X}, range, at_u, at_w};
+    };
+    const Floats8 low_u = sides[2], high_u = sides[5];
+    return {{corner(low_u, sides[3]), corner(high_u, sides[6]), corner(high_u, sides[7]),
+             corner(low_u, sides[4])},
+            nearest_m,
+            farthest_m,
+            height_m};
+}
+
+/// The sag along w is below the limit of QuadSampler::cut_along(): the foot of the perpendicular is
+/// not farther than the nearest point, h <= r, which is at least 0.9 of the nearest corner.
+Mask8 is_small(const PatchCorners& quads, const PatchLimits& limits) {
+    const auto& [a, b, c, d] = quads.corners;
+    const Floats8 nearest = nearest_corner(quads);
+    const Vectors8 length = 0.5F * (c.at + d.at) - 0.5F * (a.at + b.at);
+    return (farthest_corner(quads) <= limits.range_max_m) &
+           (dot(length, length) <= least(7.0F * limits.sag_m * nearest, 0.01F * nearest * nearest));
+}
+
+Floats8 patches_across(const PatchCorners& quads, const PatchLimits& limits) {
+    const auto& [a, b, c, d] = quads.corners;
+    const Floats8 across = 0.5F * absolute(b.range + c.range - a.range - d.range);
+    const Floats8 along = 0.5F * absolute(c.range + d.range - a.range - b.range);
+    const Floats8 farthest = farthest_corner(quads);
+    const Floats8 length = farthest - nearest_corner(quads);
+    const Floats8 excess = (across + along - length) / limits.excess_m;
+    const Mask8 grazing =
+        (quads.height_m < grazing_cosine * farthest) & (length > limits.long_grazing_m);
+    const Floats8 wedge = absolute(absolute(d.range - a.range) - absolute(c.range - b.range));
+    return greatest(excess, where(grazing, wedge / limits.grazing_wedge_m));
+}
+
+Parallelograms fit_parallelograms(const PatchCorners& quads, const Eigen::Matrix3f& R_sensor_frame,
+                                  bool centroid) {
+    const auto& [a, b, c, d] = quads.corners;
+    Vectors8 middle = 0.25F * (a.at + b.at + c.at + d.at);
+    if (centroid) middle = centroids(quads, middle);
+    Parallelograms out;
+    out.position = turned(R_sensor_frame, middle);
+    out.edge_u = turned(R_sensor_frame, 0.25F * (b.at + c.at - a.at - d.at));
+    out.edge_v = turned(R_sensor_frame, 0.25F * (c.at + d.at - a.at - b.at));
+    out.area_m2 = areas(quads);
+    fit_range(quads, out);
+    return out;
+}
+
+}  // namespace sonarsim

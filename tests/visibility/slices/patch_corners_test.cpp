@@ -1,0 +1,135 @@
+#include "visibility/slices/patch_corners.h"
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+using namespace sonarsim;
+
+TEST_SUITE_BEGIN("slices");
+
+namespace {
+
+/// A random quadrilateral of a plane that faces the sonar. Its range is wide: no corner is moved.
+Quad draw_quad(std::mt19937& random, bool widens) {
+    const auto between = [&](float low, float high) {
+        return std::uniform_real_distribution<float>(low, high)(random);
+    };
+    const Eigen::Vector3f normal =
+        Eigen::Vector3f(-1.0F, between(-0.5F, 0.5F), between(-0.5F, 0.5F)).normalized();
+    Quad quad{};
+    quad.widens = widens;
+    quad.height_m = between(1.0F, 10.0F);
+    quad.low = {between(-0.3F, 0.0F), between(-0.4F, -0.2F), between(0.0F, 0.2F)};
+    quad.high = {quad.low.u + 0.01F, quad.low.low + between(-0.01F, 0.01F),
+                 quad.low.high + between(-0.01F, 0.01F)};
+    // On a plane -h q = n . (1, u, w).
+    quad.u = quad.low.u;
+    quad.w = quad.low.low;
+    quad.q_u = -normal.y() / quad.height_m;
+    quad.q_w = -normal.z() / quad.height_m;
+    quad.q = -normal.x() / quad.height_m + quad.q_u * quad.u + quad.q_w * quad.w;
+    quad.range_m = {0.0F, 1e4F};
+    return quad;
+}
+
+std::array<Quad, lanes> draw_quads(std::mt19937& random, bool widens) {
+    std::array<Quad, lanes> quads;
+    std::ranges::generate(quads, [&] { return draw_quad(random, widens); });
+    return quads;
+}
+
+struct Surface {
+    double area_m2 = 0.0;
+    double nearest_m = 1e9;
+    double farthest_m = 0.0;
+};
+
+/// dA = X^3 du dw / h, summed over a fine grid of the picture plane, and the ranges there.
+Surface surface_of(const Quad& quad) {
+    constexpr int cells = 200;
+    Surface out;
+    for (int i = 0; i < cells; ++i) {
+        const double s = (i + 0.5) / cells;
+        const double width = (quad.high.u - quad.low.u) / cells;
+        const double u = quad.low.u + s * (quad.high.u - quad.low.u);
+        const double low = quad.low.low + s * (quad.high.low - quad.low.low);
+        const double high = quad.low.high + s * (quad.high.high - quad.low.high);
+        for (int k = 0; k < cells; ++k) {
+            const double w = low + (k + 0.5) / cells * (high - low);
+            const double q = quad.q + quad.q_u * (u - quad.u) + quad.q_w * (w - quad.w);
+            const double range_m = std::sqrt(1.0 + u * u + w * w) / q;
+            out.area_m2 += width * (high - low) / cells / (q * q * q * quad.height_m);
+            out.nearest_m = std::min(out.nearest_m, range_m);
+            out.farthest_m = std::max(out.farthest_m, range_m);
+        }
+    }
+    return out;
+}
+
+constexpr PatchLimits limits{.sag_m = 0.01F,
+                             .excess_m = 0.01F,
+                             .shortest_m = 0.01F,
+                             .most_wedge_m = 0.1F,
+                             .grazing_wedge_m = 0.1F,
+                             .long_grazing_m = 0.1F,
+                             .range_max_m = 100.0F};
+
+}  // namespace
+
+TEST_CASE("slices: eight quadrilaterals together have the corners of each alone") {
+    std::mt19937 random(1);
+    for (int run = 0; run < 50; ++run) {
+        const std::array<Quad, lanes> quads = draw_quads(random, run % 2 == 0);
+        const PatchCorners all = corners_of(quads);
+        for (int lane = 0; lane < lanes; ++lane) {
+            const QuadPoints alone =
+                quads[lane].corners(quads[lane].low, quads[lane].high, 0.0F, 1.0F);
+            for (int i = 0; i < 4; ++i) {
+                CHECK((all.corners[i].at.at(lane) - alone.at(i)).norm() < 1e-5F * alone.range[i]);
+                CHECK(all.corners[i].range[lane] == doctest::Approx(alone.range[i]).epsilon(1e-5));
+            }
+        }
+    }
+}
+
+TEST_CASE("slices: a parallelogram has the area and the range of its quadrilateral") {
+    std::mt19937 random(2);
+    for (int run = 0; run < 20; ++run) {
+        const std::array<Quad, lanes> quads = draw_quads(random, false);
+        const PatchCorners corners = corners_of(quads);
+        const Parallelograms patches =
+            fit_parallelograms(corners, Eigen::Matrix3f::Identity(), false);
+        for (int lane = 0; lane < lanes; ++lane) {
+            const Surface surface = surface_of(quads[lane]);
+            CHECK(patches.area_m2[lane] == doctest::Approx(surface.area_m2).epsilon(1e-3));
+            CHECK(patches.nearest_m[lane] == doctest::Approx(surface.nearest_m).epsilon(5e-3));
+            CHECK(patches.farthest_m[lane] == doctest::Approx(surface.farthest_m).epsilon(5e-3));
+        }
+    }
+}
+
+TEST_CASE("slices: a patch does not depend on those beside it") {
+    std::mt19937 random(3);
+    std::array<Quad, lanes> quads = draw_quads(random, true);
+    const PatchCorners before = corners_of(quads);
+    const Parallelograms patches = fit_parallelograms(before, Eigen::Matrix3f::Identity(), true);
+    std::ranges::reverse(quads);
+    const PatchCorners after = corners_of(quads);
+    const Parallelograms reversed = fit_parallelograms(after, Eigen::Matrix3f::Identity(), true);
+    const unsigned small = is_small(before, limits).bits();
+    const unsigned small_reversed = is_small(after, limits).bits();
+    for (int lane = 0; lane < lanes; ++lane) {
+        const int other = lanes - 1 - lane;
+        CHECK(patches.position.at(lane) == reversed.position.at(other));
+        CHECK(patches.edge_v.at(lane) == reversed.edge_v.at(other));
+        CHECK(patches.area_m2[lane] == reversed.area_m2[other]);
+        CHECK((small >> lane & 1U) == (small_reversed >> other & 1U));
+        CHECK(patches_across(before, limits)[lane] == patches_across(after, limits)[other]);
+    }
+}
+
+TEST_SUITE_END();
