@@ -76,6 +76,10 @@ void add_estimates(const ImageFit& fit, const StartInstrument& start,
         out.push_back({key, four_digits(e.number.value),
                        "fit: " + four_digits(e.number.low) + " to " + four_digits(e.number.high)});
     }
+    if (fit.noise && !start.config.receiver.tvg_absorption) {
+        out.push_back({"instrument.receiver.tvg_absorption", "true",
+                       "rule: tvg_log is fitted beside the absorption of the water"});
+    }
     if (fit.noise && !start.config.receiver.noise_db) {
         out.push_back({"instrument.receiver.noise_db", four_digits(start.levels.noise_db),
                        "rule: that of the start; full_scale_db is fitted to it"});

@@ -153,6 +153,24 @@ TEST_SUITE("calibrate") {
         CHECK_FALSE(bits_of(wide.pings, 65520.0).has_value());
     }
 
+    TEST_CASE("calibrate: the preset has the absorption and the start of the gain of the fit" *
+              doctest::skip(test::sanitized)) {
+        const SonarConfig truth = drawn_instrument(0);
+        const Recording pings = made_recording(truth, 20, 1, made_bottom(3.0, 5.0));
+        SonarConfig start = wrong_start();
+        start.instrument.receiver.samples = truth.instrument.receiver.samples;
+        start.instrument.receiver.tvg_absorption = false;
+        start.instrument.receiver.tvg_from_m = 0.5;
+        const Calibration found = calibrate(pings, start, {}, {});
+        std::map<std::string, std::string> written;
+        for (const PresetValue& value : found.preset)
+            written[value.key] = value.value;
+        // Noise is found, so the law of the gain is that of the fit, not of the start.
+        REQUIRE(written.contains("instrument.receiver.tvg_log"));
+        CHECK(written["instrument.receiver.tvg_absorption"] == "true");
+        CHECK(written.contains("instrument.receiver.tvg_from_m"));
+    }
+
     TEST_CASE("calibrate: echoes straight ahead that stay are no noise of all elements" *
               doctest::skip(test::sanitized)) {
         // Speckle of the scene is the same in every ping; below it the noise is what changes.
