@@ -80,6 +80,10 @@ void add_estimates(const ImageFit& fit, const StartInstrument& start,
         out.push_back({"instrument.receiver.tvg_absorption", "true",
                        "rule: tvg_log is fitted beside the absorption of the water"});
     }
+    if (fit.noise && fit.noise->tvg_from_m.value == 0.0 && start.config.receiver.tvg_from_m > 0.0) {
+        out.push_back(
+            {"instrument.receiver.tvg_from_m", "0", "rule: the pings show no start of the gain"});
+    }
     if (fit.noise && !start.config.receiver.noise_db) {
         out.push_back({"instrument.receiver.noise_db", four_digits(start.levels.noise_db),
                        "rule: that of the start; full_scale_db is fitted to it"});

@@ -42,9 +42,9 @@ void set_noise_law(ImageFit& fit) {
         "tvg_log and the absorption of the water cannot be separated here: tvg_log is for the "
         "water "
         "of the start");
-    const bool starts_later = receiver.tvg_from_m > 0.0 || fit.noise->tvg_from_m.value > 0.0;
     receiver.tvg_from_m = fit.noise->tvg_from_m.value;
-    if (starts_later) fit.estimates.push_back({"receiver.tvg_from_m", fit.noise->tvg_from_m, ""});
+    if (receiver.tvg_from_m > 0.0)
+        fit.estimates.push_back({"receiver.tvg_from_m", fit.noise->tvg_from_m, ""});
 }
 
 void fit_pulse_of(const PatchClasses& classes, ImageFit& fit) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 
@@ -100,12 +101,12 @@ inline Floats8 operator*(Floats8 a, Floats8 b) {
 inline Floats8 operator/(Floats8 a, Floats8 b) {
     return _mm256_div_ps(a.v, b.v);
 }
-inline Mask8 operator<(Floats8 a, Floats8 b) {
-    return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)};
-}
-/// Adds to eight numbers.
+/// Adds `a` to eight numbers in memory.
 inline void add_to(float* sums, Floats8 a) {
     (Floats8::load(sums) + a).store(sums);
+}
+inline Mask8 operator<(Floats8 a, Floats8 b) {
+    return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)};
 }
 /// True where one of them is NaN.
 inline Mask8 operator!=(Floats8 a, Floats8 b) {

@@ -27,8 +27,13 @@ struct OverlappedBins {
     }
 };
 
-/// The overlaps of [from, to) and the bins i to i + 7, in bins. Where i is a multiple of 8, a block
-/// of sums that was just written is read without waiting.
+// The least depth of surface, in bins, since its area is divided by it. A step of a float at 8192
+// bins is half of it.
+inline constexpr float least_depth_bins = 1e-3F;
+
+/// The overlaps of [from, to) and the bins i to i + 7, in bins; 0 where there is none. `to` must
+/// not exceed the view. Callers take multiples of 8 as i: a load that covers only a part of the
+/// last store waits for it.
 inline Floats8 overlaps_of_eight(float from, float to, int i) {
     const Floats8 bins = static_cast<float>(i) + to_floats(lane_numbers());
     return greatest(least(to, bins + 1.0F) - greatest(from, bins), 0.0F);

@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "core/lanes.h"
+
 namespace sonarsim {
 
 namespace {
@@ -23,9 +25,7 @@ constexpr float thinnest_error_rate = 0.16F;
 // The same for dark bins that surface approaches to within a thousandth of a bin: 11 of 42.
 constexpr float touched_error_rate = 0.26F;
 
-constexpr int at_once = BeamSums::padding;
-
-using Lanes = std::array<float, at_once>;
+using Lanes = std::array<float, lanes>;
 
 double sum_of(const Lanes& x) {
     double sum = 0.0;
@@ -114,8 +114,8 @@ BeamErrors::Bins BeamErrors::bins_of(BeamSums& sums) {
     Lanes all{};
     Lanes edge_bins{};
     Lanes occupied{};
-    for (int begin = sums.first(); begin <= sums.last(); begin += at_once) {
-        for (int k = 0; k < at_once; ++k) {
+    for (int begin = sums.first(); begin <= sums.last(); begin += lanes) {
+        for (int k = 0; k < lanes; ++k) {
             const int i = begin + k;
             const float fuller = std::max(sums.area(i - 1), sums.area(i + 1));
             const float intensity = sums.intensity(i);

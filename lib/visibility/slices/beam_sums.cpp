@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/lanes.h"
 #include "core/overlapped_bins.h"
 
 namespace sonarsim {
@@ -11,9 +12,6 @@ namespace {
 
 // Surface that ends within this distance of a bin's border touches the next bin, in bins.
 constexpr float touching_bins = 0.001F;
-
-// The least depth of surface, in bins: 16 steps of a float at 512 bins.
-constexpr float least_bins = 1e-3F;
 
 }  // namespace
 
@@ -35,6 +33,8 @@ BeamDistance distance(const BeamImage& a, const BeamImage& b) {
     return out;
 }
 
+static_assert(BeamSums::padding >= lanes);
+
 BeamSums::BeamSums(const View& view)
     : per_m_(static_cast<float>(1.0 / view.bin_m())),
       min_bins_(static_cast<float>(view.range_min_m / view.bin_m())),
@@ -45,7 +45,7 @@ BeamSums::BeamSums(const View& view)
 
 void BeamSums::add(const Interval& range_m, float area_m2, float height_m, float reflection) {
     const float low = range_m.from * per_m_ - min_bins_;
-    const float high = std::max(range_m.to * per_m_ - min_bins_, low + least_bins);
+    const float high = std::max(range_m.to * per_m_ - min_bins_, low + least_depth_bins);
     const auto end = static_cast<float>(count_);
     if (!(high > 0.0F && low < end)) return;
     const float density = area_m2 / (high - low);

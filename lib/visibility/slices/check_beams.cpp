@@ -14,9 +14,9 @@ namespace {
 // of the error. Set after a drawn lattice of 64 beams was missed with 16 of them.
 constexpr int few_beams = 64;
 
-// The number of beams that are drawn first. Each further draw doubles the number of checked beams,
-// and has at least `least_more` beams, since it alone estimates the beams that are not checked: with
-// 8 more, the drawn lattice 20112 was missed in silence. Chosen for cost, on all beams of each ping
+// The number of beams that are drawn first. Further draws aim at twice as many checked beams, and
+// at `least_more` more at least, since each draw alone estimates the beams that are left: with 8
+// more, the drawn lattice 20112 was missed in silence. Chosen for cost, on all beams of each ping
 // of the lifeboat, the wreck and the tank.
 constexpr double first_draws = 8.0;
 constexpr double least_more = 24.0;

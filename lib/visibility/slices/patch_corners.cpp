@@ -1,5 +1,7 @@
 #include "visibility/slices/patch_corners.h"
 
+#include <cstddef>
+
 namespace sonarsim {
 
 namespace {
@@ -91,7 +93,8 @@ Extents extents_of(Floats8 e2_d2, Floats8 depth, Floats8 r) {
 }
 
 /// Fits parallelograms to the ranges of their corners, so that they fill the bins that the surface
-/// fills, and no others. The deeper edge is lengthened and moved, by at most half.
+/// fills, and no others. The deeper edge is lengthened or shortened, and the parallelogram is moved
+/// along it, each by at most half of that edge.
 void fit_range(const PatchCorners& quads, Parallelograms& out) {
     const Floats8 r = norm(out.position);
     const Floats8 u = dot(out.position, out.edge_u) / r;
@@ -127,9 +130,10 @@ void fit_range(const PatchCorners& quads, Parallelograms& out) {
 }  // namespace
 
 PatchCorners corners_of(const std::array<Quad, lanes>& quads) {
-    static_assert(sizeof(Quad) == 16 * sizeof(float));
+    static_assert(sizeof(Quad) == 64 && offsetof(Quad, low) == 8 && offsetof(Quad, u) == 32 &&
+                  offsetof(Quad, height_m) == 52);
     const auto* const numbers = reinterpret_cast<const float*>(quads.data());
-    // In the order of Quad's members; the first two of its numbers are no floats.
+    // In the order of Quad's members; the first two of its numbers are not floats.
     const std::array<Floats8, lanes> sides = columns_of_eight(numbers, 16);
     const std::array<Floats8, lanes> plane = columns_of_eight(numbers + lanes, 16);
     const Floats8 u = plane[0], w = plane[1];

@@ -26,7 +26,7 @@ struct PatchCorners {
     };
 
     std::array<Corner, 4> corners;
-    Floats8 nearest_m, farthest_m;  ///< range of the surface
+    Floats8 nearest_m, farthest_m;  ///< limits of the range of its surface
     Floats8 height_m;               ///< distance of the sonar from the plane
 };
 
@@ -36,7 +36,7 @@ PatchCorners corners_of(const std::array<Quad, lanes>& quads);
 Mask8 is_small(const PatchCorners& quads, const PatchLimits& limits);
 
 /// Into how many patches quadrilaterals are divided across, so that each has the ranges of a
-/// parallelogram. Not rounded.
+/// parallelogram. Not rounded; 1 or less: not divided.
 Floats8 patches_across(const PatchCorners& quads, const PatchLimits& limits);
 
 /// Parallelograms that stand for quadrilaterals, in the sensor frame.

@@ -24,7 +24,7 @@ struct QuadPoints {
 };
 
 /// A visible part of a plane of the scene, between two verticals of the picture plane and two
-/// lines. It has 16 numbers: PatchCorners reads them eight by eight.
+/// lines. It has 16 numbers, which corners_of() reads in this order.
 struct Quad {
     std::uint32_t facet_index;  ///< index of its FrontFacet
     bool widens;                ///< its u is that of w = 0 and grows with sqrt(1 + w^2)
@@ -34,8 +34,8 @@ struct Quad {
     float height_m;     ///< distance of the sensor from the plane
     Interval range_m;   ///< range of the surface
 
-    /// A plane next to the slice whose q falls below this share has run away to infinity: its
-    /// triangle does not.
+    /// At corners q is at least this share of `q`: next to the slice a plane may run to infinity,
+    /// but its triangle does not.
     static constexpr float least_q_share = 1e-3F;
 
     float middle_low() const { return 0.5F * (low.low + high.low); }

@@ -46,12 +46,16 @@ QuadSampler::QuadSampler(const FrameScan& scan, std::span<const Material> materi
       R_sensor_frame_(scan.frame().R_frame_sensor.transpose()) {}
 
 void QuadSampler::add(const Quad& quad) {
-    add(whole, quad);
+    if (any_width_) {
+        add(whole, quad);
+    } else {
+        cut_along(quad);
+    }
 }
 
 void QuadSampler::flush() {
-    for (int stage = whole; stage < stages; ++stage)
-        flush(static_cast<Stage>(stage));
+    flush(whole);
+    flush_after(whole);
 }
 
 void QuadSampler::add(Stage stage, const Quad& quad) {
@@ -69,13 +73,14 @@ void QuadSampler::flush(Stage stage) {
     if (count == 0) return;
     const PatchCorners corners = corners_of(waiting.quads);
     const Parallelograms patches = fit_parallelograms(corners, R_sensor_frame_, !any_width_);
-    const unsigned along = stage == whole && any_width_ ? is_small(corners, limits_).bits() : 0U;
-    const Floats8 across = patches_across(corners, limits_);
+    const unsigned small = is_small(corners, limits_).bits();
+    const Floats8 parts = patches_across(corners, limits_);
     for (int k = 0; k < count; ++k) {
-        if (stage == whole && (along >> k & 1U) == 0) {
+        if (stage == whole && (small >> k & 1U) == 0) {
             cut_along(waiting.quads[k]);
-        } else if (stage != across_done && across[k] > 1.0F) {
-            divide_across(waiting.quads[k], across[k]);
+        } else if (stage != across_done && parts[k] > 1.0F) {
+            if (stage == whole) flush(along_done);
+            divide_across(waiting.quads[k], parts[k]);
         } else {
             flush_after(stage);
             add_sample(waiting.quads[k], patches, k);
@@ -85,7 +90,7 @@ void QuadSampler::flush(Stage stage) {
 }
 
 void QuadSampler::flush_after(Stage stage) {
-    for (int later = stage + 1; later < stages; ++later)
+    for (int later = stage + 1; later < stage_count; ++later)
         flush(static_cast<Stage>(later));
 }
 

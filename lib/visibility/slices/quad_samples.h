@@ -39,7 +39,7 @@ class QuadSampler {
 
   private:
     /// The division of quadrilaterals that is already done.
-    enum Stage { whole, along_done, across_done, stages };
+    enum Stage { whole, along_done, across_done, stage_count };
 
     struct Waiting {
         std::array<Quad, lanes> quads{};
@@ -64,7 +64,7 @@ class QuadSampler {
     std::vector<Sample>& out_;
     const Eigen::Matrix3f R_sensor_frame_;
     std::vector<float> cuts_;
-    std::array<Waiting, stages> waiting_;
+    std::array<Waiting, stage_count> waiting_;
 };
 
 }  // namespace sonarsim

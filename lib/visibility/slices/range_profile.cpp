@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/lanes.h"
 #include "core/overlapped_bins.h"
 
 namespace sonarsim {
@@ -12,7 +13,7 @@ namespace {
 
 // The number of parts of sums over bins, so that loops vectorise. Arrays have room for this many
 // dark bins behind the last one.
-constexpr int parts_of_sum = 8;
+constexpr int parts_of_sum = lanes;
 
 /// The sum of term(i) over the bins [first, last), and over dark bins up to a whole vector.
 template <class Term>
@@ -100,9 +101,8 @@ void RangeProfile::set(std::span<const UnseenPiece* const> pieces, float beam_u)
 
 /// Adds surface that is spread evenly over an interval of range.
 void RangeProfile::add(float from_m, float to_m, float weight, float height_m, float reflection) {
-    constexpr float least_bins = 1e-3F;
     const float low = from_m * per_m_ - min_bins_;
-    const float high = std::max(to_m * per_m_ - min_bins_, low + least_bins);
+    const float high = std::max(to_m * per_m_ - min_bins_, low + least_depth_bins);
     const float density = weight / (high - low);
     if (!(high > 0.0F && low < static_cast<float>(bins_))) return;
     const int first = static_cast<int>(std::max(low, 0.0F));

@@ -33,8 +33,8 @@ void add_pieces(const Sample& sample, float reflection, const View& view, std::s
             const float t = 2.0F * static_cast<float>(k) + 1.0F - v;
             const float at = (sample.position + s * half_u + t * half_v).norm();
             const float from = (at - along_u.before - along_v.before - range_min_m) / bin_m;
-            const float to =
-                std::max((at + along_u.after + along_v.after - range_min_m) / bin_m, from + 1e-3F);
+            const float end = (at + along_u.after + along_v.after - range_min_m) / bin_m;
+            const float to = std::max(end, from + least_depth_bins);
             const float intensity = reflection * std::min(sample.height_m / at, 1.0F);
             const OverlappedBins covered(from, to, view.range_bins);
             for (int bin = covered.begin; bin < covered.end; ++bin) {
