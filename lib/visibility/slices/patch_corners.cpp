@@ -169,15 +169,12 @@ Mask8 is_small(const PatchCorners& quads, const PatchLimits& limits) {
 
 Floats8 patches_across(const PatchCorners& quads, const PatchLimits& limits) {
     const auto& [a, b, c, d] = quads.corners;
-    const Floats8 across = 0.5F * absolute(b.range + c.range - a.range - d.range);
-    const Floats8 along = 0.5F * absolute(c.range + d.range - a.range - b.range);
     const Floats8 farthest = farthest_corner(quads);
     const Floats8 length = farthest - nearest_corner(quads);
-    const Floats8 excess = (across + along - length) / limits.excess_m;
     const Mask8 grazing =
         (quads.height_m < grazing_cosine * farthest) & (length > limits.long_grazing_m);
     const Floats8 wedge = absolute(absolute(d.range - a.range) - absolute(c.range - b.range));
-    return greatest(excess, where(grazing, wedge / limits.grazing_wedge_m));
+    return where(grazing, wedge / limits.grazing_wedge_m);
 }
 
 Parallelograms fit_parallelograms(const PatchCorners& quads, const Eigen::Matrix3f& R_sensor_frame,

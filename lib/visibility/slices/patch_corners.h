@@ -35,8 +35,10 @@ PatchCorners corners_of(const std::array<Quad, lanes>& quads);
 /// True where a quadrilateral need not be cut along w, by a cheap bound.
 Mask8 is_small(const PatchCorners& quads, const PatchLimits& limits);
 
-/// Into how many patches quadrilaterals are divided across, so that each has the ranges of a
-/// parallelogram. Not rounded; 1 or less: not divided.
+/// Into how many patches long grazing quadrilaterals are divided across, so that both sides of each
+/// span similar ranges. Not rounded; 1 or less: not divided. Others need no division: the
+/// ranges r of a parallelogram through the middles of the edges span the greater of |r2 - r0| and
+/// |r3 - r1|, no more than the corners.
 Floats8 patches_across(const PatchCorners& quads, const PatchLimits& limits);
 
 /// Parallelograms that stand for quadrilaterals, in the sensor frame.

@@ -6,11 +6,10 @@ namespace sonarsim {
 
 namespace {
 
-// In range bins, at an error goal of 3 %. Compared with a third of the sag and half of the excess,
-// four poses each: error of the tank 0.83 % instead of 0.68 % with a quarter fewer samples; no
-// change for a lifeboat and a rough sea floor.
+// In range bins, at an error goal of 3 %. Compared with a third of the sag, four poses each: error
+// of the tank 0.83 % instead of 0.68 % with a quarter fewer samples; no change for a lifeboat and a
+// rough sea floor.
 constexpr float most_sag = 0.09F;
-constexpr float most_excess = 0.3F;
 constexpr float shortest_patch = 0.25F;
 
 // In range bins, at coarse goals. At 3 % and eight poses each, compared with no wedge: errors of
@@ -40,7 +39,6 @@ PatchLimits patch_limits(const View& view) {
     const float of_bin = finer * bin_m;
     const bool coarse = is_coarse(view.relative_l1);
     PatchLimits limits{most_sag * of_bin,
-                       most_excess * of_bin,
                        shortest_patch * of_bin,
                        coarse ? most_wedge * bin_m : 0.0F,
                        most_grazing_wedge * of_bin,

@@ -14,7 +14,6 @@ inline bool is_coarse(double relative_l1) {
 /// Limits on samples that keep a view's image within its error goal.
 struct PatchLimits {
     float sag_m;       ///< largest deviation of a patch's range from the linear one
-    float excess_m;    ///< largest range by which its parallelogram exceeds the surface's
     float shortest_m;  ///< no patch is cut shorter
     /// Largest difference in range span between the two sides of a patch that joins two strips.
     float most_wedge_m;

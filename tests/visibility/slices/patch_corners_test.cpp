@@ -50,7 +50,6 @@ Surface surface_of(const Quad& quad) {
 }
 
 constexpr PatchLimits limits{.sag_m = 0.01F,
-                             .excess_m = 0.01F,
                              .shortest_m = 0.01F,
                              .most_wedge_m = 0.1F,
                              .grazing_wedge_m = 0.1F,

@@ -28,6 +28,22 @@ View view_of(ViewShape shape) {
     return view;
 }
 
+/// A long grazing patch that is short along w: it is divided across alone.
+Quad grazing_quad(float w) {
+    const Eigen::Vector3f normal(0.0F, 0.954F, 0.3F);
+    Quad quad{};
+    quad.height_m = 0.3F;
+    quad.low = {-0.10F, w, w + 0.004F};
+    quad.high = {-0.06F, w, w + 0.004F};
+    quad.u = quad.low.u;
+    quad.w = w;
+    quad.q_u = -normal.y() / quad.height_m;
+    quad.q_w = -normal.z() / quad.height_m;
+    quad.q = quad.q_u * quad.u + quad.q_w * w;
+    quad.range_m = {0.0F, 1e4F};
+    return quad;
+}
+
 /// Passes quadrilaterals on together, or each by itself.
 std::vector<Sample> samples_of(const std::vector<Quad>& quads, const FrameScan& scan,
                                const Scene& scene, const View& view, bool together) {
@@ -59,11 +75,7 @@ TEST_CASE("slices: samples of many quadrilaterals are those of each, in their or
             std::vector<Quad> quads;
             for (int k = 0; k <= run % 20; ++k) {
                 Quad quad = test::draw_quad(random, false);
-                // Every third one is small, and stretched across: whole, or divided across alone.
-                if (k % 3 == 0) {
-                    quad.low.high = quad.low.low + 2e-4F;
-                    quad.high = {quad.low.u + 0.1F, quad.low.low + 1e-4F, quad.low.high + 1e-4F};
-                }
+                if (k % 3 == 0) quad = grazing_quad(0.001F * static_cast<float>(k));
                 quads.push_back(quad);
             }
             const std::vector<Sample> alone = samples_of(quads, scan, scene, view, false);
