@@ -41,17 +41,14 @@ struct Quad {
     float middle_low() const { return 0.5F * (low.low + high.low); }
     float middle_high() const { return 0.5F * (low.high + high.high); }
 
-    /// Corners of the part between two sides and two shares of the way along w: at `from` on the
-    /// low side and on the high side, at `to` on the high side and on the low side.
-    QuadPoints corners(const QuadSide& low_side, const QuadSide& high_side, float from,
-                       float to) const {
-        const float low_width = low_side.high - low_side.low;
-        const float high_width = high_side.high - high_side.low;
+    /// Corners between two sides: the low end of the low side and of the high side, the high end of
+    /// the high side and of the low side.
+    QuadPoints corners(const QuadSide& low_side, const QuadSide& high_side) const {
         return points({low_side.u, high_side.u, high_side.u, low_side.u},
-                      {low_side.low + from * low_width, high_side.low + from * high_width,
-                       high_side.low + to * high_width, low_side.low + to * low_width});
+                      {low_side.low, high_side.low, high_side.high, low_side.high});
     }
 
+    /// The points of the plane in four directions.
     QuadPoints points(Eigen::Array4f at_u, const Eigen::Array4f& at_w) const {
         if (widens) at_u *= (1.0F + at_w * at_w).sqrt();
         const Eigen::Array4f secant = (1.0F + at_u * at_u + at_w * at_w).sqrt();

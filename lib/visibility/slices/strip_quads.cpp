@@ -137,7 +137,7 @@ bool StripQuads::go_on(const Quad& open, const Quad& quad) const {
           scan_.one_plane(open.facet_index, quad.facet_index, quad.range_m.to))) {
         return false;
     }
-    const Eigen::Array4f r = quad.corners(open.low, quad.high, 0.0F, 1.0F).range;
+    const Eigen::Array4f r = quad.corners(open.low, quad.high).range;
     const float wedge = std::fabs(r[3] - r[0]) - std::fabs(r[2] - r[1]);
     return std::fabs(wedge) < most_wedge_m_;
 }

@@ -64,8 +64,7 @@ TEST_CASE("slices: eight quadrilaterals together have the corners of each alone"
         const std::array<Quad, lanes> quads = draw_quads(random, run % 2 == 0);
         const PatchCorners all = corners_of(quads);
         for (int lane = 0; lane < lanes; ++lane) {
-            const QuadPoints alone =
-                quads[lane].corners(quads[lane].low, quads[lane].high, 0.0F, 1.0F);
+            const QuadPoints alone = quads[lane].corners(quads[lane].low, quads[lane].high);
             for (int i = 0; i < 4; ++i) {
                 CHECK((all.corners[i].at.at(lane) - alone.at(i)).norm() < 1e-5F * alone.range[i]);
                 CHECK(all.corners[i].range[lane] == doctest::Approx(alone.range[i]).epsilon(1e-5));
