@@ -23,7 +23,7 @@ constexpr float least_share = 1.0F / 256.0F;
 // Two ends are equal if they differ by less than this share of the slice.
 constexpr float same_place = 2e-4F;
 
-// A piece that no slice meets belongs to the predicted surface if it is no nearer than this, in
+// A piece that no slice meets belongs to the predicted surface if it is nearer by this at most, in
 // bins.
 constexpr float same_range = 0.3F;
 
@@ -210,15 +210,15 @@ void AdaptiveSlices::find_outstanding(const Subgap& subgap) {
     }
 }
 
-/// True if the piece is nearer than the surface that a slice predicts there, by a bin at least, or
-/// if it predicts none. `ends` are those of the slice, moved to one side.
+/// True if the piece is nearer than the surface that a slice predicts there by more than
+/// `same_range`, or if the slice predicts none. `ends` are those of the slice, moved to one side.
 bool AdaptiveSlices::stands_out(const UnseenPiece& piece, const SliceResult& near,
                                 const MovedEnds& ends) const {
     const float share = (piece.u - near.slice.u) / (ends.u - near.slice.u);
     const auto place = [&](const MovedEnd& end) -> float {
         return end.at_slice + share * (end.w - end.at_slice);
     };
-    // Ends are in order: the first span that ends above the piece holds it, or none does.
+    // Ends are in order, so the first span that ends above the piece holds it, or no span does.
     std::size_t i = 0;
     std::size_t behind = near.spans.size();
     while (i < behind) {

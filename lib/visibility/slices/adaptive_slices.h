@@ -26,7 +26,7 @@ struct SliceErrorLimit {
     double carry_over;  ///< share of the allowance left by earlier beams that a beam may use
 };
 
-/// The strip that a slice stands for: its ends, moved to both sides.
+/// The strip that a slice represents, between its ends moved to both sides.
 struct Strip {
     const SliceResult* slice;
     const MovedEnds* low;

@@ -14,7 +14,7 @@ namespace {
 constexpr double error_if_checked = 1.0;
 constexpr double error_if_not = 1.414;
 
-// Standard deviation of |x| - |y| for two independent normal variables, in theirs:
+// Standard deviation of |x| - |y| for two independent normal variables, in units of their own:
 // sqrt(2 (1 - 2 / pi)).
 constexpr double deviation_of_bins = 0.853;
 
@@ -44,7 +44,8 @@ double student(double degrees) {
     return z + (first + second / degrees) / degrees;
 }
 
-/// The patches of the check are those of a third of the error goal at most.
+/// The patches of the check are as small as a third of the error goal requires, and at least as
+/// small as a goal of 1 % does.
 PatchLimits fine_limits(View view) {
     view.relative_l1 = std::min(view.relative_l1 / 3.0, 0.01);
     return patch_limits(view);

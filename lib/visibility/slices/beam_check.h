@@ -82,7 +82,8 @@ double share_with_one_cause(const BeamErrors& errors, double goal);
 /// distribution with as many degrees of freedom gives the limit.
 double estimated_error_of_few_bins(const BeamErrors& errors);
 
-/// The estimate that suffices in a pass over a view in which few bins decide. The first pass is 1.
+/// The largest estimate that suffices after a pass over a view in which few bins decide. The first
+/// pass is 1.
 double enough_for_few_bins(double goal, int pass);
 
 }  // namespace sonarsim

@@ -12,11 +12,12 @@ namespace sonarsim {
 
 namespace {
 
-// A bin with less surface than this share of its fuller neighbour's is often wrong: 0.16 of them
-// below 0.001 at a goal of 1 %, 0.09 from there to 0.003 at 3 and 1 %. From
-// there to 0.01 it is 0.03. Counted in the drawn lattices 1000 to 1119, with rays to the parts of
-// triangles in each of these bins. A reference of 8 million rays finds no surface in 0.66 and 0.32
-// of them, but most of that is its own error.
+// A bin with less surface than this share of its fuller neighbour's is often wrong: a share of 0.16
+// of the bins below 0.001 at a goal of 1 %, 0.09 of those from 0.001 to 0.003 at goals of 1 and 3
+// %, and 0.03 of those from 0.003 to 0.01. Counted in the drawn lattices 1000 to 1119, with rays to
+// the parts of triangles in each of these bins. A reference of 8 million rays finds no surface in
+// 0.66 and 0.32 of the bins of the first two classes, but most of this is the reference's own
+// error.
 constexpr float thin_share = 0.003F;
 constexpr float thin_error_rate = 0.09F;
 constexpr float thinnest_share = 0.001F;
@@ -74,9 +75,9 @@ void BeamErrors::start_draw() {
     draws_ = 0;
 }
 
-/// A beam that stands for `weight` beams has `weight` - 1 times its distance for the others. The
+/// A beam that stands for `weight` beams adds `weight` - 1 times its distance for the others. The
 /// mean square of the difference of two draws is twice their variance; a beam that stands for
-/// itself alone has none.
+/// itself alone adds no variance.
 void BeamErrors::check(int beam, BeamSums& check, double weight) {
     const Finished& finished = finished_[beam];
     add(finished.bins, -1.0, total_);

@@ -11,9 +11,9 @@ namespace sonarsim {
 /// image's signal:
 ///
 /// - Edge bins, which surface only just fills or only just misses. A sliver of surface makes a bin
-/// as bright as a wall does, so rounding decides, and all slices have the same rounding. - The
-/// distance of beams from their check, an image by more slices (beam_check.h). The check is the
-/// image of these beams.
+///   as bright as a wall does, so rounding decides, and all slices have the same rounding.
+/// - The distance of beams from their checks, which are images by more slices (beam_check.h). A
+///   checked beam gets the image of its check.
 class BeamErrors {
   public:
     explicit BeamErrors(const View& view);
@@ -26,17 +26,17 @@ class BeamErrors {
     /// Ends the last beam.
     void finish() { end_beam(); }
 
-    /// Starts a draw among the beams that were not checked, after finish(). The beams that were not
-    /// checked are known from the last draw alone.
+    /// Starts a draw among the beams that were not checked, after finish(). The errors of unchecked
+    /// beams are estimated from the last draw alone.
     void start_draw();
 
-    /// The check of a beam without one, which was drawn and stands for `weight` beams.
+    /// Adds the check of a beam that had none, was drawn, and stands for `weight` beams.
     void check(int beam, BeamSums& check, double weight);
 
     /// The expected error of edge bins over the finished beams.
     double edge_bins() const { return of_signal(total_.edge_bins); }
 
-    /// The same as if no beam was checked.
+    /// The same if no beam had been checked.
     double edge_bins_before_checks() const {
         return before_checks_.signal > 0.0 ? before_checks_.edge_bins / before_checks_.signal : 0.0;
     }
@@ -44,23 +44,22 @@ class BeamErrors {
     /// The distance of the checked beams from their checks.
     double of_checked() const { return of_signal(checked_.absolute); }
 
-    /// The root of the sum over their bins of the squared distances.
+    /// The root of the sum of squared distances over the bins of the checked beams.
     double root_of_squares() const;
 
-    /// The same with runs of neighbouring bins that are all too bright or all too dark instead of
-    /// bins.
+    /// The same over runs of neighbouring bins that are all too bright or all too dark.
     double root_of_runs() const;
 
     /// The number of bins with an echo in the finished beams.
     double occupied_bins() const { return total_.occupied; }
 
-    /// The distance of the other beams from checks of theirs, estimated from the drawn ones.
+    /// The distance of the other beams from their checks, estimated from the drawn beams.
     double of_others() const { return of_signal(others_); }
 
     /// Standard deviation of of_others() from the draw of beams.
     double others_deviation() const;
 
-    /// The number of beams that the last draw drew and that stand for others.
+    /// The number of beams of the last draw that stand for others.
     int draws() const { return draws_; }
 
   private:

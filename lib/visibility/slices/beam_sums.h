@@ -38,7 +38,7 @@ class BeamSums {
     /// `reflection` and the sensor's distance from its plane.
     void add(const Interval& range_m, float area_m2, float height_m, float reflection);
 
-    /// Adds the sums of the same beam by other surface.
+    /// Adds the sums of other surface in the same beam.
     void add(const BeamSums& other);
 
     void clear();
@@ -56,7 +56,7 @@ class BeamSums {
     float intensity(int i) const { return area(i) > 0.0F ? echo(i) / area(i) : 0.0F; }
     static constexpr int padding = 8;
 
-    /// Bins next to those at which surface ends. Unsorted, with repetitions.
+    /// Bins whose border the surface of a neighbouring bin touches. Unsorted, with repetitions.
     std::vector<int>& touched() { return touched_; }
 
   private:

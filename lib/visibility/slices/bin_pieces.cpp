@@ -15,10 +15,10 @@ namespace {
 // Pieces of a ping at most; they take 12 MB. Chosen.
 constexpr std::size_t most_pieces_of_ping = 1U << 18U;
 
-// In bins, beams or heights of the view: borders are met within this.
+// Tolerance at borders, in bins, beams or heights of the view.
 constexpr double border_rounding = 1e-4;
 
-// In bins: lines of equal range may be off by this. Chosen.
+// Largest deviation of a line of equal range from a straight line, in bins. Chosen.
 constexpr float straight_within = 0.25F;
 
 using Corners3 = std::array<Eigen::Vector3f, 3>;
@@ -69,7 +69,7 @@ Eigen::Vector3f at_share(const Eigen::Vector3f& a, const Eigen::Vector3f& b, dou
 }
 
 /// Cuts triangles at the borders of beams, then into parts on which lines of equal range are
-/// straight, and those at the borders of the view and of bins. Sensor frame.
+/// straight, and these parts at the borders of the view and of bins. Sensor frame.
 class PieceCutter {
   public:
     explicit PieceCutter(const View& view)
@@ -114,7 +114,7 @@ class PieceCutter {
     std::vector<std::uint32_t> bin_of;  ///< [beams, range_bins] index of each piece
 
   private:
-    /// Halves the longest side of the parts of a triangle until `take` accepts them. Drops what is
+    /// Halves the longest side of the parts of a triangle until `take` accepts them. Drops parts
     /// out of view.
     template <typename Take>
     void halve(const Corners3& triangle, const Take& take) const {
@@ -183,7 +183,7 @@ class PieceCutter {
         return (arctan2(point.y(), point.x()) / view_.azimuth_rad + 0.5) * view_.beams;
     }
 
-    /// A half plane through the vertical.
+    /// The point of a side at a border between beams, a half plane through the z axis.
     Eigen::Vector3f at_beam(const Eigen::Vector3f& a, const Eigen::Vector3f& b,
                             double level) const {
         const SinCos& border = borders_[static_cast<std::size_t>(level)];
@@ -203,7 +203,8 @@ class PieceCutter {
         return 0.5 + 0.5 * static_cast<double>(point.z()) / (ground * steepest_);
     }
 
-    /// The borders are cones. Regula falsi; the place is nearly linear.
+    /// The point of a side at a border of elevation, which is a cone, by regula falsi:
+    /// elevation_at() is nearly linear along the side.
     Eigen::Vector3f at_elevation(const Eigen::Vector3f& a, const Eigen::Vector3f& b,
                                  double level) const {
         constexpr int steps = 4;
@@ -223,7 +224,8 @@ class PieceCutter {
         return at_share(a, b, share);
     }
 
-    /// A sphere: |a + s (b - a)|^2 = R^2 has one root between a side's ends if one is within.
+    /// The point of a side at a border of range, which is a sphere: |a + s (b - a)|^2 = R^2 has one
+    /// root on the side if one end is inside.
     Eigen::Vector3f at_range(const Eigen::Vector3f& a, const Eigen::Vector3f& b,
                              double level) const {
         const double range = view_.range_min_m + level * view_.bin_m();

@@ -16,14 +16,15 @@ constexpr int few_beams = 64;
 
 // The number of beams that are drawn first. Further draws aim at twice as many checked beams, and
 // at `least_more` more at least, since each draw alone estimates the beams that are left: with 8
-// more, the drawn lattice 20112 was missed in silence. Chosen for cost, on all beams of each ping
-// of the lifeboat, the wreck and the tank.
+// more, the drawn lattice 20112 missed its goal without a warning. Chosen for cost, on all beams of
+// each ping of the lifeboat, the wreck and the tank.
 constexpr double first_draws = 8.0;
 constexpr double least_more = 24.0;
 
-// A beam's rate is at least this share of the mean rate. The rest of it grows with the disagreement
-// of the beam's slices, up to this many times the mean. Chosen on the same three, whose estimates
-// have 0.71, 0.83 and 0.87 of the standard deviation that equal rates give.
+// A beam's rate is at least `least_share_of_rate` of the mean rate. The rest of the rate is
+// proportional to the disagreement of the beam's slices, up to `most_times_the_mean` times the mean
+// disagreement. Chosen on the same three scenes, whose estimates have 0.71, 0.83 and 0.87 of the
+// standard deviation that equal rates give.
 constexpr double least_share_of_rate = 0.5;
 constexpr double most_times_the_mean = 8.0;
 
@@ -43,8 +44,8 @@ std::vector<Uncertain> uncertain_beams(std::deque<SweptFrame>& frames) {
     return out;
 }
 
-/// Draws about `count` of the beams, each with the least rate or more, and checks them. The others
-/// are returned.
+/// Draws about `count` of the beams, each with the least rate or more, and checks them. Returns the
+/// others.
 std::vector<Uncertain> draw_and_check(const std::vector<Uncertain>& beams, double count,
                                       double least_rate, std::uint32_t number, BeamErrors& errors) {
     double sum = 0.0;
@@ -81,8 +82,9 @@ void check_drawn(std::deque<SweptFrame>& frames, double goal, BeamErrors& errors
     const auto all = static_cast<double>(others.size());
     double count = first_draws;
     for (std::uint32_t number = 0; !others.empty(); ++number) {
-        // Drawn beams of too few bins would miss the errors of others. So many are drawn that, if
-        // the image just meets its goal, they hold as many wrong bins as one cause makes.
+        // A draw of too few bins would miss the errors of the other beams. The least rate is such
+        // that, if the image just meets its goal, the drawn beams hold as many wrong bins as one
+        // cause makes.
         const double least_rate = share_with_one_cause(errors, goal);
         const double more = count - (all - static_cast<double>(others.size()));
         others = draw_and_check(others, std::max(more, 1.0), least_rate, number, errors);

@@ -83,8 +83,8 @@ void AdaptiveSlices::scan_check_at(float u, const Subgap& subgap) {
     checked_.push_back(&at);
 }
 
-/// u of the piece, among those in a subgap that no slice meets, at a share of their area; the begin
-/// of the subgap if there are none.
+/// Picks one of the pieces in a subgap that no slice meets, at a share of their summed area, and
+/// returns its u; the begin of the subgap if there are none.
 float AdaptiveSlices::through_unseen(const Subgap& subgap, float share) const {
     const float low = results_[subgap.low].slice.u;
     const float high = results_[subgap.high].slice.u;
@@ -126,7 +126,7 @@ std::span<const Strip> AdaptiveSlices::check_strips() {
     return strips_;
 }
 
-/// The border of beams at the begin of a gap, or the frame's own.
+/// The border between beams at the begin of a gap, or the frame's own border.
 float AdaptiveSlices::beam_border(std::uint32_t gap) const {
     const SliceFrame& frame = scan_.frame();
     const auto per_beam = static_cast<std::uint32_t>(frame.slices_per_beam);

@@ -70,7 +70,7 @@ SliceFacet facet_of(const Scene& scene, std::uint32_t triangle) {
             scene.triangle_instance[triangle], 0};
 }
 
-/// A number that equal positions share.
+/// A hash that is equal for equal positions.
 std::uint64_t hash_of(const Eigen::Vector3f& p) {
     std::uint64_t hash = 0;
     for (int k = 0; k < 3; ++k) {
@@ -81,8 +81,7 @@ std::uint64_t hash_of(const Eigen::Vector3f& p) {
     return hash;
 }
 
-/// The first vertex with the same position, for every vertex: a hash table whose slots are searched
-/// one after the other.
+/// The first vertex at the same position, for every vertex, by a hash table with linear probing.
 std::vector<std::uint32_t> welded(const Scene& scene) {
     const std::size_t slots = std::bit_ceil(2 * scene.vertices.size() + 1);
     std::vector<std::uint32_t> table(slots, ClusterMesh::nothing);
@@ -156,7 +155,7 @@ std::vector<std::array<std::uint32_t, 3>> across_edges(const Scene& scene,
                            vertex[scene.triangles[triangle][(side + 1) % 3]],
                            std::less<std::uint32_t>{});
     };
-    // Sides by their end with the lesser number: few share one.
+    // Groups sides by their end with the lesser number, since few sides share one.
     std::vector<std::uint32_t> lesser_end;
     lesser_end.reserve(3 * scene.triangles.size());
     for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {

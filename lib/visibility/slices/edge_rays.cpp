@@ -25,8 +25,8 @@ constexpr float widest_slack = 0.5F;
 // A sample that would have to change its length by more than this share is left alone. Chosen.
 constexpr float most_change = 0.5F;
 
-// Most edge bins are right, which one ray that ends there shows, so rays are cast in rounds.
-// Chosen.
+// Most edge bins are right, and a single ray that ends in the bin shows it, so rays are cast in
+// rounds. Chosen.
 constexpr int rays_per_round = 8;
 constexpr int most_rounds = 8;
 
@@ -40,7 +40,7 @@ class BeamEdges {
             spans_.push_back(span_of(sample));
     }
 
-    /// Tests the bins of the beam with rays, and moves ends by the result.
+    /// Tests the bins of the beam with rays, and moves the ends of samples accordingly.
     void settle(std::span<EdgeBin> edges) {
         for (int bin = 0; bin < view_.range_bins; ++bin) {
             if (!(area(beam_, bin) < looked_at_share * fullest_neighbour(bin))) continue;
@@ -54,12 +54,12 @@ class BeamEdges {
     }
 
   private:
-    /// The ranges of a sample, in bins, and the greatest distances of its ends in an image from
-    /// them. An image cuts a patch into pieces that are all as deep as those at its middle
-    /// (paper/footprint.cpp). Along a half edge e of depth d the range is r + d s + c s^2, s in
-    /// [-1, 1], with c = (e^2 - d^2) / (2 r). The first of n pieces begins 2 c (n - 1) / n^2 before
-    /// the patch, at most c / 2. Two edges u and v of depths d and f add a term of at most (u . v -
-    /// d f) / r.
+    /// The ranges of a sample, in bins, and the largest distance of the sample's ends in an image
+    /// from these. An image cuts a patch into pieces that are all as deep as the pieces at its
+    /// middle (paper/footprint.cpp). Along a half edge e of depth d the range is r + d s + c s^2, s
+    /// in [-1, 1], with c = (e^2 - d^2) / (2 r). The first of n pieces begins 2 c (n - 1) / n^2
+    /// before the patch, at most c / 2. Two edges u and v of depths d and f add a term of at most
+    /// (u . v - d f) / r.
     struct SampleSpan {
         Interval bins;
         float slack;
@@ -155,9 +155,9 @@ class BeamEdges {
         const float deep = by_u ? u : v;
         const float flat = by_u ? v : u;
         if (!(std::fabs(deep) > 0.0F)) return sample.position;
-        // off = deep s + flat t, with both shares in [-1, 1] on the sample. Every other t is drawn
-        // among those that leave an s there, the rest freely: the sample is a parallelogram, and
-        // the tip of its surface may lie at another corner.
+        // off = deep s + flat t, with both shares in [-1, 1] on the sample. Half of the t are drawn
+        // among those with an s in [-1, 1], the rest freely: the sample is a parallelogram, and the
+        // tip of the true surface may lie at another corner.
         float t_low = -1.0F;
         float t_high = 1.0F;
         if (draw.x2 % 2 == 0 && std::fabs(flat) > 1e-6F * std::fabs(deep)) {
@@ -168,7 +168,7 @@ class BeamEdges {
         }
         const float t = t_low + (t_high - t_low) * unit_float(draw.x1);
         Eigen::Vector3f point = sample.position + t * other + (off_m - flat * t) / deep * deeper;
-        // The range is not linear. Two steps of Newton's method leave rounding.
+        // The range is not linear in s. After two steps of Newton's method only rounding is left.
         for (int step = 0; step < 2; ++step) {
             const float at = point.norm();
             point += (target_m - at) * at / point.dot(deeper) * deeper;

@@ -16,8 +16,8 @@ constexpr Interval everywhere{-never, never};
 constexpr float narrowest_span = 2e-6F;
 
 // A narrow span is no crack if a whole face is as narrow and spans this share of its range: the
-// face is seen at less than 2 % of its width. It may have more area than all other surface in its
-// bins. Chosen.
+// face is foreshortened to less than 2 % of its width. It may have more area than all other surface
+// in its bins. Chosen.
 constexpr float least_depth = 1e-4F;
 
 /// A sweep over w. One segment is on top; those below it are open.
@@ -167,7 +167,8 @@ class Sweep {
                 {std::max(u.from, v.from), std::min(u.to, v.to)}};
     }
 
-    /// True if the whole of the top's segment ends at w, and it is narrow since it is edge-on.
+    /// True if the span that ends at w is the top's whole segment, which is narrow because its face
+    /// is edge-on.
     bool is_edge_on_face(float w) const {
         if (!(begin_ < w && top().w_low == begin_ && top().w_high == w)) return false;
         const float q = top().q_at(w);

@@ -30,8 +30,8 @@ Interval range_of(const Corners& corners, float height_m) {
     return {std::max(nearest - edge2 / (4.0F * nearest), height_m), farthest};
 }
 
-/// The range of a triangle's plane where it stands for the neighbours as well, whose range is
-/// `all`.
+/// The range of a triangle's plane where the plane represents the neighbours as well. `all` is the
+/// range of the triangle and its neighbours.
 Interval followed(const Interval& own, const Interval& all) {
     return {std::max(all.from, own.from / (1.0F + neighbour_share)),
             std::min(all.to, own.to * (1.0F + neighbour_share))};
@@ -68,7 +68,7 @@ const FacetExtent& FacetExtents::of(std::uint32_t facet_index) {
     return extent;
 }
 
-/// The range of a triangle, `all`, and of those over its sides.
+/// Extends `all`, the range of a triangle, by the ranges of its neighbours.
 Interval FacetExtents::with_neighbours(const Corners& corners, const FrontFacet& facet,
                                        Interval all) const {
     for (int side = 0; side < 3; ++side) {
@@ -96,8 +96,8 @@ Interval FacetExtents::u_of(const Corners& corners, std::uint32_t facet) const {
     return ends;
 }
 
-/// True if, from the sonar, the neighbour over a side and the triangle's third corner are on
-/// opposite sides of it.
+/// True if, as the sonar sees them, the neighbour over a side and the triangle's third corner are
+/// on opposite sides of this side.
 bool FacetExtents::goes_on(const Corners& corners, int side, std::uint32_t facet) const {
     const std::uint32_t vertex = mesh_.beyond[facet][side];
     if (vertex == ClusterMesh::nothing) return false;

@@ -31,7 +31,7 @@ struct Face {
     std::array<std::uint32_t, 3> corners;  ///< after welding
     std::uint32_t triangle;                ///< index in the scene
     bool gone = false;
-    Eigen::Vector3d normal;  ///< normal of the original triangle; its plane is n . p = height~
+    Eigen::Vector3d normal;  ///< normal of the original triangle; its plane is n . p = height
     double height;
 };
 
@@ -70,7 +70,7 @@ bool on_plane(const Scene& scene, double most_m, const Face& face, std::uint32_t
     return std::fabs(face.normal.dot(scene.vertices[v].cast<double>()) - face.height) <= most_m;
 }
 
-/// Finds if there is enough to merge, with less memory than the faces of a Merger.
+/// Estimates whether merging is worth its time, with less memory than a Merger needs.
 class MergerTrial {
   public:
     MergerTrial(const Scene& scene, const std::vector<std::uint32_t>& welded)
@@ -199,8 +199,9 @@ class Merger {
                scene_.triangle_instance[s] == scene_.triangle_instance[t];
     }
 
-    /// True if two faces lie on the same side of their common edge. The sheets of a panel with two
-    /// sides meet so: all their faces have one plane, and the edge is still the panel's outline.
+    /// True if two faces lie on the same side of their common edge. The two sheets of a
+    /// double-sided panel meet like this: all their faces lie in one plane, and the edge is still
+    /// the panel's outline.
     bool is_fold(std::uint32_t v, std::uint32_t to, std::uint32_t f, std::uint32_t g) const {
         const Eigen::Vector3d along = place(to) - place(v);
         const auto side = [&](std::uint32_t face) -> Eigen::Vector3d {

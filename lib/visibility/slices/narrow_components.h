@@ -14,7 +14,7 @@ struct WantedSlice {
 };
 
 /// Slices through the components of the mesh that are narrower than a gap, such as a wire or a
-/// small ball. Their facets have all orientations, and their brightness is the mean over them; a
+/// small ball. The echo of such a component is the mean over facets of all orientations, but a
 /// slice of the frame meets one facet or none. In order of u.
 std::vector<WantedSlice> slices_through_narrow_components(const SliceScene& scene,
                                                           const SliceFrame& frame);

@@ -52,11 +52,12 @@ Floats8 farthest_corner(const PatchCorners& quads) {
     return greatest(greatest(a.range, b.range), greatest(c.range, d.range));
 }
 
-/// The areas of quadrilaterals, m^2. On a plane dA = X^3 du dw / h. Corners lie within the range of
-/// their surface. Where the plane reaches beyond it, this moves corners off the plane. They then
-/// span less area than is seen, or, if the surface is nearly edge-on and two u are nearly equal, an
-/// area along the line of sight that does not exist: up to hundreds of times that of the triangle.
-/// So the area of moved corners is that of their picture.
+/// The areas of quadrilaterals, m^2. On a plane dA = X^3 du dw / h. The range of a corner is
+/// limited to that of its surface. Where the plane reaches beyond this range, the limit moves
+/// corners off the plane. Moved corners span less than the visible area, or, if the surface is
+/// nearly edge-on and two u are nearly equal, an area along the line of sight that does not exist:
+/// up to hundreds of times that of the triangle. So the area between moved corners is computed from
+/// their picture.
 Floats8 areas(const PatchCorners& quads) {
     const auto& [a, b, c, d] = quads.corners;
     const auto cube = [](Floats8 x) { return x * x * x; };
@@ -77,7 +78,7 @@ Vectors8 centroids(const PatchCorners& quads, const Vectors8& middle) {
     const Floats8 other = norm(cross(c.at - a.at, d.at - a.at));
     const Floats8 per_weight = 1.0F / (3.0F * (one + other));
     const Vectors8 sum = one * (a.at + b.at + c.at) + other * (a.at + c.at + d.at);
-    // Both vanish if the patch is as narrow as rounding.
+    // Both areas vanish if the patch is as narrow as rounding.
     return where(one + other > 0.0F, per_weight * sum, middle);
 }
 

@@ -16,8 +16,8 @@ struct Vectors8 {
 };
 
 /// Corners of eight quadrilaterals of planes, in the frame of the slices: at the low end of the low
-/// side and of the high side, at the high end of the high side and of the low side. Eight together,
-/// since the roots and divisions of one wait for each other.
+/// side and of the high side, at the high end of the high side and of the low side. Eight are
+/// computed together, since the roots and divisions of one quadrilateral would wait for each other.
 struct PatchCorners {
     struct Corner {
         Vectors8 at;
@@ -35,10 +35,10 @@ PatchCorners corners_of(const std::array<Quad, lanes>& quads);
 /// True where a quadrilateral need not be cut along w, by a cheap bound.
 Mask8 is_small(const PatchCorners& quads, const PatchLimits& limits);
 
-/// Into how many patches long grazing quadrilaterals are divided across, so that both sides of each
-/// span similar ranges. Not rounded; 1 or less: not divided. Others need no division: the
-/// ranges r of a parallelogram through the middles of the edges span the greater of |r2 - r0| and
-/// |r3 - r1|, no more than the corners.
+/// The number of patches into which long grazing quadrilaterals are divided across, so that both
+/// sides of each patch span similar ranges. Not rounded; 1 or less: not divided. Others need no
+/// division: if r0 to r3 are the ranges of the corners, the ranges of a parallelogram through the
+/// middles of the edges span the greater of |r2 - r0| and |r3 - r1|, no more than the corners do.
 Floats8 patches_across(const PatchCorners& quads, const PatchLimits& limits);
 
 /// Parallelograms that stand for quadrilaterals, in the sensor frame.

@@ -20,7 +20,7 @@ struct PatchLimits {
     /// The same between the two sides of a long patch of grazing surface, whose area in its last
     /// bin counts.
     float grazing_wedge_m;
-    float long_grazing_m;  ///< shorter patches have any wedge
+    float long_grazing_m;  ///< shorter patches may have any wedge
     float range_max_m;     ///< greatest range of interest
     /// Largest ratio of a patch's widths at its two ends, since a parallelogram is equally wide at
     /// both.

@@ -15,7 +15,8 @@ namespace {
 
 constexpr PhiloxKey point_key{0x706f696eU, 0x62696e73U};
 
-// Points of each bin in the first draw, and of all bins after which no more are drawn. Chosen.
+// The number of points of each bin in the first draw, and the total after which no more are drawn.
+// Chosen.
 constexpr std::uint32_t first_points = 16;
 constexpr std::size_t enough_points = 1U << 18U;
 constexpr std::size_t enough_points_coarse = 1U << 15U;
@@ -23,7 +24,7 @@ constexpr std::size_t enough_points_coarse = 1U << 15U;
 // The noise of the image, as a share of the view's goal. Chosen.
 constexpr double noise_share = 0.25;
 
-// The share of the points that is spread evenly over all bins, seen or hidden. Chosen.
+// The share of the points that is spread evenly over all bins, visible or hidden. Chosen.
 constexpr double even_share = 0.1;
 
 // A bin with fewer points than this does not show its variance. The standard deviation of its
@@ -31,7 +32,7 @@ constexpr double even_share = 0.1;
 constexpr double fewest_points = 16.0;
 constexpr double assumed_deviation = 0.5;
 
-// A ray that is met nearer than its point by more than this share of the range is blocked.
+// A ray that meets surface nearer than its point by more than this share of the range is blocked.
 constexpr float blocked_share = 1e-5F;
 
 /// A point of the surface on its way to the caster.
@@ -49,8 +50,8 @@ class PointCaster {
                 const LocalPose& pose, const BinPieces& pieces)
         : scene_(scene), mesh_(mesh), caster_(caster), view_(view), pose_(pose), pieces_(pieces) {}
 
-    /// Draws `count` points in bin k, evenly over the area of its pieces; the draws so far were
-    /// `drawn`. Calls `seen` with each visible one, some calls later.
+    /// Draws `count` points in bin k, evenly over the area of its pieces, after `drawn` earlier
+    /// points. Calls `seen` with each visible point, now or in a later draw() or cast().
     template <typename Sink>
     void draw(std::uint32_t k, std::uint32_t drawn, std::uint32_t count, const Sink& seen) {
         const auto first = pieces_.pieces.begin() + pieces_.begin[k];

@@ -17,7 +17,8 @@ namespace sonarsim {
 
 /// The image of a view by rays to random points of the surface. It shares only the mesh with the
 /// slices, so it shows errors that the slices and their check have in common. Points are drawn bin
-/// by bin, so a sliver of surface gets as many as a wall, and a sliver makes a bin as bright.
+/// by bin, so a sliver of surface, which makes a bin as bright as a wall does, gets as many points
+/// as a wall.
 ///
 /// A bin's mean echo I is the quotient of two sums over its visible points, of w x and of w, where
 /// w is the area that a point represents and x its echo. Its variance is sum w^2 (x - I)^2 /
@@ -27,7 +28,7 @@ class PointImage {
   public:
     /// Draws points until the sum of the standard deviations over the bins is a quarter of the
     /// view's error goal, or up to a fixed number. Each draw adds points where they lower the sum
-    /// most. Finds nothing if the surface has too many pieces (bin_pieces()).
+    /// most. The image stays empty if the surface has too many pieces (bin_pieces()).
     PointImage(const Scene& scene, const ClusterMesh& mesh, const Caster& caster, const View& view,
                const LocalPose& pose);
 

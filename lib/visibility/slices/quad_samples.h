@@ -34,7 +34,7 @@ class QuadSampler {
 
     void add(const Quad& quad);
 
-    /// Adds what waits, at the end of a beam.
+    /// Adds the samples of the quadrilaterals that wait, at the end of a beam.
     void flush();
 
   private:

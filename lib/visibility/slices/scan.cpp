@@ -16,8 +16,8 @@ constexpr double widest_sector = 2.1;  // rad
 // middle of a sector the two differ by d^2 / 2 of the elevation: 0.5 % at the ends of this one.
 constexpr double widest_side = 0.2;  // rad
 
-constexpr double widest_strip = 0.0088;      // fan, rad~
-constexpr double widest_side_strip = 0.035;  // port_starboard, rad~
+constexpr double widest_strip = 0.0088;      // fan, rad
+constexpr double widest_side_strip = 0.035;  // port_starboard, rad
 constexpr int cone_slices = 96;              // at one per beam
 
 // The poles of a view lie at w = infinity; surface within 1e-3 rad of them is ignored.

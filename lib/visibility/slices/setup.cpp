@@ -11,8 +11,8 @@ namespace {
 // Surface nearer than this share of the range, along the forward axis of a frame, is ignored.
 constexpr float nearest_share = 1e-5F;
 
-// A plane whose distance from the sensor is less than this share of the triangle's own is edge-on
-// to within rounding.
+// A plane whose distance from the sensor is less than this share of the triangle's distance is
+// edge-on to within rounding.
 constexpr float edge_on_share = 1e-7F;
 
 /// The line in the near plane between two corners on it.
@@ -131,8 +131,8 @@ void SliceSetup::add_triangle(const Corners& corners, std::uint32_t facet) {
     part(*middle, *last, {between, end});
 }
 
-/// Notes a triangle that slices meet outside of the view only: the view shows a corner of it
-/// between two of them.
+/// Notes a triangle that slices meet only outside the view, while a corner of the triangle is in
+/// view between two slices.
 void SliceSetup::note_clipped(const Corners& corners, std::uint32_t facet, Interval u) {
     const auto& [a, b, c] = corners;
     const auto [lowest, highest] = std::minmax({a.w, b.w, c.w});
@@ -152,7 +152,7 @@ void SliceSetup::note_clipped(const Corners& corners, std::uint32_t facet, Inter
         out_.in_gaps.push_back({facet, begin - 1, true});
 }
 
-/// FacetInGap neighbouring corners a polygon has two sides, one above the other.
+/// Between neighbouring u of its corners a polygon has two sides, one above the other.
 void SliceSetup::add_part_in_front(const Corners& corners, std::uint32_t facet) {
     const FrontPart part = part_in_front(corners, nearest_m_);
     std::array<EdgeLine, 4> lines;

@@ -31,11 +31,11 @@ struct Trapezoid {
     std::uint32_t facet_index;  ///< index of its FrontFacet
 };
 
-/// A triangle of which a part, or all, lies between two slices.
+/// A triangle that lies wholly or in part between two slices.
 struct FacetInGap {
     std::uint32_t facet;  ///< index into ClusterMesh::facets
     std::uint32_t gap;
-    bool whole;  ///< all that the view shows of it lies there
+    bool whole;  ///< its whole part in view lies in the gap
 };
 
 /// The facets and trapezoids that the slices of a frame meet.

@@ -32,15 +32,15 @@ int slices_for(double relative_l1) {
     return is_coarse(relative_l1) ? 1 : relative_l1 >= 0.005 ? 2 : 4;
 }
 
-// The passes over a ping at most, and the share of the goal at which a further pass aims: chosen
-// for cost, on the lifeboat and the drawn lattices 1000 to 1109.
+// The most passes over a ping, and the share of the goal at which a further pass aims. Chosen for
+// cost, on the lifeboat and the drawn lattices 1000 to 1109.
 constexpr int most_passes = 3;
 constexpr double aimed_share = 0.8;
 
 // The same if few bins decide, and the factor on the slices of a further pass. Fixed numbers of 1,
 // 4, 16 and 64 slices per beam leave median errors of 3.2, 1.0, 0.4 and 0.2 % in 48 drawn lattices
-// of one or two beams (13000 to 13149). Slices that are added where neighbours differ do not
-// converge so surely.
+// of one or two beams (13000 to 13149). Slices that are added where neighbours differ converge less
+// reliably.
 constexpr int most_passes_of_few = 4;
 constexpr int times_the_slices = 4;
 
@@ -92,8 +92,8 @@ class SlicesEngine final : public VisibilityEngine {
   private:
     struct Pass {
         Samples samples;
-        double if_checked;  ///< the estimated error if all beams are checked
-        double edge_bins;   ///< their part of the estimated error
+        double if_checked;  ///< the estimated error if all beams were checked
+        double edge_bins;   ///< part of edge bins in the estimated error
         bool few_bins;      ///< few bins decide
     };
 
@@ -118,7 +118,8 @@ class SlicesEngine final : public VisibilityEngine {
             std::ranges::any_of(edges, [](EdgeBin edge) { return edge != EdgeBin::not_asked; });
         const SampledImage settled =
             asked ? image_of(*scene_, view, seen.samples) : std::move(before);
-        // Ends that cannot be moved may be better in the next pass, not in all.
+        // Ends that could not be moved may be right in the second or third pass; a later one does
+        // not help.
         const double dark = share_in_dark_bins(settled, edges);
         const double allowed = std::exchange(seen.edge_bins, pass > 2 ? dark : 0.0);
         double& estimate = seen.samples.estimated_l1;

@@ -12,11 +12,11 @@ namespace {
 // With a fixed number of slices, gaps are split only for narrow components.
 constexpr SliceErrorLimit unlimited{.share = 1e9, .carry_over = 0.0};
 
-// Ratio of an image's error to the square root of its slice error: where slices are to be added.
-// The estimate of the error does not depend on it. The square root follows from where slices are
-// added: where neighbours differ most, so the rest of the error does not fall in proportion.
-// Best for cost: with 0.12 and 0.20 a ping of the lifeboat takes 1.04 and 1.07 of the time, by more
-// checks and by more slices.
+// Ratio of an image's error to the square root of its slice error. It decides how many slices are
+// added; the estimate of the error does not depend on it. Slices are added where neighbours differ
+// most, so the rest of the error falls more slowly than the slice error, hence the square root.
+// Chosen for cost: a ping of the lifeboat takes 1.04 of the time with 0.12, by more checks, and
+// 1.07 with 0.20, by more slices.
 constexpr double error_per_difference = 0.16;
 
 /// Error of an image without errors of visibility: patches of surface become boxes in range.
@@ -29,8 +29,8 @@ double error_of_shapes(double relative_l1) {
 /// goal.
 SliceErrorLimit slice_error_limit(double relative_l1, double edge_bins) {
     // At a coarse goal beams share their allowance, nine tenths of the goal less the edge bins; the
-    // tenth is the uncertainty of the estimate. At 1 % errors are up to 1.15 times the estimate, so
-    // every beam has to meet the goal by itself.
+    // last tenth is for the uncertainty of the estimate. At 1 % errors are up to 1.15 times the
+    // estimate, so every beam has to meet the goal by itself.
     const bool coarse = is_coarse(relative_l1);
     const double goal = coarse ? 0.9 * relative_l1 - edge_bins : relative_l1;
     const double left = std::max(goal - error_of_shapes(relative_l1), 0.0);

@@ -17,7 +17,7 @@ namespace sonarsim {
 struct SlicesPing {
     const ClusterMesh& mesh;
     const Scene& scene;
-    const View& view;  ///< as fine as the pass is to be
+    const View& view;  ///< with the error goal of the pass
     LocalPose pose;
     bool any_error = false;  ///< the number of slices is fixed
 };
@@ -49,7 +49,8 @@ class SweptFrame {
     /// The beams that may have errors.
     const std::vector<KeptGaps::Beam>& uncertain() const { return kept_.beams; }
 
-    /// Checks such a beam, which stands for `weight` beams, after BeamErrors::finish().
+    /// Checks beam uncertain()[`uncertain`], which stands for `weight` beams. Call it after
+    /// BeamErrors::finish().
     void check(std::size_t uncertain, double weight);
 
     /// Number of patches that were dropped so far.

@@ -7,7 +7,7 @@ namespace sonarsim {
 
 namespace {
 
-// Pieces per height of the view, and the most of a triangle.
+// Pieces per height of the view, and the most pieces of a triangle.
 constexpr float per_height = 8.0F;
 constexpr float most_pieces = 4.0F;
 

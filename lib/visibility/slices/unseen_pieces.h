@@ -16,8 +16,9 @@ struct UnseenPiece {
     float reflection;
 };
 
-/// Appends the pieces of a triangle between two limits of w. They are slabs of w, so that nearly
-/// each is visible or hidden as a whole. `normal` is that of its plane, on either side.
+/// Appends the pieces of a triangle between two limits of w. The pieces are slabs of w, so that
+/// nearly every piece is visible or hidden as a whole. `normal` is that of the triangle's plane, on
+/// either side.
 void add_unseen_pieces(const Corners& corners, const Eigen::Vector3f& normal, float reflection,
                        const Interval& view_w, std::vector<UnseenPiece>& out);
 
