@@ -18,7 +18,7 @@ constexpr float least_width = 1e-4F;
 // The same for rows: a smaller share of the rows that a facet spans is rounding.
 constexpr float least_share = 1e-5F;
 
-// First-order projection is valid only for facets that span less than this, as half a tangent.
+// First-order projection is valid only for facets whose half extent, as a tangent, is below this.
 constexpr float widest_facet = 0.1F;
 
 /// Keeps a divisor away from zero. Only the sign of the quotient matters there.
@@ -31,10 +31,11 @@ int index_in(float x, int count) {
     return static_cast<int>(std::clamp(x, 0.0F, static_cast<float>(count)));
 }
 
-/// The depths that hide a facet in the pixels of one column, by row: surface hides it if it is
-/// nearer than the facet's plane at the pixel's centre and its slack, at most as far as the facet.
-/// The limit may be much nearer than the facet: at grazing incidence many facets of one plane share
-/// a pixel, and the facet drawn at its centre must hide none of them.
+/// The depth limits of a facet in the pixels of one column, by row. Surface hides the facet if it
+/// is nearer than the facet's plane at the pixel's centre by more than the slack. The plane counts
+/// only up to the farthest point of the facet, but may be much nearer than the facet: at grazing
+/// incidence many facets of one plane share a pixel, and the facet drawn at its centre must hide
+/// none of them.
 class ColumnDepths {
   public:
     ColumnDepths(const ProjectedFacet& facet, int column, float columns_per_beam)
@@ -192,8 +193,8 @@ DepthBuffer::Visibility DepthBuffer::visible_part(const ProjectedFacet& facet, i
         return Visibility::too_small;
     const float per_rows = 1.0F / facet.half_rows;
     part.v = (seen.moment / seen.area - row) * per_rows;
-    // The visible rows are contiguous, or nearly so: half_v follows from the first and the last of
-    // them.
+    // The visible rows are contiguous, or nearly so: half_v follows from the first and the last
+    // one.
     part.half_v = 0.5F * (seen.most - seen.least) * per_rows;
     return Visibility::visible;
 }

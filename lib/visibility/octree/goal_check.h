@@ -25,7 +25,8 @@ class GoalCheck {
   private:
     struct OfView {
         View view;
-        /// The entries with the least hashes of their poses; NaN until the ping has stored one.
+        /// The entries with the least hashes of their poses; NaN until the ping has stored its
+        /// estimate.
         std::map<std::uint64_t, std::shared_ptr<double>> errors;
     };
 

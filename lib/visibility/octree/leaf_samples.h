@@ -17,9 +17,9 @@ Samples leaf_samples(const Octree& tree, const Caster& caster, const Scene& scen
                      const PreparedView& prepared);
 
 /// The paper's method without changes, as the baseline of the report: every leaf in view is
-/// represented by its cube's centre and has one vote. In every direction, a pixel of azimuth and
-/// elevation, the leaves are sorted by range, and the first cluster up to a gap of four leaves is
-/// kept.
+/// represented by its cube's centre and has one vote. In every pixel of azimuth and elevation the
+/// leaves are sorted by range, and the first cluster, which ends at a gap of more than four leaves,
+/// is kept.
 Samples literal_samples(const Octree& tree, const Scene& scene, const PreparedView& prepared);
 
 /// Indices of the samples whose middle is visible from the sonar, ascending. One ray to each sample

@@ -20,8 +20,8 @@ constexpr double bins_per_leaf = 1.5;
 
 /// Largest angle that a leaf may span, since its projection is of first order in that angle.
 constexpr double widest_rad = 0.03;
-/// In openings of the view: larger leaves leave gaps between the patches of a surface, and a narrow
-/// view may fall into a gap.
+/// The same in openings of the view: larger leaves leave gaps between the patches of a surface, and
+/// a narrow view may fall into a gap.
 constexpr double openings_per_leaf = 1.0;
 constexpr double leaves_per_range = 64.0;
 

@@ -37,7 +37,7 @@ struct TileSearch {
     int depth;  ///< the leaves' level
     std::array<const Level*, most_levels + 1> levels{};
 
-    /// Nodes [begin, end) of the level at a depth: the children of one node, or the tile itself.
+    /// Searches the nodes [begin, end) at a depth: the children of one node, or the tile itself.
     void enter(int at, std::uint32_t begin, std::uint32_t end, Containment containment) const {
         const Level& level = *levels[at];
         for (std::uint32_t i = begin; i < end; ++i) {

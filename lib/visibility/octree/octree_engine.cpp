@@ -26,7 +26,7 @@ namespace {
 /// a sphere; for single pings 0.25 to 1.56.
 constexpr double error_per_change = 0.7;
 
-/// A ping that is ready and constant.
+/// A prepared ping, which does not change.
 struct ReadyPing {
     Sight sight;
     PreparedView leaves;
@@ -38,7 +38,7 @@ bool same_pose(const Pose& a, const Pose& b) {
     return a.rotation.coeffs() == b.rotation.coeffs() && a.translation == b.translation;
 }
 
-/// Parts that an engine shares with those that are prepared for some pings.
+/// The parts that an engine shares with the engines of its prepared().
 struct OctreeParts {
     OctreeParts(const Scene& of_scene, const OctreeOptions& with, bool covered)
         : scene(of_scene),

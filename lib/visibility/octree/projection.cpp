@@ -10,8 +10,8 @@ namespace sonarsim {
 
 namespace {
 
-/// A surface hides what lies more than this many leaves behind it. Sight lines decide about nearer
-/// surface.
+/// In the depth buffer a surface hides only surface more than this many leaves behind it. Sight
+/// lines decide about nearer surface.
 constexpr float slack_leaves = 0.5F;
 
 // Positions are floats with errors of 1e-7 of the range. Nearer to the sensor's z axis than a
@@ -118,7 +118,7 @@ ProjectionGrid projection_grid(const PreparedView& prepared, float leaf_rad) {
 Projection project(const LeafFacet& leaf, float leaf_m, const ProjectionGrid& grid,
                    ProjectedFacet& facet) {
     const Eigen::Matrix3f& R = grid.R_sensor_local;
-    // The order of the sums is part of the result.
+    // The order of the sums affects the rounding of the result.
     const auto turned = [&R](const Eigen::Vector3f& v) {
         return Eigen::Vector3f(R.col(0) * v.x() + R.col(1) * v.y() + R.col(2) * v.z());
     };

@@ -30,7 +30,7 @@ struct ProjectionGrid {
 /// `leaf_rad` is the angle that a leaf spans as seen from the sonar.
 ProjectionGrid projection_grid(const PreparedView& prepared, float leaf_rad);
 
-/// A parallelogram in pixel coordinates: its half edges.
+/// The half edges of a parallelogram in pixel coordinates.
 struct Outline {
     float beams_u, beams_v, rows_u, rows_v;
 };
@@ -63,8 +63,8 @@ enum class Projection {
     on_axis,  ///< in view, but the sensor's z axis is so near that the azimuth is rounding
 };
 
-/// Projects a facet in local axes, of a leaf with edges of `leaf_m`. Sets `facet` if the result
-/// is `in_view`, which is not certain.
+/// Projects a facet, in local axes, of a leaf with edges of `leaf_m`. Sets `facet` if the result is
+/// `in_view`; the facet may still lie outside the view.
 Projection project(const LeafFacet& leaf, float leaf_m, const ProjectionGrid& grid,
                    ProjectedFacet& facet);
 

@@ -187,9 +187,9 @@ PreparedView Octree::prepare(const View& view, const Pose& T_local_sensor,
     return prepared;
 }
 
-/// Drops tiles that this ping does not need until `bytes` more fit, and a quarter of the limit so
-/// that the search for the oldest pays. Tiles always keep a quarter of the limit. Returns false if
-/// there is no room.
+/// Drops tiles that this ping does not need until `bytes` more fit. Leaves a quarter of the limit
+/// free, so that the search for the oldest tiles pays. The limit of the tiles is at least a quarter
+/// of the whole limit. Returns false if there is no room.
 bool Octree::make_room(std::size_t bytes) {
     const std::size_t limit =
         std::max(limit_bytes_ - std::min(upper_bytes_, limit_bytes_), limit_bytes_ / 4);

@@ -84,7 +84,7 @@ struct TileInView {
     Visit root;
     UpperNode* node;
     int depth;                           ///< the level with the leaves
-    std::shared_ptr<const Level> level;  ///< null: memory did not suffice to keep it
+    std::shared_ptr<const Level> level;  ///< null: not kept, for lack of memory
 };
 
 /// A view of the tree, ready for a ping.

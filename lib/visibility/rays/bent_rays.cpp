@@ -14,16 +14,17 @@ namespace sonarsim {
 
 namespace {
 
-// A chord meets facets up to this share beyond its end, so that neighbouring chords leave no crack.
+// A chord meets facets up to this share beyond its end, so that consecutive chords leave no crack.
 constexpr float chord_overlap = 1e-5F;
 constexpr int newton_steps = 3;
-// The least width of a tube, as a share of one in straight water: two-way 20 dB. Chosen:
-// diffraction limits the gain of a caustic, and rays have none.
+// The least width of a ray tube, as a share of its width where sound goes straight: a two-way gain
+// of 20 dB at most. Chosen, since rays lack the diffraction that limits the gain of a caustic.
 constexpr double least_spread = 0.1;
 // A ray steeper than this has no azimuth.
 constexpr double steep_cosine = 1e-6;
 
-/// Axes at a place of a ray: along it, across it in its plane (upwards), across it to port.
+/// Axes at a point of a ray: along it, across it in its vertical plane (upwards), across it to
+/// port.
 struct RayAxes {
     Eigen::Vector3d along, across, port;
 
@@ -67,7 +68,7 @@ class BentCast {
 
     double range_of(const WaterRay& ray) const { return ray.time_s * profile_.range_speed_m_s; }
 
-    /// The ray at the end of the chord that it is cast along next.
+    /// The ray at the end of its next chord.
     WaterRay next(const Way& way, float reach_m) const {
         WaterRay ray = way.at;
         // Slightly longer than the rest, so that the last chord ends beyond the reach.
@@ -82,7 +83,7 @@ class BentCast {
         return out;
     }
 
-    /// The hit of a ray whose chord met a facet about `chord_m` on.
+    /// The hit of a ray whose next chord met a facet at the distance `chord_m`.
     BentHit hit(const Way& way, std::uint32_t met, double chord_m) const {
         const Facet facet = caster_.facet(met);
         const Eigen::Vector3d normal = facet.normal.cast<double>();
@@ -107,9 +108,9 @@ class BentCast {
                profile_.speed_in(ray.layer, ray.height_m) / profile_.range_speed_m_s;
     }
 
-    /// The map from apparent to true places stretches by c / c0 along the ray, by the tube's width
-    /// over the range across it in its plane, and by the horizontal distances to port. A plane's
-    /// normal goes the other way by the transpose.
+    /// The map from apparent to true places stretches by c / c0 along the ray, by tube width over
+    /// range across the ray in its plane, and by true over apparent horizontal distance to port.
+    /// The transpose of this map takes a plane's true normal to the apparent one.
     BentHit appearance(const Way& way, const WaterRay& ray, std::uint32_t facet,
                        const Eigen::Vector3d& normal) const {
         const double range = range_of(ray);
@@ -166,7 +167,7 @@ void cast_bent_rays(const Caster& caster, const BentWater& water, const Eigen::V
     std::vector<Eigen::Vector3f> chords;
     std::vector<float> lengths;
     std::vector<std::uint32_t> facets;
-    // All rays take their next chords together, so that neighbours are traced together.
+    // All rays advance by one chord at a time, so that neighbours are traced together.
     while (!active.empty()) {
         ends.clear();
         origins.clear();

@@ -20,10 +20,10 @@ struct BentWater {
 
 /// The effect of the water on the surface that a ray met.
 struct RayTube {
-    Eigen::Vector3f normal;  ///< unit; it has the true angle to the ray, in the frame of its start
+    Eigen::Vector3f normal;  ///< unit; its angle to the ray at its start is the true one
     float cosine = 0.0F;     ///< cosine of the true angle of incidence
-    float area = 1.0F;       ///< true by apparent area
-    float strength = 1.0F;   ///< power by that of sound that spreads as the apparent range has it
+    float area = 1.0F;       ///< true over apparent area
+    float strength = 1.0F;   ///< power over that of straight sound at the apparent range
 };
 
 /// The surface that a bent ray met, at its apparent place.
@@ -35,8 +35,8 @@ struct BentHit {
     RayTube tube;            ///< scene-local
 };
 
-/// Casts rays that leave `position`, scene-local. `from_m` [rays] are the ranges up to which they
-/// meet nothing; empty: 0.
+/// Casts rays that leave `position`, scene-local. Rays meet nothing before the ranges `from_m`
+/// [rays]; empty: 0.
 void cast_bent_rays(const Caster& caster, const BentWater& water, const Eigen::Vector3f& position,
                     std::span<const Eigen::Vector3f> directions, std::span<const float> from_m,
                     float reach_m, std::span<BentHit> hits);

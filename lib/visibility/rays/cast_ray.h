@@ -21,8 +21,8 @@ struct CastRay {
     std::uint32_t material = 0;
     std::uint32_t instance = 0;
     int next = none;         ///< index of the next ray along the column
-    bool continuous = true;  ///< the surface continues to the next ray, as far as known
-    float border = 0.5F;     ///< end of this ray's part, as a share of the way to the next
+    bool continuous = true;  ///< the surface probably continues to the next ray
+    float border = 0.5F;     ///< end of this ray's segment, as a share of the angle to the next
 
     bool missed() const { return facet == Caster::nothing; }
 };

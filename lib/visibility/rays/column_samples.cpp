@@ -98,9 +98,9 @@ Sample piece(const Context& context, const CastRay& ray, const ColumnSides& side
     sample.edge_v = 0.5F * (to - from);
     sample.normal = ray.normal;
     sample.height_m = ray.height_m;
-    // The area of surface with cosine h / r at range r in this solid angle. The parallelogram is
-    // smaller if its ranges were limited, or since it has the width of its middle angle; the area
-    // keeps the energy.
+    // The area of surface with cosine h / r at range r in this solid angle. The parallelogram
+    // itself is smaller if its ranges were limited, and because it has the width at its middle
+    // angle; this area preserves the energy.
     const float solid_angle =
         (high - low).cross(segment.to.direction - segment.from.direction).norm();
     const float range = sample.position.norm();

@@ -7,8 +7,8 @@ namespace sonarsim {
 
 namespace {
 
-// The echo of a surface is proportional to the cosine, so at grazing incidence its relative error
-// counts. Surface with a smaller cosine than this is too dark to matter.
+// The echo of a surface is proportional to the cosine, so the relative error of the cosine counts.
+// Surface with a smaller cosine than this is too dark to matter.
 constexpr float least_cosine = 0.02F;
 
 // Two planes tangent to a smooth surface meet half way. The error of each is half of the change in
@@ -75,7 +75,7 @@ GapEstimate estimate_gap(const CastRay& a, const CastRay& b, const Sampling& sam
     };
     if (a.missed() || b.missed()) return broken_off();
     const bool same_material = a.material == b.material;
-    // `covered_m`: metres of range of the two planes between the rays.
+    // `covered_m`: the extent in range of the two planes between the rays.
     const auto continuous = [&](float border, float covered_m) -> GapEstimate {
         const float cosine_error =
             same_material ? mean_cosine_error * std::max(relative_change(a.cosine, cosine_ba),
@@ -119,7 +119,7 @@ float split_angle(const CastRay& a, const CastRay& b, float reach_m) {
     const float cosine_leaving = near.height_m / (reach_m * (1.0F + 0.5F * overreach));
     const float cosine_other = -near.normal.dot(other.direction);
     const float share = (near.cosine - cosine_leaving) / (near.cosine - cosine_other);
-    // A ray closer to one of the two than this share of the gap would only repeat it.
+    // A ray closer to `a` or `b` than this share of the gap would only repeat that ray.
     constexpr float least_share = 0.01F;
     return cosine_other < cosine_leaving && share > least_share && share < 1.0F - least_share
                ? near.along + share * (other.along - near.along)

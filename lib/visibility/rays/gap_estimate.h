@@ -10,16 +10,17 @@ namespace sonarsim {
 struct GapEstimate {
     bool continuous = true;  ///< the surface continues between the rays
     float border = 0.5F;     ///< border of the two planes, as a share of the gap
-    /// Metres of range whose echo may differ from the two planes'.
+    /// Extent in range, m, whose echo may differ from that of the two planes.
     float range_uncertainty_m = 0.0F;
     bool bends = false;  ///< the surface continues and bends by more than five degrees
 };
 
-/// The surface is continuous if the two planes are nearly one, or if they cross between the rays:
-/// that is an edge between two facets, which is found exactly. The range uncertainty is the extent
-/// in range of the planes between the rays, weighted by the relative error of the cosine. If the
-/// surface is interrupted, it is the whole extent that either plane could cover before the other
-/// ray, up to `reach_m`, the greatest range that echoes. The angle between the rays must be small.
+/// The surface is continuous if the two planes are nearly one, or if they cross between the rays,
+/// at an edge between two facets, which is found exactly. The range uncertainty is the extent in
+/// range of the planes between the rays, weighted by the relative error of the cosine. If the
+/// surface is interrupted, the range uncertainty is the whole extent that either plane could cover
+/// before the other ray, up to `reach_m`, the greatest range of the view. The angle between the
+/// rays must be small.
 GapEstimate estimate_gap(const CastRay& a, const CastRay& b, const Sampling& sampling,
                          float reach_m);
 

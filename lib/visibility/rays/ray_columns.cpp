@@ -164,8 +164,9 @@ class ColumnCaster {
     }
 
     /// The rays of the whole columns, in tiles. Rays with similar directions traverse Embree's tree
-    /// together, twice as fast as column by column. A packet of a fan has one elevation: at grazing
-    /// incidence neighbours in azimuth meet nearer places than neighbours in elevation.
+    /// together, twice as fast as column by column. A packet of a fan has one elevation, since at
+    /// grazing incidence neighbours in azimuth meet surface closer together than neighbours in
+    /// elevation.
     std::vector<int> in_tiles() const {
         const int across = view_.shape == ViewShape::fan ? 8 : 4;
         constexpr int along = 4;

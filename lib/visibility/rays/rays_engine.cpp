@@ -19,13 +19,13 @@ namespace sonarsim {
 
 namespace {
 
-// The number of probes of the estimate over that of the rays of a ping: they take about a hundredth
-// of its time.
+// The number of rays of a ping per probe of the estimate: the probes take about a hundredth of the
+// time of the ping.
 constexpr std::size_t rays_per_probe = 128;
 constexpr std::size_t fewest_probes = 100;
 
-// Rays before gaps are split whose beams are cast together if the rays are dense. Over rough ground
-// there are up to ten times as many after it, 80 bytes each: 40 MB.
+// The number of rays, before gaps are split, that are cast together if the rays are dense. Over
+// rough ground splitting makes up to ten times as many, 64 bytes each: 40 MB.
 constexpr int most_rays_together = 1 << 16;
 
 // A bent ray is cast as chords that are off by this share of a bin at most.
@@ -106,7 +106,8 @@ class RaysEngine final : public VisibilityEngine {
         return sampling;
     }
 
-    /// All beams, unless the rays are dense: then memory is bounded.
+    /// The number of beams that are cast together: all, or if the rays are dense, as many as
+    /// bounded memory allows.
     int beams_together(const View& view, const Sampling& sampling) const {
         if (excess_.density == 1) return std::max(view.beams, 1);
         return std::max(most_rays_together / (sampling.columns * sampling.rays), 1);

@@ -14,12 +14,13 @@ namespace sonarsim {
 std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene, bool coverage = false);
 /// Factors on the number of rays of a goal.
 struct RaysExcess {
-    /// n: a goal that is n times as fine and n times as many columns. The rays of a goal sample
-    /// lines of a beam. Over ground that is rough within the width of a beam, these differ from the
-    /// beam.
+    /// n: a goal that is n times as fine, and n times as many columns. The rays of a goal sample
+    /// lines within a beam. Over ground that is rough within the width of a beam, the lines do not
+    /// represent the beam.
     int density = 1;
-    /// n > 1: n times as many columns with as many rays each, and an odd number of them. Beams that
-    /// are narrower than the view receive the middle most: a column must lie there.
+    /// n > 1: n times as many columns with as many rays each, rounded up to an odd number of
+    /// columns. A beam narrower than the view receives most from the middle, so a column must lie
+    /// there.
     int columns = 1;
 };
 

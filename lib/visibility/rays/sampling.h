@@ -10,8 +10,8 @@ namespace sonarsim {
 /// equal strips miss one silhouette in three, these miss one in ten.
 inline constexpr float edge_strip_share = 0.1F;
 
-/// Rays extend beyond the greatest range by this share of it. Surface out there neither echoes nor
-/// hides any that does, but it shows whether the surface in range continues.
+/// Rays extend beyond the greatest range by this share of it. Surface there has no echo in range
+/// and hides no surface in range, but it shows whether the surface in range continues.
 inline constexpr float overreach = 0.01F;
 
 /// The sampling density of the rays engine for a view.

@@ -26,8 +26,8 @@ double SetDisagreement::error() const {
     // no less than the missed share when p q >= (1 - p) (1 - q). For p = q it is half of what one
     // set alone finds, as above.
     //
-    // Every bin is one draw of its error, and half of its difference another one of the same size:
-    // so the variance of their sums is 2 sum (d / 2)^2.
+    // In every bin the error is one draw, and half of the difference d is another draw of the same
+    // size, so the variance of the difference of their sums is 2 sum (d / 2)^2.
     const double twice_standard_error = std::sqrt(2.0 * squares);
     return (0.5 * difference + std::sqrt(first_alone * second_alone) + twice_standard_error) /
            signal;
@@ -57,7 +57,7 @@ void SetComparison::add_beam(int beam, std::span<const Sample> samples,
 void SetComparison::add(const Sample& sample, RaySet set) {
     const float range = sample.position.norm();
     const float per_range = 1.0F / range;
-    // A patch without depth still needs a width to be divided by.
+    // Avoids a division by zero for a patch without depth.
     constexpr float least_half = 1e-3F;
     const float half = std::max((std::fabs(sample.position.dot(sample.edge_u)) +
                                  std::fabs(sample.position.dot(sample.edge_v))) *
@@ -83,7 +83,7 @@ void SetComparison::compare_bin(const Bin& bin, SetDisagreement& out) {
     const auto& [both, of_first, of_second, middle, edges] = bin;
     const auto signal = static_cast<double>((both + of_first + of_second + middle + edges).mean());
     out.signal += signal;
-    // Each set sees the whole width of a column, by strips that have a share of it.
+    // Strips are a share of a column's width; scaled up, each set represents the whole width.
     const Sum first = of_first + middle.times(1.0F / (1.0F - 2.0F * edge_strip_share));
     const Sum second = of_second + edges.times(0.5F / edge_strip_share);
     if (first.weight == 0.0F && second.weight == 0.0F) return;

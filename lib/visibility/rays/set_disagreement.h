@@ -22,7 +22,7 @@ struct SetDisagreement {
     std::vector<std::uint8_t>
         occupied;  ///< [compared beams, range bins]: 1 if the image has an echo
 
-    /// Relative L1 of the image of all samples, and twice its standard error; 0 without signal.
+    /// Relative L1 of the image of all samples, plus twice its standard error; 0 without signal.
     double error() const;
 };
 

@@ -10,7 +10,7 @@ namespace sonarsim {
 
 namespace {
 
-// Most triangles of a large scene are out of view.
+// The most points drawn per probe. Most triangles of a large scene are out of view.
 constexpr std::size_t points_per_probe = 4;
 
 /// Points that fill the triangles of a scene evenly: Roberts' R3 sequence in units of 2^-32.
@@ -93,7 +93,7 @@ double share_of_dark_bins(const Scene& scene, const Caster& caster, const View& 
     std::vector<std::uint32_t> facets(probes.size());
     caster.cast(pose.position, directions, static_cast<float>(view.range_max_m), facets,
                 RaySpread::wide);
-    // Surface that is nearer than its point by more than this hides it.
+    // Surface nearer than a probed point by more than this hides the point.
     const float slack_m = 0.01F * static_cast<float>(view.bin_m());
     std::vector<ProbedBin> seen;
     for (std::size_t k = 0; k < probes.size(); ++k) {
