@@ -31,7 +31,7 @@ bool rays_are_better(const RaysTrial& trial, const View& view);
 /// Makes an engine of slices, or of rays for those views among the `probes` for which rays are
 /// better or required. The choice uses no times: the same scene and probes give the same choice
 /// everywhere. Scenes of few triangles get slices without a comparison; scenes with bodies or
-/// copies get rays, the only engine that traces them, and scenes of many triangles those of
+/// copies get rays, the only engine that traces them, and scenes of many triangles get the rays of
 /// dense_rays.h. The estimated error of a ping by rays is the bound found on the probes, or the
 /// rays' own if they were required. `scene` must outlive the engine. `coverage` as for
 /// make_rays_engine(). Throws std::runtime_error when Embree cannot build its tree.

@@ -19,14 +19,14 @@ using Corners = TriangleRuns::Corners;
 // the limits move by less than 2e-5 of the ground range.
 constexpr double widest_sector_rad = 0.0125;
 
-// The number of planes that touch an echosounder's cone and stand for it: their corners lie 0.5 %
-// further out.
+// The number of sides of the pyramid that replaces an echosounder's cone. Its sides touch the cone,
+// and its edges lie 0.5 % further out.
 constexpr int cone_planes = ViewPolygon::most_planes;
 
 // A triangle is small if its corners give its interval of range to within this share of a bin.
 constexpr float rounding_bins = 0.05F;
 
-// Surface covers a bin from this overlap on.
+// Surface that reaches into a neighbouring bin by less than this does not cover that bin.
 constexpr float least_overlap_bins = 1e-3F;
 
 /// The bins of a view and which of them are covered.
@@ -218,8 +218,8 @@ class FanCoverage {
     int per_beam_;
     int sectors_;
     float per_rad_;
-    float small2_m_;         ///< square of a small triangle's longest edge over the range
-    SinCosFloat elevation_;  ///< the greatest
+    float small2_m_;         ///< limit of (longest edge)^2 / ground range of a small triangle
+    SinCosFloat elevation_;  ///< greatest elevation of the view
     std::vector<SinCosFloat> borders_;                    ///< azimuths of the sectors' borders
     std::vector<std::array<Eigen::Vector3f, 4>> planes_;  ///< the planes of each sector
     CoveredBins bins_;

@@ -12,8 +12,7 @@
 namespace sonarsim {
 
 /// 1 for the bins of a view that contain surface, visible or hidden, else 0: [beams, range bins],
-/// beam after beam. Surface nearer to a bin's border than a thousandth of the bin may count on
-/// either side.
+/// beam after beam. Surface within a thousandth of a bin of a border may count on either side.
 std::vector<std::uint8_t> covered_bins(const TriangleRuns& surface, const View& view,
                                        const Pose& T_world_sensor,
                                        std::span<const Pose> T_world_body = {});
@@ -22,7 +21,7 @@ std::vector<std::uint8_t> covered_bins(const TriangleRuns& surface, const View& 
 /// pings; otherwise every call makes them, which takes 10 ms for a million triangles.
 class SceneCoverage {
   public:
-    /// `scene` must outlive it.
+    /// `scene` must outlive this object.
     SceneCoverage(const Scene& scene, bool ready)
         : scene_(&scene), runs_(ready ? std::make_shared<const TriangleRuns>(scene) : nullptr) {}
 

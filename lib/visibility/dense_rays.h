@@ -24,10 +24,10 @@ struct RaysDensity {
 };
 
 /// The least density whose images meet the goal of a view on its probes, or the greatest if none
-/// does. The error of an image is at most its change to that of the greatest density, plus the
-/// latter's estimate. The estimate of sparse rays alone does not suffice: over rough ground they
-/// miss surface at grazing incidence, which is dark and narrow, so their images are too bright and
-/// both sets of rays agree on it. Only parts of a fan are traced.
+/// does. The error of an image is bounded by its difference from the image of the greatest density,
+/// plus the estimate of the latter. The estimate of sparse rays alone does not suffice: over rough
+/// ground they miss dark, narrow surface at grazing incidence, so the images of both of their sets
+/// are too bright and agree. Only parts of a fan are traced.
 RaysDensity density_for(const Scene& scene, const Caster& caster, const View& view,
                         std::span<const Probe> probes);
 

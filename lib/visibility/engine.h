@@ -21,7 +21,7 @@ struct Sample {
     Eigen::Vector3f position;  ///< centre, sensor frame, m
     Eigen::Vector3f edge_u;    ///< half an edge of the footprint, sensor frame, m
     Eigen::Vector3f edge_v;    ///< half the other edge
-    Eigen::Vector3f normal;    ///< unit, facing the sonar; at the true angle to the sound there
+    Eigen::Vector3f normal;    ///< unit, facing the sonar; its angle to `position` is the true one
     float height_m;  ///< distance of the sonar from the patch's plane: v . n = height_m / range
     float area_m2;
     std::uint32_t material;  ///< index into Scene::materials
@@ -42,8 +42,8 @@ struct ComparedBeam {
 struct Samples {
     std::vector<Sample> items;
     std::vector<std::uint32_t> beam_begin;  ///< beams + 1 offsets into `items`
-    /// Number of patches in view that were dropped. Rays: those that met surface edge-on to within
-    /// rounding, or at no distance. Octree: parts of leaves that are smaller than rounding, or
+    /// Number of patches in view that were dropped. Rays: patches that are edge-on to within
+    /// rounding, or at zero distance. Octree: parts of leaves that are smaller than rounding, or
     /// whose azimuth is lost in rounding near the sensor's z axis.
     std::uint64_t dropped = 0;
     /// The engine's estimate of the relative L1 of the noise-free image; NaN if it has none.
@@ -109,8 +109,8 @@ class VisibilityEngine {
     /// The poses of Scene::bodies that at() was given; empty without them. World.
     virtual std::span<const Pose> body_poses() const { return {}; }
 
-    /// The engine with everything ready that visible_surface() needs for these sights, so that
-    /// these calls take no locks. It must not outlive this engine. Null if there is nothing to make
+    /// An engine that holds everything that visible_surface() needs for these sights, so that these
+    /// calls take no locks. It must not outlive this engine. Null if there is nothing to make
     /// ready.
     virtual std::unique_ptr<VisibilityEngine> prepared(std::span<const Sight> /*sights*/) const {
         return nullptr;
@@ -121,7 +121,7 @@ class VisibilityEngine {
 
     /// 1 for the bins of `view` that contain surface, visible or hidden, else 0: [beams, range
     /// bins], beam after beam. Surface less than a thousandth of a bin deep may be left out. Empty
-    /// if sound bends, since it is not known then.
+    /// if sound bends, since these bins are not known then.
     virtual std::vector<std::uint8_t> covered_bins(const View& view,
                                                    const Pose& T_world_sensor) const = 0;
 };

@@ -18,7 +18,7 @@ struct EngineSettings {
     EngineKind type = EngineKind::rays;
     OctreeOptions octree;       ///< for the octree only
     SlicesOptions slices = {};  ///< for the slices only
-    /// For `automatic` only; it takes the slices if there are none.
+    /// For `automatic` only. Without probes it takes the slices, unless the scene requires rays.
     std::vector<Probe> probes = {};
     bool coverage = false;  ///< covered_bins() will be called: its data are made with the engine
     /// A caster over the scene, whose trees the rays and the slices then use; null: they make one.

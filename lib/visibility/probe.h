@@ -10,8 +10,8 @@ namespace sonarsim {
 
 /// The rays that a sonar needs.
 struct RaysNeed {
-    double goal = 0.0;  ///< above 0: use rays with this error goal, whatever the slices' error
-    int columns = 1;    ///< factor on the columns of the goal, see make_rays_engine()
+    double goal = 0.0;  ///< above 0: rays with this error goal are required
+    int columns = 1;    ///< factor on the columns for the goal, see make_rays_engine()
 };
 
 /// A view and a pose for the choice of an engine.
@@ -21,8 +21,8 @@ struct Probe {
     RaysNeed rays = {};
 };
 
-/// The finest goal and the most columns that the probes of a view need of rays; a goal of 0 if they
-/// need none.
+/// The finest goal and the most columns of rays that the probes of a view require; a goal of 0 if
+/// no probe requires rays.
 inline RaysNeed required_rays(const View& view, std::span<const Probe> probes) {
     RaysNeed need;
     for (const Probe& probe : probes) {

@@ -27,13 +27,13 @@ struct PieceCounts {
     float v;
 };
 
-/// The pieces of a patch whose half edges are `depth_u_m` and `depth_v_m` deep. A box in range
-/// stands for each piece. It follows the edge that spans more range, and the other edge is cut into
-/// pieces half a bin deep.
+/// The pieces of a patch whose half edges are `depth_u_m` and `depth_v_m` deep. Each piece is
+/// represented by a box in range. The edge that spans more range is cut into pieces a bin deep, or
+/// deeper at long range; the other edge, into pieces half a bin deep.
 inline PieceCounts pieces_for_bins(float depth_u_m, float depth_v_m, float range_m, float bin_m) {
     // More pieces than this do not change the mean of a bin visibly.
     constexpr float most_pieces = 64.0F;
-    // A piece has one intensity. On a plane v . n = H / r: where a piece spans no more than this
+    // A piece has one intensity, but v . n = H / r on a plane. If a piece spans no more than this
     // share of its range, its ends are off by 0.25 % and its mean is right.
     constexpr float most_depth_by_range = 0.005F;
     const float along_m = std::max(bin_m, most_depth_by_range * range_m);

@@ -4,8 +4,8 @@ namespace sonarsim {
 
 /// The distance between neighbours in a list of rays. It affects only the time.
 enum class RaySpread {
-    close,  ///< they take the same path through the scene
-    wide    ///< they soon part
+    close,  ///< neighbours take similar paths through the scene
+    wide    ///< neighbours soon diverge
 };
 
 }  // namespace sonarsim

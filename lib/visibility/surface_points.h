@@ -28,8 +28,8 @@ std::array<Eigen::Vector3f, 3> corners_of(const Scene& scene, const SurfaceShare
 
 /// The shares of every triangle that may be in view and in range, by ascending facet. A thin object
 /// crosses bins in proportion to its length, not its area, so shares follow length, and every
-/// triangle has one. If copies have millions of triangles in view, only every n-th of theirs has
-/// one; rays over directions meet the others.
+/// triangle has one. If copies have millions of triangles in view, only every n-th of these has a
+/// share; rays over directions meet the others.
 std::vector<SurfaceShare> surface_shares(const Scene& scene, const View& view,
                                          const LocalPose& pose);
 

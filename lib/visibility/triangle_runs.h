@@ -13,17 +13,18 @@
 
 namespace sonarsim {
 
-/// All triangles of a scene, found by the view that they may lie in. Neighbours in a mesh are
-/// mostly neighbours in space: each run of 32 has a ball around it.
+/// Finds the triangles of a scene that may lie in a view. Neighbours in a mesh are mostly
+/// neighbours in space, so each run of 32 triangles has a bounding ball.
 class TriangleRuns {
   public:
     using Corners = std::array<Eigen::Vector3f, 3>;
 
-    /// `scene` must outlive it.
+    /// `scene` must outlive this object.
     explicit TriangleRuns(const Scene& scene);
 
     /// Calls visit(corners), in the frame of the sensor, for every triangle in a run that may reach
-    /// into the view. `T_world_body` [bodies] says where Scene::bodies are; empty: nowhere.
+    /// into the view. `T_world_body` [bodies] are the poses of Scene::bodies; empty: bodies are
+    /// left out.
     template <class Visit>
     void visit(const View& view, const Pose& T_world_sensor, std::span<const Pose> T_world_body,
                Visit visit) const {

@@ -10,9 +10,9 @@ namespace sonarsim {
 
 namespace {
 
-// These are chosen.
-constexpr int most_beams = 6;            // a part has
-constexpr std::array places{0.25, 0.8};  // for the parts in a fan
+// Chosen.
+constexpr int most_beams = 6;            // number of beams of a part
+constexpr std::array places{0.25, 0.8};  // places of the parts, 0 (first beams) to 1 (last)
 
 }  // namespace
 

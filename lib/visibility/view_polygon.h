@@ -20,7 +20,7 @@ struct ViewPolygon {
     int corners = 0;
 };
 
-/// Least and greatest distance from the sonar, m; least > greatest: there is nothing.
+/// Least and greatest distance from the sonar, m; least > greatest if it is empty.
 struct RangeInterval {
     float least = std::numeric_limits<float>::infinity();
     float greatest = -std::numeric_limits<float>::infinity();
@@ -31,7 +31,7 @@ struct RangeInterval {
     }
 };
 
-/// Keeps what lies on the inner side of a plane through the sonar.
+/// Keeps the part of a polygon on the inner side of a plane through the sonar.
 inline void cut(const ViewPolygon& from, const Eigen::Vector3f& inwards, ViewPolygon& to) {
     to.corners = 0;
     const Eigen::Vector3f* a = &from.corner[from.corners - 1];
@@ -47,7 +47,7 @@ inline void cut(const ViewPolygon& from, const Eigen::Vector3f& inwards, ViewPol
     }
 }
 
-/// The distances between which a convex, planar polygon lies.
+/// The interval of distances of a convex, planar polygon.
 inline RangeInterval ranges_of(const ViewPolygon& polygon, const Eigen::Vector3f& normal) {
     RangeInterval ranges;
     const float square = normal.squaredNorm();
@@ -73,7 +73,7 @@ inline RangeInterval ranges_of(const ViewPolygon& polygon, const Eigen::Vector3f
     return ranges;
 }
 
-/// The distances between which the part of a triangle inside of a convex view lies.
+/// The interval of distances of the part of a triangle inside a convex view.
 inline RangeInterval ranges_within(const std::array<Eigen::Vector3f, 3>& triangle,
                                    const Eigen::Vector3f& normal, ConvexView view) {
     ViewPolygon polygons[2];
