@@ -72,7 +72,7 @@ void read_all(int from, void* bytes, std::size_t size) {
     }
 }
 
-/// Requests and the pieces of an answer have their size before them. A size of 0 ends an answer.
+/// A request, and each piece of an answer, is preceded by its size. A size of 0 ends an answer.
 using Size = std::uint64_t;
 
 [[noreturn]] void run_child(const ChildProcess::Work& work, int channel,
@@ -158,7 +158,7 @@ Received receive_answer(int from, double wall_s, std::string& bytes) {
     }
 }
 
-/// True if the child took it.
+/// True if all bytes were sent.
 bool send_all(int to, const std::string& bytes) {
     std::size_t sent = 0;
     while (sent < bytes.size()) {

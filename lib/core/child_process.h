@@ -14,13 +14,13 @@ struct ChildLimits {
     double wall_s = 0.0;
 };
 
-/// Gives bytes to the parent.
+/// Sends bytes to the parent.
 using ChildOutput = std::function<void(const void* bytes, std::size_t size)>;
 
 /// A child process that works on requests, one after the other. It is for a library that takes long
-/// to load, and that may crash, loop or use up memory on a damaged file. The work's changes of
-/// memory are lost, and it must not use threads or locks that other threads may hold. Not
-/// thread-safe.
+/// to load, and that may crash, loop or use up memory on a damaged file. Changes that the work
+/// makes to memory are lost. The work must not use threads, or locks that other threads may hold.
+/// Not thread-safe.
 class ChildProcess {
   public:
     using Work = std::function<void(const std::string& request, const ChildOutput& output)>;

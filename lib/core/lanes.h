@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <initializer_list>
 
-// Eight numbers at a time, so that the code that uses them reads like code for one number. An
-// operation is one instruction: its rounding is part of the images.
+// Operators for eight numbers at a time, so that code that uses them reads like code for one
+// number. Each operator is one instruction, since its rounding affects the images.
 
 namespace sonarsim {
 

@@ -25,7 +25,8 @@ double total_memory(const std::filesystem::path& root) {
     return no_limit;
 }
 
-/// Version 2 of control groups; a group without a limit says "max".
+/// The least limit of the control group (version 2) of this process and of the groups around it. A
+/// group without a limit has "max".
 double group_limit(const std::filesystem::path& root) {
     std::ifstream groups(root / "proc/self/cgroup");
     double least = no_limit;

@@ -6,7 +6,7 @@
 
 namespace sonarsim {
 
-/// Adds to an error in a file the location at which another file names that file.
+/// Adds to the error of a file the location at which another file names this file.
 inline InputError named_at(const InputError& fault, const Location& where) {
     return InputError(std::string(fault.what()) + "; " + where.text() + " names it");
 }

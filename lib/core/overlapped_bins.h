@@ -27,13 +27,13 @@ struct OverlappedBins {
     }
 };
 
-// The least depth of surface, in bins, since its area is divided by it. A step of a float at 8192
-// bins is half of it.
+// The least depth of surface, in bins, since areas are divided by depths. The step of a float just
+// below 8192 bins is half of this.
 inline constexpr float least_depth_bins = 1e-3F;
 
 /// The overlaps of [from, to) and the bins i to i + 7, in bins; 0 where there is none. `to` must
-/// not exceed the view. Callers take multiples of 8 as i: a load that covers only a part of the
-/// last store waits for it.
+/// not exceed the view. Callers take multiples of 8 as i: a load that overlaps the last store only
+/// in part waits for that store.
 inline Floats8 overlaps_of_eight(float from, float to, int i) {
     const Floats8 bins = static_cast<float>(i) + to_floats(lane_numbers());
     return greatest(least(to, bins + 1.0F) - greatest(from, bins), 0.0F);

@@ -21,7 +21,7 @@ Eigen::Quaterniond rotation_from_rpy(double roll, double pitch, double yaw) {
 }
 
 Rpy rpy_from_rotation(const Eigen::Quaterniond& rotation) {
-    constexpr double upright = 1e-9;  // below this cosine of pitch roll is only rounding
+    constexpr double upright = 1e-9;  // below this cosine of pitch, roll is only rounding
     const Eigen::Matrix3d r = rotation.toRotationMatrix();
     const double cosine = std::hypot(r(2, 1), r(2, 2));
     const double pitch = arctan2(-r(2, 0), cosine);

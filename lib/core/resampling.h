@@ -10,7 +10,7 @@
 
 namespace sonarsim {
 
-// The bootstrap estimates numbers again with random weights of the units of the sample.
+// The bootstrap repeats an estimate with random weights of the units of the sample.
 
 /// The number of times that each of `count` units is drawn when `count` are drawn with replacement.
 inline std::vector<double> drawn_counts(int count, PhiloxKey key) {
@@ -29,7 +29,7 @@ inline double drawn_weight(PhiloxBlock unit, PhiloxKey key) {
 }
 
 /// The variances of the numbers that `estimate` returns for the draws 0, 1, ... Numbers that are
-/// not finite do not count. `near` are numbers near the draws.
+/// not finite are left out. `near` are values near these numbers, to limit cancellation.
 template <class Estimate>
 std::vector<double> drawn_variances(const std::vector<double>& near, int draws,
                                     const Estimate& estimate) {

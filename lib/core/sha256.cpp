@@ -57,8 +57,9 @@ void store(const TwoRegisters& from, State& state) {
     _mm_storeu_si128(reinterpret_cast<__m128i*>(&state[4]), _mm_alignr_epi8(dchg, feba, 8));
 }
 
-/// The same with the SHA instructions, for several interleaved streams of bytes: each instruction
-/// waits for the last one of its stream, so four streams take only 2.2 times as long as one.
+/// Adds `count` blocks of several streams of bytes to their states with the SHA instructions. The
+/// streams are interleaved: each instruction waits for the last one of its stream, so four streams
+/// take only 2.2 times as long as one.
 template <std::size_t streams>
 __attribute__((target("sha"))) void blocks_by_sha_instructions(
     std::span<State* const, streams> states, std::span<const char* const, streams> bytes,

@@ -6,9 +6,9 @@
 #endif
 #endif
 
-// Marks a function that TBB calls. It reads its arguments before it can call tsan_acquire(), which
-// the thread sanitizer would report. The sanitizer skips the function itself and still checks
-// everything that it calls.
+// Marks a function that TBB calls. Such a function reads its arguments before it can call
+// tsan_acquire(), and the thread sanitizer would report this. The sanitizer skips the function
+// itself and still checks everything that it calls.
 #ifdef SONARSIM_THREAD_SANITIZER
 #define SONARSIM_CALLED_BY_TBB __attribute__((no_sanitize("thread")))
 #else

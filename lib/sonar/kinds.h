@@ -11,7 +11,7 @@
 
 namespace sonarsim {
 
-/// A finished ping, and where the sonar was.
+/// A finished ping, and the pose of the vehicle.
 struct PingView {
     const Sonar& sonar;
     const Pose& T_world_vehicle;
@@ -25,7 +25,7 @@ struct KindOfSonar {
     ViewShape shape;
     bool looks_down;         ///< the default mount: down with z along the bow, or forward
     double gain;             ///< m of Eq. 12
-    bool range_noise_fades;  ///< late echoes are weaker, Eq. 8
+    bool range_noise_fades;  ///< echoes that range noise delays are weaker, Eq. 8
     bool has_images;         ///< a ping is an image: range by azimuth
     RecordShape record = {};
     /// Completes the sonar of common_sonar(); null if nothing is left to do.

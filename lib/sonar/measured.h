@@ -8,7 +8,7 @@
 
 namespace sonarsim {
 
-/// The distance from a sonar straight down to the scene, m. None if there is nothing below.
+/// The distance from a sonar straight down to the scene, m. Nothing if no surface is below.
 std::optional<double> altitude_m(const VisibilityEngine& engine, const Pose& T_world_sensor);
 
 /// The measured values for the metadata of a ping: altitude_m() and the values of the sonar's kind.

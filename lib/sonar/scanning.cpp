@@ -7,7 +7,8 @@ namespace sonarsim {
 
 namespace {
 
-/// Sets no azimuth of the beam, so that its noise has no lobe: the head turns over all azimuths.
+/// Leaves beam_azimuths_rad empty, so that the noise has no lobe in azimuth: the head turns over
+/// all azimuths.
 void turn_head(Sonar& sonar) {
     const double half = 0.5 * sonar.settings.view.azimuth_rad;
     sonar.azimuth_edges_rad = edges(-half, half, 1);

@@ -20,7 +20,7 @@ struct Reference {
     /// Bound of its own relative L1: the largest of `apart` and of the changes by the last doubling
     /// of rays along the columns and across them.
     double moved = 1.0;
-    double apart = 1.0;         ///< relative L1 between it and the farther one of its two starts
+    double apart = 1.0;         ///< relative L1 of the image of the farther of its two starts
     double rays_per_bin = 0.0;  ///< rays that echoed, per occupied bin
 };
 
@@ -48,10 +48,10 @@ Reference settled(const View& view, const ReferenceGoal& goal,
 
 /// Casts rays from two different starts, on a lattice and at random, each with its own points of
 /// the surface, and doubles the rays until the goal is met. The image is that of both together. A
-/// lattice alone settles on a wrong image if the scene repeats at its step, or before it has met
-/// objects thinner than the step. The random start disagrees in the first case, and points of the
-/// surface find thin objects (visibility/reference_cast.h). Every ray counts only in the bin where
-/// it ends.
+/// lattice alone may settle on a wrong image if the scene repeats at the step of the lattice, or if
+/// objects are thinner than the step. The random start disagrees in the first case, and points of
+/// the surface find thin objects (visibility/reference_cast.h). Every ray counts only in the bin
+/// where it ends.
 Reference cast_reference(const Caster& caster, const Scene& scene, const View& view,
                          const Pose& T_world_sensor, const ReferenceGoal& goal);
 

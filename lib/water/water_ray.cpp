@@ -17,8 +17,8 @@ constexpr double least_curvature = 1e-9;
 constexpr double rounding_m = 1e-5;
 // The speed changes by less than this share over a piece, so that series are exact to 1e-11.
 constexpr double largest_change = 0.1;
-// The least sine of elevation in the jump of a tube at a node; chosen. The gradient jumps at a
-// node, and a ray that grazes one makes a caustic that the water does not have.
+// The least sine of elevation in the bend of a ray tube at a node; chosen. The gradient jumps at a
+// node, and a ray that grazes the node would have a caustic that does not exist in the water.
 constexpr double least_sine = 0.02;
 // A nearly level ray may cross a node repeatedly; then it continues by this share of a piece.
 constexpr double level_sine = 1e-3;
@@ -43,7 +43,7 @@ double length_to(const SoundProfile& profile, const WaterRay& ray, double node_m
     const double cosine = at.cos * there / here;
     const double sine2 =
         at.sin * at.sin - at.cos * at.cos * (there - here) * (there + here) / (here * here);
-    if (sine2 < 0.0) return infinite;  // it turns back before
+    if (sine2 < 0.0) return infinite;  // the ray turns before the node
     const double elevation = arctan2(side * std::sqrt(sine2), cosine);
     const double length = (elevation - ray.elevation_rad) / bend;
     // A ray that starts at the node and leads to it meets it at once, despite rounding.
@@ -87,7 +87,7 @@ WaterRay on_arc(const SoundProfile& profile, const WaterRay& ray, double length_
     const double from = profile.speed_in(ray.layer, ray.height_m);
     const double to = profile.speed_in(ray.layer, out.height_m);
     // The time between two points is (2 / g) arsinh(g chord / (2 sqrt(c1 c2))): the distance in a
-    // hyperbolic plane, whose geodesics such arcs are.
+    // hyperbolic plane, whose geodesics are such arcs.
     const double mean = std::sqrt(from * to);
     const double x2 = 0.25 * gradient * gradient * chord * chord / (mean * mean);
     out.time_s +=

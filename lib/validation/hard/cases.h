@@ -102,9 +102,9 @@ HardTrial with_model(HardTrial trial, ModelKind model);
 Terms compared_terms(ModelKind model);
 
 /// Runs a case with the rays, the octree and the slices, and with every echo model; a model for
-/// which the case has no expected image runs with the rays alone. A combination
-/// that a mission would refuse is refused by the same check, and not rendered. Invariants of every
-/// image: no pixel is NaN, infinite, negative or brighter than physics allows.
+/// which the case has no expected image runs with the rays alone. A combination that a mission
+/// would refuse is refused by the same check and not rendered. Invariants of every image: no pixel
+/// is NaN, infinite, negative or brighter than physics allows.
 std::vector<HardResult> run_hard_case(const HardCase& hard);
 
 /// The results as a table: case, what it stresses, error, bound, verdict.

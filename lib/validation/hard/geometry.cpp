@@ -114,9 +114,9 @@ Scene floor_with_pole() {
 // where a leaf fills one bin of twenty too many; 0.05 to 0.16 in the tank. Two octree images of one
 // scene may differ by as much. A duplicated face is not a plain rectangle to the octree, and its
 // shadow is a fifth larger; its energy counts twice with the calibrated model, and missions are
-// warned of such faces. Faces of opposite winding are separate in a leaf, since they may be the
-// two sides of a plate. The slices look at a limited number of the triangles between two of them,
-// so doubled faces move slices: the image changes by a tenth of its error goal.
+// warned of such faces. Faces of opposite winding are separate in a leaf, since they may be the two
+// sides of a plate. The slices examine a limited number of the triangles between two neighbouring
+// slices, so doubled faces move slices: the image changes by a tenth of its error goal.
 std::vector<HardCase> hard_geometry() {
     return {{.name = "triangles without area",
              .stresses = "points, lines, folded triangles",

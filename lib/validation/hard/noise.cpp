@@ -33,7 +33,8 @@ NoiseConfig pixel_noise(double sigma) {
     return noise;
 }
 
-/// For kinds whose range noise changes nothing here: the image without it.
+/// The image without range noise, for kinds whose range noise does not weaken echoes; others are
+/// not checked.
 std::vector<float> without_noise_where_nothing_fades(const HardContext& context) {
     if (kind_of(context.kind).range_noise_fades)
         return std::vector<float>(context.ping.intensity.size(), unchecked);

@@ -39,7 +39,8 @@ HardTrial on_the_floor(SonarKind kind) {
     return trial;
 }
 
-/// Sonar and floor, rotated about the sonar, so that rounding puts it above, on or below the plane.
+/// The scene of a sonar on a floor, rotated about the sonar, so that rounding puts the sonar above,
+/// on or below the plane.
 Scene turned_floor() {
     Scene scene = plain_floor();
     add_quad(scene, {3, -9, -9}, {3, 9, -9}, {3, 9, 9}, {3, -9, 9}, 0);
