@@ -23,7 +23,7 @@ enum class RecordPictures {
 /// other values.
 struct RecordShape {
     std::string_view name;                 ///< name of the file; "": the kind has no record
-    bool OutputConfig::*wanted = nullptr;  ///< the mission's key that asks for it
+    bool OutputConfig::*wanted = nullptr;  ///< the mission's key that requests the file
     std::string_view axis = "range";       ///< the meaning of a ping's values, for dataset.json
     bool upright = false;                  ///< pings are columns: [range, ping]
     RecordPictures pictures = RecordPictures::none;

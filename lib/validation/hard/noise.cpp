@@ -41,7 +41,7 @@ std::vector<float> without_noise_where_nothing_fades(const HardContext& context)
     return image_of(context.scene, in_tank(context.kind), context.engine, context.model);
 }
 
-/// P(w < 10 m) = 1e-8 at lambda = 1e9 m: sonars with range noise see nothing.
+/// P(w < 10 m) = 1e-8 at lambda = 1e9 m: sonars with range noise receive no echo in range.
 std::vector<float> all_drowned(const HardContext& context) {
     return context.kind == SonarKind::sidescan
                ? std::vector<float>(context.ping.intensity.size(), unchecked)
@@ -51,15 +51,15 @@ std::vector<float> all_drowned(const HardContext& context) {
 std::function<HardTrial(SonarKind)> with_streaks(StreakMode mode) {
     return [mode](SonarKind kind) {
         return in_tank(kind, [&](SonarConfig& c) {
-            c.streaks = {mode, 0.0, 90.0};  // every row that sees surface
+            c.streaks = {mode, 0.0, 90.0};  // every row with an echo
             c.noise.add_sigma = 5.0;
             c.noise.scale_with_range = false;
         });
     };
 }
 
-/// With threshold 0 all rows that see surface become 1 - (1 - I)^2 or I^2 of a clamped I: within
-/// [0, 1] however bright the noise is. Only pixels above 1 count as errors here.
+/// With threshold 0 all rows with an echo become 1 - (1 - I)^2 or I^2 of a clamped I, which is
+/// within [0, 1] however bright the noise is. Only pixels above 1 count as errors here.
 std::vector<float> at_most_one(const HardContext& context) {
     std::vector<float> truth(context.ping.intensity.size(), unchecked);
     const std::vector<float> clean =

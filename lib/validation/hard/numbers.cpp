@@ -27,8 +27,8 @@ HardTrial grazing(SonarKind kind) {
     return trial;
 }
 
-/// A sonar that looks forward sees the floor in every bin. Sonars that look down see none of it:
-/// within 85 degrees of nadir it is nearer than 1.745 mm / cos 85 = 20 mm.
+/// A sonar that looks forward has an echo of the floor in every bin. Sonars that look down have
+/// none in range: within 85 degrees of nadir the floor is nearer than 1.745 mm / cos 85 = 20 mm.
 std::vector<float> grazing_law(const HardContext& context) {
     if (!looks_forward(context.kind)) return dark(context);
     std::vector<float> truth(context.ping.intensity.size());

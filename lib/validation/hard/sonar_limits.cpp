@@ -76,8 +76,8 @@ HardTrial over_seam(SonarKind kind) {
     return trial;
 }
 
-/// A single beam sees both halves equally: half of R H / r. Other sonars: R H / r to port, nothing
-/// to starboard.
+/// A single beam receives both halves equally: half of R H / r. Other sonars: R H / r to port,
+/// nothing to starboard.
 std::vector<float> seam_law(const HardContext& context) {
     const int beams = context.ping.beams;
     const bool both = beams == 1;

@@ -42,8 +42,8 @@ inline const Eigen::Vector3d utm_odd(512345.678, 4812345.678, -43.21);
 /// A floor of 60 m at z = 0, R = 0.5.
 Scene plain_floor();
 
-/// The image of a plane at distance H: v . n = H / r, so R H / r in the middle of each bin that
-/// sees it, to second order in bin / r. Not checked: dark pixels, and the first and the last filled
+/// The image of a plane at distance H: v . n = H / r, so R H / r in the middle of each bin with an
+/// echo, to second order in bin / r. Not checked: dark pixels, and the first and the last filled
 /// bin of a beam, which the plane fills in part.
 std::vector<float> plane_law(const HardContext& context, double reflection, double height_m);
 

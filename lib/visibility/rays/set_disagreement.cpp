@@ -18,7 +18,7 @@ constexpr int most_compared_beams = 64;
 double SetDisagreement::error() const {
     if (signal == 0.0) return 0.0;
     // Two independent values a and b of a bin, each off by s on average, have a mean that is off by
-    // s / sqrt(2), and |a - b| is sqrt(2) s on average: the mean is off by half of it.
+    // s / sqrt(2), and |a - b| is sqrt(2) s on average: the mean is off by half of |a - b|.
     //
     // One set of rays finds a bin with probability p, the other with q, so both miss it with
     // probability (1 - p) (1 - q). The share p (1 - q) of the signal is found by the first set

@@ -44,7 +44,7 @@ class SurfacePoints {
     std::uint32_t triangle_, u_, v_;
 };
 
-/// A point of the view, as seen from the sonar.
+/// A probed point of the view.
 struct SurfaceProbe {
     float range_m;
     std::uint32_t bin;  ///< index into SetDisagreement::occupied

@@ -9,8 +9,8 @@ namespace sonarsim {
 
 namespace {
 
-// Errors per distance of a checked beam, whose check is returned, and of another beam; see
-// BeamCheck.
+// The error of a beam over its distance D from its check, for a checked beam, which gets the image
+// of its check, and for another beam; see BeamCheck.
 constexpr double error_if_checked = 1.0;
 constexpr double error_if_not = 1.414;
 

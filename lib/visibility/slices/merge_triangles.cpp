@@ -16,7 +16,8 @@ namespace sonarsim {
 namespace {
 
 // Greatest motion of the surface, as a share of the greatest coordinate. Midpoints of edges are
-// rounded to 6e-8 of it, and a plane through small triangles extrapolates that error beyond them.
+// rounded to 6e-8 of this coordinate, and a plane through small triangles extrapolates the rounding
+// beyond them.
 constexpr double most_moved = 2e-6;
 
 // Least height of a triangle, as a share of its longest edge. A lifeboat whose triangles are each
