@@ -29,7 +29,7 @@ Sounding sound(const Sonar& sonar, std::span<const double> beam) {
 
 }  // namespace
 
-int lit_beams(const Ping& ping) {
+int beams_with_sounding(const Ping& ping) {
     std::vector<char> occupied(ping.beams);
     for (int i = 0; i < ping.range_bins; ++i) {
         for (int j = 0; j < ping.beams; ++j)

@@ -23,7 +23,7 @@ struct Sounding {
 };
 
 /// The number of beams with an echo, which is the number of soundings of find_soundings().
-int lit_beams(const Ping& ping);
+int beams_with_sounding(const Ping& ping);
 
 /// Makes one sounding per beam, in the order of the beams.
 ///

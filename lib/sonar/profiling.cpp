@@ -9,7 +9,7 @@ namespace {
 
 /// The number of beams with a sounding.
 void measure_soundings(const PingView& view, nlohmann::ordered_json& json) {
-    json["soundings"] = lit_beams(view.ping);
+    json["soundings"] = beams_with_sounding(view.ping);
 }
 
 void add_azimuth_and_offsets(Sonar& sonar) {

@@ -68,7 +68,7 @@ struct Caster::Trees {
 
 /// One tree of placed objects: the scene's own triangles, or bodies, or both, followed by copies.
 /// Their facet numbers start at `begin`.
-struct Caster::Moment {
+struct Caster::PlacedTree {
     EmbreeTree tree;
     std::uint32_t begin = 0;
     std::uint32_t end = 0;
@@ -77,7 +77,7 @@ struct Caster::Moment {
     std::vector<Eigen::Matrix<float, 3, 4>> transforms;
     std::size_t first_copy = 0;  ///< index of the first copy
 
-    Moment(const Trees& trees, std::uint32_t first)
+    PlacedTree(const Trees& trees, std::uint32_t first)
         : tree(trees.device), begin(first), end(first) {}
 
     void add(const Trees& trees, std::uint32_t placed, const Eigen::Matrix<float, 3, 4>& T) {
@@ -117,17 +117,17 @@ struct Caster::Moment {
 };
 
 Caster::Caster(std::shared_ptr<const Trees> trees,
-               std::vector<std::shared_ptr<const Moment>> moments)
+               std::vector<std::shared_ptr<const PlacedTree>> placed_trees)
     : trees_(std::move(trees)),
-      moments_(std::move(moments)),
+      placed_trees_(std::move(placed_trees)),
       facets_(trees_->facets.data()),
       still_(trees_->size(0)) {
-    if (moments_.empty() && !trees_->copies.empty()) {
-        auto still = std::make_shared<Moment>(*trees_, 0);
+    if (placed_trees_.empty() && !trees_->copies.empty()) {
+        auto still = std::make_shared<PlacedTree>(*trees_, 0);
         still->add_own(*trees_);
         still->add_copies(*trees_);
         still->finish(*trees_);
-        moments_.push_back(std::move(still));
+        placed_trees_.push_back(std::move(still));
     }
     find_box();
 }
@@ -142,9 +142,9 @@ void Caster::find_box() {
         low_ = low_.min(Eigen::Array3f(box.lower_x, box.lower_y, box.lower_z));
         high_ = high_.max(Eigen::Array3f(box.upper_x, box.upper_y, box.upper_z));
     };
-    if (moments_.empty()) include(trees_->trees[0]);
-    for (const auto& moment : moments_)
-        include(moment->tree);
+    if (placed_trees_.empty()) include(trees_->trees[0]);
+    for (const auto& placed_tree : placed_trees_)
+        include(placed_tree->tree);
     if ((low_ > high_).any()) return;
     // Widened, since rounding may let a ray meet a surface slightly outside.
     const float rounding = 0x1p-20F * low_.abs().max(high_.abs()).maxCoeff();
@@ -188,44 +188,46 @@ Caster Caster::moved(std::span<const Pose> T_local_body) const {
     // Copies are many and at rest, so the first tree holds them and is kept; bodies get their own
     // tree. Without copies one tree holds everything, which is faster to trace.
     const bool has_copies = !trees_->copies.empty();
-    auto moment = std::make_shared<Moment>(*trees_, has_copies ? moments_.front()->end : 0);
-    if (!has_copies) moment->add_own(*trees_);
-    moment->add_bodies(*trees_, T_local_body);
-    moment->finish(*trees_);
-    std::vector<std::shared_ptr<const Moment>> moments;
-    if (has_copies) moments.push_back(moments_.front());
-    moments.push_back(std::move(moment));
-    return {trees_, std::move(moments)};
+    auto placed_tree =
+        std::make_shared<PlacedTree>(*trees_, has_copies ? placed_trees_.front()->end : 0);
+    if (!has_copies) placed_tree->add_own(*trees_);
+    placed_tree->add_bodies(*trees_, T_local_body);
+    placed_tree->finish(*trees_);
+    std::vector<std::shared_ptr<const PlacedTree>> placed_trees;
+    if (has_copies) placed_trees.push_back(placed_trees_.front());
+    placed_trees.push_back(std::move(placed_tree));
+    return {trees_, std::move(placed_trees)};
 }
 
 Facet Caster::placed_facet(std::uint32_t index) const {
-    const Moment& moment = index < moments_.back()->begin ? *moments_.front() : *moments_.back();
-    const auto& first = moment.first_facet;
+    const PlacedTree& placed_tree =
+        index < placed_trees_.back()->begin ? *placed_trees_.front() : *placed_trees_.back();
+    const auto& first = placed_tree.first_facet;
     const auto next = std::upper_bound(first.begin(), first.end(), index);
     const auto placed = static_cast<std::size_t>(next - first.begin()) - 1;
-    const auto stored = trees_->first_of_tree[moment.tree_of[placed]];
+    const auto stored = trees_->first_of_tree[placed_tree.tree_of[placed]];
     Facet facet = facets_[stored + (index - first[placed])];
-    const Eigen::Matrix<float, 3, 4>& T = moment.transforms[placed];
+    const Eigen::Matrix<float, 3, 4>& T = placed_tree.transforms[placed];
     facet.vertex = T.leftCols<3>() * facet.vertex + T.col(3);
     facet.normal = T.leftCols<3>() * facet.normal;
-    if (placed < moment.first_copy) return facet;
+    if (placed < placed_tree.first_copy) return facet;
     facet.normal.normalize();  // a copy may be scaled
-    facet.instance = trees_->copies[placed - moment.first_copy].instance;
+    facet.instance = trees_->copies[placed - placed_tree.first_copy].instance;
     return facet;
 }
 
 void Caster::cast_from(const RayOrigins& origins, std::span<const Eigen::Vector3f> directions,
                        float reach_m, RaySpread spread, std::span<std::uint32_t> facets) const {
-    if (moments_.empty()) {
+    if (placed_trees_.empty()) {
         const TracedLayer own{trees_->trees[0].get()};
         trace_packets({&own, 1}, origins, directions, reach_m, spread, facets);
         return;
     }
     std::array<TracedLayer, 2> layers;
-    for (std::size_t k = 0; k < moments_.size(); ++k)
-        layers[k] = {moments_[k]->tree.get(), moments_[k]->first_facet};
-    trace_packets(std::span(layers).first(moments_.size()), origins, directions, reach_m, spread,
-                  facets);
+    for (std::size_t k = 0; k < placed_trees_.size(); ++k)
+        layers[k] = {placed_trees_[k]->tree.get(), placed_trees_[k]->first_facet};
+    trace_packets(std::span(layers).first(placed_trees_.size()), origins, directions, reach_m,
+                  spread, facets);
 }
 
 void Caster::cast(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f> directions,

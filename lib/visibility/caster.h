@@ -76,8 +76,9 @@ class Caster {
 
   private:
     struct Trees;
-    struct Moment;
-    Caster(std::shared_ptr<const Trees> trees, std::vector<std::shared_ptr<const Moment>> moments);
+    struct PlacedTree;
+    Caster(std::shared_ptr<const Trees> trees,
+           std::vector<std::shared_ptr<const PlacedTree>> placed_trees);
     static std::shared_ptr<const Trees> make_trees(const Scene& scene);
     void cast_from(const RayOrigins& origins, std::span<const Eigen::Vector3f> directions,
                    float reach_m, RaySpread spread, std::span<std::uint32_t> facets) const;
@@ -87,7 +88,7 @@ class Caster {
     std::shared_ptr<const Trees> trees_;
     /// Trees of placed objects. Empty: the scene has only its own triangles; one: everything; two:
     /// objects at rest with the copies, then the bodies.
-    std::vector<std::shared_ptr<const Moment>> moments_;
+    std::vector<std::shared_ptr<const PlacedTree>> placed_trees_;
     /// Facets of the scene's own triangles, then of each other tree.
     const Facet* facets_ = nullptr;
     std::uint32_t still_ = 0;    ///< number of the scene's own triangles

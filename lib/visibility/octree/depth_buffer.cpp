@@ -109,7 +109,7 @@ void DepthBuffer::mask_cone(double opening_rad) {
     }
 }
 
-bool DepthBuffer::is_clear(const ProjectedFacet& facet) const {
+bool DepthBuffer::is_fully_visible(const ProjectedFacet& facet) const {
     const float tall = facet.half_rows + std::fabs(facet.rows_u);
     if (facet.row - tall < 0.0F || facet.row + tall >= static_cast<float>(grid_.rows)) return false;
     const auto per_beam = static_cast<float>(grid_.columns_per_beam);

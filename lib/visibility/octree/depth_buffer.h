@@ -29,12 +29,13 @@ class DepthBuffer {
     void mask_cone(double opening_rad);
 
     /// True if nothing hides any part of the facet and no edge of the view clips it.
-    bool is_clear(const ProjectedFacet& facet) const;
+    bool is_fully_visible(const ProjectedFacet& facet) const;
 
     enum class Visibility { visible, hidden, too_small };
 
-    /// Finds the part of a facet that is visible in a beam; `clear` is the result of is_clear().
-    /// Sets `part` if the result is `visible`. `too_small`: the part is within rounding.
+    /// Finds the part of a facet that is visible in a beam; `clear` is the result of
+    /// is_fully_visible(). Sets `part` if the result is `visible`. `too_small`: the part is within
+    /// rounding.
     Visibility visible_part(const ProjectedFacet& facet, int beam, bool clear,
                             VisiblePart& part) const;
 

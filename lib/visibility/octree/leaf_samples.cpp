@@ -98,7 +98,7 @@ LeafParts find_parts(const Octree& tree, const Scene& scene, const PreparedView&
     parts.thickness_m.reserve(2 * facets.size());
     const auto most = static_cast<float>(view.beams - 1);
     for (const ProjectedFacet& facet : facets) {
-        const bool clear = depths.is_clear(facet);
+        const bool clear = depths.is_fully_visible(facet);
         const int first = static_cast<int>(std::clamp(facet.beam - facet.half_beams, 0.0F, most));
         const int last = static_cast<int>(std::clamp(facet.beam + facet.half_beams, 0.0F, most));
         for (int beam = first; beam <= last; ++beam) {

@@ -37,7 +37,7 @@ struct RayAxes {
 };
 
 /// A ray that is being cast.
-struct Way {
+struct RayState {
     Eigen::Vector2d ahead;  ///< unit, horizontal
     double elevation_rad;   ///< at its start
     WaterRay at;
@@ -51,12 +51,12 @@ class BentCast {
           profile_(*water.profile),
           position_(position.cast<double>()) {}
 
-    Way way(const Eigen::Vector3f& direction, float from_m) const {
+    RayState way(const Eigen::Vector3f& direction, float from_m) const {
         const Eigen::Vector3d d = direction.cast<double>();
         const double level = d.head<2>().norm();
-        Way out{level > 0.0 ? Eigen::Vector2d(d.head<2>() / level) : Eigen::Vector2d::UnitX(),
-                arctan2(d.z(), level),
-                {}};
+        RayState out{level > 0.0 ? Eigen::Vector2d(d.head<2>() / level) : Eigen::Vector2d::UnitX(),
+                     arctan2(d.z(), level),
+                     {}};
         out.at = water_ray(profile_, position_.z() + water_.origin_m, out.elevation_rad);
         while (range_of(out.at) < static_cast<double>(from_m)) {
             const double left = length_to(out.at, from_m);
@@ -69,7 +69,7 @@ class BentCast {
     double range_of(const WaterRay& ray) const { return ray.time_s * profile_.range_speed_m_s; }
 
     /// The ray at the end of its next chord.
-    WaterRay next(const Way& way, float reach_m) const {
+    WaterRay next(const RayState& way, float reach_m) const {
         WaterRay ray = way.at;
         // Slightly longer than the rest, so that the last chord ends beyond the reach.
         const double rest = 1.05 * length_to(ray, reach_m) + 1e-6 * static_cast<double>(reach_m);
@@ -77,14 +77,14 @@ class BentCast {
         return ray;
     }
 
-    Eigen::Vector3d place(const Way& way, const WaterRay& ray) const {
+    Eigen::Vector3d place(const RayState& way, const WaterRay& ray) const {
         Eigen::Vector3d out;
         out << position_.head<2>() + ray.along_m * way.ahead, ray.height_m - water_.origin_m;
         return out;
     }
 
     /// The hit of a ray whose next chord met a facet at the distance `chord_m`.
-    BentHit hit(const Way& way, std::uint32_t met, double chord_m) const {
+    BentHit hit(const RayState& way, std::uint32_t met, double chord_m) const {
         const Facet facet = caster_.facet(met);
         const Eigen::Vector3d normal = facet.normal.cast<double>();
         const Eigen::Vector3d vertex = facet.vertex.cast<double>();
@@ -111,7 +111,7 @@ class BentCast {
     /// The map from apparent to true places stretches by c / c0 along the ray, by tube width over
     /// range across the ray in its plane, and by true over apparent horizontal distance to port.
     /// The transpose of this map takes a plane's true normal to the apparent one.
-    BentHit appearance(const Way& way, const WaterRay& ray, std::uint32_t facet,
+    BentHit appearance(const RayState& way, const WaterRay& ray, std::uint32_t facet,
                        const Eigen::Vector3d& normal) const {
         const double range = range_of(ray);
         const auto bounded = [](double x) {
@@ -156,10 +156,10 @@ void cast_bent_rays(const Caster& caster, const BentWater& water, const Eigen::V
                     std::span<const Eigen::Vector3f> directions, std::span<const float> from_m,
                     float reach_m, std::span<BentHit> hits) {
     const BentCast cast(caster, water, position);
-    std::vector<Way> ways;
-    ways.reserve(directions.size());
+    std::vector<RayState> rays;
+    rays.reserve(directions.size());
     for (std::size_t i = 0; i < directions.size(); ++i)
-        ways.push_back(cast.way(directions[i], from_m.empty() ? 0.0F : from_m[i]));
+        rays.push_back(cast.way(directions[i], from_m.empty() ? 0.0F : from_m[i]));
     std::vector<std::uint32_t> active(directions.size());
     std::iota(active.begin(), active.end(), 0U);
     std::vector<WaterRay> ends;
@@ -174,9 +174,9 @@ void cast_bent_rays(const Caster& caster, const BentWater& water, const Eigen::V
         chords.clear();
         lengths.clear();
         for (const std::uint32_t i : active) {
-            ends.push_back(cast.next(ways[i], reach_m));
-            const Eigen::Vector3d from = cast.place(ways[i], ways[i].at);
-            const Eigen::Vector3d chord = cast.place(ways[i], ends.back()) - from;
+            ends.push_back(cast.next(rays[i], reach_m));
+            const Eigen::Vector3d from = cast.place(rays[i], rays[i].at);
+            const Eigen::Vector3d chord = cast.place(rays[i], ends.back()) - from;
             lengths.push_back(static_cast<float>(chord.norm()));
             origins.push_back(from.cast<float>());
             chords.push_back(chord.normalized().cast<float>());
@@ -192,12 +192,12 @@ void cast_bent_rays(const Caster& caster, const BentWater& water, const Eigen::V
                 const float to =
                     facet.normal.dot(facet.vertex - origins[k]) / facet.normal.dot(chords[k]);
                 if (to <= lengths[k] * (1.0F + chord_overlap)) {
-                    hits[i] = cast.hit(ways[i], facets[k], static_cast<double>(to));
+                    hits[i] = cast.hit(rays[i], facets[k], static_cast<double>(to));
                     continue;
                 }
             }
             if (cast.range_of(ends[k]) > static_cast<double>(reach_m)) continue;
-            ways[i].at = ends[k];
+            rays[i].at = ends[k];
             active[left++] = i;
         }
         active.resize(left);
@@ -226,7 +226,7 @@ void intersect_bent_rays(const Caster& caster, const BentWater& water, const Loc
     }
 }
 
-void spread(const RayTube& tube, float range_m, Sample& sample) {
+void apply_tube(const RayTube& tube, float range_m, Sample& sample) {
     sample.normal = tube.normal;
     sample.height_m = tube.cosine * range_m;
     sample.area_m2 *= tube.area;

@@ -47,6 +47,6 @@ void intersect_bent_rays(const Caster& caster, const BentWater& water, const Loc
                          std::span<Intersection> intersections);
 
 /// Sets the true area, angle and strength of a sample on an apparent plane, at the range `range_m`.
-void spread(const RayTube& tube, float range_m, Sample& sample);
+void apply_tube(const RayTube& tube, float range_m, Sample& sample);
 
 }  // namespace sonarsim

@@ -30,7 +30,7 @@ struct ColumnSides {
 struct Segment {
     Border from;
     Border to;
-    bool may_end_beside;  ///< the surface may end within the column's width
+    bool may_end_across;  ///< the surface may end within the column's width
 };
 
 struct Context {
@@ -79,7 +79,7 @@ Sample piece(const Context& context, const CastRay& ray, const ColumnSides& side
              const Segment& segment) {
     const SinCosFloat middle = sincos_small(0.5F * (segment.from.along + segment.to.along));
     const float about = 0.5F * (segment.from.above_m + segment.to.below_m);
-    const float most = segment.may_end_beside ? context.sampling.tolerance_m : about;
+    const float most = segment.may_end_across ? context.sampling.tolerance_m : about;
     const Eigen::Vector3f low = direction(context.shape, sides.low, middle);
     const Eigen::Vector3f high = direction(context.shape, sides.high, middle);
     const auto onto_surface = [&](const Eigen::Vector3f& beside) -> Eigen::Vector3f {
@@ -108,7 +108,7 @@ Sample piece(const Context& context, const CastRay& ray, const ColumnSides& side
     sample.material = ray.material;
     sample.instance = ray.instance;
     if (!context.columns.tubes.empty())
-        spread(context.columns.tubes[&ray - context.columns.rays.data()], range, sample);
+        apply_tube(context.columns.tubes[&ray - context.columns.rays.data()], range, sample);
     return sample;
 }
 
@@ -181,7 +181,7 @@ void collect(const Context& context, const RayColumn& column, const std::uint8_t
             const ColumnSides& sides = column.whole && strip ? middle : full;
             const RaySet narrow = column.whole ? RaySet::middle_strip : RaySet::edge_strips;
             const RaySet set = strip ? narrow : RaySet::both;
-            segment.may_end_beside =
+            segment.may_end_across =
                 strip || !segment.from.continuous || !segment.to.continuous ||
                 segment.to.along - segment.from.along < short_segment * column.step;
             if (too_long(segment.from.above_m, segment.to.below_m)) {

@@ -82,7 +82,7 @@ bool AdaptiveSlices::scan_next(const SliceErrorLimit& most) {
     subgaps_.clear();
     for (std::uint32_t gap = first_gap_; gap < next_gap_; ++gap) {
         scan_gap(gap);
-        split_where_wanted(gap);
+        split_where_requested(gap);
     }
     refine(most);
     collect_done();
@@ -103,15 +103,15 @@ void AdaptiveSlices::scan_gap(std::uint32_t gap) {
     estimate(subgaps_.back());
 }
 
-void AdaptiveSlices::split_where_wanted(std::uint32_t gap) {
-    for (const WantedSlice& wanted : scan_.wanted_in(gap)) {
+void AdaptiveSlices::split_where_requested(std::uint32_t gap) {
+    for (const RequestedSlice& requested : scan_.requested_in(gap)) {
         const Subgap& last = subgaps_.back();
         const float least = least_width(gap);
-        if (wanted.u - results_[last.low].slice.u < least) continue;
+        if (requested.u - results_[last.low].slice.u < least) continue;
         // If the next slice is one float away, the midpoint is that slice itself: no width would be
         // left for the last slice of a frame.
-        if (results_[last.high].slice.u - wanted.u < least) continue;
-        split(subgaps_.size() - 1, wanted.u);
+        if (results_[last.high].slice.u - requested.u < least) continue;
+        split(subgaps_.size() - 1, requested.u);
     }
 }
 

@@ -89,7 +89,7 @@ class AdaptiveSlices {
 
   private:
     void scan_gap(std::uint32_t gap);
-    void split_where_wanted(std::uint32_t gap);
+    void split_where_requested(std::uint32_t gap);
     void split(std::size_t i, float u);
     void refine(const SliceErrorLimit& most);
     void estimate(Subgap& subgap);

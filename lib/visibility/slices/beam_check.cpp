@@ -59,7 +59,7 @@ BeamCheck::BeamCheck(const View& view, const FrameScan& scan, std::span<const Ma
       sampler_(scan, materials, fine_limits(view), sums_, samples),
       quads_(scan, fine_limits(view), sampler_) {}
 
-BeamSums& BeamCheck::look_at(AdaptiveSlices& adaptive) {
+BeamSums& BeamCheck::check_beam(AdaptiveSlices& adaptive) {
     sums_.clear();
     for (const Strip& strip : adaptive.check_strips())
         quads_.add(*strip.slice, *strip.low, *strip.high);

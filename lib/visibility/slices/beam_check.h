@@ -48,7 +48,7 @@ class BeamCheck {
 
     /// Makes the image of the last beam of `adaptive`, and appends its samples. The image is valid
     /// until the next call.
-    BeamSums& look_at(AdaptiveSlices& adaptive);
+    BeamSums& check_beam(AdaptiveSlices& adaptive);
 
   private:
     BeamSums sums_;

@@ -248,7 +248,7 @@ void remove_empty(Samples& samples) {
 std::vector<EdgeBin> settle_edge_bins(const Caster& caster, const View& view, const LocalPose& pose,
                                       const SampledImage& image, Samples& samples) {
     const auto range_bins = static_cast<std::size_t>(view.range_bins);
-    std::vector<EdgeBin> edges(image.area.size(), EdgeBin::not_asked);
+    std::vector<EdgeBin> edges(image.area.size(), EdgeBin::not_tested);
     for (int beam = 0; beam < view.beams; ++beam) {
         const std::uint32_t begin = samples.beam_begin[beam];
         const std::uint32_t count = samples.beam_begin[beam + 1] - begin;

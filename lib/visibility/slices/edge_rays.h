@@ -12,7 +12,7 @@
 namespace sonarsim {
 
 /// The result of rays for a bin at the end of surface.
-enum class EdgeBin : std::uint8_t { not_asked, filled, dark };
+enum class EdgeBin : std::uint8_t { not_tested, filled, dark };
 
 /// Casts rays to the samples that only just fill or only just miss a bin, and moves the ends of
 /// these samples: the bin is filled if one of its rays ends in it, and dark otherwise. A sliver of

@@ -30,7 +30,7 @@ FrameScan::FrameScan(const ClusterMesh& mesh, const Scene& scene, const SliceFra
       setup_(mesh, frame, pose, range_max_m, scene_),
       facet_extents_(mesh, scene.vertices, setup_, scene_) {
     setup_.run();
-    wanted_ = slices_through_narrow_components(scene_, frame_);
+    requested_ = slices_through_narrow_components(scene_, frame_);
     walk_.start(scene_, frame_);
 }
 
@@ -97,9 +97,9 @@ bool FrameScan::one_plane(std::uint32_t a, std::uint32_t b, float range_m) const
     return sonarsim::one_plane(mesh_, scene_, a, b, range_m);
 }
 
-std::span<const WantedSlice> FrameScan::wanted_in(std::uint32_t gap) const {
-    const auto from = std::ranges::lower_bound(wanted_, gap, {}, &WantedSlice::gap);
-    const auto to = std::ranges::upper_bound(wanted_, gap, {}, &WantedSlice::gap);
+std::span<const RequestedSlice> FrameScan::requested_in(std::uint32_t gap) const {
+    const auto from = std::ranges::lower_bound(requested_, gap, {}, &RequestedSlice::gap);
+    const auto to = std::ranges::upper_bound(requested_, gap, {}, &RequestedSlice::gap);
     return {from, to};
 }
 

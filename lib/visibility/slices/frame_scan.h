@@ -54,7 +54,7 @@ class FrameScan {
     void scan_slice(float u, std::span<const Candidate> candidates, SliceResult& out);
 
     /// The slices requested within a gap, from low u to high.
-    std::span<const WantedSlice> wanted_in(std::uint32_t gap) const;
+    std::span<const RequestedSlice> requested_in(std::uint32_t gap) const;
 
     /// True if two facets of the scene, at `range_m`, lie in one plane and have one material and
     /// instance.
@@ -78,7 +78,7 @@ class FrameScan {
     const SliceFrame& frame_;
     SliceScene scene_;
     SliceSetup setup_;
-    std::vector<WantedSlice> wanted_;
+    std::vector<RequestedSlice> requested_;
     mutable FacetExtents facet_extents_;  ///< computed on demand
     SliceWalk walk_;
     int next_ = 0;

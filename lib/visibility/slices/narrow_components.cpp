@@ -10,15 +10,15 @@ constexpr int slices_per_component = 4;
 
 }  // namespace
 
-std::vector<WantedSlice> slices_through_narrow_components(const SliceScene& scene,
-                                                          const SliceFrame& frame) {
+std::vector<RequestedSlice> slices_through_narrow_components(const SliceScene& scene,
+                                                             const SliceFrame& frame) {
     const std::vector<Slice>& slices = frame.slices;
     const auto gap_of = [&](float u) {
         const auto behind = std::ranges::upper_bound(slices, u, {}, &Slice::u);
         return static_cast<std::ptrdiff_t>(behind - slices.begin()) - 1;
     };
     const auto gaps = static_cast<std::ptrdiff_t>(frame.gaps());
-    std::vector<WantedSlice> wanted;
+    std::vector<RequestedSlice> requested;
     for (const Interval& component : scene.component_u) {
         if (!(component.from < component.to)) continue;  // out of view
         const std::ptrdiff_t gap = gap_of(component.from);
@@ -28,11 +28,11 @@ std::vector<WantedSlice> slices_through_narrow_components(const SliceScene& scen
             const float u =
                 component.from + (static_cast<float>(k) + 0.5F) * width / slices_per_component;
             const std::ptrdiff_t at = gap_of(u);
-            if (at < gaps) wanted.push_back({static_cast<std::uint32_t>(at), u});
+            if (at < gaps) requested.push_back({static_cast<std::uint32_t>(at), u});
         }
     }
-    std::ranges::sort(wanted, {}, &WantedSlice::u);
-    return wanted;
+    std::ranges::sort(requested, {}, &RequestedSlice::u);
+    return requested;
 }
 
 }  // namespace sonarsim

@@ -146,19 +146,19 @@ PointImage::PointImage(const Scene& scene, const ClusterMesh& mesh, const Caster
         seen.push_back({point.drawn_in, point.bin, point.echo});
     };
     std::vector<std::uint32_t> drawn(pieces->bins.size(), 0);
-    std::vector<std::uint32_t> wanted(pieces->bins.size(), first_points);
+    std::vector<std::uint32_t> counts(pieces->bins.size(), first_points);
     std::size_t points = 0;
     while (true) {
         for (std::uint32_t k = 0; k < drawn.size(); ++k) {
-            if (wanted[k] <= drawn[k]) continue;
-            caster_of_points.draw(k, drawn[k], wanted[k] - drawn[k], keep);
-            points += wanted[k] - drawn[k];
-            drawn[k] = wanted[k];
+            if (counts[k] <= drawn[k]) continue;
+            caster_of_points.draw(k, drawn[k], counts[k] - drawn[k], keep);
+            points += counts[k] - drawn[k];
+            drawn[k] = counts[k];
         }
         caster_of_points.cast(keep);
         const double noise = sum_up(*pieces, drawn, seen);
         if (noise <= noise_share * goal * signal_ || points >= enough) return;
-        wanted = wanted_points(*pieces, drawn, 2.0 * static_cast<double>(points));
+        counts = target_counts(*pieces, drawn, 2.0 * static_cast<double>(points));
     }
 }
 
@@ -187,7 +187,7 @@ double PointImage::sum_up(const BinPieces& pieces, std::span<const std::uint32_t
     return deviations;
 }
 
-std::vector<std::uint32_t> PointImage::wanted_points(const BinPieces& pieces,
+std::vector<std::uint32_t> PointImage::target_counts(const BinPieces& pieces,
                                                      std::span<const std::uint32_t> drawn,
                                                      double all) const {
     std::vector<double> share(drawn.size());
@@ -197,13 +197,13 @@ std::vector<std::uint32_t> PointImage::wanted_points(const BinPieces& pieces,
         share[k] = of_one_point > 0.0 ? power(of_one_point, 2.0 / 3.0) : 0.0;
         sum += share[k];
     }
-    std::vector<std::uint32_t> wanted(drawn.size());
+    std::vector<std::uint32_t> counts(drawn.size());
     for (std::size_t k = 0; k < share.size(); ++k) {
         const double evenly = even_share / static_cast<double>(share.size());
         const double part = evenly + (sum > 0.0 ? (1.0 - even_share) * share[k] / sum : 0.0);
-        wanted[k] = static_cast<std::uint32_t>(std::ceil(all * part));
+        counts[k] = static_cast<std::uint32_t>(std::ceil(all * part));
     }
-    return wanted;
+    return counts;
 }
 
 bool PointImage::may_be_missed(std::size_t k, const SampledImage& image, EdgeBin edge) const {

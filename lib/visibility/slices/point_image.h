@@ -65,7 +65,7 @@ class PointImage {
     /// The number of points of each of the pieces' bins for `all` in sum. The sum of s_k /
     /// sqrt(n_k) for a given sum of the n_k is least with n_k in proportion to s_k^(2/3), where s_k
     /// is the standard deviation of one point.
-    std::vector<std::uint32_t> wanted_points(const BinPieces& pieces,
+    std::vector<std::uint32_t> target_counts(const BinPieces& pieces,
                                              std::span<const std::uint32_t> drawn,
                                              double all) const;
 

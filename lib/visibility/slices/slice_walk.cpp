@@ -94,31 +94,31 @@ void SliceWalk::start(const SliceScene& scene, const SliceFrame& frame) {
 const std::vector<Segment>& SliceWalk::step(int s) {
     const float u = frame_->slices[s].u;
     std::swap(before_, active_);
-    old_.clear();
+    kept_.clear();
     for (const Segment& segment : before_) {
-        if (scene_->trapezoids[segment.trapezoid].u_to > u) old_.push_back(segment);
+        if (scene_->trapezoids[segment.trapezoid].u_to > u) kept_.push_back(segment);
     }
-    evaluate(*scene_, u, old_);
-    insertion_sort(old_);
-    fresh_.clear();
+    evaluate(*scene_, u, kept_);
+    insertion_sort(kept_);
+    entered_.clear();
     const Groups& by_slice = scene_->by_slice;
     for (std::uint32_t k = by_slice.begin[s]; k < by_slice.begin[s + 1]; ++k)
-        fresh_.push_back(not_evaluated(by_slice.items[k]));
-    evaluate(*scene_, u, fresh_);
-    if (fresh_.empty()) {
-        std::swap(active_, old_);
+        entered_.push_back(not_evaluated(by_slice.items[k]));
+    evaluate(*scene_, u, entered_);
+    if (entered_.empty()) {
+        std::swap(active_, kept_);
         return active_;
     }
-    std::ranges::sort(fresh_, before);
-    active_.resize(old_.size() + fresh_.size());
-    std::ranges::merge(old_, fresh_, active_.begin(), before);
+    std::ranges::sort(entered_, before);
+    active_.resize(kept_.size() + entered_.size());
+    std::ranges::merge(kept_, entered_, active_.begin(), before);
     return active_;
 }
 
 void SliceWalk::around_last_gap(std::vector<std::uint32_t>& out) const {
     for (const Segment& segment : before_)
         out.push_back(segment.trapezoid);
-    for (const Segment& segment : fresh_)
+    for (const Segment& segment : entered_)
         out.push_back(segment.trapezoid);
 }
 

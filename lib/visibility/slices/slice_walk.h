@@ -39,8 +39,8 @@ class SliceWalk {
     const SliceFrame* frame_ = nullptr;
     std::vector<Segment> before_;  ///< segments of the slice before
     std::vector<Segment> active_;
-    std::vector<Segment> old_;
-    std::vector<Segment> fresh_;
+    std::vector<Segment> kept_;
+    std::vector<Segment> entered_;
 };
 
 }  // namespace sonarsim

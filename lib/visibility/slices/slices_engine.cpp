@@ -66,16 +66,16 @@ class SlicesEngine final : public VisibilityEngine {
         int least_slices = slices_for(goal);
         std::optional<PointImage> points;
         for (int pass = 1;; ++pass) {
-            Pass seen = see(finer, draws, goal, pose, least_slices);
-            bool last = is_last(seen, view, pass);
-            if (last && seen.few_bins && options_.per_beam == 0) {
-                ask_rays(view, pose, pass, seen, points);
-                last = is_last(seen, view, pass);
+            Pass result = run_pass(finer, draws, goal, pose, least_slices);
+            bool last = is_last(result, view, pass);
+            if (last && result.few_bins && options_.per_beam == 0) {
+                settle_with_rays(view, pose, pass, result, points);
+                last = is_last(result, view, pass);
             }
-            if (last) return std::move(seen.samples);
-            if (seen.few_bins) least_slices *= times_the_slices;
+            if (last) return std::move(result.samples);
+            if (result.few_bins) least_slices *= times_the_slices;
             draws = false;
-            finer.relative_l1 *= std::clamp(aimed_share * goal / seen.if_checked, 0.25, 0.67);
+            finer.relative_l1 *= std::clamp(aimed_share * goal / result.if_checked, 0.25, 0.67);
         }
     }
 
@@ -98,31 +98,31 @@ class SlicesEngine final : public VisibilityEngine {
     };
 
     /// True if the ping needs no further pass, or gets none.
-    bool is_last(const Pass& seen, const View& view, int pass) const {
+    bool is_last(const Pass& result, const View& view, int pass) const {
         const double goal = view.relative_l1;
-        const double enough = seen.few_bins ? enough_for_few_bins(goal, pass) : goal;
+        const double enough = result.few_bins ? enough_for_few_bins(goal, pass) : goal;
         // More slices do not help against edge bins.
-        const bool hopeless = seen.edge_bins > goal;
-        return seen.samples.estimated_l1 <= enough || hopeless || options_.per_beam > 0 ||
-               pass >= (seen.few_bins ? most_passes_of_few : most_passes);
+        const bool hopeless = result.edge_bins > goal;
+        return result.samples.estimated_l1 <= enough || hopeless || options_.per_beam > 0 ||
+               pass >= (result.few_bins ? most_passes_of_few : most_passes);
     }
 
     /// Lets rays decide about edge bins, so that the estimate needs no allowance for them. Then
     /// compares the image with one by points, which is made once.
-    void ask_rays(const View& view, const LocalPose& pose, int pass, Pass& seen,
-                  std::optional<PointImage>& points) const {
-        SampledImage before = image_of(*scene_, view, seen.samples);
+    void settle_with_rays(const View& view, const LocalPose& pose, int pass, Pass& result,
+                          std::optional<PointImage>& points) const {
+        SampledImage before = image_of(*scene_, view, result.samples);
         const std::vector<EdgeBin> edges =
-            settle_edge_bins(caster_, view, pose, before, seen.samples);
+            settle_edge_bins(caster_, view, pose, before, result.samples);
         const bool asked =
-            std::ranges::any_of(edges, [](EdgeBin edge) { return edge != EdgeBin::not_asked; });
+            std::ranges::any_of(edges, [](EdgeBin edge) { return edge != EdgeBin::not_tested; });
         const SampledImage settled =
-            asked ? image_of(*scene_, view, seen.samples) : std::move(before);
+            asked ? image_of(*scene_, view, result.samples) : std::move(before);
         // Ends that could not be moved may be right in the second or third pass; a later one does
         // not help.
         const double dark = share_in_dark_bins(settled, edges);
-        const double allowed = std::exchange(seen.edge_bins, pass > 2 ? dark : 0.0);
-        double& estimate = seen.samples.estimated_l1;
+        const double allowed = std::exchange(result.edge_bins, pass > 2 ? dark : 0.0);
+        double& estimate = result.samples.estimated_l1;
         estimate += dark - allowed;
         if (!options_.image_by_points || estimate > view.relative_l1) return;
         if (!points) points.emplace(*scene_, *mesh_, caster_, view, pose);
@@ -131,8 +131,8 @@ class SlicesEngine final : public VisibilityEngine {
 
     /// One pass over a ping, as fine as `view` requires, with at least `least_slices` per beam;
     /// `goal` is that of the mission.
-    Pass see(const View& view, bool draws, double goal, const LocalPose& pose,
-             int least_slices) const {
+    Pass run_pass(const View& view, bool draws, double goal, const LocalPose& pose,
+                  int least_slices) const {
         const bool fixed = options_.per_beam > 0;
         const int per_beam =
             fixed ? options_.per_beam : std::max(slices_for(view.relative_l1), least_slices);

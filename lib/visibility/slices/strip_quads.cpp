@@ -26,15 +26,15 @@ StripQuads::StripQuads(const FrameScan& scan, const PatchLimits& limits, QuadSam
 
 void StripQuads::add(const SliceResult& result, const MovedEnds& low, const MovedEnds& high) {
     const Slice& slice = result.slice;
-    fresh_.clear();
+    new_quads_.clear();
     begin_.clear();
     end_.clear();
     for (std::size_t i = 0; i < result.spans.size(); ++i)
         add_span(slice, result.spans[i], outline_of(slice, result.spans[i], i, low, high));
     fill_holes(low.u);
     join(low.u);
-    std::swap(open_, fresh_);
-    std::swap(behind_, end_);
+    std::swap(open_, new_quads_);
+    std::swap(last_uncovered_, end_);
     std::erase_if(open_, [&](const Quad& quad) {
         if (quad.high.u == high.u) return false;
         out_.add(quad);
@@ -47,7 +47,7 @@ void StripQuads::end_beam() {
         out_.add(quad);
     out_.flush();
     open_.clear();
-    behind_.clear();
+    last_uncovered_.clear();
 }
 
 void StripQuads::add_span(const Slice& slice, const VisibleSpan& span, const SpanOutline& outline) {
@@ -71,25 +71,26 @@ void StripQuads::add_span(const Slice& slice, const VisibleSpan& span, const Spa
     for (int k = 0; k + 1 < part.count; ++k) {
         quad.low = part.sides[k];
         quad.high = part.sides[k + 1];
-        if (quad.low.low < quad.low.high || quad.high.low < quad.high.high) fresh_.push_back(quad);
+        if (quad.low.low < quad.low.high || quad.high.low < quad.high.high)
+            new_quads_.push_back(quad);
     }
 }
 
 /// Fills the holes on both sides of the border at u with the quadrilaterals on the other side.
 void StripQuads::fill_holes(float u) {
-    for (const Hole& hole : begin_) {
+    for (const UncoveredPart& hole : begin_) {
         for (const Quad& quad : open_)
             fill(hole, quad, quad.high, quad.low);
     }
-    for (const Hole& hole : behind_) {
-        for (const Quad& quad : fresh_) {
+    for (const UncoveredPart& hole : last_uncovered_) {
+        for (const Quad& quad : new_quads_) {
             if (quad.low.u == u) fill(hole, quad, quad.low, quad.high);
         }
     }
 }
 
 /// Continues a quadrilateral over its side `near`, at a border of strips, into a hole.
-void StripQuads::fill(const Hole& hole, const Quad& quad, const QuadSide& near,
+void StripQuads::fill(const UncoveredPart& hole, const Quad& quad, const QuadSide& near,
                       const QuadSide& far) {
     const Interval& extent = scan_.facet_extent(quad.facet_index).u;
     const float from = std::max(hole.low.u, extent.from);
@@ -110,7 +111,7 @@ void StripQuads::fill(const Hole& hole, const Quad& quad, const QuadSide& near,
 /// Joins the open quadrilaterals with the new ones at u, and passes the others on.
 void StripQuads::join(float u) {
     auto open = open_.begin();
-    for (Quad& quad : fresh_) {
+    for (Quad& quad : new_quads_) {
         if (quad.low.u != u) continue;
         for (; open != open_.end() && open->high.low < quad.low.high; ++open) {
             if (go_on(*open, quad)) {

@@ -27,24 +27,26 @@ class StripQuads {
 
   private:
     /// The part of a span's strip that its surface does not reach.
-    struct Hole {
+    struct UncoveredPart {
         QuadSide low, high;
     };
 
     void add_span(const Slice& slice, const VisibleSpan& span, const SpanOutline& outline);
     void fill_holes(float u);
-    void fill(const Hole& hole, const Quad& quad, const QuadSide& near, const QuadSide& far);
+    void fill(const UncoveredPart& hole, const Quad& quad, const QuadSide& near,
+              const QuadSide& far);
     void join(float u);
     bool go_on(const Quad& open, const Quad& quad) const;
 
     const FrameScan& scan_;
     const float most_wedge_m_;
     QuadSampler& out_;
-    const float widest_;             ///< greatest width of a quadrilateral, in u at u = 0
-    std::vector<Quad> open_;         ///< quadrilaterals at the last strip's end, by w
-    std::vector<Quad> fresh_;        ///< quadrilaterals of this strip
-    std::vector<Hole> behind_;       ///< holes of the last strip that reach its end
-    std::vector<Hole> begin_, end_;  ///< holes of this strip that reach its begin or its end
+    const float widest_;           ///< greatest width of a quadrilateral, in u at u = 0
+    std::vector<Quad> open_;       ///< quadrilaterals at the last strip's end, by w
+    std::vector<Quad> new_quads_;  ///< quadrilaterals of this strip
+    std::vector<UncoveredPart> last_uncovered_;  ///< holes of the last strip that reach its end
+    std::vector<UncoveredPart> begin_,
+        end_;  ///< holes of this strip that reach its begin or its end
 };
 
 }  // namespace sonarsim

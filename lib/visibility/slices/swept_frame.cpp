@@ -89,7 +89,7 @@ void sweep_and_check(const SlicesPing& ping, const SliceFrame& frame, SlicesImag
     sweep(ping, scan, adaptive, image, [&] {
         add_waiting();
         if (!adaptive.uncertain()) return;
-        waiting = &check.look_at(adaptive);
+        waiting = &check.check_beam(adaptive);
         end_check(beam_at(frame, adaptive.first_gap()), image);
     });
     image.errors.finish();
@@ -107,7 +107,7 @@ void sweep_and_check_shared(const SlicesPing& ping, std::span<const SliceFrame> 
         BeamCheck check(ping.view, scan, ping.scene.materials, image.checked_samples.items());
         sweep(ping, scan, adaptive, image, [&] {
             const int beam = beam_at(frame, adaptive.first_gap());
-            sums[beam].add(check.look_at(adaptive));
+            sums[beam].add(check.check_beam(adaptive));
             end_check(beam, image);
         });
         image.samples.dropped += scan.scene().dropped;
@@ -150,7 +150,7 @@ SweptFrame::SweptFrame(const SlicesPing& ping, const SliceFrame& frame, SlicesIm
 
 void SweptFrame::check(std::size_t uncertain, double weight) {
     adaptive_.restore(kept_, uncertain);
-    BeamSums& sums = check_.look_at(adaptive_);
+    BeamSums& sums = check_.check_beam(adaptive_);
     const int beam = beam_at(frame_, kept_.beams[uncertain].first_gap);
     end_check(beam, image_);
     image_.errors.check(beam, sums, weight);

@@ -102,8 +102,8 @@ TEST_CASE("slices: right ends stay where they are, and other bins are not asked"
     CHECK(right.edges[25] == EdgeBin::filled);
     CHECK(bins_of(over_floor(), right.samples.items.front()).to ==
           doctest::Approx(25.05).epsilon(1e-4));
-    CHECK(right.edges[24] == EdgeBin::not_asked);
-    CHECK(right.edges[30] == EdgeBin::not_asked);
+    CHECK(right.edges[24] == EdgeBin::not_tested);
+    CHECK(right.edges[30] == EdgeBin::not_tested);
 }
 
 TEST_CASE("slices: a sample that lies within a bin without surface is removed") {

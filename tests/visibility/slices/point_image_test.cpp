@@ -66,7 +66,7 @@ PointImage points_to(const Scene& scene) {
 TEST_CASE("slices: the image by points is that of a wall") {
     // Its noise is a quarter of the goal of 1 %. If x is normal with the variance s^2, the root of
     // max(x^2 - s^2, 0) has a mean of 0.3 s.
-    const std::vector<EdgeBin> edges(100, EdgeBin::not_asked);
+    const std::vector<EdgeBin> edges(100, EdgeBin::not_tested);
     CHECK(points_to(scene_of_wall()).error_of(image_of_wall(), edges) < 0.001);
 }
 
@@ -76,7 +76,7 @@ TEST_CASE("slices: the image by points shows errors of single bins") {
     double signal = 0.0;
     for (std::size_t k = 0; k < image.area.size(); ++k)
         signal += static_cast<double>(image.intensity(k));
-    std::vector<EdgeBin> edges(100, EdgeBin::not_asked);
+    std::vector<EdgeBin> edges(100, EdgeBin::not_tested);
     // Bin 55 is twice as bright, bin 56 is missing, and bin 10 is filled by mistake.
     const auto wrong =
         static_cast<double>(image.intensity(55)) + static_cast<double>(image.intensity(56)) + 1.0;
@@ -101,7 +101,7 @@ TEST_CASE("slices: the image by points has slivers") {
     double signal = 1.0;
     for (std::size_t k = 0; k < image.area.size(); ++k)
         signal += static_cast<double>(image.intensity(k));
-    const std::vector<EdgeBin> edges(100, EdgeBin::not_asked);
+    const std::vector<EdgeBin> edges(100, EdgeBin::not_tested);
     const PointImage points = points_to(scene);
     CHECK(points.error_of(image, edges) == doctest::Approx(1.0 / signal).epsilon(0.05));
     image.area[25] = 1e-7F;
