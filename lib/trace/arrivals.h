@@ -5,10 +5,10 @@
 #include <Eigen/Core>
 #include <cmath>
 
-// Arrivals: what the clock and the array of a sonar measure of sound from a point. Everything after
-// the trace takes ranges and directions from here, and nothing else derives them from positions.
-// Positions are those that a sonar measures (visibility/engine.h): half of the way at one speed, in
-// the direction from which the sound comes. So paths are straight and retraced here even where a
+// Arrivals: the range and the direction that a sonar measures of sound from a point. All code after
+// the trace takes ranges and directions from here; no other code derives them from positions.
+// Positions are apparent places (visibility/engine.h): half of the two-way time at one speed, in
+// the direction of arrival. So paths are straight here, and the same out and back, even where a
 // profile bends the sound; trace/true_place.h gives the place in the world.
 
 namespace sonarsim {
@@ -57,8 +57,8 @@ inline __m256 piece_range(__m256 x, __m256 y, __m256 z) {
     return _mm256_sqrt_ps(_mm256_fmadd_ps(x, x, _mm256_fmadd_ps(y, y, _mm256_mul_ps(z, z))));
 }
 
-/// The direction of a piece along one axis of the sensor, by its coordinate on that axis: the sine
-/// of its angle to the plane across the axis.
+/// The sine of the angle between the direction of a piece and the plane across an axis of the
+/// sensor, from the piece's coordinate on that axis.
 inline float piece_sine(float coordinate_m, float range_m) {
     return coordinate_m * (1.0F / range_m);
 }

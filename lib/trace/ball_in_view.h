@@ -13,8 +13,9 @@ struct TargetBall {
     float range_m, radius_m;
 };
 
-/// The position of a ball relative to a view: `widened` is the view with its guard beams, if it is
-/// `guarded`.
+/// The position of a ball relative to a view. `widened`: the view with its guard beams. If it has
+/// any (`guarded`), a ball is at most partly inside, since the beams' cones do not fill the guard
+/// beams.
 Containment ball_in_view(const View& view, const View& widened, bool guarded,
                          const TargetBall& ball);
 

@@ -7,9 +7,10 @@ namespace sonarsim {
 
 inline constexpr std::uint32_t no_material = 0xFFFFFFFFU;
 
-/// A multipath path: from the sonar to a sample, reflected there to a second surface, and from that
-/// back to the sonar. If the water's surface reflects the sound on its way (`by_water_surface`),
-/// the second surface is its image in the water's surface.
+/// A multipath path: from the sonar to a sample, which reflects the sound to a second surface, and
+/// from there back to the sonar. If the water's surface reflects the sound on its way
+/// (`by_water_surface`), `point` and `normal` are those of the second surface's image in the
+/// water's surface.
 struct BouncePath {
     std::uint32_t sample = 0;  ///< index into Samples::items
     std::uint32_t ray = 0;     ///< the traced ray that found the second surface
@@ -26,8 +27,8 @@ struct BouncePath {
     float strength = 1.0F;  ///< strength of the second surface, as in Sample
     float water_reflection = 1.0F;  ///< R of the water's surface if it reflects the sound, else 1
     bool by_water_surface = false;
-    /// The second surface reflects the sound away from the sonar. A rough surface scatters some of
-    /// it back, which the paper's model does not have.
+    /// The second surface reflects the sound away from the sonar. A rough surface scatters some
+    /// sound back; the paper's model has no such echo.
     bool scattered = false;
 };
 

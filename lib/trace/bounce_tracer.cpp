@@ -12,7 +12,7 @@ namespace sonarsim {
 namespace {
 
 /// The ray that leaves a sample. On a curved surface the sample may lie a little below the facets
-/// that it stands for; the ray starts above them.
+/// that it represents; the ray starts above them.
 Ray specular_ray(const Sample& sample, float bin_m) {
     const Arrival arrival = arrival_of(sample.position);
     const float size = sample.edge_u.norm() + sample.edge_v.norm();

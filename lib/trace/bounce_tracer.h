@@ -52,7 +52,7 @@ struct BounceTracer {
     Eigen::Vector3f sonar() const {
         return uses_surface_image() ? mirror->image : Eigen::Vector3f(Eigen::Vector3f::Zero());
     }
-    /// The point of the world that a second point stands for.
+    /// The true place of a second point, which may be an image in the water's surface.
     Eigen::Vector3f seen(const Eigen::Vector3f& p) const {
         return uses_surface_image() ? mirror->reflect_point(p) : p;
     }

@@ -10,8 +10,8 @@ namespace sonarsim {
 
 namespace {
 
-/// The angle to the normal whose refracted way ends `across_m` along the plane. The distance grows
-/// with the angle up to the critical one, where it is infinite, or 90 degrees.
+/// The angle to the normal, in the water, of the refracted path that ends `across_m` along the
+/// plane. This distance grows with the angle, to infinity at the critical angle or at 90 degrees.
 double refraction_angle(double speed_ratio, double height_m, double depth_m, double across_m) {
     double low = 0.0;
     double high = 1.0;  // as a share of the greatest sine
@@ -27,7 +27,7 @@ double refraction_angle(double speed_ratio, double height_m, double depth_m, dou
     return arctan2(low * most, std::sqrt((1.0 - low * most) * (1.0 + low * most)));
 }
 
-/// A buried place as the sonar sees it.
+/// The path of sound to a buried place.
 struct BuriedSight {
     Eigen::Vector3d leaves;   ///< direction in which sound leaves for it
     Eigen::Vector3d arrives;  ///< direction in which that sound arrives there
@@ -73,8 +73,9 @@ WayIntoBottom way_into_bottom(const SedimentPath& sediment, double height_m, dou
     way.angle_rad = angle;
     way.in_water_m = height_m / water.cos;
     way.in_sediment_m = depth_m / cosine;
-    // A ring of the angles t and dt has 2 pi sin(t) dt; at the place it has 2 pi x dx cos(t'), with
-    // x = h tan(t) + d tan(t') and cos(t') dt' = n cos(t) dt. x / sin(t) is known at t = 0.
+    // The ring of angles from t to t + dt has the solid angle 2 pi sin(t) dt. Its area at the place
+    // is 2 pi x dx cos(t'), with x = h tan(t) + d tan(t') and cos(t') dt' = n cos(t) dt. The ratio
+    // x / sin(t) is finite at t = 0.
     const double x_by_sine = height_m / water.cos + depth_m * n / cosine;
     const double dx =
         height_m / (water.cos * water.cos) + depth_m * n * water.cos / (cosine * cosine * cosine);

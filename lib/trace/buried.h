@@ -12,9 +12,9 @@
 
 namespace sonarsim {
 
-/// The way of sound below the surface of a sea bed.
+/// The propagation of sound in the sediment of a sea bed.
 struct SedimentPath {
-    double speed_ratio = 0.0;  ///< speed of sound to that of the water; 0: no sea bed
+    double speed_ratio = 0.0;  ///< ratio of the speed of sound to the water's; 0: no sea bed
     double density_ratio = 0.0;
     /// Two-way power falls as e^-(loss r) over a path r in the sediment, in addition to the
     /// absorption of the water path r / speed_ratio of equal time.
@@ -36,25 +36,28 @@ struct WayIntoBottom {
     }
 };
 
-/// The refracted path from a height above a plane to a depth below it, `across_m` apart along it.
+/// The refracted path from a height above a plane to a depth below it. Its ends are `across_m`
+/// apart along the plane.
 WayIntoBottom way_into_bottom(const SedimentPath& sediment, double height_m, double depth_m,
                               double across_m);
 
-/// The echo of a point of 1 m^2 at the end of that path over the echo of one in the water at its
-/// range: T^2 n^2 r^4 / L^4 times the loss, with T the transmitted share, n the ratio of speeds and
-/// L^2 the spread. The way back spreads over L^2 / n^2, since solid angles in the sediment are
-/// wider by n^2 cos / cos, and areas across the way in the water by the inverse of the cosines.
+/// The echo of a point of 1 m^2 at the end of a path, divided by its echo at the same range r in
+/// the water: T^2 n^2 r^4 / L^4 times the loss, with T the transmitted share, n the ratio of speeds
+/// and L^2 the spread. The spread of the way back is L^2 / n^2: refraction widens solid angles in
+/// the sediment by n^2 cos / cos, and areas across the path in the water by the inverse ratio of
+/// the cosines.
 double echo_through_bottom(const SedimentPath& sediment, const WayIntoBottom& way);
 
 /// The apparent place of a buried point: in the direction of departure, at the range of its two-way
-/// time, with its echo as its section. `hit`: the first hit of the straight line to it, which gives
-/// the plane of the bottom. `sediments`: by material. Nothing unless it lies below a sea bed.
+/// time. Its area is scaled by echo_through_bottom(). `hit`: the first hit of the straight line to
+/// the point; it gives the plane of the bottom. `sediments`: by material. Nothing unless the point
+/// lies below a sea bed.
 std::optional<Sample> seen_buried(std::span<const SedimentPath> sediments, const Sample& point,
                                   const Intersection& hit);
 
-/// The same for a part of a buried object. It is turned so that its normal makes the same angle
-/// with the sight line as with the sound in the sediment. Nothing, too, if it faces away from that
-/// sound. `hit`: the first hit of a ray from the sonar near the part.
+/// The same for a part of a buried object. The part is turned so that its normal makes the same
+/// angle with the sight line as before with the sound in the sediment. Nothing, too, if the part
+/// faces away from the sound. `hit`: the first hit of a ray from the sonar near the part.
 std::optional<TargetFacet> seen_buried(std::span<const SedimentPath> sediments,
                                        const TargetFacet& part, const Ray& ray,
                                        const Intersection& hit);

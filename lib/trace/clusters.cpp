@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::uint32_t none = 0xFFFFFFFFU;
 
-// A sample is compared with at most this many clusters of its tile before it starts its own. A tile
-// with more normals than this is rubble, in which clusters have hardly a second member.
+// A sample is compared with at most this many clusters of its tile before it starts its own. In a
+// tile with more normals than this, few clusters would have a second member.
 constexpr int most_comparisons = 16;
 
 struct Tile {

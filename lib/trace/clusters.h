@@ -14,7 +14,7 @@ struct ClusterLimits {
     float delta_cosine = 1.0F;  ///< least cosine between normals
 };
 
-/// Samples grouped so that one ray may stand for all of a group.
+/// Samples grouped so that one ray may represent a group.
 struct Clusters {
     std::vector<std::uint32_t> members;  ///< indices of samples, cluster after cluster
     std::vector<std::uint32_t> begin;    ///< clusters + 1 offsets into `members`
@@ -27,8 +27,8 @@ struct Clusters {
 
 /// Groups the samples within the view's range: Algorithm 1, lines 9 to 15. The bins of range, beam
 /// and elevation are cut into tiles of `epsilon_bins` each way; samples of one tile whose normals
-/// lie within delta of those of the group's first form a group. The paper's double loop over all
-/// leaves makes balls instead of tiles, in quadratic time; this takes linear time.
+/// lie within delta of the normal of the group's first sample form a group. The paper's double loop
+/// over all leaves makes balls instead of tiles, in quadratic time; this takes linear time.
 Clusters cluster_samples(const View& view, const Samples& samples, const ClusterLimits& limits);
 
 }  // namespace sonarsim

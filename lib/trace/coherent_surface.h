@@ -14,7 +14,7 @@ struct PlateEdge {
     bool seen = true;  ///< it is in view, and the plate next to its middle is not hidden
 };
 
-/// A face from which sound is reflected on its way.
+/// A face of a corner, which reflects sound on its way.
 struct Mirror {
     std::uint32_t material = 0;  ///< index into Scene::materials
     double sine = 1.0;           ///< sine of the grazing angle
@@ -31,7 +31,8 @@ struct PlateOfPing {
     float strength = 1.0F;        ///< factor on its power, from a map
 };
 
-/// A part of the line along a cylinder on which its normal points at the axis through the sonar.
+/// A part of the specular line of a cylinder: there the normal points at the line through the sonar
+/// that is parallel to the cylinder's axis.
 struct StripOfPing {
     Eigen::Vector3d from, to;
     double radius_m = 0.0;       ///< negative if the cylinder is hollow

@@ -7,7 +7,7 @@ namespace sonarsim {
 ConeBeams::ConeBeams(std::span<const double> edge_sines)
     : edges_(edge_sines.begin(), edge_sines.end()) {
     if (edges_.empty()) return;
-    // Rounding may put a sine into the next step, so that the search begins one step earlier.
+    // Rounding may put a sine into the next step, so the search begins one step earlier.
     const int steps = 4 * static_cast<int>(edges_.size());
     const float span = edges_.back() - edges_.front();
     steps_per_unit_ = static_cast<float>(steps) / span;

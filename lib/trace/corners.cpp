@@ -23,7 +23,8 @@ constexpr float meeting_share = 1e-3F;
 constexpr int parts_of_seam = 16;
 constexpr int directions_of_aperture = 64;
 constexpr int halvings = 12;
-// A corner is visible if its faces are, this share of the range from the middle of the aperture.
+// The faces of a corner are tested for visibility at this share of the range from the middle of the
+// aperture.
 constexpr double aim_by_range = 0.01;
 constexpr double least_reach = 1e-3;  // a share of the smallest face
 
@@ -123,9 +124,9 @@ bool holds(const CornerFace& face, const Eigen::Vector3d& u, const Eigen::Vector
     return inside;
 }
 
-/// The points of the faces that a ray through a place of the aperture meets, reflected at each.
-/// `place` is relative to a point on all faces, `away` the direction from the sonar. Returns false
-/// if it misses a face.
+/// Finds the points where a ray through a place of the aperture meets the faces, reflected at each.
+/// `place`: relative to `corner`, a point on all faces. `away`: the direction from the sonar.
+/// Returns false if the ray misses a face.
 template <std::size_t N>
 bool find_hits(const std::array<CornerFace, N>& faces, const Eigen::Vector3d& corner,
                const Eigen::Vector3d& place, const Eigen::Vector3d& away,
@@ -133,7 +134,7 @@ bool find_hits(const std::array<CornerFace, N>& faces, const Eigen::Vector3d& co
     for (std::size_t f = 0; f < N; ++f) {
         const double step = -place.dot(faces[f].outwards) / away.dot(faces[f].outwards);
         Eigen::Vector3d hit = place + step * away;
-        // It is on the side of the other faces that the sonar sees.
+        // Reflect the point to the visible side of the other faces.
         for (std::size_t other = 0; other < N; ++other) {
             const Eigen::Vector3d& n = faces[other].outwards;
             if (other != f) hit += (std::fabs(hit.dot(n)) - hit.dot(n)) * n;
@@ -160,7 +161,7 @@ double reach_of(const std::array<CornerFace, N>& faces, const Eigen::Vector3d& c
     return low;
 }
 
-/// No point of the aperture is further from the corner.
+/// An upper bound of the aperture's reach from the corner.
 template <std::size_t N>
 double most_reach(const std::array<CornerFace, N>& faces, const Eigen::Vector3d& corner) {
     double least = std::numeric_limits<double>::infinity();
@@ -211,7 +212,7 @@ void find_corners(CoherentFaces& faces) {
     std::vector<Box> boxes;
     for (const ScenePlate& plate : faces.plates)
         boxes.push_back(box_of(plate));
-    // The seams of which a plate is the first.
+    // The seams by the first of their plates.
     std::vector<std::vector<std::uint32_t>> seams_of(faces.plates.size());
     for (const auto& [a, b] : pairs_that_meet(faces.plates, boxes)) {
         SceneDihedral seam{.plates = {a, b}, .from = {}, .to = {}};

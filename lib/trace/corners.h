@@ -9,12 +9,12 @@
 #include "trace/coherent_faces.h"
 #include "trace/coherent_surface.h"
 
-// Corner reflectors. Sound that meets two faces at right angles goes back as if it had met a plate
-// through their seam that faces the sonar across the seam; after three faces, a plate through their
-// common point that faces the sonar. The plate is that part of the plane from which a ray,
-// reflected at the faces, meets each of them: the overlap of the opening and its point reflection
-// (e.g. Knott, Shaeffer and Tuley, "Radar Cross Section", 2004, chapter 6). Its area A gives 20
-// log(A / lambda); three right triangles of side a on the axis have A = a^2 / sqrt(3).
+// Corner reflectors. Two faces at right angles reflect sound like a plate through their seam that
+// faces the sonar across the seam; three faces like a plate through their common point that faces
+// the sonar. The plate is the part of its plane through which a reflected ray meets each of the
+// faces: the overlap of the opening and its point reflection (e.g. Knott, Shaeffer and Tuley,
+// "Radar Cross Section", 2004, chapter 6). Its target strength is 20 log(A / lambda) for an area A;
+// three right triangles of side a on the axis have A = a^2 / sqrt(3).
 
 namespace sonarsim {
 
@@ -34,7 +34,7 @@ struct Aperture {
     std::vector<Eigen::Vector3d> points;
 };
 
-/// The parts of the seam from one end to the other.
+/// The apertures of the parts of a seam, from one end to the other.
 std::vector<Aperture> dihedral_apertures(const std::array<CornerFace, 2>& faces,
                                          const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 

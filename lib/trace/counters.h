@@ -11,7 +11,7 @@ namespace sonarsim {
 // The counters and times of a ping. A stage owns a member of one of the structs and a line of the
 // table below it; sums, metadata and log lines follow from the tables.
 
-/// The samples of a ping as sources of multipath, by their outcome.
+/// The numbers of a ping's samples by the outcome of their multipath.
 struct MultipathCounts {
     std::uint64_t samples = 0;
     std::uint64_t clusters = 0;

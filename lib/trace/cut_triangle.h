@@ -43,7 +43,8 @@ void cut_triangle(Size size, Use use) {
         return static_cast<float>(part) / static_cast<float>(parts);
     };
     const int strips = wanted(std::max(sizes[(tip + 1) % 3], sizes[(tip + 2) % 3]));
-    // From the tip by a share of the way to the point at a share of the side a, b.
+    // The place at the share `along` of the line from the tip to a point of the side from a to b,
+    // which lies at the share `across` of this side.
     const auto place = [&](float along, float across) -> TrianglePlace {
         return {t.u + along * (a.u - t.u + across * (b.u - a.u)),
                 t.v + along * (a.v - t.v + across * (b.v - a.v))};

@@ -2,8 +2,8 @@
 
 namespace sonarsim {
 
-/// The loss of the filter of a pulse for an echo whose frequency f is shifted by 2 f w / c, from a
-/// place that recedes at w.
+/// The loss of the matched filter for the echo of a place that recedes at the speed w. The echo's
+/// frequency f is shifted by 2 f w / c.
 struct DopplerLoss {
     /// A tone of length T: 2 f T / c, the turns of phase over the pulse by speed. 0: no tone.
     double turns_s_per_m = 0.0;
@@ -14,9 +14,9 @@ struct DopplerLoss {
 };
 
 /// The share of the power that the filter passes. The filter of a tone sums the echo over T with
-/// the phases of the transmitted pulse: sinc^2 of the turns. A sweep fits the filter at the shifted
-/// range, except for the share a of the band at its ends: (1 - a)^2. Both are the pulse's ambiguity
-/// function, for even amplitudes.
+/// the phases of the transmitted pulse: sinc^2 of the turns. A sweep matches the filter at a
+/// shifted range, except for the share a of the band at its ends: (1 - a)^2. Both are the pulse's
+/// ambiguity function, for even amplitudes.
 double passed_by_filter(const DopplerLoss& loss, double recedes_m_s);
 
 }  // namespace sonarsim

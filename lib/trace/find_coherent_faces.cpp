@@ -57,7 +57,7 @@ class CoherentMaterials {
     bool in_texels_ = false;
 };
 
-/// A mesh at the place of a copy.
+/// Moves the faces of a mesh to the place of a copy.
 class Placement {
   public:
     Placement(const Eigen::Affine3d& T_world_mesh, const Eigen::Vector3d& origin)

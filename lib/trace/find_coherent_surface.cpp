@@ -155,7 +155,7 @@ class CoherentSurfaceFinder {
     Seen find_seen(PlateOfPing& plate) const {
         SeenPoints points;
         std::vector<std::pair<std::size_t, bool*>> asked;
-        double area = 0.0;  // positive if the border goes round the normal
+        double area = 0.0;  // positive if the border is counter-clockwise about the normal
         for (const PlateEdge& edge : plate.edges)
             area += plate.normal.dot(edge.from.cross(edge.to));
         const Eigen::Vector3d foot = plate.height_m * plate.normal;
@@ -177,9 +177,8 @@ class CoherentSurfaceFinder {
         return count == std::ssize(asked) ? Seen::all : Seen::partly;
     }
 
-    /// Adds those parts of a plate that are not hidden, each with a border of its own. The
-    /// diffraction of a border is right only if it is closed: without its hidden part the rest
-    /// would not cancel.
+    /// Adds the parts of a plate that are not hidden, each with a closed border of its own. The
+    /// diffraction at the edges of an open border would not cancel.
     void add_seen_parts(const ScenePlate& plate, const PlateOfPing& whole, float size_m) {
         SeenPoints points;
         std::vector<PlateOfPing> parts;

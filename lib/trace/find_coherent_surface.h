@@ -9,9 +9,9 @@
 
 namespace sonarsim {
 
-/// The coherent surface within the range of a view. Rays test its visibility. A plate has one to
-/// the foot of the perpendicular and eight to every edge. A strip has 8 to 64 parts and a seam 16;
-/// each part has one ray to each face that the sound meets.
+/// The coherent surface within the range of a view. Rays test its visibility: for a plate, one to
+/// the foot of the perpendicular and eight to every edge. A strip has 8 to 64 parts and a seam 16
+/// parts; each part has one ray to each face that the sound meets.
 CoherentSurface find_coherent_surface(const CoherentFaces& faces, const Scene& scene,
                                       const VisibilityEngine& engine, const Pose& T_world_sensor,
                                       const View& view);

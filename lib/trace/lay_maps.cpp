@@ -82,8 +82,8 @@ class MapLayer {
         return from_above(p) + sensor_;
     }
 
-    /// Finds a piece's place on the maps by texture coordinates. A piece is flat and the triangles
-    /// below it need not be, so each has that of its own centre.
+    /// Finds a piece's place on the maps by texture coordinates. The triangles below a flat piece
+    /// need not be flat, so each piece uses the coordinates at its own centre.
     void find_ground(MapPiece& piece) const {
         const Eigen::Matrix3d R = pose_.rotation.toRotationMatrix();
         piece.ground =
@@ -109,7 +109,8 @@ class MapLayer {
         const float size_u = size_of(piece.u, at);
         const float size_v = size_of(piece.v, at);
         if (size_v > size_u) piece.swap_edges();
-        // A piece at the sonar has NaN; in this order of arguments it is not cut.
+        // The sizes of a piece at the sonar are NaN; with this order of arguments the piece is not
+        // cut.
         if (std::max(size_u, size_v) > 1.0F && halvings > 0) {
             for (const double low : {-1.0, 0.0}) {
                 MapPiece half = piece.between(low, low + 1.0);
@@ -118,7 +119,8 @@ class MapLayer {
             }
             return;
         }
-        // Strips along the edge with the greater depth would blur ranges more.
+        // The strips follow each other along `u`. If `u` were the edge of greater depth, the
+        // materials would lie at wrong ranges.
         if (std::fabs(piece.u.dot(at.direction)) > std::fabs(piece.v.dot(at.direction)))
             piece.swap_edges();
         add_by_bins(piece, at, out);

@@ -13,7 +13,7 @@ namespace sonarsim {
 
 namespace {
 
-// The views of sonars of one or two beams are as wide as several beams.
+// The view of a sonar of one or two beams is several beams wide, so it is divided by this number.
 constexpr int parts_across = 32;
 
 class TargetMapLayer {

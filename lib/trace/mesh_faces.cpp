@@ -42,7 +42,7 @@ SidesByEdge sides_by_edge(const FaceMesh& mesh) {
     return out;
 }
 
-/// Numbers that are joined into sets.
+/// Disjoint sets of numbers (union-find).
 struct JoinedSets {
     std::vector<std::uint32_t> parent;
 
@@ -165,7 +165,7 @@ class FaceFinder {
         return sides.size() == 2 && sets_.of(sides[0].triangle) == sets_.of(sides[1].triangle);
     }
 
-    /// The ends of a side, so that the face is always on the same side of it.
+    /// The ends of a side, ordered so that the face always lies on the same side.
     std::array<Eigen::Vector3f, 2> ends_of(const TriangleSide& side) {
         const Eigen::Vector3f* const p = mesh_.corners.data() + std::size_t{3} * side.triangle;
         const Eigen::Vector3f from = p[side.corner];
@@ -196,8 +196,8 @@ class FaceFinder {
             }
             if (!(reach[0] < most_reach_ratio * reach[1] && reach[1] < most_reach_ratio * reach[0]))
                 continue;
-            // Faces of a circle turn in proportion to their width: each turns by its share of the
-            // angle.
+            // The facets of a circular arc turn in proportion to their widths, so the common normal
+            // divides the angle by their widths.
             const float same = faces[0]->normal.dot(faces[1]->normal) < 0.0F ? -1.0F : 1.0F;
             const Eigen::Vector3f normal =
                 (reach[1] * faces[0]->normal + reach[0] * same * faces[1]->normal).normalized();

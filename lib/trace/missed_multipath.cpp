@@ -148,8 +148,8 @@ double missed_multipath(const View& view, int columns_per_beam, const Samples& s
     if (alone + common == 0.0) return none;
     const double in_one_image = 0.5 * alone + common;
     const double found = common / in_one_image;
-    // An image of every second column misses 1 - found; the image of all columns half as much. So
-    // this is twice the standard error of the latter.
+    // An image of every second column misses 1 - found; the image of all columns misses half as
+    // much, so this is twice its standard error.
     const double twice_standard_error = std::sqrt(found * (1.0 - found) / in_one_image);
     return 0.5 * (1.0 - found) + twice_standard_error;
 }

@@ -13,7 +13,7 @@ namespace sonarsim {
 namespace {
 
 // Below this |r . n_h|, half a degree, the second plane is seen edge-on: floats are too coarse for
-// the point where the ray meets it, and the point is too far off for the plane to stand for the
+// the point where the ray meets the plane, and so far away the plane does not represent the
 // surface.
 constexpr float least_cosine = 0.01F;
 
@@ -138,8 +138,8 @@ void follow_traced(const BounceTracer& context, std::span<const std::uint32_t> s
 }
 
 /// True if `hit`, of a ray from the sonar towards p_h, lies before p_h and hides it. If both are on
-/// one surface, two ranges of one point are compared. Each is off by its rounding across the
-/// surface, which along the ray is longer by 1 / cos(incidence).
+/// one surface, they are one point with two roundings, so the comparison has a slack: the rounding
+/// across the surface, divided by cos(incidence) to be along the ray.
 bool hides(const Intersection& hit, const BounceHit& second, float range_m, const Ray& ray) {
     if (std::isinf(hit.distance_m)) return false;
     const auto along_ray = [&](float rounding_m, const Eigen::Vector3f& normal) {
@@ -239,7 +239,7 @@ std::vector<BouncePath> find_bounces(const Multipath& multipath, const TraceCont
 
     std::vector<BouncePath> bounces = follow_all(context, clusters, counts);
     if (mirror) {
-        // A sample is counted once, on its path without the mirror.
+        // A sample is counted once, for its path without a reflection at the water's surface.
         MultipathCounts surface_counts;
         context.surface_role = SurfaceRole::reflector;
         const std::vector<BouncePath> more = follow_all(context, clusters, surface_counts);

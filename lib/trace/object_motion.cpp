@@ -20,7 +20,7 @@ class ObjectMover {
     ObjectMover(const MovingObjects& moving, const PingMotion& sonar, const Pose& T_world_sensor)
         : moving_(moving), sonar_(sonar), T_world_sensor_(T_world_sensor) {}
 
-    /// Null: it stands still.
+    /// Null if the instance stands still.
     const ObjectMotion* motion_of(std::uint32_t instance) const {
         const auto found = std::ranges::find(moving_.all, instance, &ObjectMotion::instance);
         return found == moving_.all.end() ? nullptr : &*found;
@@ -51,7 +51,8 @@ class ObjectMover {
         return {shifted(sonar_, met, velocity), turn.toRotationMatrix()};
     }
 
-    /// The speed at which a place recedes from the sonar. `motion` is null if it stands still.
+    /// The speed at which a place recedes from the sonar. `motion` is null if the place stands
+    /// still.
     double recedes_m_s(const ObjectMotion* motion, const Eigen::Vector3d& place) const {
         Eigen::Vector3d velocity = -sonar_.velocity_m_s;
         if (motion != nullptr) {

@@ -21,7 +21,7 @@ struct ObjectMotion {
 /// The objects that move in a ping, for one transmission of it.
 struct MovingObjects {
     std::span<const ObjectMotion> all;
-    double later_s = 0.0;  ///< the transmission after the time of the ping
+    double later_s = 0.0;  ///< delay of the transmission after the ping's time
 };
 
 /// The time after which sound from the origin meets a point that is at `place` now.
@@ -41,7 +41,8 @@ void move_objects(const MovingObjects& moving, const PingMotion& sonar, const Po
 void move_objects(const MovingObjects& moving, const PingMotion& sonar, const Pose& T_world_sensor,
                   std::span<TargetFacet> facets);
 
-/// Weakens echoes by their Doppler shift, from the motion of sonar and object.
+/// Weakens echoes by the loss of the matched filter for their Doppler shift, from the motion of
+/// sonar and object.
 void fade_by_doppler(const MovingObjects& moving, const PingMotion& sonar,
                      const Pose& T_world_sensor, std::span<Sample> samples);
 void fade_by_doppler(const MovingObjects& moving, const PingMotion& sonar,

@@ -29,8 +29,9 @@ double range_shift(const PingMotion& motion, const Eigen::Vector3d& place) {
     return -motion.doppler_s * motion.velocity_m_s.dot(place.normalized());
 }
 
-/// The edges of a patch are only turned. Its parts differ in two-way time by 2 / c for each metre;
-/// in this time a sonar moves by thousandths of a metre and turns by less than 1e-3.
+/// A sample as the moving sonar measures it. Its edges are only turned: its parts differ in two-way
+/// time by 2 / c for each metre; in this time a sonar moves by thousandths of a metre and turns by
+/// less than 1e-3.
 Sample moved(const PingMotion& motion, ViewShape shape, const Sample& sample) {
     const Eigen::Vector3d place = sample.position.cast<double>();
     const double time = two_way_time(motion, place);
@@ -92,9 +93,9 @@ Eigen::Vector3d unmoved_place(const PingMotion& motion, ViewShape shape,
                               const Eigen::Vector3d& measured) {
     // The place is s + l d, with s the sonar's motion meanwhile and d the direction in the frame at
     // transmission. Its two-way time must be that of the measured range less the range shift.
-    // Newton's steps in l take the derivative 2 / c of a sonar at rest. It is off by the ratio of
-    // the speeds of sonar and sound, so each step reduces the error about a thousandfold, and that
-    // of the shift as well.
+    // Newton's steps in l use the derivative 2 / c of a sonar at rest. Its relative error is the
+    // ratio of the speeds of sonar and sound, so each step reduces the errors of l and of the shift
+    // about a thousandfold.
     Eigen::Vector3d place = measured;
     double length = measured.norm();
     for (int k = 0; k < 4; ++k) {

@@ -26,8 +26,8 @@ struct Boxes {
 };
 
 /// The boxes of the echoes [begin, begin + count). Echoes wholly outside the range add 0 to the
-/// first bin; returns their number. No branches, so that the loop becomes vectors; inlined, so that
-/// compilers see that `boxes` is not among the echoes.
+/// first bin; returns their number. No branches, so that the loop vectorises; inlined, so that
+/// compilers see that `boxes` does not alias the echoes.
 [[gnu::always_inline]] inline int find_boxes(const RangeBoxes& echoes, std::size_t begin,
                                              std::size_t count, const RangeBins& bins,
                                              Boxes& boxes) {
@@ -133,8 +133,8 @@ std::uint64_t accumulate(const RangeBoxes& echoes, std::size_t begin, std::size_
         const std::size_t count = std::min(boxes_per_block, end - from);
         outside += find_boxes(echoes, from, count, bins, boxes);
         sums.include(boxes.least, boxes.greatest + 1);
-        // Boxes of one and of two bins, which are the most, take the same path: a branch between
-        // them would be mispredicted half the time.
+        // Most boxes have one or two bins. Both kinds take the same path: a branch between them
+        // would be mispredicted half the time.
         for (std::size_t k = 0; k < count; ++k) {
             BinSum* const first = bin_0 + boxes.first[k];
             add_two(boxes, k, *first);

@@ -53,7 +53,7 @@ struct BinSums {
     int end = 0;
 
     void clear(int bins);
-    /// Boxes are added to the bins [from, to).
+    /// Notes that boxes are added to the bins [from, to).
     void include(int from, int to);
     float weight(std::size_t bin) const { return begins[bin + 1].weight + begins[bin].next_weight; }
     float echo(std::size_t bin) const { return begins[bin + 1].echo + begins[bin].next_echo; }
@@ -67,8 +67,8 @@ std::uint64_t accumulate(const RangeBoxes& echoes, const RangeBins& bins, BinSum
 std::uint64_t accumulate(const RangeBoxes& echoes, std::size_t begin, std::size_t end,
                          const RangeBins& bins, BinSums& sums);
 
-/// Sets `occupied` to 1 in the bins to which accumulate() would add weight. It has one place more
-/// than there are bins, which stays 0.
+/// Sets `occupied` to 1 in the bins to which accumulate() would add weight. `occupied` has one
+/// element more than there are bins, which stays 0.
 void mark_occupied(const RangeBoxes& echoes, std::size_t begin, std::size_t end,
                    const RangeBins& bins, std::span<std::uint8_t> occupied);
 

@@ -13,11 +13,12 @@ namespace sonarsim {
 
 namespace {
 
-// At most this many paths are tried at a time, to bound the memory. Chosen.
+// At most this many paths are tried at a time, to bound the memory.
 constexpr std::size_t most_untried = 4096;
 
-/// The surface that a way meets at its apparent place. It takes all sound that met the source. When
-/// the place on the source moves along an edge, the place behind it moves in its own plane.
+/// Finds the surface that a way meets, at its apparent place. It receives all sound that met the
+/// source: when a point moves along an edge of the source, its image moves in the plane of this
+/// surface.
 bool unfold(const Sample& source, const Way& way, const Meeting& at, Sample& out) {
     const Arrival arrival = arrival_of(source.position);
     const float range = way.length_m + at.distance_m;
@@ -37,7 +38,7 @@ bool unfold(const Sample& source, const Way& way, const Meeting& at, Sample& out
     return true;
 }
 
-/// Ways from all samples, behind their first reflection.
+/// The ways over all samples, after this first reflection.
 std::vector<Way> first_ways(const Multipath& multipath, const TraceContext& trace,
                             const Samples& samples) {
     std::vector<Way> ways;

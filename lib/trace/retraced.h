@@ -8,12 +8,13 @@
 
 namespace sonarsim {
 
-/// Surface that the sonar sees over reflectors, on paths that sound retraces. It lies at its image,
-/// behind the first reflector: reflectors are flat, so the path to the image is straight, and sound
-/// spreads over its whole length. The strength of a sample includes all reflections, two-way.
+/// Surface that the sonar sees over reflectors, on paths that sound takes out and back. The samples
+/// lie at their images behind the first reflector: reflectors are flat, so the path to an image is
+/// straight, and sound spreads over its whole length. The strength of a sample includes all
+/// reflections, two-way.
 struct RetracedSurface {
     std::vector<Sample> samples;
-    /// The sample of the first reflector of each: index into those of the ping.
+    /// The first reflector of each sample: an index into the samples of the ping.
     std::vector<std::uint32_t> sources;
     /// Surface that sound reaches over one way and leaves over another.
     std::vector<SpecularPath> unequal;

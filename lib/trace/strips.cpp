@@ -21,7 +21,7 @@ constexpr double part_by_range = 0.1;
 struct LongSide {
     float low = 0.0F, high = 0.0F;  ///< along the axis, of points
     Eigen::Vector3f from, to;
-    Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< the sum of those of its parts
+    Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< the sum of its parts' normals
     bool empty = true;
 
     void add(const Eigen::Vector3f& point, float along) {
@@ -97,7 +97,7 @@ std::optional<SceneStrip> strip_of(const MeshFace& face) {
     for (int k = 0; k < 2; ++k) {
         if (!sides[k].empty) continue;
         sides[k] = free_side(face, axis, k == 0 ? Eigen::Vector3f(-across) : across);
-        // The surface is taken to turn on this side as it does on the other.
+        // Assume that the surface turns on this side as it does on the other.
         const Eigen::Vector3f there = sides[1 - k].normal;
         sides[k].normal = 2.0F * face.normal.dot(there) * face.normal - there;
     }

@@ -20,9 +20,9 @@ struct PlacedStrip {
     Eigen::Vector3d first_normal, second_normal;
 };
 
-/// The specular line of a strip in parts: its normal there lies in one plane with the ruling and
-/// the sonar. Empty if the line is on another strip. `on_facet` has the parts' middles on the
-/// facet.
+/// The specular line of a strip, in parts: on this line the strip's normal lies in one plane with
+/// the ruling and the sonar. Empty if the line is on another strip. `on_facet` has the parts'
+/// middles on the facet.
 struct SpecularParts {
     std::vector<StripOfPing> parts;
     std::vector<Eigen::Vector3d> on_facet;

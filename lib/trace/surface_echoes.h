@@ -27,13 +27,13 @@ struct PatchEcho {
 
 /// A piece of visible surface. A line array may receive it in several beams.
 struct EchoPatch {
-    Eigen::Vector3f position, edge_u, edge_v;    ///< as those of Sample
+    Eigen::Vector3f position, edge_u, edge_v;    ///< as in Sample
     std::uint32_t echo_begin = 0, echo_end = 0;  ///< its echoes in `patch_echoes`
     const Sample* sample;
 };
 
 /// The echoes of a traced ping by beam and bin, before beam pattern and pulse spread them and
-/// without random terms. Labels are made of them. Echoes of one bin are in one unit. Samples are
+/// without random terms. Labels are made from them. Echoes of one bin are in one unit. Samples are
 /// those of the traced ping, which must outlive this, or of `target_samples`.
 struct SurfaceEchoes {
     SurfaceEchoes() = default;
@@ -50,7 +50,7 @@ struct SurfaceEchoes {
     std::vector<Sample> target_samples;  ///< one for each facet of TracedPing::targets
     /// The beams of a line array; empty: those of the view.
     ConeBeams cones;
-    /// True if samples without a direct echo lie in side lobes: they show and hide nothing.
+    /// True if samples without a direct echo lie in side lobes; labels leave them out.
     bool main_lobe_alone = false;
 };
 

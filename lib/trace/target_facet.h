@@ -11,7 +11,7 @@
 namespace sonarsim {
 
 /// A triangle of a target's surface that the sonar sees, in the sensor frame. The curved surface
-/// that it stands for has the normal n / |n| at the fractions w of its corners, n = sum w_i
+/// that it represents has the normal n / |n| at the barycentric coordinates w, with n = sum w_i
 /// normals[i].
 struct TargetFacet {
     std::array<Eigen::Vector3f, 3> corners;  ///< m

@@ -20,7 +20,7 @@ constexpr float weld_share = 1e-5F;
 
 using Corners = std::array<std::uint32_t, 3>;
 
-/// Sets of numbers that are joined two at a time.
+/// Disjoint sets of numbers (union-find).
 class Joined {
   public:
     explicit Joined(std::size_t size) : parent_(size) {
@@ -146,9 +146,9 @@ bool is_smooth(const TargetShape& shape, const MeshEdge& a, const MeshEdge& b) {
            of_b < most_height_ratio * of_a;
 }
 
-/// The pairs of triangles that share an edge, from sorted edges; `use` gets both sides of it. Skips
-/// edges of one triangle or of three and more, and those whose triangles differ in winding. Returns
-/// true if there are no such edges.
+/// Calls use(a, b) for the two sides of each edge that two triangles share, from sorted edges.
+/// Skips edges of one triangle or of three and more, and edges whose triangles differ in winding.
+/// Returns true if no edge was skipped.
 template <class Use>
 bool each_shared_edge(const std::vector<MeshEdge>& edges, Use use) {
     bool all = true;
@@ -239,7 +239,7 @@ void bend(TargetShape& shape, const std::vector<MeshEdge>& edges) {
         triangle.region = regions.of(t);
         for (int k = 0; k < 3; ++k) {
             const Eigen::Vector3f mean = sum[corners.of(3 * t + k)].normalized();
-            // At the tip of a cone no normal stands for all of its sides.
+            // The sides of a cone have no common normal at its tip.
             if (mean.dot(triangle.normal) >= crease_cosine) triangle.normals[k] = mean;
         }
         triangle.curvature_m = curvature_of(shape, triangle);

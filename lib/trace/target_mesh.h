@@ -8,7 +8,7 @@
 
 namespace sonarsim {
 
-/// A triangle of an object, as part of the curved surface that its mesh stands for.
+/// A triangle of an object, as part of the curved surface that its mesh represents.
 struct TargetTriangle {
     std::array<std::uint32_t, 3> corners;    ///< indices into TargetShape::vertices
     std::array<Eigen::Vector3f, 3> normals;  ///< unit, of the curved surface at the corners
@@ -24,7 +24,7 @@ struct TargetShape {
     std::vector<TargetTriangle> triangles;             ///< region after region
     Eigen::Vector3f centre = Eigen::Vector3f::Zero();  ///< centre of a ball around it
     float radius_m = 0.0F;                             ///< radius of that ball
-    /// Greatest radius of curvature of its triangles; 0: it has flat faces alone.
+    /// Greatest radius of curvature of its triangles; 0: all faces are flat.
     float curvature_m = 0.0F;
     float turn = 0.0F;    ///< greatest angle between the curved surface and a triangle of it, rad
     bool closed = false;  ///< normals point outwards, and the back of a triangle is never seen

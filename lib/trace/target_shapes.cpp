@@ -76,7 +76,7 @@ void add_copies(const Scene& scene, TargetShapes& out) {
     }
 }
 
-/// The lesser of a slope and that of a material that has facets.
+/// The lesser of a slope and that of a material, if the material has facets.
 float lesser_slope(float slope, const Material& material) {
     const auto of_material = static_cast<float>(facet_slope(material));
     return of_material > 0.0F ? std::min(slope, of_material) : slope;

@@ -19,7 +19,7 @@ struct PlacedTarget {
     std::optional<std::uint32_t> body;
     /// Rotation, uniform scale and translation, scene-local, if it is at rest.
     Eigen::Affine3f T_local_shape;
-    /// RMS slope of the shiniest of its materials, and of the texels on it, that has facets.
+    /// The least RMS slope of its materials, and of the texels on it, that have facets.
     float least_slope = 1.0F;
 };
 

@@ -30,10 +30,10 @@ constexpr float least_distance_by_radius = 1.05F;
 constexpr float part_by_diameter = 1.0F / 8.0F;
 // All but exp(-3^2 / 2), a hundredth, of the power of a highlight lies within this many slopes.
 constexpr float highlight_reach = 3.0F;
-// The size of the parts of a highlight over its own size a s, a the radius of curvature and s the
-// slope: one ray decides on at most erf(0.75 / sqrt(2))^2 of its power, 0.3.
+// The size of a highlight's parts relative to the highlight's own size a s, with the radius of
+// curvature a and the slope s: one ray decides on at most erf(0.75 / sqrt(2))^2 = 0.3 of its power.
 constexpr float part_by_highlight = 1.5F;
-// Parts are no smaller than this share of a resolution cell: an image does not show more of an
+// Parts are no smaller than this share of a resolution cell: an image shows no finer detail of an
 // edge.
 constexpr float least_part_by_cell = 0.25F;
 
@@ -164,8 +164,8 @@ class TargetSampler {
         return !guarded_ || sonarsim::is_reached(view_, p);
     }
 
-    /// Cuts a facet into parts. Where there may be a highlight, the normal turns by a slope in
-    /// each.
+    /// Cuts a facet into parts. Where a highlight may lie, the normal turns by about a slope over
+    /// each part.
     void add_parts(const TargetFacet& facet, const Target& target) {
         const Eigen::Vector3f u = facet.corners[1] - facet.corners[0];
         const Eigen::Vector3f v = facet.corners[2] - facet.corners[0];

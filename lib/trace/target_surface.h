@@ -14,8 +14,8 @@
 
 namespace sonarsim {
 
-/// The objects of a ping that are sampled triangle by triangle. The engine's samples of them are
-/// not for the image.
+/// The objects of a ping that are sampled triangle by triangle. An image leaves out the engine's
+/// samples of them.
 struct TargetSurface {
     std::vector<std::uint32_t> instances;  ///< ascending
     std::vector<TargetFacet> facets;       ///< instance after instance, region after region

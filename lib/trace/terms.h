@@ -6,7 +6,7 @@
 namespace sonarsim {
 
 /// The terms of an echo model that an image is made of. A term that the sonar's settings do not use
-/// adds nothing, asked for or not.
+/// adds nothing, even if it is requested here.
 struct Terms {
     static constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
 

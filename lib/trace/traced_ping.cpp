@@ -31,7 +31,7 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
     traced.counts.samples = traced.samples.items.size() + traced.outside_sector.size();
     traced.counts.dropped_samples = traced.samples.dropped;
     if (scene.maps) {
-        // The texels' errors do not depend on the signs of the engine's.
+        // The errors of the texels and of the engine are independent, so their squares add.
         const double of_maps = error_of_maps(scene, settings.view, T_world_sensor, traced.samples);
         double& estimate = traced.samples.estimated_l1;
         estimate *= growth_by_maps(scene, settings.view, T_world_sensor, traced.samples.compared);

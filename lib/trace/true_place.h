@@ -8,7 +8,7 @@
 
 namespace sonarsim {
 
-/// The place in the world of a place that a sonar measures in its own frame. `profile` bends the
+/// The true place, in the world, of an apparent place in the sonar's frame. `profile` bends the
 /// sound; null: paths are straight.
 inline Eigen::Vector3d true_place(const SoundProfile* profile, const Pose& T_world_sensor,
                                   const Eigen::Vector3d& measured) {

@@ -12,8 +12,8 @@ namespace sonarsim {
 
 namespace {
 
-/// The greatest distance between the end of a way and its piece: half a bin and the rounding of the
-/// rays, which is chosen.
+/// The greatest distance between the end of a way and its piece: half a bin and a chosen bound on
+/// the rounding of the rays.
 float slack_at(const View& view, float range_m) {
     return 0.5F * static_cast<float>(view.bin_m()) + 1e-3F * range_m;
 }
@@ -33,7 +33,8 @@ Piece image_over(const Way::Reflector& reflector, const Piece& piece) {
             turned(piece.direction), turned(piece.u), turned(piece.v)};
 }
 
-/// find_bounces() has the way over one reflector, and over one and the water, with a straight one.
+/// True if find_bounces() has the path: out straight and back over one reflector, or over one and
+/// the water's surface.
 bool is_bounce(const Way& way, unsigned chosen) {
     return chosen == 0 &&
            (way.reflections == 1 || (way.reflections == 2 && way.reflectors[1].is_water));
@@ -47,7 +48,7 @@ Piece image_over(const Way& way, unsigned chosen, Piece piece) {
     return piece;
 }
 
-/// True if the image is known for this piece. The way to it has the fewer reflections.
+/// True if the image is known for this piece. A known image keeps the fewer reflections of the two.
 bool is_known(const Eigen::Vector3f& image, int reflections, float slack_m,
               std::span<UntriedPath> of_piece) {
     for (UntriedPath& known : of_piece) {

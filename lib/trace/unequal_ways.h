@@ -21,14 +21,14 @@ struct UntriedPath {
     int reflections;        ///< on the other way
 };
 
-/// Adds the images of a piece over some of the reflectors of the way that met it, in their order,
-/// or over none of them. `seen` is the piece at its image over the way. Images that find_bounces()
-/// has, and those outside the view, are left out.
+/// Adds the images of a piece over every proper subset of the reflectors of the way that met it, in
+/// their order; the empty subset gives the piece itself. `seen` is the piece at its image over the
+/// way. Images that find_bounces() has, and those outside the view, are left out.
 void add_untried_paths(const TraceContext& trace, const BeamLocator& field, const Way& way,
                        const Meeting& at, const Sample& seen, std::vector<UntriedPath>& untried);
 
-/// Follows sound from the sonar to each image, and empties `untried`. Paths on which it arrives at
-/// the piece after as many reflections are added to `arrived`.
+/// Follows sound from the sonar to each image, and empties `untried`. A path is added to `arrived`
+/// if the sound meets the piece after exactly `reflections` reflections.
 void try_paths(const Multipath& multipath, const TraceContext& trace,
                const std::optional<WaterMirror>& water, std::vector<UntriedPath>& untried,
                std::vector<SpecularPath>& arrived, MultipathCounts& counts);

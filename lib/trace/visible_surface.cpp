@@ -34,7 +34,7 @@ int joined_beams(const View& view, const GuardBeams& guard_beams) {
     return view.relative_l1 >= joining_goal ? guard_beams.joined : 1;
 }
 
-/// The beginnings of the beams of a view by those of joined beams.
+/// The offsets of a view's beams, from the offsets of its joined beams.
 std::vector<std::uint32_t> separated(std::span<const std::uint32_t> begins, int joined) {
     std::vector<std::uint32_t> out{begins.front()};
     for (const std::uint32_t end : begins.subspan(1))
@@ -42,7 +42,7 @@ std::vector<std::uint32_t> separated(std::span<const std::uint32_t> begins, int 
     return out;
 }
 
-/// The beginnings of the beams of a view by those of the parts that they are divided into.
+/// The offsets of a view's beams, from the offsets of the parts that they are divided into.
 std::vector<std::uint32_t> together(std::span<const std::uint32_t> begins, int divided) {
     std::vector<std::uint32_t> out;
     out.reserve(begins.size() / static_cast<std::size_t>(divided) + 1);

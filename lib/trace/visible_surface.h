@@ -26,7 +26,7 @@ struct GuardBeams {
 
 /// The view in which surface is traced: the sonar's view with guard beams on either side.
 View widened_view(const View& view, const GuardBeams& guard_beams);
-/// That view with the beams in which an engine traces it.
+/// The widened view with the beams in which an engine traces it.
 View traced_view(const View& view, const GuardBeams& guard_beams);
 
 /// The views that visible_surface() asks the engine for: VisibilityEngine::prepared() makes them

@@ -32,7 +32,7 @@ struct WaterMirror {
     }
 };
 
-/// The water's surface as the sonar has it; nothing for a sonar above it.
+/// The water's surface in the sensor's frame; nothing for a sonar above it.
 inline std::optional<WaterMirror> mirror_of(const std::optional<WaterSurface>& surface,
                                             const Pose& T_world_sensor) {
     if (!surface) return std::nullopt;

@@ -38,15 +38,15 @@ struct Way {
 
     std::uint32_t source = 0;  ///< index into Samples::items
     Ray ray;                   ///< after the last reflection
-    float length_m = 0.0F;     ///< up to it
+    float length_m = 0.0F;     ///< up to the last reflection
     float reflected = 1.0F;    ///< share of the power after the reflections so far
     Eigen::Matrix3f unfold =
         Eigen::Matrix3f::Identity();  ///< turns directions of the scene into those of the images
     int reflections = 0;
-    std::array<Reflector, most_kept> reflectors;  ///< the first of them
+    std::array<Reflector, most_kept> reflectors;  ///< the first reflectors
 };
 
-/// Continues the way behind a reflection.
+/// Continues a way after a reflection.
 void reflect(const Meeting& at, Way& way);
 
 /// The first hits of the rays of ways. Their number is added to `counts`.
