@@ -50,7 +50,7 @@ struct Targets {
         }
     }
 
-    /// Adds (a, b, a, b) to the four cells around echo k; a and b are the two floats of one.
+    /// Adds (a, b, a, b) to the four cells around echo k; a and b are the two floats of a cell.
     void add_shared(int k, __m128 value, float* first, std::size_t stride) const {
         const __m128 rows =
             _mm_fmadd_ps(_mm_set1_ps(next_row[k]), _mm_setr_ps(-1.0F, -1.0F, 1.0F, 1.0F),

@@ -10,16 +10,16 @@
 
 namespace sonarsim {
 
-/// The beams that a line array forms. Its point spread is that of the far field at every range: the
-/// instrument is taken to focus.
+/// The beams that a line array forms. They have the far-field pattern at every range: the
+/// instrument is assumed to focus.
 struct ArrayBeams {
     Beamformer amplitudes, powers;
     ElementNoise noise;
 };
 
-/// `beam_sines`: the sines of the beams' azimuths. `noise`: its power in a beam. `common_mode`: the
-/// power of the noise that all elements share, in the beam straight ahead. `taps`: the noise's
-/// filter along range.
+/// `beam_sines`: the sines of the beams' azimuths. `noise`: the noise power in a beam.
+/// `common_mode`: the power of the noise that all elements share, in the beam straight ahead.
+/// `taps`: the noise's filter along range.
 ArrayBeams array_beams(const BeamConfig& beam, const std::vector<double>& beam_sines, double noise,
                        double common_mode, const std::vector<float>& taps);
 
@@ -54,8 +54,8 @@ inline void add_bistatic_powers(const ArrayBeams& beams, const PathEndpoint& /*o
 }
 
 /// Fills the image [bins, beams] with the powers of the beams. The grid holds powers or amplitudes;
-/// `coherent` may hold amplitudes in addition to the powers, else null. The noise of the elements
-/// belongs to the bin, the element and the key.
+/// `coherent` may hold amplitudes in addition to the powers, else null. The noise of an element
+/// depends on the bin, the element and the key alone.
 void beamform(const ArrayBeams& beams, const EchoGrid& grid, bool powers, const EchoGrid* coherent,
               bool noisy, PhiloxKey key, std::span<const float> row_gain, std::span<float> image);
 

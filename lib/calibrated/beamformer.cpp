@@ -17,7 +17,7 @@ namespace {
 // Columns outside the outer beams: for echoes between a beam and the edge of the view, and for the
 // interpolation of an outer beam.
 constexpr int margin = 5;
-// Free columns behind the last one, so that an outer beam does not wrap to the other side.
+// Free columns after the last one, so that an outer beam does not wrap to the other side.
 constexpr int gap = 12;
 
 /// The share of [at - 1/2, at + 1/2] steps that lies within [-half, half] steps.
@@ -29,7 +29,7 @@ double covered(double at, double half) {
 
 using Complexes = std::vector<std::complex<double>>;
 
-/// The weights of the elements -reach to reach, so that their transform is the array's pattern.
+/// The weights of the elements -reach to reach. Their transform is the array's pattern.
 Complexes element_weights(const LineArray& array, double elements) {
     const int reach = static_cast<int>(std::ceil(0.5 * elements - 0.5));
     Complexes out;
@@ -42,8 +42,9 @@ Complexes element_weights(const LineArray& array, double elements) {
     return out;
 }
 
-/// Applies the errors of the array's elements. Their mean side lobe is their variance over their
-/// number, so the variance of the errors is scaled to the number of samples of the aperture.
+/// Applies the errors of the array's elements. The mean side lobe is the errors' variance divided
+/// by the number of elements, so the variance is scaled from the array's elements to the samples of
+/// the aperture.
 void add_element_errors(const LineArray& array, const ElementsConfig& elements, double samples,
                         Complexes& weights) {
     if (!elements.exist()) return;

@@ -26,8 +26,8 @@ Backscatter backscatter(double lambert_db, double reflection, double slope_rms) 
 }
 
 Backscatter backscatter(const SeafloorScattering& sea_bed) {
-    // Over all directions the specular part is R / 4. A peak narrower than the first entry, a tent
-    // of radius sqrt(2) / steps, is limited to this.
+    // The specular part has the integral R / 4 over all directions. A peak narrower than the first
+    // entry, a tent of radius sqrt(2) / steps, is limited to this integral.
     constexpr double tent = pi / 3.0 * 2.0 / (AngularTable::steps * AngularTable::steps);
     const double most = 0.25 * sea_bed.reflection() / tent;
     Backscatter out;

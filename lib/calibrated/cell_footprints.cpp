@@ -12,13 +12,13 @@ namespace sonarsim {
 namespace {
 
 // The greatest length of a resolution cell on the surface, in pulse lengths; at normal incidence it
-// is unbounded. With more, objects of a few centimetres would hold few scatterers.
+// is unbounded. With longer cells, objects of a few centimetres would hold few scatterers.
 constexpr float longest_on_surface = 4.0F;
 
 template <class T>
 using Batch = CellFootprints::Array<T>;
 
-/// Vectors, in arrays of their own.
+/// Vectors as a structure of arrays.
 struct Vectors {
     Batch<float> x, y, z;
 
@@ -91,7 +91,8 @@ float power_of_two(std::int32_t exponent) {
 }
 
 /// The level of the smaller cells, and the share w of the larger ones that are not split. A larger
-/// cell is 4 smaller ones, so it has w + 4 (1 - w) scatterers on average, the wanted number.
+/// cell holds 4 smaller ones, so its mean number of scatterers is w + 4 (1 - w), which w sets to
+/// the wanted number.
 void find_levels(const Surfaces& surfaces, const ScattererCells& cells, CellFootprints& out) {
     const float per_area = 1.0F / (cells.least_edge_m * cells.least_edge_m);
     const std::int32_t top = cells.levels - 1;
@@ -108,7 +109,7 @@ void find_levels(const Surfaces& surfaces, const ScattererCells& cells, CellFoot
     }
 }
 
-/// The projections.
+/// Projects the samples along their axes.
 void find_parallelograms(const Surfaces& surfaces, const Eigen::Vector3d& sensor,
                          const ScattererCells& cells, CellFootprints& out) {
     const auto& [place, u, v, range, height, area, count] = surfaces;
@@ -184,8 +185,8 @@ void find_rows(const Surfaces& surfaces, CellFootprints& out) {
         out.row_end[k] = static_cast<std::int32_t>(any_area ? end : begin);
         out.least[k] = std::floor(0.5F * (inner - inner_reach));
         out.greatest[k] = std::floor(0.5F * (inner + inner_reach));
-        // Around a line along the edge that extends further along the outer axis. Along the inner
-        // axis it extends at most twice as far.
+        // The rows follow the edge that extends further along the outer axis. This edge extends at
+        // most twice as far along the inner axis.
         const bool by_u = std::fabs(outer_u) >= std::fabs(outer_v);
         const float slope = by_u ? inner_u / outer_u : inner_v / outer_v;
         const float other = by_u ? inner_v - slope * outer_v : inner_u - slope * outer_u;

@@ -8,8 +8,9 @@
 
 namespace sonarsim {
 
-/// The integers that the instrument delivers, of `bits` bits, with M the greatest. They follow from
-/// the powers over full scale, clipped at 1; A is the root of the power:
+/// The integers of `bits` bits that the instrument delivers. The powers are relative to full scale
+/// and clipped at 1. A is the root of a power and M the greatest integer; `offset` times M is
+/// subtracted, down to 0:
 ///
 ///     gamma     M A^gamma
 ///     log       M (1 + 20 log10(A) / dynamic_range_db), 0 below

@@ -22,9 +22,9 @@ double rectangle_directivity(const LineArray& along, const LineArray& across);
 /// A disc whose power is halved at half of `width_rad`: (pi D / lambda)^2.
 double piston_directivity(double width_rad);
 
-/// The receiving beam. The sides of a rectangle follow from the half-power widths. Transmitter
-/// and receiver are taken to be equally wide in elevation, so that each is sqrt(2) times as wide as
-/// both together (exact for Gaussian beams).
+/// The receiving beam. The sides of a rectangle follow from the half-power widths. Transmitter and
+/// receiver are assumed to be equally wide in elevation, so each is sqrt(2) times as wide as both
+/// together (exact for Gaussian beams).
 double receiving_directivity(const BeamConfig& beam);
 
 /// The transmitter: a fan transmits evenly into its azimuth, others transmit with the receiving

@@ -13,9 +13,9 @@ enum class PowerForm {
     amplitude  ///< a complex normal amplitude of that power is added
 };
 
-/// Adds the mean powers of a column's bins, as many as there are up to a multiple of 8. Powers
-/// below 0 count as 0. `gain`: the factor of draw_speckle() for amplitudes, which the key draws for
-/// each bin of each column.
+/// Adds the mean powers of a column's bins. Bins are read and written up to a multiple of 8. Powers
+/// below 0 count as 0. `gain`: as in draw_speckle(), for amplitudes; their draws are a function of
+/// the key, the bin and the column.
 void add_drawn(PowerForm form, std::span<const float> powers, float gain, int column, PhiloxKey key,
                EchoGrid& grid);
 

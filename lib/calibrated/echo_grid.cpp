@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t floats_per_line = 16;
 
 std::size_t stride_of(int rows, std::size_t front) {
-    // Room for one bin behind the last, in an odd number of whole cache lines: with a power of two
+    // Room for one bin after the last, in an odd number of whole cache lines: with a power of two
     // all columns would compete for the same sets of the cache.
     const std::size_t lines =
         (front + 2 * (static_cast<std::size_t>(rows) + 1)) / floats_per_line + 1;
@@ -60,7 +60,7 @@ std::size_t EchoGrid::occupied() const {
 std::size_t EchoGrid::convolve_pulse(const RangeTaps& taps) {
     const std::size_t length = 2 * static_cast<std::size_t>(rows_);
     const std::size_t margin = 2 * static_cast<std::size_t>(taps.reach);
-    // Whole lines are written, as far as a column has room.
+    // Whole cache lines are written; a column has room for them.
     const std::size_t lines = (length + floats_per_line - 1) / floats_per_line;
     std::vector<float> padded(lines * floats_per_line + 2 * margin);
     float* const middle = padded.data() + margin;

@@ -9,10 +9,10 @@
 
 namespace sonarsim {
 
-/// The channels of a receiver. A counter of the random numbers is a bin and a number; it gives two
-/// words. The first words of the numbers 0 to `firsts` - 1 make the noise of the channels 0 to
-/// `firsts` - 1. The second words of the numbers from 0 on make that of the next `seconds`
-/// channels. The last channel is the common mode, if there is one.
+/// The channels of a receiver. The counter of the random numbers is a bin and a number; it yields
+/// two words. The first words of the numbers 0 to `firsts` - 1 make the noise of the first
+/// channels, the second words of the numbers 0 to `seconds` - 1 that of the next channels. The last
+/// channel is the common mode, if there is one.
 struct NoiseChannels {
     int firsts = 0;
     int seconds = 0;
@@ -22,15 +22,15 @@ struct NoiseChannels {
 };
 
 /// The receiver's noise in the range bins of one ping. Each channel has white complex normal noise,
-/// real and imaginary part of variance 1, which then passes a filter along range. The noise of a
-/// bin belongs to the bin, the channel and the key.
+/// real and imaginary part of variance 1, which then passes a filter along range. The noise depends
+/// on the bin, the channel and the key alone.
 class FilteredNoise {
   public:
     /// `taps`: 2 reach + 1, with a sum of squares of 1, so that the filter keeps the power.
     FilteredNoise(const NoiseChannels& channels, const std::vector<float>& taps, PhiloxKey key);
 
-    /// Moves to the bins `row` to `row` + 7. The white noise of bins before the first and behind
-    /// the last one is drawn, too, as far as the filter reaches.
+    /// Moves to the bins `row` to `row` + 7. White noise is drawn, too, for the bins before the
+    /// first and after the last one that the filter reaches.
     void go_to(int row);
     /// The noise of these bins in a channel.
     ComplexLanes of(int channel) const;

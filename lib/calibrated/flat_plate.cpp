@@ -17,7 +17,7 @@ constexpr double most_bend_rad = 0.1;
 constexpr double most_turn_rad = 0.1;
 constexpr int most_pieces = 100'000;
 // An edge is integrated in pieces while 2 k s^2 / r is less than this, s being the distance from
-// the point next to the foot. The relative error of the rest is about one over this.
+// its point nearest to the foot. The relative error of the rest is about the inverse of this.
 constexpr double many_turns_rad = 200.0;
 
 std::complex<double> turned(double radians) {
@@ -42,8 +42,8 @@ struct Geometry {
     }
 };
 
-/// The length of the piece of an edge that begins `s` from the point of the edge's line next to the
-/// foot, `d` away from it.
+/// The length of a piece of an edge. The piece begins at the distance `s` from the line's point
+/// nearest to the foot, which is at the distance `d` from the foot.
 double piece_length(const Geometry& of, const EdgeLimits& limits, double s, double d) {
     const double flat2 = s * s + d * d;
     const double range = std::sqrt(of.height_m * of.height_m + flat2);
@@ -58,7 +58,7 @@ double piece_length(const Geometry& of, const EdgeLimits& limits, double s, doub
     return length;
 }
 
-/// An edge along its line. s is the distance from the point of the line next to the foot.
+/// An edge along its line. s is the distance from the line's point nearest to the foot.
 struct EdgeLine {
     const Geometry& of;
     Eigen::Vector3d next;  ///< that point
@@ -140,7 +140,7 @@ double add_edge(const Geometry& of, const PlateEdge& edge, const EdgeLimits& lim
 
 void add_plate_echoes(const PlateOfPing& plate, const PlateSurface& surface, double wavelength_m,
                       const EdgeLimits& limits, std::vector<PlateEcho>& echoes) {
-    double area = 0.0;  // positive if the edges go round the normal
+    double area = 0.0;  // positive if the edges are counter-clockwise about the normal
     for (const PlateEdge& edge : plate.edges)
         area += 0.5 * plate.normal.dot(edge.from.cross(edge.to));
     const Geometry geometry{.foot = plate.height_m * plate.normal,

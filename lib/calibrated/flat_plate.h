@@ -28,8 +28,8 @@ struct PlateEcho {
 };
 
 /// The coherent echo of a plate from a point source and receiver, without absorption, appended to
-/// `echoes`. The plate's echo is the sum of their amplitudes. Its edges wind around it in one
-/// sense, those of its holes in the other. Hidden edges add no echo.
+/// `echoes`. The plate's echo is the sum of their amplitudes. Edges wind around the plate in one
+/// sense and around its holes in the other. Hidden edges add no echo.
 ///
 /// The Kirchhoff integral over the plate, at kr >> 1, H being the sonar's height over its plane, is
 ///
@@ -42,8 +42,8 @@ struct PlateEcho {
 ///
 /// The second integral is 2 pi where the foot is on the plate, else 0: an infinite plate gives the
 /// image source, V / (2 H). V is the root of the reflection coefficient times the loss of a rough
-/// surface, exp(-2 (k h H / r)^2) (Eckart 1953), which makes exp(-(2 k h sin)^2) of the power.
-/// Literature: e.g. Medwin and Clay, "Fundamentals of Acoustical Oceanography" (1998), chapter 11.
+/// surface, exp(-2 (k h H / r)^2) (Eckart 1953), which is exp(-(2 k h sin)^2) in power. Literature:
+/// e.g. Medwin and Clay, "Fundamentals of Acoustical Oceanography" (1998), chapter 11.
 void add_plate_echoes(const PlateOfPing& plate, const PlateSurface& surface, double wavelength_m,
                       const EdgeLimits& limits, std::vector<PlateEcho>& echoes);
 

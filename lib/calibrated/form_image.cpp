@@ -14,7 +14,7 @@ namespace sonarsim {
 
 namespace {
 
-// For speckle that is drawn for each ping. The expected image of the tank is then off by 1.8 %.
+// For speckle that is drawn for each ping. The error of the tank's expected image is then 1.8 %.
 constexpr float deeper_patches = 2.0F;  // factor on the size of patches in range
 
 /// The steps that form an image, and their common data. `Beams`: ArrayBeams or TransducerBeams.
@@ -250,8 +250,8 @@ class ImageFormer {
     }
 
     /// With `speckle: scene` the amplitudes of multipath are drawn for each ping: their phase
-    /// depends on the shape of the reflector to a fraction of a wavelength, and no mesh is as exact
-    /// as that.
+    /// depends on the shape of the reflector to a fraction of a wavelength, and no mesh is that
+    /// exact.
     void add_multipath(const TracedPing& traced, EchoGrid& grid) {
         const std::vector<SpecularPath> paths = specular_paths(traced, context_.scene);
         if (paths.empty() && traced.retraced.samples.empty()) return;

@@ -126,7 +126,7 @@ void Fourier::odd_step(const ComplexLanes* from, ComplexLanes* to) const {
 }
 
 /// Stockham's algorithm: steps of radix 4, and one of radix 3 or 5 and one of radix 2 where the
-/// size needs them. Each reads and writes an array in order; nothing is sorted.
+/// size needs them. Each reads and writes an array in order, without bit reversal.
 template <bool inverse>
 void Fourier::transform(ComplexLanes* data, ComplexLanes* scratch) const {
     ComplexLanes* from = data;

@@ -42,7 +42,7 @@ class Fourier {
     std::vector<Root> roots_;  ///< e^(-2 pi i k / N)
 };
 
-/// The smallest size of a transform that is at least `count`, and 2.
+/// The smallest size of a transform that is at least `count` and at least 2.
 int transform_size(int count);
 
 }  // namespace sonarsim

@@ -26,9 +26,9 @@ struct InstrumentLevels {
 ///   is 0 if another level is below 0 dB and so relative to it.
 /// - Noise: thermal noise, raised by noise figure and efficiency, and that of the wind, in the band
 ///   of the matched filter, less the receiving directivity index. If the source level is relative,
-///   so is the noise, to that of the rule.
+///   the noise is relative to the source level of the rule.
 /// - Full scale: after TVG and companding, a sand bottom at half of the range is a third of the
-/// largest value, or less, so that the noise at range_max_m is at most two thirds.
+///   largest value, or less where the noise at range_max_m would otherwise be above two thirds.
 InstrumentLevels instrument_levels(const InstrumentConfig& instrument, const WaterConfig& water,
                                    const View& view);
 

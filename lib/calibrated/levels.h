@@ -11,9 +11,9 @@
 
 namespace sonarsim {
 
-// Missions may set levels over 600 dB and sums of many times that, but a float holds 380 dB to
-// either side of 1. These limits keep all values finite. They change nothing at the levels of real
-// instruments.
+// Missions may set levels over 600 dB, whose sums are many times greater, but a float holds 380 dB
+// to either side of 1. These limits keep all values finite. They change nothing at the levels of
+// real instruments.
 
 /// The dB that are added to the powers of the grid of echoes, which are ratios to the source level,
 /// so that floats hold the noise of the receiver and the echoes above it. `noise_db` and
@@ -21,15 +21,15 @@ namespace sonarsim {
 /// dB.
 double raised_by_db(double noise_db, double common_mode_db);
 
-/// The greatest power of an echo in the grid, 40 dB above the most that noise has there. A million
-/// of them that add in phase are finite in every beam.
+/// The greatest power of an echo in the grid, 40 dB above the greatest noise there. A million such
+/// echoes that add in phase are finite in every beam.
 inline constexpr float most_echo = 1e24F;
 
 /// The greatest value of an image: 300 dB above full scale, at which the receiver clips.
 inline constexpr float most_value = 1e30F;
 
 /// The factors from powers of the grid to values of the image, by bin: source level, gain and full
-/// scale. Those beyond 370 dB are 370 dB: they lift the least noise, -300 dB, above full scale.
+/// scale. They are at most 370 dB, which lifts the least noise, -300 dB, above full scale.
 std::vector<float> row_gains(const ReceiverConfig& receiver, const InstrumentLevels& levels,
                              const View& view, double absorption_db_per_m, double raised_db);
 

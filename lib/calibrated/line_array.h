@@ -22,9 +22,10 @@ struct LineArray {
     std::complex<double> weight(double x) const;
 };
 
-/// The amplitude off the axis of the array without errors of phase; u is the sine of the angle, and
-/// it is 1 on the axis. It is the Fourier transform of the weight: (p sinc(t) + (1 - p) / 2
-/// (sinc(t) + (sinc(t + 1) + sinc(t - 1)) / 2)) / ((1 + p) / 2), t = u L.
+/// The amplitude of the array without errors of phase, relative to the axis, at the sine u of the
+/// angle off the axis. It is the Fourier transform of the weight; with t = u L / lambda
+///
+///     (p sinc(t) + (1 - p) / 2 (sinc(t) + (sinc(t + 1) + sinc(t - 1)) / 2)) / ((1 + p) / 2).
 double line_pattern(const LineArray& array, double u);
 
 /// The array whose highest side lobe is `side_lobe_db` (-42 to -13.3) below its axis and whose

@@ -31,7 +31,8 @@ int joinable_beams(double resolved_beams, int beams) {
 }
 
 /// The guard beams of a line array: from the view to the borders of `view_azimuth_deg`. They are as
-/// wide as the bins or, where that is wider, as a step of the array, which it cannot resolve.
+/// wide as the view's beams or, if that is at least twice as wide, as a step of the array's sine
+/// grid, which the array does not resolve.
 GuardBeams guard_beams_of(const BeamConfig& beam, const View& view) {
     const double side_rad = 0.5 * (radians(beam.view_azimuth_deg) - view.azimuth_rad);
     const double bin_rad = view.azimuth_rad / view.beams;

@@ -52,7 +52,8 @@ struct CalibratedModel final : EchoModel {
     double water_density_kg_m3 = 0.0;
     std::vector<Material> prepared_materials;  ///< materials of the scene of prepared()
     Scattering scattering;                     ///< the scattering of these materials
-    /// Its parts on and below sea beds; nothing: the whole echo comes from their surface.
+    /// The parts of the scattering on and below sea beds; nothing: the whole echo comes from their
+    /// surface.
     std::optional<SedimentScattering> sediment;
     PulseFloor pulse_floor;
     WindSurface water_surface;  ///< its table, if the model was prepared for it
@@ -84,7 +85,7 @@ struct BeamSines {
     std::vector<double> middles, edges;  ///< the edges are one more
 };
 
-/// Sets up the instrument of a sonar with this view; `sines` are needed for a line array alone.
+/// Sets up the instrument of a sonar with this view; only a line array needs `sines`.
 CalibratedModel calibrated_model(const InstrumentConfig& instrument, const WaterConfig& water,
                                  const View& view, const BeamSines& sines);
 

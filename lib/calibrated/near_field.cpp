@@ -26,7 +26,7 @@ int steps_for(double bend, double turn) {
     return 32 + static_cast<int>(4.0 * (std::fabs(bend) + std::fabs(turn)));
 }
 
-/// Adds `factor` times as many values as `sums` has.
+/// Adds `factor` times the values to the sums.
 void add_times(const float* values, float factor, std::vector<float>& sums) {
     for (std::size_t i = 0; i < sums.size(); ++i)
         sums[i] = std::fma(factor, values[i], sums[i]);

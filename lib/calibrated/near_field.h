@@ -9,17 +9,17 @@
 
 namespace sonarsim {
 
-/// The amplitude of a line array that is not focused, at x off its axis and range r:
+/// The amplitude of a line array that is not focused, at the sine u of the angle off its axis and
+/// the range r:
 ///
-///     integral of w(x) exp(-2 pi i (x u L - x^2 L^2 / (2 r lambda))) dx,    u the sine of the
-///     angle
+///     integral of w(x) exp(-2 pi i (x u L / lambda - x^2 L^2 / (2 r lambda))) dx
 ///
 /// with x = position / L (Fresnel's approximation). Far beyond L^2 / lambda it is line_pattern();
 /// at shorter range the beam is as wide as the array. `curvature` is 1 / r.
 std::complex<double> unfocused_pattern(const LineArray& array, double u, double wavelength_m,
                                        double curvature_per_m);
 
-/// A table of its square, the two-way pattern.
+/// A table of the square of unfocused_pattern(), the two-way pattern.
 struct UnfocusedBeam {
     /// The value at the sine u of the angle off the axis and at a range; at ranges below the
     /// array's length it is that at its length. `u` must lie within the table.
@@ -28,7 +28,7 @@ struct UnfocusedBeam {
     float greatest_sine = 1.0F;  ///< at the ends of the table
     float most_curvature = 0.0F;
     float sines_per_unit = 0.0F, curvatures_per_unit = 0.0F;
-    int sines = 0, curvatures = 0;            ///< one more of each than are asked for
+    int sines = 0, curvatures = 0;            ///< numbers of entries, both ends included
     std::vector<std::complex<float>> values;  ///< [curvatures, sines]
 };
 

@@ -14,8 +14,8 @@ constexpr double half_power_at = 1.616339948;
 }  // namespace
 
 double piston_pattern(double x) {
-    // Poisson's integral: 2 J1(x) / x = 2 / pi times that of sin^2(t) cos(x cos t) over half a
-    // turn. The sum over equal steps is exact once there are more of them than radians in x.
+    // Poisson's integral: 2 J1(x) / x = 2 / pi times the integral of sin^2(t) cos(x cos t) over
+    // half a turn. The sum over equal steps is exact once there are more of them than radians in x.
     const int steps = 24 + static_cast<int>(std::fabs(x));
     double sum = 0.0;
     for (int k = 0; k < steps; ++k) {

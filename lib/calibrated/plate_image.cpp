@@ -43,15 +43,15 @@ PlateSurface surface_of(const PlateOfPing& plate, const PlateScene& scene) {
     return out;
 }
 
-/// The plate in whose place a cylinder reflects. Next to its specular line the phase 2 k r over the
-/// arc is stationary within a stretch of the width w. With D the distance of the sonar from the
-/// axis and r from the line, 2 k r grows by k a D t^2 / r over an angle t, and
+/// The plate that reflects like a part of a cylinder. Around the specular line the phase 2 k r on
+/// the arc is stationary over a width w. With D the distance of the sonar from the axis and r from
+/// the line, 2 k r grows by k a D t^2 / r over an angle t, and
 ///
 ///     |integral of exp(i k a D t^2 / r) a dt| = sqrt(pi a r / (k D)) = sqrt(a r lambda / (2 D)) =
 ///     w.
 ///
 /// Far away, a length L has A / lambda = L sqrt(a / (2 lambda)). The plate's own phases differ over
-/// w by less than pi a / (4 D), which takes 0.25 dB at most.
+/// w by less than pi a / (4 D), which costs 0.25 dB at most.
 PlateOfPing plate_of(const StripOfPing& strip, double wavelength_m) {
     const Eigen::Vector3d along = (strip.to - strip.from).normalized();
     const Eigen::Vector3d middle = 0.5 * (strip.from + strip.to);

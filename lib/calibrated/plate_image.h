@@ -40,10 +40,10 @@ extern template std::uint64_t add_plate_amplitudes(const ArrayBeams&, const Plat
 
 /// The shares of the power that faces scatter incoherently.
 ///
-/// Heights z of a rough face are normal with the RMS height h. The phase 2 k z sin g of an echo at
-/// the grazing angle g then has the mean of exp(i 2 k z sin g), exp(-(2 k h sin g)^2 / 2): that is
-/// the factor on the coherent amplitude (Eckart 1953). The total power that the face reflects does
-/// not depend on h. So the incoherent echo, which the sonar equation gives for 2 k h >> 1, keeps
+/// The heights z of a rough face are normally distributed with the RMS height h. An echo at the
+/// grazing angle g has the phase 2 k z sin g. The factor on the coherent amplitude is the mean of
+/// exp(i 2 k z sin g), exp(-(2 k h sin g)^2 / 2) (Eckart 1953). The total reflected power does not
+/// depend on h. So the incoherent echo, which the sonar equation gives for 2 k h >> 1, keeps
 ///
 ///     1 - exp(-(2 k h sin g)^2).
 ///

@@ -9,15 +9,17 @@ namespace sonarsim {
 /// range is the factor k (0.886 for uniform weights) times c / (2 B).
 struct PulseBand {
     double sweep_hz = 0.0;  ///< B
-    /// The power of noise is this times its spectrum. The matched filter of a pulse of length T and
-    /// energy E has the ratio E / N0 to white noise, and weights lose the factor mean(w^2) /
-    /// mean(w)^2. So this is that factor over T, where T is 1 / B for a pulse without a code.
+    /// The bandwidth of the noise: its power over its spectrum. The matched filter of a pulse of
+    /// length T and energy E gives the ratio E / N0 of echo to white noise; weights lose the factor
+    /// mean(w^2) / mean(w)^2. So the bandwidth is this factor over T, with T = 1 / B for a pulse
+    /// without a code.
     double noise_hz = 0.0;
-    /// The echo of surface has the energy of this length of it: the integral of the squared pulse.
+    /// The equivalent length of the pulse: the integral of its square. An echo of surface has the
+    /// energy of this length of surface.
     double length_m = 0.0;
 };
 
-/// A pulse of resolution 0 has that of a range bin.
+/// A pulse with `resolution_m` 0 has the resolution of a range bin.
 PulseBand pulse_band(const PulseConfig& pulse, double bin_m, double sound_speed_m_s);
 
 }  // namespace sonarsim

@@ -5,12 +5,12 @@
 
 namespace sonarsim {
 
-/// The far side lobes of a coded pulse behind its matched filter: errors of the transmitted signal
+/// The far side lobes of a coded pulse after its matched filter: errors of the transmitted signal
 /// that the filter does not know leave a share of the energy of every echo spread evenly over the
 /// length of the pulse, before and behind it; section 3 of docs/calibrated.md.
 struct PulseFloor {
     int reach = 0;       ///< range bins to either side
-    float share = 0.0F;  ///< energy of each of the 2 reach + 1 bins by that of the echo; 0: none
+    float share = 0.0F;  ///< energy of each of the 2 reach + 1 bins over the echo's; 0: none
 };
 
 /// Nothing (a share of 0) without `floor_db` or a code.

@@ -21,8 +21,8 @@ int reach_of(double resolution_bins) {
     return static_cast<int>(std::clamp(std::ceil(3.0 * resolution_bins), 2.0, most_reach));
 }
 
-/// The square root of the spectrum that noise has in bins behind a matched filter, `frequency` in
-/// cycles per bin. The pulse's band is `width` cycles per bin wide; beyond half a cycle it folds.
+/// The square root of the spectrum of noise after a matched filter, `frequency` in cycles per bin.
+/// The pulse's band is `width` cycles per bin wide; beyond half a cycle it aliases.
 double noise_amplitude(const LineArray& band, double width, double frequency) {
     const double most = std::ceil(0.5 * width);
     double sum = 0.0;
@@ -31,7 +31,7 @@ double noise_amplitude(const LineArray& band, double width, double frequency) {
     return std::sqrt(sum);
 }
 
-/// Solves t[m-1] / 6 + 2 t[m] / 3 + t[m+1] / 6 = b[m]: the products of neighbouring triangles.
+/// Solves t[m-1] / 6 + 2 t[m] / 3 + t[m+1] / 6 = b[m], the normal equations of a linear spline.
 std::vector<double> solve_triangles(std::vector<double> b) {
     const std::size_t n = b.size();
     std::vector<double> diagonal(n, 2.0 / 3.0);
@@ -76,7 +76,7 @@ RangeTaps range_taps(double resolution_bins, double side_lobe_db, bool squared) 
         power += taps[m] * taps[m];
         if (m > 0) neighbours += taps[m] * taps[m - 1];
     }
-    // A spline cannot follow a pulse as short as a bin; it gets the same energy.
+    // A spline cannot follow a pulse as short as a bin, so it is scaled to the pulse's energy.
     const double of_spline = squared ? sum : 2.0 / 3.0 * power + 1.0 / 3.0 * neighbours;
     double energy = 0.0;
     for (int k = -steps * out.reach; k <= steps * out.reach; ++k) {

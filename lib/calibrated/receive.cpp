@@ -8,7 +8,7 @@ namespace sonarsim {
 
 namespace {
 
-/// The draws of a look: those of another seed.
+/// The draws of a look, which has a seed of its own.
 PingDraws draws_of_look(PingDraws draws, int look) {
     draws.seed += std::uint64_t{0x9E3779B97F4A7C15U} * static_cast<std::uint64_t>(look);
     return draws;

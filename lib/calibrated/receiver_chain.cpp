@@ -114,8 +114,8 @@ void blank(const ReceiverConfig& receiver, const ImageRows& rows, std::span<floa
 }
 
 double drifting_gain_db(const ReceiverConfig& receiver, const PingDraws& draws) {
-    // Normal numbers a fixed count of pings apart, and between two of them their sum by weights
-    // whose squares add up to 1, so that the spread is the same in every ping.
+    // Normal numbers are drawn a fixed number of pings apart and interpolated with weights whose
+    // squares add up to 1, so the standard deviation is the same in every ping.
     const double at = static_cast<double>(draws.ping) / receiver.gain_drift_pings;
     const double whole = std::floor(at);
     const PhiloxKey key = stream_key(draws.seed, draws.sensor, 0, stream_named("gain drift"));

@@ -8,14 +8,14 @@
 
 namespace sonarsim {
 
-// The stages of a receiver behind its beams and its gain; section 4 of
-// docs/calibrated.md. Each is off by default.
+// The stages of a receiver after its beams and its gain; section 4 of docs/calibrated.md. Each is
+// off by default.
 
 /// True if any stage changes an image.
 bool has_faults(const ReceiverConfig& receiver);
 
-/// Makes one row of `samples` rows of an image of powers: [rows * samples, beams] becomes [rows,
-/// beams].
+/// Combines every `samples` rows of an image of powers into one: [rows * samples, beams] becomes
+/// [rows, beams].
 void combine_samples(std::span<const float> powers, int samples, SampleRule rule, int beams,
                      std::span<float> combined);
 
@@ -38,7 +38,7 @@ void add_faults(const ReceiverConfig& receiver, const ImageRows& rows, const Pin
 /// The gain of a ping that drifts, dB: normal with the standard deviation `gain_drift_db`.
 double drifting_gain_db(const ReceiverConfig& receiver, const PingDraws& draws);
 
-/// The gain of a beam, dB, the same in all pings: the sum of its own and that of its sector.
+/// The gain of a beam, dB, the same in all pings: the sum of its own gain and its sector's.
 double beam_gain_db(const ReceiverConfig& receiver, int beam, int beams, const PingDraws& draws);
 
 }  // namespace sonarsim

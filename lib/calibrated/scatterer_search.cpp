@@ -129,7 +129,8 @@ class Search {
     }
 
   private:
-    /// The scatterers of a sample in the block, from those of the run before to one before `end`.
+    /// The scatterers of a sample in the block, from the end of the previous run to one before
+    /// `end`.
     struct Run {
         int sample, end;
     };
@@ -210,8 +211,8 @@ void Search::keep_split(int k) {
     }
 }
 
-/// Keeps those of 8 cells whose points lie on the sample, from place `to` of the block on, and
-/// returns their number. A cell has `size` edges of a smaller cell.
+/// Keeps the cells, of 8, whose points lie on the sample: writes them from place `to` of the block
+/// on and returns their number. A cell has `size` edges of a smaller cell.
 template <int size>
 int Search::keep(int k, Ints8 column, Ints8 row, Ints8 bits, unsigned mask, int to) {
     const CellFootprints& p = footprints_;
@@ -231,7 +232,7 @@ int Search::keep(int k, Ints8 column, Ints8 row, Ints8 bits, unsigned mask, int 
     return front.count;
 }
 
-/// Completes the scatterers that were found on a sample, eight at a time: those beyond the last one
+/// Completes the scatterers that were found on a sample, eight at a time: lanes beyond the last one
 /// are overwritten later.
 void Search::complete(const Run& run) {
     PatchBlock& pieces = block_.pieces;
@@ -259,20 +260,21 @@ void Search::complete(const Run& run) {
         const Floats8 edge = size * p.fine_m[of];
         edge.store(block_.edge_m.data() + k);
         (edge * edge * p.area_by_projected[of]).store(pieces.area_m2.data() + k);
-        // Numbers from the base become those of the lattice: it is a multiple of 8.
+        // Numbers from the base become numbers of the lattice; the base is a multiple of 8.
         const Ints8 is_larger = to_ints(size) >> 1;
         const auto number = [&](int of_axis, std::int32_t base, Ints8 from_base) {
             (halved(base, is_larger) + from_base).store(block_.cell[of_axis].data() + k);
         };
         number(first, p.base_first[of], Ints8::load(column_.data() + k));
         number(second, p.base_second[of], Ints8::load(row_.data() + k));
-        // Four cells high, with the scatterer near the middle: a curved surface is cut into flat
-        // samples that are a little higher or lower each time, which must not change the scatterer.
+        // Cells are four edges high, with the scatterer near the middle: each cut of a curved
+        // surface into flat samples lies a little higher or lower, which must not change the
+        // scatterer.
         const Floats8 height = along(p.height[of], p.height_u[of], p.height_v[of]);
         const Floats8 fours = floor(height * (Floats8(0.375F) - size * 0.125F));
         number(axis, p.base_axis[of], (to_ints(fours) << 2) + 1);
-        // The phase belongs to the scatterer's place in the beam. With the phase of another place
-        // in the cell, speckle would decorrelate faster than the aperture allows.
+        // The phase follows from the scatterer's own place. With the phase of another place in the
+        // cell, speckle would decorrelate faster than the aperture allows.
         const Ints8 bits = Ints8::load(bits_.data() + k);
         point_along_first(bits).store(block_.within[first].data() + k);
         point_along_second(bits).store(block_.within[second].data() + k);

@@ -13,17 +13,17 @@ namespace {
 using Floats = PatchBlock::Array<float>;
 using Words = PatchBlock::Array<std::uint32_t>;
 
-// The greatest length of cells as a share of the resolution in range. All of a cell has its
+// The greatest length of cells as a share of the resolution in range. The whole cell has its
 // scatterer's phase; longer cells would make speckle longer than the pulse.
 constexpr double most_of_resolution = 0.75;
 
-// Cells in a resolution cell where there are fewer scatterers than one in it.
+// Cells in a resolution cell if it has less than one scatterer.
 constexpr double cells_for_few = 4.0;
 
 // The number of levels by which cells are larger at normal than at grazing incidence.
 constexpr int steep_levels = 1;
 
-/// 32 bits that look random by 64 (the finaliser of MurmurHash3, put to the words in turn).
+/// A hash of two words: the finaliser of MurmurHash3, applied to each in turn.
 std::uint32_t mixed(std::uint32_t a, std::uint32_t b) {
     std::uint32_t h = a * 0x85EBCA6BU;
     h = (h ^ (h >> 15)) + b * 0xC2B2AE35U;
@@ -90,14 +90,14 @@ void find_phases(const Scatterers& block, int count, const SonarInScene& sonar, 
     }
 }
 
-/// The strengths of scatterers that stand for many: exponential.
+/// The strengths of scatterers that represent many: exponentially distributed.
 void find_strengths_of_many(const Words& words, int count, Floats& strength) {
     for (int k = 0; k < count; ++k)
         strength[k] = -natural_log(unit_float(words[k]));
 }
 
 /// The strengths of sparse scatterers, n to a square metre. A cell of the area A holds one with the
-/// probability n A, and its strength is one over that.
+/// probability n A, and the strength of this scatterer is 1 / (n A).
 void find_strengths_of_few(const Words& words, int count, const PatchBlock& pieces,
                            const PointEchoes& echoes, float per_m2, Floats& strength) {
     for (int k = 0; k < count; ++k) {

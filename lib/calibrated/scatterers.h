@@ -13,11 +13,11 @@ namespace sonarsim {
 
 /// The scatterers of a scene as one sonar resolves them: one to each cell of a world-aligned
 /// lattice of cubes. A cell's scatterer has a place within the cell, a strength and a phase of its
-/// own, all by the cell's number. Their edge doubles from one level to the next.
+/// own, all drawn from the cell's number. The edge of the cells doubles from one level to the next.
 ///
-/// With one scatterer in a resolution cell or more, each stands for many: its strength is
-/// exponential. With fewer, some cells of the lattice are empty, and all others have the same
-/// strength per m^2 of the surface.
+/// With one or more scatterers in a resolution cell, each represents many: its strength is
+/// exponentially distributed. With fewer, some cells of the lattice are empty, and all others have
+/// the same strength per m^2 of the surface.
 struct ScattererCells {
     float least_edge_m = 0.0F;         ///< level 0
     float edge_per_root_range = 0.0F;  ///< m per sqrt(m), at grazing incidence
@@ -32,8 +32,8 @@ struct ScattererCells {
 };
 
 /// Cells with `per_cell` scatterers to a resolution cell of `resolution_m` in range and `width_rad`
-/// across, but no longer in range than the resolution. For less than one the cells have four to a
-/// resolution cell, of which enough are empty.
+/// across, but no longer in range than the resolution. If `per_cell` is below 1, a resolution cell
+/// has four cells, and enough of them are empty.
 ScattererCells scatterer_cells(double per_cell, double resolution_m, double width_rad,
                                double range_min_m, double wavelength_m);
 

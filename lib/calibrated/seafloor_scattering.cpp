@@ -20,8 +20,8 @@ Number squared(Number x) {
     return x * x;
 }
 
-/// The root with a positive imaginary part, of a number with one. The C library's root differs
-/// between processors.
+/// The square root, with a positive imaginary part, of a number with a positive imaginary part. The
+/// C library's root differs between processors.
 Complex root(Complex z) {
     const double size = std::sqrt(std::norm(z));
     // The larger part is found first, so that nothing cancels.
@@ -127,7 +127,7 @@ SeafloorScattering::SeafloorScattering(const SeaBed& bed, double wavenumber)
     slope_ = std::min(0.2, std::sqrt(pi * strength / span * power(wavenumber / 3.0, span)));
 
     const double inverse = 1.0 / alpha_;
-    // It grows without bound by frequency. The report's rock has this slope at 2 MHz.
+    // The slope grows with frequency without bound. The report's rock has this slope at 2 MHz.
     constexpr double steepest = 3.5;
     shadowing_slope_ = std::min(
         steepest, std::sqrt(power(2.0 * pi * strength, inverse) / (2.0 * (1.0 - alpha_)) *

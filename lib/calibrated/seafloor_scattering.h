@@ -14,11 +14,11 @@ namespace sonarsim {
 struct SeaBed {
     double density_ratio = 0.0;  ///< to that of the water
     double speed_ratio = 0.0;    ///< speed of sound to that of the water
-    double loss = 0.0;           ///< imaginary by real part of the wave number
+    double loss = 0.0;           ///< ratio of imaginary to real part of the wave number
     /// The roughness spectrum is W(K) = strength K^-exponent, K in rad/m, W in m^4.
     double spectral_strength = 0.0;
     double spectral_exponent = 0.0;
-    double volume_parameter = 0.0;  ///< scattering by absorption cross-section of the volume
+    double volume_parameter = 0.0;  ///< the volume's scattering over its absorption cross-section
 };
 
 /// The sea bed of a mean grain size in phi, -10 to 9, by the regressions of the report: from -1 on
@@ -64,7 +64,7 @@ class SeafloorScattering {
 
     SeaBed bed_;
     double wavenumber_;
-    std::complex<double> index2_;  ///< square of the wave number in the sediment by that in water
+    std::complex<double> index2_;  ///< squared ratio of the wave numbers in sediment and water
     double reflection_;
     double slope_;            ///< RMS slope along a line of the roughness that is resolved
     double shadowing_slope_;  ///< RMS slope over a wavelength, by the report

@@ -11,8 +11,8 @@ namespace sonarsim {
 
 namespace {
 
-// As a share of a bin. The energy behind the bin of the surface is then less than e^-4 of the
-// whole.
+// As a share of a bin. With a shorter lag, less than e^-4 of the energy lies behind the bin of the
+// surface.
 constexpr double shortest_lag = 0.25;
 
 }  // namespace

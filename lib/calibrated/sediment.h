@@ -28,7 +28,7 @@ struct SedimentScattering {
 };
 
 /// `whole` is the scattering of the same materials. A sea bed whose tail is a small part of a bin
-/// stays whole; nothing if all do.
+/// is not divided; nothing if none is.
 std::optional<SedimentScattering> sediment_scattering(std::span<const Material> materials,
                                                       double frequency_hz, const Water& water,
                                                       double bin_m, const Scattering& whole);
@@ -37,9 +37,9 @@ std::optional<SedimentScattering> sediment_scattering(std::span<const Material> 
 void weigh_by_lag(const SedimentScattering& sediment, const PatchBlock& pieces, float bin_m,
                   PointEchoes& echoes);
 
-/// Spreads energy, the real parts of `energy`, over the bins behind it: each share e of a bin by
-/// exp(-s / lag). `lagged` holds e times its lag in bins; where echoes of several lags meet, the
-/// mean counts. The sum of a column stays the same except for energy behind the last bin.
+/// Spreads energy, the real parts of `energy`, over the bins behind it: the energy e of a bin falls
+/// as exp(-s / lag). `lagged` holds e times its lag in bins; where echoes of several lags meet,
+/// their mean lag counts. The sum of a column stays the same except for energy behind the last bin.
 void spread_below(const EchoGrid& lagged, EchoGrid& energy);
 
 }  // namespace sonarsim

@@ -63,7 +63,7 @@ SightCells empty_cells(int axis, double low_sine, double high_sine, double turn_
     return out;
 }
 
-/// The cells about y, between two sines, as far as an elevation reaches.
+/// The cells about y between two sines, up to the view's elevation.
 SightCells cells_about_y(const View& view, double low_sine, double high_sine) {
     const double most = std::max(std::fabs(low_sine), std::fabs(high_sine));
     const double across = std::sqrt(std::max(1.0 - most * most, 0.0));

@@ -13,7 +13,7 @@
 namespace sonarsim {
 
 /// Places in the sensor frame, in arrays so that loops vectorise. `most` is a multiple of the lanes
-/// of a vector: places behind `count` are computed, too.
+/// of a vector: places after `count` are computed, too.
 struct SightPlaces {
     static constexpr int most = 256;
 
@@ -23,10 +23,11 @@ struct SightPlaces {
     std::array<std::int32_t, most> cell{};  ///< number among SightCells; -1 beyond them
 };
 
-/// The directions that a sonar sees, in cells of equal solid angle: by the sine of the angle to an
-/// axis of the sensor frame and by the turn about that axis (the area of a sphere between two
-/// parallels is 2 pi times the difference of their sines). The axis is that of symmetry: y for the
-/// cones of a line array and for a turning head, z for a side-scan sonar, x for a disc.
+/// The directions that a sonar sees, in cells of equal solid angle: by the sine of the angle to the
+/// plane across an axis of the sensor frame and by the turn about that axis (the area of a sphere
+/// between two parallels is 2 pi times the difference of their sines). The axis is that of
+/// symmetry: y for the cones of a line array and for a turning head, z for a side-scan sonar, x for
+/// a disc.
 struct SightCells {
     int axis = 1;
     float first_sine = 0.0F, sine_step = 1.0F;
@@ -39,8 +40,8 @@ struct SightCells {
     float middle_sine(int s) const {
         return first_sine + (static_cast<float>(s) + 0.5F) * sine_step;
     }
-    /// The number of pieces, at most 64, that cut an edge so that none is longer than a cell, by
-    /// its half and the place of its middle.
+    /// The number of pieces, at most 64, into which an edge is cut so that none is longer than a
+    /// cell. The middle of the edge lies at `range_m` in the direction `towards`.
     int spanned(const Eigen::Vector3f& half_edge, const Eigen::Vector3f& towards,
                 float range_m) const;
     /// Fills the ranges and the cells of places.

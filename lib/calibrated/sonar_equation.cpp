@@ -24,7 +24,7 @@ Floats8 exp_neg_of_8(Floats8 x, float longest = fades_at) {
     return where(x < longest, series * scale);
 }
 
-/// One value of every material. As many as a register has lanes are looked up in one.
+/// One value of every material. Up to 8 materials are looked up in one register.
 class MaterialTable {
   public:
     MaterialTable(std::span<const Backscatter> materials, float Backscatter::*value)
@@ -121,7 +121,7 @@ void weigh_by_elevation(const ElevationPattern& pattern, const PatchBlock& piece
                         PointEchoes& echoes) {
     if (pattern.power.empty()) return;
     const float* const table = pattern.power.data();
-    // Between the entries, at a sine within [-1, 1].
+    // Interpolates between the entries at a sine within [-1, 1].
     const Floats8 half = 0.5F * ElevationPattern::steps;
     for (int k = 0; k < count; k += lanes) {
         const Floats8 sine =

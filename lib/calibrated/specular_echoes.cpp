@@ -14,7 +14,7 @@ namespace {
 /// The ends of a block of paths: the pieces, or their images.
 struct Ends {
     PatchBlock places;
-    PointEchoes echoes;                  ///< ranges of the places; the rest is filled by add_block
+    PointEchoes echoes;                  ///< ranges of the places; use_block() fills the rest
     PatchBlock::Array<float> sent = {};  ///< share of the power that is sent towards them
 };
 

@@ -20,11 +20,11 @@
 // slope. The highlight has the size a s. A surface with two radii of curvature gives R a b / 4: the
 // echo depends on the area over which the normal turns by an angle.
 //
-// A mesh of flat triangles whose normals n = sum w_i n_i are interpolated has that area if each
-// piece counts by more than its own. On a sphere the corners' normals point along the corners, so
-// n / |n| points along the piece's place p in the triangle, |p| = a |n|. Seen from the centre, the
-// piece dA of the triangle, whose normal is N, covers the solid angle (N . n / |n|) dA / |p|^2,
-// which on the sphere has the area
+// A mesh of flat triangles with interpolated normals n = sum w_i n_i has this area if the areas of
+// its pieces are corrected. On a sphere the corners' normals point along the corners, so n / |n|
+// points along the piece's place p in the triangle, |p| = a |n|. Seen from the centre, the piece dA
+// of the triangle, whose normal is N, covers the solid angle (N . n / |n|) dA / |p|^2, which on the
+// sphere has the area
 //
 //     dA (N . n / |n|) / |n|^2,   at the place p + a (1 - |n|) n / |n|.
 //
@@ -55,9 +55,8 @@ struct TargetPieces {
 /// surface.
 void move_to_curve(TargetPieces& pieces);
 
-/// The size of an edge of a piece, 1 if it is small enough: the piece is a point to the beams and
-/// bins, and, where the facet may send back a highlight, the normal turns by at most 0.7 slopes
-/// in it.
+/// The size of an edge of a piece. If it is 1 or less, the piece is a point to the beams and bins,
+/// and, where the facet may send back a highlight, its normal turns by at most 0.7 slopes.
 class PieceSize {
   public:
     PieceSize(const TargetFacet& facet, const PointLimits& limits, float slope) {

@@ -14,7 +14,7 @@ namespace {
 
 using Terms = Eigen::Array<float, 8, 1>;
 
-/// Places in Terms.
+/// Indices into Terms.
 enum Term : int { power_term, range_term, x_term, y_term, z_term, highlight_term };
 
 /// The number of the cell at an offset from the middle one, 21 bits.
@@ -37,7 +37,7 @@ struct Cell {
 /// Sums the echoes of a surface by cell.
 class CellSums {
   public:
-    /// The cells in the order of their numbers. `numbers`: of the cell of each echo.
+    /// The cells in the order of their numbers. `numbers`: the cell of each echo.
     std::span<const Cell> find(std::span<const std::uint64_t> numbers,
                                std::span<const Terms> terms) {
         cells_.clear();

@@ -43,8 +43,8 @@ class TargetScatterers {
                 const ScattererUse& use);
 
   private:
-    /// Terms of the sums over echoes, each times its power: 1, the range, x, y and z, and 1 for the
-    /// highlight.
+    /// Terms of the sums over echoes, each times the power of the echo: 1, the range, x, y, z, and
+    /// 1 if the echo belongs to the highlight.
     using Terms = Eigen::Array<float, 8, 1>;
     /// The echoes of one smooth surface: those from `first` on.
     struct Surface {

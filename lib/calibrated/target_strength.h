@@ -6,7 +6,7 @@ namespace sonarsim {
 
 // Backscattering cross-sections of single targets in the water, m^2; 10 log is the target strength.
 
-/// A fish of a length seen from above, `law`:
+/// A fish seen from above, by `law`:
 ///
 ///     love           TS = 19.1 log L - 0.9 log f - 62.0     L in cm, f in kHz
 ///     foote_gadoid   TS = 20 log L - 67.4
@@ -22,9 +22,9 @@ double fish_section_m2(FishLaw law, double length_m, double frequency_hz);
 ///     sigma = a^2 / ((f0^2 / f^2 - 1)^2 + (k a)^2),    f0 = sqrt(3 gamma p / rho) / (2 pi a)
 ///
 /// (M. Minnaert 1933; H. Medwin and C. S. Clay, "Fundamentals of Acoustical Oceanography", 1998,
-/// chapter 8). It is damped by radiation alone, which leaves out heat and friction: near resonance
-/// bubbles below a millimetre are weaker. From k a = 1 on the section is at least that of a large
-/// sphere, a^2 / 4.
+/// chapter 8). It includes the damping by radiation, but not by heat conduction and viscosity: near
+/// resonance, real bubbles below a millimetre are weaker. From k a = 1 on the section is at least
+/// that of a large sphere, a^2 / 4.
 double bubble_section_m2(double radius_m, double depth_m, double density_kg_m3,
                          double sound_speed_m_s, double frequency_hz);
 

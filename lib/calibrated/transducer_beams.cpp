@@ -137,8 +137,8 @@ void add_amplitudes(const TransducerBeams& beams, const PatchBlock& pieces,
             const float b = amplitudes.im[k];
             const float re = weights.re[k];
             const float im = weights.im[k];
-            // Spelled out: GCC contracts the two products that stand side by side even where that
-            // is switched off, and other compilers do not.
+            // Explicit fma(): GCC contracts two adjacent products even if contraction is switched
+            // off, and other compilers do not.
             add_between_bins(grid.column(beam), echoes.row[k], std::fma(a, re, -(b * im)),
                              std::fma(a, im, b * re));
         }

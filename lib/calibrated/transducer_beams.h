@@ -13,7 +13,7 @@
 
 namespace sonarsim {
 
-/// A function of a sine, by a table.
+/// A function of a sine, as a table.
 struct SineTable {
     float from = 0.0F;      ///< the sine of the first entry
     float per_unit = 0.0F;  ///< entries per unit of sine
@@ -40,7 +40,7 @@ struct TransducerBeams {
     int beams() const { return sides.empty() ? 1 : static_cast<int>(sides.size()); }
 };
 
-/// `noise` is the power of the noise in a beam, `taps` are those of its filter along range.
+/// `noise`: the noise power in a beam. `taps`: the noise's filter along range.
 TransducerBeams transducer_beams(const BeamConfig& beam, const View& view, double wavelength_m,
                                  double noise, const std::vector<float>& taps);
 
@@ -81,9 +81,9 @@ bool in_main_lobe(const TransducerBeams& beams, const PatchBlock& pieces, const 
 void add_bistatic_powers(const TransducerBeams& beams, const PathEndpoint& out,
                          const PathEndpoint& back, EchoGrid& grid);
 
-/// Fills the image [bins, beams] with the power in the grid, of `powers` or of amplitudes, and the
-/// noise. `coherent` may hold amplitudes in addition to powers, else it is null. Noise belongs to
-/// the bin, the beam and the key.
+/// Fills the image [bins, beams] with the power of the grid, which holds `powers` or amplitudes,
+/// and of the noise. `coherent` may hold amplitudes in addition to powers, else it is null. Noise
+/// depends on the bin, the beam and the key alone.
 void beamform(const TransducerBeams& beams, const EchoGrid& grid, bool powers,
               const EchoGrid* coherent, bool noisy, PhiloxKey key, std::span<const float> row_gain,
               std::span<float> image);

@@ -60,7 +60,7 @@ double suspended_strength(double mg_per_l, double diameter_um, double wavenumber
 
 double volume_strength(const WaterConfig& water, double frequency_hz) {
     Content content = content_of(water.content);
-    // A given level includes everything in the water.
+    // A given level includes the suspended particles that are usual for `content`.
     if (water.scattering_db_per_m3) content = {power_of_db(*water.scattering_db_per_m3), 0.0};
     const double wavenumber = 2.0 * pi * frequency_hz / water.sound_speed_m_s;
     return content.strength +

@@ -7,9 +7,9 @@ namespace sonarsim {
 /// The water of an instrument: `auto` values become those of the instrument's usual water.
 WaterConfig water_of(const WaterConfig& water, const InstrumentConfig& instrument);
 
-/// The volume scattering cross-section of the water without its layers, m^2 per m^3: that of
-/// plankton and bubbles, which does not depend on frequency, and that of suspended particles. 0 if
-/// it has none. `water.content` is not `auto`.
+/// The volume scattering cross-section of the water without its layers, m^2 per m^3: plankton and
+/// bubbles, whose scattering does not depend on frequency, and suspended particles. 0 without any.
+/// `water.content` is not `auto`.
 ///
 /// The levels of `content` are chosen: they divide the range of -90 dB (clear) to -55 dB (dense
 /// clouds) that is common for the sea. So are its suspended particles: 0.5 mg/l are usual off the

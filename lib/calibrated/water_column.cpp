@@ -18,7 +18,7 @@ namespace {
 constexpr float no_end = std::numeric_limits<float>::infinity();
 
 /// The share of a side-scan sonar's pattern along the track that its view receives, by range; 1 for
-/// other sonars, whose weights have it.
+/// other sonars, whose weights include the pattern.
 double mean_along_track(const std::variant<TransducerBeams, ArrayBeams>& beams, const View& view,
                         double range_m) {
     const auto* const sides = std::get_if<TransducerBeams>(&beams);

@@ -49,7 +49,7 @@ inline Scattering unit_scattering() {
     return out;
 }
 
-/// Cuts points into blocks of one material, the number 0, with their echoes, for `use`.
+/// Calls use(points, echoes) for blocks of point targets, all of the material 0.
 template <class Beams, class Use>
 void find_particles(const CalibratedModel& model, const Beams& beams,
                     std::span<const Sample> particles, PingCounts& counts, Use use) {
@@ -102,7 +102,7 @@ void add_particle_powers(const CalibratedModel& model, const Beams& beams,
                    });
 }
 
-/// Adds the powers of the water's surface to a grid.
+/// Adds the powers of a surface to a grid.
 template <class Beams>
 void add_surface_powers(const CalibratedModel& model, const Beams& beams,
                         std::span<const Sample> surface, const Scattering& scattering,

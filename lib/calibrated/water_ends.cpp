@@ -10,9 +10,9 @@ namespace {
 
 constexpr float ends_nowhere = std::numeric_limits<float>::infinity();
 
-// The share of a cell's solid angle that closes it; chosen. Pieces of surface count for the cell of
-// their middle, so a wholly covered cell may have less than its solid angle. A cell that an edge
-// cuts is closed as well.
+// A cell is closed if surface covers this share of its solid angle; the number is chosen. Pieces of
+// surface count for the cell of their middle, so a wholly covered cell may get less than its solid
+// angle. A cell that the edge of a surface cuts is closed as well.
 constexpr float least_cover = 0.2F;
 
 /// Sums over the pieces of surface in each cell. Pieces are collected, since finding their cells is
