@@ -31,7 +31,7 @@ constexpr double model_error = 0.002;
 constexpr double chi2_95 = 3.84;
 constexpr std::ptrdiff_t most_pairs = 16;
 
-/// The correlation of log powers over t = u L, of one taper, as a table.
+/// The correlation of log powers over t = u L / lambda, of one taper, as a table.
 struct TaperedCorrelation {
     static constexpr double step = 0.02;
     static constexpr int steps = 800;

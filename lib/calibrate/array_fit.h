@@ -14,9 +14,9 @@ namespace sonarsim {
 
 /// Squared correlation of the complex amplitudes of two beams whose sines differ by `u`. The
 /// elements have independent noise, and w(x) enters both beams with the phases of their directions.
-/// So the correlation is the integral of w^2 exp(2 pi i u L x) over that of w^2, the Fourier
-/// transform of the squared weights; phase errors cancel. Speckle has the same correlation: its
-/// scatterers are independent, and the overlap of two patterns is that transform, too.
+/// So the correlation is the integral of w^2 exp(2 pi i u L x / lambda) over that of w^2, the
+/// Fourier transform of the squared weights; phase errors cancel. Speckle has the same correlation:
+/// its scatterers are independent, and the overlap of two patterns is that transform, too.
 double beam_correlation(const LineArray& array, double u);
 
 /// The correlations of log powers 1 to patch_lags beams apart that an array has, the mean over all
@@ -25,7 +25,7 @@ std::array<double, patch_lags> predicted_beam_correlations(const LineArray& arra
                                                            const std::vector<double>& sines,
                                                            const LogStatistics& statistics);
 
-/// The receiving array by the correlation of noise across the beams.
+/// The receiving array, fitted to the correlation of noise across the beams.
 struct ArrayFit {
     Bounded width_deg;
     Bounded side_lobe_db;
@@ -33,10 +33,10 @@ struct ArrayFit {
 };
 
 /// The array with the least chi^2 = d' C^-1 d, d the measured correlations less its own and C their
-/// covariance. An interval has all widths, or all tapers, that some array within 3.84 of the least
-/// has (the profile of the likelihood; Wilks 1938). So a taper at the end of its range, or one that
-/// the width can compensate, has a wide interval. Nothing for fewer than 24 units. The taper counts
-/// as known when its interval is narrower than 8 dB.
+/// covariance. An interval covers the widths, or the tapers, of all arrays whose chi^2 is within
+/// 3.84 of the least (profile likelihood; Wilks 1938). So a taper at the end of its range, or one
+/// that the width can compensate, has a wide interval. Nothing for fewer than 24 units. The taper
+/// counts as known when its interval is narrower than 8 dB.
 std::optional<ArrayFit> fit_array(const BeamCorrelations& seen, const std::vector<double>& sines,
                                   const LogStatistics& statistics);
 

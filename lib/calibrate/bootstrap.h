@@ -18,9 +18,9 @@ struct Bounded {
 /// Makes an interval wider by an independent error.
 void widen(Bounded& m, double by);
 
-/// `estimate` of the units as they are, with its interval over `draws` bootstrap samples of them:
-/// 1.96 standard deviations to either side, and at least `least` to either side, for what the
-/// closed forms leave out. Samples whose estimate is not finite do not count.
+/// The estimate with all weights 1, with its interval from `draws` bootstrap samples of the units:
+/// 1.96 standard deviations to either side, and an independent error of `least` for effects that
+/// the closed forms leave out. Samples whose estimate is not finite do not count.
 Bounded bootstrap(int count, const std::function<double(const std::vector<double>&)>& estimate,
                   double least = 0.0, int draws = 80);
 

@@ -20,7 +20,7 @@ double full_angle(const std::vector<double>& bearings) {
     return (*most - *least) * beams / std::max(beams - 1.0, 1.0);
 }
 
-/// Unevenness of the steps of a row of numbers: variance by squared mean.
+/// Unevenness of the steps of a row of numbers: their variance over their squared mean.
 double unevenness(const std::vector<double>& row) {
     double sum = 0.0, square = 0.0;
     for (std::size_t k = 1; k < row.size(); ++k) {
@@ -172,7 +172,7 @@ void calibrate_soundings(const SplitRecording& parts, const SonarConfig& start,
 }
 
 /// Adds a note if the judged pings have other figures than the fitted ones: no instrument with
-/// constant numbers has both.
+/// constant settings fits both.
 void note_change(Calibration& out) {
     const auto changed =
         std::count_if(out.figures.begin(), out.figures.end(), [](const JudgedFigure& figure) {

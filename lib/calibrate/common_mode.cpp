@@ -19,7 +19,7 @@ constexpr double db_of_neper_ahead = 4.342944819032518;
 // dB.
 constexpr double deviations_of_ahead = 4.0;
 constexpr double least_over_db = 0.4;
-// A side lobe and the null before it.
+// The beams in a side lobe and the null before it.
 constexpr int most_gap = 8;
 constexpr Bounded none_seen{-300.0, -300.0, -300.0};
 
@@ -29,7 +29,7 @@ double median_of(std::vector<double> values) {
     return *middle;
 }
 
-/// The level of a beam over the law of the noise, by block without echoes.
+/// The level of a beam over the law of the noise, from the blocks without echoes.
 double excess_db(const Recording& recording, const LawFit& law, const NoiseFit& noise, int beam,
                  const std::vector<double>& weights) {
     const double full_value = full_value_of(recording);
@@ -129,7 +129,7 @@ Bounded common_mode(const Recording& recording, const LawFit& law, const NoiseFi
         return db_of_power(power_of_db(over_db) - 1.0) -
                db_of_power(pattern_power(beam, width, sines[ahead]));
     };
-    // A narrower beam receives less of it off its axis.
+    // A narrower beam receives less of this noise off its axis.
     return {shared(over.value, width_deg.value), shared(over.low, width_deg.high),
             shared(over.high, width_deg.low)};
 }

@@ -15,8 +15,8 @@ struct Correlations {
     int patches = 0;
 };
 
-/// The correlations of some patches, weighted by place: one less structure function by variance.
-/// The variance is that of values half a patch apart, so longer correlations do not show.
+/// The correlations of some patches, weighted by place: 1 - structure function / variance. The
+/// variance is that of values half a patch apart, so longer correlations do not show.
 Correlations correlations_of(const std::vector<PatchMoments>& patches,
                              const std::vector<std::size_t>& chosen,
                              const std::vector<double>& weights);
@@ -25,7 +25,7 @@ Correlations correlations_of(const std::vector<PatchMoments>& patches,
 struct BeamCorrelations {
     Eigen::Matrix<double, patch_lags, 1> mean;
     Eigen::Matrix<double, patch_lags, patch_lags> covariance;
-    int units = 0;  ///< independent ones
+    int units = 0;  ///< number of independent units
 };
 
 /// The covariance is that of a ratio of sums over independent units: a unit with the structure S

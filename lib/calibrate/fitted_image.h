@@ -33,14 +33,14 @@ struct KeyEstimate {
 /// The part of an instrument that its images or records determine.
 struct ImageFit {
     LawFit law;
-    std::optional<Bounded> offset;  ///< the one of a power law
+    std::optional<Bounded> offset;  ///< a power law's
     std::optional<NoiseFit> noise;
     std::optional<Bounded> pulse_bins;
     bool pulse_of_echoes = false;  ///< fitted to echoes, without noise
     std::optional<ArrayFit> array;
     std::optional<TextureFit> texture;  ///< the bottom's
     bool law_of_echoes = false;         ///< fitted to echoes, without noise
-    InstrumentConfig config;            ///< the start with what was fitted
+    InstrumentConfig config;            ///< the start with the fitted values
     double noise_re_full_scale_db = 0.0;
     std::vector<KeyEstimate> estimates;
     std::vector<std::string> notes;  ///< reasons why the pings do not determine a number

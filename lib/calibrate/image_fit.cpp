@@ -125,10 +125,10 @@ void set_texture(const Recording& recording, ImageFit& fit) {
     }
 }
 
-/// The texture of echoes, and their pulse without it.
+/// Fits the texture of echoes, and their pulse without the texture.
 void fit_texture_of(const Recording& recording, const PatchClasses& classes,
                     const std::vector<double>& sines, ImageFit& fit) {
-    // If pulse and law are those of noise, the texture is that of the scene alone.
+    // If pulse and law are fitted to noise, the texture does not affect them.
     if (!fit.pulse_bins || !fit.noise || !fit.pulse_of_echoes) return;
     const BeamConfig& beam = fit.config.beam;
     std::array<double, patch_lags> of_beams{};
@@ -157,8 +157,8 @@ void fit_pulse_and_array(const Recording& recording, ImageFit& fit) {
     set_pulse(recording.range_step_m, fit);
 }
 
-/// Levels by the noise, and the noise that all elements share. Pings show only differences of
-/// levels, so noise_db is that of the start and full_scale_db is fitted.
+/// Fits the levels to the noise, and the noise that all elements share. Pings show only differences
+/// of levels, so noise_db is that of the start and full_scale_db is fitted.
 void fit_levels(const Recording& recording, const StartInstrument& start, ImageFit& fit) {
     ReceiverConfig& receiver = fit.config.receiver;
     const double noise_db = start.levels.noise_db;

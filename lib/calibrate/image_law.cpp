@@ -44,9 +44,9 @@ std::vector<bool> whole_places(const PatchClasses& classes, const LawFit& law, d
     return patches < 2.0 * least_patches_of_law ? std::vector<bool>{} : out;
 }
 
-/// The offset of a power law: that of the start, unless the pings have one that lies 3.3 standard
-/// errors of places off it. Values of a logarithm have deviations that do not grow, so theirs is
-/// far off.
+/// The offset of a power law: that of the start, unless the pings show one that differs by 3.3
+/// standard errors, with places as units. Under a logarithmic law deviations do not grow with the
+/// mean, so the fitted offset is far off.
 std::optional<Bounded> chosen_offset(const Recording& recording, double of_start,
                                      const std::vector<bool>& places) {
     const double full_value = full_value_of(recording);
@@ -63,8 +63,8 @@ std::optional<Bounded> chosen_offset(const Recording& recording, double of_start
 }
 
 /// Noise has one shape at all levels; echoes with a texture or several samples do not. So if the
-/// intervals of the two offsets do not meet, that of noise counts, else that of all patches, which
-/// is more accurate.
+/// intervals of the two offsets do not overlap, the offset of noise is used, else that of all
+/// patches, which is more accurate.
 void prefer_offset_of_noise(const Recording& recording, const std::vector<bool>& places,
                             ImageFit& fit) {
     const std::optional<Bounded> of_noise =
@@ -98,9 +98,8 @@ void find_noise(const Recording& recording, double absorption_db_per_m, ImageFit
     if (fit.noise) fit.noise->ahead = ahead;
 }
 
-/// The statistics of the values of noise, or of echoes where there is too little of it. Several
-/// samples have statistics that depend on the pulse, which shows in correlations that no law
-/// changes.
+/// The statistics of the values of noise or, with too little noise, of echoes. With several samples
+/// they depend on the pulse, which is fitted to correlations, since no law changes these.
 LogStatistics second_statistics(const Recording& recording, const PatchClasses& classes,
                                 ImageFit& fit) {
     const bool of_noise = !fit.law_of_echoes;
@@ -124,8 +123,8 @@ LogStatistics second_statistics(const Recording& recording, const PatchClasses& 
                                  : pulse_bins_of(fit.config.pulse, recording.range_step_m));
 }
 
-/// Without noise on a law, even patches may be noise as well as echoes. Several samples of the two
-/// differ in their variance, and the law takes its root.
+/// Without a fit of the noise, even patches may be noise as well as echoes. With several samples
+/// the variances of the two differ, and the law is proportional to the root of the variance.
 void widen_by_kind(const Recording& recording, ImageFit& fit) {
     if (fit.config.receiver.samples <= 1) return;
     const double bins = pulse_bins_of(fit.config.pulse, recording.range_step_m);

@@ -4,7 +4,7 @@
 
 namespace sonarsim {
 
-/// Patches that a fit of noise needs.
+/// The number of patches that a fit to noise needs.
 inline constexpr std::size_t least_noise_patches = 24;
 
 /// The patches that determine pulse and array: noise, or echoes if there is too little noise.

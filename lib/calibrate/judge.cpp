@@ -58,7 +58,7 @@ double mean_of(const std::vector<PatchMoments>& patches, const std::vector<std::
     return sum / weight;
 }
 
-/// The variation of an amplitude with a texture: the squared means of two independent factors
+/// The variation of an amplitude with a texture: the mean squares of two independent factors
 /// multiply.
 double variation_with(const SpeckleConfig& speckle, const LogStatistics& statistics) {
     if (speckle.clutter_shape <= 0.0) return statistics.variation;
@@ -141,7 +141,7 @@ void add_noise_levels(Judged& judged, const std::vector<NoiseBlock>& measured) {
         for (std::size_t k = third * rows.size() / 3; k < (third + 1) * rows.size() / 3; ++k) {
             const auto same = [&](const NoiseBlock& block) { return block.row == rows[k].row; };
             const auto at = std::find_if(measured.begin(), measured.end(), same);
-            // Noise below a constant echo shows only in two pings.
+            // A single ping does not show the noise below a constant echo.
             if (at == measured.end() || !rows[k].alone) continue;
             levels.push_back(at->level_db);
             predicted += judged.noise.at(at->range_m);

@@ -19,9 +19,9 @@ constexpr double least_spread_of_levels = 0.1;
 // The error that a finite patch, its trend and the steps of the values leave in a law.
 constexpr double least_error = 0.01;
 
-// Noise whose least powers, a share p, become 0 lacks p (0.8 - 2 ln p) of the variance pi^2 / 6 of
-// its logarithm: half a per cent at this share. A patch must not be chosen by its own zeros, since
-// that would truncate the tail, too.
+// If the least powers of noise, a share p, become 0, its logarithm lacks p (0.8 - 2 ln p) of the
+// variance pi^2 / 6: half a per cent at this share. A patch must not be chosen by its own zeros,
+// since that would truncate the tail, too.
 constexpr double most_cut_off = 5e-4;
 
 double log_of_value(double value, double step) {
@@ -97,8 +97,9 @@ double lasting_correlation(const LawPatches& patches) {
     return 1.0 - structure / variance;
 }
 
-/// InputError where no skewness between those of one look and of eight, about -1.14 and -0.4, is
-/// within the errors, nor one near that of the start.
+/// InputError if values a third of a patch apart are correlated, or if neither skewness can, within
+/// its errors, lie between -2 and -0.3 (or 0.3 above that of the start). One look has -1.14, eight
+/// looks have about -0.4.
 void check_speckle(const LawPatches& patches, const Bounded& of_logs, const Bounded& of_values,
                    double of_start) {
     const double most = std::max(-0.3, of_start + 0.3);
@@ -126,7 +127,7 @@ LawPatches law_patches(const std::vector<RecordedPing>& pings, double full_value
     };
     out.values = moments([](double v, int) { return v; });
     out.logs = moments([&](double v, int) { return log_of_value(v + offset * full_value, step); });
-    // Evenness is measured in logarithms, since there no law makes strong patches uneven.
+    // Evenness is measured in logarithms, because in these no law makes strong patches uneven.
     out.even = speckle_patches(out.logs, full_value > 15.0 ? 6.0 : 0.0);
     out.places = speckle_grid(pings.front()).places();
     if (out.even.size() < least_patches) {

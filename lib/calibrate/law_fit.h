@@ -26,9 +26,10 @@ struct LawFit {
     LogStatistics statistics;       ///< the law was fitted for them
     int patches = 0;
     double offset = 0.0;      ///< added to the values, as a share of full_value
-    double mean_share = 0.0;  ///< harmonic mean of the patches' means with it, as a share
+    double mean_share = 0.0;  ///< harmonic mean of the patches' means with `offset`, as a share
 
-    /// ln P, P the power by full scale, of a value. Values below half a step count as half a step.
+    /// ln P of a value, with P the power over full scale. Values below half a step count as half a
+    /// step.
     double log_power(double value, double full_value) const;
 
     /// True where the values of noise or speckle of a mean power become 0 so often that the
@@ -42,10 +43,11 @@ LawFit stated_law(const ReceiverConfig& receiver, const LogStatistics& statistic
 /// The largest value that pings can have: the recording's, else the largest one that they have.
 double full_value_of(const Recording& recording);
 
-/// The law of pings of such `statistics`, of the even half of all patches or of the even half of
-/// those at these places in a patch grid, after `offset` was added to all values. InputError, which
-/// says why, when their values are none of speckle: a photograph, too few patches, values that stay
-/// alike over a whole patch. A `known` kind of law is not fitted.
+/// Fits the law of pings whose speckle has these `statistics`, after `offset` was added to all
+/// values. The fit uses the even half of the patches at these places of the patch grid, or of all
+/// patches. InputError with the reason if the values are not speckle: a photograph, too few
+/// patches, or values that are alike over a whole patch. If the kind of law is `known`, it is not
+/// fitted.
 LawFit fit_law(const std::vector<RecordedPing>& pings, double full_value,
                const LogStatistics& statistics, const std::vector<bool>& places = {},
                double offset = 0.0, std::optional<Companding> known = {});

@@ -14,7 +14,7 @@ double log_power_variance(int looks);
 /// Skewness of ln P: -1.14 for one look, -0.78 for two.
 double log_power_skewness(int looks);
 
-/// Mean of ln P where P has the mean 1: digamma(n) - ln n; less Euler's constant for one look.
+/// Mean of ln P where P has the mean 1: digamma(n) - ln n; minus Euler's constant for one look.
 double log_power_mean(int looks);
 
 /// Coefficient of variation of the amplitude, the root of P: 0.5227 for one look.

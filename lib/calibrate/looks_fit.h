@@ -8,9 +8,9 @@
 
 namespace sonarsim {
 
-/// The skewness of the log powers of noise. The level of noise is known, so its third moment is
-/// that about the mean of a place over all pings, which varies less than one of differences.
-/// The skewness of the law where there is too little noise of fine steps.
+/// The skewness of the log powers of noise. The level of noise is known, so the third moment is
+/// taken about the mean of a place over all pings; it varies less than one of differences. With too
+/// little noise of fine steps, it is the skewness of the law.
 Bounded skewness_of_noise(const PatchClasses& classes, const LawFit& law);
 
 /// The number of looks: that of the start, unless the skewness lies 3.3 standard errors off it (one

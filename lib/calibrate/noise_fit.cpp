@@ -16,8 +16,8 @@ constexpr int groups_of_beams = 8;
 constexpr double near_db = 0.8;
 constexpr std::size_t least_blocks = 6;
 constexpr double least_share = 0.12;
-// The level of speckle is accurate to this many dB at best, by the trend within a block and the
-// law's error.
+// The level of speckle is accurate to this many dB at best, because of the trend within a block and
+// the law's error.
 constexpr double least_level_db = 0.1;
 
 /// The sums over the values of one block of one ping and the next one.
@@ -68,8 +68,8 @@ BlockSums block_sums(const Recording& recording, const LawFit& law, double full_
 }
 
 /// The spread of the mean log powers of groups of beams: 1.48 times the median distance from their
-/// median, so that one group with a bright point does not count. The two in the middle do not count
-/// either: noise that all elements share is there.
+/// median, so that one group with a bright point does not count. The two middle groups are left
+/// out, since they contain the noise that all elements share.
 double spread_of_groups(const BlockSums& sums) {
     std::vector<double> means;
     for (int g = 0; g < groups_of_beams; ++g) {
@@ -130,7 +130,7 @@ struct Candidate {
     double level_db = 0.0, score = -1e30;
 };
 
-/// The level at which most blocks lie near the shape, less those that lie below it.
+/// The level with the greatest number of blocks near the shape less the number of those below it.
 Candidate best_level(const std::vector<NoiseBlock>& blocks, double absorption_db_per_m,
                      const Shape& shape) {
     std::vector<double> offsets;

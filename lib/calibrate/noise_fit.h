@@ -29,14 +29,14 @@ struct AheadBeams {
     bool holds(int beam) const { return first <= beam && beam < end; }
 };
 
-/// The part that changes from ping to ping, by range. Noise N is new in every ping; an echo of a
-/// scene at rest is constant. With M the mean of the powers A and B of a place in two pings, the
-/// mean of (A - B)^2 is 2 (2 M N - N^2), for one look at one sample. If pings are independent, N is
-/// M. The beams `ahead` do not count.
+/// The level of the part that changes from ping to ping, by range. Noise N is new in every ping; an
+/// echo of a scene at rest is constant. With M the mean of the powers A and B of a place in two
+/// pings, the mean of (A - B)^2 is 2 (2 M N - N^2), for one look at one sample. If pings are
+/// independent, N is M. The beams `ahead` do not count.
 std::vector<NoiseBlock> noise_blocks(const Recording& recording, const LawFit& law,
                                      const AheadBeams& ahead = {});
 
-/// The noise behind the gain: level_db + tvg_log log10(r) + 2 absorption r, r at least tvg_from_m.
+/// The noise after the gain: level_db + tvg_log log10(r) + 2 absorption r, r at least tvg_from_m.
 struct NoiseFit {
     Bounded level_db;  ///< noise less full scale, extrapolated to 1 m without absorption
     Bounded tvg_log;

@@ -8,7 +8,7 @@ namespace sonarsim {
 
 namespace {
 
-// The values of a patch of speckle that may lie at either end of the scale. Each biases the
+// The share of a patch's values that may lie at each end of the scale. Such values bias the
 // moments.
 constexpr double most_at_an_end = 0.003;
 

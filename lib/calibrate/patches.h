@@ -20,9 +20,9 @@ struct PatchMoments {
     int row = 0;              ///< the first
     int beam = 0;             ///< the first
     double mean_value = 0.0;  ///< mean of the recorded values
-    double zeros = 0.0;       ///< share of the values
+    double zeros = 0.0;       ///< share of values that are 0
     double full = 0.0;        ///< share of values at the largest value
-    double mean = 0.0;        ///< mean of the scaled values, as the rest
+    double mean = 0.0;        ///< mean of the scaled values; the rest is of these, too
     double square = 0.0;      ///< mean of their squares
     double cube = 0.0;        ///< mean of their cubes
     double variance = 0.0;    ///< half the mean square difference of distant values
@@ -30,7 +30,7 @@ struct PatchMoments {
     /// Half the mean square difference of values 1 to patch_lags apart; NaN where the patch is too
     /// small for it.
     std::array<double, patch_lags> along_range{}, along_beams{};
-    double unevenness = 0.0;  ///< variance of the means of its quarters by `variance`
+    double unevenness = 0.0;  ///< variance of the means of its quarters over `variance`
 };
 
 /// The patches of a ping. Distant values are half a patch apart along range and across the beams.
@@ -44,15 +44,15 @@ std::vector<PatchMoments> patch_moments(const std::vector<RecordedPing>& pings, 
 std::vector<PatchMoments> at_places(std::vector<PatchMoments> patches,
                                     const std::vector<bool>& places);
 
-/// The patches without clipped and missing values, the more even half of them, by number. Values of
-/// less than `least_mean` are too coarse for their logarithm.
+/// The numbers of the more even half of the patches without clipped and missing values. Patches
+/// with a mean below `least_mean` are left out: their values are too coarse for the logarithm.
 std::vector<std::size_t> speckle_patches(const std::vector<PatchMoments>& patches,
                                          double least_mean);
 
-/// Some patches without those that are four times as uneven as the median one. The unevenness of a
-/// patch of one level is that of four means, a chi^2 of three degrees of freedom: it passes four
-/// times its median in 2.4 % of the patches. A smaller factor would take more of these, and their
-/// low variances with them.
+/// The chosen patches without those that are more than four times as uneven as the median. The
+/// unevenness of a patch of one level is the variance of four means, a chi^2 of three degrees of
+/// freedom: it exceeds four times its median in 2.4 % of the patches. A smaller factor would reject
+/// more of these, and low variances with them.
 std::vector<std::size_t> without_uneven(const std::vector<PatchMoments>& patches,
                                         const std::vector<std::size_t>& chosen);
 

@@ -15,7 +15,7 @@ constexpr double shortest_bins = 0.6;
 constexpr double longest_bins = 8.0;
 constexpr int table_steps = 149;    // steps of 0.05 bins
 constexpr int steps_of_drawn = 75;  // steps of 0.1 bins
-// The error that taps of whole bins leave in a pulse, as a share of it.
+// The error that taps of whole bins leave in a pulse, as a share of its width.
 constexpr double least_half_width = 0.01;
 // The draws for several samples have an error of 0.005 in a correlation, which changes by 0.25 for
 // a bin of width.
@@ -31,7 +31,7 @@ double squared_error(const Lags& a, const Lags& b) {
     return sum;
 }
 
-/// The place of the least error, between two rows of the table by a parabola.
+/// The width with the least error, interpolated between rows of the table by a parabola.
 double best_bins(const PulseTable& table, const Lags& seen) {
     std::vector<double> errors;
     errors.reserve(table.rows.size());
@@ -68,8 +68,9 @@ std::vector<double> PulseModel::taps(double resolution_bins) const {
                                             : range_taps(in_samples, side_lobe_db, false).taps;
     std::vector<double> out(of_pulse.begin(), of_pulse.end());
     if (kind != ReceivedKind::echo) return out;
-    // An echo is first shared between two samples in proportion to its closeness. The products of
-    // its shares are 1/6, 2/3, 1/6 on average, those of a and b with a + b = 1 and a b = 1/6.
+    // An echo is first shared between two samples in proportion to its closeness. On average the
+    // products of its shares are 1/6, 2/3, 1/6, as for two fixed shares with the sum 1 and the
+    // product 1/6.
     const double a = 0.5 + 0.5 / std::sqrt(3.0);
     out.push_back(0.0);
     for (std::size_t k = out.size() - 1; k > 0; --k)

@@ -11,14 +11,14 @@
 
 namespace sonarsim {
 
-/// The sort of what was received: noise behind the matched filter has the spectrum |S|^2, an echo
-/// of many scatterers |S|^4. With `speckle: scene` an echo is shared between two bins before the
+/// The kind of a received signal: noise after the matched filter has the spectrum |S|^2, an echo of
+/// many scatterers |S|^4. With `speckle: scene` an echo is shared between two bins before the
 /// pulse, with `speckle: ping` its amplitudes are drawn for whole bins.
 enum class ReceivedKind { noise, echo, echo_of_bins };
 
 ReceivedKind echo_kind(const SpeckleConfig& speckle);
 
-/// The pulse of an instrument, for a law of its values and bins of a recording.
+/// The effect of an instrument's pulse on the values of a recording.
 struct PulseModel {
     ReceiverConfig receiver;
     double side_lobe_db = -30.0;
@@ -44,12 +44,12 @@ struct PulseTable {
 /// All widths that a fit tries.
 PulseTable pulse_table(const PulseModel& model);
 
-/// The width of an instrument's pulse in bins; 1 where it is that of a bin.
+/// The width of an instrument's pulse in bins; 1 if its resolution is that of a bin.
 double pulse_bins_of(const PulseConfig& pulse, double range_step_m);
 
-/// The half-power width of the pulse, in bins, by the correlation along range of the chosen
-/// patches. Nothing when neighbouring bins are not correlated: the pulse is shorter than about 0.8
-/// bins then.
+/// The half-power width of the pulse, in bins, fitted to the correlation along range of the chosen
+/// patches. Nothing if neighbouring bins are not correlated: then the pulse is shorter than about
+/// 0.8 bins.
 std::optional<Bounded> fit_pulse(const std::vector<PatchMoments>& patches,
                                  const std::vector<std::size_t>& chosen, int places,
                                  const PulseModel& model);

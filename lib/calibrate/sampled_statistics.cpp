@@ -18,7 +18,7 @@ constexpr int steps_of_k2 = 16;
 
 using DrawnSequence = std::vector<std::complex<float>>;
 
-/// A white sequence behind the taps, of mean power 1.
+/// A white sequence filtered by the taps, of mean power 1.
 DrawnSequence filtered(const std::vector<double>& taps, int count, std::uint32_t stream) {
     const PhiloxKey key = stream_key(1, stream, 0, stream_named("sampled statistics"));
     const int more = static_cast<int>(taps.size());
@@ -77,7 +77,7 @@ double mean_of(const std::vector<double>& x) {
     return sum / static_cast<double>(x.size());
 }
 
-/// The mean product of deviations of values so far apart.
+/// The mean product of the deviations of values `lag` apart.
 double covariance(const std::vector<double>& a, const std::vector<double>& b, std::size_t lag) {
     const double mean_a = mean_of(a);
     const double mean_b = mean_of(b);
@@ -104,8 +104,8 @@ double variation_of(const std::vector<double>& logs) {
     return std::sqrt(power / (amplitude * amplitude) - 1.0);
 }
 
-/// Between the logs of two beams whose amplitudes have the squared correlation k2, less the same
-/// of single samples.
+/// The correlation of the logs of two beams whose amplitudes have the squared correlation k2, less
+/// that of single samples.
 double excess_at(double k2, const ReceiverConfig& receiver, const std::vector<DrawnSequence>& one,
                  const std::vector<DrawnSequence>& other, const DrawnLogs& of_one) {
     std::vector<DrawnSequence> mixed = other;

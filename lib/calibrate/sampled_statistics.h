@@ -11,11 +11,11 @@ namespace sonarsim {
 
 // A receiver that makes one value of several samples changes ln P. The samples of a bin are
 // correlated by the pulse, and there is no closed form for the largest of them. So these numbers
-// are drawn: a white sequence behind the pulse's taps, combined as the model combines it. Each
-// drawn number is corrected by what the same draws give for single samples, for which the closed
-// form is known.
+// are simulated: the pulse's taps filter a white sequence, which is combined as in the model. A
+// result is the closed form for single samples plus the simulated difference between combined and
+// single samples.
 
-/// The statistics of values, `taps` the pulse at steps of the samples.
+/// The statistics of values. `taps`: the pulse at steps of the samples.
 LogStatistics sampled_statistics(const ReceiverConfig& receiver, const std::vector<double>& taps);
 
 /// The correlations of ln P 1 to patch_lags bins apart.

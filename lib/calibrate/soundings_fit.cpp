@@ -39,7 +39,7 @@ void add_ping(const RecordedSoundings& ping, const RecordedLaw& law, double slop
         sums.range += ping.range_m[j];
         sums.power += power_of(law, ping.intensity[j]);
         if (j == 0 || j + 1 == ping.range_m.size()) continue;
-        // Beams are not even, so the neighbours' depth is that of the line through them.
+        // Beams are not evenly spaced, so the line through the neighbours gives their depth here.
         const auto across = [&](std::size_t k) {
             return ping.range_m[k] * sincos(static_cast<double>(ping.angle_rad[k])).sin;
         };
@@ -84,7 +84,7 @@ double rule_db(double facets_db, double slope_rms_deg, double angle_rad) {
     return db_of_power(cosine * cosine + facets);
 }
 
-/// Lambert's level, facets and slope by the strengths.
+/// Lambert's level, facets and slope, fitted to the strengths.
 std::vector<double> bottom_of(const std::vector<double>& angles,
                               const std::vector<double>& strengths) {
     const auto slope = [](double x) { return std::clamp(std::fabs(x), 0.5, 60.0); };
@@ -121,7 +121,8 @@ double in_table(const std::vector<double>& angles, const std::vector<Bounded>& t
     return (1.0 - part) * table[k - 1].value + part * table[k].value;
 }
 
-/// The soundings at the angles that the whole has; NaN where these have none.
+/// The strengths, then the spreads, of drawn soundings at the angles of all soundings; NaN at
+/// angles without drawn soundings.
 std::vector<double> row_of(const std::vector<SoundingsAtAngle>& whole,
                            const std::vector<SoundingsAtAngle>& drawn,
                            const SoundingsGeometry& geometry) {

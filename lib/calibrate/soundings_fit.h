@@ -20,15 +20,14 @@ struct SoundingsAtAngle {
 inline constexpr double angle_step_deg = 4.0;
 
 /// Soundings by angle. `slope_rad` turns the bottom about the track, positive down to port. The
-/// spread is that of second differences of the depth between neighbouring beams, over sqrt(6), as a
-/// range: neither heave nor roll nor a plane slope changes it. Those beyond six times their median
-/// size are outliers and do not count.
+/// spread is the standard deviation of second differences of the depth between neighbouring beams,
+/// divided by sqrt(6), as a range: neither heave nor roll nor a plane slope changes it. Second
+/// differences beyond 6 x 1.48 times their median size are outliers and do not count.
 std::vector<SoundingsAtAngle> soundings_by_angle(const std::vector<RecordedSoundings>& pings,
                                                  const RecordedLaw& law, double slope_rad);
 
-/// The parts that a level has besides the strength of the bottom: the area, which is that of the
-/// beam or of the pulse, the smaller of the two, and the spreading, of which the gain leaves (40 -
-/// tvg_log) log10 r.
+/// The parts of a level besides the strength of the bottom: the insonified area, which the beam or
+/// the pulse limits, and the spreading that the gain leaves, (40 - tvg_log) log10 r.
 struct SoundingsGeometry {
     double pulse_m = 0.0;    ///< length of the pulse in range
     double width_rad = 0.0;  ///< width of a beam across the track
@@ -37,13 +36,13 @@ struct SoundingsGeometry {
     double gain_db(double angle_rad, double range_m) const;
 };
 
-/// The bottom and the fan, by their soundings.
+/// The bottom and the fan, fitted to soundings.
 struct SoundingsFit {
     SoundingsGeometry geometry;
     std::vector<double> angles_rad;
     std::vector<Bounded> strength_db;  ///< the bottom's, with source level and gain in it
     std::vector<Bounded> spread_m;     ///< spread of the ranges
-    /// The strength in short: Lambert's rule and the echo of facets, as in calibrated/bottom.h.
+    /// The strength as a law: Lambert's rule and the echo of facets, as in calibrated/bottom.h.
     Bounded lambert_db;     ///< with source level and gain in it
     Bounded facets_db;      ///< over Lambert's rule, at normal incidence
     Bounded slope_rms_deg;  ///< slope of the facets

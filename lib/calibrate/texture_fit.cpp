@@ -23,7 +23,8 @@ struct TriedTexture {
     double share = 0.0, edge_m = 0.0, bins = 0.0, error = 1e300;
 };
 
-/// Sums of r - r0 = share (T - r0), r0 the speckle's correlation and T that of the squares.
+/// Sums for a least-squares fit of r - r0 = share (T - r0), with r0 the speckle's correlation and T
+/// that of the squares.
 struct TextureSums {
     double tt = 0.0, ty = 0.0, yy = 0.0;
 

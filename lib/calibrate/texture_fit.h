@@ -8,25 +8,26 @@
 
 namespace sonarsim {
 
-/// A texture of the bottom as `speckle.clutter_shape` and `clutter_m` simulate it: strengths of
-/// gamma's distribution in squares of the scene. ln P is the sum of the logarithms of speckle and
-/// strength, so the texture has a share of its variance, trigamma(shape) by that and the speckle's.
+/// A texture of the bottom as `speckle.clutter_shape` and `clutter_m` simulate it:
+/// gamma-distributed strengths in squares of the scene. ln P is the sum of the logarithms of
+/// speckle and strength. The texture's share of its variance is trigamma(shape) over the sum of
+/// trigamma(shape) and the speckle's variance.
 struct BottomTexture {
     double share = 0.0;
     double edge_m = 0.1;
 
-    /// The correlation of ln P at a distance, by that of speckle: squares of the edge e share a
-    /// strength over the distance d in 1 - d / e of all places.
+    /// The correlation of ln P at a distance d, from that of the speckle: two places d apart lie in
+    /// one square of the edge e in a share 1 - d / e of all cases.
     double correlation(double of_speckle, double distance_m) const;
 };
 
 BottomTexture texture_of(const SpeckleConfig& speckle, const LogStatistics& statistics);
 
-/// trigamma(x), the variance of the logarithm of gamma's distribution, and its inverse.
+/// trigamma(x), the variance of the logarithm of a gamma-distributed number, and its inverse.
 double trigamma(double x);
 double inverse_trigamma(double variance);
 
-/// The places of echoes, and what speckle alone would have there.
+/// The patches of echoes, and the correlations across beams of speckle alone.
 struct EchoPatches {
     const PatchClasses* classes = nullptr;
     double range_step_m = 0.0;  ///< the distance of bins on the ground
@@ -42,9 +43,9 @@ struct TextureFit {
     Bounded pulse_bins;
 };
 
-/// Share and edge of a texture, and the pulse, by the correlations of echoes along range and beams.
-/// Nothing where the share lies less than 3.3 standard errors off 0, or where the correlations are
-/// not those of a texture.
+/// Share and edge of a texture, and the pulse, fitted to the correlations of echoes along range and
+/// beams. Nothing where the share lies less than 3.3 standard errors off 0, or where the
+/// correlations are not those of a texture.
 std::optional<TextureFit> fit_texture(const EchoPatches& echoes, const PulseModel& model);
 
 }  // namespace sonarsim

@@ -5,11 +5,12 @@
 
 namespace sonarsim {
 
-/// InputError, which says why, when a recording cannot be calibrated: one ping, nothing in it, most
-/// values at the largest one, or another kind than the sonar of the start.
+/// InputError with the reason if a recording cannot be calibrated: fewer than two pings, all values
+/// alike, more than 90 % of them 0, more than 10 % at the largest value, or another kind than the
+/// sonar of the start.
 void check_usable(const Recording& recording, SonarKind start);
 
-/// Parts of a recording. The pings of each follow each other.
+/// Parts of a recording. The pings of each part are consecutive.
 struct SplitRecording {
     Recording fitted, judged;
 };

@@ -33,12 +33,12 @@ std::string text_of(const PresetValue& value, const std::string& key, std::size_
     return std::string(indent, ' ') + key + ": " + value.value + "  # " + value.comment;
 }
 
-/// The lines of a preset, and the section that a path has been followed into.
+/// The lines of a preset, and its name for errors.
 struct PresetText {
     std::vector<std::string> lines;
     std::string name;
 
-    /// The line of a key at this indent within [begin, end), and the end of its block.
+    /// The line of a key at this indent within [begin, end).
     std::optional<std::size_t> find(const std::string& key, std::size_t indent, std::size_t begin,
                                     std::size_t end) const {
         for (std::size_t k = begin; k < end; ++k) {

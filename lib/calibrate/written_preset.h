@@ -13,8 +13,8 @@ struct PresetValue {
 };
 
 /// The text of a preset with other values. Lines that do not change keep their comments. Keys that
-/// it lacks are added at the head of their section. InputError for a preset with a section that
-/// does not stand in lines of its own (`receiver: {...}`).
+/// it lacks are added at the head of their section. InputError for a section that is not written in
+/// lines of its own (`receiver: {...}`).
 std::string with_values(const std::string& preset, const std::string& name,
                         const std::vector<PresetValue>& values);
 
