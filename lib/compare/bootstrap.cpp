@@ -143,7 +143,7 @@ double corrected(double drawn, int units) {
 
 struct Variance {
     double locations = 0.0;
-    double pings = 0.0;  ///< in excess of that of cells
+    double pings = 0.0;  ///< in excess of the variance over cells
     double all() const { return locations + pings; }
 };
 

@@ -67,8 +67,8 @@ void adjust(std::vector<ComparedFigure>& figures) {
     }
 }
 
-/// A figure of places that both recordings have must also differ by their exchange, since a few
-/// bright places make other tails than Student's. A figure without variance has no such tails.
+/// A figure of common places must also differ in the test by exchange, since a few bright places
+/// cause other tails than Student's. A figure without variance has no such tails.
 void adjust_by_exchange(std::vector<ComparedFigure>& figures, const std::vector<double>& p) {
     for (std::size_t i = 0; i < figures.size(); ++i) {
         if (figures[i].estimate.difference_error == 0.0) continue;
@@ -131,8 +131,8 @@ ComparedHistogram compared(const MeasuredHistogram& real, const MeasuredHistogra
     return out;
 }
 
-/// The zones of both recordings. With a common grid they are those of the mean of both, so that
-/// chance in one recording does not shift its zones against the other's.
+/// The zones of both recordings. With a common grid both have the zones of their mean, so that
+/// chance does not shift the zones of one against the other's.
 std::pair<Zones, Zones> zones_of_both(const RecordedImages& real, const RecordedImages& simulated,
                                       bool has_one_grid) {
     std::vector<double> a = mean_powers_of(real);
@@ -212,7 +212,7 @@ Comparison compare_recordings(const Recording& real, const Recording& simulated,
         throw InputError(real.name + " is of the kind " + name_of_kind(real.kind) + ", " +
                          simulated.name + " of the kind " + name_of_kind(simulated.kind) +
                          "; compare recordings of one kind");
-    // Without its largest value a recording has no level of its own.
+    // A recording without a known largest value has no absolute level.
     const bool is_relative = real.law.full_value == 0.0 || simulated.law.full_value == 0.0;
     BothMeasured both = measure_both(real, simulated, is_relative);
     Comparison out;

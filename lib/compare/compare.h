@@ -24,7 +24,7 @@ struct ComparedFigure {
     bool differs = false;  ///< adjusted_p is below 0.05
 };
 
-/// Distances of two histograms, and those between halves of one set.
+/// Distances of two histograms, and the distance that chance alone causes.
 struct ComparedHistogram {
     std::string name;
     std::string unit;  ///< the earth mover's

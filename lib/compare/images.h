@@ -18,7 +18,7 @@ struct RecordedImages {
     bool columns_are_pings = false;
     bool has_shadows = false;  ///< a side-scan's
     float full_power = 0.0F;   ///< powers from here on are clipped; 0: none are
-    float least_power = 0.0F;  ///< powers up to here are at the end of the scale
+    float least_power = 0.0F;  ///< powers up to here are at the lower end of the scale
     double first_range_m = 0.0;
     double range_step_m = 0.0;
     std::vector<double> bearing_rad;  ///< the columns'; empty where they are pings

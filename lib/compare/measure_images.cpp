@@ -28,8 +28,8 @@ std::string short_number(double value) {
     return number_text(std::round(value * 100.0) / 100.0);
 }
 
-/// Levels over cells of one patch, whose pixels `choose` puts into bands from 0 on; -1 leaves one
-/// out.
+/// The levels of bands. A cell is the part of a patch in one band; choose(i, j) is the band of a
+/// pixel, -1 for none.
 template <class Choose>
 std::vector<Measured> banded_levels(const RecordedImages& images, PatchSize size,
                                     const std::vector<std::string>& names, const Choose& choose) {
@@ -137,7 +137,7 @@ void measure_shares(const RecordedImages& images, PatchSize size, Measurement& o
     if (images.full_power > 0.0F) out.figures.push_back(std::move(clipped));
 }
 
-/// The histogram of levels, and percentiles of it. The bins have half a decibel from -160 dB on.
+/// The histogram of levels, and percentiles of it. The bins are 0.5 dB wide, from -160 dB on.
 void measure_histograms(const RecordedImages& images, PatchSize size, Measurement& out) {
     constexpr int bins = 340;
     constexpr double bin_db = 0.5;

@@ -24,8 +24,8 @@ struct BandSoundings {
     std::vector<double> power;
 };
 
-/// The root mean square distance of ranges from their parabola over the angle, over the mean range;
-/// the three degrees of freedom of the fit are taken off.
+/// The root mean square distance of ranges from their parabola over the angle, over the mean range.
+/// The sum of n squares is divided by n - 3, since the fit has three parameters.
 double spread_of_ranges(const BandSoundings& own) {
     const std::size_t n = own.range.size();
     double moments[5] = {};

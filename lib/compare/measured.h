@@ -8,7 +8,7 @@ namespace sonarsim {
 /// The rule that makes a figure of its cells.
 enum class Reduce {
     mean,     ///< weighted mean of the values
-    level,    ///< 10 log10 of it
+    level,    ///< 10 log10 of the weighted mean
     quantile  ///< value below which a share of the weight lies
 };
 

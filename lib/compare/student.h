@@ -5,7 +5,7 @@ namespace sonarsim {
 /// The probability that a draw of Student's distribution lies further from 0 than `t`.
 double student_tails(double t, double degrees);
 
-/// The t beyond which, to both sides, 5 % of the draws lie.
+/// The two-sided 95 % quantile: 5 % of the draws lie further from 0.
 double student_95(double degrees);
 
 }  // namespace sonarsim

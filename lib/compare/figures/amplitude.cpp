@@ -101,7 +101,7 @@ double weibull_shape(std::span<const float> amplitudes) {
     const double mean = mean_of(logs);
     double low = 0.2;
     double high = 12.0;
-    // The equation rises with k. A float's sums resolve no more than these steps.
+    // The equation rises with k. Sums of floats resolve no finer steps.
     constexpr int steps = 18;
     for (int step = 0; step < steps; ++step) {
         const double middle = 0.5 * (low + high);

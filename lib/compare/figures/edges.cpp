@@ -14,7 +14,7 @@ namespace sonarsim {
 
 namespace {
 
-// Chosen, except for the rise; docs/compare.md has the errors on drawn steps.
+// These numbers are chosen, except for the rise; docs/compare.md has the errors on simulated steps.
 constexpr double least_contrast = 4.0;     // 6 dB
 constexpr double most_full = 0.03;         // share of clipped bins
 constexpr double most_misfit = 0.25;       // a quarter's mean off, by the bright level
@@ -29,8 +29,8 @@ constexpr double fine_enough = 0.01;  // a hundredth of a bin, or of the width
 using Parameters = Eigen::Matrix<double, 5, 1>;
 using Normal = Eigen::Matrix<double, 5, 5>;
 
-/// A window whose rows are joined into the means of their halves, [along, half]. This makes a fit
-/// cheaper by the same factor, and two halves still show a slant.
+/// A window with each row replaced by the means of the row's two halves, [along, half]. This makes
+/// a fit faster, and two halves still show a slant.
 struct Grouped {
     static constexpr int groups = 2;
     std::vector<double> power;
@@ -111,7 +111,7 @@ Parameters improved(const Grouped& window, const Step& step, double bright) {
     Parameters right = Parameters::Zero();
     window.for_each([&](double power, double x, double y, int) {
         const StepModel model = step_at(step, x, y);
-        // Speckle is as strong as the mean.
+        // The standard deviation of speckle equals its mean.
         const double error = std::max(model.mean, 0.0) + weight_floor * bright;
         const Parameters scaled = model.slope / error;
         normal.noalias() += scaled * scaled.transpose();
@@ -166,7 +166,7 @@ Strips strips_of(const ImageView& image, const EdgeSearch& search, StepAlong alo
     return {0, image.beams, zone.from, zone.to, size.beams, size.ranges};
 }
 
-/// The middles of the windows with the greatest step of a strip within half a window.
+/// The middles of those windows of a strip whose step is the greatest within half a window.
 std::vector<int> steps_in(const Turned& image, const Strips& strips, int across) {
     std::vector<double> sums(1, 0.0);
     for (int i = strips.from; i < strips.to; ++i) {

@@ -16,7 +16,8 @@ struct PointEcho {
     double side_lobes_db = 0.0;  ///< mean power 5 to 8 beams away over the point's
 };
 
-/// The point echoes with ranges in [from, to), 20 beams or an eighth of the fan off its edges.
+/// The point echoes with ranges in [from, to), at least 20 beams, or an eighth of the fan, away
+/// from its edges.
 std::vector<PointEcho> point_echoes(const ImageView& image, int from, int to);
 
 }  // namespace sonarsim

@@ -49,7 +49,7 @@ Smoothed smoothed_zone(const ImageView& image, RangeZone zone) {
     return out;
 }
 
-/// The place, between ranges linearly, where the mean of 5 columns first reaches a power.
+/// The range, interpolated linearly, at which the mean of 5 columns first reaches a power.
 double reached_at(const ImageView& image, int column, int from, int to, double power) {
     double before = window_mean(image, from, column, 0);
     for (int i = from + 1; i < to; ++i) {

@@ -13,7 +13,7 @@ namespace sonarsim {
 struct Shadow {
     int column = 0;
     int from = 0, to = 0;   ///< ranges [from, to)
-    double depth_db = 0.0;  ///< its middle by the median of the same ranges
+    double depth_db = 0.0;  ///< level of its middle over the median of the same ranges
     /// Width of the far edge, from a quarter to three quarters of the rise; NaN for one that leaves
     /// the zone.
     double edge_ranges = 0.0;

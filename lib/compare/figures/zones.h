@@ -21,13 +21,14 @@ struct Zones {
     RangeZone tail;    ///< behind the bottom, and weak
 };
 
-/// The zones of the mean powers of ranges. They are smoothed over 1/44 of the ranges. The bottom is
-/// the run of ranges about the strongest that lie within 10 dB of it; the strongest is sought from
-/// 1/28 of the ranges on, behind the transmitter's ringing. The water, from there on, ends where
-/// the level has risen by a third (in dB) from its least to the bottom's edge; the tail begins
-/// where it has fallen as far again by half. A bottom stands out if the least level lies 15 dB
-/// below the strongest. These shares are chosen; on three pings of a real sonar over a rough bottom
-/// they find the ranges that a person had marked.
+/// The zones of the mean powers of ranges. The powers are smoothed over 1/44 of the ranges. The
+/// bottom is the run of ranges about the strongest that lie within 10 dB of it; the strongest is
+/// sought from 1/28 of the ranges on, beyond the transmitter's ringing. The water begins there and
+/// ends where the level has risen by a third (in dB) from its least to the bottom's edge. The tail
+/// begins where the level has fallen by half (in dB) from the bottom's edge to the least level
+/// behind it. A bottom stands out if the least level lies 15 dB below the strongest. These shares
+/// are chosen; on three pings of a real sonar over a rough bottom they find the ranges that a
+/// person had marked.
 Zones zones_of(std::span<const double> mean_powers);
 
 }  // namespace sonarsim
