@@ -11,12 +11,12 @@ namespace sonarsim {
 
 namespace {
 
-// More pieces than these change nothing visible: along an edge of a footprint, and of its scatterer
-// cells in one bin.
+// The most pieces along an edge of a footprint, and of its scatterer cells in one bin. More have no
+// visible effect.
 constexpr float most_pieces_per_edge = 64.0F;
 constexpr float most_bounce_pieces_per_bin = 16.0F;
 
-/// A part of a bounce that counts for one beam and one scatterer cell.
+/// A part of a bounce in one beam and one scatterer cell.
 struct Piece {
     std::uint32_t beam;
     std::uint32_t sample;
@@ -58,7 +58,7 @@ void add_pieces(const BouncePath& b, const Sample& sample, const View& view,
     const float step_v = 1.0F / static_cast<float>(n_v);
     Piece piece{};
     piece.sample = b.sample;
-    // The variance of the box is the sum of those of the two edges' boxes.
+    // The variance of the box is the sum of the variances of the two edges' boxes.
     piece.half_m = std::sqrt(b.range_u * b.range_u * step_u * step_u +
                              b.range_v * b.range_v * step_v * step_v);
     piece.weight = sample.area_m2 * step_u * step_v;

@@ -21,8 +21,9 @@ struct ScattererLattice {
 /// address.
 struct CellFrame {
     explicit CellFrame(const ScattererLattice& lattice) {
-        // In cells. It keeps the faces of cells off round coordinates, on which planes of a scene
-        // often lie: rounding would put neighbouring points of such a plane into different cells.
+        // In cells. The offset keeps the faces of cells off round coordinates, on which planes of a
+        // scene often lie: rounding would put neighbouring points of such a plane into different
+        // cells.
         const Eigen::Vector3f offset(0.381966F, 0.618034F, 0.272019F);
         const float per_cell = lattice.exists() ? 1.0F / lattice.edge_m : 0.0F;
         rotation = per_cell * lattice.R_world_sensor;
