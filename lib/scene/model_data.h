@@ -9,8 +9,8 @@
 
 namespace sonarsim {
 
-/// Appends numbers to the first buffer of a model, and returns the index of the accessor to them:
-/// `count` elements of a component and a type of tinygltf.
+/// Appends numbers to the first buffer of a model, and returns the index of a new accessor to them.
+/// `count` is its number of elements; `component` and `type` are tinygltf's constants.
 template <class T>
 int add_accessor(tinygltf::Model& model, const std::vector<T>& values, std::size_t count,
                  int component, int type) {

@@ -58,7 +58,7 @@ void require_ids(std::size_t count, const char* what) {
 bool fits_pattern(std::string_view pattern, std::string_view text) {
     std::size_t p = 0;
     std::size_t t = 0;
-    std::size_t star = std::string_view::npos;  // the last one passed, and the end of its text
+    std::size_t star = std::string_view::npos;  // last star, and the end of its text
     std::size_t resume = 0;
     while (t < text.size()) {
         if (p < pattern.size() && pattern[p] == '*') {

@@ -17,13 +17,13 @@ struct Seabed;
 
 /// The way in which an image becomes a surface: each pixel is a height.
 struct HeightmapRule {
-    /// The size of a pixel, or the extent of the map along x and y, from edge to edge; 0: the file
-    /// says where its pixels lie. The south-west corner lies at (0, 0) if one is given.
+    /// The size of a pixel, or the extent of the map along x and y, from edge to edge. If one is
+    /// given, the south-west corner lies at (0, 0). If both are 0, the file places its pixels.
     double pixel_m = 0.0;
     std::array<double, 2> size_m{};
     std::optional<double> no_data = {};  ///< value of unknown heights; none: the file's
-    /// The part that is made, in the coordinates of the map: least x and y, largest x and y. None,
-    /// or one outside the map: all of it.
+    /// The part that is read, in the coordinates of the map: least x and y, largest x and y.
+    /// Without a window, or if it lies outside the map, all is read.
     std::optional<std::array<double, 4>> window = {};
     int every = 1;  ///< every n-th row and column is kept
 
@@ -40,9 +40,9 @@ struct PlacedFile {
     /// Patterns of nodes that are left out with their descendants.
     std::vector<std::string> exclude = {};
     std::optional<HeightmapRule> heightmap = {};  ///< the file is an image of heights
-    std::shared_ptr<const Seabed> seabed = {};    ///< a bed that was made takes the file's place
+    std::shared_ptr<const Seabed> seabed = {};    ///< generated sea bed, in place of the file
 
-    std::string name = {};        ///< makes one instance of all nodes; "": each is one of its own
+    std::string name = {};        ///< joins all nodes into one instance; "": one instance each
     std::string class_name = {};  ///< class of its instances; "": the file's own
     /// Transform from the file's own frame, which is in metres with z up, to the world, or to the
     /// frame of a body that moves.

@@ -4,8 +4,8 @@
 
 namespace sonarsim {
 
-/// The least lengths, in ranges of the sonars, from which a file may have another unit. An object
-/// is rarely longer than two ranges, and a place often is.
+/// The least lengths, in ranges of the sonars, of files that may have been read in the wrong unit.
+/// An object is rarely longer than two ranges, but a place often is.
 inline constexpr double long_object = 2.0;
 inline constexpr double long_place = 300.0;
 /// The range for a mission without sonars, m.

@@ -92,8 +92,8 @@ Elements locate(const tinygltf::Model& model, int view_index, std::size_t offset
         throw InputError(where + ": byteStride " + std::to_string(stride) +
                          " is less than the size of an element, " + std::to_string(element_bytes));
     }
-    // json_rules.h bounds offsets by 2^53 and strides by 2^31, `max_count` the count: nothing
-    // wraps.
+    // The sum cannot overflow: json_rules.h limits offsets to 2^53 and strides to 2^31, and
+    // `max_count` limits the count.
     if (offset + stride * (count - 1) + element_bytes > view.byteLength) {
         throw InputError(where + ": claims " + std::to_string(count) + " elements; " + name +
                          " is too short for them (" + std::to_string(view.byteLength) + " bytes)");

@@ -11,9 +11,9 @@
 namespace sonarsim {
 
 /// Elements of a glTF accessor, read one by one from the model's buffers: strided, sparse or both.
-/// All bytes within its reach have been checked to exist.
+/// The functions that open an accessor check that all its bytes exist.
 struct Accessor {
-    const unsigned char* data = nullptr;  ///< null: zeros below the sparse elements
+    const unsigned char* data = nullptr;  ///< null: elements that are not sparse are 0
     std::size_t stride = 0;
     std::size_t count = 0;
     int component_type = 0;

@@ -16,7 +16,7 @@ struct SurfaceExtent {
 /// InputError for vertices beyond the limits of coordinates.
 SurfaceExtent find_extent(const OpenFile& file, ReadingLimit& limit);
 
-/// The same after a transform: a box around the moved box.
+/// The extent after a transform. Its box encloses the transformed box. InputError as above.
 SurfaceExtent moved(const SurfaceExtent& extent, const Eigen::Affine3d& transform);
 
 }  // namespace sonarsim

@@ -73,7 +73,7 @@ void put_little_endian(std::string& bytes, std::size_t at, std::size_t number) {
     std::memcpy(bytes.data() + at, &value, sizeof(value));
 }
 
-/// Replaces the JSON of a .glb by what is read of it.
+/// Reduces the JSON of a .glb to the part that is read.
 void reduce_json_chunk(std::string& bytes, const Location& where) {
     constexpr std::size_t json_at = 20;  // behind the header of the file and that of the chunk
     const std::string_view json = json_chunk(bytes, where);

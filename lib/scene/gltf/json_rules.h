@@ -78,7 +78,7 @@ inline constexpr std::array document{Rule{"asset", Kind::object, Holds::one, ass
                                      Rule{"buffers", Kind::object, Holds::array, buffer},
                                      Rule{"extensionsUsed", Kind::name, Holds::array},
                                      Rule{"extensionsRequired", Kind::name, Holds::array}};
-// The way from a material to the image of its colours.
+// The members that lead from a material to the image of its colours.
 inline constexpr std::array texture_extensions{Rule{"KHR_texture_transform", Kind::object}};
 inline constexpr std::array colour_texture{
     Rule{"index", Kind::index}, Rule{"texCoord", Kind::index},
@@ -99,7 +99,7 @@ inline constexpr Rule textures_of_document{"", Kind::extras, Holds::one, of_text
 inline constexpr Rule whole_document{"", Kind::extras, Holds::one, document};
 inline constexpr Rule only_version{"", Kind::extras, Holds::one, std::span(document).first(1)};
 
-/// The type that a value of `kind` needs and `got` does not have; "" if it has it.
+/// The type that a value of `kind` must have, for a message; "" if `got` has this type.
 inline std::string missing_type(Kind kind, const nlohmann::json& got) {
     // Children inherit names, so a long name would be stored many times.
     constexpr std::size_t max_name = 1000;

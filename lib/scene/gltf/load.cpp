@@ -28,8 +28,8 @@ constexpr double suspicious_smallness_m = 1e-3;
 
 Eigen::Vector3d choose_origin(const Eigen::AlignedBox3d& box) {
     if (box.isEmpty()) return Eigen::Vector3d::Zero();
-    // Extents of 100 m and centres at 50 m are common and would lie exactly on a limit, where the
-    // rounding of a moved scene could change the result; so the limits are shifted slightly.
+    // Extents of 100 m and centres at 50 m are common. Without the shift `aside` they would lie
+    // exactly on a limit, and the rounding of a moved scene could change the result.
     constexpr double aside = 1e-6;
     double grid = 1.0;
     while (grid < box.sizes().maxCoeff() * (1.0 - aside))
@@ -98,7 +98,7 @@ void set_bounds(const std::vector<SurfaceExtent>& extents, const Repeats& repeat
     scene.bounds_max = scene.origin + box.max();
 }
 
-/// `materials` begins empty.
+/// `materials` must be empty.
 Scene compose(std::span<const PlacedFile> files, SceneFiles& models, const MaterialRules& rules,
               std::size_t share_beyond, MaterialNumbers& materials) {
     Scene scene;

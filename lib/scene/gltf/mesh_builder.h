@@ -19,8 +19,8 @@ struct MeshBuilder {
     Mesh& mesh;
     SceneRejects& rejects;
     Eigen::Vector3d origin;
-    // Index of a primitive's vertex in `mesh.vertices`, plus 1. Entries of earlier primitives are
-    // at most their number of vertices, so nothing has to be cleared.
+    // Index of a primitive's vertex in `mesh.vertices`, plus 1. Entries of earlier primitives do
+    // not exceed the number of vertices before this one, so the entries need no clearing.
     std::vector<std::uint32_t> slots = {};
 
     /// Calls `note` for every triangle that is added.
@@ -61,7 +61,7 @@ struct MeshBuilder {
 /// Numbers the materials of a scene in the order in which they occur.
 struct MaterialNumbers {
     std::map<std::string, std::uint32_t> numbers = {};
-    std::vector<std::string> users = {};  ///< the first node with each, for messages
+    std::vector<std::string> users = {};  ///< the first node that uses each material, for messages
 
     std::uint32_t of(const PlacedPrimitive& primitive, const MaterialRules& rules, Scene& scene) {
         const std::string name = material_name(primitive, rules);

@@ -36,8 +36,8 @@ inline Eigen::Vector3d corner(const PlacedPrimitive& primitive, std::uint32_t ve
     return primitive.mesh.T_world_mesh * position(primitive.source.positions, vertex);
 }
 
-/// Counts how much of a scene has been read. A small file can place a large mesh, or many small
-/// ones, many times: InputError with `file` beyond the limit.
+/// Limits the work of reading a scene, since a small file can place a large mesh, or many small
+/// ones, many times. InputError with `file` beyond the limit.
 struct ReadingLimit {
     std::size_t work = 0;
 
@@ -89,7 +89,7 @@ std::string user_of(const PlacedPrimitive& primitive);
 /// Gives an instance without a class the class of its materials. InputError if they differ.
 void take_class_of_material(const PlacedPrimitive& primitive, std::string& class_name);
 
-/// InputError at the place of `file` for a material of its materials_map that it does not have.
+/// InputError at the place of `file` if its materials_map names a material that the file lacks.
 void require_renamed(const OpenFile& file);
 
 }  // namespace sonarsim

@@ -46,7 +46,7 @@ const tinygltf::Model& SceneFiles::model(const PlacedFile& placed) {
     try {
         Models::Entry entry{placed.file, placed.heightmap, placed.seabed,
                             read_model(placed, images_)};
-        // Variants of a mission need other grounds, which are large: only one is kept.
+        // Keep only one ground: grounds are large, and each variant of a mission may have its own.
         if (entry.is_ground()) {
             std::erase_if(models_->entries,
                           [](const Models::Entry& old) { return old.is_ground(); });

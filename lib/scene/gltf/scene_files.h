@@ -11,7 +11,7 @@ class Model;
 
 namespace sonarsim {
 
-/// Files of meshes that have been read, each once however often a scene uses it. Not thread-safe.
+/// Reads files of meshes, each only once, and keeps them. Not thread-safe.
 class SceneFiles {
   public:
     SceneFiles();
@@ -20,8 +20,8 @@ class SceneFiles {
     SceneFiles& operator=(const SceneFiles&) = delete;
 
     /// Reads the file on the first call. InputError as read_gltf and read_mesh, with the place in
-    /// the mission that names the file. The reference stays valid; that of a heightmap or
-    /// a seabed until another one, or another part of it, is read.
+    /// the mission that names the file. The reference stays valid; a reference to a heightmap or a
+    /// seabed only until another one, or another part of it, is read.
     const tinygltf::Model& model(const PlacedFile& placed);
 
     /// Reads the images of the scene.

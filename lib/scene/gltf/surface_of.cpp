@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::uint32_t unused = 0xFFFFFFFFU;
 
-/// Adds triangles and the vertices that they use: a small file can claim any number of others.
-/// `slots` holds `unused` for each vertex, before and after.
+/// Adds triangles and the vertices that they use. Unused vertices are left out, since a small file
+/// can claim any number of them. Every entry of `slots` is `unused` before and after the call.
 void add_primitive(const PlacedPrimitive& primitive, std::vector<std::uint32_t>& slots,
                    Surface& surface) {
     slots.resize(std::max(slots.size(), primitive.source.positions.count), unused);

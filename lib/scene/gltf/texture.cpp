@@ -68,7 +68,7 @@ std::string_view bytes_of_view(const tinygltf::Model& model, int index, const Lo
     throw InputError(where, "its image reaches beyond bufferViews[" + std::to_string(index) + "]");
 }
 
-/// A URI has other letters as %20.
+/// Decodes a URI: "%20" becomes a blank, and other codes likewise.
 std::string decoded(const std::string& uri) {
     std::string out;
     for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -123,7 +123,7 @@ class TextureReader {
     std::optional<tinygltf::Model> model_;
 };
 
-/// Several images side by side; `of_material` has an index into `used`, or -1.
+/// The images `used`, side by side. `of_material` holds the image of each material, or -1.
 Texture laid_side_by_side(TextureReader& reader, const std::vector<int>& used,
                           const std::vector<int>& of_material, const Location& where) {
     std::vector<Image> images;

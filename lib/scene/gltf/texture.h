@@ -9,11 +9,11 @@
 
 namespace sonarsim {
 
-/// The images of a mesh as one.
+/// All images of a mesh, joined into one.
 struct Texture {
     Image image;
     /// The part of the image that each material of the file has, in shares of its width and height;
-    /// nothing for a material without an image. Empty: all have all of it.
+    /// nothing for a material without an image. Empty: every material has the whole image.
     std::vector<std::optional<Eigen::AlignedBox2d>> part_of_material;
 };
 

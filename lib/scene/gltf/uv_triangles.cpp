@@ -11,8 +11,8 @@ namespace sonarsim {
 
 namespace {
 
-/// The part of the image for a primitive; nothing if it has none. A whole image has no bounds,
-/// since its coordinates end with it.
+/// The part of the image that lies on a primitive; nothing if there is none. A single image needs
+/// no bounds: coordinates beyond it lie outside the map.
 std::optional<Eigen::AlignedBox2d> part_of(const PlacedPrimitive& primitive,
                                            const TextureParts& parts) {
     if (parts.of_material.empty()) return UvTriangle::everywhere();

@@ -18,20 +18,21 @@ namespace sonarsim {
 /// The number of heights in a model of height_model().
 std::size_t heights_in(const tinygltf::Model& model);
 
-/// A map of heights as square patches of `side` x `side` cells, of which scenes are made without
-/// the rest of the map. InputError as read_heights().
+/// A map of heights, divided into square patches of `side` x `side` cells. scene() makes a scene of
+/// some patches only. InputError as read_heights().
 class HeightPatches {
   public:
     HeightPatches(const PlacedFile& map, int side, ImageReader& images);
 
     bool has_unknown() const { return has_unknown_; }
 
-    /// The patches that a test takes. It gets a ball around each, its centre in the world.
+    /// The patches for which `is_needed` is true. It gets the centre, world, and the radius of a
+    /// ball around each patch.
     std::vector<std::size_t> where(
         const std::function<bool(const Eigen::Vector3d& centre, double radius_m)>& is_needed) const;
 
-    /// A scene of patches about an origin, with one material and one instance. Every n-th row and
-    /// column is kept, as height_model() does; n divides `side`.
+    /// A scene of patches with vertices relative to `origin`, one material and one instance. Every
+    /// n-th row and column is kept, as height_model() does; n divides `side`.
     Scene scene(const std::vector<std::size_t>& patches, int every,
                 const Eigen::Vector3d& origin) const;
 

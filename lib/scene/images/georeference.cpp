@@ -50,7 +50,8 @@ double metres_of_unit(const TiffTags& tags, const Location& where) {
     }
 }
 
-/// Moves and scales a grid whose first pixel is given by its outer corner.
+/// Moves the grid's first point from the outer corner of its pixel to the centre, if
+/// `point_at_corner`.
 PixelGrid centred(PixelGrid grid, bool point_at_corner) {
     if (point_at_corner) {
         grid.x_m += 0.5 * grid.column_m;

@@ -7,8 +7,8 @@ namespace sonarsim {
 
 namespace {
 
-/// The pixels from `low` to `high`, with a margin, of `count` that begin at `start`; all if there
-/// are none.
+/// The pixels from `low` to `high`, with a margin, of `count` that begin at `start`; all of them if
+/// fewer than two would remain.
 std::array<int, 2> pixels_between(double low, double high, double start, double step, int count) {
     constexpr double margin = 2.0;
     const double a = (low - start) / step;

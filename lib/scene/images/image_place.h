@@ -9,10 +9,10 @@
 
 namespace sonarsim {
 
-/// The pixels of an image in the coordinates of its map, m: of the size `pixel_m`, or `size_m` from
-/// edge to edge, with the south-west corner at (0, 0); as the file has it if both are 0. InputError
-/// if nothing says it or the file has degrees; `section` is the mission's section of the keys
-/// pixel_m and size_m.
+/// The pixels of an image in the coordinates of its map, m. If `pixel_m` (the size of a pixel) or
+/// `size_m` (the extent from edge to edge) is above 0, the south-west corner is (0, 0); else the
+/// file places the pixels. InputError if the file has no place for them, or one in degrees;
+/// `section` is the mission's section of the keys pixel_m and size_m.
 PixelGrid grid_in_metres(const Image& image, double pixel_m, const std::array<double, 2>& size_m,
                          const std::string& section, const Location& where);
 
@@ -27,7 +27,8 @@ struct PixelWindow {
     std::size_t height() const { return static_cast<std::size_t>(last_row - first_row); }
 };
 
-/// The pixels in a box of the map's coordinates, with a margin; all if there are none.
+/// The pixels in a box of the map's coordinates, with a margin; all rows, or all columns, if fewer
+/// than two would remain.
 PixelWindow pixels_within(const Image& image, const PixelGrid& grid,
                           const Eigen::AlignedBox2d& box_m);
 

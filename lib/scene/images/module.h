@@ -31,7 +31,7 @@ using SonarsimReadImage = int (*)(const char* format, const char* file, Sonarsim
 
 namespace sonarsim {
 
-/// Raised with every change above, so that a module of another version is found out.
+/// The number rises with every change above, so that a module of another version is not used.
 inline constexpr const char* image_module_symbol = "sonarsim_read_image_1";
 
 }  // namespace sonarsim

@@ -44,7 +44,7 @@ std::string image_format(const std::filesystem::path& path) {
     return is_tiff(path) ? "tiff" : "";
 }
 
-/// InputError unless the path is that of a file which may be read.
+/// InputError unless the path is that of a regular file that can be opened and is not too large.
 void require_readable(const std::filesystem::path& path, const Location& where) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
@@ -57,8 +57,8 @@ void require_readable(const std::filesystem::path& path, const Location& where) 
                          "is larger than 2 GiB; cut a part out with gdal_translate -projwin");
 }
 
-/// The end of the bytes that the child hands over: a head, the values, the reason of a failure and
-/// this.
+/// The last part of the bytes that the child hands over, after a head, the values and the reason of
+/// a failure.
 struct ImageEnd {
     std::uint64_t error_bytes = 0;
 };
@@ -108,7 +108,7 @@ void read_in_child(const ChildOutput& write, const std::string& format, const st
     write(&end, sizeof(end));
 }
 
-/// The format stands in the request, then a zero and the file.
+/// A request to the child: the format, a zero and the file.
 std::string request_of(const std::string& format, const std::filesystem::path& file) {
     return format + '\0' + file.string();
 }
@@ -118,7 +118,7 @@ void answer_request(const std::string& request, const ChildOutput& write) {
     read_in_child(write, request.substr(0, end), request.substr(end + 1));
 }
 
-/// The libraries, and twice the largest image as doubles.
+/// Memory for the libraries and for two copies of the largest image as doubles.
 constexpr ChildLimits image_limits{(std::size_t{1} << 30) + 16 * most_image_values, 120, 300.0};
 
 [[noreturn]] void refuse_size(const SonarsimImageHead& head, const Location& where) {
@@ -138,7 +138,7 @@ class MemoryFile {
         std::ofstream(path(), std::ios::binary)
             .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     }
-    /// A copy of another file with the word of `stored`.
+    /// A copy of another file, with the bytes `stored.meaning` at `stored.meaning_at`.
     MemoryFile(const std::filesystem::path& other, const StoredNumbers& stored) : MemoryFile() {
         std::ofstream copy(path(), std::ios::binary);
         copy << std::ifstream(other, std::ios::binary).rdbuf();
@@ -149,7 +149,7 @@ class MemoryFile {
     MemoryFile(const MemoryFile&) = delete;
     MemoryFile& operator=(const MemoryFile&) = delete;
 
-    /// For this process and its child.
+    /// A path that is valid in this process and its child.
     std::filesystem::path path() const {
         return "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(file_);
     }

@@ -31,8 +31,9 @@ int number_or(const TiffTags& tags, std::uint16_t tag, int fallback) {
     return static_cast<int>(std::clamp(found->second.front(), -1.0, 65536.0));
 }
 
-/// Entries have 16 bits: 257 or 256 times a colour of 8 bits, whose value is the upper byte both
-/// times. Some writers put the 8 bits there as they are, so that no entry reaches 256.
+/// A file has palette entries of 16 bits: 257 or 256 times a colour of 8 bits, so that the upper
+/// byte is the colour in both cases. Some writers store the 8 bits unscaled; then no entry reaches
+/// 256.
 std::vector<std::array<float, 3>> palette_of(const TiffTags& tags, int bits,
                                              const Location& where) {
     const auto found = tags.numbers.find(palette_tag);
@@ -82,7 +83,7 @@ StoredNumbers stored_in_tiff(const std::filesystem::path& path, const Location& 
 }
 
 StoredNumbers stored_in_png(const std::filesystem::path& path) {
-    // The signature and the head's length and name have 16 bytes, and width and height 8.
+    // 16 bytes of signature and of the head's length and name, then 8 bytes of width and height.
     std::array<char, 26> start{};
     std::ifstream(path, std::ios::binary).read(start.data(), start.size());
     const bool is_grey = start[25] == 0;
@@ -92,7 +93,8 @@ StoredNumbers stored_in_png(const std::filesystem::path& path) {
     return out;
 }
 
-/// Numbers that were spread over those of the type: v * most_in_type / most_in_file, rounded down.
+/// Undoes the scaling of numbers to the range of their type: v * most_in_type / most_in_file,
+/// rounded down.
 void unspread(int bits, Image& image) {
     const auto most_in_file = static_cast<double>((1 << bits) - 1);
     const auto most_in_type = static_cast<double>((1 << image.bits) - 1);

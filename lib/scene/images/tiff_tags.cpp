@@ -12,7 +12,7 @@ namespace sonarsim {
 
 namespace {
 
-/// More values than any tag of a map has; those of its tiles have most.
+/// More values than any tag of a map has. The tags of its tiles have most values.
 constexpr std::uint64_t most_tag_values = 1 << 22;
 
 /// Reads numbers of either byte order from a file.
@@ -95,7 +95,8 @@ TiffTags read_tiff_tags(const std::filesystem::path& path, const std::set<std::u
     TiffBytes file(path);
     const std::string start = file.at(0, 4);
     file.is_big_endian = start[0] == 'M';
-    // A BigTIFF has counts and offsets of 8 bytes, a TIFF of 4; its list counts in 2.
+    // Counts and offsets have 8 bytes in a BigTIFF and 4 in a TIFF. The count of a TIFF's list has
+    // 2.
     const bool is_big = start[0] == 'M' ? start[3] == '+' : start[2] == '+';
     const std::size_t word = is_big ? 8 : 4;
     const std::size_t counter = is_big ? 8 : 2;

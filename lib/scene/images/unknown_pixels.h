@@ -8,11 +8,11 @@ namespace sonarsim {
 /// Numbers beyond this are marks of unknown pixels, not values.
 inline constexpr double huge_pixel = 1e30;
 
-/// Finds the pixels that have no value. The largest numbers, which mark them in many files, are
-/// written with few digits there.
+/// Finds the pixels that have no value. Many files mark them with the largest float, but write this
+/// mark with few digits: then every huge value with the sign of the mark is unknown.
 class UnknownPixels {
   public:
-    /// NaN is no value anyway.
+    /// A `no_data` of NaN is ignored, since NaN never is a value.
     explicit UnknownPixels(std::optional<double> no_data) {
         if (!no_data || std::isnan(*no_data)) return;
         no_data_ = no_data;

@@ -18,8 +18,8 @@ std::string in_capitals(std::string text) {
     return text;
 }
 
-/// The names that a world file may have: ".tif" gives ".tfw", ".tifw" and ".wld", and
-/// the same in capitals.
+/// The world file next to an image; empty if there is none. For ".tif" its extension is ".tfw",
+/// ".tifw" or ".wld", in lower case or capitals.
 std::filesystem::path find_world_file(const std::filesystem::path& image) {
     const std::string extension = image.extension().string();
     std::string brief = "." + extension.substr(extension.size() < 2 ? 0 : 1, 1);

@@ -8,10 +8,10 @@
 #include "core/text.h"
 
 // The power that a footprint sends back is the integral of the power of its points. A map is
-// constant within a texel, so that the mean over a footprint is the sum over texels of their power
-// times the share of the footprint that they cover: a texel smaller than a bin counts by its area.
-// The mean is found with probes along the footprint's longer edge. Each is a box as wide as the
-// footprint is across that edge, with the exact integral of the map over it.
+// constant within a texel, so the mean over a footprint is a sum over texels: the power of a texel
+// times the share of the footprint that it covers. A texel smaller than a bin counts by its area.
+// The mean is found with probes along the footprint's longer edge. Each probe is a box as wide as
+// the footprint is across that edge; the integral of the map over the box is exact.
 
 namespace sonarsim {
 
@@ -78,7 +78,8 @@ Probes probes_of(const GroundFootprint& footprint) {
     const double area_m2 =
         4.0 * std::fabs(footprint.u.x() * footprint.v.y() - footprint.u.y() * footprint.v.x());
     const double width_m = length_m > 0.0 ? area_m2 / length_m : 0.0;
-    // Squares, or fewer with gaps if the footprint is very long; a point has one.
+    // The probes are squares side by side, or fewer with gaps if the footprint is very long. A
+    // point has one probe.
     const double squares = length_m > 0.0 ? length_m / width_m : 1.0;
     Probes out;
     out.count = static_cast<int>(std::ceil(std::clamp(squares - 1e-6, 1.0, 1.0 * most_probes)));
@@ -176,7 +177,7 @@ std::optional<std::uint32_t> GroundMaps::material_over(std::uint32_t instance, s
     const std::uint32_t here = is_own ? own : materials_->materials[materials_->choice[*texel]];
     if (is_within_texel(frame, box)) return here;
     const TexelBox whole = whole_texels(box);
-    // If no texel of the box has another material, the ground's own one fills it.
+    // If no texel of the box has a material of the map, the ground's own material fills the box.
     const bool is_alike =
         is_own ? std::ranges::all_of(counts_, [&](const auto& c) { return c.over(whole) == 0.0; })
                : counts_[materials_->choice[*texel]].over(whole) >= area_of(whole);

@@ -83,8 +83,9 @@ class GroundMaps {
     /// True if texture coordinates place the maps.
     bool are_by_uv() const { return uv_ != nullptr; }
 
-    /// A parallelogram of surface as the maps see it: its centre and its half edges, world. With
-    /// texture coordinates it lies on the plane of the triangle at its centre.
+    /// A parallelogram of surface in the coordinates of the maps. `centre` and the half edges `u`
+    /// and `v` are in the world. Texture coordinates are extended from the plane of the triangle at
+    /// the centre.
     GroundFootprint footprint(std::uint32_t instance, const Eigen::Vector3d& centre,
                               const Eigen::Vector3d& u, const Eigen::Vector3d& v) const;
 
@@ -95,7 +96,7 @@ class GroundMaps {
         return at(instance, own, footprint(instance, world, none, none).centre);
     }
 
-    /// The same of a point on the plane of the maps: from above, or texture coordinates.
+    /// The same for a point in the coordinates of the maps: world x and y, or texture coordinates.
     MappedPoint at(std::uint32_t instance, std::uint32_t own, const Eigen::Vector2d& world) const;
 
     /// The material and strength of a footprint, if a quick test finds them uniform.
@@ -107,7 +108,7 @@ class GroundMaps {
     void shares_over(std::uint32_t instance, std::uint32_t own, const GroundFootprint& footprint,
                      std::vector<MaterialShare>& out) const;
 
-    /// Bytes that differ between maps that differ.
+    /// Bytes that are different for different maps.
     std::string identity() const;
 
   private:

@@ -20,8 +20,8 @@ inline constexpr std::size_t most_map_texels = std::size_t{1} << 24;
 /// A map's image and its place.
 struct LaidMapRule {
     std::filesystem::path file = {};
-    double pixel_m = 0.0;                ///< 0: the file says it, or size_m does
-    std::array<double, 2> size_m{};      ///< 0: as pixel_m
+    double pixel_m = 0.0;                ///< size of a pixel; 0: by size_m, or by the file
+    std::array<double, 2> size_m{};      ///< extent of the map; 0: by pixel_m, or by the file
     std::array<double, 2> origin_m{};    ///< point of the map that is the world's (0, 0)
     std::optional<double> no_data = {};  ///< value of pixels that change nothing; none: the file's
     std::string section = {};            ///< section of the mission, for messages
@@ -31,7 +31,8 @@ struct LaidMapRule {
 
 /// A map of materials, from an image of one channel with a number for each, or of colours.
 /// `materials` has numbers, or colours as "#c8b478", and indices into Scene::materials. InputError
-/// for an image whose place is not known, for keys that are neither and for a
+/// for an image whose place is not known, for a key that does not fit the image's numbers or
+/// colours, and for a pixel that has no material.
 /// pixel that has no material.
 MaterialTexels read_material_map(
     const LaidMapRule& rule, Image image,

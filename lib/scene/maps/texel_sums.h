@@ -50,7 +50,7 @@ class TexelSums {
     static std::size_t index(int k) { return static_cast<std::size_t>(k); }
     std::size_t row_length() const { return index(width_) + 1; }
 
-    /// A coordinate: its texel, and the way across it from 0 to 1.
+    /// A coordinate as the index of its texel and the fraction of the texel before it.
     struct Place {
         std::size_t texel;
         double share;

@@ -111,7 +111,8 @@ std::optional<UvPoint> UvMesh::at(std::uint32_t instance, const Eigen::Vector3d&
     };
     const Eigen::Array3i here = cell_of(point);
     look_at(here);
-    // A point that lies on no triangle of its cell may lie just outside one of another.
+    // A point that lies on no triangle of its cell may lie just outside a triangle of a
+    // neighbouring cell.
     const double cell_m = (box_.sizes().array() / cells_.cast<double>()).maxCoeff();
     if (!(least_m < 1e-6 * cell_m)) {
         for_each_cell((here - 1).max(0), (here + 1).min(cells_ - 1), look_at);

@@ -15,7 +15,8 @@ struct UvTriangle {
     std::array<Eigen::Vector3d, 3> corners;
     std::array<Eigen::Vector2d, 3> uv;  ///< (0, 0) is the image's north-west corner, v runs down
     std::uint32_t instance = 0;         ///< index into Scene::instances
-    /// The part of the image that lies on it. Coordinates beyond it have no image.
+    /// The part of the image that lies on the triangle. Points with coordinates outside it have no
+    /// image.
     Eigen::AlignedBox2d image = everywhere();
 
     static Eigen::AlignedBox2d everywhere() {
@@ -35,11 +36,12 @@ class UvMesh {
   public:
     explicit UvMesh(const std::vector<UvTriangle>& triangles);
 
-    /// The coordinates at the point of an instance's triangles that is nearest to `point`, world;
-    /// nothing if there is none in the cells of the grid around it, or no image.
+    /// The coordinates at the nearest point of an instance's triangles to `point`, world; nothing
+    /// if the cells of the grid around the point hold no triangle of the instance, or if no image
+    /// lies there.
     std::optional<UvPoint> at(std::uint32_t instance, const Eigen::Vector3d& point) const;
 
-    /// Bytes that differ between meshes that differ.
+    /// Bytes that are different for different meshes.
     std::string identity() const;
 
   private:

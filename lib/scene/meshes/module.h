@@ -32,7 +32,7 @@ using SonarsimReadMesh = int (*)(const char* format, const char* bytes, std::siz
 namespace sonarsim {
 
 inline constexpr const char* mesh_module = "meshes";
-/// Raised with every change above, so that a module of another version is found out.
+/// The number rises with every change above, so that a module of another version is not used.
 inline constexpr const char* mesh_module_symbol = "sonarsim_read_mesh_1";
 
 }  // namespace sonarsim

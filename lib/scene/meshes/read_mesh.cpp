@@ -33,7 +33,7 @@ std::string format_of(const std::filesystem::path& path) {
 }
 
 /// The child outputs this head for every part, then the part's names, positions and corners. The
-/// last head has `is_end`, and the reason as its `node` if the file is faulty.
+/// last head has `is_end`. If the file is faulty, the `node` of the last head is the reason.
 struct PartHead {
     std::uint64_t is_end = 0;
     std::uint64_t node_bytes = 0;

@@ -86,7 +86,7 @@ std::optional<PlyType> type_of(std::string_view name) {
     return std::nullopt;
 }
 
-/// Reads a line of the header into it. False if the line is faulty.
+/// Reads a line of the file's header into `header`. False if the line is faulty.
 bool read_line(std::string_view line, PlyHeader& header) {
     const std::string_view key = take_word(line);
     if (key == "comment" || key == "obj_info" || key == "ply") return true;
@@ -166,7 +166,7 @@ class PlyBody {
     }
 
   private:
-    /// A count; none at the end and for a negative one.
+    /// The count of a list; nothing at the end of the file and for a negative count.
     std::optional<std::uint64_t> take_integer(const PlyType& type) {
         if (type.bytes > 4 || left_.size() < type.bytes) return std::nullopt;
         std::uint64_t value = 0;

@@ -27,8 +27,8 @@ Eigen::AlignedBox2d area_of(const Surface& surface, std::uint32_t triangle) {
     return box;
 }
 
-/// height_above() without an optional number, which compilers pass through memory. False: there is
-/// none, and z is as it was.
+/// height_above() without std::optional, which compilers pass through memory. False if there is no
+/// height; then z is unchanged.
 [[gnu::always_inline]] inline bool find_height(const Eigen::Vector3d& corner_a,
                                                const Eigen::Vector3d& corner_b,
                                                const Eigen::Vector3d& corner_c,

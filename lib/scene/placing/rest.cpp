@@ -48,7 +48,7 @@ double rise_of(const Corners& object, const Corners& ground) {
     return rise;
 }
 
-/// The highest corner of the bottom's triangles near an object, seen from above.
+/// Height of the highest corner of the bottom's triangles near an object, seen from above.
 double highest_below(const Bottom& bottom, const Surface& object) {
     Eigen::AlignedBox2d box;
     for (const Eigen::Vector3d& vertex : object.vertices)

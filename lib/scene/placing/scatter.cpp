@@ -11,8 +11,8 @@ namespace sonarsim {
 
 namespace {
 
-/// The quantity that is drawn for an object, as the second word of the counter; the first is the
-/// try.
+/// The quantity that is drawn for an object: the second word of the counter. The first word is the
+/// number of the attempt.
 enum class Draw : std::uint32_t { count, shape, scale, roll, pitch, yaw, bury, x, y };
 
 /// The draws of one object of one rule.

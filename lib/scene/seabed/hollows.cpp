@@ -85,7 +85,7 @@ void press(const BedGrid& grid, const Pockmark& pockmark, std::vector<double>& h
 void press(const BedGrid& grid, const Scar& scar, std::vector<double>& heights) {
     const SinCos direction = sincos(scar.direction_rad);
     const double half_width = 0.5 * scar.width_m;
-    // Its ends are halves of a pockmark of its width.
+    // Each end is half a pockmark as wide as the scar.
     const double straight = std::max(0.5 * scar.length_m - half_width, 0.0);
     for_each_cell_near(
         grid, scar.x_m, scar.y_m, straight + half_width, [&](std::size_t i, double dx, double dy) {

@@ -22,10 +22,10 @@ struct BedPoint {
 
 /// The points of a Poisson process that lie in an area, [least, largest). They are drawn tile by
 /// tile of the endless plane, so that an area has the same points, in the same order, whatever else
-/// is made. The tiles follow from the density alone.
+/// is generated. The size of the tiles depends only on the density.
 std::vector<BedPoint> poisson_points(const BedArea& area, double density_per_m2, PhiloxKey key);
 
-/// A number in [0, 1) that belongs to a point, another for each `which` from 1 on.
+/// A uniform number in [0, 1) of a point; each `which` from 1 on gives an independent one.
 inline double draw_of(const BedPoint& point, std::uint32_t which, PhiloxKey key) {
     const PhiloxBlock block = philox({point.tile_x, point.tile_y, point.number, which}, key);
     return unit_double(block.x0, block.x1);

@@ -11,8 +11,8 @@ namespace sonarsim {
 
 namespace {
 
-/// Real or imaginary part of the field that moves the crests. Its wave vectors deviate by
-/// `spread` of the ripples'; without spread the crests are straight.
+/// Real or imaginary part of the field that moves the crests. Its wave vectors have the standard
+/// deviation `spread` times the ripples' wave number; without spread the crests are straight.
 std::vector<float> crest_field(const BedGrid& grid, const BedRipples& ripples, BedDraw subject,
                                std::uint32_t part, std::uint64_t seed) {
     if (ripples.spread <= 0.0) return std::vector<float>(grid.size(), part == 0 ? 1.0F : 0.0F);
@@ -31,7 +31,7 @@ void add_ripples(const BedGrid& grid, const BedRipples& ripples, BedDraw subject
     const std::vector<float> here =
         patches(grid, ripples.share, ripples.patch_m, bed_key(seed, patch));
     const SinCos direction = sincos(ripples.direction_rad);
-    // The mean of |b|^2 is 2. Where it is far below, crests end.
+    // Added to |b|^2, whose mean is 2, so that a crest ends and its height falls to 0 where b is 0.
     constexpr double rounding = 0.05;
     std::size_t i = 0;
     for (int row = 0; row < grid.rows; ++row) {

@@ -40,7 +40,7 @@ Surface icosahedron() {
     return out;
 }
 
-/// A ball with four triangles for each.
+/// A finer ball: each triangle becomes four.
 Surface refined(const Surface& ball) {
     Surface out;
     out.vertices = ball.vertices;
@@ -81,7 +81,7 @@ std::vector<Cut> cuts_of(std::uint32_t sort, std::uint64_t seed) {
         const double z = 2.0 * unit_double(block.x0, block.x1) - 1.0;
         const SinCos turn = sincos(2.0 * pi * unit_double(block.x2, block.x3));
         const double across = std::sqrt(1.0 - z * z);
-        // Flat above and below, as rocks come to lie.
+        // Cuts are deepest at top and bottom, since rocks come to rest on flat sides.
         const double least = 0.45 + 0.25 * across;
         out.push_back({{across * turn.cos, across * turn.sin, z},
                        least + 0.3 * unit_double(other.x0, other.x1)});
@@ -106,7 +106,7 @@ Surface cut_rock(const Surface& ball, const std::vector<Cut>& cuts) {
     return out;
 }
 
-/// The diameter below which a share u of the rocks lies.
+/// The diameter that a share u of the rocks is smaller than.
 double diameter_at(double u, const BedRocks& rocks) {
     const auto [least, most] = rocks.diameter_m;
     if (least == most) return least;

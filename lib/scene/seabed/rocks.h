@@ -35,8 +35,8 @@ struct Rock {
 std::vector<Surface> rock_shapes(std::uint64_t seed);
 
 /// The rocks whose middles lie in an area of the bed, without their height: z of the transform is
-/// 0. Their diameters follow the power law between the two limits. A rock has as many triangles as
-/// suit its size in cells.
+/// 0. Their diameters follow the power law between the two limits. Rocks that cover more cells have
+/// more triangles.
 std::vector<Rock> rocks_in(const BedArea& area, const BedRocks& rocks, double cell_m,
                            std::uint64_t seed);
 

@@ -18,11 +18,11 @@ double roughness_strength(double spectral_strength_cm4, double exponent) {
 void add_roughness(const BedGrid& grid, const BedRoughness& roughness, std::uint64_t seed,
                    std::vector<double>& heights) {
     if (roughness.strength == 0.0) return;
-    // The square of the shortest length of a field, in cells: shorter ones would fold back from
-    // beyond the grid's shortest wavelength, longer ones leave out more of the spectrum below it.
+    // The square of the shortest length of a field, in cells. Shorter fields would be aliased by
+    // the grid; longer ones leave out more of the spectrum at short wavelengths.
     constexpr double least_t = 0.2;
     constexpr double step = 4.0;
-    // Fields with t k0^2 above this are e^-10 of the spectrum's corner.
+    // Fields with a larger t k0^2 are left out: their factor exp(-t k0^2) is below e^-10.
     constexpr double most = 10.0;
     const double corner = 2.0 * pi / roughness.corner_m;
     const double a = 0.5 * roughness.exponent;

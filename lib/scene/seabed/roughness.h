@@ -15,8 +15,8 @@ struct BedRoughness {
     double corner_m = 2.0;
 };
 
-/// The strength in the units above of one that is given in cm^4, as the literature does: with
-/// lengths in cm and k in rad/cm.
+/// Converts a spectral strength from cm^4, the unit of the literature (lengths in cm, k in rad/cm),
+/// to the unit above.
 double roughness_strength(double spectral_strength_cm4, double exponent);
 
 /// Adds random heights with this spectrum, in metres. The spectrum holds within 0.6 dB from the
@@ -25,7 +25,7 @@ double roughness_strength(double spectral_strength_cm4, double exponent);
 ///
 /// (k^2 + k0^2)^-a is the integral of t^(a-1) exp(-t (k^2 + k0^2)) dt / Gamma(a), a mixture of the
 /// spectra of smooth fields. The sum over t in steps of a factor 4, one field for each octave of
-/// lengths, is this integral within 4 %.
+/// lengths, equals this integral within 4 %.
 void add_roughness(const BedGrid& grid, const BedRoughness& roughness, std::uint64_t seed,
                    std::vector<double>& heights);
 

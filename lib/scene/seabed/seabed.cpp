@@ -14,7 +14,8 @@ namespace {
 constexpr double most_cells_of_bed = 33554432.0;
 
 /// The cells from `low` to `high` along one axis, with a margin: the first, and the one after the
-/// last. A bed of a size has no cells beyond it; if the two do not meet, all of it is taken.
+/// last. A bed with a size has no cells outside it; if fewer than two of its cells remain, all are
+/// taken.
 std::array<double, 2> cells_within(double low, double high, double cell_m, double size_m) {
     constexpr double margin = 2.0;
     const double first = std::floor(low / cell_m) - margin;
@@ -108,11 +109,12 @@ double height_at(const Seabed& bed, double x_m, double y_m) {
     return z(0, 0) + v * (z(1, 0) - z(0, 0)) + u * (z(1, 1) - z(1, 0));
 }
 
-/// The same for hollows of this reach from their middles. Each covered cell takes time.
+/// InputError for too many hollows, or too much time to make them: each covered cell takes time.
+/// `reach_m` is how far a hollow reaches from its middle.
 void require_time(const SeabedRule& rule, const BedGrid& grid, double density_per_m2,
                   double reach_m, const char* what) {
     constexpr double most_hollows = 500000.0;
-    constexpr double most_pressed = 1e10;  // cells: a minute. Both are chosen.
+    constexpr double most_pressed = 1e10;  // cells, a minute; both limits are chosen
     const BedArea area = area_of_grid(grid);
     const BedArea bed = area_of_bed(rule);
     const double across = 2.0 * reach_m / grid.cell_m + 1.0;

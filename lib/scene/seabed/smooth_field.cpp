@@ -13,7 +13,7 @@ namespace sonarsim {
 
 namespace {
 
-/// Bells that reach a point, along one axis. The first that is left out has fallen to 4e-6.
+/// Number of bells on each side of a point, along one axis. The next bell has fallen to 4e-6.
 constexpr int reach = 5;
 constexpr int taps = 2 * reach;
 
