@@ -10,8 +10,8 @@ namespace sonarsim {
 inline constexpr std::size_t most_poses = 10'000'000;
 
 /// Interpolates the attitude at constant angular rate along the shorter arc; `fraction` runs from 0
-/// (`from`) to 1 (`to`). Both are unit quaternions. Half a turn has no shorter arc: the direction
-/// is fixed then, but do not rely on it.
+/// (`from`) to 1 (`to`). Both are unit quaternions. Half a turn has no shorter arc: its direction
+/// is deterministic but arbitrary.
 Eigen::Quaterniond slerp(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to,
                          double fraction);
 

@@ -23,7 +23,7 @@ TwoNormals two_normals(std::uint32_t pose, std::uint32_t item, PhiloxKey draws) 
     return {radius * angle.cos, radius * angle.sin};
 }
 
-// The counters of a pose's draws begin with its number + 1; 0 is for what is drawn once.
+// The counter of a pose's draws is the number of the pose + 1; 0 is for draws that are made once.
 constexpr std::uint32_t once = 0;
 
 }  // namespace

@@ -22,7 +22,7 @@ struct NavigationErrors {
 /// The poses that the vehicle's instruments report. Steps of the horizontal track, scaled by
 /// 1 + speed_scale and turned by the bias and drift of the heading, are summed from the true first
 /// position, so the error grows with the distance run. Without bias, drift and scale the track is
-/// the true one. The errors of single poses are added to that.
+/// the true one. The errors drawn for every pose are added to this track.
 Trajectory reported_poses(const Trajectory& truth, const NavigationErrors& errors, PhiloxKey draws);
 
 }  // namespace sonarsim

@@ -32,11 +32,11 @@ struct Lawnmower {
 
 /// A lawnmower pattern over the rectangle at constant height and speed. The rectangle is cut along
 /// the heading into the fewest strips of width line_spacing_m that cover it with equal margins. A
-/// line runs along the middle of each strip, as far as the strip meets the rectangle, bow ahead.
-/// The first line is the furthest to starboard; each next line lies to port of the one before. At
-/// the end of a line the vehicle moves straight to the start of the next while it turns through the
-/// port side of the first line's heading. InputError if the rectangle has no area, a number is out
-/// of its domain, or there are more than 100,000 lines or more poses than most_poses.
+/// line runs along the middle of each strip, bow ahead, over the part of the strip that meets the
+/// rectangle. The first line is the furthest to starboard; each next line lies to port of the one
+/// before. At the end of a line the vehicle moves straight to the start of the next while it turns
+/// through the port side of the first line's heading. InputError if the rectangle has no area, a
+/// number is out of its domain, or there are more than 100,000 lines or more poses than most_poses.
 Trajectory lawnmower(const Lawnmower& survey);
 
 }  // namespace sonarsim

@@ -26,7 +26,7 @@ std::vector<Cosine> draw_cosines(std::uint32_t movement, const WaveMotion& motio
     out.reserve(cosines);
     for (std::uint32_t k = 0; k < cosines; ++k) {
         const PhiloxBlock words = philox({movement, k, 0, 0}, draws);
-        // Between the least and the greatest double, so that the logarithm is finite and not 0.
+        // Keep the share off 0 and 1, so that its logarithm is finite and not 0.
         const double share =
             std::clamp((k + unit_double(words.x0, words.x1)) / cosines, 1e-9, 1.0 - 1e-9);
         const double of_peak = std::sqrt(std::sqrt(1.25 / -logarithm(share)));
