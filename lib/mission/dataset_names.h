@@ -21,7 +21,7 @@ inline constexpr const char* labels_folder_name = "labels";
 inline constexpr const char* split_folder_name = "split";
 inline constexpr const char* seabed_folder_name = "seabed";
 inline constexpr const char* gallery_name = "index.html";
-/// Pictures that the page shows and that are in archives, next to it.
+/// A folder next to the page with the pictures that the page shows and the dataset has in archives.
 inline constexpr const char* gallery_folder_name = "index_files";
 /// A file in the folder above the datasets of variants.
 inline constexpr const char* variants_name = "variants.json";

@@ -54,8 +54,8 @@ void check_characters(std::string_view text, YamlPlace place, Lines lines) {
     }
 }
 
-/// Builds the tree from the parser's events and stops the parser at the first thing that a mission
-/// may not hold, before its recursion or its memory can grow.
+/// Builds the tree from the parser's events. It stops the parser at the first thing that a mission
+/// may not hold, before the parser's recursion or memory can grow.
 class Builder : public YAML::EventHandler {
   public:
     Builder(std::shared_ptr<const std::string> source, Lines lines)
@@ -176,7 +176,7 @@ class Builder : public YAML::EventHandler {
             return;
         }
         if (parent.node.kind == YamlNode::Kind::map) {
-            // The parser's place of a value that is left out is that of the next key.
+            // For a value that is left out, the parser gives the place of the next key.
             const bool is_left_out = node.kind == YamlNode::Kind::empty;
             if (is_left_out && node.place.line != parent.key.place.line)
                 node.place = parent.key.place;

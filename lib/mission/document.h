@@ -39,9 +39,9 @@ struct YamlNode {
 /// Nodes of a file remember their lines, nodes of a command line do not.
 enum class Lines { counted, none };
 
-/// Reads one YAML document. It may hold maps, lists and scalars, at most 16 deep and 100,000 in
-/// all; anchors, aliases, tags, duplicate keys, keys that are not text, control characters, bytes
-/// that are not UTF-8 and further documents are InputErrors. An empty document is an empty node.
+/// Reads one YAML document. It may hold maps, lists and scalars, at most 16 deep and 250,000 in
+/// all. InputError for anchors, aliases, tags, duplicate keys, keys that are not text, control
+/// characters, bytes that are not UTF-8 and further documents. An empty document is an empty node.
 YamlNode read_document(std::string_view text, const std::string& source,
                        Lines lines = Lines::counted);
 

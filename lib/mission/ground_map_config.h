@@ -21,7 +21,7 @@ enum class MapPlacing { above, uv };
 struct LaidMapConfig {
     std::filesystem::path file;
     MapPlacing placed = MapPlacing::above;
-    double pixel_m = 0.0;                         ///< 0: the file says it, or size_m does
+    double pixel_m = 0.0;                         ///< size of a pixel; 0: by size_m, or by the file
     std::optional<std::array<double, 2>> size_m;  ///< x, y, from edge to edge of the map
     std::array<double, 2> origin_m{};             ///< point of the map that is the world's (0, 0)
     std::vector<std::string> instances;           ///< patterns; none: the bottom

@@ -159,8 +159,8 @@ class SonarImporter {
         }
     }
 
-    /// The number of bins of a width. The scenario must have the range or the angle that they
-    /// divide.
+    /// The number of bins that a width gives. InputError if the scenario lacks the range or the
+    /// angle that the bins divide.
     static std::string bins(const Parameter& parameter, const YamlNode& node,
                             const YamlNode& configuration) {
         const double width = number_in(node, parameter.name, parameter.limits);

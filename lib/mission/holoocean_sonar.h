@@ -15,15 +15,15 @@ namespace sonarsim {
 struct SonarType {
     const char* type;
     const char* kind;
-    bool looks_down;                      ///< true for sonarsim's default mount
+    bool looks_down;                      ///< the default mount of sonarsim's kind looks down
     std::vector<std::string_view> lacks;  ///< keys that the kind does not have
-    const char* azimuth_deg = "";         ///< its default, if sonarsim has another
-    const char* remark = "";              ///< differences of the imported sonar from it
+    const char* azimuth_deg = "";         ///< HoloOcean's default, if sonarsim's differs
+    const char* remark = "";              ///< differences of the imported sonar from HoloOcean's
 };
 
 /// All kinds of sonar of HoloOcean.
 std::span<const SonarType> sonar_types();
-/// Their names, separated by commas.
+/// The names of these kinds, separated by commas.
 std::string sonar_type_list();
 
 /// Keys of a mission and their values.

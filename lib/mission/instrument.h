@@ -8,7 +8,8 @@ namespace sonarsim {
 
 // The instrument that `model: calibrated` simulates, with its defaults. Names are the YAML keys.
 
-/// The volume scattering of the water, by what is in it. `automatic`: as each instrument says.
+/// The volume scattering of the water, by its content. `automatic`: the usual water of each
+/// instrument.
 enum class WaterContent { automatic, none, clear, coastal, plankton, plume };
 
 /// The transducer's shape. It has no key: it follows from the kind of sonar.
@@ -16,7 +17,7 @@ enum class Aperture {
     line,            ///< an array across track that forms beams
     port_starboard,  ///< two arrays along track, one for each side
     piston,          ///< a circular disc
-    head             ///< a turning array across that sends and receives straight ahead
+    head             ///< a turning array, across the boresight, that sends and receives ahead
 };
 
 /// The quantity in which the beams of a fan have equal steps.
@@ -47,7 +48,7 @@ struct BeamConfig {
     /// Phase errors at the ends of the aperture: quadratic, cubic, quartic.
     std::array<double, 3> aberration_rad{};
     BeamSpacing spread = BeamSpacing::equal_angle;
-    std::vector<double> azimuths_deg;  ///< the middles of a fan's beams; empty: as `spread` says
+    std::vector<double> azimuths_deg;  ///< the middles of a fan's beams; empty: by `spread`
     double view_azimuth_deg = 0.0;  ///< full azimuth that a line array insonifies; 0: azimuth_deg
     double elevation_width_deg = 0.0;  ///< two-way half-power width; 0: constant pattern
     double elevation_side_lobe_db = -13.3;
@@ -66,7 +67,7 @@ struct PulseConfig {
     double resolution_m = 0.0;    ///< half-power width of a point target in range; 0: one bin
     double duration_s = 0.0;      ///< transmitted pulse; 0: that of a pulse without a code
     double side_lobe_db = -30.0;  ///< highest range side lobe after compression
-    /// Energy of the far side lobes by that of the pulse, spread over `duration_s`; -300: none.
+    /// Energy of the far side lobes relative to the pulse, spread over `duration_s`; -300: none.
     double floor_db = -300.0;
     Sweep sweep = Sweep::none;  ///< motion shifts and weakens its echoes
 
@@ -95,14 +96,14 @@ struct InterferenceConfig {
 };
 
 struct ReceiverConfig {
-    std::optional<double> noise_db;  ///< noise power in a beam; without it by instrument_levels()
-    double efficiency = 0.5;         ///< transducer: sound out by electric power in
+    std::optional<double> noise_db;  ///< noise power in a beam; empty: by instrument_levels()
+    double efficiency = 0.5;         ///< acoustic / electric power of the transducer
     double noise_figure_db = 6.0;    ///< electronics
     double common_mode_db = -300.0;  ///< power of the noise that all elements share
     double tvg_log = 40.0;           ///< spreading factor k of k log10 r
     bool tvg_absorption = true;      ///< TVG has the term 2 alpha r
     double tvg_from_m = 0.0;         ///< TVG is constant at shorter ranges
-    /// Highest echo level after TVG that is not clipped; without it by instrument_levels().
+    /// Highest echo level after TVG that is not clipped; empty: by instrument_levels().
     std::optional<double> full_scale_db;
     Companding companding = Companding::gamma;
     double gamma = 0.5;            ///< value = (amplitude / full scale)^gamma
@@ -129,8 +130,8 @@ struct ReceiverConfig {
     bool operator==(const ReceiverConfig&) const = default;
 };
 
-/// Echoes and noise of the sea lie above 0 dB re 1 uPa, so a level below it is one relative to the
-/// source. -300 means none.
+/// Echoes and noise of the sea lie above 0 dB re 1 uPa, so a lower level must be relative to the
+/// source level. -300 means none.
 constexpr bool is_relative_level(double level_db) {
     return level_db < 0.0 && level_db > -300.0;
 }
@@ -141,15 +142,15 @@ constexpr bool has_relative_level(const ReceiverConfig& receiver) {
            is_relative_level(receiver.common_mode_db);
 }
 
-/// 120 dB re 1 uPa at 1 m are 8 microwatts of sound. Less is no source level but the number that
-/// levels are relative to.
+/// 120 dB re 1 uPa at 1 m are 8 microwatts of sound. A smaller number is no source level but the
+/// reference of the other levels.
 constexpr bool is_relative_source(double source_level_db) {
     return source_level_db < 120.0;
 }
 
 struct InstrumentConfig {
     double frequency_hz = 1e6;
-    std::optional<double> source_level_db;  ///< without it by instrument_levels()
+    std::optional<double> source_level_db;  ///< empty: by instrument_levels()
     double power_w = 100.0;                 ///< electric power of the transmitter
     BeamConfig beam;
     PulseConfig pulse;

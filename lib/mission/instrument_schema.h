@@ -29,9 +29,9 @@ inline constexpr Limits any_level_db{-300.0, 300.0};
 inline constexpr std::array sample_rules{Choice<SampleRule>{"max", SampleRule::maximum},
                                          Choice<SampleRule>{"mean", SampleRule::mean},
                                          Choice<SampleRule>{"rms", SampleRule::rms}};
-/// Above the noise.
+/// Levels above the noise.
 inline constexpr Limits raised_levels_db{0.0, 200.0};
-/// Between a Hamming taper and none.
+/// From a Hamming taper to no taper.
 inline constexpr Limits side_lobes_db{-42.0, -13.0};
 
 template <class Visitor>
@@ -97,7 +97,7 @@ template <class Visitor>
 void describe(Visitor& v, PulseConfig& c) {
     v.number("resolution_m", c.resolution_m, between(0, 1000),
              "half-power width in range of a point target's echo; 0 means one range bin");
-    // Speckle cells have this length. Much shorter ones overflow their number.
+    // Speckle cells have this length. The number of much shorter cells would overflow.
     v.require(c.resolution_m == 0.0 || c.resolution_m >= 1e-6, {"resolution_m"},
               "resolution_m is 0, for one range bin, or at least 1e-6");
     v.number("duration_s", c.duration_s, between(0, 10),

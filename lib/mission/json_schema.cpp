@@ -233,7 +233,8 @@ class SchemaBuilder {
                 SchemaJson if_this{{"properties", {{"kind", {{"const", kind.name}}}}},
                                    {"required", {"kind"}},
                                    {"not", {{"required", {"preset"}}}}};
-                // The rule of the default checks a name that is no model.
+                // The rule of the default model also holds for an unknown model, so that its name
+                // is checked.
                 SchemaJson others = names_of(echo_models);
                 others.erase(0);
                 if_this["properties"]["model"] =

@@ -44,15 +44,15 @@ struct WaterConfig {
     // A gentle breeze. Above 100 kHz the noise of wind lies below that of heat.
     double wind_m_s = 5.0;
     WaterContent content = WaterContent::automatic;
-    /// Volume backscattering strength, dB re 1 m^2 per m^3; without it that of `content`.
+    /// Volume backscattering strength, dB re 1 m^2 per m^3; empty: that of `content`.
     std::optional<double> scattering_db_per_m3 = {};
-    std::vector<WaterLayerConfig> layers = {};  ///< their scattering adds to that
-    /// Mineral particles; without it by `content`.
+    std::vector<WaterLayerConfig> layers = {};  ///< their scattering is added to the above
+    /// Mineral particles; empty: by `content`.
     std::optional<double> suspended_mg_l = {};
-    double suspended_um = 50.0;  ///< their diameter
+    double suspended_um = 50.0;  ///< diameter of these particles
     /// RMS speed at which the scatterers drift apart; none: new scatterers in each ping.
     std::optional<double> drift_rms_m_s = {};
-    std::array<double, 3> current_m_s{};             ///< moves all of them alike
+    std::array<double, 3> current_m_s{};             ///< velocity of all scatterers
     std::optional<SoundProfileConfig> profile = {};  ///< bends sound; none: paths are straight
     /// The profile by which the instruments turn angles and times to soundings; none: constant.
     std::optional<SoundProfileConfig> assumed_profile = {};
@@ -84,15 +84,15 @@ struct MultipathConfig {
     bool operator==(const MultipathConfig&) const = default;
 };
 
-/// The order in which the beams of a fan transmit: each group is the beams from one border to
-/// the next, or every n-th beam.
+/// The order in which the beams of a fan transmit: a group holds neighbouring beams (in_turn), or
+/// every n-th beam.
 enum class ShutterOrder { in_turn, interleaved };
 
 /// A sonar whose beams transmit in groups, one after the other.
 struct ShutterConfig {
     int groups = 1;  ///< 1: all beams transmit at once
     ShutterOrder order = ShutterOrder::in_turn;
-    double period_s = 0.0;  ///< from one group to the next; 0: until its sound is back
+    double period_s = 0.0;  ///< from one group to the next; 0: the two-way time of range_max_m
 
     bool operator==(const ShutterConfig&) const = default;
 };
@@ -152,7 +152,7 @@ struct OctreeConfig {
     bool operator==(const OctreeConfig&) const = default;
 };
 
-/// A class for all nodes whose names match a pattern.
+/// Gives a class to all nodes whose names match a pattern.
 struct ClassConfig {
     std::string nodes;     ///< `*` stands for any text, `?` for any one byte
     std::string name;      ///< the class

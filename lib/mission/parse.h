@@ -34,8 +34,8 @@ Mission load_mission(const std::filesystem::path& file, std::span<const std::str
 Mission load_mission(const std::filesystem::path& file, const std::filesystem::path& base_folder,
                      std::span<const std::string> overrides, SonarKeyTable sonars);
 
-/// The same for a source. InputError also for the mission of a dataset whose paths start at its own
-/// folder, where its files are not.
+/// The same for a source. InputError also for the mission of a dataset if `base_folder` is the
+/// folder of the dataset and the files of the scene are not there.
 Mission load_mission(const MissionSource& source, SonarKeyTable sonars);
 
 /// The same for a mission in memory. `file_name` is for messages and for the default name.

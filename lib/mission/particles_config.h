@@ -37,7 +37,7 @@ struct ParticlesConfig {
     bool operator==(const ParticlesConfig&) const = default;
 };
 
-/// A group has no more of them.
+/// The most particles of a group.
 inline constexpr double most_particles = 1e6;
 /// With `instances: auto` larger groups are one object each.
 inline constexpr double most_single_particles = 100;

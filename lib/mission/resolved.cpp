@@ -16,7 +16,7 @@ std::string resolved_yaml(const Mission& mission, SonarKeyTable sonars) {
 }
 
 Mission parse_resolved(std::string_view text, const std::string& file_name, SonarKeyTable sonars) {
-    // As deep as the paths climb: portable() then gives back the paths as they were written.
+    // Make the base folder as deep as the paths climb, so that portable() gives the original paths.
     constexpr std::size_t deepest = 1000;
     std::size_t climbs = 0;
     for (std::size_t at = text.find(".."); at != text.npos && climbs < deepest;

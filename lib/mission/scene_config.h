@@ -18,7 +18,7 @@ namespace sonarsim {
 enum class LengthUnit { m, mm, cm, km, inch, foot };
 enum class UpAxis { y, z };
 
-/// Options for reading a glTF file.
+/// Options for reading a file of a mesh.
 struct MeshConfig {
     LengthUnit units = LengthUnit::m;
     UpAxis up = UpAxis::y;
@@ -33,7 +33,7 @@ enum class ObjectPlace { free, on_bottom };
 
 /// A file that is placed in the scene.
 struct ObjectConfig {
-    std::string name;        ///< the instance of all nodes; "": each is its own
+    std::string name;        ///< name of the instance that all nodes form; "": each is its own
     std::string class_name;  ///< "": the class in the file
     std::filesystem::path file;
     MeshConfig mesh;
@@ -79,7 +79,7 @@ enum class KeptHeights { resolved, all };
 /// An image whose pixels are heights, which becomes the bottom.
 struct HeightmapConfig {
     std::filesystem::path file;
-    double pixel_m = 0.0;                         ///< 0: the file says it, or size_m does
+    double pixel_m = 0.0;                         ///< size of a pixel; 0: by size_m, or by the file
     std::optional<std::array<double, 2>> size_m;  ///< x, y, from edge to edge of the map
     std::array<double, 2> origin_m{};             ///< point of the map that is the world's (0, 0)
     double height_scale = 1.0;                    ///< metres of a step of the pixels' values

@@ -27,7 +27,7 @@ inline constexpr std::array engine_kinds{Choice<EngineKind>{"auto", EngineKind::
                                          Choice<EngineKind>{"octree", EngineKind::octree},
                                          Choice<EngineKind>{"slices", EngineKind::slices}};
 
-/// Fit for the name of a folder that holds nothing but one mission.
+/// True if a mission may have the name. It names a folder that holds nothing but this mission.
 inline bool is_folder_name(std::string_view name) {
     return !name.empty() && name != "." && name != ".." && name.size() <= 200 &&
            name.find('/') == std::string_view::npos && !is_taken_by_collection(name);
@@ -39,7 +39,7 @@ inline constexpr std::array water_contents{Choice<WaterContent>{"auto", WaterCon
                                            Choice<WaterContent>{"coastal", WaterContent::coastal},
                                            Choice<WaterContent>{"plankton", WaterContent::plankton},
                                            Choice<WaterContent>{"plume", WaterContent::plume}};
-/// Stronger than -200 dB is any water, weaker than 0 dB is any cloud of bubbles.
+/// All water scatters more than -200 dB, and every cloud of bubbles less than 0 dB.
 inline constexpr Limits volume_strengths_db{-200.0, 0.0};
 
 template <class Visitor>

@@ -10,7 +10,8 @@
 
 namespace sonarsim {
 
-// A bed that is made from numbers and the mission's seed. Pairs are limits of random draws.
+// A sea bed that is generated from numbers and the mission's seed. Pairs are limits of random
+// draws.
 
 /// An isotropic power spectrum of heights, W(K) = strength / (K^2 + (2 pi / corner)^2)^(exponent/2)
 /// with K in rad/cm and W in cm^4, so that the integral of W over the plane is the variance.
@@ -39,7 +40,7 @@ struct BedRockConfig {
     double density_per_m2 = 0.0;
     std::array<double, 2> diameter_m{};
     double exponent = 3.0;                   ///< rocks larger than D are as frequent as D^-exponent
-    std::array<double, 2> buried{0.2, 0.6};  ///< share of the diameter
+    std::array<double, 2> buried{0.2, 0.6};  ///< share of a rock's height
     std::string material;
     std::string class_name = "rock";
 

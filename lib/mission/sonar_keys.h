@@ -7,8 +7,8 @@
 
 namespace sonarsim {
 
-/// The keys of one kind of sonar in a mission. The kinds are defined in lib/sonar, above
-/// lib/mission: callers that read or write a mission pass their keys.
+/// The keys of one kind of sonar in a mission. lib/sonar defines the kinds and depends on
+/// lib/mission, so callers that read or write a mission pass the keys of the kinds.
 struct SonarKeys {
     SonarKind kind;
     std::string_view name;

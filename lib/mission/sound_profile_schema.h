@@ -17,7 +17,7 @@ inline constexpr std::array named_profiles{
     Choice<NamedProfile>{"mixed_layer", NamedProfile::mixed_layer},
     Choice<NamedProfile>{"summer", NamedProfile::summer}};
 
-/// Sound in water has 1,400 to 1,600 m/s; models of it in a tank may have others.
+/// The speed of sound in water is 1,400 to 1,600 m/s; scale models in a tank may have other speeds.
 inline constexpr Limits profile_speeds_m_s{1000.0, 2000.0};
 
 template <class Visitor>

@@ -18,7 +18,7 @@ std::string_view line_of(std::string_view text, int number) {
 }  // namespace
 
 std::string cause_of(const std::string& fault, int line_number, std::string_view text) {
-    // The parser sees some faults only in the line below them.
+    // The parser reports some faults one line too late.
     for (const int number : {line_number, std::max(0, line_number - 1)}) {
         const std::string_view line = line_of(text, number);
         const std::string_view indentation = line.substr(0, line.find_first_not_of(" \t"));

@@ -6,12 +6,12 @@
 
 namespace sonarsim {
 
-/// The cause of a fault that the YAML parser found in a line, counted from 0, in a user's words;
-/// the parser's own words `fault` if the cause is unknown.
+/// The cause of a fault that the YAML parser found in a line, counted from 0, in words for users;
+/// the parser's message `fault` if the cause is unknown.
 std::string cause_of(const std::string& fault, int line_number, std::string_view text);
 
-/// True if the quoted text that begins at `at` ends. The parser takes the end of the file for its
-/// end.
+/// True if the quoted text that begins at `at` is closed. The parser takes the end of the file for
+/// a missing quote.
 bool is_closed(std::string_view text, std::size_t at);
 
 }  // namespace sonarsim
