@@ -11,7 +11,7 @@ namespace sonarsim {
 /// The box around the surface at rest of each object, world; empty for one that moves.
 std::vector<Eigen::AlignedBox3d> still_boxes(const Assembly& assembly);
 
-/// Spheres around the objects of a scene that are no background.
+/// Spheres around the objects of a scene whose class is not background.
 struct AnnotatedObjects {
     struct Moving {
         std::size_t body;     ///< index into Scene::bodies
@@ -23,7 +23,7 @@ struct AnnotatedObjects {
 };
 AnnotatedObjects annotated_objects(const Assembly& assembly);
 
-/// All of these spheres in the world at a time of the trajectory.
+/// The spheres of all annotated objects in the world at the time `t_s` of the trajectory.
 std::vector<ObjectSphere> spheres_at(const AnnotatedObjects& objects, const Assembly& assembly,
                                      double t_s);
 

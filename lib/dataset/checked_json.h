@@ -14,7 +14,7 @@ namespace sonarsim {
 /// The JSON of a file of a dataset. InputError with the file when it cannot be read, is longer than
 /// `limit` bytes, is no JSON or is nested more than 64 deep.
 nlohmann::ordered_json read_json(const std::filesystem::path& path, std::size_t limit);
-/// The same of a text; `file` is for the messages.
+/// The same for a text; `file` is for the messages.
 nlohmann::ordered_json parse_json(const std::string& text, const std::string& file);
 
 /// The path of the first value in which two trees differ: "sensors[0].name"; nothing if they are

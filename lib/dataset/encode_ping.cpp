@@ -16,9 +16,9 @@ namespace sonarsim {
 
 namespace {
 
-/// The greatest magnitude among `values`; not finite as soon as one of them is not. Without their
-/// sign the bits of floats have the order of the numbers, infinity above all of them and NaN above
-/// that; and unlike a maximum of floats, one of integers vectorises.
+/// The greatest magnitude among `values`; not finite if any of them is not. The bits of floats
+/// without their sign are in the order of the numbers, with infinity above all numbers and NaN
+/// above infinity. A maximum of integers vectorises, a maximum of floats does not.
 float greatest_magnitude(std::span<const float> values) {
     std::uint32_t greatest = 0;
     for (const float value : values)

@@ -20,7 +20,7 @@ FanPng make_fan_png(const Sonar& sonar, const OutputConfig& output);
 
 std::string fan_png_bytes(const FanPng& png, const Ping& ping, double full_scale);
 
-/// The most that such a file takes.
+/// The largest size of such a file, bytes.
 double fan_png_bytes_at_most(const FanPng& png);
 
 }  // namespace sonarsim

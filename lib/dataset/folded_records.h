@@ -7,8 +7,8 @@
 
 namespace sonarsim {
 
-/// Pictures have at most this many rows (or columns) of pings. A row is the mean of several pings
-/// if there are more of them. A PNG cannot be much longer.
+/// The most rows (or columns) of pings in a picture; a PNG cannot have many more. If there are more
+/// pings, a row is the mean of several.
 inline constexpr std::size_t most_picture_rows = 60'000;
 
 /// The number of pings that share a row.

@@ -21,7 +21,7 @@ struct MovingObject {
     std::size_t body = 0;     ///< index into Scene::bodies
     Eigen::AlignedBox3d box;  ///< box around it in its own frame
 };
-/// One for each object; nothing for those that stand still, or that consist of several parts.
+/// One for each object; nothing for an object that stands still or consists of several parts.
 std::vector<std::optional<MovingObject>> moving_objects(const Assembly& assembly);
 
 /// The names of the ids of labels for dataset.json, with the world boxes (m) of instances; null as
@@ -42,8 +42,8 @@ struct AnnotationRules {
 
 /// `labels.annotations` of dataset.json.
 nlohmann::ordered_json describe_annotations(const LabelConfig& config, const SceneObjects& objects);
-/// The same read back from `labels`; datasets of older versions annotate all objects. InputError
-/// for what is wrong in it.
+/// Reads this back from `labels`; datasets of older versions annotate all objects. InputError for a
+/// wrong value.
 AnnotationRules annotation_rules(const CheckedJson& labels);
 
 }  // namespace sonarsim

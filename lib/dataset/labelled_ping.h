@@ -42,7 +42,8 @@ struct LabelledPing {
 PingLabels label_bins(const LabelPlan& plan, const Assembly& assembly, const Sonar& sonar,
                       const VisibilityEngine& engine, const TracedPing& traced, double t_s);
 
-/// The same with what the writers make of it. `plan` must outlive the result.
+/// Labels the bins, and finds the masks and seen objects that the writers need. `plan` must outlive
+/// the result.
 LabelledPing label_for_writers(const LabelPlan& plan, const Assembly& assembly, const Sonar& sonar,
                                const VisibilityEngine& engine, const TracedPing& traced,
                                const Ping& ping, double t_s);

@@ -49,7 +49,7 @@ Json describe_build() {
             {"png_encoder", png_encoder()}};
 }
 
-/// The picture of a file of a ping, for people; null if it is none.
+/// Describes the picture of a file of a ping, for people; null if the file is no picture.
 Json describe_picture(const PingFile& file, const Json& pattern) {
     if (file.title.empty() || pattern.is_null()) return nullptr;
     Json json = {{"title", file.title}, {"file", pattern}, {"per", "ping"}};

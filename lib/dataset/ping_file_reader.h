@@ -9,8 +9,8 @@
 
 namespace sonarsim {
 
-/// Reads the files of pings, loose or in packs. The files of one kind in one pack of each sensor
-/// are in memory at a time: read pings in their order.
+/// Reads the files of pings, loose or in packs. For each sensor the files of one kind in one pack
+/// are in memory at a time, so read pings in their order.
 class PingFileReader {
   public:
     /// `layout` must outlive it.

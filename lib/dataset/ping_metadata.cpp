@@ -59,7 +59,7 @@ Json describe_particles(const Assembly& assembly, const FinishedPing& finished, 
         json[assembly.scene.instances[instance]] = {
             {"count", sum.count},
             {"position_m", {place.x(), place.y(), place.z()}},
-            // To a hundredth of a decibel: the sections are floats.
+            // Rounded to a hundredth of a decibel, since the cross-sections are floats.
             {"target_strength_db", std::round(100.0 * db_of_power(sum.section_m2)) / 100.0}};
         if (sum.buried) json[assembly.scene.instances[instance]]["buried"] = true;
     }
@@ -90,7 +90,7 @@ Json describe_ping(const Mission& mission, const Assembly& assembly, const Finis
             describe_pose(assembly.reported[id.pose].T_world_vehicle);
     }
     json["counts"]["multipath"] = json_object<Json>(multipath_counters, counts.multipath);
-    // To three digits: it is an estimate.
+    // Rounded, since it is an estimate.
     if (const double error = finished.ping.estimated_l1; !std::isnan(error))
         json["estimated_error"] = std::round(1e5 * error) / 1e5;
     if (const double missed = finished.ping.missed_multipath; !std::isnan(missed))

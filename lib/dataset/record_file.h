@@ -26,15 +26,16 @@ enum class RecordAccess {
     read,   ///< opens a file that is there
 };
 
-/// Keeps a file open between calls, or not. A process may have few files open, often 1,024, and a
-/// mission thousands of sensors.
+/// Keeps a file open between calls (`yes`) or opens it for each call (`no`). A process may open
+/// only few files, often 1,024, and a mission may have thousands of sensors.
 enum class KeepOpen { yes, no };
-/// If there are more files of a sort (records, packs), none of them stays open.
+/// The most files of a sort (records, packs) that stay open. If there are more, all are opened for
+/// each call.
 inline constexpr std::size_t most_files_kept_open = 64;
 
 /// A NumPy file of equal records, one per ping, that is filled while the mission runs, by any
-/// thread and any process in any order. From the beginning it has its full length, and records that
-/// are not written yet are zero; the file system gives those no room.
+/// thread and any process in any order. The file has its full length from the beginning. Records
+/// that are not written yet are zero and take no space on the disk.
 class RecordFile {
   public:
     /// The data of `format` are `records` records of equal size. std::system_error when the disk
@@ -51,17 +52,17 @@ class RecordFile {
 
     /// std::system_error when the disk does not take it.
     void write(std::size_t record, std::span<const std::byte> bytes) const;
-    /// Fills `bytes` from the beginning of the record on; it may go on into the next ones.
+    /// Fills `bytes` from the beginning of the record on; they may extend over the next records.
     void read(std::size_t record, std::span<std::byte> bytes) const;
     /// The hash of a record's bytes, as hash_of_record().
     std::string hash(std::size_t record) const;
 
-    /// std::runtime_error when the file's name has been removed, or given to another file, since it
-    /// was opened: records that are written are lost then.
+    /// std::runtime_error when the file's name has been removed or given to another file since it
+    /// was opened. Written records are lost then.
     void require_in_place() const;
 
-    /// After the last record. std::system_error when the disk did not take them all: some file
-    /// systems report that only here.
+    /// Closes the file after the last record. std::system_error when the disk did not take all
+    /// records: some file systems report this only here.
     void close();
 
   private:
@@ -79,7 +80,7 @@ class RecordFile {
     std::size_t record_bytes_;
     std::size_t header_bytes_;
     RecordAccess access_;
-    std::uint64_t device_ = 0;  ///< with inode_: which file it was when it was first opened
+    std::uint64_t device_ = 0;  ///< identity, with inode_, of the file that was first opened
     std::uint64_t inode_ = 0;
     int fd_ = -1;  ///< -1 if it is opened for each call
 };

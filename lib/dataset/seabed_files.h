@@ -8,9 +8,9 @@
 
 namespace sonarsim {
 
-// The truth of a bed that was made, next to the pings: OUT/seabed/.
+// The true heights, materials and objects of a generated sea bed: the files in OUT/seabed/.
 
-/// world z of the cells, a GeoTIFF in the mission's x and y, which scene.heightmap reads.
+/// World z of the cells: a GeoTIFF in the mission's x and y, which scene.heightmap reads.
 inline constexpr const char* seabed_heights_name = "seabed/heights.tif";
 /// The material of each cell, a grey PNG of 8 bits with the index of the material, and its world
 /// file.

@@ -7,13 +7,13 @@
 
 namespace sonarsim {
 
-/// The share of the bins with multipath that a ping has to find.
+/// The least share of the bins with multipath that a ping must find.
 inline constexpr double least_found_multipath = 0.95;
 
 /// Sums over pings of one sonar.
 struct SensorSummary {
     std::uint64_t pings = 0;
-    std::uint64_t dark_pings = 0;  ///< pings without a bin that saw surface
+    std::uint64_t dark_pings = 0;  ///< pings without an occupied bin
     PingCounts counts;
     std::uint64_t clipped_pixels = 0;  ///< intensities above full_scale, if files were written
     std::uint64_t missed_goals = 0;    ///< pings whose estimated error is above the goal

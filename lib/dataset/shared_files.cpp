@@ -15,7 +15,7 @@ namespace sonarsim {
 
 namespace {
 
-/// The numbers of the poses of a part, as the names of their files have them, a line each.
+/// The pose numbers of a part of the split, one per line, as in the names of ping files.
 std::string pose_list(const Layout& layout, SplitPart part,
                       const std::vector<SplitPart>& part_of_pose) {
     std::string text;
@@ -25,7 +25,7 @@ std::string pose_list(const Layout& layout, SplitPart part,
     return text;
 }
 
-/// The names of the classes, a line each: those of the classes 0, 1, ... of YOLO.
+/// The names of the classes, one per line; YOLO numbers them 0, 1, ...
 std::string class_list(const nlohmann::ordered_json& description) {
     std::string text;
     for (const auto& one : description.at("labels").at("classes"))

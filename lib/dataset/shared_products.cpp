@@ -45,8 +45,8 @@ void add_coco(const Mission& mission, CocoPicture picture, std::vector<SharedPro
     }
 }
 
-/// True for `labels: true`, which asks for the labels that the sensors can have; a list asks for
-/// each of its labels.
+/// True for `labels: true`, which asks only for the labels that the sensors can have. A list asks
+/// for each of its labels, so that one without a picture is an error.
 bool asks_for_all(const Mission& mission) {
     return mission.output.labels.size() == static_cast<std::size_t>(Label::yolo_polygons) + 1;
 }

@@ -17,15 +17,16 @@ enum class CocoPicture {
     scan,    ///< sweeps of a scanning sonar
 };
 
-/// A file of the dataset: made of the pings of all sonars once all of them are rendered, or
-/// initial.
+/// A file of the dataset that belongs to no single sonar. Most are made from the pings of all
+/// sonars, once all of these are rendered; files of the kind `initial` are written before the first
+/// ping.
 struct SharedProduct {
     enum class Kind {
         coco,
         class_names,
         split,
         statistics,
-        initial,  ///< is there from the beginning: the truth of a bed, reported poses
+        initial,  ///< written first: files of a generated sea bed, reported poses
     };
     Kind kind;
     std::string file;                  ///< relative to the folder of the dataset
@@ -43,8 +44,8 @@ std::string coco_file(CocoPicture picture, const std::string& part = "");
 /// The shared products that a mission asks for.
 std::vector<SharedProduct> shared_products(const Mission& mission);
 
-/// InputError when the mission asks for labels of pictures and writes no such picture, or for a
-/// split of fewer poses than it takes.
+/// InputError when the mission asks for labels of pictures and writes no such picture, or when a
+/// part of the split would get no pose.
 void check_shared_products(const Mission& mission, std::size_t poses);
 
 }  // namespace sonarsim

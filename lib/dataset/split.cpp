@@ -29,7 +29,7 @@ std::vector<SplitPart> parts_of(const SplitConfig& config) {
 
 namespace {
 
-/// Splits `poses` things. A part may get none.
+/// Splits `poses` poses or variants. A part may get none.
 std::vector<SplitPart> split(const SplitConfig& config, std::size_t poses) {
     const std::vector<SplitPart> parts = parts_of(config);
     std::vector<SplitPart> of_pose(poses, SplitPart::none);

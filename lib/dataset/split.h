@@ -23,12 +23,12 @@ std::string split_file_of(std::string_view part);
 /// The share of a part.
 double share_of(const SplitConfig& config, SplitPart part);
 
-/// The parts of a split that is on, those with a share.
+/// The parts that have a share, of a split that is on.
 std::vector<SplitPart> parts_of(const SplitConfig& config);
 
-/// The part of each pose. Each of the rounds, stretches of equal length, is cut into train, val and
-/// test in this order; the poses of the gap about a border belong to none, so that no two parts
-/// have neighbours. InputError when a part would get no pose.
+/// The part of each pose. The trajectory is divided into rounds of equal length, and each round
+/// into train, val and test in this order. The poses of the gap about a border belong to no part,
+/// so that no two parts have neighbouring poses. InputError when a part would get no pose.
 std::vector<SplitPart> split_poses(const SplitConfig& config, std::size_t poses);
 
 /// The part of each variant, as split_poses() but without gaps, since variants have no neighbours.

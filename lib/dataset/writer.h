@@ -46,14 +46,14 @@ struct FinishedPing {
     const Sonar& sonar;  ///< as it was for this ping
     const TracedPing& traced;
     const Ping& ping;
-    const nlohmann::ordered_json& measured;  ///< for its metadata; null for none
+    const nlohmann::ordered_json& measured;  ///< for the metadata of the ping; null for none
     std::uint64_t clipped_pixels;            ///< intensities above full_scale
     const LabelledPing* labels = nullptr;    ///< null if output.labels asks for none
 };
 
 /// The meaning of the rows and columns of a file of a ping.
 enum class PingArray {
-    none,  ///< it has none, or they are of its own
+    none,  ///< no rows and columns, or of another meaning
     bins,  ///< [range, azimuth], the bins of the ping
     fan,   ///< [row, column], the pixels of the fan
 };
@@ -63,8 +63,8 @@ struct PingFile {
     std::string name;       ///< name of the folder
     std::string extension;  ///< with the dot
     PingArray array = PingArray::none;
-    std::string ids = {};    ///< its values are ids of this list of `labels` in dataset.json
-    std::string title = {};  ///< title of a picture for people; "": it is none
+    std::string ids = {};    ///< list of `labels` in dataset.json whose ids the values are
+    std::string title = {};  ///< title of a picture for people; "": no picture
 };
 
 /// A record per ping, in one file for all pings of the sensor.
@@ -76,8 +76,8 @@ struct PingRecord {  // NOLINT(bugprone-exception-escape): moving JSON throws no
     std::string ids = {};         ///< as in PingFile
 };
 
-// Labels of records that annotations alone need: the shadow of the objects that are no background,
-// and the visible share of the object of a bin, 65535 for all of it.
+// Labels of records that only annotations need: the shadow of the objects that are not background,
+// and the visible share of the object of a bin, where 65535 means all of the object.
 inline constexpr const char* object_shadow_record = "object_shadow";
 inline constexpr const char* visible_share_record = "visible_share";
 
@@ -97,8 +97,8 @@ struct WriterOutputs {
 /// The outputs of a writer that leaves a record of `bytes` per ping in `file`.
 WriterOutputs record_outputs(std::string file, NpyFormat format, nlohmann::ordered_json axes,
                              double bytes);
-/// The outputs of a writer of records in the shape of the sonar's kind, in STEM.npy: numbers of
-/// this NumPy type and size.
+/// The outputs of a writer of records in the shape of the sonar's kind, in STEM.npy. `type` is the
+/// NumPy type of the numbers.
 WriterOutputs record_outputs(const WriterContext& context, const std::string& stem,
                              const char* type, int bytes_of_number, std::string label = {});
 
@@ -122,9 +122,9 @@ inline std::string record_bytes(const PingNumbers& numbers) {
     return std::visit([](const auto& values) { return record_bytes(values); }, numbers.values);
 }
 
-/// One output format of one sensor. Writers are immutable: any number of threads may encode at a
-/// time. A resume finds by the journal what is there: by the size of each file and the hash of each
-/// record. It makes products again unless all of them are there.
+/// One output format of one sensor. Writers are immutable, so any number of threads may encode at a
+/// time. A resumed run finds the finished pings by the journal, which has the size of each file and
+/// the hash of each record. It makes products again unless all of them exist.
 class Writer {
   public:
     virtual ~Writer() = default;

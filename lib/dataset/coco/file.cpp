@@ -17,7 +17,7 @@ std::string line_of(const Json& item) {
     return item.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// A number without digits that say nothing; null for none.
+/// Rounds a value to a multiple of 1 / `per_unit`; null for none.
 Json rounded(const std::optional<double>& value, double per_unit) {
     if (!value) return nullptr;
     return std::round(*value * per_unit) / per_unit;

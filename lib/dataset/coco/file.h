@@ -56,8 +56,8 @@ struct CocoAnnotation {
 };
 nlohmann::ordered_json annotation_json(const CocoAnnotation& annotation);
 
-/// Applies the rules to an annotation whose box is that of the object: sets its box and whether it
-/// is a crowd. False: the picture does not annotate the object.
+/// Applies the rules to an annotation whose box is the box of the object: sets the annotation's box
+/// and whether it is a crowd. False if the picture does not annotate the object.
 bool apply_rules(const LabelConfig& rules, bool is_background, CocoAnnotation& annotation);
 
 /// The annotation of a mask in a picture of this size, px, without its ids and its category.

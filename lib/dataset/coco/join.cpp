@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view json_end = ".json";
 
-/// The files of the members, each as the index of the member and its name, by the joined file.
+/// The members' files that make each joined file: pairs of the index of a member and a file name.
 using JoinedFiles = std::map<std::string, std::vector<std::pair<std::size_t, std::string>>>;
 
 JoinedFiles joined_files(std::span<const CocoMember> members) {
@@ -43,7 +43,7 @@ Json with(const CheckedJson& item, const Json& changed) {
     return copy;
 }
 
-/// The image of a member in the folder of all.
+/// The image of a member, with its id and its path in the joined file.
 Json joined_image(const CheckedJson& image, const CocoMember& member, std::uint64_t offset) {
     const CheckedJson name = image.at("file_name");
     if (!is_inner_path(name.text())) name.refuse("the path of a file in the dataset");
@@ -91,8 +91,8 @@ CocoMember coco_member(const DatasetFile& dataset, const std::string& folder, Sp
     for (const std::string& file : dataset.products) {
         if (std::ranges::find(known, file) != known.end()) member.files.push_back(file);
     }
-    // As write_coco(), write_record_coco() and write_scan_coco() count. A record has room for the
-    // ids of as many annotations as it may have.
+    // Count ids as write_coco(), write_record_coco() and write_scan_coco() do. A picture of records
+    // needs ids for as many annotations as it may have.
     member.image_ids = 2 + 2 * dataset.sensors.size();
     const auto& sensors = dataset.json.at("sensors");
     for (std::size_t i = 0; i < dataset.sensors.size(); ++i) {

@@ -189,7 +189,7 @@ void write_coco(const Layout& layout, const Json& description,
     }
     PingFileReader reader(layout);
     for_each_ping(layout, part_of_pose.size(), [&](const PingId& ping, std::uint64_t index) {
-        Json objects;  // read once for all files, which takes most of the time
+        Json objects;  // reading takes most of the time, so it is done once for all files
         for (OpenCoco& one : all) {
             if (!one.lists(ping, part_of_pose)) continue;
             const PictureSeries& shown = *one.series[ping.sensor];

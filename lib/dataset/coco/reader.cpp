@@ -19,7 +19,7 @@ void read_coco(const std::filesystem::path& file, std::string_view list,
                const std::function<void(const CheckedJson& item)>& visit) {
     std::ifstream in(file, std::ios::binary);
     if (!in) throw InputError({file.string()}, "cannot be opened");
-    // Not initialised: most lines need a small part of it.
+    // Not initialised, since most lines fill only a small part of the buffer.
     const auto buffer = std::make_unique_for_overwrite<char[]>(longest_line);
     const std::string begins = "\"" + std::string(list) + "\": [";
     bool is_inside = false;

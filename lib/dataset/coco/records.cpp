@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// An object that no ping shows for longer than this begins another pass.
+/// An object that no ping shows for more pings than this begins another pass.
 constexpr std::size_t most_unseen = 32;
 
 constexpr std::size_t most_passes = 65536;  // numbers of 16 bits
@@ -74,10 +74,10 @@ std::vector<double> ranges_of(const RecordPicture& picture, const Json& describe
     return range_m;
 }
 
-/// An object on its way past the sonar, on one side.
+/// The present pass of an object by the sonar, on one side.
 struct Passing {
-    std::uint16_t number = 0;  ///< number of its present pass
-    std::size_t last = 0;      ///< ping that saw it
+    std::uint16_t number = 0;  ///< number of the pass
+    std::size_t last = 0;      ///< last ping that saw the object
 };
 
 struct Pass {
@@ -85,8 +85,8 @@ struct Pass {
     BinBox box;  ///< its bins; lines are pings
 };
 
-/// The passes of a picture by numbers from 1 on, in the order of object_masks(). Where a row stands
-/// for several pings, the first of them that shows an object counts.
+/// The passes of a picture, numbered from 1 on. `of_pixel` has the order of object_masks(). Where a
+/// row stands for several pings, it holds the pass of the first ping that shows an object.
 struct Passes {
     std::vector<std::uint16_t> of_pixel;
     std::vector<Pass> list{{}};  ///< indexed by the number of a pass
@@ -122,10 +122,10 @@ Passes passes_of(const RecordPicture& picture, const AnnotationRecords& records)
     return out;
 }
 
-/// The facts of an object while it passes.
+/// The facts of an object in one pass.
 SeenFacts facts_of(const RecordPicture& picture, const AnnotationRecords& records, const Pass& pass,
                    std::span<const double> range_m, std::span<const std::uint8_t> is_background) {
-    // The beginning of a longer pass stands for all of it.
+    // The beginning of a longer pass represents the whole pass.
     constexpr int most_pings = 1024;
     const int pings = std::min(pass.box.last_line - pass.box.first_line + 1, most_pings);
     const int margin = std::max(pings, 2);

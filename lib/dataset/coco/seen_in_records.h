@@ -14,7 +14,7 @@
 
 namespace sonarsim {
 
-/// The values of successive pings that annotations are made of, [lines, bins].
+/// The values of successive pings from which annotations are made, [lines, bins].
 struct RecordValues {
     int lines = 0, bins = 0;
     std::vector<std::uint16_t> object, shadow;
@@ -24,8 +24,8 @@ struct RecordValues {
     void resize(int new_lines, int new_bins);
 };
 
-/// The files of these values of a sensor. Records of shadows and visible shares may be missing:
-/// then nothing is known of them.
+/// The files of these values of a sensor. Records of shadows and visible shares may be missing;
+/// then these facts stay unknown.
 class AnnotationRecords {
   public:
     AnnotationRecords(const Layout& layout, std::size_t sensor);
@@ -43,12 +43,12 @@ class AnnotationRecords {
     std::optional<RecordFile> object_, shadow_, visible_share_, level_;
 };
 
-/// 1 for the ids of instances that are background, indexed by id. `labels` is that of dataset.json.
+/// For each id of an instance: 1 if it is background. `labels` is that of dataset.json.
 std::vector<std::uint8_t> background_ids(const nlohmann::ordered_json& labels,
                                          const AnnotationRules& rules);
 
-/// The facts of an object by the values in `box`: its mean range, visible share and contrast, by
-/// the range of each bin, m; and the contrast of its shadow in `shadow`.
+/// The facts of an object from the values in `box`: its mean range, visible share and contrast, and
+/// the contrast of its shadow in `shadow`. `range_m` is the range of each bin.
 SeenFacts seen_in_records(const RecordValues& values, std::uint16_t id, const BinBox& box,
                           const BinBox& shadow, std::span<const double> range_m,
                           std::span<const std::uint8_t> is_background);

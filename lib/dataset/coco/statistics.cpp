@@ -77,7 +77,7 @@ void add_annotation(const CheckedJson& annotation, const std::string& member, Cl
     }
 }
 
-/// Adds a COCO file to every one of `counts`.
+/// Adds a COCO file to each of `counts`.
 void add_coco(const fs::path& file, bool joined, const std::vector<PictureCount*>& counts) {
     std::map<std::uint64_t, std::string> classes;
     read_coco(file, "categories", [&](const CheckedJson& category) {
@@ -86,7 +86,7 @@ void add_coco(const fs::path& file, bool joined, const std::vector<PictureCount*
         for (PictureCount* count : counts)
             count->class_named(name);
     });
-    std::map<std::uint64_t, std::string> members;  // the folders of datasets by the ids of images
+    std::map<std::uint64_t, std::string> members;  // folders of datasets by the id of an image
     read_coco(file, "images", [&](const CheckedJson& image) {
         const std::string name = image.at("file_name").text();
         members[image.at("id").whole(1, largest_count)] =

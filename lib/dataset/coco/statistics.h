@@ -18,18 +18,19 @@ namespace sonarsim {
 struct StatisticsAxis {
     const char* key;    ///< in the annotation and in the file: "range_m"
     const char* title;  ///< for people: "range, m"
-    /// count 0 is of the values below edge 0, count k of those from edge k - 1 on and below edge k,
-    /// the last of those from the last edge on.
+    /// Count 0 is for values below edge 0, count k for values from edge k - 1 on and below edge k,
+    /// and the last count for values from the last edge on.
     std::span<const double> edges;
 };
 inline constexpr std::size_t statistics_axes = 4;
 const std::array<StatisticsAxis, statistics_axes>& all_statistics_axes();
 
-/// The annotations of a class. Those that a network must ignore (`iscrowd`) count as such only.
+/// The annotations of a class. Annotations that a network must ignore (`iscrowd`) count only as
+/// ignored.
 struct ClassTally {
     std::string name;
-    std::uint64_t objects = 0;   ///< different ones that some picture shows
-    std::uint64_t pictures = 0;  ///< that show one
+    std::uint64_t objects = 0;   ///< number of different objects in the pictures
+    std::uint64_t pictures = 0;  ///< number of pictures with an object of the class
     std::uint64_t annotations = 0;
     std::uint64_t ignored = 0;
     std::array<std::vector<std::uint64_t>, statistics_axes> histograms;
@@ -51,9 +52,9 @@ struct DatasetStatistics {
 nlohmann::ordered_json tally_json(const PictureTally& tally);
 
 /// Counts the annotations of the COCO files ("labels/coco.json") in a folder, and writes
-/// statistics.json. Objects of pictures in different folders `member/...` are different if
-/// `joined`. The same COCO files give the same bytes. InputError, with the line, when a COCO file
-/// is damaged.
+/// statistics.json. If `joined`, a picture's path begins with the folder of its dataset, and equal
+/// ids in different folders are different objects. The same COCO files give the same bytes.
+/// InputError, with the line, when a COCO file is damaged.
 void write_statistics(const std::filesystem::path& folder, std::span<const std::string> coco_files,
                       bool joined);
 

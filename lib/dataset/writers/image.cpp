@@ -6,7 +6,7 @@ namespace sonarsim {
 
 namespace {
 
-/// image/NNNNNN.png: 16 bits [range, azimuth], 65535 intensity / full_scale.
+/// image/NNNNNN.png: 16 bits [range, azimuth], 65535 * intensity / full_scale.
 class ImageWriter final : public Writer {
   public:
     explicit ImageWriter(const WriterContext& context)
@@ -20,7 +20,7 @@ class ImageWriter final : public Writer {
             {}};
     }
 
-    /// Rows and columns are those of polar/; a fan has ahead up and port on the left.
+    /// The picture has the rows and columns of polar/. A fan has ahead up and port on the left.
     void describe(nlohmann::ordered_json& sensor) const override {
         sensor["image"] = {{"axes", {"range", "azimuth"}},
                            {"first_row", "nearest range"},

@@ -29,7 +29,7 @@ bool is_blank(const float*, std::size_t, std::size_t, std::size_t, std::size_t) 
     return false;
 }
 
-/// From [beams, range bins] to [range bins, beams], in tiles that fit the first cache.
+/// Transposes [beams, range bins] to [range bins, beams], in tiles that fit into the L1 cache.
 template <class T>
 std::vector<T> rows_of_range(const std::vector<T>& by_beam, const PingLabels& labels) {
     if (labels.beams == 1) return by_beam;
@@ -122,8 +122,8 @@ constexpr LabelFile label_files[] = {
     {Label::multipath_only, "multipath_only", {}, {}, &multipath_alone},
 };
 
-/// Records of sonars without images, of which their COCO files are made next to those of the
-/// instances.
+/// Records of sonars without images. Their COCO files are made from these records and from the
+/// records of instances.
 constexpr LabelFile annotation_records[] = {
     {Label::coco, object_shadow_record, ids<&PingLabels::object_shadow>, {}, {}, "instances"},
     {Label::coco, visible_share_record, visible_shares},

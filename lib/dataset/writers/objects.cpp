@@ -22,7 +22,7 @@ Json seen_box_json(const Eigen::AlignedBox3f& box) {
     return {{"min", corner(box.min())}, {"max", corner(box.max())}};
 }
 
-/// The box around all of an object along the axes of a frame, as the sensor has it before it.
+/// The box around a whole object along the axes of a frame, placed in the sensor's frame.
 Json placed_box_json(const Eigen::AlignedBox3d& box, const Pose& T_world_frame,
                      const Pose& T_world_sensor) {
     if (box.isEmpty()) return nullptr;

@@ -60,8 +60,8 @@ std::vector<float> as_floats(const std::vector<double>& values) {
     return floats;
 }
 
-/// polar/NNNNNN.exr: the intensities as the channel Y, and in layers of their own, as in
-/// "instance.Y", the files of the ping that have the same rows and columns: raw and labels.
+/// polar/NNNNNN.exr: the intensities as the channel Y. The files of the ping that have the same
+/// rows and columns, raw and labels, are layers such as "instance.Y".
 ///
 /// It is not compressed: ZIP takes 52 to 83 ms a ping instead of less than 1, more than most pings
 /// take to simulate, and speckle hardly compresses.

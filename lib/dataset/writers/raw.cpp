@@ -15,7 +15,7 @@ namespace {
 
 using Numbers = std::vector<std::uint16_t>;
 
-/// Numbers of at most 8 bits in bytes.
+/// Converts values of at most 8 bits to bytes.
 std::vector<std::uint8_t> as_bytes(std::span<const std::uint16_t> values) {
     std::vector<std::uint8_t> bytes(values.size());
     std::ranges::transform(values, bytes.begin(),
@@ -23,7 +23,7 @@ std::vector<std::uint8_t> as_bytes(std::span<const std::uint16_t> values) {
     return bytes;
 }
 
-/// The bytes of a number of the instrument in a file.
+/// Bytes of one of the instrument's values in a file.
 int bytes_of(const EchoModel& model) {
     return model.raw_bits() > 8 ? 2 : 1;
 }
@@ -64,8 +64,8 @@ class RawWriter final : public Writer {
 };
 
 /// raw.npy: 8 or 16 bits, the output of the calibrated model's instrument, in the shape of the
-/// sonar's other records; raw.png is the same as a picture, of a scanning sonar raw_0000.png and so
-/// on, [range, step], a picture for every sweep. Numbers of an instrument have no mean: where
+/// sonar's other records. raw.png is the same as a picture; a scanning sonar has a picture [range,
+/// step] for each sweep, raw_0000.png and so on. Values of an instrument have no mean: where
 /// several pings share a row of the picture, it shows the first of them.
 class RawRecordsWriter final : public Writer {
   public:

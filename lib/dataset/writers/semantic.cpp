@@ -15,7 +15,7 @@ using Indices = std::vector<std::uint8_t>;
 
 class SemanticWriter final : public Writer {
   public:
-    /// With the width and height of the picture.
+    /// `width` and `height` are those of the picture, px.
     SemanticWriter(const WriterContext& context, bool of_fan, int width, int height)
         : of_fan_(of_fan), width_(width), height_(height) {
         for (std::uint32_t id = 0; id <= context.assembly.objects.classes.size(); ++id)

@@ -21,7 +21,7 @@ namespace sonarsim {
 
 namespace {
 
-/// The soundings of a sensor, and when its pings were.
+/// The soundings of a sensor, and the times of its pings.
 struct SoundingSource {
     const RecordFile& records;
     std::size_t beams;
@@ -44,7 +44,7 @@ struct RecordedSounding {
     std::optional<Eigen::Vector3d> true_position;
 };
 
-/// Every sounding, ping by ping and beam by beam; dark beams are left out.
+/// Calls `visit` for every sounding, ping by ping and beam by beam; beams without one are left out.
 void for_each_sounding(const SoundingSource& source,
                        const std::function<void(const RecordedSounding&)>& visit) {
     std::vector<double> fields(source.beams * source.fields);
@@ -135,7 +135,7 @@ void write_bathymetry(const SoundingSource& source, double cell_m,
     for_each_sounding(source, [&](const RecordedSounding& s) {
         if (good_for_map(s)) grid.add(s.position);
     });
-    // A TIFF has a pixel at least; without soundings it is NaN.
+    // A TIFF has at least one pixel; without soundings it is NaN.
     std::vector<float> z = grid.mean_z();
     if (z.empty()) z.push_back(std::nanf(""));
     const int columns = std::max(grid.columns, 1);
@@ -147,16 +147,16 @@ void write_bathymetry(const SoundingSource& source, double cell_m,
     write_picture(folder / "bathymetry.png", picture.pixels, picture.width);
 }
 
-/// soundings.npy: float64 [ping, beam, 5]: range, x, y, z, quality, NaN for none, and the true x, y
-/// and z where sound bends; soundings.csv and .ply without the beams that saw nothing; the map of
-/// them in bathymetry.tif, .json and .png.
+/// soundings.npy: float64 [ping, beam, 5]: range, x, y, z and quality, NaN without a sounding;
+/// where sound bends [ping, beam, 8] with the true x, y and z. soundings.csv and .ply hold the
+/// beams with a sounding; bathymetry.tif, .json and .png hold the map of the soundings.
 class SoundingsWriter final : public Writer {
   public:
     explicit SoundingsWriter(const WriterContext& context) : context_(context) {}
 
     WriterOutputs outputs() const override {
         const double soundings = static_cast<double>(beams()) * static_cast<double>(context_.pings);
-        // A cell of its own choice holds four soundings on average, before it is rounded up.
+        // An automatic cell size gives four soundings per cell on average, before it is rounded up.
         const bool own_cell = context_.mission.output.bathymetry_cell_m == 0.0;
         const double cells = own_cell ? 1.0 + soundings / 4.0 : most_map_cells;
         constexpr double csv_line = 160.0;

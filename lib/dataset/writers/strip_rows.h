@@ -7,7 +7,7 @@
 
 namespace sonarsim {
 
-/// Visits the rows of a strip from the top: its pings, or, in an upright strip, each of their
+/// Visits the rows of a strip from the top. A row is a ping or, in an upright strip, one of the
 /// values over all pings. `read` returns the values of ping k; an upright strip reads each ping
 /// again for every block of values that fits into memory.
 template <class T, class Read, class Visit>

@@ -80,7 +80,7 @@ void write_xtf(const WriterContext& context, const RecordFile& rows,
     file.finish();
 }
 
-/// Wide enough that neighbouring pings and bins leave no cell between them empty.
+/// The automatic cell size: neighbouring pings and bins leave no cell between them empty.
 double own_cell_m(const WriterContext& context) {
     const Trajectory& trajectory = context.assembly.trajectory;
     double way_m = 0.0;
@@ -106,7 +106,7 @@ void write_mosaic(const WriterContext& context, const RecordFile& rows,
     for_each_row(context, rows, [&](const RecordedRow& row) {
         if (row.swath) rasterize(*row.swath, bin_m, row.values, map);
     });
-    // A TIFF has a pixel at least; where no ping shows the bottom it is NaN.
+    // A TIFF has at least one pixel; where no ping shows the bottom it is NaN.
     std::vector<float> echoes = map.mean_z();
     if (echoes.empty()) echoes.push_back(std::nanf(""));
     write_geotiff(folder / "mosaic.tif", echoes, std::max(map.columns, 1),

@@ -8,7 +8,7 @@
 
 namespace sonarsim {
 
-/// The files of a side-scan sonar for the tools of the trade: waterfall.xtf, and mosaic.tif with
+/// The files of a side-scan sonar for other programs: waterfall.xtf, and mosaic.tif with
 /// mosaic.json. Files that the mission does not ask for are left out.
 std::vector<Product> swath_products(const WriterContext& context);
 

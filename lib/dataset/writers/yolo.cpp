@@ -11,7 +11,7 @@ namespace sonarsim {
 
 namespace {
 
-/// " 0.123456": `pixels` of `all`.
+/// Appends `pixels` / `all`, such as " 0.123456".
 void append_share(std::string& line, double pixels, int all) {
     fmt::format_to(std::back_inserter(line), " {:.6f}", pixels / all);
 }
@@ -35,7 +35,7 @@ class YoloWriter final : public Writer {
         const std::string name = polygons_ ? "yolo_polygons" : "yolo";
         const double pixels = static_cast<double>(picture_.width) * picture_.height;
         const double lines = std::min(static_cast<double>(objects_.objects.size()), pixels);
-        // An outline has at most two corners to a pixel; those of real objects have far fewer.
+        // An outline has at most two corners per pixel; outlines of real objects have far fewer.
         const double bytes = 50.0 * lines + (polygons_ ? pixels : 0.0);
         return {PingFile{picture_.is_fan ? "fan_" + name : name, ".txt"}, bytes, {}};
     }
