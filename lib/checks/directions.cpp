@@ -10,11 +10,11 @@ namespace sonarsim {
 namespace {
 
 constexpr int all_around = 1000;
-// In the field of view.
+// Within the field of view.
 constexpr int across = 17;
 constexpr int up_and_down = 5;
 
-/// The i-th of n parts of an angle about 0, in its middle.
+/// The middle of the i-th of n equal parts of an angle that is centred on 0.
 double part(double whole, int i, int n) {
     return whole * ((i + 0.5) / n - 0.5);
 }
@@ -23,7 +23,8 @@ double part(double whole, int i, int n) {
 
 std::vector<Eigen::Vector3f> look_around(const View& view) {
     std::vector<Eigen::Vector3f> out;
-    // Equal parts of height are equal parts of the sphere; the golden angle spreads them about it.
+    // Equal steps of height are equal areas of the sphere; the golden angle spreads them in
+    // azimuth.
     const double golden = pi * (3.0 - std::sqrt(5.0));
     for (int i = 0; i < all_around; ++i)
         out.push_back(direction_of(golden * i, std::asin(part(2.0, i, all_around))).cast<float>());

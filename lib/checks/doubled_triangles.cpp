@@ -13,12 +13,12 @@ namespace {
 
 using Corners = std::array<std::array<float, 3>, 3>;
 
-/// In an order that does not depend on the one in which the file has them.
+/// The corners of a triangle in an order that does not depend on their order in the file.
 Corners sorted_corners(const Scene& scene, std::size_t triangle) {
     Corners corners;
     for (std::size_t k = 0; k < 3; ++k) {
         const Eigen::Vector3f& at = scene.vertices[scene.triangles[triangle][k]];
-        // 0 is added since -0 is the same place.
+        // Adding 0 turns -0 into 0, which is the same place.
         corners[k] = {at.x() + 0.0F, at.y() + 0.0F, at.z() + 0.0F};
     }
     std::ranges::sort(corners);

@@ -7,16 +7,16 @@
 
 namespace sonarsim {
 
-/// Triangles that stand in two instances at once, with the very same corners.
+/// Pairs of triangles of two instances that have exactly the same corners.
 struct DoubledTriangles {
     std::size_t count = 0;
-    /// The two that have the most of them in common; indices into Scene::instances.
+    /// The two instances that share most of these triangles; indices into Scene::instances.
     std::uint32_t one = 0, other = 0;
     std::size_t between_them = 0;
 };
 
-/// Looks for them among the scene's own triangles, in time that grows with their number. Bodies
-/// that move and copies of shared meshes are left out.
+/// Searches the scene's own triangles by sorting them. Bodies that move and copies of shared meshes
+/// are left out.
 DoubledTriangles find_doubled(const Scene& scene);
 
 }  // namespace sonarsim

@@ -12,36 +12,36 @@
 
 namespace sonarsim {
 
-/// Everything that may be wrong with a valid mission. `sonars` are by Mission::sensors; `rays`
-/// casts into the scene.
+/// All warnings about a valid mission. `sonars` are by Mission::sensors; `rays` casts into the
+/// scene.
 std::vector<Warning> find_warnings(const Mission& mission, const Assembly& assembly,
                                    std::span<const SonarSurvey> sonars,
                                    const VisibilityEngine& rays);
 
-/// The part of it that needs no ping: what reading the scene found, water, materials, angles and
+/// The warnings that need no ping: what reading the scene found, water, materials, angles and
 /// heights of the mission, engine and fans.
 std::vector<Warning> warnings_before_pings(const Mission& mission, const Assembly& assembly);
 
 /// W01: the findings of reading the scene.
 std::vector<Warning> reading_warnings(const Scene& scene);
 
-/// The size of the scene, which way up it is, and parts that are in it twice.
+/// Warnings about the size of the scene, its upward axis, and parts that it has twice.
 std::vector<Warning> scene_warnings(const Mission& mission, const Assembly& assembly,
                                     std::span<const SonarSurvey> sonars);
 
-/// Water and materials that no water and no solid has.
+/// Water and materials with values that no real water or solid has.
 std::vector<Warning> material_warnings(const WaterConfig& water, const Scene& scene);
 
-/// Values that hardly fit the rest of the mission: angles of sonars and objects that look like
-/// radians, unused heights, a depth far from the vehicle's.
+/// Values of the mission that hardly fit the rest of it: angles of sonars and objects that look
+/// like radians, unused heights, a depth far from the vehicle's.
 std::vector<Warning> mission_warnings(const Mission& mission, const Trajectory& trajectory);
 
-/// Attitudes: angles that look like radians, quaternions that look like w x y z.
+/// Attitudes: angles that look like radians, quaternions that look like w, x, y, z.
 std::vector<Warning> trajectory_warnings(const TrajectoryConfig& config,
                                          const Trajectory& trajectory);
 
-/// A sonar in a survey: blind pings and why they are, echoes below the noise, pictures that are
-/// white or black.
+/// Warnings about a sonar in a survey: blind pings and the reasons, echoes below the noise,
+/// pictures that are white or black.
 std::vector<Warning> sonar_warnings(const OutputConfig& output, const Sonar& sonar,
                                     double full_scale, const SonarSurvey& found);
 
@@ -50,8 +50,8 @@ std::vector<Warning> sonar_warnings(const OutputConfig& output, const Sonar& son
 std::vector<Warning> image_warnings(const Mission& mission, const Assembly& assembly,
                                     std::span<const SensorSummary> sensors);
 
-/// Objects that the mission places or gives a class, and that no sonar sees. One that the survey
-/// did not meet is looked for in the pings that have it in view.
+/// Objects that the mission places or gives a class, and that no sonar sees. An object that the
+/// survey did not see is looked for in pings that have it in view.
 std::vector<Warning> unseen_objects(const Mission& mission, const Assembly& assembly,
                                     std::span<const SonarSurvey> sonars,
                                     const VisibilityEngine& rays);
@@ -67,7 +67,7 @@ void ask_for_units(const Mission& mission, const Scene& scene, std::vector<Warni
 /// An estimate of the memory of one ping of a sonar.
 struct PingMemory {
     double bytes = 0.0;
-    std::string_view key;  ///< the key of the sensor that would reduce it most
+    std::string_view key;  ///< the key of the sensor that would reduce the memory most
 };
 PingMemory ping_memory(const Sonar& sonar);
 
@@ -84,7 +84,7 @@ std::vector<Warning> disk_warnings(const std::string& folder, double bytes, doub
 /// W27 for a split with a part that gets none of the variants.
 std::vector<Warning> split_warnings(const SplitConfig& config, std::size_t variants);
 
-/// W33 with the classes that hardly any picture of a dataset shows.
+/// W33 with the classes that very few pictures of a dataset show.
 std::vector<Warning> class_warnings(const PictureTally& tally);
 
 }  // namespace sonarsim

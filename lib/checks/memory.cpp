@@ -6,9 +6,9 @@ namespace sonarsim {
 
 namespace {
 
-// An estimate, not a measurement: surface in every bin, at the default error goal of 1 %.
+// An estimate, not a measurement: surface in every bin, at an error goal of 1 %.
 constexpr double samples_per_bin = 4.0;
-// An estimate too: the image, all labels and the encoded files.
+// Also an estimate: the image, all labels and the encoded files.
 constexpr double bytes_per_bin = 64.0;
 
 }  // namespace

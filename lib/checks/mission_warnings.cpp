@@ -12,8 +12,8 @@ namespace sonarsim {
 
 namespace {
 
-/// The degrees that an angle means if it was typed in radians: a multiple of 90 to 0.1 %, or one of
-/// 5 to 0.05 % if it has three decimals or more. 0 if it was not.
+/// The degrees of an angle that was probably typed in radians: a multiple of 90 to 0.1 %, or a
+/// multiple of 5 to 0.05 % if it has three decimals or more. 0 for any other angle.
 double meant_degrees(double value) {
     constexpr double full_turn_rad = 2.0 * pi;
     const double angle = std::fabs(value);
@@ -26,7 +26,7 @@ double meant_degrees(double value) {
     return off < 5e-4 && !two_decimals ? meant : 0.0;
 }
 
-/// W22 for a key whose angles are all 0 or look like radians.
+/// W22 for a key if all of its angles that are not 0 look like radians.
 void judge_angles(const std::string& about, const char* key, std::span<const double> angles_deg,
                   std::vector<Warning>& out) {
     double typed = 0.0;
@@ -55,7 +55,7 @@ std::string name_of(const ObjectConfig& object) {
            printable(object.name.empty() ? object.file.filename().string() : object.name) + "'";
 }
 
-/// The height of an object on the bottom is not used.
+/// Warns of a height of an object on the bottom, since it is not used.
 void judge_height(const ObjectConfig& object, std::vector<Warning>& out) {
     const double z_m = object.position_m[2];
     if (object.place_on != ObjectPlace::on_bottom || z_m == 0.0) return;
@@ -72,7 +72,8 @@ bool has_calibrated(const Mission& mission) {
     });
 }
 
-/// The paper's model has no echo of the water.
+/// Warns of water that scatters if all sonars use the paper's model, which has no echo of the
+/// water.
 void judge_water(const Mission& mission, std::vector<Warning>& out) {
     if (!scatters(mission.water) || has_calibrated(mission)) return;
     out.push_back(make_warning(WarningCode::reading, "water",
@@ -80,9 +81,9 @@ void judge_water(const Mission& mission, std::vector<Warning>& out) {
                                "calibrated: set sensors.NAME.model"));
 }
 
-/// The depth of the water decides on absorption and on sound_speed_m_s: auto. Fifty metres change
-/// the speed by 0.8 m/s. Only a trajectory that lies wholly below the surface shows where the
-/// surface is.
+/// Warns if the depth of the water, which decides on absorption and on sound_speed_m_s: auto, is
+/// far from the vehicle's. Fifty metres change the speed by 0.8 m/s. Only a trajectory that lies
+/// wholly below the surface shows where the surface is.
 void judge_depth(const Mission& mission, const Trajectory& trajectory, std::vector<Warning>& out) {
     constexpr double least_m = 50.0;
     if (!has_calibrated(mission)) return;

@@ -54,12 +54,13 @@ void judge_extent(const Mission& mission, const Assembly& assembly,
     }
 }
 
-/// All surface, and the surface whose normal lies along each axis of the world, in twice m^2.
+/// Twice the area of all surface, and of the surface whose normal lies along each axis of the
+/// world, m^2.
 struct Facing {
     double all = 0.0;
     std::array<double, 3> along{};
 
-    /// `normal` is as long as the surface is large.
+    /// The length of `normal` is twice the area of the surface.
     void add(const Eigen::Vector3d& normal) {
         const double area = normal.norm();
         all += area;
@@ -69,7 +70,7 @@ struct Facing {
     }
 };
 
-/// The normal of a triangle, as long as its two sides span.
+/// The normal of a triangle; its length is twice the area.
 template <class Mesh>
 Eigen::Vector3d normal_of(const Mesh& mesh, std::size_t triangle) {
     const auto& [a, b, c] = mesh.triangles[triangle];
@@ -78,7 +79,8 @@ Eigen::Vector3d normal_of(const Mesh& mesh, std::size_t triangle) {
 }
 
 /// The share of the surface whose normal lies along each axis of the world, in percent. If there
-/// are many copies, every n-th of their triangles stands for n: a few million are enough.
+/// are many copies, every n-th of their triangles counts n times: a few million triangles are
+/// enough.
 std::array<double, 3> facing(const Scene& scene) {
     constexpr std::size_t most_of_copies = 2'000'000;
     Facing facing;
@@ -118,7 +120,7 @@ void judge_doubles(const Scene& scene, std::vector<Warning>& out) {
                                doubled.count, scene.triangles.size()));
 }
 
-/// The triangles of a scene; of a mesh with copies those of one.
+/// The number of triangles of a scene; a mesh with copies counts once.
 std::size_t triangles_of(const Scene& scene) {
     std::size_t count = scene.triangles.size();
     for (const SharedMesh& mesh : scene.shared_meshes)
@@ -138,8 +140,8 @@ std::vector<Warning> reading_warnings(const Scene& scene) {
     const auto left_out = [&](std::uint64_t count, const char* what) {
         if (count > 0) add(fmt::format("the scene has {} {}; they are left out", count, what));
     };
-    // A few triangles without area are in many meshes, at the poles of spheres and where parts
-    // meet. They have no surface: leaving them out changes nothing.
+    // Many meshes have a few triangles without area, at the poles of spheres and where parts meet.
+    // Leaving them out changes nothing.
     if (scene.rejects.degenerate_triangles > triangles_of(scene))
         left_out(scene.rejects.degenerate_triangles, "triangles without area, most of all");
     left_out(scene.rejects.non_finite_triangles, "triangles with a vertex that is NaN or infinite");
@@ -176,7 +178,7 @@ std::vector<Warning> material_warnings(const WaterConfig& water, const Scene& sc
             out.push_back(make_warning(WarningCode::material_units, about, "speed of sound",
                                        material.sound_speed_m_s));
         }
-        // Without a density it names targets in the water, which have no surface.
+        // A material without a density is for targets in the water, which have no surface.
         if (material.density_kg_m3 > 0.0 && material.reflection < faintest) {
             out.push_back(make_warning(WarningCode::material_silent, about, material.density_kg_m3,
                                        material.sound_speed_m_s, material.reflection,

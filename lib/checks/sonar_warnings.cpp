@@ -13,7 +13,7 @@ constexpr double fewest_greys = 16.0;
 constexpr double many_lost = 0.5;   // a share of the echoes, or of the samples
 constexpr double long_noise = 0.1;  // mean shift, a share of the range
 
-/// Pings that see nothing, and the reasons.
+/// Warns of pings that see nothing, with the reasons.
 void judge_blindness(const Sonar& sonar, const SonarSurvey& found, std::vector<Warning>& out) {
     const SonarConfig& config = sonar.config;
     const std::string about = about_sensor(config.name);
@@ -39,8 +39,8 @@ void judge_blindness(const Sonar& sonar, const SonarSurvey& found, std::vector<W
         depths);
 }
 
-/// Images that are too bright for the scale of the pictures, or too dark. A scale that the program
-/// finds leaves the brightest bins white on purpose.
+/// Warns of images that are too bright or too dark for the scale of the pictures. A full scale that
+/// the program finds leaves the brightest bins white on purpose.
 void judge_brightness(const OutputConfig& output, const std::string& about, double full_scale,
                       double white_share, float brightest, std::vector<Warning>& out) {
     if (output.full_scale == 0.0) return;
@@ -53,7 +53,7 @@ void judge_brightness(const OutputConfig& output, const std::string& about, doub
     }
 }
 
-/// The key to change, and by how much, until the mean echo is as strong as the noise.
+/// The key to change, and the amount, so that the mean echo is as strong as the noise.
 std::string cure_of_noise(const SonarConfig& config, const SonarSurvey& found) {
     if (config.model == ModelKind::paper) return "lower noise.add_sigma";
     const ReceiverConfig& receiver = config.instrument.receiver;
@@ -73,7 +73,7 @@ double share(std::uint64_t part, std::uint64_t whole) {
     return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
 }
 
-/// Pings of a run without echoes, and surface that left none.
+/// Warns of pings of a run without echoes, and of surface that gave no echo.
 void judge_echoes(const SonarConfig& config, const SensorSummary& summary,
                   std::vector<Warning>& out) {
     const std::string about = about_sensor(config.name);

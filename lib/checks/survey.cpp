@@ -80,7 +80,7 @@ void explain(const View& view, const Surroundings& around, double to_scene_m,
     }
 }
 
-/// From a point to the box around the scene; infinite when there is no scene.
+/// The distance from a point to the box around the scene; infinite when there is no scene.
 double distance_to(const Scene& scene, const Eigen::Vector3d& point) {
     if (scene.instances.empty()) return std::numeric_limits<double>::infinity();
     return Eigen::AlignedBox3d(scene.bounds_min, scene.bounds_max).exteriorDistance(point);
@@ -92,14 +92,14 @@ bool looks_like_depth(const Scene& scene, double z_m, double reach_m) {
     return z_m > highest_m && -z_m > scene.bounds_min.z() && -z_m < highest_m;
 }
 
-/// True for a basin around the whole scene: a sonar is not in it by mistake.
+/// True for a box around the whole scene, such as that of a basin: a sonar inside is no mistake.
 bool holds_all(const Eigen::AlignedBox3d& box, const Scene& scene) {
     const Eigen::Vector3d extent = scene.bounds_max - scene.bounds_min;
     return !box.isEmpty() && (box.sizes().array() >= 0.9 * extent.array()).all();
 }
 
-/// True if the scene's surface lies open upwards, as a sea floor does. The parts of a closed body
-/// that face up and down are equal.
+/// True if the scene's surface faces upwards, as a sea floor does. The upward and downward parts of
+/// a closed body cancel.
 bool faces_up(const Scene& scene) {
     double up = 0.0;
     double either = 0.0;
@@ -114,7 +114,7 @@ bool faces_up(const Scene& scene) {
     return up > 0.1 * either;
 }
 
-/// Counts poses at which no vehicle can be. docs/warnings.md gives the reasons for the limits.
+/// Counts the pose if no vehicle can be there. docs/warnings.md gives the reasons for the limits.
 void judge_place(const Scene& scene, bool open_upwards, std::span<const Eigen::AlignedBox3d> boxes,
                  const Pose& T_world_sensor, const Surroundings& around, SonarSurvey& out) {
     std::size_t above = 0;
@@ -129,7 +129,7 @@ void judge_place(const Scene& scene, bool open_upwards, std::span<const Eigen::A
         (up ? met_above : met_below) += meets;
         if (meets) ++met[around.met[i].instance];
     }
-    // Beneath a sea floor, and under a hull, there is surface everywhere above and none below.
+    // Below a sea floor, and below a hull, there is surface everywhere above and none below.
     out.below_surface += open_upwards && 2 * met_above > above && 50 * met_below <= below;
     const auto most = std::ranges::max_element(met);
     if (scene.instances.size() < 2 || 100 * *most < 98 * around.directions.size()) return;
@@ -145,7 +145,7 @@ void take_attitude(const Eigen::Quaterniond& rotation, SonarSurvey& out) {
     out.pitch_deg.take(degrees(attitude.pitch));
 }
 
-/// Adds the surface that a ping saw, and its distance.
+/// Adds the surface that a ping saw, and the range of its first and last echo.
 void take_samples(const View& view, const Samples& samples, SonarSurvey& out) {
     ValueRange echoes;
     for (const Sample& sample : samples.items) {
@@ -169,7 +169,7 @@ struct BinSums {
     double noise = 0.0;
 };
 
-/// `clean` is without the noise of pixels.
+/// `clean` is the image without pixel noise.
 void add_bins(const Sonar& sonar, double full_scale, const Ping& clean, const Ping& ping,
               BinSums& sums, SonarSurvey& out) {
     for (std::size_t i = 0; i < ping.intensity.size(); ++i) {

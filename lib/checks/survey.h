@@ -13,7 +13,7 @@
 
 namespace sonarsim {
 
-/// From the least of some values to the greatest; empty until one is taken in.
+/// The least and the greatest of some values; empty before the first value.
 struct ValueRange {
     double low = std::numeric_limits<double>::infinity();
     double high = -std::numeric_limits<double>::infinity();
@@ -29,14 +29,14 @@ struct ValueRange {
 struct NoReturnReasons {
     std::size_t too_far = 0;    ///< the surface in view begins behind range_max_m
     std::size_t too_near = 0;   ///< the surface in view ends before range_min_m
-    std::size_t too_flat = 0;   ///< within range there is surface above or below the view alone
-    std::size_t elsewhere = 0;  ///< within range there is surface in other directions alone
+    std::size_t too_flat = 0;   ///< within range, surface lies only above or below the view
+    std::size_t elsewhere = 0;  ///< within range, surface lies only in other directions
     std::size_t nothing = 0;    ///< no surface within range in any direction
-    std::size_t depths = 0;     ///< z above the scene whose negative would be a place over it
-    ValueRange in_view_m;       ///< begin of the surface in view, of the pings that are too far
-    ValueRange ends_m;          ///< end of the surface in view, of those that are too near
-    ValueRange elevation_deg;   ///< surface nearest to the view, of those that are too flat
-    ValueRange nearest_m;       ///< distance to the box around the scene, of those with nothing
+    std::size_t depths = 0;     ///< z out of range above the scene, but -z in range
+    ValueRange in_view_m;       ///< start of the surface in view, for pings that are too far
+    ValueRange ends_m;          ///< end of the surface in view, for pings that are too near
+    ValueRange elevation_deg;   ///< elevation of the surface nearest to the view, if too flat
+    ValueRange nearest_m;       ///< distance to the box around the scene, for pings with nothing
 };
 
 /// A sonar's view of the scene in a few of its pings along the trajectory.
@@ -45,9 +45,9 @@ struct SonarSurvey {
     std::size_t blind = 0;  ///< pings without an occupied bin
     NoReturnReasons no_return;
     std::size_t below_surface = 0;  ///< pings with surface above and none below
-    std::size_t enclosed = 0;       ///< pings from within one instance of several
+    std::size_t enclosed = 0;       ///< pings inside one instance, if the scene has several
     std::string enclosed_by;        ///< the last of these instances
-    ValueRange altitude_m;          ///< empty if there is never anything below
+    ValueRange altitude_m;          ///< empty if there never is surface below
     ValueRange roll_deg;            ///< attitude of the vehicle
     ValueRange pitch_deg;
     ValueRange first_echo_m;  ///< one value for each ping that saw anything
@@ -60,8 +60,8 @@ struct SonarSurvey {
     std::vector<double> seen_m2;  ///< visible surface, by Scene::instances
 };
 
-/// Traces a few dozen pings of every sonar of the mission with rays, coarsely sampled. By
-/// Mission::sensors. The same mission gives the same numbers.
+/// Traces a few dozen pings of every sonar of the mission with rays, coarsely sampled. The result
+/// is indexed by Mission::sensors. The same mission gives the same numbers.
 std::vector<SonarSurvey> survey(const Mission& mission, const Assembly& assembly,
                                 const VisibilityEngine& rays);
 

@@ -18,8 +18,8 @@ double turn_deg(double from, double to) {
     return std::fabs(std::remainder(to - from, 360.0));
 }
 
-/// The mean angle between heading and track along the way, degrees: with the headings as they are
-/// written, and with their numbers read as radians.
+/// The mean angle between heading and track along the trajectory, degrees: with the headings as
+/// they are written, and with their numbers read as radians.
 struct HeadingErrors {
     double as_degrees = 0.0;
     double as_radians = 0.0;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t most_questions = 3;
 
-/// The unit in which the mission reads an instance, and if it is a named or scattered object.
+/// The unit in which the mission reads an instance; `is_object` for named and scattered objects.
 struct Reading {
     LengthUnit units;
     bool is_object;

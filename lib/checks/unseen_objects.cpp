@@ -16,9 +16,9 @@ namespace sonarsim {
 
 namespace {
 
-constexpr std::size_t most_objects = 200;  // that are looked for
-constexpr std::size_t most_poses = 20000;  // that may have one in view
-constexpr std::size_t most_tries = 4;      // pings of a sonar for an object
+constexpr std::size_t most_objects = 200;  // the most objects to look for
+constexpr std::size_t most_poses = 20000;  // about the most poses to test for an object
+constexpr std::size_t most_tries = 4;      // the most pings of a sonar to trace for an object
 constexpr std::size_t most_named = 5;
 
 /// A sphere around an object; the frame is the world, or its own if it moves.
@@ -72,14 +72,14 @@ double angle_off_view(const View& view, const Eigen::Vector3d& point) {
     return std::atan2(nearest.cross(point).norm(), nearest.dot(point));
 }
 
-/// A pose, and the angle by which the object's middle is outside the field of view there.
+/// A pose, and the angle from the field of view to the object's middle at this pose.
 struct PoseInView {
     std::uint32_t pose = 0;
     double angle_off = 0.0;
 };
 
-/// The poses at which some of the sphere around an object is in the view of a sonar and within its
-/// range, those that look straight at it first.
+/// The poses at which a part of the sphere around an object is in the view of a sonar and within
+/// its range, with the least angle off the view first.
 std::vector<PoseInView> poses_in_view(const Assembly& assembly, const Sonar& sonar,
                                       const Extent& extent) {
     const View& view = sonar.settings.view;
@@ -108,8 +108,8 @@ std::vector<PoseInView> poses_in_view(const Assembly& assembly, const Sonar& son
     return poses;
 }
 
-/// True if a sonar sees the instance in one of a few of these poses; poses that look straight at it
-/// come first.
+/// True if a sonar sees the instance in one of a few of `poses`, which begin with those that look
+/// straight at it.
 bool sees(const Assembly& assembly, const Sonar& sonar, const std::vector<PoseInView>& poses,
           std::uint32_t instance, const VisibilityEngine& rays) {
     const std::size_t straight =

@@ -11,7 +11,7 @@ namespace sonarsim {
 
 namespace {
 
-constexpr std::size_t most_particle_pings = 200;  // that are looked at, of each sonar
+constexpr std::size_t most_particle_pings = 200;  // the most pings of each sonar to test
 
 /// Marks the instances of the targets that a sonar sees at a pose.
 void mark_seen(const Assembly& assembly, const Sonar& sonar, std::size_t pose,
@@ -29,7 +29,7 @@ void mark_seen(const Assembly& assembly, const Sonar& sonar, std::size_t pose,
     }
 }
 
-/// The groups of which no instance is seen, in quotes.
+/// The groups of which no target is seen, in quotes.
 std::string unseen_groups(const Mission& mission, const Scene& scene,
                           const std::vector<bool>& is_seen) {
     std::string names;

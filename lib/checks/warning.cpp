@@ -4,7 +4,7 @@ namespace sonarsim {
 
 namespace {
 
-/// A format string for people: "N" in place of a number, "..." in place of a text.
+/// A format string as text for people: "N" in place of a number, "..." in place of a text.
 std::string without_figures(std::string_view format) {
     std::string out;
     while (!format.empty()) {

@@ -53,7 +53,7 @@ struct WarningText {
     WarningCode code;
     const char* what;    ///< the finding
     const char* cure;    ///< the remedy
-    const char* limit;   ///< from where on the program warns
+    const char* limit;   ///< the limit from which on the program warns
     const char* reason;  ///< why the limit lies there
 };
 
