@@ -24,7 +24,7 @@
 //     OUT/<sensor>/pack/NNNNNN.tar    the files of as many pings as fit, one after the other, each
 //                                     <sensor>-NNNNNN.<format>.*
 //     OUT/<sensor>/*                  files of records, one per ping, and products of them
-//     OUT/seabed/*                    the truth of a bed that was made
+//     OUT/seabed/*                    the true heights and objects of a generated sea bed
 //     OUT/labels/*, OUT/split/*       products of the pings of all sensors
 //
 // The files in dataset/writers are the formats. A record that is not written yet is zero. NNNNNN is

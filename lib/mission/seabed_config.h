@@ -68,7 +68,7 @@ struct BedPockmarkConfig {
     bool operator==(const BedPockmarkConfig&) const = default;
 };
 
-/// Straight furrows, as of trawls and anchors.
+/// Straight furrows, such as those of trawls and anchors.
 struct BedScarConfig {
     double density_per_m2 = 0.0;
     std::array<double, 2> length_m{};

@@ -13,8 +13,8 @@ namespace sonarsim {
 std::vector<std::unique_ptr<Writer>> make_label_writers(const WriterContext& context);
 
 /// objects/NNNNNN.json: each object in the ping, in the pixels of the sonar's image (rows of range,
-/// columns of beams) and of its fan, with masks if COCO is asked for, which is made of these files.
-/// Null if the mission asks for neither.
+/// columns of beams) and of its fan. If COCO is asked for, the files have masks, from which the
+/// COCO files are made. Null if the mission asks for neither objects nor COCO.
 std::unique_ptr<Writer> make_objects_writer(const WriterContext& context);
 
 /// semantic/NNNNNN.png and fan_semantic/NNNNNN.png: the class of each pixel of the image and of the

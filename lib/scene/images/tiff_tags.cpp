@@ -12,7 +12,7 @@ namespace sonarsim {
 
 namespace {
 
-/// More values than any tag of a map has. The tags of its tiles have most values.
+/// More values than any tag of a map has. Tags of tiles have the most values.
 constexpr std::uint64_t most_tag_values = 1 << 22;
 
 /// Reads numbers of either byte order from a file.

@@ -64,7 +64,7 @@ TexelBox whole_texels(const TexelBox& box) {
             std::ceil(box.y_max)};
 }
 
-/// Boxes in a row that stand for a footprint.
+/// Boxes in a row that represent a footprint.
 struct Probes {
     int count = 1;
     Eigen::Vector2d first, step;  ///< world

@@ -19,7 +19,7 @@ std::optional<double> lift_to_rest(const Bottom& bottom, const Surface& object);
 bool lies_below(const Bottom& bottom, const Surface& object);
 
 /// The rotation that tilts the world's z to the normal of the plane fitted to the bottom on a grid
-/// over the box; the identity if the box holds too little of it.
+/// over the box; the identity if too little of the bottom lies in the box.
 Eigen::Quaterniond slope_of(const Bottom& bottom, const Eigen::AlignedBox2d& box);
 
 }  // namespace sonarsim

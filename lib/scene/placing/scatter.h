@@ -14,7 +14,7 @@
 
 namespace sonarsim {
 
-/// Objects that are strewn over the bottom. Pairs are ranges of uniform draws.
+/// Objects placed on the bottom at random. Pairs are ranges of uniform draws.
 struct ScatterRule {
     std::string name;
     std::vector<const Surface*> shapes;  ///< in their own frames, equally likely

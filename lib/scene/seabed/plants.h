@@ -11,7 +11,7 @@
 
 namespace sonarsim {
 
-/// Tufts of leaves that stand on a bed, as of sea grass.
+/// Tufts of leaves that stand on a bed, such as sea grass.
 struct BedPlants {
     double density_per_m2 = 0.0;       ///< tufts in a patch
     std::array<double, 2> height_m{};  ///< uniform

@@ -49,7 +49,7 @@ BedGrid grid_of_rule(const SeabedRule& rule) {
             static_cast<int>(columns), static_cast<int>(rows)};
 }
 
-/// The heights of the bed without anything random.
+/// The heights of the bed without its random parts.
 std::vector<double> smooth_heights(const BedGrid& grid, const SeabedRule& rule) {
     std::vector<double> out;
     out.reserve(grid.size());

@@ -21,12 +21,12 @@ namespace sonarsim {
 /// The node with the leaves of all plants.
 inline constexpr const char* plants_node = "plants";
 
-/// The numbers that make a bed, and the part of it that is made.
+/// The parameters of a generated sea bed, and the part of it to generate.
 struct SeabedRule {
     std::uint64_t seed = 0;
     double cell_m = 1.0;
     std::optional<std::array<double, 2>> size_m = {};  ///< x, y from (0, 0); none: no end
-    BedArea window{};                                  ///< the part that is made
+    BedArea window{};                                  ///< the part to generate
     std::array<double, 2> origin_m{};                  ///< point that is the world's (0, 0)
     double z_m = 0.0;                                  ///< height of the smooth bed there
     std::array<double, 2> slope{};                     ///< rise per metre along x and y
