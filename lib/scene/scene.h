@@ -30,7 +30,7 @@ struct Material {
     // The model of sea beds (calibrated/seafloor_scattering.h), if there is a grain size or a loss
     // parameter. A value that is empty follows from the grain size.
     std::optional<double> grain_phi = {};       ///< mean grain size, -log2 of millimetres
-    std::optional<double> loss_parameter = {};  ///< imaginary / real part of the wave number
+    std::optional<double> loss_parameter = {};  ///< imaginary part / real part of the wave number
     std::optional<double> spectral_strength_cm4 = {};  ///< w2 of the roughness spectrum
     std::optional<double> spectral_exponent = {};      ///< exponent of that spectrum
     std::optional<double> volume_parameter = {};       ///< scattering / absorption cross-section
