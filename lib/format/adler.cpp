@@ -23,7 +23,8 @@ std::uint32_t sum_of(__m256i lanes) {
 
 }  // namespace
 
-// The sum of the bytes, from 1 on, and the sum of these sums, modulo 65521; 32 bytes at a time.
+// Adler-32 keeps the sum of the bytes, which starts at 1, and the sum of the running sums, both
+// modulo 65521. A step takes 32 bytes.
 std::uint32_t adler_32(std::span<const std::uint8_t> bytes, std::uint32_t before_all) {
     constexpr std::uint32_t base = 65521;
     // With 160 blocks no sum exceeds 32 bits: 32 * (32 * 255) * (1 + ... + 159) is 3.3e9.
@@ -37,7 +38,7 @@ std::uint32_t adler_32(std::span<const std::uint8_t> bytes, std::uint32_t before
         const std::size_t blocks = std::min(bytes.size() / 32, most_blocks);
         __m256i own = _mm256_setzero_si256();       // sums of all bytes so far
         __m256i before = _mm256_setzero_si256();    // sums of `own` before each block
-        __m256i weighted = _mm256_setzero_si256();  // bytes times how often they count in a block
+        __m256i weighted = _mm256_setzero_si256();  // bytes times their weights in a block
         for (std::size_t k = 0; k < blocks; ++k) {
             const __m256i block =
                 _mm256_loadu_si256(reinterpret_cast<const __m256i*>(bytes.data() + 32 * k));

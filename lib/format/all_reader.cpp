@@ -11,8 +11,9 @@ namespace sonarsim {
 namespace {
 
 // Kongsberg, "EM Series Multibeam echo sounder, Datagram formats": a length, then a datagram of
-// that length from 0x02 on. The third byte from its end is 0x03. Places are those after the length.
-// Kongsberg's programs for PCs write little-endian numbers, older ones for Unix big-endian ones.
+// that length. It begins with 0x02; its third byte from the end is 0x03. Offsets count from the end
+// of the length. Kongsberg's programs for PCs write little-endian numbers, older ones for Unix
+// big-endian ones.
 constexpr char all_begin = 0x02, all_end = 0x03, water_type = 'k';
 constexpr std::size_t shortest_datagram = 19;
 constexpr std::size_t all_sectors_at = 40, all_sector_length = 6, all_beam_entry = 10;
@@ -28,7 +29,7 @@ struct AllDatagram {
     }
 };
 
-/// The datagram that begins at a place.
+/// The datagram that begins at offset `at`; nullopt if none does.
 std::optional<AllDatagram> all_datagram(std::string_view bytes, std::size_t at,
                                         bool is_big_endian) {
     if (bytes.size() - at < 4) return std::nullopt;
@@ -49,12 +50,12 @@ double time_of_day(std::uint32_t date, std::uint32_t ms) {
     return 86400.0 * static_cast<double>(sys_days(day).time_since_epoch().count()) + 1e-3 * ms;
 }
 
-/// A ping with the numbers that name it: several datagrams may hold its beams.
+/// A ping and the numbers that identify it; several datagrams may hold its beams.
 struct AllPing {
     WaterPing ping;
     std::uint16_t counter = 0;
     std::uint16_t serial = 0;   ///< the head's
-    std::size_t all_beams = 0;  ///< in all of its datagrams
+    std::size_t all_beams = 0;  ///< number of beams in all of its datagrams
 };
 
 AllPing head_of_ping(const AllDatagram& datagram) {

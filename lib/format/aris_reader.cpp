@@ -10,8 +10,8 @@ namespace sonarsim {
 
 namespace {
 
-// Sound Metrics, ARIS file format, version 5 of DIDSON's: a header of 1,024 bytes, then frames,
-// each a header of 1,024 bytes and its samples [sample, beam], 8 bits.
+// Sound Metrics, ARIS file format, version 5 of the DIDSON format: a header of 1,024 bytes, then
+// frames, each a header of 1,024 bytes and its samples [sample, beam], 8 bits.
 constexpr std::uint32_t version_5 = 0x05464444;
 constexpr std::size_t aris_header = 1024;
 constexpr std::size_t file_beams_at = 16, file_samples_at = 24;
@@ -20,7 +20,7 @@ constexpr std::size_t time_at = 20, sample_period_at = 452, sound_speed_at = 464
 constexpr std::array<std::uint32_t, 4> beam_counts{48, 64, 96, 128};
 constexpr std::uint32_t most_samples = 65536;
 
-/// A frame that fits what the header of the file says.
+/// Reads a frame. Throws std::runtime_error unless it agrees with the header of the file.
 LoggedPing aris_frame(std::string_view frame, std::uint32_t samples, std::uint32_t beams) {
     if (field_at<std::uint32_t>(frame, 12) != version_5)
         throw std::runtime_error("has a frame of another version");

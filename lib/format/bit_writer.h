@@ -14,8 +14,7 @@ struct BitCode {
     int bits = 0;
 };
 
-/// A place to write bits to, lowest first. It is held in registers, which the members of an object
-/// that others refer to are not.
+/// Writes bits, lowest first. A local cursor stays in registers, unlike the members of a BitWriter.
 struct BitCursor {
     static constexpr int most_bits = 56;
 

@@ -10,8 +10,8 @@
 
 namespace sonarsim {
 
-/// The number at a place of bytes, little-endian as this processor. Throws std::runtime_error
-/// beyond their end.
+/// The number at offset `at`, little-endian like this processor. Throws std::runtime_error beyond
+/// the end.
 template <class T>
 T field_at(std::string_view bytes, std::size_t at) {
     if (at > bytes.size() || bytes.size() - at < sizeof(T)) throw std::runtime_error("is cut off");
@@ -20,7 +20,7 @@ T field_at(std::string_view bytes, std::size_t at) {
     return value;
 }
 
-/// The same of bytes in either order.
+/// The same for either byte order.
 template <class T>
 T field_at(std::string_view bytes, std::size_t at, bool is_big_endian) {
     auto own = std::bit_cast<std::array<char, sizeof(T)>>(field_at<T>(bytes, at));

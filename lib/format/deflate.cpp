@@ -17,7 +17,7 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// Bytes of a block, which has one Huffman code. A longer block would fit its code less well.
+/// Bytes of a block. Each block has its own Huffman code, which fits a longer block less well.
 constexpr std::size_t block_bytes = std::size_t{1} << 17;
 constexpr std::size_t stored_bytes = 65535;
 
@@ -72,7 +72,7 @@ struct TwoCodes {
     int bits;
 };
 
-/// Writes bytes as literals. Four at a time, since each put() waits for the last one.
+/// Writes bytes as literals, four at a time, since each put() waits for the previous one.
 void put_literals(BitCursor& to, const TokenCodes& codes, const std::uint8_t* bytes,
                   std::size_t count) {
     for (; count >= 4; count -= 4, bytes += 4) {
@@ -176,7 +176,7 @@ ZlibStream::ZlibStream(int pixel_bytes)
 void ZlibStream::add(Bytes bytes) {
     adler_ = adler_32(bytes, adler_);
     bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
-    // One more byte than a block, since the last block has to be known as such.
+    // A block is packed only if more bytes follow, since finish() must mark the last block.
     while (bytes_.size() - packed_ > block_bytes)
         pack(block_bytes, false);
 }

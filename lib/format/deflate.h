@@ -19,7 +19,7 @@ namespace sonarsim {
 
 enum class Packing {
     stored,  ///< not compressed
-    runs,    ///< Huffman codes, and runs of the pixel before
+    runs,    ///< Huffman codes, and runs that repeat the previous pixel
 };
 
 std::string zlib_bytes(std::span<const std::uint8_t> bytes, int pixel_bytes, Packing packing);
@@ -40,7 +40,7 @@ class ZlibStream {
 
     int pixel_bytes_;
     BitWriter writer_;
-    std::vector<std::uint8_t> bytes_;  ///< up to a pixel that is packed, then what is not
+    std::vector<std::uint8_t> bytes_;  ///< at most one packed pixel, then the bytes to pack
     std::size_t packed_ = 0;           ///< number of packed bytes at the front of bytes_
     std::uint32_t adler_ = 1;
 };

@@ -18,7 +18,7 @@ constexpr std::size_t didson_resolution_at = 12, didson_beams_at = 16, didson_ra
 constexpr std::size_t frame_version_at = 12, frame_date_at = 20, window_start_at = 52,
                       config_flags_at = 192;
 constexpr std::uint32_t most_didson_samples = 65536;
-// Echoview, "DIDSON data files": the window begins after so many periods, and values span 90 dB.
+// Echoview, "DIDSON data files": the begin of the window counts these periods; values span 90 dB.
 constexpr double classic_period_s = 0.000512, extended_period_s = 0.000572;
 constexpr double didson_range_db = 90.0;
 constexpr int last_classic_serial = 18;
@@ -71,7 +71,7 @@ double time_of_frame(std::string_view frame) {
     return ((days * 24.0 + fields[3]) * 60.0 + fields[4]) * 60.0 + fields[5] + 0.01 * fields[6];
 }
 
-/// When the middle of the first sample is received.
+/// The two-way travel time of the middle of the first sample.
 double first_sample_s(std::string_view frame, const DidsonFile& file) {
     const bool is_classic = file.serial <= last_classic_serial ||
                             (field_at<std::int32_t>(frame, config_flags_at) & 1) != 0;

@@ -9,10 +9,10 @@ namespace sonarsim {
 namespace {
 
 // Simrad, "ER60 file format": a datagram is its length, a type of four letters, the time in 100 ns
-// since 1601, its content, and its length again. Places are those after the first length.
+// since 1601, its content, and its length again. Offsets count from the end of the first length.
 constexpr std::size_t raw0_data = 84;
 
-/// A RAW0 datagram; without samples if it has angles alone.
+/// Reads a RAW0 datagram; the ping has no samples if the datagram holds only angles.
 EkPing ek60_ping_of(std::string_view datagram) {
     EkPing ping;
     ping.t_s = ek_time_s(datagram);

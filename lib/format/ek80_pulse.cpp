@@ -18,16 +18,16 @@ using Complex = std::complex<double>;
 constexpr double most_pulse_samples = 1e5;
 constexpr std::size_t most_taps = 4096;
 constexpr std::size_t most_filters = 8;
-// A real gigabyte takes as many: 3e7 samples of four sectors, and pulses of 300.
+// A real file of 1 GB takes this many: 3e7 samples of four sectors, pulses of 300 samples.
 constexpr std::size_t most_products = 10'000'000'000;
 
-/// The sum of products; std::complex's own product looks for infinities.
+/// Adds a * b to `sum`. The product of std::complex is slower: it checks for infinities.
 void add_product(const Complex& a, const Complex& b, Complex& sum) {
     sum += Complex(a.real() * b.real() - a.imag() * b.imag(),
                    a.real() * b.imag() + a.imag() * b.real());
 }
 
-/// The convolution of a signal with a filter, of which one of `decimation` samples is kept.
+/// The convolution of a signal with a filter; one in `decimation` samples is kept.
 std::vector<Complex> filtered(const std::vector<Complex>& signal, const EkFilter& filter) {
     std::vector<Complex> out;
     const std::size_t taps = filter.taps.size();

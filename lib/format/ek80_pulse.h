@@ -6,7 +6,7 @@
 
 namespace sonarsim {
 
-/// A stage of the receiver of an EK80: a filter, behind which one of `decimation` samples is kept.
+/// A stage of an EK80's receiver: a filter, after which one in `decimation` samples is kept.
 struct EkFilter {
     int decimation = 1;
     std::vector<std::complex<float>> taps;
@@ -17,18 +17,18 @@ struct EkSweep {
     double start_hz = 0.0;
     double end_hz = 0.0;
     double duration_s = 0.0;
-    double slope = 0.0;     ///< share of the duration in which the envelope rises, and falls
-    double sample_s = 0.0;  ///< interval of the samples behind all filters
+    double slope = 0.0;     ///< rise of the envelope over the duration; the fall is as long
+    double sample_s = 0.0;  ///< sample interval after all filters
 
     bool operator==(const EkSweep&) const = default;
 };
 
-/// Adds to the products of all filters of a file. Throws std::runtime_error where they would take
-/// more than some twenty seconds.
+/// Counts the multiplications of a file's filters. Throws std::runtime_error if they would take
+/// more than about twenty seconds.
 void add_products(std::size_t more, std::size_t& products);
 
-/// The sweep as it comes out of the receiver's filters. The samples before the first filter are as
-/// many times denser as its stages keep fewer. Throws std::runtime_error for impossible numbers.
+/// The sweep after the receiver's filters. Before the first filter the samples are denser by the
+/// product of all decimations. Throws std::runtime_error for impossible numbers.
 std::vector<std::complex<double>> filtered_sweep(const EkSweep& sweep,
                                                  const std::vector<EkFilter>& filters,
                                                  std::size_t& products);

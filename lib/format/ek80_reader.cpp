@@ -13,17 +13,18 @@ namespace sonarsim {
 
 namespace {
 
-// Simrad, "EK80 Interface specifications": datagrams as those of an EK60. XML0 has the environment
-// and, before a ping, its parameters; RAW3 has its samples, FIL1 a filter of a channel's receiver.
-// Places are those after the first length.
+// Simrad, "EK80 Interface specifications": datagrams like those of an EK60. XML0 has the
+// environment and, before a ping, its parameters; RAW3 has its samples, FIL1 a filter of a
+// channel's receiver. Offsets count from the end of the first length.
 constexpr std::size_t channel_at = 12, channel_length = 128, type_at = 140, offset_at = 144,
                       count_at = 148, raw3_data = 152;
 constexpr std::size_t stage_at = 12, filter_channel_at = 16, tap_count_at = 144,
                       decimation_at = 146, taps_at = 148;
 constexpr unsigned power_bit = 1, half_bit = 4, complex_bit = 8;
-// The impedances of the receiver, if the file has none, and of a transducer, in ohms.
+// The impedance of the receiver if the file has none, and that of a transducer, in ohms.
 constexpr double usual_ohms = 5400.0, transducer_ohms = 75.0;
-// A file of damaged settings may have another pulse in each ping: those of all take 256 MB at most.
+// A file with damaged settings may have another pulse in each ping; all pulses together take at
+// most 256 MB.
 constexpr std::size_t most_pulse_values = std::size_t{1} << 24;
 
 struct Ek80Channel {
@@ -33,7 +34,7 @@ struct Ek80Channel {
     EkSweep sweep;
     double ohms = usual_ohms;         ///< impedance of its receiver
     std::map<int, EkFilter> filters;  ///< stages by their numbers
-    /// The sweep behind them; null until a ping needs it.
+    /// The sweep after these filters; null until a ping needs it.
     std::shared_ptr<const std::vector<std::complex<double>>> pulse;
 };
 
@@ -41,8 +42,8 @@ struct Ek80Channel {
 struct Ek80Settings {
     double sound_speed_m_s = 0.0;
     std::map<std::string, Ek80Channel, std::less<>> channels;
-    std::size_t pulse_values = 0;  ///< the number of those of all pulses so far
-    std::size_t products = 0;      ///< the number of those of their filters
+    std::size_t pulse_values = 0;  ///< number of values in all pulses so far
+    std::size_t products = 0;      ///< number of products in their filters so far
 };
 
 /// The start tags of a name, without their brackets.
@@ -133,7 +134,7 @@ void take_filter(std::string_view datagram, Ek80Settings& settings) {
     channel.pulse.reset();
 }
 
-/// Makes the pulse of a channel that sweeps, unless it has it.
+/// Makes the pulse of a channel that sweeps, unless the channel has one.
 void make_pulse(Ek80Channel& channel, Ek80Settings& settings) {
     if (!channel.is_sweep || channel.pulse) return;
     if (channel.filters.empty())

@@ -22,10 +22,9 @@ struct EkPing {
     std::size_t count = 0;
     std::string_view samples;
     int sectors = 0;     ///< 0: the samples are int16
-    double watts = 0.0;  ///< for each squared unit of the mean of the sectors
+    double watts = 0.0;  ///< power of a mean over the sectors of amplitude 1
     bool has_half_floats = false;
-    /// The sweep behind the receiver's filters, which pings share; null for a pulse of one
-    /// frequency.
+    /// The sweep after the receiver's filters, shared by pings; null for a pulse of one frequency.
     std::shared_ptr<const std::vector<std::complex<double>>> pulse;
 };
 

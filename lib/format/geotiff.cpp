@@ -121,8 +121,7 @@ void write_geotiff(const std::filesystem::path& path, std::span<const float> val
 }
 
 GeotiffShape geotiff_shape(std::string_view start) {
-    // Width and height are the first two tags, each a number behind its 8 bytes of tag, type,
-    // count.
+    // Width and height are the first two tags, each a number after 8 bytes of tag, type and count.
     constexpr std::size_t width_at = 10 + 8;
     constexpr std::size_t height_at = width_at + 12;
     std::uint32_t width = 0;

@@ -18,7 +18,7 @@ struct MapPlace {
 
 /// Writes a map as a TIFF with the tags of GeoTIFF 1.1 (OGC 19-008r4), which GDAL and QGIS read:
 /// float32 [rows, columns], not compressed; NaN marks unknown cells and is the nodata value. There
-/// is no reference system, since the world's frame has no name on Earth. `values` has one or more
+/// is no reference system, since the world's frame is not georeferenced. `values` has one or more
 /// whole rows of `columns` and less than 4 GB.
 ///
 /// Throws std::system_error when the disk does not take the file.

@@ -9,7 +9,7 @@
 namespace sonarsim {
 
 // PNG files of pictures with large areas of one value, such as ids. Each row is stored as its
-// difference from the row above, so that little more than the edges takes room. The bytes depend on
+// difference from the row above, so that only the edges of areas take space. The bytes depend on
 // the pixels alone.
 
 /// A grey PNG file of 16 bits of [height, width] ids, row by row.

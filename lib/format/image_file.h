@@ -23,7 +23,7 @@ class ImageFile {
   public:
     ImageFile(const std::filesystem::path& path, int width, int height, PixelKind kind);
 
-    // The next row; its type is that of the image.
+    // Writes the next row. Its type must be that of the image.
     void row(std::span<const std::uint8_t> pixels);
     void row(std::span<const std::uint16_t> pixels);
     void row(std::span<const Rgb> pixels);

@@ -25,7 +25,7 @@ inline std::string_view part_of_datagram(std::string_view bytes, std::size_t at,
 }
 
 /// Calls `take` for the datagrams of a type that belong to the first of several receiving fans,
-/// until it returns false.
+/// until `take` returns false.
 template <class Take>
 void for_each_kmall(std::string_view bytes, std::string_view type, const Take& take) {
     for (std::size_t at = 0; at < bytes.size();) {

@@ -12,7 +12,7 @@ namespace sonarsim {
 
 namespace {
 
-// Places within the blocks of #MRZ: of the ping, of the receiver, of a sounding.
+// Offsets within the blocks of #MRZ: of the ping, the receiver and a sounding.
 constexpr std::size_t lowest_frequency_at = 20, highest_frequency_at = 24, tx_count_at = 92,
                       tx_length_at = 94, speed_at_tx_at = 100, tx_depth_at = 104,
                       water_level_at = 108;
@@ -45,8 +45,8 @@ LoggedSoundings soundings_of(std::string_view datagram) {
         throw std::runtime_error("has a ping with impossible numbers");
     ping.frequency_hz = 0.5 * (field_at<float>(datagram, info + lowest_frequency_at) +
                                field_at<float>(datagram, info + highest_frequency_at));
-    // Depths of soundings count from the vessel's reference point, as that of the water level does;
-    // that of the transmitter counts from the water level.
+    // The depths of soundings and of the water level count from the vessel's reference point, the
+    // transmitter's depth from the water level.
     const double tx_below_m = field_at<float>(datagram, info + water_level_at) +
                               field_at<float>(datagram, info + tx_depth_at);
     const std::size_t rx =

@@ -81,7 +81,7 @@ double number_in(std::string_view data, std::size_t index) {
     return static_cast<double>(value);
 }
 
-/// The place in the file of the value `k` in C order of an array in Fortran order.
+/// The index in an array in Fortran order of the value that has the number `k` in C order.
 std::size_t fortran_index(const std::vector<std::size_t>& shape, std::size_t k) {
     std::array<std::size_t, most_dimensions> index{};
     for (std::size_t d = shape.size(); d-- > 0;) {

@@ -20,8 +20,8 @@ struct OculusPing {
 
 /// Reads the simple ping results, versions 1 and 2, among any other bytes: the messages as the
 /// sonar sends them, one after the other, or the log of a program that stores them unpacked. Throws
-/// std::runtime_error when there is none, and when a ping has other values or a gain for each
-/// range.
+/// std::runtime_error when there is none, and when a ping has values of another size or a gain for
+/// each range.
 std::vector<OculusPing> read_oculus(std::string_view bytes, std::size_t most_pings);
 
 }  // namespace sonarsim

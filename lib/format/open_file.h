@@ -24,7 +24,7 @@ OpenedFile open_file(const std::filesystem::path& path);
 /// The same for a file in memory that has this name.
 OpenedFile open_bytes(const std::string& name, const std::string& bytes);
 
-/// "512 x 256".
+/// A shape as text, "512 x 256".
 std::string shape_text(const std::vector<std::size_t>& shape);
 
 }  // namespace sonarsim

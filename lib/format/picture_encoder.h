@@ -6,9 +6,9 @@
 
 namespace sonarsim {
 
-/// Writes OpenEXR, JPEG and WebP with OpenImageIO. The pixels are the program's own, so that this
-/// process loads the library, which takes 0.2 s. The same picture gives the same bytes with the
-/// same version of the libraries: no time is stamped.
+/// Writes OpenEXR, JPEG and WebP with OpenImageIO. This process loads the library itself, since the
+/// pixels come from the program; loading takes 0.2 s. The same picture gives the same bytes with
+/// the same version of the libraries: no time is stamped.
 class PictureEncoder {
   public:
     /// InputError without the module or the library; it names the package.

@@ -3,9 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
-// The interface between the program and its module of images for pictures that are written
-// (apps/modules/encode_picture.cpp), which alone is linked with OpenImageIO. C, so that a symbol's
-// name is all that dlsym needs.
+// The interface to the module that encodes pictures (apps/modules/encode_picture.cpp). Only the
+// module is linked with OpenImageIO. The interface is C, so that dlsym needs only a symbol's name.
 
 extern "C" {
 
@@ -47,7 +46,7 @@ using SonarsimEncodePicture = int (*)(const SonarsimPicture* picture, SonarsimTa
 
 namespace sonarsim {
 
-/// Raised with every change above, so that a module of another version is found out.
+/// Raised with every change above, so that a module of another version is detected.
 inline constexpr const char* encode_module_symbol = "sonarsim_encode_picture_1";
 
 }  // namespace sonarsim

@@ -36,7 +36,7 @@ std::string png_start(const PngHeader& header);
 /// each colour of PngColours::table.
 std::string png_file(const PngHeader& header, std::string_view packed, std::string_view table = {});
 
-/// std::logic_error if an image of this size has not as many values.
+/// std::logic_error unless an image of this size has `values` values.
 void check_image_size(std::size_t values, int width, int height, int channels);
 
 }  // namespace sonarsim

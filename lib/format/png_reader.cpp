@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t piece_bytes = std::size_t{1} << 16;
 /// More than any picture of sonarsim has: two rows are held at a time.
 constexpr std::uint32_t largest_side = 1U << 20;
-/// The bytes that a byte of DEFLATE can give: 258 for two bits, and the block's own.
+/// The most bytes that one byte of DEFLATE can give: 258 for two bits.
 constexpr std::uint64_t most_inflated = 1032;
 
 [[noreturn]] void refuse_png(const std::string& what) {
@@ -51,7 +51,7 @@ PngShape shape_of(const std::string& header, std::uint64_t file_bytes) {
         refuse_png("has no pixels, or too many");
     const PngShape shape{static_cast<int>(width), static_cast<int>(height), bits,
                          colours == 2 ? 3 : 1};
-    // A row takes memory before it is unpacked, and no file unpacks to more than this.
+    // Memory is allocated before unpacking, so refuse more than the file can unpack to.
     const std::uint64_t row = 1 + std::uint64_t{width} * bits * shape.channels / 8;
     if (row * height / most_inflated > file_bytes) refuse_png("has more pixels than it can hold");
     return shape;

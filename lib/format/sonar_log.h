@@ -18,7 +18,7 @@ struct LoggedPing {
     double bearing_rad = 0.0;   ///< direction of the head of a scanning sonar, positive to port
 };
 
-/// The steps of a scale of decibels, from the value 0 to the largest.
+/// A scale of decibels: `range_db` from the value 0 to `full_value`.
 struct LoggedDecibels {
     double range_db = 0.0;
     double full_value = 0.0;
@@ -30,17 +30,18 @@ enum class LoggedKind { imaging, scanning, echosounder };
 struct SonarLog {
     LoggedKind kind = LoggedKind::imaging;
     std::optional<LoggedDecibels> decibels;  ///< the law of the values, if the format defines it
-    double first_range_s = 0.0;              ///< two-way travel time of the middle of a sample
+    double first_range_s = 0.0;              ///< two-way travel time of the first sample's middle
     double range_step_s = 0.0;
     double sound_speed_m_s = 0.0;     ///< 0: not known
     double frequency_hz = 0.0;        ///< 0: not known
-    std::vector<double> bearing_rad;  ///< the beams'; empty: not known
+    std::vector<double> bearing_rad;  ///< bearings of the beams; empty: not known
     std::vector<LoggedPing> pings;
 };
 
-/// Reads the first pings of a file, by the format that its bytes show: .all, .kmall, .raw of an
-/// EK60 or EK80, .ddf, .aris, or a log with messages of a Ping360. `frequency_hz` chooses one of
-/// several channels. Throws std::runtime_error with the reason when it is none of them or damaged.
+/// Reads the first pings of a file. Its bytes show the format: .all, .kmall, .raw of an EK60 or
+/// EK80, .ddf, .aris, or a log with messages of a Ping360. `frequency_hz` chooses one of several
+/// channels. Throws std::runtime_error with the reason when the file has another format or is
+/// damaged.
 SonarLog read_sonar_log(std::string_view bytes, std::size_t most_pings,
                         std::optional<double> frequency_hz = {});
 
@@ -50,8 +51,8 @@ SonarLog read_sonar_log(std::string_view bytes, std::size_t most_pings,
 /// several fans of a ping is read.
 SonarLog read_kmall(std::string_view bytes, std::size_t most_pings);
 
-/// The same of Kongsberg's older format, datagrams 'k' of a .all or .wcd in either order of bytes.
-/// The first of several heads is read; pings that lack a datagram are left out.
+/// The same for Kongsberg's older format: datagrams 'k' of a .all or .wcd in either byte order. The
+/// first of several heads is read; pings that lack a datagram are left out.
 SonarLog read_all(std::string_view bytes, std::size_t most_pings);
 
 /// True if a .all begins here.
@@ -61,8 +62,8 @@ bool is_all_file(std::string_view bytes);
 SonarLog read_ek60(std::string_view bytes, std::size_t most_pings,
                    std::optional<double> frequency_hz);
 
-/// The power of an EK80 (RAW3 datagrams), the same way: int16 samples, or complex ones of 16 or 32
-/// bits. Sweeps are compressed by the transmitted pulse behind the receiver's filters.
+/// The power of an EK80 (RAW3 datagrams) on the same scale, from int16 samples or complex samples
+/// of 16 or 32 bits. Sweeps are compressed by the transmitted pulse after the receiver's filters.
 SonarLog read_ek80(std::string_view bytes, std::size_t most_pings,
                    std::optional<double> frequency_hz);
 

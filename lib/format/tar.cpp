@@ -103,7 +103,7 @@ void for_each_in_tar(
             bytes = 8 * bytes + static_cast<std::uint64_t>(digit - '0');
         }
         const std::string name(get(header, name_field));
-        // First: a size that no archive holds is none that a header could be made of.
+        // header_of() throws std::logic_error beyond largest_member: check the size first.
         if (bytes > left) throw std::runtime_error("is cut off");
         if (bytes > largest_member || header != header_of(name, bytes))
             throw std::runtime_error("is no archive of ours");

@@ -47,7 +47,8 @@ std::size_t literals_at(const std::uint8_t* const at, const std::uint8_t* const 
     return static_cast<std::size_t>(next - at);
 }
 
-/// Counts bytes. Neighbours are counted apart, since a sum that was just written is slow to read.
+/// Counts bytes. Neighbours go to different counters, since a counter that was just written is slow
+/// to read.
 class ByteCounter {
   public:
     void add(const std::uint8_t* bytes, std::size_t count) {
@@ -76,7 +77,7 @@ Tokens tokens_of(std::span<const std::uint8_t> all, std::size_t begin, std::size
     const std::uint8_t* const last = all.data() + end;
     const std::uint8_t* at = out.bytes;
     while (at < last) {
-        // The first bytes of all have none before them.
+        // The first `back` bytes of `all` have no byte to repeat.
         const auto alone = static_cast<std::size_t>(
             std::clamp<std::ptrdiff_t>(back - (at - all.data()), 0, last - at));
         const std::size_t count = alone + literals_at(at + alone, last, back);

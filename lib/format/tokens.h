@@ -14,7 +14,7 @@ inline constexpr int longest_run = 258;
 inline constexpr int run_token = 256;
 inline constexpr std::size_t tokens_known = run_token + longest_run + 1;
 
-/// Bytes that stand for themselves, and the run after them; the last of a block may have none.
+/// Literal bytes and the run after them; the last stretch of a block may have no run.
 struct Stretch {
     std::uint32_t literals;
     std::uint32_t run;
@@ -28,7 +28,7 @@ struct Tokens {
 };
 
 /// The tokens of the bytes [begin, end) of `all`, which must outlive them. A run repeats the bytes
-/// `back` before it, and begins at the first byte where one may begin.
+/// `back` before it, and begins at the first possible byte.
 Tokens tokens_of(std::span<const std::uint8_t> all, std::size_t begin, std::size_t end,
                  std::ptrdiff_t back);
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t longest_beam = 65535;
 constexpr std::size_t most_values = std::size_t{1} << 28;
-// Real beams begin near the sonar: a fan has a few times the values of its beams.
+// Real beams begin near the sonar, so that the padded fan has only a few times their samples.
 constexpr std::size_t most_values_per_sample = 64;
 
 LoggedPing logged_water(const WaterPing& own, std::size_t ranges) {
@@ -24,7 +24,7 @@ LoggedPing logged_water(const WaterPing& own, std::size_t ranges) {
     for (std::size_t j = 0; j < own.beams.size(); ++j) {
         const WaterBeam& beam = own.beams[j];
         for (std::size_t i = 0; i < beam.samples.size(); ++i) {
-            // A byte with a sign plus 128.
+            // An int8 plus 128.
             const auto level = static_cast<unsigned char>(beam.samples[i]) ^ 0x80U;
             ping.values[(beam.first + i) * own.beams.size() + j] = static_cast<float>(level);
         }

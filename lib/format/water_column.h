@@ -30,8 +30,9 @@ struct WaterPing {
 /// Throws std::runtime_error for a ping without a rate of samples or a speed of sound.
 void check_water(const WaterPing& ping);
 
-/// A log of pings with the same beams: 0 for -64 dB, and for samples that a beam lacks. The
-/// bearings are those of the first ping. Throws std::runtime_error, `missing` where there is none.
+/// A log of pings with the same beams. The value 0 is -64 dB, or a sample that a beam lacks. The
+/// bearings are those of the first ping. Throws std::runtime_error, with the text `missing` if
+/// there are no pings.
 SonarLog log_of_water(const std::vector<WaterPing>& pings, const char* missing);
 
 }  // namespace sonarsim

@@ -170,7 +170,7 @@ LoggedSoundings soundings_of_record(std::string_view record) {
     return ping;
 }
 
-/// Calls `visit(record)` for the records of a type until it says that it has enough.
+/// Calls `visit(record)` for the records of a type until `visit` returns false.
 template <class Visit>
 void for_each_record(std::string_view bytes, std::size_t channels, int type, const Visit& visit) {
     // Six channels fit into the first 1,024 bytes, eight into each further 1,024.

@@ -22,8 +22,8 @@ struct XtfSidescanPing {
     XtfSide starboard;
 };
 
-/// The side-scan pings of an XTF file: of each ping the first channel of port and the first of
-/// starboard, as 8 or 16 bits without sign, 32 bits or IEEE floats, times 2^-weight of the channel.
+/// The side-scan pings of an XTF file: each ping's first port channel and first starboard channel.
+/// Samples are unsigned 8 or 16 bits, 32 bits or IEEE floats, times 2^-weight of the channel.
 struct XtfPings {
     double full_value = 0.0;    ///< the largest that the samples can hold; 0 for floats
     double frequency_hz = 0.0;  ///< 0: not known
