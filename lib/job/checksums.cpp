@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t digits_of_sum = 64;
 
-/// The files of single pings, in the order of the writers.
+/// Adds the sums of the pings' loose files, in the order of the writers.
 void add_loose(StreamedFile& sums, const Layout& layout, std::uint32_t sensor,
                const JournalEntries& entries) {
     const SensorLayout& own = layout.sensors[sensor];
@@ -38,7 +38,7 @@ void add_loose(StreamedFile& sums, const Layout& layout, std::uint32_t sensor,
     }
 }
 
-/// Packs, which are read, several at a time.
+/// Adds the sums of the packs; reads several packs at a time.
 void add_packs(StreamedFile& file, const Layout& layout, std::uint32_t sensor) {
     const SensorLayout& own = layout.sensors[sensor];
     std::vector<std::string> sums(layout.packs(sensor));
@@ -99,7 +99,7 @@ std::map<std::string, std::string> read_checksums(const fs::path& file) {
         const std::string name = line.substr(sum.size() + blanks.size());
         const bool sound = sum.size() == digits_of_sum &&
                            sum.find_first_not_of("0123456789abcdef") == std::string::npos &&
-                           // Each line ends; the last one of a file that was cut off does not.
+                           // The last line of a file that was cut off has no line feed.
                            blanks == "  " && stays_below(name) && !lines.eof();
         if (!sound) {
             throw InputError({file.string(), number},

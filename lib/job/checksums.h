@@ -9,10 +9,10 @@
 
 namespace sonarsim {
 
-/// Writes OUT/SHA256SUMS, as `sha256sum -c` takes it in OUT: every file of the dataset but this
-/// one. The journal has the sums of loose files of pings, so that these need not be read again; the
-/// others are read, but for dataset.json, which gets the text `description` afterwards.
-/// std::runtime_error when the journal lacks a ping; std::system_error when a file cannot be read.
+/// Writes OUT/SHA256SUMS for `sha256sum -c` in OUT: every file of the dataset but this one. Sums of
+/// the pings' loose files come from the journal. The sum of dataset.json is that of `description`,
+/// which is written to it afterwards. All other files are read. std::runtime_error when the journal
+/// lacks a ping; std::system_error when a file cannot be read.
 void write_checksums(const Layout& layout, const JournalEntries& entries,
                      const std::string& description);
 

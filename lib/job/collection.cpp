@@ -35,7 +35,7 @@ struct Member {
     std::string folder;                       ///< its name in the collection
 };
 
-/// The name of the mission becomes that of a folder, which stands in lines of SHA256SUMS.
+/// InputError unless the mission's name is plain text: it names a folder in SHA256SUMS.
 void require_printable(const fs::path& from, const std::string& mission) {
     if (printable(mission) == mission) return;
     throw InputError({(from / description_name).string()},
@@ -57,7 +57,8 @@ Member read_member(const fs::path& from) {
     return member;
 }
 
-/// In an order of their own, each with a folder. InputError when a dataset is there twice.
+/// Reads the datasets and sorts them, so that the order of `parts` does not matter. Each gets a
+/// folder. InputError when a dataset is there twice.
 std::vector<Member> read_members(const std::vector<fs::path>& parts) {
     std::vector<Member> members;
     members.reserve(parts.size());
@@ -153,7 +154,7 @@ void require_no_links(const fs::path& out, const std::vector<Member>& members) {
         require_no_link(out / folder, "a collection");
 }
 
-/// Locks the folder and makes it ready if it is not.
+/// Locks the folder, and begins the collection unless the folder holds it.
 FolderLock begin_collection(const fs::path& out, const Json& description) {
     FolderLock lock = lock_alone(out);
     if (std::optional<CollectionFile> found = read_collection(out)) {

@@ -23,15 +23,14 @@ struct CollectionSummary {
     bool complete = false;
 };
 
-/// Puts datasets of different missions side by side, each whole and unchanged in OUT/<mission>/.
-/// OUT/collection.json keeps their ids apart: those of instances by an offset for each dataset,
-/// those of classes by their names, which are the same class in all of them. The order of the
-/// datasets does not matter.
+/// Collects datasets of different missions, each unchanged in OUT/<mission>/. OUT/collection.json
+/// makes their ids unique: instance ids get an offset for each dataset; class ids follow the names,
+/// since a name is one class in all datasets. The order of the datasets does not matter.
 ///
 /// InputError when a part is no complete dataset, when one is there twice, when a file differs from
 /// its SHA256SUMS, and when `out` holds something else or another run writes there;
 /// std::system_error when the disk fails. When `stop` becomes true, the copies under way are
-/// finished; the same call goes on later.
+/// finished; the same call resumes later.
 CollectionSummary collect_datasets(const std::vector<std::filesystem::path>& parts,
                                    const std::filesystem::path& out, int threads,
                                    const ProgressCallback& progress, const std::atomic<bool>& stop);
@@ -53,7 +52,7 @@ std::vector<std::filesystem::path> collected_folders(const std::filesystem::path
 
 /// The errors of a collection besides those of its datasets, a sentence each: its own SHA256SUMS
 /// must agree with those of the datasets. Files of the datasets are not read. InputError as
-/// read_collection(), and for a SHA256SUMS that is none.
+/// read_collection(), and for a damaged SHA256SUMS.
 std::vector<std::string> collection_errors(const std::filesystem::path& folder);
 
 }  // namespace sonarsim

@@ -104,8 +104,8 @@ FolderState inspect_folder(const Layout& layout, const Json& description,
     const fs::path& folder = layout.folder;
     if (!fs::exists(folder)) return FolderState::fresh;
     require_folder(folder);
-    // Another shard may be starting. It writes dataset.json before anything else, so a run that
-    // finds something and only then looks for dataset.json sees it.
+    // Another shard may be starting. It writes dataset.json before anything else, so look for other
+    // files first and for dataset.json second.
     const bool unused = is_unused(folder);
     if (!fs::exists(folder / description_name)) {
         if (unused) return FolderState::fresh;
@@ -152,8 +152,8 @@ void remove_dataset(const Layout& layout, const Mission& mission) {
 
 void begin_dataset(const Layout& layout, const CommonFiles& files) {
     fs::create_directories(layout.folder);
-    // First and durably, since a run does not write into a folder that holds other files but not
-    // this one.
+    // dataset.json is written first and durably: a run refuses a folder with other files but
+    // without it.
     write_file_durably(layout.folder / description_name, json_text(files.description));
     // The sums are valid again only when the dataset is complete.
     fs::remove(layout.folder / checksums_name);

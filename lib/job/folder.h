@@ -36,8 +36,9 @@ void require_no_link(const std::filesystem::path& path, const std::string& what)
 void protect_inputs(const Layout& layout, const Mission& mission);
 
 /// Removes the files that the folder's dataset.json lists, and nothing else; no link is followed.
-/// Durably, so that what comes after it is never found with an old journal. InputError when the
-/// folder holds files and no dataset of sonarsim, or when that lists a file that the mission reads.
+/// The removal is durable, so that a new dataset is never found with an old journal. InputError
+/// when the folder holds files but no dataset of sonarsim, or when dataset.json lists a file that
+/// the mission reads.
 void remove_dataset(const Layout& layout, const Mission& mission);
 
 /// Removes the files that dataset.json (`description`) lists, complete or temporary, the gallery,
@@ -48,7 +49,7 @@ void remove_listed_files(const std::filesystem::path& folder,
                          const nlohmann::ordered_json& description,
                          const std::vector<std::filesystem::path>& inputs);
 
-/// The text of the files that are not of one ping.
+/// The text of the files that do not belong to one ping.
 struct CommonFiles {
     nlohmann::ordered_json description;  ///< dataset.json
     std::string mission;                 ///< mission.resolved.yaml

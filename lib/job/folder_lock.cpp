@@ -35,8 +35,8 @@ Lock lock_now(int fd, int mode) {
     return Lock::taken;
 }
 
-/// Makes a folder and those above it. InputError for a path where there cannot be one; errors of
-/// the disk are passed on.
+/// Makes a folder and those above it. InputError for a path that cannot be a folder; errors of the
+/// disk are passed on.
 void make_folder(const fs::path& folder) {
     try {
         fs::create_directories(folder);

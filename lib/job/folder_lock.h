@@ -12,13 +12,14 @@ namespace sonarsim {
 
 /// The right to write into a folder. It is a lock (flock) on the folder itself: it leaves no file,
 /// and it ends with the process, however that ends. A run that writes a whole dataset holds the
-/// folder alone; shards of one job share it. If the file system has no locks, all are granted.
+/// folder alone; shards of one job share it. If the file system has no locks, every lock is
+/// granted.
 ///
-/// On a network's file system the lock of a folder holds on one machine only. The lock of a part of
-/// the journal, a file, holds on all of them; others_write() checks those.
+/// On a network file system the lock of a folder holds on one machine only. The lock of a part of
+/// the journal, which is a file, holds on all machines; others_write() checks these locks.
 class FolderLock {
   public:
-    /// Returns true to wait on for another run; called every few hundredths of a second.
+    /// Returns true to keep waiting for another run; called every few hundredths of a second.
     using Waits = std::function<bool()>;
 
     /// Makes the folder where there is none. Locks nothing yet. InputError when the path is no
@@ -29,11 +30,11 @@ class FolderLock {
     FolderLock(const FolderLock&) = delete;
     FolderLock& operator=(const FolderLock&) = delete;
 
-    // Each replaces the lock held before; others may come in between. They return false when
-    // another run holds the folder and `waits` returns false; nothing is held then.
+    // Each replaces the lock held before; in between another run may take the folder. Returns
+    // false, and holds no lock, when another run holds the folder and `waits` returns false.
     bool take_alone(const Waits& waits);
     bool share(const Waits& waits);
-    /// Takes it alone if no other run is at work, else shared.
+    /// Takes the folder alone if no other run is at work, else shares it.
     bool take_alone_or_share(const Waits& waits);
 
     /// False if the file system has no locks.

@@ -107,7 +107,7 @@ JournalEntries read_journal(const fs::path& folder) {
 
 JournalRun read_journal_run(const fs::path& part) {
     JournalRun run;
-    // It fails if the run that completed the dataset has removed the part.
+    // Opening fails if the run that completed the dataset has removed the part.
     std::ifstream lines(part, std::ios::binary);
     for (std::string line; std::getline(lines, line);) {
         const std::optional<std::string> text = opened(line);
@@ -204,7 +204,7 @@ void Journal::checkpoint() {
     if (lines.empty()) return;
     sync_file_system(folder_);
     if (start_s_ > 0.0) {
-        // The torn line of an interrupted run ends before it.
+        // A leading line feed ends the torn line of an interrupted run.
         const std::size_t begin = lines.front() == '\n' ? 1 : 0;
         lines.insert(begin, time_line("run", std::exchange(start_s_, 0.0)));
     }

@@ -48,7 +48,7 @@ struct JournalRun {
 };
 JournalRun read_journal_run(const std::filesystem::path& part);
 
-/// Writes OUT/journal.txt: the same bytes for all ways in which a dataset was made.
+/// Writes OUT/journal.txt: its bytes do not depend on the runs that made the dataset.
 void write_journal(const std::filesystem::path& path, const JournalEntries& entries);
 
 double seconds_since_1970();

@@ -35,8 +35,9 @@ struct Pattern {
     }
 };
 
-/// The files that a description lists, relative to the folder of the dataset. It may claim any
-/// number of them: the folder is searched for them, and not the other way round.
+/// The files that a description lists, relative to the folder of the dataset. A description may
+/// claim any number of files, so the files of the folder are looked up in it, and not its files in
+/// the folder.
 struct ListedFiles {
     std::set<std::string> names;
     std::vector<Pattern> patterns;
@@ -46,7 +47,7 @@ struct ListedFiles {
                (names.contains(name) ||
                 std::ranges::any_of(patterns, [&](const Pattern& p) { return p.has(name); }));
     }
-    /// True if one of them lies in a folder or below.
+    /// True if a listed file lies in a folder or below.
     bool is_in(const std::string& inner_folder) const {
         const auto is_below = [&](const std::string& name) {
             return name.starts_with(inner_folder + "/");
@@ -97,7 +98,7 @@ void remove_listed_files(const fs::path& folder, const Json& description,
     const ListedFiles listed = list_files(folder, description);
     std::vector<fs::path> files;
     std::set<fs::path, std::greater<>> folders;  // a folder comes after those in it
-    // It does not follow links: everything that it finds lies in the folder.
+    // The iterator does not follow links: everything that it finds lies in the folder.
     for (const fs::directory_entry& entry :
          fs::recursive_directory_iterator(folder, fs::directory_options::skip_permission_denied)) {
         const fs::path name = entry.path().lexically_relative(folder);
@@ -124,7 +125,7 @@ void remove_listed_files(const fs::path& folder, const Json& description,
         if (fs::is_empty(inner)) fs::remove(inner);
     }
     remove_gallery(folder);  // it shows files that are gone
-    // Last: by this file the folder is recognised, and the removal can be run again.
+    // dataset.json goes last: it marks the dataset, so that an interrupted removal can be repeated.
     fs::remove(folder / description_name);
 }
 

@@ -73,7 +73,7 @@ void require_same(const fs::path& part, const CommonFiles& found, const fs::path
                          "--different");
 }
 
-/// The input of the products of a dataset: all that the mission names but the scene.
+/// The input of a dataset's products: all that the mission names except the scene.
 struct MergeContext {
     Mission mission;
     Assembly assembly;
@@ -96,7 +96,7 @@ MergeContext read_context(const fs::path& part, const CommonFiles& common, const
     for (const SonarConfig& sensor : context.mission.sensors)
         context.assembly.sonars.push_back(
             make_sonar(sensor, context.mission.accuracy, context.mission.water));
-    // The white of pictures was derived from the scene, which is not needed here.
+    // The full scale of pictures was derived from the scene, which is not read here.
     for (const DescribedSensor& sensor : dataset.sensors) {
         if (sensor.full_scale <= 0.0) {
             throw InputError({(part / description_name).string()},
@@ -118,7 +118,7 @@ void adopt_packs(Layout& layout, const DatasetFile& dataset) {
     }
 }
 
-/// Compares dataset.json with the mission: a key that was changed would be copied into the whole.
+/// Compares dataset.json with the mission: a changed key would be copied into the result.
 void require_as_made(const Json& found, const fs::path& part, const MergeContext& context,
                      const Layout& layout, const std::vector<Writers>& writers) {
     const Mission& mission = context.mission;

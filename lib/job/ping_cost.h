@@ -13,8 +13,8 @@ struct PingCost {
 };
 
 /// Renders a few pings of each sonar as the mission would, with its engine and its writers, and
-/// keeps nothing of them. By Mission::sensors. Adds to `set_up_s` the time to make the engine, and
-/// the time by which the first ping of each sonar is longer than the others: it fills tables.
+/// discards them. The costs are in the order of Mission::sensors. Adds to `set_up_s` the time to
+/// make the engine and the extra time of each sonar's first ping, which fills tables.
 std::vector<PingCost> measure_pings(const Mission& mission, const Assembly& assembly,
                                     const std::vector<Writers>& writers, double& set_up_s);
 

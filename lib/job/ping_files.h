@@ -21,7 +21,8 @@ struct PingToList {
     const SensorLayout& sensor;
     const EncodedPing& encoded;
 };
-/// The fields of each ping in the journal. Files of several pings are summed in less time together.
+/// The fields of each ping in the journal. The sums of several pings' files take less time
+/// together.
 std::vector<std::vector<std::string>> journal_fields(std::span<const PingToList> pings);
 
 /// Reads a ping that is in a dataset. `finished` is that of the dataset. InputError when a file

@@ -84,7 +84,7 @@ void PingIndex::add(const PingId& ping, const std::vector<std::string>& fields) 
 }
 
 void PingIndex::sort() {
-    // The last one of a ping is sorted to the front of its equals, and `unique` keeps it.
+    // The last entry added for a ping is sorted before the ping's other entries; `unique` keeps it.
     std::ranges::sort(entries_, [](const Entry& a, const Entry& b) {
         return a.ping != b.ping ? a.ping < b.ping : a.begin > b.begin;
     });

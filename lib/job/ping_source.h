@@ -31,8 +31,8 @@ struct PingInMemory {
     std::string metadata;       ///< meta/NNNNNN.json
 };
 
-/// The pings of a mission without files. They are made as run_job() makes them, and do not depend
-/// on which others are asked for.
+/// The pings of a mission without files. They equal those of run_job(), and do not depend on which
+/// other pings are requested.
 class PingSource {
   public:
     /// `assembly` is that of the mission.
@@ -43,7 +43,7 @@ class PingSource {
     const Mission& mission() const { return mission_; }
     const Assembly& assembly() const { return assembly_; }
 
-    /// Any number of threads may ask at a time. The id must be one of list_pings().
+    /// Any number of threads may call it at a time. The id must be one of list_pings().
     /// std::runtime_error as brightest_pixel().
     PingInMemory ping(const PingId& id) const;
 

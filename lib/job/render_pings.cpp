@@ -88,8 +88,8 @@ std::size_t bytes_of(const EncodedPing& encoded) {
     return bytes;
 }
 
-/// The number of pings that a thread renders before it sums their files. More would take the images
-/// out of the caches, and what waits for a pack takes memory.
+/// The number of pings that a thread renders before it sums their files. More pings would not fit
+/// into the caches, and pings that wait for a pack take memory.
 std::size_t pings_of_turn(const Destination* to) {
     const auto packs = [](const SensorLayout& sensor) { return sensor.pings_per_pack > 0; };
     return to && std::ranges::none_of(to->layout.sensors, packs) ? 2 : 1;

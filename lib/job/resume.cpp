@@ -23,7 +23,7 @@ std::optional<std::uint64_t> size_of(const fs::path& path) {
     return static_cast<std::uint64_t>(status.st_size);
 }
 
-/// Visits the products; those of all sensors as if of a sensor after the last one.
+/// Visits the products. Those made of all sensors get the index after the last sensor's.
 template <class Visit>
 void for_each_product(const Layout& layout, const Visit& visit) {
     for (std::uint32_t i = 0; i < layout.sensors.size(); ++i) {

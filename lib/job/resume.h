@@ -12,21 +12,21 @@ namespace sonarsim {
 /// One for each sensor and writer; null if the writer writes a file per ping.
 using RecordFiles = std::vector<std::vector<std::unique_ptr<RecordFile>>>;
 
-/// Opens the record files of a dataset, or makes them. Only few of them stay open: `datasets` are
-/// used at the same time.
+/// Opens the record files of a dataset, or makes them. Few files stay open; `datasets` is the
+/// number of datasets in use at the same time.
 RecordFiles open_records(const Layout& layout, RecordAccess access = RecordAccess::write,
                          std::size_t datasets = 1);
 
 /// True for the pings that need not be rendered: the journal lists them, and their files and
-/// records are as listed; in a pack, only as long as no ping before them is missing. The references
-/// must outlive it.
+/// records are as listed. In a pack, no ping before them may be missing. The references must
+/// outlive it.
 class FinishedPings {
   public:
     FinishedPings(const Layout& layout, const RecordFiles& records);
 
     bool operator()(const PingId& ping) const;
 
-    /// The begin of a ping's files in its pack; those before it are finished.
+    /// The begin of a ping's files in its pack. The pings before it in the pack must be finished.
     std::uint64_t begin_in_pack(const PingId& ping) const;
     /// The size of the k-th file of a finished ping.
     std::uint64_t bytes_of(const PingId& ping, std::size_t k) const;
@@ -40,11 +40,11 @@ class FinishedPings {
     const Layout& layout_;
     const RecordFiles& records_;
     JournalEntries entries_;
-    /// For sensors with packs by ping: the end of its files in its pack; 0: it is not finished.
+    /// For sensors with packs: the end of each ping's files in its pack; 0: not finished.
     std::vector<std::vector<std::uint64_t>> ends_;
 };
 
-/// std::runtime_error when the files of records are not those that were opened any more.
+/// std::runtime_error when a file of records was removed or replaced after it was opened.
 void require_records(const RecordFiles& records);
 
 /// std::runtime_error when a ping that this run has written is not there any more.
@@ -54,8 +54,8 @@ void require_files(const Layout& layout, const std::vector<PingId>& written,
 /// The sizes of the products by sensor and file. std::runtime_error when one is not there.
 ProductSizes require_products(const Layout& layout);
 
-/// True if a dataset whose dataset.json says `complete` has `pings` and all products. Opens nothing
-/// to write, so that the disk may be read-only.
+/// True if a dataset whose dataset.json says `complete` has `pings` and all products. Opens no file
+/// for writing: the disk may be read-only.
 bool has_all(const Layout& layout, const std::vector<PingId>& pings);
 
 }  // namespace sonarsim

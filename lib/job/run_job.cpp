@@ -48,7 +48,7 @@ Plan make_plan(const std::vector<PingId>& all, const RenderOptions& options,
 FolderState set_up(const Layout& layout, const CommonFiles& common, const Mission& mission,
                    const RenderOptions& options, FolderLock& lock) {
     if (options.overwrite) remove_dataset(layout, mission);
-    // Files that are not the dataset's stay in the folder; without its dataset.json it is fresh.
+    // Files of others stay in the folder; without dataset.json it counts as fresh.
     const FolderState state = options.overwrite
                                   ? FolderState::fresh
                                   : inspect_folder(layout, common.description, common.mission);
@@ -116,7 +116,8 @@ void run_in_folder(const RenderRun& run, const RenderOptions& options,
     std::optional<FinishedPings> there(std::in_place, layout, records);
     const Plan plan = make_plan(all, options, shard, *there);
     summary.skipped = plan.skipped;
-    // In a fresh folder as well: a run that was cut off before it had dataset.json leaves its part.
+    // Also in a fresh folder: a run that was killed before it had dataset.json leaves a temporary
+    // file.
     remove_leftovers(layout, plan.todo, options.shards == 1);
     {
         PingFiles files(layout, records, *there);
@@ -125,7 +126,7 @@ void run_in_folder(const RenderRun& run, const RenderOptions& options,
     }
     journal.finish();
     if (summary.stopped) return;
-    // Files may have been removed meanwhile: all of them are looked at once more.
+    // Files may have been removed meanwhile: check all of them again.
     require_records(records);
     // Only one copy of the journal is held at a time: with many pings it is long.
     there.emplace(layout, records);

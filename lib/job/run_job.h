@@ -14,7 +14,7 @@ struct RenderOptions {
     int shard = 0;              ///< renders the pings whose index i has i % shards == shard
     int shards = 1;             ///< 1: all of them
     bool overwrite = false;     ///< replaces another dataset in the folder
-    bool files = true;          ///< false: renders and throws away, to measure
+    bool files = true;          ///< false: renders without writing, to measure times
     double checkpoint_s = 5.0;  ///< between checkpoints; the most that a power cut costs
 };
 /// InputError when the options contradict each other.
@@ -38,7 +38,7 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
                       const RenderOptions& options, const JobCallback& progress,
                       const std::atomic<bool>& stop);
 
-/// The same, with the assembly made on the way.
+/// The same; makes the assembly.
 RenderSummary run_job(const Mission& mission, const RenderOptions& options,
                       const JobCallback& progress, const std::atomic<bool>& stop);
 

@@ -37,7 +37,7 @@ Layout layout_of(const fs::path& folder, const DatasetFile& dataset) {
     return layout;
 }
 
-/// Calls `visit` with every ping of the dataset and its index in list_pings(). There is no list of
+/// Calls `visit` with every ping of the dataset and its index in list_pings(). It makes no list of
 /// them: dataset.json may claim more pings than fit into memory.
 template <class Visit>
 void for_each_ping(const Layout& layout, const Visit& visit) {

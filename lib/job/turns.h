@@ -5,8 +5,8 @@
 
 namespace sonarsim {
 
-/// Divides items into turns of `each`, which a thread takes one after another. The last items have
-/// turns of their own, so that threads end at about the same time.
+/// Divides items into turns of `each` items. A thread takes one turn after another. Each of the
+/// last items is a turn of its own, so that threads end at about the same time.
 class Turns {
   public:
     Turns(std::size_t items, std::size_t each, std::size_t threads) : items_(items), each_(each) {

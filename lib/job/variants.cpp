@@ -94,8 +94,8 @@ void write_common_files(const fs::path& folder, const Json& json) {
     if (!is_begun) write_file_durably(file, sums);
 }
 
-/// Locks the folder of all variants for a run and makes it ready: alone, or with other shards,
-/// which wait while one of them does.
+/// Locks the folder of all variants for a run and prepares it. Shards share the lock; the others
+/// wait while one of them prepares the folder.
 FolderLock enter(const fs::path& folder, const Json& json, std::span<const Mission> variants,
                  const RenderOptions& options) {
     constexpr double longest_s = 10.0;

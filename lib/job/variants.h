@@ -65,7 +65,7 @@ RenderSummary run_variants(const Mission& mission, std::span<const Mission> vari
                            const RenderOptions& options, const VariantCallback& begin,
                            const ProgressCallback& progress, const std::atomic<bool>& stop);
 
-/// Joins the shards of one mission with variants, as merge_datasets does those of each. InputError
+/// Joins the shards of one mission with variants, each variant as merge_datasets does. InputError
 /// when the parts are not of one mission, and for a variant that is in none of them.
 MergeSummary merge_variants(const std::vector<std::filesystem::path>& parts,
                             const std::filesystem::path& out, int threads,
