@@ -15,23 +15,23 @@ struct PixelBox {
     bool operator==(const PixelBox&) const = default;
 };
 
-/// The smallest box around two; one that is empty adds nothing.
+/// The smallest box around two boxes; an empty box adds nothing.
 PixelBox joined(const PixelBox& one, const PixelBox& other);
 /// Enlarges a box so that it holds a pixel.
 void extend(PixelBox& box, int column, int row);
 
-/// The facts of an object in a picture that rules of annotations look at.
+/// The facts of an object in a picture that the rules of annotation use.
 struct ObjectFacts {
     bool is_background = false;
     std::uint64_t pixels = 0;
     std::optional<double> visible_share;       ///< empty: not known
     std::optional<double> contrast_db;         ///< empty: it has no surroundings
-    std::optional<double> shadow_contrast_db;  ///< empty: likewise, or no shadow
+    std::optional<double> shadow_contrast_db;  ///< empty: no surroundings or no shadow
 };
 
 enum class Annotated { yes, as_crowd, no };
 
-/// True if a picture annotates an object.
+/// The way in which a picture annotates an object.
 Annotated is_annotated(const ObjectFacts& facts, const LabelConfig& rules);
 
 /// The box of an annotation; nothing if there is none of this sort.

@@ -21,7 +21,7 @@ std::optional<int> first_return(std::span<const float> column, double brighter) 
     int i = 0;
     while (mean[i] < half)
         ++i;
-    // The running mean sees the edge of a short echo one bin early.
+    // The running mean rises one bin before the edge of a short echo.
     int edge = std::max(i - 1, 0);
     while (at(edge) < half)
         ++edge;

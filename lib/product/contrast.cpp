@@ -9,7 +9,7 @@ namespace sonarsim {
 
 namespace {
 
-/// The marked bins of one range, and what is around them.
+/// The marked bins of one range, and their surroundings.
 struct RangeLevels {
     int first = 0, last = -1;  ///< lines
     int count = 0, count_around = 0;

@@ -25,13 +25,12 @@ struct LevelMap {
     std::span<const float> level;
 };
 
-/// The level of the bins with an id in `marks` (the objects or the shadows of a map, within `box`)
-/// over that of their surroundings, dB; nothing without surroundings or if both have no echo.
-/// Surroundings are bins of the same range on either side, over the width of the marked bins there
-/// and at least two, that show only background: no other object and no shadow of one. They stand
-/// for the image without the object. Levels are means, those of the surroundings with as many bins
-/// in each range as are marked. Limited to 100 dB either way. `is_background` is 1 for the ids of
-/// background.
+/// The mean level of the bins with an id in `marks` (the objects or the shadows of a map, within
+/// `box`) over that of their surroundings, dB, limited to 100 dB either way; nothing without
+/// surroundings or if both have no echo. The surroundings stand for the image without the object:
+/// bins of the same range on either side, over the width of the marked bins there and at least two,
+/// that show only background and no shadow. Each range of the surroundings is weighted by its
+/// number of marked bins. `is_background` is 1 for the ids of background.
 std::optional<double> contrast_db(const LevelMap& map, std::span<const std::uint16_t> marks,
                                   std::uint16_t id, const BinBox& box,
                                   std::span<const std::uint8_t> is_background);

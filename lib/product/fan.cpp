@@ -44,8 +44,7 @@ bool is_near_edge(const View& view, const FanFrame& frame, const FanPlace& place
            (!full_turn && place.range_m * std::min(aside, 1.0) < frame.pixel_m);
 }
 
-/// The first column of a row with a pixel that is not clearly outside the sector; as many at the
-/// end of the row are, too.
+/// The number of columns at each end of a row that are clearly outside the sector.
 int first_column(const View& view, const FanFrame& frame, int row) {
     if (view.azimuth_rad >= pi) return 0;
     const SinCos half = sincos(0.5 * view.azimuth_rad);

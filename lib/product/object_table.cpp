@@ -32,8 +32,8 @@ void add_bins(SeenObject& seen, int from, int to, int j) {
     seen.bins += static_cast<std::uint64_t>(to - from);
 }
 
-/// Adds these bins one by one, since the order decides the last digits. The sums do not wait for
-/// each other, so that three take the time of one.
+/// Adds the bins one by one, since the order decides the last digits. The three sums are
+/// independent, so that they take the time of one.
 void add_to_totals(std::span<const float> levels, std::span<const double> ranges_m,
                    double azimuth_rad, BinTotals& totals) {
     BinTotals sum = totals;
@@ -103,7 +103,7 @@ std::vector<Eigen::AlignedBox3f> seen_boxes(const SceneObjects& objects, const T
     return boxes;
 }
 
-/// Finds the shadows of objects, by the index of each.
+/// Finds the shadows of the objects; `all` is indexed by object.
 void add_shadows(const PingLabels& labels, std::span<const PixelBox> fan_boxes,
                  std::vector<SeenObject>& all) {
     if (labels.object_shadow.empty()) return;
@@ -124,7 +124,7 @@ void add_shadows(const PingLabels& labels, std::span<const PixelBox> fan_boxes,
     }
 }
 
-/// Compares objects and their shadows with what is around them.
+/// Compares objects and their shadows with their surroundings.
 class Contrasts {
   public:
     Contrasts(const SceneObjects& objects, const PingLabels& labels, std::span<const float> levels)

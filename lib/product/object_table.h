@@ -27,15 +27,15 @@ struct SeenObject {
     Eigen::AlignedBox3f box_sensor_m;         ///< box around its visible surface, sensor frame
 
     // For an object that is no background:
-    std::optional<double> contrast_db;         ///< its level over that around it, contrast_db()
+    std::optional<double> contrast_db;         ///< level over its surroundings, contrast_db()
     std::optional<double> visible_share;       ///< PingLabels::visible_share, if it was found
-    BinBox shadow;                             ///< its bins of PingLabels::object_shadow
-    std::uint64_t shadow_bins = 0;             ///< and their number
-    std::optional<double> shadow_contrast_db;  ///< the level of its shadow, likewise
-    PixelBox shadow_in_fan;                    ///< empty: no fan, or no pixel of it
+    BinBox shadow;                             ///< box of its bins of PingLabels::object_shadow
+    std::uint64_t shadow_bins = 0;             ///< number of these bins
+    std::optional<double> shadow_contrast_db;  ///< the same for its shadow
+    PixelBox shadow_in_fan;                    ///< empty: no fan, or no pixel in it
 };
 
-/// The facts by which an annotation of an object with this number of pixels in a picture is chosen.
+/// The facts for is_annotated() of an object with `pixels` pixels in a picture.
 ObjectFacts facts_of(const SeenObject& seen, const SceneObjects& objects, std::uint64_t pixels);
 
 /// The objects in a ping, sorted by id. `labels` gives the object of each bin, `ping` the levels.

@@ -77,7 +77,8 @@ __m128 lane_sums(__m128 a, __m128 b, __m128 c, __m128 d) {
     return _mm_hadd_ps(halves(a, b), halves(c, d));
 }
 
-/// Calls weighted(pixel), which gives the weighted bins of a pixel in four lanes, and adds these.
+/// Calls weighted(pixel), which gives the weighted bins of a pixel in four lanes, and adds the
+/// lanes.
 template <class Weighted>
 void add_lanes(std::span<const FanMap::Pixel> pixels, Weighted weighted, float* sums) {
     std::size_t p = 0;
@@ -95,7 +96,7 @@ void add_lanes(std::span<const FanMap::Pixel> pixels, Weighted weighted, float* 
 using FourWeights = std::array<float, std::size_t{4} * KernelTable::phases>;
 
 /// Weighs the bins of at most `fan_block` pixels with three bins in range and four beams, as nearly
-/// all pixels of a fan have. Most of its time goes into loads, of which it has five for a pixel.
+/// all pixels of a fan have. Most of its time goes into its five loads per pixel.
 void weigh_3_by_4(const FourWeights& range_weights, const KernelTable& beam_kernel,
                   std::span<const FanMap::Pixel> pixels, const PaddedImage& bins, float* sums) {
     const float* const range = range_weights.data();
@@ -160,7 +161,7 @@ void shade(const std::array<float, fan_block>& sums, float scale,
         const __m256 amplitude = _mm256_mul_ps(_mm256_set1_ps(255.0F), _mm256_sqrt_ps(share));
         return _mm256_cvttps_epi32(_mm256_add_ps(amplitude, _mm256_set1_ps(0.5F)));
     };
-    // Packing works within halves of a vector; in the end fours are put in order.
+    // Packing works within each half of a vector, so groups of four are reordered at the end.
     const __m256i order = _mm256_setr_epi32(0, 4, 1, 5, 2, 6, 3, 7);
     for (std::size_t p = 0; p < fan_block; p += 32) {
         const __m256i low = _mm256_packus_epi32(eight(p), eight(p + 8));

@@ -11,8 +11,8 @@ namespace sonarsim {
 struct StripFrame {
     int axis_width = 0;   ///< 0: no axis on the left
     int axis_height = 0;  ///< 0: no axis on top
-    int ping_px = 1;      ///< along the pings
-    int bin_px = 1;       ///< along the ranges
+    int ping_px = 1;      ///< size of a ping
+    int bin_px = 1;       ///< size of a range bin
     int width = 0;        ///< with the axis
     int height = 0;
 };
