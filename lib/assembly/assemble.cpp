@@ -60,7 +60,7 @@ std::string surface_warning(const Mission& mission, const Assembly& assembly) {
     }
     const std::string name = "scene.water_surface ";
     if (pings == 0) {
-        // It bounds the water, and depths count from it.
+        // The surface has an effect: it bounds the water, and depths count from it.
         if (some_water_scatters(mission) || mission.water.profile || config.scatters) return "";
         return name +
                "has no effect because no sensor has multipath: set sensors.NAME.multipath.method";

@@ -43,7 +43,7 @@ struct Assembly {
 /// errors in them, and when the mission's engine does not support the view of a sensor.
 Assembly assemble(const Mission& mission);
 
-/// The same with glTF files that may already be read for another mission.
+/// The same; `models` may hold files that were read for another mission.
 Assembly assemble(const Mission& mission, SceneFiles& models);
 
 /// The poses of the scene's bodies at a time of the trajectory, world.

@@ -43,7 +43,7 @@ std::vector<double> surfaces_of(const Scene& scene, const SceneObjects& objects)
 void add_automatic(const Mission& mission, const Scene& scene, const SceneObjects& objects,
                    std::vector<std::uint8_t>& background) {
     std::vector<std::string> bottom = bottom_patterns(mission.scene);
-    // Clutter all over the bed.
+    // Plants are clutter all over the bed.
     if (mission.scene.seabed && mission.scene.bottom.empty()) bottom.emplace_back(plants_node);
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         for (const std::string& pattern : bottom) {

@@ -46,14 +46,14 @@ float quantile(std::vector<float>& values, double share) {
     return values[static_cast<std::size_t>(index)];
 }
 
-/// 1 for the bins [range bins, beams] into which surface falls. In an image of the calibrated model
-/// nearly every bin has an echo of the water, a side lobe or the tail of a pulse. An echogram is
-/// there to show such echoes, so all bins of a cone count, and its bottom may be white.
+/// 1 for the bins [range bins, beams] with surface: in an image of the calibrated model nearly
+/// every bin has an echo, of the water, a side lobe or the tail of a pulse. An echogram should show
+/// such echoes, so all bins of a cone count, and its bottom may be white.
 std::vector<std::uint8_t> bins_with_surface(const TracedPing& traced, const PingSettings& settings,
                                             const Scene& scene) {
     const RangeBins bins = range_bins(settings.view);
     const auto beams = static_cast<std::size_t>(settings.view.beams);
-    // A mean over a bin is 0 without surface, so that these images need no marks.
+    // Models that average over a bin give 0 without surface, so all their bins may count.
     const bool all = settings.view.shape == ViewShape::cone || !settings.model->energies_add();
     std::vector<std::uint8_t> out(beams * static_cast<std::size_t>(bins.count), all ? 1 : 0);
     if (all) return out;

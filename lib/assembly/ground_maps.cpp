@@ -61,7 +61,8 @@ LaidMapRule rule_of(const LaidMapConfig& map, const std::string& section, const 
             .by_uv = map.placed == MapPlacing::uv};
 }
 
-/// The image of a map: its file, or the texture of a glTF file, whose materials may have `parts`.
+/// The image of a map: its file, or the texture of a glTF file. Sets `parts` if the file's
+/// materials use parts of the texture.
 Image image_of(const LaidMapConfig& map, ImageReader& images, TextureParts& parts) {
     const std::string extension = map.file.extension().string();
     if (extension != ".glb" && extension != ".gltf") return images.read(map.file);
@@ -75,7 +76,7 @@ Image image_of(const LaidMapConfig& map, ImageReader& images, TextureParts& part
                      "is a mesh, whose texture lies on it by placed: uv; name an image");
 }
 
-/// The indices of the map's materials in the scene, which gets those that it lacks.
+/// The indices of the map's materials in the scene. Adds the materials that the scene lacks.
 std::vector<std::pair<std::string, std::uint32_t>> add_materials(const Renaming& materials,
                                                                  const MaterialTable& table,
                                                                  const Location& place,

@@ -21,7 +21,7 @@ Eigen::AlignedBox2d seen_by(std::span<const Sonar> sonars, const Trajectory& veh
 /// Patterns of the instances that are the bottom: scene.bottom, else the heightmap or the seabed.
 std::vector<std::string> bottom_patterns(const SceneConfig& scene);
 
-/// `seen` and the ground that objects at rest may stand on; world x and y.
+/// A box around `seen` and the ground that objects at rest may stand on; world x and y.
 Eigen::AlignedBox2d needed_ground(const SceneConfig& scene, const Eigen::AlignedBox2d& seen,
                                   Shapes& shapes);
 

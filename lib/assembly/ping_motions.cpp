@@ -70,8 +70,8 @@ double swept_hz(const SonarConfig& config, double sound_speed_m_s) {
     return pulse_band(config.instrument.pulse, bin_m, sound_speed_m_s).sweep_hz;
 }
 
-/// Range shift over speed of a pulse that sweeps over B in T. Sound whose frequency f is raised by
-/// 2 v f / c fits an up-sweep earlier by this shift over B / T.
+/// Range shift over speed, f T / B, of a pulse that sweeps over B in T. A shift of 2 v f / c in
+/// frequency makes the matched filter of an up-sweep respond earlier by this shift over B / T.
 double doppler_of(const SonarConfig& config, double sound_speed_m_s) {
     const PulseConfig& pulse = config.instrument.pulse;
     const double shift_s =

@@ -52,7 +52,7 @@ PhiloxKey vehicle_key(const Mission& mission, const char* name) {
     return stream_key(mission.seed, 0, 0, stream_named(name));
 }
 
-/// A dataset has its poses in trajectory.tum, which its reader takes within the limits of inputs.
+/// A dataset has its poses in trajectory.tum, whose reader accepts only values within these limits.
 void require_readable(const Trajectory& poses) {
     for (const TimedPose& pose : poses) {
         if (!(std::fabs(pose.t_s) <= furthest_s)) {

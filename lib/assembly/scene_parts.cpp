@@ -176,7 +176,7 @@ ScatterRule rule_of(const ScatterConfig& config) {
             .place = config.place.location};
 }
 
-/// An object that is turned by more than this is not meant to stand as its file has it.
+/// An object that is turned by more than this is not expected to stand upright in its file.
 constexpr double most_tilt_deg = 45.0;
 
 void note_question(const std::string& question, SceneParts& parts) {

@@ -9,7 +9,7 @@
 
 namespace sonarsim {
 
-/// The rule of a mission's seabed, without the part that is made.
+/// The rule of a mission's seabed, without the window that is made.
 SeabedRule rule_of(const SeabedConfig& config, std::uint64_t seed);
 
 /// The placed seabed of a mission, made above `needed`, world x and y.

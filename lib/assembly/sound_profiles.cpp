@@ -24,8 +24,8 @@ struct Temperature {
     double celsius;
 };
 
-// Chosen: mid latitudes in winter have a mixed layer of 50 m over a thermocline, a shelf sea in
-// August one of 8 m. Below 100 m only the pressure changes.
+// Chosen values: a mixed layer over a thermocline, of 50 m for mid latitudes in winter, of 8 m for
+// a shelf sea in August. Below 100 m only the pressure changes.
 std::vector<Temperature> temperatures(NamedProfile named, double celsius) {
     constexpr double deepest_m = 8000.0;
     switch (named) {
@@ -100,7 +100,7 @@ std::vector<ProfilePointConfig> points_of_file(const std::filesystem::path& file
     return points;
 }
 
-/// The mission's keys that require straight paths of sound.
+/// InputError for multipath, which requires straight paths of sound.
 void refuse_straight_sound(const Mission& mission) {
     for (const SonarConfig& sensor : mission.sensors) {
         if (sensor.multipath.method == MultipathMethod::none) continue;

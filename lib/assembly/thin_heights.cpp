@@ -17,7 +17,7 @@ namespace sonarsim {
 
 namespace {
 
-// These are chosen.
+// Chosen values.
 constexpr int most_left_out = 16;
 constexpr double share_of_goal = 0.25;  // that thinning may use
 constexpr std::size_t most_poses = 3;   // for each sonar; the lowest one is added
@@ -74,7 +74,7 @@ Thinning thin_heights(const PlacedFile& map, std::span<const Sonar> sonars,
     const HeightPatches patches(map, most_left_out, images);
     Thinning out;
     if (patches.has_unknown()) return out;
-    // The greatest change for 2, 4, 8 and 16.
+    // The greatest change if every 2nd, 4th, 8th or 16th row and column is kept.
     std::array<double, 4> change{};
     for (const Sonar& sonar : sonars) {
         View view = traced_view(sonar.settings.view, sonar.settings.guard_beams);

@@ -18,10 +18,10 @@ struct Thinning {
 
 /// True if thinning a mission's heightmap may be worth its time, and no truth depends on the
 /// heights that it leaves out: the map has at least 2^18 heights, and the mission no labels, no
-/// soundings, no objects on the bottom and no multipath. It reads the map.
+/// soundings, no objects on the bottom and no multipath. Reads the map.
 bool may_be_thinned(const Mission& mission, const PlacedFile& map, SceneFiles& models);
 
-/// The second of these conditions.
+/// True if the mission allows thinning and no truth depends on the heights that it leaves out.
 bool has_no_truth_of_heights(const Mission& mission);
 
 /// The greatest of 1, 2, 4, 8 and 16 for which every n-th row and column of a map is enough for the

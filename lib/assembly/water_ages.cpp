@@ -14,7 +14,7 @@ namespace sonarsim {
 
 namespace {
 
-/// The ages by which the water's speckle grows older.
+/// The growth of the speckle's age per second, metre and radian.
 struct AgeScales {
     double per_s, per_m, per_rad;
 };

@@ -15,7 +15,8 @@ namespace sonarsim {
 /// none. With normal velocities of the RMS value u along the line of sight, the phases 2 k r of
 /// scatterers drift apart by 2 k u t in a time t, and the amplitude of a resolution cell has the
 /// correlation of the characteristic function, exp(-(2 k u t)^2 / 2). The draws have the
-/// correlation cos(pi s / 2) over a part s of an age, which agrees at first if s = 2 / pi 2 k u t.
+/// correlation cos(pi s / 2) over a part s of an age, which, if s = 2 / pi 2 k u t, agrees to
+/// second order in t.
 ///
 /// The sonar's motion through the water adds to the age, too. It adds one age per half of the
 /// array's length, after which the power of a line array is uncorrelated, or per range bin of the
