@@ -10,8 +10,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// As the COCO dataset itself lies: PART/NAME.png and annotations/instances_PART.json, whose paths
-/// start at PART/. Ids are unique over all parts.
+/// The layout of the COCO dataset: PART/NAME.png and annotations/instances_PART.json, whose paths
+/// are relative to PART/. Ids are unique over all parts.
 class CocoExport final : public ExportFormat {
   public:
     explicit CocoExport(const ExportContext& context) : context_(context) {}

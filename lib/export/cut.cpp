@@ -11,7 +11,7 @@ class MaskBuilder {
   public:
     explicit MaskBuilder(int height) : height_(height) {}
 
-    /// Pixels of one column, behind all that were added.
+    /// Adds pixels of one column, which come after all that were added.
     void add(std::uint64_t begin, std::uint64_t end) {
         const auto x = static_cast<int>(begin / height_);
         const auto top = static_cast<int>(begin % height_);

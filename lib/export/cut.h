@@ -33,7 +33,7 @@ ObjectMask mask_of_runs(std::span<const std::uint32_t> runs, int height);
 /// if nothing is left.
 ObjectMask cut_mask(const ObjectMask& mask, int height, const Frame& frame, int from, int to);
 
-/// The beginnings of the tiles of a side along a length: neighbours share `overlap` pixels, and the
+/// The begins of tiles of `side` pixels along `length`: neighbours share `overlap` pixels, and the
 /// last one ends with the length. One tile, at 0, if the length is not longer than a side.
 std::vector<int> tile_begins(int length, int side, int overlap);
 

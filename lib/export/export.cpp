@@ -50,7 +50,7 @@ Json identity_of(const ExportSource& source, const ExportOptions& options) {
     return json;
 }
 
-/// Datasets side by side may lead to one name for two pictures.
+/// Two datasets of a collection may give two pictures the same name.
 std::string unique_name(const std::string& name, std::set<std::string>& taken) {
     std::string unique = name;
     for (int other = 2; !taken.insert(unique).second; ++other)

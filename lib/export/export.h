@@ -20,10 +20,10 @@ struct ExportSummary {
     bool complete = false;
 };
 
-/// Exports the datasets in a folder, one, the variants of a mission or a collection, loose or
-/// packed, as a folder in the layout of a trainer. A run that is cut off leaves no folder of that
-/// name; the same call begins anew. InputError as read_export_source() and ExportDestination, and
-/// for files that are damaged; std::system_error when the disk fails. When `stop` becomes true,
+/// Exports the datasets in a folder (one dataset, the variants of a mission or a collection; loose
+/// or packed) as a folder in the layout of a trainer. A run that is cut off leaves no folder of
+/// that name; the same call starts again. InputError as read_export_source() and ExportDestination,
+/// and for files that are damaged; std::system_error when the disk fails. When `stop` becomes true,
 /// nothing is left.
 ExportSummary export_dataset(const std::filesystem::path& folder, const std::filesystem::path& dest,
                              const ExportOptions& options, const ProgressCallback& progress,

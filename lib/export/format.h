@@ -49,8 +49,9 @@ std::unique_ptr<ExportFormat> make_webdataset_export(const ExportContext& contex
 /// "train", "val" or "test".
 std::string part_text(SplitPart part);
 
-/// Puts the file of a picture into a folder of the export, made where there is none; with `link` as
-/// a hard link where there is an original. InputError when the disk refuses the link.
+/// Puts the file of a picture into a folder of the export, which it makes if needed. With `link`
+/// the file is a hard link to the original, if there is one. InputError when the disk refuses the
+/// link.
 void place_picture(const ExportedPicture& picture, const std::filesystem::path& folder, bool link);
 
 }  // namespace sonarsim

@@ -20,7 +20,7 @@ std::string json_word(const Json& json) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// As the image folder of Hugging Face's `datasets`: PART/NAME.png, PART/metadata.jsonl with a line
+/// The image folder of Hugging Face's `datasets`: PART/NAME.png, PART/metadata.jsonl with a line
 /// per picture, README.md, the card of the dataset, and croissant.json.
 class ImageFolderExport final : public ExportFormat {
   public:

@@ -12,9 +12,9 @@ namespace {
 
 constexpr std::size_t most_classes = 255;  // without the background
 
-/// As MMSegmentation reads it: img_dir/PART/NAME.png, ann_dir/PART/NAME.png with the number of the
-/// class of each pixel and a palette, splits/PART.txt with a name a line, and meta.json with the
-/// names and colours. Number 0 is the background.
+/// The layout of MMSegmentation: img_dir/PART/NAME.png, ann_dir/PART/NAME.png with the number of
+/// the class of each pixel and a palette, splits/PART.txt with a name a line, and meta.json with
+/// the names and colours. Number 0 is the background.
 class MasksExport final : public ExportFormat {
   public:
     explicit MasksExport(const ExportContext& context) : context_(context) {

@@ -12,7 +12,7 @@ enum class ExportKind { yolo, coco, masks, imagefolder, webdataset };
 struct ExportOptions {
     ExportKind kind = ExportKind::yolo;
     std::vector<std::string> sensors;  ///< names; empty: all
-    std::vector<std::string> without;  ///< names of classes that are no objects
+    std::vector<std::string> without;  ///< classes that are not exported as objects
     bool bins = false;         ///< pictures of the bins of imaging sonars instead of the fans
     bool link = false;         ///< hard links to pictures that need no change
     bool polygons = false;     ///< outlines instead of boxes (YOLO) or runs (COCO)

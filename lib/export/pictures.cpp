@@ -86,7 +86,7 @@ class PictureLister {
           place_((dataset.folder / description_name).string()),
           parts_(parts_of_poses(file, dataset.folder, part)) {}
 
-    /// Lists the pictures of a sort, which these sensors must have.
+    /// Lists the pictures of one sort of these sensors. InputError without their COCO file.
     void list(CocoPicture sort, const std::vector<std::size_t>& sensors) {
         if (sensors.empty()) return;
         const std::string coco = coco_file(sort);
@@ -146,7 +146,7 @@ class PictureLister {
         const bool has_sensor = stem.starts_with(picture.sensor + "-");
         picture.name = (dataset_.name.empty() ? "" : dataset_.name + "-") +
                        (has_sensor ? "" : picture.sensor + "-") + stem;
-        // Trainers end the name of a sample at its first point, and shells at a blank.
+        // Trainers cut the name of a sample at its first point, shells at a blank.
         for (char& c : picture.name) {
             if (!is_plain_name(std::string("x") + c) || c == '.') c = '_';
         }

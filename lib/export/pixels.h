@@ -25,7 +25,8 @@ struct Pixels {
 /// fan.
 std::uint8_t grey_of(double share);
 
-/// Reads the pictures of a dataset, loose or packed. It holds the files of one pack of each sensor.
+/// Reads the pictures of a dataset, loose or packed. Keeps the files of one pack of each sensor in
+/// memory.
 class PixelReader {
   public:
     /// The bytes of the file. InputError when it is missing or damaged.

@@ -83,7 +83,7 @@ SourceDataset describe_source(const Place& place, const ExportOptions& options) 
     return dataset;
 }
 
-/// InputError when a name that the user gave is none of those that there are.
+/// InputError for a given name that is not among the known ones.
 void require_known(const std::vector<std::string>& given, const std::vector<std::string>& known,
                    const std::string& option) {
     for (const std::string& name : given) {

@@ -42,7 +42,7 @@ struct SourceDataset {
     nlohmann::ordered_json
         description;  ///< mission, hashes and version, for the files of an export
     std::vector<std::string> classes;
-    AnnotationRules rules;  ///< that it annotates by
+    AnnotationRules rules;  ///< rules by which it annotates objects
     std::vector<std::string> coco_files;
     std::vector<SourcePicture> pictures;
 };
@@ -58,7 +58,7 @@ struct ExportSource {
 struct SourceObject {
     int class_number = 0;  ///< in ExportSource::classes, from 1 on; 0: is no object
     ObjectMask mask;
-    PixelBox box;  ///< as the dataset's rules have it
+    PixelBox box;  ///< box by the dataset's rules
     bool is_crowd = false;
     SeenFacts seen;  ///< facts of the whole object, with the box of the shadow in the picture
 };

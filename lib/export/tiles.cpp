@@ -8,7 +8,7 @@ namespace sonarsim {
 
 namespace {
 
-/// An object on one side of a picture.
+/// The part of an object on one side of a picture's nadir.
 struct Sided {
     SourceObject object;
     int from = 0, to = 0;  ///< columns of the side

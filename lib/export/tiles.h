@@ -14,9 +14,9 @@ struct LeftOut {
     std::uint64_t pieces = 0;    ///< objects, or pieces of them, that are too small
 };
 
-/// Calls `visit` with the pictures that an export makes of one of a dataset: the picture itself, or
-/// the tiles of a waterfall, echogram or sweep. Objects of a side-scan are cut at the nadir, so
-/// that each is on one side.
+/// Calls `visit` with the exported pictures of one picture of a dataset: the picture itself, or the
+/// tiles of a waterfall, echogram or sweep. Objects of a side-scan are cut at the nadir, so that
+/// each is on one side.
 void for_each_exported(const SourcePicture& source, const std::vector<SourceObject>& objects,
                        PixelReader& reader, const ExportOptions& options, LeftOut& left_out,
                        const std::function<void(const ExportedPicture&)>& visit);

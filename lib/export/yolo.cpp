@@ -15,7 +15,7 @@ void append_share_of(std::string& line, double pixels, int all) {
     fmt::format_to(std::back_inserter(line), " {:.6f}", pixels / all);
 }
 
-/// As Ultralytics reads it: images/PART/NAME.png, labels/PART/NAME.txt, and data.yaml. A line per
+/// The layout of Ultralytics: images/PART/NAME.png, labels/PART/NAME.txt, and data.yaml. A line per
 /// object: class from 0 on, then middle and size of its box, or the corners of its outline, as
 /// shares of the picture. A picture without objects has an empty file.
 class YoloExport final : public ExportFormat {
