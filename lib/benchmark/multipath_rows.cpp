@@ -13,7 +13,7 @@ namespace {
 
 constexpr MultipathConfig none{MultipathMethod::none, 0, 0.0};
 
-/// The exact method with as many columns per beam.
+/// The exact method with the same number of columns per beam.
 MultipathConfig exact(const MultipathConfig& config) {
     return {MultipathMethod::exact, 0, 0.0, config.columns_per_beam};
 }

@@ -23,7 +23,7 @@ struct ColdStart {
     double first_ping_s = 0.0;      ///< from the start of the program to the end of the first ping
     double slowest_ms = 0.0;        ///< the slowest of the later pings, one per pose
     double peak_memory_mb = 0.0;    ///< peak memory of the process: scene, engine and pings; MiB
-    double engine_memory_mb = 0.0;  ///< share of the octree's nodes in it; 0 for rays
+    double engine_memory_mb = 0.0;  ///< part of the peak for the octree's nodes; 0 for rays
 };
 
 /// One sonar with one setting.
@@ -37,7 +37,7 @@ struct ReportRow {
     Summary samples_per_ping;
     ColdStart cold;
     PingSeconds stages;    ///< medians over the poses
-    double ms_bare = 0.0;  ///< the same for Embree alone, one ray to every sample
+    double ms_bare = 0.0;  ///< median for Embree alone, one ray to every sample
     /// Embree alone, with view_rays_count rays over the view, and a ping as a multiple of it. Both
     /// are CPU times, measured in turns at each pose; medians over the poses.
     double ms_rays = 0.0;
@@ -78,7 +78,7 @@ struct LabelRow {
     std::string sensor;
     std::string label;
     Summary ms;          ///< CPU time of finding the label, over the poses
-    Summary times_ping;  ///< CPU time of a ping with the label / of one without, likewise
+    Summary times_ping;  ///< CPU time of a ping with the label / without it, over the poses
 };
 
 /// The convergence of a sonar's reference images.
@@ -114,7 +114,7 @@ struct Report {
     int threads = 0;
     double goal = 0.0;   ///< accuracy.relative_l1 of the mission
     double load = 0.0;   ///< load average of the machine at the start
-    Thinning heightmap;  ///< the heights that are left out; errors are those over the rest
+    Thinning heightmap;  ///< heights that are left out; errors are those over the heights kept
     std::vector<ReportRow> rows;
     std::vector<ReferenceQuality> references;  ///< one per sonar
     std::vector<Growth> growth;

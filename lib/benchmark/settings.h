@@ -9,10 +9,10 @@
 
 namespace sonarsim {
 
-/// The settings of a report, from coarse to fine: rays and slices by error goal, the octree and the
-/// literal octree by leaf size. Leaves finer than a quarter of the finest range bin are omitted:
-/// they cost much and improve nothing; and `auto` at the mission's goal. The mission's own setting
-/// is included and marked.
+/// The settings of a report: rays and slices by error goal, the octree and the literal octree by
+/// leaf size, each from coarse to fine, and `auto` at the mission's goal. Leaves finer than a
+/// quarter of the finest range bin are omitted: they cost much and improve nothing. The mission's
+/// own setting is included and marked.
 std::vector<Setting> make_settings(const Mission& mission, bool quick);
 
 /// The settings to make the engine of a setting with.

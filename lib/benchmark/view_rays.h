@@ -7,8 +7,8 @@
 
 namespace sonarsim {
 
-/// Number of rays of the yardstick for pings: the time of Embree alone for as many rays over the
-/// same view of the same scene.
+/// Number of rays for the time that pings are compared with: that of Embree alone over the same
+/// view of the same scene.
 inline constexpr int view_rays_count = 131'072;
 
 /// `view_rays_count` unit directions in the sensor frame, evenly spread over a view: 512 columns of
