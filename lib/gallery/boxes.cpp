@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::uint64_t largest_size_px = 1U << 20;
 constexpr std::uint64_t largest_id = std::uint64_t{1} << 52;
 
-/// The keys that are no details: they stand in the box already.
+/// Keys that are no details, since the box itself has them.
 constexpr std::array<std::string_view, 6> known_keys{"id",   "image_id", "category_id",
                                                      "ping", "class",    "instance_id"};
 

@@ -46,14 +46,14 @@ struct BoxLabels {
 // compress it, the box of the shadow and the numbers of the annotation.
 
 /// The details of an annotation or an object, which may have no mask. Numbers have five digits.
-/// InputError when the mask is none of a picture of this size, px.
+/// InputError when the mask does not fit a picture of this size, px.
 nlohmann::ordered_json details_of(const CheckedJson& annotation,
                                   const std::optional<CheckedJson>& mask, std::uint64_t width,
                                   std::uint64_t height);
 
 /// The boxes in a picture.
 struct ListedBoxes {
-    std::uint64_t width = 0;  ///< the labelled picture has, px
+    std::uint64_t width = 0;  ///< size of the labelled picture, px
     std::uint64_t height = 0;
     nlohmann::ordered_json boxes = nlohmann::ordered_json::array();
 };

@@ -78,7 +78,7 @@ std::vector<std::string> sheet_members(const fs::path& folder) {
     return folders;
 }
 
-/// `count` of the numbers 0 to `all` - 1, spread evenly; of one the middle.
+/// `count` of the numbers 0 to `all` - 1, spread evenly; the middle one if `count` is 1.
 std::vector<std::uint64_t> spread_numbers(std::uint64_t all, std::uint64_t count) {
     std::vector<std::uint64_t> numbers;
     if (all == 0) return numbers;
@@ -163,7 +163,7 @@ std::vector<SheetPicture> all_pictures(const fs::path& folder, const SheetOption
     return pictures;
 }
 
-/// Runs in the child, which hands over the reason of a failure.
+/// Runs in the child process, which sends the reason of a failure to the parent.
 void draw_in_child(const ChildOutput& write, const SonarsimSheet& sheet) {
     std::array<char, 1000> error{};
     std::string reason;

@@ -13,10 +13,10 @@ namespace sonarsim {
 /// The pictures that a contact sheet shows.
 struct SheetOptions {
     std::string sensor;                 ///< this sensor alone; empty: all
-    std::optional<std::uint64_t> ping;  ///< this one, counted from 0
+    std::optional<std::uint64_t> ping;  ///< this ping alone, counted from 0
     std::size_t most = 36;              ///< most pictures of each sensor of one dataset
-    /// The child that draws has room for the libraries, a picture of 2^28 bytes and what it is
-    /// scaled with.
+    /// Limits of the child process that draws: memory for the libraries, a picture of 2^28 bytes
+    /// and the buffers to scale it.
     ChildLimits limits{std::size_t{4} << 30, 600, 300.0};
 };
 
@@ -24,7 +24,7 @@ struct SheetSummary {
     std::size_t pictures = 0;
 };
 
-/// Writes a contact sheet of the pictures of a dataset: of each sensor some pings, spread evenly,
+/// Writes a contact sheet of the pictures of a dataset: some pings of each sensor, spread evenly,
 /// with the sensor's name and the ping's number. For the variants of a mission, a sweep or a
 /// collection it shows one picture of each, by its first sensor and from its middle ping. The file
 /// is a PNG, a JPEG or a WebP, as its extension says. OpenImageIO draws it in a child process,

@@ -26,7 +26,7 @@ void replace(std::string& text, std::string_view place, std::string_view by) {
     text.replace(text.find(place), place.size(), by);
 }
 
-/// An element with JSON in which nothing can be taken for the end of the element.
+/// An element with JSON whose text cannot end the element.
 std::string json_element(const std::string& id, const Json& json) {
     const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
     std::string element = "<script type=\"application/json\" id=\"" + id + "\">";

@@ -28,7 +28,7 @@ std::optional<std::string> text_of(const fs::path& file) {
     return read_file(file, largest_ping_file);
 }
 
-/// Every number in a tree, by the names on the way to it.
+/// Visits every number in a tree of objects, with the names that lead to it.
 template <class Visit>
 void for_each_number(const std::string& name, const Json& json, const Visit& visit) {
     if (!name.empty() && (json.is_number() || json.is_null())) visit(name, json);
@@ -53,7 +53,7 @@ PictureBoxes boxes_of_coco(const Json& sensor, const CocoBoxes::OfPings& picture
     return all;
 }
 
-/// The frame of the boxes in objects/NNNNNN.json.
+/// The keys of a box in objects/NNNNNN.json, and the size of its picture.
 struct ObjectFrame {
     const char* box;
     const char* x;

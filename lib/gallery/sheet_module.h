@@ -3,9 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
-// The interface between the program and its module of images for contact sheets
-// (apps/modules/contact_sheet.cpp), which alone is linked with OpenImageIO. C, so that a symbol's
-// name is all that dlsym needs.
+// The interface to the module that draws contact sheets (apps/modules/contact_sheet.cpp). Only the
+// module is linked with OpenImageIO. The interface is C, so that dlsym needs only a symbol's name.
 
 extern "C" {
 
@@ -31,7 +30,7 @@ using SonarsimWriteSheet = int (*)(const SonarsimSheet* sheet, char* error, std:
 
 namespace sonarsim {
 
-/// Raised with every change above, so that a module of another version is found out.
+/// Raised with every change above, so that a module of another version is detected.
 inline constexpr const char* sheet_module_symbol = "sonarsim_write_sheet_1";
 
 }  // namespace sonarsim

@@ -67,7 +67,7 @@ std::optional<PackedPictures> packed_pictures(const DescribedSensor& sensor) {
     return std::nullopt;
 }
 
-/// Their folder, relative to that of the page.
+/// The folder of the unpacked pictures, relative to that of the page.
 fs::path unpacked_folder(const std::string& member, const DescribedSensor& sensor,
                          const PackedPictures& pictures) {
     return fs::path(gallery_folder_name) / member / sensor.name / pictures.kind;

@@ -15,9 +15,9 @@ namespace sonarsim {
 std::map<std::string, nlohmann::ordered_json> pictures_in_packs(const std::string& member,
                                                                 const DatasetFile& dataset);
 
-/// Copies these pictures into gallery_folder_name of the folder of the page, since a browser opens
-/// no archive: of each sensor the fans, without them the images. InputError when an archive is
-/// damaged or the folder is a link; std::system_error when the disk fails.
+/// Copies these pictures into gallery_folder_name of the folder of the page, since browsers open no
+/// archives: the fans of each sensor, or its images if it has no fans. InputError when an archive
+/// is damaged or the folder is a link; std::system_error when the disk fails.
 void unpack_pictures(const std::filesystem::path& page, const std::string& member,
                      const DatasetFile& dataset);
 
