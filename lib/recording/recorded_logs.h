@@ -7,10 +7,11 @@
 
 namespace sonarsim {
 
-/// Adds the pings of the files under `logs` of recording.yaml: .kmall, .raw of an EK60, .aris, logs
-/// of a Ping360. Ranges, bearings, times, frequency and law are those of the file if it has them.
-/// InputError if neither the file nor recording.yaml has one, if both do, or if the file is
-/// damaged.
+/// Adds the pings of the files under `logs` of recording.yaml, of the formats of read_sonar_log().
+/// Ranges, bearings, times and law are those of the files if they have them; a speed of sound and a
+/// frequency in recording.yaml take precedence. InputError if neither the file nor recording.yaml
+/// has the law, the speed of sound or the bearings of an imaging sonar, if both have a law, or if
+/// the file is damaged.
 void read_log_pings(const RecordingFile& file, std::size_t most_pings, Recording& recording);
 
 /// The same for soundings of a .kmall.

@@ -6,8 +6,7 @@
 
 namespace sonarsim {
 
-/// The meaning of a number of a recording: `255 (A / A_max)^exponent` of the echo's amplitude A, or
-/// decibels spread evenly over the values.
+/// The law from the amplitude A of an echo to a value of a recording.
 struct RecordedLaw {
     enum class Kind {
         amplitude,  ///< proportional to the amplitude A
@@ -17,8 +16,8 @@ struct RecordedLaw {
     };
 
     Kind kind = Kind::amplitude;
-    double exponent = 0.5;    ///< the one of `gamma`
-    double range_db = 0;      ///< the one of `decibel`
+    double exponent = 0.5;    ///< exponent of `gamma`
+    double range_db = 0;      ///< range of `decibel`
     double full_value = 255;  ///< the largest value that the instrument delivers; 0 for none
     double offset = 0;        ///< share of `full_value` that the instrument subtracts
 };

@@ -25,7 +25,7 @@ struct SoundingFiles {
 struct RecordingFile {
     RecordedKind kind = RecordedKind::imaging;
     std::vector<std::filesystem::path> files;
-    std::vector<std::filesystem::path> xtf;     ///< the place of `files` or `soundings`
+    std::vector<std::filesystem::path> xtf;     ///< in place of `files` or `soundings`
     std::vector<std::filesystem::path> oculus;  ///< an Oculus's, in place of `files` and ranges
     std::vector<std::filesystem::path> logs;    ///< files of read_sonar_log(); the same
     std::optional<SoundingFiles> soundings;
