@@ -104,7 +104,7 @@ void draw_objects(Drawing& tile, const PlaneFrame& frame, const std::vector<Obje
             return plot.contains(name) && std::ranges::none_of(taken, overlaps) &&
                    (over_objects || std::ranges::none_of(shown, hides));
         };
-        // Clear of the other objects if possible, over them if not.
+        // Tries the four sides clear of other objects, then the four sides over them.
         for (int k = 0; k < 8 && taken.size() < most_names; ++k) {
             const AlignedBox2d name = box_of_name(one.first, width, k % 4);
             if (!is_free(name, k >= 4)) continue;

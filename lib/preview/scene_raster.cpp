@@ -77,7 +77,7 @@ struct HeightRaster {
     }
 
     /// Draws the edges of triangles, so that thin and upright ones are visible, too. An upright
-    /// triangle has a part below the ceiling wherever it has one above.
+    /// triangle that crosses the ceiling is drawn at the ceiling where its edge is above.
     void put_edge(const Vector3d& a, const Vector3d& b, bool upright) {
         const Vector2d from = place(a);
         const Vector2d way = place(b) - from;

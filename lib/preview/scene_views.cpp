@@ -140,7 +140,7 @@ Box2 section_box(const Moment& moment, const SectionPlane& plane) {
     const double above = std::max(0.5, 0.15 * (beams.high - beams.low).y());
     box.low.y() = beams.low.y() - above;
     box.high.y() = beams.high.y() + above;
-    // A narrow beam has the ground around it, so that its tile is no pole.
+    // For a narrow beam the section shows ground on both sides, so that it is as wide as high.
     const double missing_m = std::max(0.0, box.size().y() - box.size().x());
     box.low.x() -= 0.5 * missing_m;
     box.high.x() += 0.5 * missing_m;

@@ -40,8 +40,8 @@ Drawing draw_plan(const Moment& moment, int width, int height);
 
 /// Draws a section along or across the vehicle's heading: the surface in the vertical plane through
 /// the vehicle, and the beams of all sonars seen from the side. The horizontal axis counts from the
-/// vehicle, ahead or to starboard; the vertical axis is world z. It is less than `most_height` high
-/// if the beams are.
+/// vehicle, ahead or to starboard; the vertical axis is world z. The drawing is lower than
+/// `most_height` if the beams need less.
 Drawing draw_section(const Moment& moment, bool across, int width, int most_height);
 
 }  // namespace sonarsim

@@ -3,9 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
-// The interface between the program and its module of images for texts in pictures
-// (apps/modules/texts.cpp), which alone is linked with OpenImageIO. C, so that a symbol's name is
-// all that dlsym needs.
+// The interface to the module that writes texts into pictures (apps/modules/texts.cpp). Only the
+// module is linked with OpenImageIO. The interface is C, so that dlsym needs only a symbol's name.
 
 extern "C" {
 
@@ -29,7 +28,7 @@ using SonarsimWriteTexts = int (*)(std::uint8_t* pixels, std::uint32_t width, st
 
 namespace sonarsim {
 
-/// Raised with every change above, so that a module of another version is found out.
+/// Raised with every change above, so that a module of another version is detected.
 inline constexpr const char* text_module_symbol = "sonarsim_write_texts_1";
 
 }  // namespace sonarsim
