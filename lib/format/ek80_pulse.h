@@ -17,7 +17,7 @@ struct EkSweep {
     double start_hz = 0.0;
     double end_hz = 0.0;
     double duration_s = 0.0;
-    double slope = 0.0;     ///< rise of the envelope over the duration; the fall is as long
+    double slope = 0.0;     ///< rise time of the envelope / duration; the fall takes as long
     double sample_s = 0.0;  ///< sample interval after all filters
 
     bool operator==(const EkSweep&) const = default;

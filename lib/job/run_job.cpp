@@ -48,7 +48,7 @@ Plan make_plan(const std::vector<PingId>& all, const RenderOptions& options,
 FolderState set_up(const Layout& layout, const CommonFiles& common, const Mission& mission,
                    const RenderOptions& options, FolderLock& lock) {
     if (options.overwrite) remove_dataset(layout, mission);
-    // Files of others stay in the folder; without dataset.json it counts as fresh.
+    // Other files stay in the folder; without dataset.json it counts as fresh.
     const FolderState state = options.overwrite
                                   ? FolderState::fresh
                                   : inspect_folder(layout, common.description, common.mission);

@@ -18,8 +18,7 @@
 //     OUT/variants.json         what was drawn for each of them
 //     OUT/split/train.txt       with output.split: the variants of a part; also val.txt, test.txt
 //     OUT/labels/coco.json      with the label coco: COCO files of all variants, once all of them
-//     are
-//                               there, see job/joined_labels.h
+//                               are complete, see job/joined_labels.h
 //     OUT/SHA256SUMS            of the files above
 //     OUT/variant_0000/         a dataset like any other
 //
