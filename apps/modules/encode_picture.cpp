@@ -22,7 +22,7 @@ using OIIO::ImageOutput;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
 
-/// The program's threads are the only ones: each encodes pictures of its own.
+/// OpenImageIO starts no threads: each thread of the program encodes pictures of its own.
 void use_no_threads() {
     static std::once_flag once;
     std::call_once(once, [] {
@@ -104,7 +104,7 @@ std::vector<unsigned char> encode(const SonarsimPicture& picture) {
     OIIO::Filesystem::IOVecOutput memory(file);
     OIIO::Filesystem::IOProxy* proxy = &memory;
     spec.attribute("oiio:ioproxy", TypeDesc::PTR, static_cast<void*>(&proxy));
-    // The name is that of no file: `memory` takes the bytes.
+    // No file of this name is written: `memory` takes the bytes.
     if (!output->open(std::string("memory.") + picture.format, spec) ||
         !output->write_image(TypeDesc::UNKNOWN, pixels.data()) || !output->close())
         throw std::runtime_error(output->geterror());

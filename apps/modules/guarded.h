@@ -5,8 +5,8 @@
 #include <exception>
 #include <new>
 
-/// Runs a function for the program, which no exception may reach. Returns 0, or 1 with the reason
-/// in `error`, which ends with a zero.
+/// Runs a function; no exception may reach the program. Returns 0, or 1 with the reason in `error`,
+/// which ends with a zero.
 template <class Run>
 int guarded(char* error, std::size_t error_size, const Run& run) {
     try {

@@ -9,8 +9,8 @@
 #include "guarded.h"
 #include "scene/images/module.h"
 
-// PNG, TIFF and OpenEXR through OpenImageIO. Pixels are taken as they are in the file: OpenImageIO
-// would make whole numbers shares of the largest, and multiply colours by the alpha channel.
+// PNG, TIFF and OpenEXR through OpenImageIO. Pixels keep their values in the file: by default
+// OpenImageIO would scale whole numbers to 0 to 1 and multiply colours by the alpha channel.
 
 namespace {
 
@@ -29,8 +29,8 @@ std::unique_ptr<ImageInput> open_image(const char* format, const char* file, Ima
     return input;
 }
 
-/// All channels are read as numbers of one type. OpenImageIO would make whole numbers shares of the
-/// largest.
+/// All channels are read as numbers of one type. To convert whole numbers, OpenImageIO would scale
+/// them to 0 to 1.
 void require_one_type(const ImageSpec& spec) {
     for (const TypeDesc& format : spec.channelformats) {
         const bool is_half = format == TypeDesc::HALF && spec.format == TypeDesc::FLOAT;

@@ -51,8 +51,8 @@ class BytesStream final : public Assimp::IOStream {
     std::size_t at_ = 0;
 };
 
-/// The only file that there is. An .mtl is not: usemtl names the materials, and colours have no
-/// echo. So no file can make assimp open another.
+/// The only file that assimp can open, so that no file can make it open another. An .mtl file is
+/// not needed: usemtl names the materials, and colours have no echo.
 class OneFile final : public Assimp::IOSystem {
   public:
     OneFile(std::string name, std::string_view bytes) : name_(std::move(name)), bytes_(bytes) {}
@@ -69,7 +69,7 @@ class OneFile final : public Assimp::IOSystem {
     std::string_view bytes_;
 };
 
-/// assimp picks a reader by the end of a file's name, but also by its content.
+/// Keeps only the reader of `format`: assimp picks one by a file's name, but also by its content.
 void keep_only(Assimp::Importer& importer, const char* format) {
     const std::size_t kept = importer.GetImporterIndex(format);
     for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
@@ -86,7 +86,7 @@ std::string material_of(const aiScene& scene, const aiMesh& mesh) {
     return name == AI_DEFAULT_MATERIAL_NAME ? "" : name;
 }
 
-/// Names that assimp makes up for what has none.
+/// The name of a node; "" if assimp made it up.
 std::string name_of(const aiNode& node, std::string_view format) {
     const std::string name = node.mName.C_Str();
     const bool made_up =

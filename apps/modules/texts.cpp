@@ -49,8 +49,8 @@ int size_of(const Piece& piece, int size_px) {
     return piece.is_degree ? size_px * 6 / 10 : size_px;
 }
 
-/// The way from the first letter to the one after the last. A blank at an end counts, which the
-/// size of an image of the text does not show.
+/// The advance width of the letters, px. Unlike the size of an image of the text, it includes
+/// blanks at the ends.
 int width_of(const Piece& piece, int size_px, const std::string& font) {
     const auto width = [&](const std::string& letters) {
         return Algo::text_size(letters, size_of(piece, size_px), font).width();
@@ -70,7 +70,7 @@ void write_one(const SonarsimText& text, const std::string& font, ImageBuf& pict
                             static_cast<float>(text.colour[1]) / 255.0F,
                             static_cast<float>(text.colour[2]) / 255.0F};
     for (const Piece& piece : pieces) {
-        // Its "o" is 0.33 of the size high and ends where the digits do.
+        // The font's "o" is 0.33 of the size high and ends where the digits do.
         const int raised = piece.is_degree ? text.size_px * 40 / 100 : 0;
         if (!piece.letters.empty() &&
             !Algo::render_text(picture, x, baseline - raised, piece.letters,

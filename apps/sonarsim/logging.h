@@ -15,8 +15,8 @@ struct LogOptions {
     bool quiet = false;  ///< warnings and errors only
     bool json = false;   ///< one JSON object per line
 
-    /// True if the command prints its result. --quiet silences what people read; who asks for JSON
-    /// wants the result.
+    /// True if the command prints its result. --quiet suppresses text for people; a user of --json
+    /// needs the result.
     bool prints_result() const { return json || !quiet; }
 };
 
@@ -30,7 +30,7 @@ void add_log_options(CLI::App& command, LogOptions& options,
 /// Sends spdlog's default logger to stderr, as text or as JSON.
 void start_logging(const LogOptions& options);
 
-/// Logs each of them as a sentence. Returns their number.
+/// Logs each warning as a sentence. Returns their number.
 std::size_t log_warnings(std::span<const Warning> warnings);
 
 /// Formats a warning as a log line for a signal handler, which cannot log. As JSON it has no time.

@@ -12,7 +12,7 @@
 
 namespace sonarsim {
 
-/// "12 s", "3 min 20 s", "2 h 5 min".
+/// A duration as text: "12 s", "3 min 20 s", "2 h 5 min".
 std::string duration_text(double seconds);
 
 /// "30 pings rendered, 12 were there already".

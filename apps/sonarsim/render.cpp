@@ -109,8 +109,8 @@ void print_json(const RenderSummary& summary, const Mission& mission,
     fmt::print("{}", json_line(json));
 }
 
-/// Logs the counts of dropped echoes and the reasons. A usual run has many: what matters of them is
-/// a warning.
+/// Logs the counts of dropped echoes and the reasons. A usual run has many; warnings report those
+/// that matter.
 void log_dropped(const PingCounts& counts) {
     for (const auto& counter : ping_counters) {
         const std::uint64_t count = counts.*counter.member;
@@ -183,7 +183,7 @@ Outcome render_variants(const RenderArguments& arguments, const Mission& mission
     out.before = split_warnings(mission.output.split, variants.size());
     log_warnings(out.before);
     ProgressLine line(arguments.log, "variants");
-    // Warnings about the first scene hold for most others, which are not repeated.
+    // Warnings about the first scene hold for most others, so they are not repeated.
     bool first = true;
     const auto begin = [&](const Mission& variant, const Assembly& assembly) {
         if (!std::exchange(first, false)) return;

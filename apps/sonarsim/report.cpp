@@ -66,8 +66,8 @@ int report_hard(const ReportArguments& arguments) {
     return all_hold ? exit_done : exit_failed;
 }
 
-/// The mission without what no engine finds and what does not add up: the water's echoes, and
-/// range bins that are made of several samples.
+/// The mission without the water's echoes, which no engine finds, and with one sample per range
+/// bin, since several samples do not add up.
 Mission of_surfaces(Mission mission) {
     mission.water.content = WaterContent::none;
     mission.water.scattering_db_per_m3.reset();

@@ -30,9 +30,9 @@ extern "C" void on_signal(int number) {
     ::alarm(1);
 }
 
-/// Ends the program after the second. This is safe between any two instructions, as a kill or a
-/// power cut is: a file gets its name after all of its bytes are written, and the journal names a
-/// ping after that, so that the next run continues from the whole files.
+/// Ends the program a second after the signal. This is safe between any two instructions, as a kill
+/// or a power cut is: a file gets its name after all of its bytes are written, and the journal
+/// names a ping after that, so that the next run continues from the whole files.
 extern "C" void on_alarm(int) {
     const ssize_t written = ::write(STDERR_FILENO, last_text.data(), last_size);
     static_cast<void>(written);  // the program ends in any case

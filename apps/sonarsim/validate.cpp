@@ -193,7 +193,7 @@ Findings find_out(const Mission& mission, const Assembly& assembly,
     return findings;
 }
 
-/// Casts: looks at the mission through its sonars.
+/// Casts rays: surveys the mission with its sonars, finds warnings and measures the cost of pings.
 void look_at(const Mission& mission, const Assembly& assembly, const std::vector<Writers>& writers,
              Findings& findings) {
     const double available = std::max(0.0, machine_memory() - resident_memory());
@@ -212,8 +212,8 @@ void look_at(const Mission& mission, const Assembly& assembly, const std::vector
     }
 }
 
-/// Checks every variant, and casts in the first. Their scenes differ, and each may fail for reasons
-/// of its own.
+/// Checks every variant, since scenes differ and each may fail for its own reasons. Casts rays only
+/// in the first.
 VariantFindings check_variants(const std::vector<Mission>& variants, bool overwrite) {
     VariantFindings all;
     std::vector<PingCost> costs;
