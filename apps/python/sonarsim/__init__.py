@@ -1,4 +1,4 @@
-"""Sonar data in memory: the pings of a mission, the same numbers as the files of `sonarsim render`.
+"""Sonar data in memory: the pings of a mission, with the same numbers as the files of `sonarsim render`.
 
     import sonarsim
     mission = sonarsim.open("mission.yaml", set={"seed": 3})
@@ -9,7 +9,7 @@
     for ping in mission:        # every ping of every sensor and variant
         ...
 
-`sonarsim.data` reads datasets that are written; `sonarsim.torch` feeds a network on the fly. A mistake
+`sonarsim.data` reads written datasets; `sonarsim.torch` feeds a network on the fly. A mistake
 in a mission is an InputError with the text of the command: file, line, what is wrong, what would be right.
 """
 from __future__ import annotations
@@ -85,7 +85,7 @@ class Sensor:
 
 @dataclasses.dataclass(frozen=True, eq=False, repr=False)
 class Ping:
-    """A ping of a sonar. The arrays are its own: they may be changed."""
+    """A ping of a sonar. Its arrays may be changed."""
 
     sensor: str
     number: int
@@ -93,12 +93,12 @@ class Ping:
     variant: int | None
     """The index of the variant; None for a mission without variants."""
     image: npt.NDArray[np.float32]
-    """The intensities: [range, azimuth] as in polar/; of a side-scan sonar, an echosounder and a
+    """The intensities: [range, azimuth] as in polar/; for a side-scan sonar, an echosounder or a
     scanning sonar the values of its record."""
     raw: npt.NDArray[np.integer[Any]] | None
     """The integers that the instrument of the calibrated model delivers, else None."""
     labels: dict[str, Any]
-    """What output.labels asks for, by the names of the files: arrays, `objects` as a dict, the lines
+    """The labels of output.labels by the names of their files: arrays, `objects` as a dict, the lines
     of `yolo` as text."""
     pose: npt.NDArray[np.float64]
     """The vehicle: t, x, y, z, qx, qy, qz, qw, in seconds and metres."""
@@ -117,8 +117,8 @@ class Ping:
 
 
 class Mission:
-    """A mission, as open() returns it. Any number of threads may ask for pings at a time: the
-    interpreter lock is released while one is made."""
+    """A mission, as open() returns it. Any number of threads may make pings at a time: the
+    interpreter lock is released while a ping is made."""
 
     def __init__(self, loaded: _sonarsim.LoadedMission):
         self._loaded = loaded
@@ -175,8 +175,8 @@ class Mission:
         return self._one().warnings()
 
     def ping(self, number: int, sensor: str | None = None) -> Ping:
-        """The ping of a sensor at the pose of this number. The sensor may be left out where the
-        mission has one. IndexError where the sensor does not ping, KeyError for an unknown sensor."""
+        """The ping of a sensor at the pose of this number. The sensor may be left out if the mission
+        has only one. IndexError where the sensor does not ping, KeyError for an unknown sensor."""
         loaded = self._one()
         names = self.sensor_names
         if sensor is None and len(names) > 1:
@@ -194,9 +194,9 @@ class Mission:
               shard: tuple[int, int] = (0, 1)) -> Iterator[Ping]:
         """Iterates over the pings of all poses and variants, in the order of the poses.
 
-        `sensor`: of this one alone. `threads`: as many pings are made at a time, up to eight for each
-        thread ahead. `shard` (i, n): the i-th of n parts, counted from 0, which are disjoint: whole
-        variants if there are n of them, else every n-th ping.
+        `sensor`: only the pings of this sensor. `threads`: the number of pings that are made at a time;
+        up to eight for each thread are made ahead. `shard` (i, n): the i-th of n disjoint parts,
+        counted from 0: whole variants if there are at least n, else every n-th ping.
         """
         index, count = shard
         if not 0 <= index < count:
@@ -227,7 +227,7 @@ class Mission:
         return f"<mission {self.name!r}: {what}sensors {', '.join(self.sensor_names)}>"
 
     def _one(self) -> _sonarsim.LoadedMission:
-        """ValueError for a mission with variants, which are drawn from it."""
+        """The mission itself. ValueError if it has variants."""
         if self.variants:
             raise ValueError(f"mission {self.name!r} has {len(self.variants)} variants: ask one of "
                              "them, as in mission.variants[0]")
@@ -277,8 +277,8 @@ class Mission:
 
 
 class Variants(Sequence[Mission]):
-    """The variants of a mission, in order. Each is read when it is asked for its first ping, and its
-    memory is free when nothing names it any more."""
+    """The variants of a mission, in order. Each reads its files for its first ping, and its memory is
+    freed when nothing refers to it any more."""
 
     def __init__(self, loaded: _sonarsim.LoadedMission):
         self._loaded = loaded
@@ -330,8 +330,8 @@ def _sensor(description: dict[str, Any]) -> Sensor:
 
 
 def _ahead(jobs: Iterable[Callable[[], Ping]], threads: int) -> Iterator[Ping]:
-    """The results of the jobs in their order. Several threads work on while a batch is trained on: at
-    most eight results for each of them wait."""
+    """The results of the jobs in their order. Threads work ahead while a batch is trained on; at most
+    eight results for each thread wait."""
     if threads == 1:
         for job in jobs:
             yield job()

@@ -28,7 +28,7 @@ class PingDataset(torch.utils.data.IterableDataset):  # type: ignore[misc]
     """The pings of a mission in the order of the poses, variant after variant; the numbers are those of
     the files that `sonarsim render` writes.
 
-    `mission`, `set` and `paths_from` are those of sonarsim.open(). `sensor`: its name, needed where the
+    `mission`, `set` and `paths_from` are those of sonarsim.open(). `sensor`: its name, needed if the
     mission has several. An item is a tuple of tensors in the order of `names`: "image", "raw" or a
     label; or what `transform` makes of the sonarsim.Ping. uint16 becomes int32, since torch has none.
 
