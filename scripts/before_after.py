@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """./scripts/before_after.py PROGRAM FOLDER [mission ...]: makes docs/before_after_MISSION.jpg.
 
-Renders five missions, or those that are named, twice into the folder: without and with what the presets and keys
-set besides the surface's echo. Datasets that are there are used again. A grey is the square root of the picture's, so
-that water shows. Needs Debian's python3-pil and fonts-dejavu-core.
+Renders five missions, or the named ones, twice into the folder: with the echo of surfaces alone, and with all that
+presets and keys set. Existing datasets are used again. Greys are the square roots of the pictures' greys, so that
+the water's echo is visible. Needs Debian's python3-pil and fonts-dejavu-core.
 """
 import pathlib
 import subprocess
@@ -17,14 +17,14 @@ GAP = 6
 CAPTION = 20
 WIDTH = 420
 
-# Of every sensor: what else an instrument and its water do.
+# Settings of every sensor that turn off what an instrument adds to the echo of surfaces.
 INSTRUMENT_OFF = ("instrument.receiver.samples=1", "instrument.receiver.ring_down_db=0", "instrument.receiver.offset=0",
                   "instrument.below_bottom=false", "multipath.method=none")
 FAN_OFF = "sensors.fls.instrument.beam.elements={gain_error_db: 0, phase_error_deg: 0}"
-# What makes a mission shorter.
+# Settings that make a mission shorter.
 FEWER = {"seafloor_sidescan_calibrated": ["trajectory.rate_hz=10"]}
-# Mission, sensor, its picture, what is off before as well, what is cut out (a share of width and height)
-# and the factor that stretches the height.
+# Mission, sensor, its picture, further settings that turn something off before, the part of the picture to show
+# (left, top, right, bottom as shares of width and height) and the factor that stretches the height.
 SCENES = (
     ("tank_calibrated", "fls", "fan/000045.png", (FAN_OFF,), (0, 0, 1, 1), 1),
     ("seafloor_sidescan_calibrated", "sss", "waterfall_view.png", (), (0, 0.2, 1, 0.8), 1),

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # ./scripts/compilers.sh: compares the bytes that the release build (g++) renders with those of the
-# build for the address sanitizer (clang++). debian13.sh does so with a newer g++.
+# build for the address sanitizer (clang++). debian13.sh compares with a newer g++.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 for preset in release asan; do

@@ -52,7 +52,7 @@ enter=(unshare --mount bash "$chroot/enter" "$chroot" "$root")
 
 rm -rf "$clone"
 mkdir -p "$clone"
-# Not a clone: that asks the checkout to belong to this user.
+# No clone: git would require the checkout to belong to this user.
 git -c safe.directory='*' archive HEAD | tar -x -C "$clone"
 "${enter[@]}" "$clone/scripts/render.sh" "$clone/configs/tank_imaging.yaml" --quiet --out "$clone/out/tank"
 "${enter[@]}" "$clone/build/sonarsim" verify "$clone/out/tank"

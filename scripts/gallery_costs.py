@@ -76,7 +76,7 @@ def main():
             pings = window.run("return sensor().pings")
             print(f"{pings} pings: a page of {page.stat().st_size / 1e6:.2f} MB, made in {cpu_s:.2f} s of "
                   f"processor time, opens in {opened_s:.2f} s")
-            # Neighbours are loaded while the user looks; a jump to anywhere finds nothing there.
+            # The page loads neighbouring pings ahead; after a jump nothing is loaded yet.
             jumps = [(k * 7919) % pings for k in range(1, 101)]
             for what, poses, pause_ms in (("to the next ping", list(range(1, 101)), 60),
                                           ("to any other", jumps, 0)):

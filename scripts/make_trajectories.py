@@ -2,7 +2,7 @@
 """Writes the pose files of the example missions: python3 scripts/make_trajectories.py [folder].
 
 World: z up, metres. Vehicle: x forward, y left, z up; positive pitch turns the bow down. Numbers
-are rounded to 6 decimals, far coarser than what one C library's sine differs from another's.
+are rounded to 6 decimals, far coarser than the differences between the sines of C libraries.
 """
 import math
 import pathlib
@@ -12,7 +12,7 @@ HEADER = "t_s,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg"
 
 
 def tank_loop():
-    """One round in the near half of the test tank, the sonar on the objects in the far half.
+    """One round in the near half of the test tank, with the sonar pointing at the objects in the far half.
 
     The tank is 8 x 6 x 3 m, its floor centred at the origin. The vehicle goes round (-1.5, 0) at
     radii of 1 to 1.5 m, 1.5 m above the floor, and keeps its bow on the point (2.5, 0).
@@ -45,8 +45,8 @@ def wreck_pass():
 
 
 def orbit(radius, middle, rise):
-    """Seven eighths of a way round an object at the origin, the bow on its middle, x = y = 0,
-    z = `middle`; the vehicle is `rise` higher and lower than that, twice on its way."""
+    """Seven eighths of a circle around an object at the origin, with the bow on its middle, x = y = 0,
+    z = `middle`. Twice on its way the vehicle is `rise` above that height, and twice below."""
     count, rate_hz = 80, 5
     for k in range(count):
         angle = 7 / 4 * math.pi * k / (count - 1)

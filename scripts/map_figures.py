@@ -90,7 +90,7 @@ def smooth_waves():
 
 
 def maps():
-    """By name: decibels at x, y in the pixel column, row."""
+    """Functions by name: the decibels at x, y, in the pixel at column, row."""
     waves = smooth_waves()
     return {
         "none": lambda x, y, column, row: 0.0,

@@ -72,7 +72,7 @@ def error_plot(report, sensor):
 
 
 def growth_plot(report, sensor):
-    """ms per ping against the number of triangles; area dashed."""
+    """ms per ping against the number of triangles; growth of the area is dashed."""
     figure, axes = new_plot(f"{report['mission']}, {sensor}", "triangles", "ms per ping")
     for growth in report["growth"]:
         if growth["sensor"] != sensor:

@@ -50,14 +50,14 @@ for order in "1 2 3" "1 3 2" "2 1 3" "2 3 1" "3 1 2" "3 2 1"; do
     rm -r "$work/merged"
 done
 
-pings() {  # of the killed run: its pictures so far
+pings() {  # the number of pings that the killed run has written
     find "$work" -path '*/killed/*/polar/*.npy' 2>/dev/null | wc -l
 }
 kills=0
 for ((k = 1; k <= 10; ++k)); do
     before=$(pings)
     "$program" render "$mission" "${small[@]}" --quiet --out "$work/killed" -j2 \
-        --checkpoint 0.01 &  # not by way of render(): its shell would be killed instead
+        --checkpoint 0.01 &  # not through render(): its shell would be killed instead
     run=$!
     while kill -0 $run 2>/dev/null && (($(pings) < before + 1)); do :; done
     kill -9 $run 2>/dev/null && kills=$((kills + 1))

@@ -31,7 +31,7 @@ import numpy as np
 
 FORMAT_VERSION = 3
 TAR_BLOCK = 512
-# The letters of the names of a dataset's files: a dataset may come from anybody.
+# The permitted letters in names of a dataset's files, since a dataset may come from anybody.
 NAME = r"[A-Za-z0-9_+-][A-Za-z0-9_+.-]*"
 INNER_PATH = re.compile(f"{NAME}(/{NAME})*", re.ASCII)
 # The only number of a pattern stands in its last name.
@@ -145,7 +145,7 @@ class Sensor:
         self._records = dict(description.get("label_records", {}))
         if "records" in description:
             record = description["records"]
-            # A dataset of an older sonarsim names the record in the name of its file alone.
+            # In a dataset of an older sonarsim only the name of the file gives the name of the record.
             name = record.get("name", pathlib.PurePath(record["file"]).stem)
             self._records[checked(name, re.compile(NAME, re.ASCII), "records.name")] = record
         if self._packs:
@@ -198,7 +198,7 @@ class Sensor:
         offset, size = members[self._files[name] % number]
         with open(path, "rb") as file:
             file.seek(offset)
-            return file.read(size)      # no more than there is: tar_members() saw to it
+            return file.read(size)      # tar_members() has checked that the file holds as many bytes
 
     def read(self, index, name):
         """The content of a ping's file or record of this name: an array, a dict for JSON, a str for text."""
@@ -392,8 +392,8 @@ def unpacked(data, expected):
 
 
 def unfiltered(filters, rows):
-    """PNG rows [row, column, byte of the pixel] without their filters: none, left or above. Those of
-    sonarsim have no others."""
+    """PNG rows [row, column, byte of the pixel] without their filters: none, left or above.
+    sonarsim uses no others."""
     out = np.array(rows)
     for y in np.flatnonzero(filters):
         if filters[y] == 1:

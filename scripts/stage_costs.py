@@ -25,7 +25,7 @@ BURIED = ("scene.particles=[{name: p, target_strength_db: -30, count: 100, regio
           "position_m: [0, 0, -1], size_m: [40, 40, 1], buried: true}]")
 QUIET = ["water.content=none", "output.labels=[]", *(f"output.{file}=false" for file in ("polar", "image", "fan", "meta",
                                                                                          "waterfall"))]
-# By mission: its sensor, the share of its pings that counts, and the stages.
+# Each mission: its sensor, the shard of its pings that is rendered, and the settings of each stage.
 TANK = ("tank_calibrated", "fls", "1/1", {
     "water column": ["water.content=coastal"],
     "errors of elements": ["fls." + ERRORS],

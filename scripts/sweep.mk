@@ -13,7 +13,7 @@
 # Finished points are not rendered again; interrupted ones resume. -jN renders N points at a time, each
 # on one thread. A point that fails does not stop the others: OUT/failed/ holds its messages, and the
 # sweep ends with exit code 2 and the list of them. Values are separated by blanks and hold none; signs
-# that make or the shell would take for its own are refused, as in $ ' " * ( ; and !.
+# with a meaning to make or the shell are refused, such as $ ' " * ( ; and !.
 
 noise_keys := range_lambda_m scatterer_m add_sigma mult_sigma
 keys := $(noise_keys) seed engine

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs, builds and runs every test. SONARSIM_PRESET=asan or tsan runs them under sanitizers.
-# SONARSIM_JOINED=OFF compiles each file by itself: slower from nothing, faster after a change.
+# SONARSIM_JOINED=OFF compiles each file by itself: slower for a full build, faster after a change.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export SONARSIM_PRESET=${SONARSIM_PRESET:-release}

@@ -3,7 +3,7 @@
 # the commit (default: the one before HEAD), uncommitted changes included. For a changed header it runs
 # over the .cpp files that include it.
 # ./scripts/tidy.sh --all: over all of them, a quarter of an hour on two cores.
-# The checks stand in .clang-tidy. Exit code 1 when there is a finding, 77 where the commit
+# The checks are in .clang-tidy. Exit code 1 when there is a finding, 77 where the commit
 # before HEAD is missing, as in a shallow clone, and cannot be fetched.
 set -euo pipefail
 cd "$(dirname "$0")/.."

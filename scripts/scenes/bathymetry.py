@@ -12,7 +12,7 @@ NO_DATA = -9999.0
 
 
 def height(x, y, relief):
-    """At x m east and y m north of the south-west corner. The waves run from the south-west to the
+    """The height at x m east and y m north of the south-west corner. The waves run from the south-west to the
     north-east, so that no mirrored map looks like this one."""
     along = 0.8 * x + 0.6 * y
     z = -21.0 + 0.02 * x + relief(x, y)
@@ -25,7 +25,7 @@ def height(x, y, relief):
 
 
 def build():
-    """Rows from the north, in them heights from the west."""
+    """The heights: rows from north to south, each from west to east."""
     relief = Relief(9.0, 0.25, 5, 11)
     rows = []
     for row in range(ROWS):
@@ -43,11 +43,11 @@ def write_geotiff(path, rows, pixel_m=PIXEL_M):
     """Little-endian, not compressed, so that the bytes depend on no library. Returns their number."""
     scale = struct.pack("<3d", pixel_m, pixel_m, 0)
     tie_point = struct.pack("<6d", 0, 0, 0, WEST_M, NORTH_M, 0)
-    # Projected, a pixel is an area, EPSG:32632.
+    # GeoTIFF keys: projected coordinates, a pixel is an area, EPSG:32632.
     keys = struct.pack("<16H", 1, 1, 0, 3, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, 32632)
     no_data = b"-9999\0"
     pixels = b"".join(struct.pack(f"<{len(row)}f", *row) for row in rows)
-    # (tag, type, count, value); a value of more than 4 bytes stands behind the tags.
+    # (tag, type, count, value); a value of more than 4 bytes follows the tags.
     tags = [(256, 4, 1, len(rows[0])), (257, 4, 1, len(rows)), (258, 3, 1, 32), (259, 3, 1, 1), (262, 3, 1, 1),
             (273, 4, 1, None), (277, 3, 1, 1), (278, 4, 1, len(rows)), (279, 4, 1, len(pixels)), (339, 3, 1, 3),
             (33550, 12, 3, scale), (33922, 12, 6, tie_point), (34735, 3, 16, keys), (42113, 2, 6, no_data)]

@@ -16,7 +16,7 @@ class Part:
         self.indices = {}                 # material -> array of vertex numbers
 
     def add_vertex(self, x, y, z):
-        """Rounds to 0.1 mm, so that the last bit of a sine never shows. Returns the number."""
+        """Adds a vertex, rounded to 0.1 mm so that the last bit of a sine never shows. Returns its number."""
         self.vertices.extend((round(x, 4) + 0.0, round(z, 4) + 0.0, 0.0 - round(y, 4)))
         return len(self.vertices) // 3 - 1
 
@@ -71,7 +71,7 @@ class Buffer:
 
 
 def write_glb(path, parts):
-    """One node and one mesh per part, one primitive per material of it. The file is there once it is
+    """One node and one mesh per part, one primitive per material of it. The file gets its name once it is
     whole. Returns the size."""
     names = sorted({material for part in parts for material in part.indices})
     buffer = Buffer()

@@ -35,7 +35,7 @@ def speckle_db(row, column):
 
 
 def decibels():
-    """Rows from the north, in them decibels from the west, in whole tenths."""
+    """Decibels in whole tenths: rows from north to south, each from west to east."""
     border = Relief(16.0, 1.6, 4, 41)
     grain = Relief(1.0, 2.0, 2, 53)
     rows = []

@@ -3,7 +3,7 @@ import os
 import pathlib
 import re
 
-# Quoted text, a comment, or what stands between the signs of lists and maps.
+# Quoted text, a comment, or plain text between the signs of lists and maps.
 PIECE = re.compile(r""""(?P<double>[^"\n]*)"|'(?P<single>[^'\n]*)'|(?:^|(?<=\s))#[^\n]*|"""
                    r"""(?P<plain>(?:[^\s,\[\]{}"'#]|(?<=\S)#|[ \t](?!#))+)""", re.MULTILINE)
 
@@ -21,8 +21,8 @@ def values_in(text: str) -> list[str]:
 
 def files_named(mission: pathlib.Path, options: list[str]) -> list[pathlib.Path]:
     """Absolute paths of the .glb, .obj, .tif and .png files in a mission and in options of sonarsim, as in
-    `--set scene.file=a.glb`, in their order. They start at the folder of the mission, or where
-    `--paths-from` says. OSError where the mission cannot be read."""
+    `--set scene.file=a.glb`, in their order. Relative paths start at the folder of the mission, or
+    at `--paths-from`. OSError where the mission cannot be read."""
     options = [part for option in options
                for part in (option.split("=", 1) if option.startswith("--") else [option])]
     base = mission.resolve().parent

@@ -3,7 +3,7 @@ import math
 
 
 def lattice(i, j, k, seed):
-    """A number in [-1, 1) that belongs to a lattice point."""
+    """The number in [-1, 1) of a lattice point."""
     h = (i * 0x9E3779B1 ^ j * 0x85EBCA77 ^ k * 0xC2B2AE3D ^ seed * 0x27D4EB2F) & 0xFFFFFFFF
     h = ((h ^ (h >> 15)) * 0x2C1B3C6D) & 0xFFFFFFFF
     h = ((h ^ (h >> 12)) * 0x297A2D39) & 0xFFFFFFFF

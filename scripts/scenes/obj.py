@@ -3,8 +3,8 @@ import os
 
 
 def write_obj(path, parts):
-    """In millimetres with z up; a group for each part, and usemtl for its materials. The file is there
-    once it is whole. Returns the size."""
+    """In millimetres with z up; a group for each part, and usemtl for its materials. The file gets
+    its name once it is whole. Returns the size."""
     lines, first = ["# millimetres, z up"], 1
     for part in parts:
         lines.append(f"g {part.name}")

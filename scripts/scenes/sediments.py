@@ -1,5 +1,5 @@
-"""Maps of the ground of bathymetry.tif: what it is made of, as a picture of colours, and how strong its
-echo is besides, as a GeoTIFF of decibels in pixels of 20 cm."""
+"""Maps of the ground of bathymetry.tif: its materials as a picture of colours, and decibels that are added to
+their strengths as a GeoTIFF in pixels of 20 cm."""
 import math
 import struct
 import zlib
@@ -14,7 +14,7 @@ LETTER = ((10, 11.5, 6, 17), (10, 17, 15.5, 17), (10, 15, 11, 12.5))
 
 
 def colours():
-    """Rows from the north, in them colours from the west. Mud lies in the channel, rock on the mound."""
+    """Colours: rows from north to south, each from west to east. Mud lies in the channel, rock on the mound."""
     border = Relief(6.0, 1.5, 3, 23)
     rows = []
     for row in range(ROWS):
@@ -36,7 +36,7 @@ def colours():
 
 
 def decibels():
-    """Rows from the north, in them decibels from the west: a texture, the marks of a trawl and a letter."""
+    """Decibels, rows from north to south, each from west to east: a texture, the marks of a trawl and a letter."""
     texture = Relief(3.0, 3.0, 3, 31)
     rows = []
     for row in range(round(50 / MOSAIC_PIXEL_M)):
