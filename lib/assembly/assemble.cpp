@@ -280,6 +280,12 @@ std::string inputs_hash(const Assembly& assembly) {
             text += " " + number_text(x);
     }
     if (scene.maps) text += scene.maps->identity();
+    for (const Sonar& sonar : assembly.sonars) {
+        for (const auto& profile : {sonar.true_profile, sonar.assumed_profile}) {
+            if (!profile) continue;
+            text += "\nprofile " + hash_of(profile->height_m) + hash_of(profile->speed_m_s);
+        }
+    }
     for (const Trajectory& motion : assembly.motions)
         text += "\n" + write_tum(motion);
     return fnv1a_128(text + "\n" + write_tum(assembly.trajectory));

@@ -206,6 +206,11 @@ TEST_SUITE("assembly") {
         CHECK(changed([](Assembly& a) { a.scene.materials[0].roughness_m = 0.0; }));
         CHECK(changed([](Assembly& a) { a.scene.instances[0] += "x"; }));
         CHECK(changed([](Assembly& a) { a.trajectory[6].t_s += 1e-6; }));
+        const auto profile = [](double speed_m_s) {
+            return std::make_shared<const SoundProfile>(SoundProfile{{-5.0}, {speed_m_s}, 1500.0});
+        };
+        CHECK(changed([&](Assembly& a) { a.sonars[0].true_profile = profile(1480.0); }));
+        CHECK(changed([&](Assembly& a) { a.sonars[0].assumed_profile = profile(1480.0); }));
         CHECK(changed([](Assembly& a) { a.trajectory.pop_back(); }));
     }
 }
