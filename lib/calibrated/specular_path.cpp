@@ -56,8 +56,8 @@ std::vector<SpecularPath> specular_paths(const TracedPing& traced, const Scene& 
         const Sample& sample = traced.samples.items[path.sample];
         paths.push_back(specular_path(path, sample, path.by_water_surface ? &*water : nullptr));
         paths.back().sample = path.sample;
-        paths.back().reflection =
-            scene.materials[sample.material].reflection * path.water_reflection * path.strength;
+        paths.back().reflection = scene.materials[sample.material].reflection * sample.strength *
+                                  path.water_reflection * path.strength;
     }
     return paths;
 }

@@ -91,7 +91,7 @@ class TargetMapLayer {
                     std::vector<TargetFacet>& out) {
         TargetFacet& laid = out.emplace_back(facet);
         laid.material = material;
-        laid.strength = strength;
+        laid.strength = facet.strength * strength;
     }
 
     const GroundMaps& maps_;
