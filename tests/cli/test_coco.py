@@ -145,6 +145,10 @@ class Coco(Labelled):
         others = [self.load(f"labels/{name}.json") for name in ("coco", "coco_fan", "coco_records")]
         taken = {one["id"] for other in others for one in other["images"] + other["annotations"]}
         self.assertFalse(taken & {one["id"] for one in coco["images"] + coco["annotations"]})
+        # Each picture of records has room for 65536 annotations.
+        pictures = [one["id"] for one in others[-1]["images"]]
+        first = min(one["id"] for one in coco["annotations"])
+        self.assertGreaterEqual(first, (max(pictures) + 1 + len(pictures)) * 65536)
         rows = read_ids(self.out / "head/instance.npy", False)
         least = next(s for s in self.dataset()["sensors"] if s["name"] == "head")["range_edges_m"][0]
         shown = {}  # by step; 20 pings are a sweep of 12 and eight of the next

@@ -126,7 +126,9 @@ void add_annotations(const ScanPictures& pictures, const Layout& layout, const M
 void write_scan_coco(const Layout& layout, const Mission& mission, const Json& description,
                      const SharedProduct& product) {
     const std::vector<ScanPictures> sensors = scan_pictures(layout, mission, description);
-    std::uint64_t first_id = 2 + layout.sensors.size();
+    // A picture of write_record_coco() takes an id for itself, and the ids of annotations of
+    // another.
+    std::uint64_t first_id = 1 + 2 * layout.sensors.size();
     for (const SensorLayout& sensor : layout.sensors)
         first_id += 2 * sensor.pings;
     CocoFile out(layout.folder / product.file, description);
