@@ -71,7 +71,7 @@ EchoModel::SignalAndNoise CalibratedModel::signal_and_noise(float clean, float n
 
 void CalibratedModel::describe(nlohmann::ordered_json& sensor) const {
     const ReceiverConfig& receiver = instrument.receiver;
-    const bool absolute = levels.source_level_db != 0.0;
+    const bool absolute = !is_relative_source(levels.source_level_db);
     sensor["instrument"] = {
         {"echo_level", std::string("full_scale_db + 10 log10(polar) - tvg_log log10(range_m)") +
                            (receiver.tvg_absorption ? " - 2 absorption_db_per_m range_m" : "")},

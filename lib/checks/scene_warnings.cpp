@@ -87,13 +87,15 @@ std::array<double, 3> facing(const Scene& scene) {
     for (std::size_t t = 0; t < scene.triangles.size(); ++t)
         facing.add(normal_of(scene, t));
     const std::size_t step = 1 + triangles_of_copies(scene) / most_of_copies;
+    std::size_t next = 0;  // counts on from copy to copy, so that all triangles of a mesh count
     for (const MeshCopy& copy : scene.copies) {
         const SharedMesh& mesh = scene.shared_meshes[copy.mesh];
         // The scale is uniform, so areas grow by its square.
-        const Eigen::Matrix3d turned = copy.T_world_mesh.linear();
-        const double grown = turned.col(0).norm() * static_cast<double>(step);
-        for (std::size_t t = 0; t < mesh.triangles.size(); t += step)
-            facing.add(grown * turned * normal_of(mesh, t));
+        const Eigen::Matrix3d linear = copy.T_world_mesh.linear();
+        const double factor = linear.col(0).norm() * static_cast<double>(step);
+        for (; next < mesh.triangles.size(); next += step)
+            facing.add(factor * linear * normal_of(mesh, next));
+        next -= mesh.triangles.size();
     }
     for (double& area : facing.along)
         area *= facing.all > 0.0 ? 100.0 / facing.all : 0.0;

@@ -85,7 +85,7 @@ std::vector<PoseInView> poses_in_view(const Assembly& assembly, const Sonar& son
     const View& view = sonar.settings.view;
     const auto every = static_cast<std::size_t>(sonar.config.every);
     const std::size_t pings = (assembly.trajectory.size() + every - 1) / every;
-    const std::size_t step = every * std::max<std::size_t>(1, pings / most_poses);
+    const std::size_t step = every * ((pings + most_poses - 1) / most_poses);
     std::vector<PoseInView> poses;
     for (std::size_t i = 0; i < assembly.trajectory.size(); i += step) {
         const TimedPose& at = assembly.trajectory[i];
