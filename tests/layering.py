@@ -3,10 +3,11 @@
     python3 tests/layering.py <root of the repository>
 
 Rules: a folder of lib/ includes only the folders below it, a part of a folder only the parts below it,
-no files include each other in a circle, no two headers define a class of one name, folders after the trace take ranges from
-lib/trace/arrivals.h, and folders whose results reach files take elementary functions from
-lib/core/elementary.h; x.h and x.cpp count as one. The tables of folders in docs/development.md and
-README.md name the same folders. Each rule is first tried on made-up files that break it.
+no files include each other in a circle, no two headers define a class of one name, folders after the
+trace take ranges from lib/trace/arrivals.h, and folders whose results reach files take elementary
+functions from lib/core/elementary.h; x.h and x.cpp count as one. Tests compare numbers by
+tests/support/approx.h. The tables of folders in docs/development.md and README.md name the same folders.
+Each rule is first tried on made-up files that break it.
 """
 import pathlib
 import re
@@ -159,6 +160,12 @@ def faults_in_code(root: pathlib.Path) -> tuple[int, list[str]]:
     return len(files), faults + [f"a circle: {circle}" for circle in circles_of(includes)]
 
 
+def faults_in_tests(root: pathlib.Path) -> list[str]:
+    """The tests that compare numbers by doctest::Approx, which allows its epsilon for any small number."""
+    return [f"{path.relative_to(root)}: compare by test::approx (tests/support/approx.h)"
+            for path in sorted((root / "tests").rglob("*.cpp")) if "doctest::Approx" in path.read_text()]
+
+
 def faults_in_table(text: str) -> list[str]:
     """The differences between the table of docs/development.md and ALLOWED."""
     faults, listed = [], {}
@@ -186,7 +193,7 @@ def fault_when(files: dict[str, str]) -> list[str]:
         for name, text in files.items():
             (root / name).parent.mkdir(parents=True, exist_ok=True)
             (root / name).write_text(text)
-        return faults_in_code(root)[1]
+        return faults_in_code(root)[1] + faults_in_tests(root)
 
 
 def try_the_rules():
@@ -213,7 +220,7 @@ def try_the_rules():
             ("lib/lamps/lamp.h", "", "no folder lamps"),
             ("lib/paper/file.h", "float r = sample.position.norm();", "from trace/arrivals.h"),
             ("lib/labels/file.h", "x = std::asin(y);", "from core/elementary.h"),
-
+            ("tests/core/text_test.cpp", "CHECK(x == doctest::Approx(1e-8));", "compare by test::approx"),
             ("lib/visibility/view.h", "class Text final {", "lib/core/text.h has a Text"),
             ("lib/core/file.h", '#include "text.h"', 'write "folder/file.h"'),
             ("lib/core/file.h", "#include <yaml-cpp/yaml.h>", "belongs to mission alone"),
@@ -232,6 +239,7 @@ def try_the_rules():
 def main(root: pathlib.Path) -> int:
     try_the_rules()
     files, faults = faults_in_code(root)
+    faults += faults_in_tests(root)
     faults += faults_in_table((root / "docs/development.md").read_text())
     faults += faults_in_readme((root / "README.md").read_text())
     print("\n".join(faults) if faults else f"{files} files, no arrow runs the wrong way")

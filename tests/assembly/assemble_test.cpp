@@ -15,6 +15,7 @@
 #include "job/run_job.h"
 #include "mission/parse.h"
 #include "sonar/kinds.h"
+#include "support/approx.h"
 #include "support/small_mission.h"
 #include "support/temporary_folder.h"
 
@@ -106,7 +107,7 @@ TEST_SUITE("assembly") {
                 .trajectory;
         // Two lines of 10 m and the way between them of 5 m: 25 s.
         CHECK(survey.size() == 26);
-        CHECK(survey.front().T_world_vehicle.translation.z() == doctest::Approx(3.0));
+        CHECK(survey.front().T_world_vehicle.translation.z() == test::approx(3.0));
     }
 
     TEST_CASE("assemble: a table of beams sets their azimuths, and the edges between them") {
@@ -122,14 +123,14 @@ TEST_SUITE("assembly") {
         const double between =
             std::asin(0.5 * (std::sin(radians(-10.0)) + std::sin(radians(20.0))));
         REQUIRE(sonar.azimuth_edges_rad.size() == 4);
-        CHECK(sonar.azimuth_edges_rad[0] == doctest::Approx(radians(-30.0)));
-        CHECK(sonar.azimuth_edges_rad[2] == doctest::Approx(between));
-        CHECK(sonar.azimuth_edges_rad[3] == doctest::Approx(radians(30.0)));
-        CHECK(sonar.beam_azimuths_rad[2] == doctest::Approx(radians(20.0)));
+        CHECK(sonar.azimuth_edges_rad[0] == test::approx(radians(-30.0)));
+        CHECK(sonar.azimuth_edges_rad[2] == test::approx(between));
+        CHECK(sonar.azimuth_edges_rad[3] == test::approx(radians(30.0)));
+        CHECK(sonar.beam_azimuths_rad[2] == test::approx(radians(20.0)));
         // Beams are drawn where they lie: column_at() is linear in the sine between their edges.
-        CHECK(column_at(sonar, sonar.azimuth_edges_rad[2]) == doctest::Approx(2.0));
-        CHECK(column_at(sonar, std::asin(0.5 * (std::sin(between) + 0.5))) == doctest::Approx(2.5));
-        CHECK(column_at(sonar, radians(30.0)) == doctest::Approx(3.0));
+        CHECK(column_at(sonar, sonar.azimuth_edges_rad[2]) == test::approx(2.0));
+        CHECK(column_at(sonar, std::asin(0.5 * (std::sin(between) + 0.5))) == test::approx(2.5));
+        CHECK(column_at(sonar, radians(30.0)) == test::approx(3.0));
     }
 
     TEST_CASE("assemble: calibrated sonars know the scene's materials before the first ping") {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "assembly/sample_pings.h"
+#include "support/approx.h"
 #include "support/calibrated.h"
 #include "support/small_mission.h"
 
@@ -48,7 +49,7 @@ TEST_SUITE("assembly") {
         mission.sensors[0].noise.gain = 50.0;
         const std::vector<double> more = scales_of(mission);
         // Without noise an intensity is proportional to the gain; a power of ten moves no digit.
-        CHECK(more[0] / half[0] == doctest::Approx(100.0));
+        CHECK(more[0] / half[0] == test::approx(100.0));
         CHECK(more[1] == half[1]);
         // No echo of a surface with reflection below 1 is above the gain.
         for (const double scale : half) {
@@ -72,7 +73,7 @@ TEST_SUITE("assembly") {
         mission.sensors[1].name = "coastal";
         mission.sensors[1].instrument.usual_water = WaterContent::coastal;
         const std::vector<double> scales = scales_of(mission);
-        CHECK(scales[1] / scales[0] == doctest::Approx(1.0).epsilon(0.1));
+        CHECK(scales[1] / scales[0] == test::approx(1.0).epsilon(0.1));
     }
 
     TEST_CASE("brightness: auto is 1 where nothing is seen") {

@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "sonar/kinds.h"
 #include "sonar/sonar.h"
+#include "support/approx.h"
 
 using namespace sonarsim;
 
@@ -82,16 +83,16 @@ TEST_SUITE("assembly") {
         const double band_hz =
             pulse_band(config.instrument.pulse, 0.0, mission.water.sound_speed_m_s).sweep_hz;
         CHECK((*sonars[0].motions)[4].doppler_s ==
-              doctest::Approx(-9e5 * 1e-3 / band_hz).epsilon(1e-12));
+              test::approx(-9e5 * 1e-3 / band_hz).epsilon(1e-12));
         const double hz_s_per_m = 2.0 * 9e5 / mission.water.sound_speed_m_s;
         CHECK((*sonars[0].motions)[4].loss.band_s_per_m ==
-              doctest::Approx(hz_s_per_m / band_hz).epsilon(1e-12));
+              test::approx(hz_s_per_m / band_hz).epsilon(1e-12));
         sonars[0].config.instrument.pulse.sweep = Sweep::tone;
         add_ping_motions(mission, vehicle, scene, bodies, sonars);
         CHECK((*sonars[0].motions)[4].doppler_s == 0.0);
         CHECK((*sonars[0].motions)[4].loss.turns_s_per_m ==
-              doctest::Approx(hz_s_per_m * 1e-3).epsilon(1e-12));
+              test::approx(hz_s_per_m * 1e-3).epsilon(1e-12));
         CHECK(band_hz * 2.0 * 0.015 / mission.water.sound_speed_m_s ==
-              doctest::Approx(1.2).epsilon(0.1));
+              test::approx(1.2).epsilon(0.1));
     }
 }

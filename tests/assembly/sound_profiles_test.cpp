@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "support/approx.h"
 #include "support/temporary_folder.h"
 
 using namespace sonarsim;
@@ -45,7 +46,7 @@ TEST_SUITE("assembly") {
         config.points = {{0.0, 1520.0}, {10.0, 1500.0}};
         const SoundProfile profile = profile_of(config);
         CHECK(profile.speed_at(3.0) == 1520.0);
-        CHECK(profile.speed_at(-2.0) == doctest::Approx(1510.0));
+        CHECK(profile.speed_at(-2.0) == test::approx(1510.0));
         CHECK(profile.speed_at(-7.0) == 1500.0);
         CHECK(profile.speed_at(-50.0) == 1500.0);
         CHECK(profile.range_speed_m_s == 1490.0);
@@ -58,12 +59,12 @@ TEST_SUITE("assembly") {
         // + 36.728 - 3.3946
         // + 0.1215 + 1.63 + 0.0017 = 1484.047).
         const SoundProfile summer = profile_of(named(NamedProfile::summer));
-        CHECK(summer.speed_at(3.0) == doctest::Approx(1521.46).epsilon(1e-5));
-        CHECK(summer.speed_at(-97.0) == doctest::Approx(1484.05).epsilon(1e-5));
+        CHECK(summer.speed_at(3.0) == test::approx(1521.46).epsilon(1e-5));
+        CHECK(summer.speed_at(-97.0) == test::approx(1484.05).epsilon(1e-5));
         // 10 degrees at all depths: only the pressure raises the speed, by 0.0163 per metre.
         const SoundProfile isothermal = profile_of(named(NamedProfile::isothermal));
         CHECK(isothermal.speed_at(-97.0) - isothermal.speed_at(3.0) ==
-              doctest::Approx(1.632).epsilon(5e-3));
+              test::approx(1.632).epsilon(5e-3));
         const SoundProfile mixed = profile_of(named(NamedProfile::mixed_layer));
         CHECK(mixed.speed_at(-47.0) > mixed.speed_at(3.0));
         CHECK(mixed.speed_at(-97.0) < mixed.speed_at(-47.0) - 20.0);
@@ -75,7 +76,7 @@ TEST_SUITE("assembly") {
         const auto file = folder.path / "ctd.csv";
         write_file(file, "# cast 7\ntime,sound_speed_m_s,depth_m\na,1510,1\nb,1490,21\n");
         const SoundProfile profile = profile_of_file(file);
-        CHECK(profile.speed_at(-8.0) == doctest::Approx(1500.0));
+        CHECK(profile.speed_at(-8.0) == test::approx(1500.0));
         const auto refuses = [&](const std::string& text, const std::string& why) {
             write_file(file, text);
             CHECK_THROWS_WITH_AS(profile_of_file(file), doctest::Contains(why.c_str()), InputError);

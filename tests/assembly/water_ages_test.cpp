@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/units.h"
+#include "support/approx.h"
 #include "support/calibrated.h"
 #include "support/scenes.h"
 
@@ -63,7 +64,7 @@ TEST_SUITE("assembly") {
         add_water_ages(mission, poses, sonars);
         REQUIRE(sonars[0].water_ages);
         CHECK(sonars[0].water_ages->front() == 0.0);
-        CHECK(sonars[0].water_ages->back() == doctest::Approx(2.0 / pi * phase_spread(1.0)));
+        CHECK(sonars[0].water_ages->back() == test::approx(2.0 / pi * phase_spread(1.0)));
         // A disc or line of 7 degrees is 0.886 lambda / 0.122 long, 29 cm; the pulse is 20 cm.
         Mission frozen = mission;
         frozen.water.drift_rms_m_s = 0.0;
@@ -75,9 +76,9 @@ TEST_SUITE("assembly") {
         poses.back().T_world_vehicle.translation.x() += 50.0;
         add_water_ages(frozen, poses, sonars);
         const std::vector<double>& ages = *sonars[0].water_ages;
-        CHECK(ages[1] == doctest::Approx(0.02 / 0.143).epsilon(0.02));
+        CHECK(ages[1] == test::approx(0.02 / 0.143).epsilon(0.02));
         CHECK(ages[2] == ages[1]);
-        CHECK(ages[3] - ages[2] == doctest::Approx(0.1));
+        CHECK(ages[3] - ages[2] == test::approx(0.1));
         CHECK(ages[9] == ages[3]);
         CHECK(ages[10] == ages[9] + 2.0);
         // A sonar that goes with the water stays in it.
@@ -87,7 +88,7 @@ TEST_SUITE("assembly") {
         for (TimedPose& pose : poses)
             pose.T_world_vehicle.translation += pose.t_s * Eigen::Vector3d(0.3, 0.0, -0.1);
         add_water_ages(current, poses, sonars);
-        CHECK(sonars[0].water_ages->back() == doctest::Approx(2.0 / pi * phase_spread(1.0)));
+        CHECK(sonars[0].water_ages->back() == test::approx(2.0 / pi * phase_spread(1.0)));
         // Without the key there are none.
         std::vector<Sonar> others{resting_sounder({})};
         add_water_ages({}, poses, others);
@@ -145,7 +146,7 @@ TEST_SUITE("assembly") {
         CHECK(std::fabs(of_water(independent, 1)) < 0.1);
         // The bottom below, from 15 to 15.5 m, is far above the water there.
         for (int row = 131; row < 136; ++row)
-            CHECK(independent[59][row] == doctest::Approx(independent[0][row]).epsilon(0.02));
+            CHECK(independent[59][row] == test::approx(independent[0][row]).epsilon(0.02));
         // 2 k u t = 0.64 from ping to ping, 0.4 ages: exp(-0.64^2) = 0.67.
         const auto drifting = pings(drifting_water(), 0.5);
         const double expected = std::exp(-std::pow(phase_spread(0.5), 2));

@@ -10,6 +10,7 @@
 #include "benchmark/report_files.h"
 #include "benchmark/report_text.h"
 #include "sonar/engine_settings.h"
+#include "support/approx.h"
 #include "support/sanitized.h"
 #include "support/scenes.h"
 #include "support/small_mission.h"
@@ -77,9 +78,9 @@ TEST_CASE("multipath rows of a corner are sane, as text, JSON and CSV") {
         CHECK(row.ms_multipath.centre < row.ms_per_ping.centre);
         CHECK(row.ms_per_ping.min <= row.ms_per_ping.centre);
         CHECK(row.ms_without > 0.0);
-        CHECK(row.times_without() == doctest::Approx(row.ms_per_ping.centre / row.ms_without));
+        CHECK(row.times_without() == test::approx(row.ms_per_ping.centre / row.ms_without));
         CHECK(row.speed_up ==
-              doctest::Approx(report.multipath[0].ms_multipath.centre / row.ms_multipath.centre));
+              test::approx(report.multipath[0].ms_multipath.centre / row.ms_multipath.centre));
         current += row.current;
     }
     const MultipathRow& exact = report.multipath[0];

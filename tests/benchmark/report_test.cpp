@@ -10,6 +10,7 @@
 #include "benchmark/settings.h"
 #include "benchmark/view_rays.h"
 #include "core/units.h"
+#include "support/approx.h"
 #include "support/sanitized.h"
 #include "support/scenes.h"
 #include "support/small_mission.h"
@@ -140,17 +141,17 @@ TEST_CASE("a report on shared copies is one on their triangles" * doctest::skip(
     const Report b = report_of_rays(mission, copied);
     CHECK(a.triangles == b.triangles);
     CHECK(a.references[0].rays_per_bin.centre / b.references[0].rays_per_bin.centre ==
-          doctest::Approx(1.0).epsilon(1e-3));
+          test::approx(1.0).epsilon(1e-3));
     REQUIRE(a.rows.size() == 1);
     const ReportRow& of_copies = a.rows[0];
     const ReportRow& of_triangles = b.rows[0];
     CHECK(of_copies.relative_l1.max < 0.02);
     CHECK(of_copies.relative_l1.max / of_triangles.relative_l1.max ==
-          doctest::Approx(1.0).epsilon(0.02));
+          test::approx(1.0).epsilon(0.02));
     CHECK(of_copies.relative_l2.centre / of_triangles.relative_l2.centre ==
-          doctest::Approx(1.0).epsilon(0.02));
+          test::approx(1.0).epsilon(0.02));
     CHECK(of_copies.samples_per_ping.centre / of_triangles.samples_per_ping.centre ==
-          doctest::Approx(1.0).epsilon(1e-3));
+          test::approx(1.0).epsilon(1e-3));
     // Only rays can trace it, which `auto` then takes.
     for (const Setting& setting : make_settings(mission, false)) {
         CAPTURE(setting.engine);
@@ -286,7 +287,7 @@ TEST_CASE("summaries by hand") {
     CHECK(times.centre == 2.5);
     CHECK(times.min == 1.0);
     CHECK(times.max == 4.0);
-    CHECK(mean_summary({1.0, 2.0, 6.0}).centre == doctest::Approx(3.0));
+    CHECK(mean_summary({1.0, 2.0, 6.0}).centre == test::approx(3.0));
 }
 
 TEST_SUITE_END();

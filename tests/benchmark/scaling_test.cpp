@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "scene/copies.h"
+#include "support/approx.h"
 #include "support/scenes.h"
 
 using namespace sonarsim;
@@ -36,7 +37,7 @@ TEST_CASE("a subdivided scene has four times the triangles and the same area") {
     CHECK(fine.triangle_instance.size() == 8);
     // Four corners, and the middles of four sides and of the diagonal, which both triangles share.
     CHECK(fine.vertices.size() == 9);
-    CHECK(area(fine) == doctest::Approx(16.0));
+    CHECK(area(fine) == test::approx(16.0));
 }
 
 TEST_CASE("tiles lie side by side around the original") {
@@ -46,7 +47,7 @@ TEST_CASE("tiles lie side by side around the original") {
     scene.bounds_max = {2.0, 2.0, 0.0};
     const Scene wide = tile(scene, 3);
     CHECK(wide.triangles.size() == 18);
-    CHECK(area(wide) == doctest::Approx(144.0));
+    CHECK(area(wide) == test::approx(144.0));
     CHECK(wide.bounds_min == Eigen::Vector3d(-6.0, -6.0, 0.0));
     CHECK(wide.bounds_max == Eigen::Vector3d(6.0, 6.0, 0.0));
     CHECK(wide.triangles[0] == scene.triangles[0]);  // the original comes first, unmoved

@@ -8,6 +8,7 @@
 #include "calibrate/made_pings.h"
 #include "calibrate/pulse_fit.h"
 #include "calibrated/range_response.h"
+#include "support/approx.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -28,7 +29,7 @@ TEST_SUITE("calibrate") {
                     whole += w2;
                 }
                 const double expected = std::norm(sum / whole);
-                CHECK(beam_correlation(array, u) == doctest::Approx(expected).epsilon(1e-5));
+                CHECK(beam_correlation(array, u) == test::approx(expected).epsilon(1e-5));
             }
         }
     }
@@ -100,7 +101,7 @@ TEST_SUITE("calibrate") {
         double expected = 0.0;
         for (int j = 1; j < 60; ++j)
             expected += std::pow(sum * sum, j) / (j * j) / (pi * pi / 6.0);
-        CHECK(lags[0] == doctest::Approx(expected).epsilon(1e-3));
+        CHECK(lags[0] == test::approx(expected).epsilon(1e-3));
         // Echoes of many scatterers are correlated farther than noise.
         const auto echo =
             PulseModel{.receiver = {}, .kind = ReceivedKind::echo_of_bins}.correlations(2.0);

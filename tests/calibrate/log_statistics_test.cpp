@@ -9,6 +9,7 @@
 #include "calibrate/made_pings.h"
 #include "core/normal_pair.h"
 #include "core/units.h"
+#include "support/approx.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -52,17 +53,17 @@ double mean_of_powers(const std::vector<double>& x, double about, int exponent) 
 
 TEST_SUITE("calibrate") {
     TEST_CASE("log statistics: those of one look are known numbers") {
-        CHECK(log_power_variance(1) == doctest::Approx(pi * pi / 6.0));
+        CHECK(log_power_variance(1) == test::approx(pi * pi / 6.0));
         // -12 sqrt(6) zeta(3) / pi^3, the skewness of Gumbel's distribution.
-        CHECK(log_power_skewness(1) == doctest::Approx(-1.1395471).epsilon(1e-6));
+        CHECK(log_power_skewness(1) == test::approx(-1.1395471).epsilon(1e-6));
         // sqrt(4 / pi - 1).
-        CHECK(amplitude_variation(1) == doctest::Approx(0.5227232).epsilon(1e-6));
-        CHECK(amplitude_variation(2) == doctest::Approx(0.363).epsilon(2e-3));
+        CHECK(amplitude_variation(1) == test::approx(0.5227232).epsilon(1e-6));
+        CHECK(amplitude_variation(2) == test::approx(0.363).epsilon(2e-3));
         CHECK(log_power_correlation(1.0, 1) == 1.0);
         CHECK(log_power_correlation(0.0, 3) == 0.0);
         // The dilogarithm of 1/2 is pi^2 / 12 - ln(2)^2 / 2.
         const double half = pi * pi / 12.0 - 0.5 * std::log(2.0) * std::log(2.0);
-        CHECK(log_power_correlation(0.5, 1) == doctest::Approx(half / (pi * pi / 6.0)));
+        CHECK(log_power_correlation(0.5, 1) == test::approx(half / (pi * pi / 6.0)));
     }
 
     TEST_CASE("log statistics: drawn powers have them") {

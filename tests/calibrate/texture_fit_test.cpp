@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "calibrate/made_pings.h"
+#include "support/approx.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -41,10 +42,10 @@ PatchClasses textured_patches(const BottomTexture& texture, const EchoPatches& d
 TEST_SUITE("calibrate") {
     TEST_CASE("texture: trigamma and its inverse") {
         // trigamma(1) = pi^2 / 6; trigamma(1/2) = pi^2 / 2.
-        CHECK(trigamma(1.0) == doctest::Approx(pi * pi / 6.0).epsilon(1e-7));
-        CHECK(trigamma(0.5) == doctest::Approx(pi * pi / 2.0).epsilon(1e-7));
+        CHECK(trigamma(1.0) == test::approx(pi * pi / 6.0).epsilon(1e-7));
+        CHECK(trigamma(0.5) == test::approx(pi * pi / 2.0).epsilon(1e-7));
         for (const double shape : {0.3, 2.0, 40.0})
-            CHECK(inverse_trigamma(trigamma(shape)) == doctest::Approx(shape).epsilon(1e-6));
+            CHECK(inverse_trigamma(trigamma(shape)) == test::approx(shape).epsilon(1e-6));
     }
 
     TEST_CASE("texture: share, edge and pulse are found in the correlations that they make") {
@@ -78,9 +79,9 @@ TEST_SUITE("calibrate") {
         const SpeckleConfig speckle{.clutter_shape = inverse_trigamma(0.25 * one.variance),
                                     .clutter_m = 0.05};
         const BottomTexture texture = texture_of(speckle, one);
-        CHECK(texture.share == doctest::Approx(0.2).epsilon(1e-6));
-        CHECK(texture.correlation(0.5, 0.025) == doctest::Approx(0.8 * 0.5 + 0.2 * 0.5));
-        CHECK(texture.correlation(0.5, 0.06) == doctest::Approx(0.8 * 0.5));
+        CHECK(texture.share == test::approx(0.2).epsilon(1e-6));
+        CHECK(texture.correlation(0.5, 0.025) == test::approx(0.8 * 0.5 + 0.2 * 0.5));
+        CHECK(texture.correlation(0.5, 0.06) == test::approx(0.8 * 0.5));
         CHECK(texture_of({}, one).share == 0.0);
     }
 }

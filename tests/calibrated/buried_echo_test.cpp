@@ -7,6 +7,7 @@
 #include "calibrated/sediment_paths.h"
 #include "calibrated/water.h"
 #include "core/units.h"
+#include "support/approx.h"
 #include "support/calibrated.h"
 #include "support/scenes.h"
 
@@ -74,7 +75,7 @@ TEST_SUITE("calibrated") {
         for (const float tap : model.power_taps.taps)
             taps += tap;
         REQUIRE(echo > 0.0);
-        CHECK(moment / echo == doctest::Approx(h + d / n).epsilon(2e-3));
+        CHECK(moment / echo == test::approx(h + d / n).epsilon(2e-3));
         const double z = n * sand.density_ratio;
         const double reflected = std::pow((z - 1.0) / (z + 1.0), 2);
         const double sediment_db_per_m = 20.0 * std::log10(std::exp(1.0)) * 2.0 * pi *
@@ -85,6 +86,6 @@ TEST_SUITE("calibrated") {
         const double level = 20.0 * std::log10(0.05) - 40.0 * std::log10(h + n * d) +
                              20.0 * std::log10(n) + 20.0 * std::log10(1.0 - reflected) -
                              2.0 * model.absorption_db_per_m * h - 2.0 * sediment_db_per_m * d;
-        CHECK(db_of_power(echo / taps) == doctest::Approx(level).epsilon(0.002));
+        CHECK(db_of_power(echo / taps) == test::approx(level).epsilon(0.002));
     }
 }

@@ -8,6 +8,7 @@
 #include "calibrated/directivity.h"
 #include "calibrated/sonar_equation.h"
 #include "core/units.h"
+#include "support/approx.h"
 #include "support/calibrated.h"
 
 using namespace sonarsim;
@@ -49,7 +50,7 @@ TEST_SUITE("calibrated") {
                     expected += mean_side_lobe(array);
                 }
             }
-            CHECK(sum == doctest::Approx(expected).epsilon(0.11));
+            CHECK(sum == test::approx(expected).epsilon(0.11));
         }
     }
 
@@ -113,7 +114,7 @@ TEST_SUITE("calibrated") {
             with += side_lobes() / 30.0;
         }
         const LineArray array = line_array(radians(2.0), -40.0);
-        CHECK(with - without == doctest::Approx(mean_side_lobe(array)).epsilon(0.17));
+        CHECK(with - without == test::approx(mean_side_lobe(array)).epsilon(0.17));
     }
 
     // Uniform elevation of 20 degrees has deep nulls. Errors fill them.

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "calibrated/target_fixtures.h"
+#include "support/approx.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -37,7 +38,7 @@ TEST_SUITE("calibrated") {
                                           *engine_of(hidden.scene, EngineKind::rays));
             const double expected = 0.5 * std::erfc(-edge / std::sqrt(2.0));
             CAPTURE(edge);
-            CHECK(left / whole == doctest::Approx(expected).epsilon(0.15));
+            CHECK(left / whole == test::approx(expected).epsilon(0.15));
         }
     }
 

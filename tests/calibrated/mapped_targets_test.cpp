@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ping/form_image.h"
+#include "support/approx.h"
 #include "support/calibrated.h"
 #include "support/draws.h"
 #include "support/maps.h"
@@ -183,6 +184,6 @@ TEST_SUITE("calibrated") {
             power += static_cast<double>(part.strength * area_of(part));
         CHECK(parts.size() > 50);
         CHECK(power / static_cast<double>(area_of(whole)) ==
-              doctest::Approx(0.5 * mean).epsilon(0.02));
+              test::approx(0.5 * mean).epsilon(0.02));
     }
 }

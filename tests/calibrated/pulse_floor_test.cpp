@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "calibrated/decibel.h"
+#include "support/approx.h"
 
 using namespace sonarsim;
 
@@ -40,7 +41,7 @@ TEST_SUITE("calibrated") {
         for (int row = 0; row < floor_rows; ++row) {
             CAPTURE(row);
             const double even = row < 60 || row > 140 ? 0.0 : 0.09 / 81.0;
-            CHECK(found[row] == doctest::Approx(row == 100 ? 9.0 + even : even).epsilon(1e-5));
+            CHECK(found[row] == test::approx(row == 100 ? 9.0 + even : even).epsilon(1e-5));
         }
     }
 
@@ -56,7 +57,7 @@ TEST_SUITE("calibrated") {
             for (const double power : floor_powers(grid, PowerForm::amplitude))
                 sum += power / 200.0;
         }
-        CHECK(sum == doctest::Approx(0.09).epsilon(0.032));
+        CHECK(sum == test::approx(0.09).epsilon(0.032));
     }
 
     TEST_CASE("pulse floor: none without a code or a level") {

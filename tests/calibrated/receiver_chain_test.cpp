@@ -8,6 +8,7 @@
 #include "calibrated/companding.h"
 #include "calibrated/decibel.h"
 #include "core/units.h"
+#include "support/approx.h"
 #include "support/calibrated.h"
 #include "support/statistics.h"
 
@@ -113,11 +114,11 @@ TEST_SUITE("calibrated") {
     // 16,000 draws: the coefficient of variation is known to about 0.7 %, the shape to 0.8 %.
     TEST_CASE("receiver: one look has Rayleigh's amplitudes") {
         const AmplitudeShape one = shape_of(noise_powers({}));
-        CHECK(one.variation == doctest::Approx(0.5227).epsilon(0.025));
-        CHECK(one.weibull == doctest::Approx(2.0).epsilon(0.03));
+        CHECK(one.variation == test::approx(0.5227).epsilon(0.025));
+        CHECK(one.weibull == test::approx(2.0).epsilon(0.03));
         const AmplitudeShape closed = shape_of_largest(1);
-        CHECK(closed.variation == doctest::Approx(0.5227).epsilon(1e-3));
-        CHECK(closed.weibull == doctest::Approx(2.0));
+        CHECK(closed.variation == test::approx(0.5227).epsilon(1e-3));
+        CHECK(closed.weibull == test::approx(2.0));
     }
 
     // The largest of n exponential powers lies below x with the probability (1 - exp(-x))^n.
@@ -130,11 +131,11 @@ TEST_SUITE("calibrated") {
                   1e-3);
             const AmplitudeShape found = shape_of(powers);
             const AmplitudeShape closed = shape_of_largest(n);
-            CHECK(found.variation == doctest::Approx(closed.variation).epsilon(0.025));
-            CHECK(found.weibull == doctest::Approx(closed.weibull).epsilon(0.03));
+            CHECK(found.variation == test::approx(closed.variation).epsilon(0.025));
+            CHECK(found.weibull == test::approx(closed.weibull).epsilon(0.03));
         }
-        CHECK(shape_of_largest(2).variation == doctest::Approx(0.3776).epsilon(1e-3));
-        CHECK(shape_of_largest(3).variation == doctest::Approx(0.3180).epsilon(1e-3));
+        CHECK(shape_of_largest(2).variation == test::approx(0.3776).epsilon(1e-3));
+        CHECK(shape_of_largest(3).variation == test::approx(0.3180).epsilon(1e-3));
     }
 
     // The mean of two exponential powers is gamma distributed with shape 2. The variance of ln A is
@@ -155,14 +156,14 @@ TEST_SUITE("calibrated") {
                       return 1.0 - (1.0 + 2.0 * x) * std::exp(-2.0 * x);
                   }) > 1e-3);
             const AmplitudeShape found = shape_of(powers);
-            CHECK(found.variation == doctest::Approx(variation).epsilon(0.025));
-            CHECK(found.weibull == doctest::Approx(weibull).epsilon(0.03));
+            CHECK(found.variation == test::approx(variation).epsilon(0.025));
+            CHECK(found.weibull == test::approx(weibull).epsilon(0.03));
         }
         ReceiverConfig of_amplitudes = samples;
         of_amplitudes.combine = SampleRule::mean;
         // The mean of two Rayleigh amplitudes varies by 1 / sqrt 2 of one.
         CHECK(shape_of(noise_powers(of_amplitudes)).variation ==
-              doctest::Approx(0.5227 / std::sqrt(2.0)).epsilon(0.025));
+              test::approx(0.5227 / std::sqrt(2.0)).epsilon(0.025));
     }
 
     // 5,000 pings, of which one in 20 is a draw of its own: 250 draws, the spread within 4.5 % x 4.
@@ -178,9 +179,9 @@ TEST_SUITE("calibrated") {
             if (ping > 0) steps2 += (gain - last) * (gain - last);
             last = gain;
         }
-        CHECK(std::sqrt(sum2 / 5000) == doctest::Approx(2.0).epsilon(0.18));
+        CHECK(std::sqrt(sum2 / 5000) == test::approx(2.0).epsilon(0.18));
         // Between two draws the gain turns by a right angle: (pi / 2 / 20)^2 of the variance.
-        CHECK(std::sqrt(steps2 / 4999) == doctest::Approx(2.0 * pi / 40.0).epsilon(0.18));
+        CHECK(std::sqrt(steps2 / 4999) == test::approx(2.0 * pi / 40.0).epsilon(0.18));
     }
 
     TEST_CASE("receiver: ringing, blanking, interference and spikes lie where they should") {
@@ -191,7 +192,7 @@ TEST_SUITE("calibrated") {
         const std::vector<float> rung = noise_image(ringing);
         for (const int row : {0, 200, 500})
             CHECK(10.0 * std::log10((rung[row] - plain[row]) / 1e-10) ==
-                  doctest::Approx(200.0 - 10.0 * (10.005 + 0.01 * row)).epsilon(1e-3));
+                  test::approx(200.0 - 10.0 * (10.005 + 0.01 * row)).epsilon(1e-3));
         ReceiverConfig blanked = ringing;
         blanked.blanking_m = 12.0;
         const std::vector<float> after = noise_image(blanked);
@@ -251,7 +252,7 @@ TEST_SUITE("calibrated") {
             add_faults(receiver, rows, {1, 2, ping}, image);
             for (int k = 0; k < 16; ++k) {
                 CHECK(10.0 * std::log10(image[k]) ==
-                      doctest::Approx(beam_gain_db(receiver, k % 8, 8, {1, 2, 0})).epsilon(1e-4));
+                      test::approx(beam_gain_db(receiver, k % 8, 8, {1, 2, 0})).epsilon(1e-4));
             }
         }
     }

@@ -11,6 +11,7 @@
 #include "calibrated/bottom.h"
 #include "calibrated/decibel.h"
 #include "core/units.h"
+#include "support/approx.h"
 
 using namespace sonarsim;
 
@@ -297,9 +298,9 @@ TEST_SUITE("calibrated") {
         material.volume_parameter = sand.volume_parameter;
         const Water water{1000.0, 1500.0};
         SeaBed own = sea_bed_of(material, water);
-        CHECK(own.density_ratio == doctest::Approx(1.845));
-        CHECK(own.speed_ratio == doctest::Approx(1.178));
-        CHECK(own.spectral_strength == doctest::Approx(sand.spectral_strength));
+        CHECK(own.density_ratio == test::approx(1.845));
+        CHECK(own.speed_ratio == test::approx(1.178));
+        CHECK(own.spectral_strength == test::approx(sand.spectral_strength));
         CHECK(own.spectral_exponent == 3.25);
 
         material.grain_phi = 1.5;
@@ -311,7 +312,7 @@ TEST_SUITE("calibrated") {
         material.spectral_exponent = 3.0;
         own = sea_bed_of(material, water);
         CHECK(own.spectral_strength * std::pow(100.0, -3.0) ==
-              doctest::Approx(sand.spectral_strength * std::pow(100.0, -3.25)));
+              test::approx(sand.spectral_strength * std::pow(100.0, -3.25)));
     }
 
     TEST_CASE("sea bed: however smooth it is, it sends back a quarter of what it reflects") {

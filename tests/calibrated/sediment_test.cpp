@@ -9,6 +9,7 @@
 #include "calibrated/decibel.h"
 #include "calibrated/seafloor_scattering.h"
 #include "core/units.h"
+#include "support/approx.h"
 #include "support/calibrated.h"
 #include "support/scenes.h"
 
@@ -58,7 +59,7 @@ TEST_SUITE("calibrated") {
             const SeafloorScattering scattering(bed, bed_wavenumber());
             const double attenuation_db = 20.0 / ln_10 * bed_wavenumber() * bed.loss;
             const double decay_db = 10.0 / ln_10 / scattering.lag_m(0.5 * pi);
-            CHECK(decay_db == doctest::Approx(2.0 * attenuation_db).epsilon(1e-4));
+            CHECK(decay_db == test::approx(2.0 * attenuation_db).epsilon(1e-4));
         }
     }
 
@@ -78,7 +79,7 @@ TEST_SUITE("calibrated") {
             CHECK(std::fabs(value - expected) < 1e-6);
             CHECK(energy.column(0)[2 * row] == 0.0F);
         }
-        CHECK(sum == doctest::Approx(3.0).epsilon(1e-6));
+        CHECK(sum == test::approx(3.0).epsilon(1e-6));
     }
 
     // The whole beam of 7 degrees sees the bottom within 10 m and 10 / cos(7 degrees) = 10.08 m;
@@ -92,13 +93,13 @@ TEST_SUITE("calibrated") {
         const double before = std::accumulate(whole.begin(), whole.end(), 0.0);
         const double after = std::accumulate(divided.begin(), divided.end(), 0.0);
         const SeafloorScattering bed(sea_bed_of_grain_size(bed_phi), bed_wavenumber());
-        CHECK(after == doctest::Approx(before).epsilon(0.01));
+        CHECK(after == test::approx(before).epsilon(0.01));
         const auto row_at = [&](double range_m) {
             return static_cast<int>((range_m - 8.0) / 0.02);
         };
         CHECK(whole[row_at(10.4)] < 1e-3F * divided[row_at(10.4)]);
         const double fall_db = db_of_power(divided[row_at(10.4)] / divided[row_at(11.4)]);
-        CHECK(fall_db == doctest::Approx(10.0 / ln_10 / bed.lag_m(0.5 * pi)).epsilon(0.02));
+        CHECK(fall_db == test::approx(10.0 / ln_10 / bed.lag_m(0.5 * pi)).epsilon(0.02));
     }
 
     // At 1.2 MHz sand swallows all sound within a millimetre.

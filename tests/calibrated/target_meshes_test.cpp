@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "calibrated/target_fixtures.h"
+#include "support/approx.h"
 #include "trace/target_mesh.h"
 
 using namespace sonarsim;
@@ -39,7 +40,7 @@ TEST_SUITE("calibrated") {
         const auto engine = engine_of(moving, EngineKind::rays);
         const Pose there{rotation_from_rpy(0.0, 0.0, 0.7), {8.0, 0.3, 0.2}};
         CHECK(energy_by(with_targets(sonar, moving), moving, *engine->at({&there, 1})) ==
-              doctest::Approx(expected).epsilon(0.01));
+              test::approx(expected).epsilon(0.01));
 
         Scene copied = without_sphere();
         copied.shared_meshes.push_back({half.scene.vertices, triangles(half), materials});
@@ -48,7 +49,7 @@ TEST_SUITE("calibrated") {
         copied.copies.push_back(copy);
         CHECK(
             energy_by(with_targets(sonar, copied), copied, *engine_of(copied, EngineKind::rays)) ==
-            doctest::Approx(expected).epsilon(0.01));
+            test::approx(expected).epsilon(0.01));
     }
 
     TEST_CASE("targets: a cube keeps its faces, a sphere's mesh is a sphere") {
@@ -75,7 +76,7 @@ TEST_SUITE("calibrated") {
                 target_shape({round.vertices, twice, std::vector<std::uint32_t>(twice.size(), 0)});
             CHECK(sphere.triangles.size() <= round.triangles.size());
             CHECK(sphere.closed);
-            CHECK(sphere.curvature_m == doctest::Approx(2.0).epsilon(0.01));
+            CHECK(sphere.curvature_m == test::approx(2.0).epsilon(0.01));
             for (const TargetTriangle& triangle : sphere.triangles) {
                 for (int k = 0; k < 3; ++k) {
                     const Eigen::Vector3f out =

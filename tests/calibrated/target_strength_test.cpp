@@ -6,6 +6,7 @@
 
 #include "calibrated/decibel.h"
 #include "core/units.h"
+#include "support/approx.h"
 
 using namespace sonarsim;
 
@@ -16,10 +17,10 @@ TEST_SUITE("calibrated") {
         const auto db = [](FishLaw law, double length_m, double hz) {
             return db_of_power(fish_section_m2(law, length_m, hz));
         };
-        CHECK(db(FishLaw::love, 0.3, 38e3) == doctest::Approx(-35.21).epsilon(1e-3));
-        CHECK(db(FishLaw::love, 0.1, 400e3) == doctest::Approx(-45.24).epsilon(1e-3));
-        CHECK(db(FishLaw::foote_gadoid, 0.3, 38e3) == doctest::Approx(-37.86).epsilon(1e-3));
-        CHECK(db(FishLaw::foote_clupeid, 0.25, 38e3) == doctest::Approx(-43.94).epsilon(1e-3));
+        CHECK(db(FishLaw::love, 0.3, 38e3) == test::approx(-35.21).epsilon(1e-3));
+        CHECK(db(FishLaw::love, 0.1, 400e3) == test::approx(-45.24).epsilon(1e-3));
+        CHECK(db(FishLaw::foote_gadoid, 0.3, 38e3) == test::approx(-37.86).epsilon(1e-3));
+        CHECK(db(FishLaw::foote_clupeid, 0.25, 38e3) == test::approx(-43.94).epsilon(1e-3));
     }
 
     // Minnaert: a bubble of 1 mm just below the surface rings at 3.26 kHz. There the section is
@@ -29,15 +30,14 @@ TEST_SUITE("calibrated") {
             return bubble_section_m2(radius_m, depth_m, 1000.0, 1500.0, hz);
         };
         const double f0 = std::sqrt(3.0 * 1.4 * 101325.0 / 1000.0) / (2.0 * pi * 1e-3);
-        CHECK(f0 == doctest::Approx(3283.0).epsilon(1e-3));
+        CHECK(f0 == test::approx(3283.0).epsilon(1e-3));
         const double k = 2.0 * pi * f0 / 1500.0;
-        CHECK(section(1e-3, f0) == doctest::Approx(1.0 / (k * k)).epsilon(1e-9));
-        CHECK(section(1e-3, 20e3) == doctest::Approx(1e-6).epsilon(0.07));
-        CHECK(section(1e-3, 300.0) ==
-              doctest::Approx(1e-6 * std::pow(300.0 / f0, 4)).epsilon(0.02));
-        CHECK(section(1e-2, 1e6) == doctest::Approx(0.25e-4).epsilon(1e-9));
+        CHECK(section(1e-3, f0) == test::approx(1.0 / (k * k)).epsilon(1e-9));
+        CHECK(section(1e-3, 20e3) == test::approx(1e-6).epsilon(0.07));
+        CHECK(section(1e-3, 300.0) == test::approx(1e-6 * std::pow(300.0 / f0, 4)).epsilon(0.02));
+        CHECK(section(1e-2, 1e6) == test::approx(0.25e-4).epsilon(1e-9));
         // At 30 m there are four atmospheres, and it rings an octave higher.
         CHECK(section(1e-3, f0, 30.987) < 0.2 * section(1e-3, f0));
-        CHECK(section(1e-3, 2.0 * f0, 30.987) == doctest::Approx(0.25 / (k * k)).epsilon(0.02));
+        CHECK(section(1e-3, 2.0 * f0, 30.987) == test::approx(0.25 / (k * k)).epsilon(0.02));
     }
 }

@@ -4,6 +4,7 @@
 
 #include "calibrated/decibel.h"
 #include "core/units.h"
+#include "support/approx.h"
 
 using namespace sonarsim;
 
@@ -22,19 +23,19 @@ TEST_SUITE("calibrated") {
                 CAPTURE(k);
                 CAPTURE(um);
                 CHECK(suspended_strength(10.0, um, k) ==
-                      doctest::Approx(by_hand(10.0, um, k)).epsilon(0.06));
+                      test::approx(by_hand(10.0, um, k)).epsilon(0.06));
             }
         }
         // 10 mg/l of 50 um at 400 kHz.
         CHECK(db_of_power(suspended_strength(10.0, 50.0, 2.0 * pi * 4e5 / 1480.0)) ==
-              doctest::Approx(-73.35).epsilon(0.0005));
+              test::approx(-73.35).epsilon(0.0005));
     }
 
     // Far above k a = 1 a grain scatters as a sphere of the form 1 / 0.9.
     TEST_CASE("water: coarse particles scatter by their area") {
         constexpr double a = 1e-3;
         const double expected = 3.0 * 1e-2 / (16.0 * pi * 2650.0 * a * 0.81);
-        CHECK(suspended_strength(10.0, 2e6 * a, 4e4) == doctest::Approx(expected).epsilon(0.01));
+        CHECK(suspended_strength(10.0, 2e6 * a, 4e4) == test::approx(expected).epsilon(0.01));
     }
 
     TEST_CASE("water: what it holds, and what an instrument takes for granted") {
@@ -44,7 +45,7 @@ TEST_SUITE("calibrated") {
         instrument.usual_water = WaterContent::coastal;
         const double usual = volume_strength(water_of(water, instrument), 4e5);
         const double particles = suspended_strength(20.0, 50.0, 2.0 * pi * 4e5 / 1480.0);
-        CHECK(usual == doctest::Approx(power_of_db(-75.0) + particles).epsilon(1e-12));
+        CHECK(usual == test::approx(power_of_db(-75.0) + particles).epsilon(1e-12));
         // The mission decides if it says something.
         water.content = WaterContent::none;
         CHECK(volume_strength(water_of(water, instrument), 4e5) == 0.0);
@@ -54,6 +55,6 @@ TEST_SUITE("calibrated") {
         CHECK(volume_strength(water, 4e5) == power_of_db(-70.0));
         water.suspended_mg_l = 20.0;
         CHECK(volume_strength(water, 4e5) ==
-              doctest::Approx(power_of_db(-70.0) + particles).epsilon(1e-12));
+              test::approx(power_of_db(-70.0) + particles).epsilon(1e-12));
     }
 }

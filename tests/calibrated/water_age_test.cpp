@@ -5,6 +5,7 @@
 
 #include "calibrated/model.h"
 #include "core/units.h"
+#include "support/approx.h"
 #include "support/calibrated.h"
 
 using namespace sonarsim;
@@ -69,7 +70,7 @@ TEST_SUITE("calibrated") {
                     const auto after = image_of_traced(model, view, traced, {}, {draws.seed, 2, 1});
                     for (int row = 10; row < 190; row += 4) {
                         if (apart == 0.0)
-                            CHECK(after[row] == doctest::Approx(before[row]).epsilon(1e-4));
+                            CHECK(after[row] == test::approx(before[row]).epsilon(1e-4));
                         product += (before[row] / expected[row] - 1.0) *
                                    (after[row] / expected[row] - 1.0) / 9000.0;
                     }

@@ -5,6 +5,7 @@
 
 #include "calibrated/piston.h"
 #include "calibrated/water_fixtures.h"
+#include "support/approx.h"
 #include "support/statistics.h"
 
 using namespace sonarsim;
@@ -28,7 +29,7 @@ TEST_SUITE("calibrated") {
             }
         }
         const auto n = static_cast<double>(powers.size());
-        CHECK(sum / n == doctest::Approx(1.0).epsilon(0.07));
+        CHECK(sum / n == test::approx(1.0).epsilon(0.07));
         CHECK(ks_p_value(powers, [](double x) { return 1.0 - std::exp(-x); }) > 1e-3);
         CHECK(water_image(model, view, {7, 2, 0}) == water_image(model, view, {7, 2, 0}));
         CHECK(water_image(model, view, {7, 2, 0}) != water_image(model, view, {8, 2, 0}));
@@ -64,10 +65,9 @@ TEST_SUITE("calibrated") {
             const double of_layer = (layer[row] - floor[row]) / whole;
             const double of_all = (all[row] - floor[row]) / whole;
             if (range_m < 4.5 || (range_m > 8.9 && range_m < 14.0)) CHECK(of_layer < 0.01);
-            if (range_m > 5.6 && range_m < 7.5)
-                CHECK(of_layer == doctest::Approx(1.0).epsilon(0.03));
+            if (range_m > 5.6 && range_m < 7.5) CHECK(of_layer == test::approx(1.0).epsilon(0.03));
             // The floor is met from 15 m on the axis to 15.2 m at 9 degrees.
-            if (range_m < 14.0) CHECK(of_all == doctest::Approx(1.0).epsilon(0.02));
+            if (range_m < 14.0) CHECK(of_all == test::approx(1.0).epsilon(0.02));
             if (range_m > 16.0) CHECK(of_all < 0.02);
         }
     }

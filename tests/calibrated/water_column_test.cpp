@@ -8,6 +8,7 @@
 
 #include "calibrated/piston.h"
 #include "calibrated/water_fixtures.h"
+#include "support/approx.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -79,7 +80,7 @@ TEST_SUITE("calibrated") {
             for (int cell = 0; cell < cells.count(); ++cell) {
                 CHECK(places.cell[cell] == cell);
                 CHECK(places.range_m[cell] ==
-                      doctest::Approx(1.0 + 0.3 * static_cast<double>(cell)).epsilon(1e-6));
+                      test::approx(1.0 + 0.3 * static_cast<double>(cell)).epsilon(1e-6));
             }
             for (int k = cells.count(); k < places.count; ++k)
                 CHECK(places.cell[k] == -1);

@@ -12,6 +12,7 @@
 #include "compare/report.h"
 #include "compare/student.h"
 #include "core/error.h"
+#include "support/approx.h"
 #include "support/sanitized.h"
 
 using namespace sonarsim;
@@ -52,7 +53,7 @@ TEST_SUITE("compare") {
         const Estimate& level = figure_of(one, "image: level, dB").estimate;
         CHECK(std::fabs(level.difference_error / 0.0277 - 1.0) < 0.5);
         CHECK(std::fabs(level.simulated - level.real) < 5 * 0.0277);
-        CHECK(level.real == doctest::Approx(-20.0).epsilon(0.01));
+        CHECK(level.real == test::approx(-20.0).epsilon(0.01));
     }
 
     TEST_CASE("compare: a change of one decibel is found and named") {
@@ -61,7 +62,7 @@ TEST_SUITE("compare") {
         CHECK_FALSE(one.is_same());
         const ComparedFigure& level = figure_of(one, "image: level, dB");
         CHECK(level.differs);
-        CHECK(level.estimate.simulated - level.estimate.real == doctest::Approx(1.0).epsilon(0.15));
+        CHECK(level.estimate.simulated - level.estimate.real == test::approx(1.0).epsilon(0.15));
         REQUIRE(one.first_change >= 0);
         CHECK(one.figures[static_cast<std::size_t>(one.first_change)].name.find("level") !=
               std::string::npos);
@@ -119,7 +120,7 @@ TEST_SUITE("compare") {
         // A difference of 1 at each place is never reached: 2^-39 of the exchanges have it.
         for (Cell& cell : real.cells)
             cell.value = 2.0F;
-        CHECK(exchange_p({{&real, &simulated, 0.1}}, 1).front() == doctest::Approx(1.0 / 500.0));
+        CHECK(exchange_p({{&real, &simulated, 0.1}}, 1).front() == test::approx(1.0 / 500.0));
     }
 
     TEST_CASE("compare: images of one value differ from those of another") {
@@ -178,7 +179,7 @@ TEST_SUITE("compare") {
         CHECK(std::fabs(spread.estimate.real - 0.1) < 0.01);
         CHECK(std::fabs(spread.estimate.simulated - 0.2) < 0.02);
         CHECK(figure_of(one, "10 to 20 degrees: level, dB").estimate.simulated ==
-              doctest::Approx(3.01).epsilon(0.1));
+              test::approx(3.01).epsilon(0.1));
         // Without a largest value a factor of all powers is none.
         const Comparison relative =
             compare_recordings(soundings(1, 1e-3, 1.0F, 0.0), soundings(2, 1e-3, 2.0F));
@@ -187,10 +188,10 @@ TEST_SUITE("compare") {
     }
 
     TEST_CASE("student: tails as in tables") {
-        CHECK(student_tails(12.706, 1) == doctest::Approx(0.05).epsilon(0.001));
-        CHECK(student_tails(2.228, 10) == doctest::Approx(0.05).epsilon(0.001));
-        CHECK(student_tails(3.169, 10) == doctest::Approx(0.01).epsilon(0.001));
-        CHECK(student_tails(0, 5) == doctest::Approx(1.0).epsilon(0.001));
-        CHECK(student_95(30) == doctest::Approx(2.0423).epsilon(0.0005));
+        CHECK(student_tails(12.706, 1) == test::approx(0.05).epsilon(0.001));
+        CHECK(student_tails(2.228, 10) == test::approx(0.05).epsilon(0.001));
+        CHECK(student_tails(3.169, 10) == test::approx(0.01).epsilon(0.001));
+        CHECK(student_tails(0, 5) == test::approx(1.0).epsilon(0.001));
+        CHECK(student_95(30) == test::approx(2.0423).epsilon(0.0005));
     }
 }

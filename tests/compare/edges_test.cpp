@@ -11,6 +11,7 @@
 #include "compare/compare.h"
 #include "core/normal_pair.h"
 #include "core/random.h"
+#include "support/approx.h"
 #include "support/sanitized.h"
 
 using namespace sonarsim;
@@ -106,12 +107,11 @@ TEST_SUITE("compare") {
             CAPTURE(sigma);
             const auto step = [&](double x) { return gaussian_step(x / sigma); };
             const double width = 2.56310 * sigma;
-            CHECK(median_width(step, nullptr, 0, 20) == doctest::Approx(width).epsilon(0.01));
-            CHECK(median_width(step, &plain, 300 * draw, 300) ==
-                  doctest::Approx(width).epsilon(0.10));
+            CHECK(median_width(step, nullptr, 0, 20) == test::approx(width).epsilon(0.01));
+            CHECK(median_width(step, &plain, 300 * draw, 300) == test::approx(width).epsilon(0.10));
             CHECK(median_width(step, &shared, 300 * draw, 300) ==
-                  doctest::Approx(width).epsilon(0.15));
-            CHECK(median_width(step, &k, 300 * draw, 300) == doctest::Approx(width).epsilon(0.15));
+                  test::approx(width).epsilon(0.15));
+            CHECK(median_width(step, &k, 300 * draw, 300) == test::approx(width).epsilon(0.15));
         }
     }
 
@@ -133,7 +133,7 @@ TEST_SUITE("compare") {
             };
             const DrawnSpeckle plain;
             CHECK(median_width(step, &plain, 300 * draw, 300) ==
-                  doctest::Approx(1.0697 * beam).epsilon(0.2));
+                  test::approx(1.0697 * beam).epsilon(0.2));
         }
     }
 
@@ -206,6 +206,6 @@ TEST_SUITE("compare") {
         CHECK_FALSE(other.agrees);
         MESSAGE("widths: ", other.estimate.real, " +- ", other.real_half, ", ",
                 other.estimate.simulated, " +- ", other.simulated_half);
-        CHECK(other.estimate.simulated / other.estimate.real == doctest::Approx(1.6).epsilon(0.25));
+        CHECK(other.estimate.simulated / other.estimate.real == test::approx(1.6).epsilon(0.25));
     }
 }

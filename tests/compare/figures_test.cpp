@@ -13,6 +13,7 @@
 #include "compare/figures/shadows.h"
 #include "compare/figures/texture.h"
 #include "compare/figures/zones.h"
+#include "support/approx.h"
 
 using namespace sonarsim;
 
@@ -63,8 +64,8 @@ TEST_SUITE("compare") {
         const auto plane = detrender.patch_of({power, 8, 10}, grid, 0);
         REQUIRE(plane.has_value());
         for (const float a : plane->amplitude)
-            CHECK(a == doctest::Approx(1.0F).epsilon(1e-5));
-        CHECK(plane->mean_power == doctest::Approx(10 + 3.5 + 2.25));
+            CHECK(a == test::approx(1.0F).epsilon(1e-5));
+        CHECK(plane->mean_power == test::approx(10 + 3.5 + 2.25));
         std::vector<float> edge(80, 0.0F);
         std::fill(edge.begin() + 40, edge.end(), 1.0F);
         CHECK_FALSE(detrender.patch_of({edge, 8, 10}, grid, 0).has_value());
@@ -77,11 +78,11 @@ TEST_SUITE("compare") {
             for (int j = 0; j < 6; ++j)
                 a.push_back((i + j) % 2 == 0 ? 1.0F : 3.0F);
         }
-        CHECK(range_correlation(a, {8, 6}, 1) == doctest::Approx(-1.0));
-        CHECK(range_correlation(a, {8, 6}, 2) == doctest::Approx(1.0));
-        CHECK(beam_correlation(a, {8, 6}, 3) == doctest::Approx(-1.0));
+        CHECK(range_correlation(a, {8, 6}, 1) == test::approx(-1.0));
+        CHECK(range_correlation(a, {8, 6}, 2) == test::approx(1.0));
+        CHECK(beam_correlation(a, {8, 6}, 3) == test::approx(-1.0));
         CHECK(std::isnan(beam_correlation(a, {8, 6}, 6)));
-        CHECK(ping_correlation(a, a) == doctest::Approx(1.0));
+        CHECK(ping_correlation(a, a) == test::approx(1.0));
     }
 
     TEST_CASE("figures: zones of a bottom between weak ranges") {
@@ -121,8 +122,8 @@ TEST_SUITE("compare") {
         REQUIRE(points.size() == 1);
         CHECK(points[0].range == 30);
         CHECK(points[0].beam == 32);
-        CHECK(points[0].width_beams == doctest::Approx(4.71).epsilon(0.04));
-        CHECK(points[0].width_ranges == doctest::Approx(2.826).epsilon(0.04));
+        CHECK(points[0].width_beams == test::approx(4.71).epsilon(0.04));
+        CHECK(points[0].width_ranges == test::approx(2.826).epsilon(0.04));
         CHECK(point_echoes({power, 60, 64}, 31, 55).empty());
     }
 
@@ -175,8 +176,8 @@ TEST_SUITE("compare") {
         const std::vector<double> moved{0, 1, 0, 3};
         CHECK(jensen_shannon(one, one) == 0.0);
         CHECK(jensen_shannon(std::vector<double>{1, 0}, std::vector<double>{0, 5}) ==
-              doctest::Approx(1.0));
-        CHECK(earth_movers(one, moved) == doctest::Approx(0.25));
+              test::approx(1.0));
+        CHECK(earth_movers(one, moved) == test::approx(0.25));
         CHECK(kullback_leibler(one, one) == 0.0);
         CHECK(kullback_leibler(one, moved) > 0.0);
     }

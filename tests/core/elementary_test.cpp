@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "support/approx.h"
+
 using namespace sonarsim;
 
 // The reference values come from the C library's functions in long double.
@@ -53,17 +55,17 @@ TEST_SUITE("core") {
 
     TEST_CASE("elementary: arctan2 on the axes, the diagonals and at the origin") {
         CHECK(arctan2(0.0, 1.0) == 0.0);
-        CHECK(arctan2(1.0, 0.0) == doctest::Approx(pi / 2).epsilon(1e-15));
-        CHECK(arctan2(-1.0, 0.0) == doctest::Approx(-pi / 2).epsilon(1e-15));
+        CHECK(arctan2(1.0, 0.0) == test::approx(pi / 2).epsilon(1e-15));
+        CHECK(arctan2(-1.0, 0.0) == test::approx(-pi / 2).epsilon(1e-15));
         // The branch cut runs along the negative x axis: the sign of a zero selects its side.
-        CHECK(arctan2(0.0, -1.0) == doctest::Approx(pi).epsilon(1e-15));
-        CHECK(arctan2(-0.0, -1.0) == doctest::Approx(-pi).epsilon(1e-15));
+        CHECK(arctan2(0.0, -1.0) == test::approx(pi).epsilon(1e-15));
+        CHECK(arctan2(-0.0, -1.0) == test::approx(-pi).epsilon(1e-15));
         CHECK(std::signbit(arctan2(-0.0, 1.0)));
         CHECK_FALSE(std::signbit(arctan2(0.0, 1.0)));
-        CHECK(arctan2(1.0, 1.0) == doctest::Approx(pi / 4).epsilon(1e-15));
-        CHECK(arctan2(1.0, -1.0) == doctest::Approx(3 * pi / 4).epsilon(1e-15));
-        CHECK(arctan2(-1.0, -1.0) == doctest::Approx(-3 * pi / 4).epsilon(1e-15));
-        CHECK(arctan2(-1.0, 1.0) == doctest::Approx(-pi / 4).epsilon(1e-15));
+        CHECK(arctan2(1.0, 1.0) == test::approx(pi / 4).epsilon(1e-15));
+        CHECK(arctan2(1.0, -1.0) == test::approx(3 * pi / 4).epsilon(1e-15));
+        CHECK(arctan2(-1.0, -1.0) == test::approx(-3 * pi / 4).epsilon(1e-15));
+        CHECK(arctan2(-1.0, 1.0) == test::approx(-pi / 4).epsilon(1e-15));
         for (const double y : {0.0, -0.0}) {
             for (const double x : {0.0, -0.0})
                 CHECK(arctan2(y, x) == 0.0);

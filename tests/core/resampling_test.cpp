@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "support/approx.h"
+
 using namespace sonarsim;
 
 TEST_SUITE("core") {
@@ -32,8 +34,8 @@ TEST_SUITE("core") {
         // The variance of so many draws scatters by sqrt(2 / 4000), 2.2 %; five times that is
         // passed in 6 of ten million runs.
         const double variance = (n * n - 1.0) / 12.0;
-        CHECK(found[0] == doctest::Approx(variance / n).epsilon(0.11));
-        CHECK(found[1] == doctest::Approx(variance / (n + 1)).epsilon(0.11));
+        CHECK(found[0] == test::approx(variance / n).epsilon(0.11));
+        CHECK(found[1] == test::approx(variance / (n + 1)).epsilon(0.11));
         CHECK(found[2] == 0.0);  // half of its draws have no number
     }
 }

@@ -8,6 +8,7 @@
 #include "dataset/ping_metadata.h"
 #include "mission/resolved.h"
 #include "sonar/kinds.h"
+#include "support/approx.h"
 #include "support/small_mission.h"
 
 using namespace sonarsim;
@@ -53,16 +54,16 @@ TEST_SUITE("dataset") {
         CHECK(ranges.size() == 49);
         CHECK(ranges.front() == 0.1);
         CHECK(ranges.back() == 10.0);
-        CHECK(azimuths.front() == doctest::Approx(-radians(30)));
+        CHECK(azimuths.front() == test::approx(-radians(30)));
         // The mount of the left sonar is turned by 90 degrees about z: q = (0, 0, sin 45, cos 45).
         const std::vector<double> q = left.at("T_vehicle_sensor").at("quaternion_xyzw");
-        CHECK(q[2] == doctest::Approx(std::sqrt(0.5)));
-        CHECK(q[3] == doctest::Approx(std::sqrt(0.5)));
+        CHECK(q[2] == test::approx(std::sqrt(0.5)));
+        CHECK(q[3] == test::approx(std::sqrt(0.5)));
         // The apex of a 60 degree fan: the middle of the lower edge.
         const Json& fan = left.at("fan");
         CHECK(fan.at("apex_px")[0] == 0.5 * fan.at("width_px").get<double>());
         CHECK(fan.at("apex_px")[1].get<double>() ==
-              doctest::Approx(fan.at("height_px").get<double>()));
+              test::approx(fan.at("height_px").get<double>()));
     }
 
     TEST_CASE("metadata: a ping has its time, pose and draws") {
@@ -82,16 +83,16 @@ TEST_SUITE("dataset") {
         CHECK(json.at("sensor") == "front");
         CHECK(json.at("settings") == "mission.resolved.yaml#/sensors/front");
         CHECK(json.at("ping") == 3);
-        CHECK(json.at("time_s") == doctest::Approx(0.3));
+        CHECK(json.at("time_s") == test::approx(0.3));
         const std::vector<double> vehicle = json.at("T_world_vehicle").at("position_m");
         CHECK(vehicle == std::vector<double>{1, 2, 3});
         const std::vector<double> sensor = json.at("T_world_sensor").at("position_m");
-        CHECK(sensor[0] == doctest::Approx(1.0));
-        CHECK(sensor[1] == doctest::Approx(2.5));
-        CHECK(sensor[2] == doctest::Approx(3.0));
+        CHECK(sensor[0] == test::approx(1.0));
+        CHECK(sensor[1] == test::approx(2.5));
+        CHECK(sensor[2] == test::approx(3.0));
         const std::vector<double> q = json.at("T_world_sensor").at("quaternion_xyzw");
-        CHECK(q[2] == doctest::Approx(std::sqrt(0.5)));
-        CHECK(q[3] == doctest::Approx(std::sqrt(0.5)));
+        CHECK(q[2] == test::approx(std::sqrt(0.5)));
+        CHECK(q[3] == test::approx(std::sqrt(0.5)));
         CHECK(json.at("random").at("seed").get<std::uint64_t>() == 18446744073709551615U);
         CHECK(json.at("random").at("stream") == assembly.sonars[0].settings.stream);
         CHECK(json.at("random").at("ping") == 3);

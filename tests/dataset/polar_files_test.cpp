@@ -15,6 +15,7 @@
 #include "job/run_job.h"
 #include "job/verify.h"
 #include "scene/images/read_image.h"
+#include "support/approx.h"
 #include "support/npy_data.h"
 #include "support/small_mission.h"
 #include "support/temporary_folder.h"
@@ -123,7 +124,7 @@ TEST_SUITE("dataset") {
         REQUIRE(edges->type().arraylen == in->spec().width + 1);
         const auto* azimuth = static_cast<const float*>(edges->data());
         const Mission mission = small_mission("");
-        CHECK(azimuth[0] == doctest::Approx(-radians(0.5 * mission.sensors[1].azimuth_deg)));
+        CHECK(azimuth[0] == test::approx(-radians(0.5 * mission.sensors[1].azimuth_deg)));
         CHECK(in->spec().get_string_attribute("DateTime").empty());
         // As a map it would have ids and intensities as numbers of one type.
         CHECK_THROWS_WITH_AS(read_image(layers / "front/polar/000000.exr"),

@@ -9,6 +9,7 @@
 #include "paper/dropouts.h"
 #include "sonar/kinds.h"
 #include "sonar/sonar.h"
+#include "support/approx.h"
 #include "support/scenes.h"
 #include "visibility/rays/rays_engine.h"
 
@@ -87,7 +88,7 @@ TEST_CASE("example of an echo model: the energy of a floor under a cone") {
     const double energy = std::accumulate(ping.intensity.begin(), ping.intensity.end(), 0.0);
     const double cosine = std::cos(radians(15.0));
     CHECK(energy ==
-          doctest::Approx(R / (H * H) * 0.5 * pi * (1.0 - std::pow(cosine, 4))).epsilon(0.01));
+          test::approx(R / (H * H) * 0.5 * pi * (1.0 - std::pow(cosine, 4))).epsilon(0.01));
 }
 
 TEST_SUITE_END();

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "support/approx.h"
 #include "support/scenes.h"
 #include "support/sonars.h"
 #include "visibility/make_engine.h"
@@ -62,7 +63,7 @@ TEST_CASE("example of a label: the incidence on a level floor") {
     for (int i = 1; i + 1 < view.range_bins; ++i) {
         if (cosine[i - 1] == 0.0F || cosine[i] == 0.0F || cosine[i + 1] == 0.0F) continue;
         const double middle_m = 0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]);
-        CHECK(cosine[i] == doctest::Approx(depth_m / middle_m).epsilon(0.005));
+        CHECK(cosine[i] == test::approx(depth_m / middle_m).epsilon(0.005));
         ++bins;
     }
     CHECK(bins > 30);

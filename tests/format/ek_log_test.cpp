@@ -12,6 +12,7 @@
 #include "format/made_ek_logs.h"
 #include "format/message_of_log.h"
 #include "format/sonar_log.h"
+#include "support/approx.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -56,7 +57,7 @@ TEST_SUITE("format") {
         CHECK(peak == 50);
         // One sector at 5,400 ohms: (0.01 / (2 sqrt 2))^2 (5475 / 5400)^2 / 75 W.
         const double watts = 1e-4 / 8.0 * std::pow(5475.0 / 5400.0, 2.0) / 75.0;
-        CHECK(level[50] == doctest::Approx(200.0 + 10.0 * std::log10(watts)).epsilon(1e-5));
+        CHECK(level[50] == test::approx(200.0 + 10.0 * std::log10(watts)).epsilon(1e-5));
         // The main lobe of a flat spectrum of 30 kHz falls to half at 0.443 / 30 kHz, 14.8 us: a
         // sample is above that, two are below; its side lobes are 13 dB lower, a little less so
         // where filter and slope taper the spectrum.
@@ -140,12 +141,12 @@ TEST_SUITE("format") {
         const SonarLog log = read_sonar_log(file, 10, 38000.0);
         REQUIRE(log.pings.size() == 2);
         CHECK(log.kind == LoggedKind::echosounder);
-        CHECK(log.pings[0].t_s == doctest::Approx(10.0));
+        CHECK(log.pings[0].t_s == test::approx(10.0));
         // 256 steps are a factor of 2: 3.0103 dB.
-        CHECK(log.pings[0].values[0] == doctest::Approx(200.0));
-        CHECK(log.pings[0].values[1] == doctest::Approx(200.0 - 3.0103).epsilon(1e-6));
-        CHECK(log.pings[0].values[2] == doctest::Approx(200.0 - 150.515).epsilon(1e-5));
-        CHECK(log.first_range_s == doctest::Approx(4e-4));
+        CHECK(log.pings[0].values[0] == test::approx(200.0));
+        CHECK(log.pings[0].values[1] == test::approx(200.0 - 3.0103).epsilon(1e-6));
+        CHECK(log.pings[0].values[2] == test::approx(200.0 - 150.515).epsilon(1e-5));
+        CHECK(log.first_range_s == test::approx(4e-4));
         CHECK(log.sound_speed_m_s == 1480.0);
         CHECK(message_of_log(file).find("38000, 120000 Hz; choose") != std::string::npos);
         CHECK(message_of_log(file, 50000.0).find("choose") != std::string::npos);
@@ -166,16 +167,16 @@ TEST_SUITE("format") {
         const SonarLog narrow = read_sonar_log(file, 10, 38000.0);
         REQUIRE(narrow.pings.size() == 1);  // the second one has angles alone
         CHECK(narrow.kind == LoggedKind::echosounder);
-        CHECK(narrow.pings[0].t_s == doctest::Approx(10.0));
+        CHECK(narrow.pings[0].t_s == test::approx(10.0));
         CHECK(narrow.sound_speed_m_s == 1480.5);
-        CHECK(narrow.first_range_s == doctest::Approx(4e-4));
-        CHECK(narrow.pings[0].values[1] == doctest::Approx(200.0 - 3.0103).epsilon(1e-6));
+        CHECK(narrow.first_range_s == test::approx(4e-4));
+        CHECK(narrow.pings[0].values[1] == test::approx(200.0 - 3.0103).epsilon(1e-6));
         // Two sectors of a mean amplitude of 5 at 5,400 ohms, which B's receiver has by default:
         // 2 (5 / (2 sqrt 2))^2 (5475 / 5400)^2 / 75 W.
         const double watts = 2.0 * 25.0 / 8.0 * std::pow(5475.0 / 5400.0, 2.0) / 75.0;
         const SonarLog wide = read_sonar_log(file, 10, 70000.0);
         CHECK(wide.pings[0].values[0] ==
-              doctest::Approx(200.0 + 10.0 * std::log10(watts)).epsilon(1e-6));
+              test::approx(200.0 + 10.0 * std::log10(watts)).epsilon(1e-6));
         CHECK(wide.pings[0].values[1] == 0.0F);
         // A's receiver has 1,000 ohms.
         const SonarLog own =
@@ -183,7 +184,7 @@ TEST_SUITE("format") {
                                ek80_ping("A", 8 + 2 * 256, 2, sectors.text),
                            10);
         CHECK(own.pings[0].values[0] - wide.pings[0].values[0] ==
-              doctest::Approx(20.0 * std::log10(1.075 / (5475.0 / 5400.0))).epsilon(1e-3));
+              test::approx(20.0 * std::log10(1.075 / (5475.0 / 5400.0))).epsilon(1e-3));
         CHECK(message_of_log(file).find("38000, 70000 Hz; choose") != std::string::npos);
         // The same samples in floats of 16 bits: 2, 4, 4, 4 and 1, 1, -1, -1.
         MadeBytes halves;

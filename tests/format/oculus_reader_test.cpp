@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "support/approx.h"
 
 using namespace sonarsim;
 
@@ -57,8 +58,8 @@ TEST_SUITE("format") {
         REQUIRE(pings.size() == 3);
         for (const OculusPing& ping : pings) {
             CHECK(ping.values == std::vector<float>{1, 2, 3, 4, 5, 255});
-            CHECK(ping.bearing_deg[0] == doctest::Approx(-30.0));
-            CHECK(ping.bearing_deg[1] == doctest::Approx(15.5));
+            CHECK(ping.bearing_deg[0] == test::approx(-30.0));
+            CHECK(ping.bearing_deg[1] == test::approx(15.5));
             CHECK(ping.range_step_m == 0.25);
             CHECK(ping.sound_speed_m_s == 1490.0);
             CHECK(ping.frequency_hz == 2.1e6);

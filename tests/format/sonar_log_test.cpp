@@ -12,6 +12,7 @@
 #include "format/made_ek_logs.h"
 #include "format/made_logs.h"
 #include "format/message_of_log.h"
+#include "support/approx.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -40,10 +41,10 @@ TEST_SUITE("format") {
             const SonarLog log = read_sonar_log(file, 10);
             REQUIRE(log.pings.size() == 2);  // the second fan is left out
             CHECK(log.kind == LoggedKind::imaging);
-            CHECK(log.range_step_s == doctest::Approx(1.0 / 3000.0));
+            CHECK(log.range_step_s == test::approx(1.0 / 3000.0));
             CHECK(log.frequency_hz == 3e5);
-            CHECK(log.bearing_rad[0] == doctest::Approx(radians(-40.0)));
-            CHECK(log.pings[1].t_s == doctest::Approx(2.5));
+            CHECK(log.bearing_rad[0] == test::approx(radians(-40.0)));
+            CHECK(log.pings[1].t_s == test::approx(2.5));
             const LoggedPing& ping = log.pings[0];
             REQUIRE(static_cast<std::size_t>(ping.ranges) == ranges);
             for (std::size_t j = 0; j < 3; ++j) {
@@ -82,15 +83,15 @@ TEST_SUITE("format") {
                 kmall_soundings(2, made, 0, more) + kmall_soundings(3, made, 0, more);
             const std::vector<LoggedSoundings> pings = read_kmall_soundings(file, 2);
             REQUIRE(pings.size() == 2);  // the second fan is left out
-            CHECK(pings[1].t_s == doctest::Approx(2.5));
+            CHECK(pings[1].t_s == test::approx(2.5));
             CHECK(pings[0].sound_speed_m_s == 1500.0);
-            CHECK(pings[0].frequency_hz == doctest::Approx(3e5));
+            CHECK(pings[0].frequency_hz == test::approx(3e5));
             REQUIRE(pings[0].beams.size() == 2);  // normal detections alone
             // The transmitter is 1 m below the reference point.
             CHECK(std::tan(radians(pings[0].beams[0].angle_deg)) ==
-                  doctest::Approx(made[0].across_m / (made[0].below_m - 1.0)).epsilon(1e-5));
-            CHECK(pings[0].beams[0].two_way_s == doctest::Approx(made[0].two_way_s));
-            CHECK(pings[0].beams[0].intensity == doctest::Approx(200.0 + made[0].level_db));
+                  test::approx(made[0].across_m / (made[0].below_m - 1.0)).epsilon(1e-5));
+            CHECK(pings[0].beams[0].two_way_s == test::approx(made[0].two_way_s));
+            CHECK(pings[0].beams[0].intensity == test::approx(200.0 + made[0].level_db));
             CHECK(pings[0].beams[1].angle_deg > 0.0);
             CHECK(pings[0].beams[1].intensity == 0.0);
         }
@@ -116,9 +117,9 @@ TEST_SUITE("format") {
         REQUIRE(log.pings.size() == 2);
         CHECK(log.pings[1].beams == 48);
         CHECK(log.pings[1].values[2 * 48 + 7] == 2 * 48 + 7 + 1);
-        CHECK(log.pings[1].t_s == doctest::Approx(4.0));
-        CHECK(log.range_step_s == doctest::Approx(8e-6));
-        CHECK(log.first_range_s == doctest::Approx(1004e-6));
+        CHECK(log.pings[1].t_s == test::approx(4.0));
+        CHECK(log.range_step_s == test::approx(8e-6));
+        CHECK(log.first_range_s == test::approx(1004e-6));
         CHECK(message_of_log(aris_file(1, 5, 0)).find("not in the order") != std::string::npos);
     }
 
@@ -132,12 +133,12 @@ TEST_SUITE("format") {
         const SonarLog log = read_sonar_log(file, 10);
         REQUIRE(log.pings.size() == 2);  // the second lacks a datagram
         CHECK(log.kind == LoggedKind::imaging);
-        CHECK(log.sound_speed_m_s == doctest::Approx(1485.0));
-        CHECK(log.range_step_s == doctest::Approx(1.0 / 15000.0));
+        CHECK(log.sound_speed_m_s == test::approx(1485.0));
+        CHECK(log.range_step_s == test::approx(1.0 / 15000.0));
         CHECK(log.frequency_hz == 293e3);
-        CHECK(log.bearing_rad[2] == doctest::Approx(radians(-30.5)));
+        CHECK(log.bearing_rad[2] == test::approx(radians(-30.5)));
         // 12,714 days from 1970-01-01 to 2004-10-23.
-        CHECK(log.pings[0].t_s == doctest::Approx(12714.0 * 86400.0 + 1.0));
+        CHECK(log.pings[0].t_s == test::approx(12714.0 * 86400.0 + 1.0));
         CHECK(log.pings[1].values ==
               std::vector<float>{0, 128, 0, 0, 0, 0, 1, 0, 133, 255, 0, 134});
         const auto in_order = [&](bool big_endian) {
@@ -163,13 +164,13 @@ TEST_SUITE("format") {
             REQUIRE(log.pings.size() == 2);
             CHECK(log.pings[1].beams == 48);
             CHECK(log.pings[1].values[2 * 48 + 7] == 2 * 48 + 7 + 1);
-            CHECK(log.pings[1].t_s == doctest::Approx(86401.25));
-            CHECK(log.range_step_s == doctest::Approx(2e-5));
+            CHECK(log.pings[1].t_s == test::approx(86401.25));
+            CHECK(log.range_step_s == test::approx(2e-5));
             // Four periods of 0.572 ms and half a sample.
-            CHECK(log.first_range_s == doctest::Approx(4 * 0.572e-3 + 1e-5));
+            CHECK(log.first_range_s == test::approx(4 * 0.572e-3 + 1e-5));
             CHECK(log.decibels->range_db == 90.0);
             CHECK(read_sonar_log(didson_file(version, 1, 5, 18), 2).first_range_s ==
-                  doctest::Approx(4 * 0.512e-3 + 1e-5));
+                  test::approx(4 * 0.512e-3 + 1e-5));
         }
         CHECK(message_of_log(didson_file(3, 1, 5, 100, 4) + didson_file(3, 1, 5).substr(512, 90))
                   .find("cut off within a frame") != std::string::npos);
@@ -190,9 +191,9 @@ TEST_SUITE("format") {
         REQUIRE(log.pings.size() == 2);
         CHECK(log.kind == LoggedKind::scanning);
         CHECK(log.pings[0].values == std::vector<float>{1, 2, 255});
-        CHECK(log.pings[0].bearing_rad == doctest::Approx(-0.5 * pi));
+        CHECK(log.pings[0].bearing_rad == test::approx(-0.5 * pi));
         CHECK(log.pings[1].values == std::vector<float>{4, 5, 6});
-        CHECK(log.range_step_s == doctest::Approx(2e-5));  // 800 steps of 25 ns
+        CHECK(log.range_step_s == test::approx(2e-5));  // 800 steps of 25 ns
         CHECK(log.frequency_hz == 750e3);
         CHECK(message_of_log(ping360_message(1, {1, 2}, false) + ping360_message(1, {1}, false))
                   .find("split the file") != std::string::npos);

@@ -9,6 +9,7 @@
 
 #include "core/random.h"
 #include "format/xtf.h"
+#include "support/approx.h"
 
 using namespace sonarsim;
 
@@ -34,8 +35,8 @@ TEST_SUITE("format") {
         CHECK(xtf.full_value == 65535.0);
         CHECK(xtf.pings[0].port.samples == std::vector<float>{3, 2, 1});
         CHECK(xtf.pings[0].starboard.samples == std::vector<float>{4, 5, 65535});
-        CHECK(xtf.pings[0].t_s == doctest::Approx(86400.25));
-        CHECK(xtf.pings[1].t_s == doctest::Approx(86401.5));
+        CHECK(xtf.pings[0].t_s == test::approx(86400.25));
+        CHECK(xtf.pings[1].t_s == test::approx(86401.5));
         CHECK(xtf.pings[0].port.slant_range_m == 30.0);
         CHECK(xtf.pings[0].sound_speed_m_s == 1480.0);
         CHECK(read_xtf(small_xtf(), 1).pings.size() == 1);

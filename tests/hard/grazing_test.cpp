@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "sonar/engine_settings.h"
+#include "support/approx.h"
 #include "validation/hard/tools.h"
 #include "visibility/rays/rays_engine.h"
 
@@ -57,7 +58,7 @@ TEST_CASE("rays: no sample at grazing incidence is longer than it is far away") 
         const float other = (sample.position + sample.edge_v).norm();
         farthest = std::max({farthest, one, other});
         CHECK(std::max(one, other) < 2.001F * std::min(one, other));
-        CHECK(sample.height_m == doctest::Approx(2e-3).epsilon(1e-3));
+        CHECK(sample.height_m == test::approx(2e-3).epsilon(1e-3));
     }
     CHECK(farthest > 10.0F);
 }

@@ -8,6 +8,7 @@
 #include "core/units.h"
 #include "paper/accumulate.h"
 #include "sonar/setup.h"
+#include "support/approx.h"
 #include "support/sanitized.h"
 #include "visibility/view.h"
 
@@ -94,10 +95,10 @@ TEST_CASE("an echo just short of the first bin or beyond the last is dropped, on
     BinSums sums;
     sums.clear(4);
     CHECK(accumulate(echoes, {2.0F, 0.25F, 4}, sums) == 3);
-    CHECK(sums.weight(0) == doctest::Approx(0.5));  // the half of 1.9 to 2.1 m that is in range
+    CHECK(sums.weight(0) == test::approx(0.5));  // the half of 1.9 to 2.1 m that is in range
     CHECK(sums.weight(1) == 0.0F);
     CHECK(sums.weight(2) == 0.0F);
-    CHECK(sums.weight(3) == doctest::Approx(0.55));  // the part of 2.89 to 3.09 m below 3
+    CHECK(sums.weight(3) == test::approx(0.55));  // the part of 2.89 to 3.09 m below 3
 }
 
 TEST_CASE("fields of view are half-open: the last edge belongs to no beam") {

@@ -14,6 +14,7 @@
 #include "job/run_job.h"
 #include "product/soundings.h"
 #include "sonar/kinds.h"
+#include "support/approx.h"
 #include "support/npy_data.h"
 #include "support/small_mission.h"
 #include "support/sonars.h"
@@ -117,13 +118,13 @@ TEST_SUITE("job") {
             return Json::parse(read_file(out / file, 1 << 20)).at("measured");
         };
         const Json row = measured("sss/meta/000003.json");
-        CHECK(row.at("altitude_m").get<double>() == doctest::Approx(1.5));
+        CHECK(row.at("altitude_m").get<double>() == test::approx(1.5));
         for (const char* side : {"port", "starboard"}) {
             const double first = row.at("first_return_m").at(side);
             CHECK(std::fabs(first - 1.5) < 4.7 / 90);
         }
         const Json column = measured("sounder/meta/000004.json");
-        CHECK(column.at("altitude_m").get<double>() == doctest::Approx(1.5));
+        CHECK(column.at("altitude_m").get<double>() == test::approx(1.5));
         CHECK(std::fabs(column.at("depth_m").get<double>() - 1.5) < 2.0 * 2.7 / 60);
         CHECK(measured("mbes/meta/000000.json").at("soundings") == 40);
         const Json front = Json::parse(read_file(out / "front/meta/000000.json", 1 << 20));
@@ -185,7 +186,7 @@ TEST_SUITE("job") {
         }
         for (std::size_t i = 0; i < z.size(); ++i) {
             REQUIRE(std::isnan(z[i]) == (count[i] == 0));
-            if (count[i] > 0) REQUIRE(z[i] == doctest::Approx(sum[i] / count[i]));
+            if (count[i] > 0) REQUIRE(z[i] == test::approx(sum[i] / count[i]));
         }
         CHECK(OIIO::ImageInput::open((out / "mbes/bathymetry.png").string()));
     }

@@ -7,6 +7,7 @@
 
 #include "core/units.h"
 #include "product/object_table.h"
+#include "support/approx.h"
 #include "support/labelled.h"
 #include "support/scenes.h"
 
@@ -128,7 +129,7 @@ TEST_CASE("annotations: a sphere on a flat floor") {
     CHECK(sphere.range_m > distance - a);
     // The azimuth in the frame of the sonar, which looks down by 25 degrees.
     const double ahead = x * std::cos(radians(25.0)) + (sonar_m - a) * std::sin(radians(25.0));
-    CHECK(sphere.azimuth_rad.value() == doctest::Approx(std::atan2(y, ahead)).epsilon(0.03));
+    CHECK(sphere.azimuth_rad.value() == test::approx(std::atan2(y, ahead)).epsilon(0.03));
     CHECK(sphere.visible_share.value() == 1.0);
 }
 

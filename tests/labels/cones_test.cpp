@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "labels/cone_fan.h"
+#include "support/approx.h"
 #include "support/sanitized.h"
 
 using namespace sonarsim;
@@ -44,7 +45,7 @@ TEST_CASE("cone labels: a point at azimuth 30, elevation 40 is at the sine of th
     thing.middle = 5.0 * direction_of(radians(30.0), radians(40.0));
     add_sphere(thing.scene, thing.middle.cast<float>(), 0.01F, add_material(thing.scene, 0.4F));
     const double sine = std::sin(radians(30.0)) * std::cos(radians(40.0));
-    CHECK(degrees(std::asin(sine)) == doctest::Approx(22.52).epsilon(1e-3));
+    CHECK(degrees(std::asin(sine)) == test::approx(22.52).epsilon(1e-3));
     for (const Spacing spacing : spacings) {
         const Sonar sonar = wide_fan(spacing);
         const Labelled out = label(thing.scene, sonar, Pose{}, EngineKind::rays);
@@ -62,7 +63,7 @@ TEST_CASE("cone labels: a point at azimuth 30, elevation 40 is at the sine of th
                 CHECK(std::abs(j - beam) <= 1);
                 CHECK(std::abs(i - bin) <= 1);
                 CHECK(degrees(out.labels.elevation_rad[out.at(i, j)]) ==
-                      doctest::Approx(40.0).epsilon(0.005));
+                      test::approx(40.0).epsilon(0.005));
             }
         }
         CHECK(labelled > 0);
@@ -231,7 +232,7 @@ TEST_CASE("cone labels: the echoes of all kinds have the energies of the image")
         REQUIRE(labels.multipath > 0.0);
         const double factor = image.direct / labels.direct;
         MESSAGE(factor, " ", image.multipath / labels.multipath);
-        CHECK(image.multipath / labels.multipath == doctest::Approx(factor).epsilon(0.02));
+        CHECK(image.multipath / labels.multipath == test::approx(factor).epsilon(0.02));
     }
 }
 

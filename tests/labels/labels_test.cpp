@@ -7,6 +7,7 @@
 #include <memory>
 #include <numeric>
 
+#include "support/approx.h"
 #include "support/bounces.h"
 #include "support/labelled.h"
 #include "support/sanitized.h"
@@ -95,7 +96,7 @@ TEST_CASE("labels: a panel before a wall, its shadow, and water that is open") {
         const Labelled out = label(scene, sonar, Pose{}, type);
         // Solid angles of the same elevations are as their azimuths.
         REQUIRE(out.labels.visible_share.size() == 2);
-        CHECK(out.labels.visible_share[0] == doctest::Approx(1.0 - panel / wall).epsilon(0.02));
+        CHECK(out.labels.visible_share[0] == test::approx(1.0 - panel / wall).epsilon(0.02));
         CHECK(out.labels.visible_share[1] == 1.0F);
         for (int j = 0; j < out.labels.beams; ++j) {
             const double a = sonar.azimuth_edges_rad[j];
@@ -147,11 +148,11 @@ TEST_CASE("labels: two things in one bin share its echo by area and reflection")
             agree += out.labels.object[k] == 2 && out.labels.second[k] == 1;
             share += out.labels.share[k];
             const float sum = out.labels.share[k] + out.labels.second_share[k];
-            CHECK(sum == doctest::Approx(1.0).epsilon(1e-5));
+            CHECK(sum == test::approx(1.0).epsilon(1e-5));
         }
         REQUIRE(occupied > 100.0);
         CHECK(agree / occupied > 0.98);
-        CHECK(share / occupied == doctest::Approx(0.75).epsilon(0.02));
+        CHECK(share / occupied == test::approx(0.75).epsilon(0.02));
     }
 }
 

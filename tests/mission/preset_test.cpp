@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "mission/fixtures.h"
+#include "support/approx.h"
 #include "support/temporary_folder.h"
 
 namespace sonarsim {
@@ -99,7 +100,7 @@ TEST_CASE("a table of beams fits the other keys of its fan") {
 TEST_CASE("the speed of sound follows from the water where it is left to it") {
     const Mission mission = parse(
         smallest_mission + "water: {sound_speed_m_s: auto, temperature_c: 25, depth_m: 1000}\n");
-    CHECK(mission.water.sound_speed_m_s == doctest::Approx(1550.744).epsilon(1e-6));
+    CHECK(mission.water.sound_speed_m_s == test::approx(1550.744).epsilon(1e-6));
 }
 
 TEST_SUITE_END();

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "support/approx.h"
+
 using namespace sonarsim;
 
 namespace {
@@ -50,8 +52,8 @@ TEST_CASE("echoes: a piece reaches from its nearest to its farthest corner") {
             REQUIRE(echoes.size() == 1);
             const float nearest = echoes.range_m[0] - echoes.half_m[0];
             const float farthest = echoes.range_m[0] + echoes.half_m[0];
-            CHECK(nearest == doctest::Approx(5.0 - along).epsilon(1e-6));
-            CHECK(farthest == doctest::Approx(5.0 + along + 0.1 * across * across).epsilon(1e-6));
+            CHECK(nearest == test::approx(5.0 - along).epsilon(1e-6));
+            CHECK(farthest == test::approx(5.0 + along + 0.1 * across * across).epsilon(1e-6));
         }
     }
 }

@@ -6,6 +6,7 @@
 
 #include "paper/pixel_noise.h"
 #include "paper/range_noise.h"
+#include "support/approx.h"
 #include "support/sanitized.h"
 #include "support/statistics.h"
 
@@ -83,12 +84,11 @@ TEST_CASE("range noise is exponential of the stated mean and fades as exp(-w / l
         const double late = echoes.range_m[k] - 5.0;
         CHECK(late >= 0.0);
         // Ranges near 5 m are floats 5e-7 apart: w is known to 1e-6, its exponential to 1e-5.
-        // The ratio: of small numbers doctest::Approx allows the epsilon itself.
-        CHECK(echoes.intensity[k] / std::exp(-late / lambda) == doctest::Approx(1.0).epsilon(2e-4));
+        CHECK(echoes.intensity[k] == test::approx(std::exp(-late / lambda)).epsilon(2e-4));
         w.push_back(-lambda * std::log(static_cast<double>(echoes.intensity[k])));
     }
     CHECK(ks_p_value(w, [](double x) { return 1.0 - std::exp(-x / lambda); }) > sidak(tests));
-    CHECK(mean(w) / lambda == doctest::Approx(1.0).epsilon(0.02));
+    CHECK(mean(w) / lambda == test::approx(1.0).epsilon(0.02));
 }
 
 TEST_CASE("range noise that does not fade keeps the intensity") {
@@ -235,7 +235,7 @@ TEST_CASE("negative pixels become zero and are counted") {
     }
     CHECK(zeros == negative);
     // P(0.5 + N(0, 1) < 0) = Phi(-0.5) = 0.3085, standard deviation 0.0046 over 10,000.
-    CHECK(static_cast<double>(negative) / 3085.0 == doctest::Approx(1.0).epsilon(0.07));
+    CHECK(static_cast<double>(negative) / 3085.0 == test::approx(1.0).epsilon(0.07));
 }
 
 TEST_SUITE_END();

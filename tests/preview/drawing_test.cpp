@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "support/approx.h"
+
 using namespace sonarsim;
 using Eigen::Vector2d;
 
@@ -33,17 +35,17 @@ TEST_SUITE("preview") {
         // 343 pixels for 40 m, 280 for 20 m: the width decides.
         REQUIRE(frame.plot_width == 400 - frame.left - 1);
         REQUIRE(frame.plot_height == 280);
-        CHECK(frame.pixel_m == doctest::Approx(40.0 / frame.plot_width));
+        CHECK(frame.pixel_m == test::approx(40.0 / frame.plot_width));
         const Vector2d middle = frame.pixel({0.0, 15.0});
-        CHECK(middle.x() == doctest::Approx(frame.left + 0.5 * frame.plot_width));
-        CHECK(middle.y() == doctest::Approx(frame.top + 0.5 * frame.plot_height));
+        CHECK(middle.x() == test::approx(frame.left + 0.5 * frame.plot_width));
+        CHECK(middle.y() == test::approx(frame.top + 0.5 * frame.plot_height));
         // Three metres along x and two along y.
         const Vector2d moved = frame.pixel({3.0, 17.0}) - middle;
-        CHECK(moved.x() == doctest::Approx(3.0 / frame.pixel_m));
-        CHECK(moved.y() == doctest::Approx(-2.0 / frame.pixel_m));
+        CHECK(moved.x() == test::approx(3.0 / frame.pixel_m));
+        CHECK(moved.y() == test::approx(-2.0 / frame.pixel_m));
         // Its ends are those of the plot.
-        CHECK(frame.pixel({-20.0, 15.0}).x() == doctest::Approx(frame.left));
-        CHECK(frame.pixel({20.0, 15.0}).x() == doctest::Approx(frame.left + frame.plot_width));
+        CHECK(frame.pixel({-20.0, 15.0}).x() == test::approx(frame.left));
+        CHECK(frame.pixel({20.0, 15.0}).x() == test::approx(frame.left + frame.plot_width));
     }
 
     TEST_CASE("plane frame: the middle of every pixel comes back from its metres") {
@@ -51,8 +53,8 @@ TEST_SUITE("preview") {
         for (const int row : {0, 1, 77, frame.plot_height - 1}) {
             for (const int column : {0, 50, frame.plot_width - 1}) {
                 const Vector2d at = frame.pixel(frame.metres(column, row));
-                CHECK(at.x() == doctest::Approx(frame.left + column + 0.5));
-                CHECK(at.y() == doctest::Approx(frame.top + row + 0.5));
+                CHECK(at.x() == test::approx(frame.left + column + 0.5));
+                CHECK(at.y() == test::approx(frame.top + row + 0.5));
             }
         }
     }

@@ -8,6 +8,7 @@
 
 #include "core/units.h"
 #include "preview/scene_raster.h"
+#include "support/approx.h"
 #include "support/scenes.h"
 
 using namespace sonarsim;
@@ -72,7 +73,7 @@ TEST_SUITE("preview") {
         CHECK(east.y() == west.y());
         const double px_per_m = (east.x() - west.x()) / 30.0;
         // 400 rows show the scene's 40 m.
-        CHECK(px_per_m == doctest::Approx(10.0).epsilon(0.02));
+        CHECK(px_per_m == test::approx(10.0).epsilon(0.02));
         CHECK(is_about(north.x() - west.x(), 15.0 * px_per_m));
         CHECK(is_about(east.y() - north.y(), 15.0 * px_per_m));
     }
@@ -126,9 +127,9 @@ TEST_SUITE("preview") {
                 (a.z() > 1.5 ? tops : floors) += length;
         };
         for_each_cut(box_on_a_floor(8.0, 0.0), 0, {0.0, 3.0, 8.0}, {1.0, 0.0}, take);
-        CHECK(floors == doctest::Approx(40.0 + 1.0));  // and the bottom of the box
-        CHECK(tops == doctest::Approx(1.0));
-        CHECK(walls == doctest::Approx(2.0 * 3.0));
+        CHECK(floors == test::approx(40.0 + 1.0));  // and the bottom of the box
+        CHECK(tops == test::approx(1.0));
+        CHECK(walls == test::approx(2.0 * 3.0));
     }
 
     TEST_CASE("sections: ahead or to starboard to the right, z up, the floor at its height") {

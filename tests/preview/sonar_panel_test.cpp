@@ -9,6 +9,7 @@
 #include "product/fan.h"
 #include "sonar/kinds.h"
 #include "sonar/sonar.h"
+#include "support/approx.h"
 
 using namespace sonarsim;
 
@@ -131,7 +132,7 @@ TEST_SUITE("preview") {
         CHECK(faint.picture.pixels == usual.picture.pixels);
         CHECK(faint.white == usual.white * 0x1p-20);
         // One in a hundred of 1 to 99 exceeds 98, to 3 %.
-        CHECK(usual.white == doctest::Approx(98.0).epsilon(0.04));
+        CHECK(usual.white == test::approx(98.0).epsilon(0.04));
     }
 
     TEST_CASE(

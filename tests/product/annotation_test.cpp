@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "product/contrast.h"
+#include "support/approx.h"
 
 using namespace sonarsim;
 
@@ -78,7 +79,7 @@ TEST_SUITE("product") {
         const BinBox box{4, 5, 0, 1};
         const auto found = contrast_db(map, map.object, 2, box, is_background);
         REQUIRE(found.has_value());
-        CHECK(*found == doctest::Approx(6.0206).epsilon(1e-4));
+        CHECK(*found == test::approx(6.0206).epsilon(1e-4));
         // Nothing next to it but its like: no surroundings.
         std::ranges::fill(object, std::uint16_t{2});
         CHECK_FALSE(contrast_db(map, map.object, 2, {0, 8, 0, 2}, is_background).has_value());

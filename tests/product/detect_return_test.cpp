@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "product/range_bias.h"
+#include "support/approx.h"
 
 using namespace sonarsim;
 
@@ -27,8 +28,8 @@ TEST_CASE("detect return: a bright stretch of any place and length is found exac
             CHECK(run.begin == begin);
             CHECK(run.end == begin + length);
             const double expected = 0.5 * std::sqrt(length) * (1.0 - length / 100.0);
-            CHECK(run.contrast == doctest::Approx(expected));
-            CHECK(run.rival == doctest::Approx(0.0).epsilon(1e-12));
+            CHECK(run.contrast == test::approx(expected));
+            CHECK(run.rival == test::approx(0.0).epsilon(1e-12));
         }
     }
 }
@@ -41,8 +42,8 @@ TEST_CASE("detect return: a second surface is its rival") {
     const DetectedReturn run = detect_return(beam);
     CHECK(run.begin == 20);
     CHECK(run.end == 24);
-    CHECK(run.contrast == doctest::Approx(3.78));
-    CHECK(run.rival == doctest::Approx(2.89));
+    CHECK(run.contrast == test::approx(3.78));
+    CHECK(run.rival == test::approx(2.89));
 }
 
 TEST_CASE("detect return: nothing stands out of a level beam, or of none") {

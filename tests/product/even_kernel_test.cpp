@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/approx.h"
+
 using namespace sonarsim;
 
 namespace {
@@ -50,8 +52,8 @@ TEST_SUITE("product") {
                 high = std::max(high, m.squares);
             }
             CHECK(high / low < 1.05);
-            if (extent <= 1.0) CHECK(high == doctest::Approx(0.5).epsilon(0.02));
-            if (extent > 4.0) CHECK(high == doctest::Approx(1.0 / extent).epsilon(0.1));
+            if (extent <= 1.0) CHECK(high == test::approx(0.5).epsilon(0.02));
+            if (extent > 4.0) CHECK(high == test::approx(1.0 / extent).epsilon(0.1));
         }
     }
 

@@ -7,6 +7,7 @@
 
 #include "core/units.h"
 #include "sonar/sonar.h"
+#include "support/approx.h"
 
 using namespace sonarsim;
 
@@ -71,7 +72,7 @@ TEST_SUITE("product") {
             // The area of the sector, r^2 a / 2, in pixels.
             const double area = 0.5 * (100.0 - 1.0) * radians(azimuth_deg);
             const double pixels = area / (fan.frame.pixel_m * fan.frame.pixel_m);
-            CHECK(inside / pixels == doctest::Approx(1.0).epsilon(0.01));
+            CHECK(inside / pixels == test::approx(1.0).epsilon(0.01));
         }
     }
 }

@@ -8,6 +8,7 @@
 
 #include "core/units.h"
 #include "sonar/sonar.h"
+#include "support/approx.h"
 
 using namespace sonarsim;
 
@@ -70,7 +71,7 @@ TEST_SUITE("product") {
         // a bearing.
         const Sonar one = sonar();
         const FanFrame frame = fan_frame(one, 100);
-        REQUIRE(frame.pixel_m == doctest::Approx(0.1));
+        REQUIRE(frame.pixel_m == test::approx(0.1));
         const auto place = [&](std::int32_t index) {
             return fan_place(frame, 10.0, index % frame.width, index / frame.width);
         };

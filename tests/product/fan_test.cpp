@@ -8,6 +8,7 @@
 
 #include "core/units.h"
 #include "sonar/sonar.h"
+#include "support/approx.h"
 
 using namespace sonarsim;
 
@@ -71,7 +72,7 @@ TEST_SUITE("product") {
         const FanFrame narrow = fan_frame(fan_sonar(60, 0, 512, 256), 1024);
         CHECK(narrow.width == 1024);
         CHECK(narrow.height == 1024);
-        CHECK(narrow.pixel_m == doctest::Approx(10.0 / 1024));
+        CHECK(narrow.pixel_m == test::approx(10.0 / 1024));
         // 120 degrees: 2 * 10 m * sin 60 = 17.32 m wide, 10 m high; 1000 / 1.732 = 577.4.
         const FanFrame usual = fan_frame(fan_sonar(120, 0, 512, 256), 1000);
         CHECK(usual.height == 578);
@@ -136,7 +137,7 @@ TEST_SUITE("product") {
                     CHECK(std::fabs(beside / sum) < off_rad);
                     const double pixels =
                         0.5 * (a1 - a0) * (r1 * r1 - r0 * r0) / (pixel_m * pixel_m);
-                    CHECK(sum == doctest::Approx(pixels).epsilon(0.05 + 0.5 / pixels));
+                    CHECK(sum == test::approx(pixels).epsilon(0.05 + 0.5 / pixels));
                 }
             }
         }
@@ -177,7 +178,7 @@ TEST_SUITE("product") {
                 CHECK(lit_outside == 0);
                 const double sector_m2 = 0.5 * radians(azimuth_deg) * (10.0 * 10.0 - 0.7 * 0.7);
                 const double sector_px = sector_m2 / (map.frame.pixel_m * map.frame.pixel_m);
-                CHECK(area == doctest::Approx(sector_px).epsilon(azimuth_deg > 1.0 ? 0.002 : 0.05));
+                CHECK(area == test::approx(sector_px).epsilon(azimuth_deg > 1.0 ? 0.002 : 0.05));
             }
         }
     }
@@ -224,7 +225,7 @@ TEST_SUITE("product") {
             double sum = 0.0;
             for (const std::uint8_t grey : render_fan(map, ping, 1.0))
                 sum += share(grey);
-            CHECK(sum == doctest::Approx(expected).epsilon(0.005));
+            CHECK(sum == test::approx(expected).epsilon(0.005));
         }
     }
 

@@ -12,6 +12,7 @@
 #include "product/sidescan_row.h"
 #include "product/waterfall.h"
 #include "sonar/kinds.h"
+#include "support/approx.h"
 #include "support/sonars.h"
 
 using namespace sonarsim;
@@ -94,7 +95,7 @@ TEST_SUITE("product") {
         for (int i = 1; i <= 1000; ++i)
             values.push_back(static_cast<float>(i) * 1e-3F);
         gain.add(values);
-        CHECK(gain.white() == doctest::Approx(0.99).epsilon(0.035));
+        CHECK(gain.white() == test::approx(0.99).epsilon(0.035));
         CHECK(shade(0.25F, 1.0F) == 0.5F);
         CHECK(shade(7.0F, 1.0F) == 1.0F);
         CHECK(shade(-1.0F, 1.0F) == 0.0F);
@@ -103,12 +104,12 @@ TEST_SUITE("product") {
     TEST_CASE("picture: axis marks are round, colours are blended, nothing is drawn outside") {
         CHECK(round_up_125(1.0) == 1.0);
         CHECK(round_up_125(1.1) == 2.0);
-        CHECK(round_up_125(0.03) == doctest::Approx(0.05));
+        CHECK(round_up_125(0.03) == test::approx(0.05));
         CHECK(round_up_125(60.0) == 100.0);
         CHECK(round_down_125(1.0) == 1.0);
         CHECK(round_down_125(4.9) == 2.0);
-        CHECK(round_down_125(0.07) == doctest::Approx(0.05));
-        CHECK(round_down_125(0.02) == doctest::Approx(0.02));
+        CHECK(round_down_125(0.07) == test::approx(0.05));
+        CHECK(round_down_125(0.02) == test::approx(0.02));
         CHECK(round_down_125(60.0) == 50.0);
         CHECK(axis_marks(0.5, 10.0, 4.0) == std::vector<double>{5.0, 10.0});
         CHECK(axis_marks(-0.25, 0.35, 6.0) == std::vector<double>{-0.2, -0.1, 0.0, 0.1, 0.2, 0.3});

@@ -9,6 +9,7 @@
 #include "product/bathymetry.h"
 #include "sonar/kinds.h"
 #include "sonar/sonar.h"
+#include "support/approx.h"
 
 using namespace sonarsim;
 
@@ -55,12 +56,12 @@ TEST_SUITE("product") {
         CHECK(std::isnan(soundings[0].range_m));
         CHECK(std::isnan(soundings[0].position.z()));
         CHECK(soundings[0].quality == 0.0);
-        CHECK(soundings[1].range_m == doctest::Approx(5.05));
+        CHECK(soundings[1].range_m == test::approx(5.05));
         CHECK((soundings[1].position - Eigen::Vector3d(100.0, 200.0, 1.95)).norm() < 1e-9);
-        CHECK(soundings[1].quality == doctest::Approx(1.0));
+        CHECK(soundings[1].quality == test::approx(1.0));
         const double range = 6.15;
-        CHECK(soundings[2].range_m == doctest::Approx(range));
-        CHECK(soundings[2].quality == doctest::Approx(1.0));
+        CHECK(soundings[2].range_m == test::approx(range));
+        CHECK(soundings[2].quality == test::approx(1.0));
         const Eigen::Vector3d expected(100.0 - range * std::sin(radians(40.0)), 200.0,
                                        7.0 - range * std::cos(radians(40.0)));
         CHECK((soundings[2].position - expected).norm() < 1e-9);
@@ -107,7 +108,7 @@ TEST_SUITE("product") {
                 }
             }
             for (const Sounding& sounding : find_soundings(sonar, Pose{}, ping)) {
-                CHECK(sounding.range_m == doctest::Approx(9.05).epsilon(0.006));
+                CHECK(sounding.range_m == test::approx(9.05).epsilon(0.006));
                 CHECK(sounding.quality > map_quality);
             }
         }

@@ -20,6 +20,7 @@
 #include "format/xtf.h"
 #include "recording/arrays.h"
 #include "recording/law.h"
+#include "support/approx.h"
 #include "support/temporary_folder.h"
 
 using namespace sonarsim;
@@ -129,9 +130,9 @@ TEST_SUITE("recording") {
         const Recording recording = load_recording(folder.path);
         REQUIRE(recording.soundings.size() == 2);
         const RecordedSoundings& own = recording.soundings[1];
-        CHECK(own.time_s == doctest::Approx(86403.25));
+        CHECK(own.time_s == test::approx(86403.25));
         CHECK(own.range_m == std::vector<float>{15.0F, 7.5F});
-        CHECK(own.angle_rad[0] == doctest::Approx(-pi / 3.0));
+        CHECK(own.angle_rad[0] == test::approx(-pi / 3.0));
         CHECK(own.intensity == std::vector<float>{3.0F, 4.0F});
         CHECK(recording.sound_speed_m_s == 1500.0);
         write_file(folder.path / "recording.yaml", yaml + "xtf: a.xtf\nsound_speed_m_s: 1600\n");
@@ -163,21 +164,20 @@ TEST_SUITE("recording") {
         yaml("kind: imaging\nlogs: [a.kmall, a.kmall]\n");
         const Recording water = load_recording(folder.path);
         REQUIRE(water.pings.size() == 2);
-        CHECK(water.range_step_m == doctest::Approx(0.25));  // 1500 m/s at 3 kHz, two ways
-        CHECK(water.bearing_rad[0] == doctest::Approx(pi / 6.0));
+        CHECK(water.range_step_m == test::approx(0.25));  // 1500 m/s at 3 kHz, two ways
+        CHECK(water.bearing_rad[0] == test::approx(pi / 6.0));
         // 127 steps are the largest value; 1 less is half a decibel.
-        CHECK(power_of(water.law, water.pings[0].values[3]) == doctest::Approx(1.0));
-        CHECK(power_of(water.law, water.pings[0].values[1]) ==
-              doctest::Approx(std::pow(10.0, -0.05)));
+        CHECK(power_of(water.law, water.pings[0].values[3]) == test::approx(1.0));
+        CHECK(power_of(water.law, water.pings[0].values[1]) == test::approx(std::pow(10.0, -0.05)));
         refused("kind: imaging\nlogs: a.kmall\nlaw: {kind: power}\n", "leave `law` out");
         refused("kind: echosounder\nlogs: a.kmall\n", "pings of the kind imaging");
         write_file(folder.path / "m.kmall", kmall_soundings(5, {{11.0, -10.0, 0.02, -20.0}}));
         yaml("kind: soundings\nlogs: [m.kmall, m.kmall]\n");
         const Recording bottom = load_recording(folder.path);
         REQUIRE(bottom.soundings.size() == 2);
-        CHECK(bottom.soundings[0].range_m[0] == doctest::Approx(15.0));
-        CHECK(bottom.soundings[0].angle_rad[0] == doctest::Approx(-pi / 4.0));  // to port
-        CHECK(power_of(bottom.law, bottom.soundings[0].intensity[0]) == doctest::Approx(0.01));
+        CHECK(bottom.soundings[0].range_m[0] == test::approx(15.0));
+        CHECK(bottom.soundings[0].angle_rad[0] == test::approx(-pi / 4.0));  // to port
+        CHECK(power_of(bottom.law, bottom.soundings[0].intensity[0]) == test::approx(0.01));
         refused("kind: soundings\nlogs: m.kmall\nlaw: {kind: power}\n", "leave `law` out");
         refused("kind: soundings\nlogs: a.kmall\n", "no soundings");
         write_file(folder.path / "b.aris", aris_file(2, 4));
@@ -187,23 +187,23 @@ TEST_SUITE("recording") {
         yaml(lens + "law: {kind: amplitude}\nbearing_first_deg: 14\nbearing_last_deg: -14\n");
         const Recording lenses = load_recording(folder.path);
         CHECK(lenses.pings.size() == 2);
-        CHECK(lenses.first_range_m == doctest::Approx(0.5 * 1450.0 * 1004e-6));
+        CHECK(lenses.first_range_m == test::approx(0.5 * 1450.0 * 1004e-6));
         write_file(folder.path / "d.ddf", didson_file(3, 2, 4));
         const std::string old = "kind: imaging\nlogs: d.ddf\n";
         refused(old, "add `sound_speed_m_s`");
         refused(old + "sound_speed_m_s: 1500\n", "add `bearing_first_deg`");
         yaml(old + "sound_speed_m_s: 1500\nbearing_first_deg: 14\nbearing_last_deg: -14\n");
         const Recording didson = load_recording(folder.path);
-        CHECK(didson.range_step_m == doctest::Approx(0.015));
-        CHECK(power_of(didson.law, 127.5) == doctest::Approx(std::pow(10.0, -4.5)));
+        CHECK(didson.range_step_m == test::approx(0.015));
+        CHECK(power_of(didson.law, 127.5) == test::approx(std::pow(10.0, -4.5)));
         write_file(folder.path / "c.log",
                    ping360_message(100, {1, 2, 3}, false) + ping360_message(101, {1, 2, 3}, false));
         const std::string head = "kind: scanning\nlogs: c.log\nlaw: {kind: amplitude}\n";
         refused(head, "add `sound_speed_m_s`");
         yaml(head + "sound_speed_m_s: 1500\nrate_hz: 4\nhead_first_deg: 90\n");
         const Recording scan = load_recording(folder.path);
-        CHECK(scan.range_step_m == doctest::Approx(0.015));
-        CHECK(scan.pings[0].bearing_rad == doctest::Approx(0.0));
+        CHECK(scan.range_step_m == test::approx(0.015));
+        CHECK(std::fabs(scan.pings[0].bearing_rad) < 1e-12);
         CHECK(scan.pings[1].time_s == 0.25);
         refused(recording_text("logs: c.log\n"), "one of `files`");
     }
@@ -277,17 +277,17 @@ TEST_SUITE("recording") {
 
     TEST_CASE("recording: a law undone gives the power of the echo") {
         // 255 (A / A_max)^0.5 = 127.5 is A = A_max / 4, a power of 1/16.
-        CHECK(power_of({.kind = RecordedLaw::Kind::gamma}, 127.5) == doctest::Approx(1.0 / 16.0));
+        CHECK(power_of({.kind = RecordedLaw::Kind::gamma}, 127.5) == test::approx(1.0 / 16.0));
         const RecordedLaw db{.kind = RecordedLaw::Kind::decibel, .range_db = 60};
-        CHECK(power_of(db, 255) == doctest::Approx(1.0));
-        CHECK(power_of(db, 0) == doctest::Approx(1e-6));
+        CHECK(power_of(db, 255) == test::approx(1.0));
+        CHECK(power_of(db, 0) == test::approx(1e-6));
         const RecordedLaw raised{
             .kind = RecordedLaw::Kind::amplitude, .full_value = 100, .offset = 0.1};
-        CHECK(power_of(raised, 40) == doctest::Approx(0.25));
+        CHECK(power_of(raised, 40) == test::approx(0.25));
         CHECK(power_of(raised, 0) == 0.0);
         const std::vector<float> values{0, 255, 127.5F, 70000};
         const std::vector<float> powers = powers_of({.kind = RecordedLaw::Kind::gamma}, values);
         CHECK(powers[1] == 1.0F);
-        CHECK(powers[2] == doctest::Approx(1.0 / 16.0));
+        CHECK(powers[2] == test::approx(1.0 / 16.0));
     }
 }

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "core/error.h"
+#include "support/approx.h"
 
 using namespace sonarsim;
 
@@ -134,7 +135,7 @@ TEST_SUITE("scene") {
         Scene scene = scene_of({"steel"});
         resolve_materials(scene, table, Water{1000.0, 1500.0});
         // z = 7850 * 5900 = 46.315e6, z_w = 1.5e6: ((46.315 - 1.5) / (46.315 + 1.5))^2 = 0.878453.
-        CHECK(scene.materials[0].reflection == doctest::Approx(0.878453).epsilon(1e-6));
+        CHECK(scene.materials[0].reflection == test::approx(0.878453).epsilon(1e-6));
         CHECK(scene.materials[0].density_kg_m3 == 7850.0);
     }
 

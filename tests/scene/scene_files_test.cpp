@@ -9,6 +9,7 @@
 
 #include "core/file.h"
 #include "scene/gltf/builder.h"
+#include "support/approx.h"
 
 using namespace sonarsim;
 namespace fs = std::filesystem;
@@ -61,7 +62,7 @@ TEST_SUITE("scene") {
         check_near(box_of(tank, "pole").sizes(), {0.12, 0.12, 3});
         check_near(box_of(tank, "wall_east").sizes(), {0, 6, 3});
         check_near(box_of(tank, "sphere").min(), {2.55, 0.25, 1.25});
-        CHECK(box_of(tank, "box").sizes().z() == doctest::Approx(0.5));
+        CHECK(box_of(tank, "box").sizes().z() == test::approx(0.5));
     }
 
     TEST_CASE("tank.glb is what the script writes, byte by byte") {
@@ -82,7 +83,7 @@ TEST_SUITE("scene") {
         CHECK(floor.rejects.degenerate_triangles == 0);
         CHECK(floor.instances.size() == 1 + 9);  // 30 x 30 m / 100 m^2
         const Eigen::AlignedBox3d box = box_of(floor, "floor");
-        CHECK(box.sizes().x() == doctest::Approx(30.0));
+        CHECK(box.sizes().x() == test::approx(30.0));
         CHECK(std::max(-box.min().z(), box.max().z()) < 1.0);
     }
 }

@@ -6,6 +6,7 @@
 #include "product/echogram.h"
 #include "sonar/kinds.h"
 #include "sonar/sonar.h"
+#include "support/approx.h"
 #include "support/sanitized.h"
 #include "support/scenes.h"
 #include "validation/image_error.h"
@@ -48,7 +49,7 @@ TEST_CASE("echosounder: a flat bottom echoes as R H / r over the cone, from its 
             const double r = 0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]);
             if (r < H - bin_m || r > end + bin_m) CHECK(ping.at(i, 0) == 0.0F);
             if (r > H + bin_m && r < end - bin_m)
-                CHECK(ping.at(i, 0) == doctest::Approx(R * H / r).epsilon(0.01));
+                CHECK(ping.at(i, 0) == test::approx(R * H / r).epsilon(0.01));
         }
     }
 }
@@ -69,9 +70,9 @@ TEST_CASE("echosounder: both engines see all of the cone") {
             sum += static_cast<double>(sample.area_m2);
         return sum;
     };
-    CHECK(seen_m2(*make_rays_engine(scene)) == doctest::Approx(pi * radius * radius).epsilon(0.02));
+    CHECK(seen_m2(*make_rays_engine(scene)) == test::approx(pi * radius * radius).epsilon(0.02));
     CHECK(seen_m2(*make_octree_engine(scene, {})) ==
-          doctest::Approx(pi * radius * radius).epsilon(0.02));
+          test::approx(pi * radius * radius).epsilon(0.02));
 }
 
 TEST_CASE("echosounder: the cone has an edge") {
@@ -108,7 +109,7 @@ TEST_CASE("echosounder: range noise does not fade") {
         float brightest = 0.0F;
         for (const float value : ping.intensity)
             brightest = std::max(brightest, value);
-        CHECK(brightest == doctest::Approx(0.8).epsilon(1e-3));
+        CHECK(brightest == test::approx(0.8).epsilon(1e-3));
         latest = std::max(latest, detected_depth(sonar, ping).value() - 3.0);
     }
     CHECK(latest > 0.2);  // the largest of 20 draws of mean 0.3 m; below 0.2 once in 10^6

@@ -4,6 +4,7 @@
 
 #include "core/units.h"
 #include "sonar/sonar.h"
+#include "support/approx.h"
 #include "support/scenes.h"
 #include "support/sonars.h"
 #include "validation/image_error.h"
@@ -102,7 +103,7 @@ TEST_CASE("a wall seen face on: I = R D / r") {
             if (i < near - 1 || i > far + 1) {
                 CHECK(ping.at(i, j) == 0.0F);
             } else if (i > near && i < far) {
-                CHECK(ping.at(i, j) == doctest::Approx(R * D / bin_centre(sonar, i)).epsilon(0.01));
+                CHECK(ping.at(i, j) == test::approx(R * D / bin_centre(sonar, i)).epsilon(0.01));
             }
         }
     }
@@ -179,7 +180,7 @@ TEST_CASE("what is hidden gives no echo, and an occluder only removes direct ech
                                      std::fabs(sonar.azimuth_edges_rad[j + 1]));
         for (int i = behind; i < after.range_bins; ++i) {
             if (high < shadow) CHECK(after.at(i, j) == 0.0F);
-            if (low > shadow) CHECK(after.at(i, j) == doctest::Approx(before.at(i, j)));
+            if (low > shadow) CHECK(after.at(i, j) == test::approx(before.at(i, j)));
         }
     }
 }
@@ -200,8 +201,7 @@ TEST_CASE("surfaces are two-sided and the impedance of water does not echo") {
     }
     CHECK(power_reflection(997.0, 1480.0, {997.0, 1480.0}) == 0.0);
     // Steel in water: ((7850 * 5960 - 997 * 1480) / (their sum))^2 = 0.881.
-    CHECK(power_reflection(7850.0, 5960.0, {997.0, 1480.0}) ==
-          doctest::Approx(0.881).epsilon(1e-3));
+    CHECK(power_reflection(7850.0, 5960.0, {997.0, 1480.0}) == test::approx(0.881).epsilon(1e-3));
 }
 
 TEST_CASE("a rigid motion of scene and sonar together changes nothing that can be seen") {

@@ -8,6 +8,7 @@
 #include "product/soundings.h"
 #include "sonar/kinds.h"
 #include "sonar/sonar.h"
+#include "support/approx.h"
 #include "support/sanitized.h"
 #include "support/scenes.h"
 #include "support/sonars.h"
@@ -82,7 +83,7 @@ TEST_CASE("profiling: soundings lie on a flat bottom within a quarter of a range
             const double off = soundings[j].range_m - H / std::cos(azimuth);
             square += off * off;
             mean += off;
-            CHECK(soundings[j].quality == doctest::Approx(1.0));
+            CHECK(soundings[j].quality == test::approx(1.0));
         }
         CAPTURE(H);
         CHECK(std::sqrt(square / 480.0) <= 0.25 * bin_m);
@@ -90,8 +91,8 @@ TEST_CASE("profiling: soundings lie on a flat bottom within a quarter of a range
         // Port is at the high azimuths: with the bow at yaw 1 it lies along (-sin 1, cos 1).
         const Eigen::Vector3d port = soundings.back().position - pose.translation;
         const double reach = H * std::tan(sonar.azimuth_edges_rad[479]);
-        CHECK(port.x() == doctest::Approx(-std::sin(1.0) * reach).epsilon(0.02));
-        CHECK(port.y() == doctest::Approx(std::cos(1.0) * reach).epsilon(0.02));
+        CHECK(port.x() == test::approx(-std::sin(1.0) * reach).epsilon(0.02));
+        CHECK(port.y() == test::approx(std::cos(1.0) * reach).epsilon(0.02));
         CHECK(std::fabs(port.z() + H) < 2.0 * bin_m);
     }
 }

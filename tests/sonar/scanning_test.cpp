@@ -7,6 +7,7 @@
 #include "sonar/kinds.h"
 #include "sonar/measured.h"
 #include "sonar/sonar.h"
+#include "support/approx.h"
 #include "validation/shapes.h"
 #include "visibility/rays/rays_engine.h"
 
@@ -49,14 +50,14 @@ TEST_SUITE("sonar") {
         SonarConfig config = scanning_sonar();
         const std::vector<double> round = scan_angles_rad(config);
         REQUIRE(round.size() == 36);
-        CHECK(round.front() == doctest::Approx(radians(-175)));
-        CHECK(round.back() == doctest::Approx(radians(175)));
+        CHECK(round.front() == test::approx(radians(-175)));
+        CHECK(round.back() == test::approx(radians(175)));
         config.sector_deg = 40.0;
         const std::vector<double> sector = scan_angles_rad(config);
         REQUIRE(sector.size() == 8);
         const double expected[] = {-15, -5, 5, 15, 15, 5, -5, -15};
         for (int k = 0; k < 8; ++k)
-            CHECK(sector[k] == doctest::Approx(radians(expected[k])));
+            CHECK(sector[k] == test::approx(radians(expected[k])));
         // A step that does not divide the sector is rounded to one that does.
         config.step_deg = 9.0;
         CHECK(scan_steps(config) == 4);
@@ -82,13 +83,13 @@ TEST_SUITE("sonar") {
         SonarConfig config = scanning_sonar();
         config.every = 3;
         const Sonar sonar = make_sonar(config, {});
-        CHECK(head_angle_rad(sonar, 0) == doctest::Approx(radians(-175)));
-        CHECK(head_angle_rad(sonar, 6) == doctest::Approx(radians(-155)));
+        CHECK(head_angle_rad(sonar, 0) == test::approx(radians(-175)));
+        CHECK(head_angle_rad(sonar, 6) == test::approx(radians(-155)));
         const Scene scene = sphere_at(0.0);
         const auto engine = make_rays_engine(scene);
         const Ping ping = render_ping(sonar, scene, *engine, Pose{}, {0, 6});
         const auto json = measured({sonar, Pose{}, 6, ping}, *engine);
-        CHECK(json.at("head_angle_rad") == doctest::Approx(radians(-155)));
+        CHECK(json.at("head_angle_rad") == test::approx(radians(-155)));
         CHECK(json.at("altitude_m").is_null());
     }
 

@@ -6,6 +6,7 @@
 #include "product/sidescan_row.h"
 #include "sonar/kinds.h"
 #include "sonar/sonar.h"
+#include "support/approx.h"
 #include "support/scenes.h"
 #include "support/sonars.h"
 #include "validation/image_error.h"
@@ -64,9 +65,9 @@ TEST_CASE(
     for (int side = 0; side < 2; ++side) {
         for (int i = 0; i < first; ++i)
             CHECK(ping.at(i, side) == 0.0F);
-        CHECK(ping.at(first, side) == doctest::Approx(R).epsilon(0.01));
+        CHECK(ping.at(first, side) == test::approx(R).epsilon(0.01));
         for (int i = first + 1; i < ping.range_bins; ++i)
-            CHECK(ping.at(i, side) == doctest::Approx(R * H / centre(sonar, i)).epsilon(0.01));
+            CHECK(ping.at(i, side) == test::approx(R * H / centre(sonar, i)).epsilon(0.01));
     }
     const FirstReturns returns = first_returns(sonar, ping);
     CHECK(std::fabs(returns.port_m.value() - H) <= sonar.settings.view.bin_m());

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/units.h"
+#include "support/approx.h"
 #include "support/scenes.h"
 #include "trace/particles.h"
 #include "visibility/rays/rays_engine.h"
@@ -37,15 +38,15 @@ TEST_SUITE("trace") {
                 const double h = 6.0;
                 const double n = sediment.speed_ratio;
                 const WayIntoBottom way = way_into_bottom(sediment, h, depth, 0.0);
-                CHECK(way.range_m(sediment) == doctest::Approx(h + depth / n).epsilon(1e-12));
-                CHECK(way.spread_m2 == doctest::Approx(std::pow(h + n * depth, 2)).epsilon(1e-9));
+                CHECK(way.range_m(sediment) == test::approx(h + depth / n).epsilon(1e-12));
+                CHECK(way.spread_m2 == test::approx(std::pow(h + n * depth, 2)).epsilon(1e-9));
                 const double z = sediment.density_ratio * n;
                 const double passed = 1.0 - std::pow((z - 1.0) / (z + 1.0), 2);
                 const double out = passed / std::pow(h + n * depth, 2);
                 const double back = passed / std::pow(depth + h / n, 2);
                 const double expected = out * back * std::exp(-sediment.loss_per_m * depth);
                 CHECK(echo_through_bottom(sediment, way) / std::pow(way.range_m(sediment), 4) ==
-                      doctest::Approx(expected).epsilon(1e-6));
+                      test::approx(expected).epsilon(1e-6));
             }
         }
     }
@@ -60,12 +61,12 @@ TEST_SUITE("trace") {
                 const double d = 0.3;
                 const WayIntoBottom way = way_into_bottom(sediment, h, d, across);
                 const double a = way.angle_rad;
-                CHECK(reach(sediment, h, d, a) == doctest::Approx(across).epsilon(1e-6));
+                CHECK(reach(sediment, h, d, a) == test::approx(across).epsilon(1e-6));
                 const auto time = [&](double x) {
                     return std::hypot(h, x) + std::hypot(d, across - x) / sediment.speed_ratio;
                 };
                 const double entry = h * std::tan(a);
-                CHECK(way.range_m(sediment) == doctest::Approx(time(entry)).epsilon(1e-9));
+                CHECK(way.range_m(sediment) == test::approx(time(entry)).epsilon(1e-9));
                 CHECK(time(entry) <= time(entry + 1e-3) + 1e-12);
                 CHECK(time(entry) <= time(entry - 1e-3) + 1e-12);
                 const double below = std::asin(sediment.speed_ratio * std::sin(a));
@@ -74,7 +75,7 @@ TEST_SUITE("trace") {
                     (reach(sediment, h, d, a + step) - reach(sediment, h, d, a - step)) /
                     (2.0 * step);
                 CHECK(way.spread_m2 ==
-                      doctest::Approx(across * dx * std::cos(below) / std::sin(a)).epsilon(1e-3));
+                      test::approx(across * dx * std::cos(below) / std::sin(a)).epsilon(1e-3));
             }
         }
     }
@@ -108,10 +109,10 @@ TEST_SUITE("trace") {
         REQUIRE(seen().numbers == std::vector<std::uint32_t>{0});  // the other is in the water
         const Sample sample = seen().samples[0];
         const WayIntoBottom way = way_into_bottom(in_sand, 6.0, 0.5, 1.0);
-        CHECK(sample.height_m == doctest::Approx(way.range_m(in_sand)).epsilon(1e-5));
+        CHECK(sample.height_m == test::approx(way.range_m(in_sand)).epsilon(1e-5));
         CHECK(sample.position.x() ==
-              doctest::Approx(way.range_m(in_sand) * std::cos(way.angle_rad)).epsilon(1e-5));
+              test::approx(way.range_m(in_sand) * std::cos(way.angle_rad)).epsilon(1e-5));
         CHECK(sample.area_m2 ==
-              doctest::Approx(0.01 * echo_through_bottom(in_sand, way)).epsilon(1e-4));
+              test::approx(0.01 * echo_through_bottom(in_sand, way)).epsilon(1e-4));
     }
 }

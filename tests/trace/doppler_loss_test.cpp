@@ -8,6 +8,7 @@
 #include <complex>
 
 #include "core/units.h"
+#include "support/approx.h"
 #include "support/patches.h"
 #include "support/scenes.h"
 #include "trace/object_motion.h"
@@ -57,7 +58,7 @@ TEST_SUITE("trace") {
         for (const double turns : {0.0, 0.1, 0.37, 0.8, 1.6}) {
             const DopplerLoss tone{.turns_s_per_m = turns, .band_s_per_m = 0.0};
             CHECK(passed_by_filter(tone, 1.0) ==
-                  doctest::Approx(filtered_power(0.0, 0.0, turns)).epsilon(1e-5));
+                  test::approx(filtered_power(0.0, 0.0, turns)).epsilon(1e-5));
             CHECK(passed_by_filter(tone, -1.0) == passed_by_filter(tone, 1.0));
         }
         constexpr double band = 200.0;
@@ -66,7 +67,7 @@ TEST_SUITE("trace") {
             double peak = 0.0;
             for (int k = -40; k <= 40; ++k)
                 peak = std::max(peak, filtered_power(band, turns / band + 1e-4 * k, turns));
-            CHECK(passed_by_filter(sweep, 1.0) == doctest::Approx(peak).epsilon(2e-3));
+            CHECK(passed_by_filter(sweep, 1.0) == test::approx(peak).epsilon(2e-3));
         }
         CHECK(passed_by_filter({.turns_s_per_m = 0.0, .band_s_per_m = 0.5}, 3.0) == 0.0);
     }
@@ -92,12 +93,12 @@ TEST_SUITE("trace") {
         fade_by_doppler({all, 0.0}, sonar, {}, std::span<Sample>(samples));
         const std::array expected{share_at(2.0), 1.0, share_at(3.0), 1.0};
         for (std::size_t k = 0; k < samples.size(); ++k)
-            CHECK(samples[k].strength == doctest::Approx(expected[k]).epsilon(1e-5));
+            CHECK(samples[k].strength == test::approx(expected[k]).epsilon(1e-5));
         TargetFacet facet{};
         facet.corners.fill(ahead);
         facet.instance = 5;
         fade_by_doppler({all, 0.0}, sonar, {}, std::span<TargetFacet>(&facet, 1));
-        CHECK(facet.strength == doctest::Approx(share_at(3.0)).epsilon(1e-5));
+        CHECK(facet.strength == test::approx(share_at(3.0)).epsilon(1e-5));
 
         const Scene scene = empty_scene();
         const auto engine = make_rays_engine(scene);
@@ -109,6 +110,6 @@ TEST_SUITE("trace") {
         fish.all[0].section_m2 = 0.01F;
         const auto seen = seen_particles(fish, 0.0, view, {}, *engine, {}, sonar);
         REQUIRE(seen.samples.size() == 1);
-        CHECK(seen.samples[0].area_m2 == doctest::Approx(0.01 * share_at(3.5)).epsilon(1e-5));
+        CHECK(seen.samples[0].area_m2 == test::approx(0.01 * share_at(3.5)).epsilon(1e-5));
     }
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "support/approx.h"
 #include "support/draws.h"
 #include "support/mapped_floor.h"
 #include "support/sanitized.h"
@@ -101,7 +102,7 @@ TEST_SUITE("lay maps") {
             int count = 0;
             for (std::size_t k = 0; k < once.size(); ++k) {
                 if (once[k] == 0.0F) continue;
-                CHECK(both[k] / once[k] == doctest::Approx(4.0).epsilon(0.01));
+                CHECK(both[k] / once[k] == test::approx(4.0).epsilon(0.01));
                 ++count;
             }
             CHECK(count > 20);
@@ -210,6 +211,6 @@ TEST_SUITE("lay maps") {
         config.instrument.speckle.mode = SpeckleMode::scene;
         const double with_speckle =
             correlation(make_sonar(config, {0.01}), {.multipath = false, .random = 1});
-        CHECK(with_speckle == doctest::Approx(0.63).epsilon(0.15));
+        CHECK(with_speckle == test::approx(0.63).epsilon(0.15));
     }
 }

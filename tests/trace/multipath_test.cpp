@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "paper/multipath_echoes.h"
 #include "sonar/sonar.h"
+#include "support/approx.h"
 #include "support/bounces.h"
 #include "support/scenes.h"
 #include "visibility/rays/rays_engine.h"
@@ -109,7 +110,7 @@ TEST_CASE("multipath between two perpendicular walls") {
         }
         REQUIRE(closed > 300);
         CHECK(static_cast<double>(found.bounces.size()) ==
-              doctest::Approx(static_cast<double>(closed)).epsilon(0.02));
+              test::approx(static_cast<double>(closed)).epsilon(0.02));
     }
 }
 
@@ -280,11 +281,10 @@ TEST_CASE("a footprint wider than a beam lights every beam that it covers") {
         CHECK((out.beam_begin[j + 1] > out.beam_begin[j]) == (j >= 17 && j <= 23));
         for (std::uint32_t k = out.beam_begin[j]; k < out.beam_begin[j + 1]; ++k) {
             weight += out.echoes.weight[k];
-            CHECK(out.echoes.range_m[k] ==
-                  doctest::Approx(5.0 + 0.1 * (j - 20) / 3.4).epsilon(0.002));
+            CHECK(out.echoes.range_m[k] == test::approx(5.0 + 0.1 * (j - 20) / 3.4).epsilon(0.002));
         }
     }
-    CHECK(weight == doctest::Approx(2.0));
+    CHECK(weight == test::approx(2.0));
 }
 
 TEST_SUITE_END();

@@ -8,6 +8,7 @@
 #include "core/units.h"
 #include "sonar/kinds.h"
 #include "sonar/sonar.h"
+#include "support/approx.h"
 #include "support/patches.h"
 #include "support/scenes.h"
 #include "visibility/rays/rays_engine.h"
@@ -37,7 +38,7 @@ TEST_SUITE("trace") {
         // range d c / (c + u), and returns from there.
         const Eigen::Vector3d ahead(60.0, 0.0, 0.0);
         const Eigen::Vector3d comes = met_place(at_rest(), ahead, {-8.0, 0.0, 0.0});
-        CHECK(comes.x() == doctest::Approx(60.0 * 1500.0 / 1508.0).epsilon(1e-12));
+        CHECK(comes.x() == test::approx(60.0 * 1500.0 / 1508.0).epsilon(1e-12));
         CHECK(comes.tail<2>().norm() == 0.0);
         // It passes: (c t)^2 = d^2 + (u t)^2.
         const double time = 60.0 / std::sqrt(1500.0 * 1500.0 - 64.0);
@@ -77,7 +78,7 @@ TEST_SUITE("trace") {
             });
             const Eigen::Vector3d seen =
                 measured_place(sonar, ViewShape::fan, met_place(sonar, p, u));
-            CHECK(seen.norm() == doctest::Approx(0.5 * speed_of_sound * back).epsilon(1e-11));
+            CHECK(seen.norm() == test::approx(0.5 * speed_of_sound * back).epsilon(1e-11));
             const Eigen::Vector3d direction = (there - back * sonar.velocity_m_s).normalized();
             CHECK((seen.normalized() - direction).norm() < 1e-10);
         }
@@ -91,13 +92,13 @@ TEST_SUITE("trace") {
         const Eigen::Vector3d ahead(30.0, 0.0, 0.0);
         const double unshifted = met_place(at_rest(), ahead, {3.0, 0.0, 0.0}).x();
         CHECK(met_place(sonar, ahead, {3.0, 0.0, 0.0}).x() ==
-              doctest::Approx(unshifted + 0.06).epsilon(1e-12));
+              test::approx(unshifted + 0.06).epsilon(1e-12));
         PingMotion goes = at_rest();
         goes.velocity_m_s = {2.0, 0.5, 0.0};
         const double range = measured_place(goes, ViewShape::fan, ahead).norm();
         goes.doppler_s = 0.02;
         const Eigen::Vector3d seen = measured_place(goes, ViewShape::fan, ahead);
-        CHECK(seen.norm() == doctest::Approx(range - 0.04).epsilon(1e-12));
+        CHECK(seen.norm() == test::approx(range - 0.04).epsilon(1e-12));
         CHECK((unmoved_place(goes, ViewShape::fan, seen) - ahead).norm() < 1e-9);
     }
 
@@ -126,7 +127,7 @@ TEST_SUITE("trace") {
             CHECK((samples[0].position.cast<double>() - place).norm() < 1e-4);
             const Eigen::Vector3d normal(-std::cos(angle), -std::sin(angle), 0.0);
             CHECK((samples[0].normal.cast<double>() - normal).norm() < 1e-4);
-            CHECK(samples[0].height_m == doctest::Approx(-normal.dot(place)).epsilon(1e-4));
+            CHECK(samples[0].height_m == test::approx(-normal.dot(place)).epsilon(1e-4));
             CHECK(samples[1].position == plate_at({20.0F, 2.0F, 0.0F}).position);
         }
     }

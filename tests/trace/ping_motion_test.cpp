@@ -6,6 +6,7 @@
 #include <random>
 
 #include "core/units.h"
+#include "support/approx.h"
 #include "support/patches.h"
 
 using namespace sonarsim;
@@ -32,19 +33,19 @@ TEST_SUITE("trace") {
         const Eigen::Vector3d ahead(60.0, 0.0, 0.0);
         const Eigen::Vector3d measured =
             measured_place(moving({5.0, 0.0, 0.0}, {0.0, 0.0, 0.0}), ViewShape::fan, ahead);
-        CHECK(measured.norm() == doctest::Approx(60.0 * 1500.0 / 1505.0).epsilon(1e-12));
+        CHECK(measured.norm() == test::approx(60.0 * 1500.0 / 1505.0).epsilon(1e-12));
         CHECK(std::fabs(measured.y()) < 1e-12);
         // Past it, sideways: (c t - d)^2 = d^2 + (v t)^2, so t = 2 c d / (c^2 - v^2), and the point
         // is then v t to the other side.
         const double time = 2.0 * 1500.0 * 60.0 / (1500.0 * 1500.0 - 25.0);
         const Eigen::Vector3d past =
             measured_place(moving({0.0, 5.0, 0.0}, {0.0, 0.0, 0.0}), ViewShape::fan, ahead);
-        CHECK(past.norm() == doctest::Approx(750.0 * time).epsilon(1e-12));
-        CHECK(azimuth_of(past) == doctest::Approx(-std::atan(5.0 * time / 60.0)).epsilon(1e-9));
+        CHECK(past.norm() == test::approx(750.0 * time).epsilon(1e-12));
+        CHECK(azimuth_of(past) == test::approx(-std::atan(5.0 * time / 60.0)).epsilon(1e-9));
         // A side-scan sonar has moved half as far between the two patterns.
         const Eigen::Vector3d half = measured_place(moving({0.0, 5.0, 0.0}, {0.0, 0.0, 0.0}),
                                                     ViewShape::port_starboard, ahead);
-        CHECK(azimuth_of(half) == doctest::Approx(-std::atan(2.5 * time / 60.0)).epsilon(1e-9));
+        CHECK(azimuth_of(half) == test::approx(-std::atan(2.5 * time / 60.0)).epsilon(1e-9));
     }
 
     TEST_CASE("ping motion: a yawing fan measures azimuths less its turn in the two-way time") {
@@ -55,8 +56,8 @@ TEST_SUITE("trace") {
                                             0.0);
                 const Eigen::Vector3d measured = measured_place(yawing, ViewShape::fan, place);
                 const double turned = radians(30.0) * 2.0 * range / sound_m_s;
-                CHECK(measured.norm() == doctest::Approx(range).epsilon(1e-12));
-                CHECK(azimuth_of(measured) == doctest::Approx(azimuth - turned).epsilon(1e-9));
+                CHECK(measured.norm() == test::approx(range).epsilon(1e-12));
+                CHECK(azimuth_of(measured) == test::approx(azimuth - turned).epsilon(1e-9));
             }
         }
     }
@@ -124,8 +125,8 @@ TEST_SUITE("trace") {
             REQUIRE(samples.beam(j).size() == 1);
             const Sample& sample = samples.beam(j)[0];
             CHECK((sample.position - before.items[j].position).norm() < 1e-3F);
-            CHECK(sample.height_m == doctest::Approx(75.0F).epsilon(1e-5));
-            CHECK(sample.normal.dot(sample.position) == doctest::Approx(-75.0F).epsilon(1e-4));
+            CHECK(sample.height_m == test::approx(75.0F).epsilon(1e-5));
+            CHECK(sample.normal.dot(sample.position) == test::approx(-75.0F).epsilon(1e-4));
         }
     }
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/units.h"
+#include "support/approx.h"
 #include "support/scenes.h"
 #include "visibility/rays/rays_engine.h"
 
@@ -77,19 +78,19 @@ TEST_SUITE("trace") {
                 static_cast<int>(std::lround((seen.position.x() - front_m) / (front_m + back_m)));
             ++counts[order];
             CHECK(seen.position.x() ==
-                  doctest::Approx(front_m + order * (front_m + back_m)).epsilon(1e-3));
+                  test::approx(front_m + order * (front_m + back_m)).epsilon(1e-3));
             CHECK(seen.position.normalized().dot(source.position.normalized()) > 1.0F - 1e-5F);
             CHECK((seen.normal - Eigen::Vector3f(-1.0F, 0.0F, 0.0F)).norm() < 1e-4F);
             float reflected = 1.0F;
             for (int k2 = 0; k2 < order; ++k2)
                 reflected *= k2 % 2 == 0 ? 0.25F : 0.09F;
-            CHECK(seen.strength == doctest::Approx(reflected).epsilon(1e-5));
+            CHECK(seen.strength == test::approx(reflected).epsilon(1e-5));
             CHECK(scene.materials[seen.material].reflection == (order % 2 == 0 ? 0.5F : 0.3F));
             const float t = seen.position.x() / front_m;
-            CHECK(seen.area_m2 == doctest::Approx(t * t * source.area_m2).epsilon(1e-3));
+            CHECK(seen.area_m2 == test::approx(t * t * source.area_m2).epsilon(1e-3));
             CHECK(seen.edge_u.cross(seen.edge_v).norm() ==
-                  doctest::Approx(t * t * source.edge_u.cross(source.edge_v).norm()).epsilon(1e-2));
-            CHECK(seen.height_m == doctest::Approx(seen.position.x()).epsilon(1e-3));
+                  test::approx(t * t * source.edge_u.cross(source.edge_v).norm()).epsilon(1e-2));
+            CHECK(seen.height_m == test::approx(seen.position.x()).epsilon(1e-3));
         }
         // Walls at 11, 18, 25 and 32 m are within 40 m, and none at 4 m: that is the direct echo.
         CHECK(counts.size() == 4);
@@ -123,11 +124,11 @@ TEST_SUITE("trace") {
             CHECK(std::fabs(over_fewer.x() - front_m - m * (front_m + back_m)) < 0.01F);
             CHECK((over_more - over_fewer).tail<2>().norm() < 0.01F);
             CHECK((path.image_source.u - path.point.u).norm() < 1e-3F);
-            CHECK(path.reflection == doctest::Approx(reflected(n) * reflected(m)).epsilon(1e-5));
+            CHECK(path.reflection == test::approx(reflected(n) * reflected(m)).epsilon(1e-5));
             CHECK(path.sine_of_image ==
-                  doctest::Approx(over_more.x() / over_more.norm()).epsilon(1e-3));
+                  test::approx(over_more.x() / over_more.norm()).epsilon(1e-3));
             CHECK(path.sine_of_point ==
-                  doctest::Approx(over_fewer.x() / over_fewer.norm()).epsilon(1e-3));
+                  test::approx(over_fewer.x() / over_fewer.norm()).epsilon(1e-3));
             CHECK(scene.materials[path.material].reflection == (n % 2 == 0 ? 0.5F : 0.3F));
         }
         CHECK(counts.size() == 4);
@@ -176,7 +177,7 @@ TEST_SUITE("trace") {
                 const Eigen::Vector3d other = fold(path.point.at);
                 CHECK((one - other).norm() < 0.02);
                 if (near_walls > 2) continue;  // near a seam of two walls
-                CHECK(path.reflection == doctest::Approx(std::ldexp(1.0, -crossed)).epsilon(1e-4));
+                CHECK(path.reflection == test::approx(std::ldexp(1.0, -crossed)).epsilon(1e-4));
             }
         }
     }
@@ -190,9 +191,9 @@ TEST_SUITE("trace") {
                 x = std::max(x, seen.position.x());
             return x;
         };
-        CHECK(furthest(8, 0.02F) == doctest::Approx(18.0).epsilon(1e-3));
+        CHECK(furthest(8, 0.02F) == test::approx(18.0).epsilon(1e-3));
         CHECK(furthest(8, 0.3F) == 0.0F);
-        CHECK(furthest(1, 0.0F) == doctest::Approx(11.0).epsilon(1e-3));
+        CHECK(furthest(1, 0.0F) == test::approx(11.0).epsilon(1e-3));
         CHECK(furthest(0, 0.0F) == 0.0F);
     }
 
@@ -206,8 +207,8 @@ TEST_SUITE("trace") {
         const auto [samples, found] = retrace(scene, down, 2, 0.0F);
         REQUIRE(!found.samples.empty());
         for (const Sample& seen : found.samples) {
-            CHECK(seen.position.x() == doctest::Approx(19.0).epsilon(1e-3));
-            CHECK(seen.strength == doctest::Approx(0.25 * 0.81).epsilon(1e-5));
+            CHECK(seen.position.x() == test::approx(19.0).epsilon(1e-3));
+            CHECK(seen.strength == test::approx(0.25 * 0.81).epsilon(1e-5));
         }
     }
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "core/units.h"
+#include "support/approx.h"
 #include "trajectory/files.h"
 
 using namespace sonarsim;
@@ -29,7 +30,7 @@ TEST_SUITE("trajectory") {
         for (std::size_t k = 0; k < poses.size(); ++k) {
             CAPTURE(k);
             const Pose& pose = poses[k].T_world_vehicle;
-            CHECK(poses[k].t_s == doctest::Approx(0.1 * static_cast<double>(k)));
+            CHECK(poses[k].t_s == test::approx(0.1 * static_cast<double>(k)));
             const Vector3d off = pose.translation - Vector3d(-1.5, 0, 1.5);
             CHECK(off.z() == 0.0);
             CHECK(off.norm() > 1.0 - 1e-6);
@@ -56,8 +57,8 @@ TEST_SUITE("trajectory") {
             // 119 steps of 0.4 m about the origin, so it starts at -23.8 m.
             const double x = -23.8 + 0.4 * static_cast<double>(k);
             CHECK((poses[k].T_world_vehicle.translation - Vector3d(x, 0, 8)).norm() < 1e-9);
-            CHECK(poses[k].t_s == doctest::Approx(0.2 * static_cast<double>(k)));
-            CHECK(dip(poses[k]) == doctest::Approx(15));
+            CHECK(poses[k].t_s == test::approx(0.2 * static_cast<double>(k)));
+            CHECK(dip(poses[k]) == test::approx(15));
         }
     }
 }

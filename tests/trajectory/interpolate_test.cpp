@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/units.h"
+#include "support/approx.h"
 
 using namespace sonarsim;
 
@@ -62,7 +63,7 @@ TEST_SUITE("trajectory") {
         }
         const Eigen::Quaterniond half_turn = slerp(yawed(0), yawed(180), 0.5);
         CHECK(std::abs(half_turn.norm() - 1.0) < 1e-15);
-        CHECK(angle_between(half_turn, yawed(0)) == doctest::Approx(90));
+        CHECK(angle_between(half_turn, yawed(0)) == test::approx(90));
     }
 
     TEST_CASE("slerp agrees with Eigen's on general rotations") {

@@ -7,6 +7,7 @@
 
 #include "core/pose.h"
 #include "core/units.h"
+#include "support/approx.h"
 
 namespace sonarsim {
 
@@ -75,9 +76,9 @@ TEST_SUITE("navigation") {
         const double by_drift = deviation_of([&](std::uint32_t seed) {
             return end_error({.heading_drift_rad_s = small / duration_s}, seed).y();
         });
-        CHECK(ahead == doctest::Approx(small * length_m).epsilon(four_errors));
-        CHECK(by_bias == doctest::Approx(small * length_m).epsilon(four_errors));
-        CHECK(by_drift == doctest::Approx(0.5 * small * length_m).epsilon(four_errors));
+        CHECK(ahead == test::approx(small * length_m).epsilon(four_errors));
+        CHECK(by_bias == test::approx(small * length_m).epsilon(four_errors));
+        CHECK(by_drift == test::approx(0.5 * small * length_m).epsilon(four_errors));
     }
 
     TEST_CASE("A constant bias turns a loop about its start, which it returns to") {
@@ -97,7 +98,7 @@ TEST_SUITE("navigation") {
         CHECK(std::fabs(seen.norm() / chord.norm() - 1.0) > 1e-3);
         const Rpy turned = rpy_from_rotation(reported[90].T_world_vehicle.rotation);
         const double bias = std::atan2(seen.y(), seen.x()) - std::atan2(chord.y(), chord.x());
-        CHECK(turned.yaw - radians(90.0) == doctest::Approx(bias));
+        CHECK(turned.yaw - radians(90.0) == test::approx(bias));
     }
 
     TEST_CASE("Errors of single poses have their standard deviations") {
@@ -106,7 +107,7 @@ TEST_SUITE("navigation") {
             return reported_poses(truth, errors, navigation_key(seed)).back().T_world_vehicle;
         };
         const auto check = [](double found, double expected) {
-            CHECK(found == doctest::Approx(expected).epsilon(four_errors));
+            CHECK(found == test::approx(expected).epsilon(four_errors));
         };
         check(deviation_of([&](std::uint32_t seed) {
                   return last({.position_m = 2.0}, seed).translation.y() - 5.0;

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/units.h"
+#include "support/approx.h"
 #include "support/sanitized.h"
 
 using namespace sonarsim;
@@ -56,7 +57,7 @@ TEST_SUITE("trajectory") {
         CHECK((position(poses[20]) - Vector3d(3, 4, -5)).norm() < 1e-14);
         for (std::size_t k = 1; k < poses.size(); ++k) {
             CHECK((position(poses[k]) - position(poses[k - 1])).norm() ==
-                  doctest::Approx(0.5).epsilon(1e-12));
+                  test::approx(0.5).epsilon(1e-12));
         }
     }
 
@@ -64,9 +65,9 @@ TEST_SUITE("trajectory") {
         const std::vector<Waypoint> points{at(0, 0, 0, 0), at(10, 0, 0, 90), at(20, 0, 0, 90)};
         const Trajectory poses = follow_waypoints(points, 1.0, 1.0);
         REQUIRE(poses.size() == 21);
-        CHECK(heading(poses[5]) == doctest::Approx(45));
-        CHECK(heading(poses[10]) == doctest::Approx(90));
-        CHECK(heading(poses[15]) == doctest::Approx(90));
+        CHECK(heading(poses[5]) == test::approx(45));
+        CHECK(heading(poses[10]) == test::approx(90));
+        CHECK(heading(poses[15]) == test::approx(90));
     }
 
     TEST_CASE("waypoints: one is one pose; none, none apart and nonsense are errors") {
@@ -109,26 +110,26 @@ TEST_SUITE("trajectory") {
         CHECK((position(poses[450]) - Vector3d(30, 12.5, 3)).norm() < 1e-12);
         CHECK((position(poses[850]) - Vector3d(-10, 12.5, 3)).norm() < 1e-12);
         CHECK((position(poses[1750]) - Vector3d(-10, 22.5, 3)).norm() < 1e-12);
-        CHECK(heading(poses[200]) == doctest::Approx(0).epsilon(1e-12));
+        CHECK(heading(poses[200]) == test::approx(0).epsilon(1e-12));
         CHECK(std::abs(turn(heading(poses[650]), 180)) < 1e-9);
-        CHECK(heading(poses[1100]) == doctest::Approx(0).epsilon(1e-12));
+        CHECK(heading(poses[1100]) == test::approx(0).epsilon(1e-12));
         // Half-way through a step the bow points to where the survey goes: +y. The first turn is to
         // port, the second to starboard.
-        CHECK(heading(poses[425]) == doctest::Approx(90));
-        CHECK(heading(poses[410]) == doctest::Approx(36));
-        CHECK(heading(poses[875]) == doctest::Approx(90));
-        CHECK(heading(poses[860]) == doctest::Approx(144));
+        CHECK(heading(poses[425]) == test::approx(90));
+        CHECK(heading(poses[410]) == test::approx(36));
+        CHECK(heading(poses[875]) == test::approx(90));
+        CHECK(heading(poses[860]) == test::approx(144));
     }
 
     TEST_CASE("lawnmower: strips that do not fit exactly get equal margins") {
         // 20 m in strips of 8 m: three, at 15 - 8, 15 and 15 + 8.
         const Trajectory poses = lawnmower(survey(0.0, 8.0));
-        CHECK(position(poses.front()).y() == doctest::Approx(7));
-        CHECK(position(poses.back()).y() == doctest::Approx(23));
+        CHECK(position(poses.front()).y() == test::approx(7));
+        CHECK(position(poses.back()).y() == test::approx(23));
         // One strip wider than the area: one line along its middle, 40 s.
         const Trajectory one = lawnmower(survey(0.0, 50.0));
         CHECK(one.size() == 401);
-        CHECK(position(one.front()).y() == doctest::Approx(15));
+        CHECK(position(one.front()).y() == test::approx(15));
         // 2.1 / 0.7 is a little more than 3 in doubles; that must not make four strips. Three
         // lines of 10 m and two steps of 0.7 m take 31.4 s.
         const Lawnmower exact{{0, 0}, {10, 2.1}, 0.0, 0.0, 0.7, 1.0, 10.0};
@@ -139,7 +140,7 @@ TEST_SUITE("trajectory") {
         const Trajectory poses = lawnmower(survey(90.0, 10.0));
         // Heading +y, starboard is +x: 40 m in four strips, the first at x = 25, from y = 5.
         CHECK((position(poses.front()) - Vector3d(25, 5, 3)).norm() < 1e-9);
-        CHECK(heading(poses.front()) == doctest::Approx(90));
+        CHECK(heading(poses.front()) == test::approx(90));
         CHECK((position(poses[200]) - Vector3d(25, 25, 3)).norm() < 1e-9);
         CHECK((position(poses[300]) - Vector3d(15, 25, 3)).norm() < 1e-9);
         CHECK(std::abs(turn(heading(poses[250]), 180)) < 1e-6);
@@ -186,7 +187,7 @@ TEST_SUITE("trajectory") {
         Lawnmower plan{{0, 0}, {10, 10}, 0.0, 45.0, 20.0, 1.0, 100.0};
         const double diagonal = 10.0 * std::sqrt(2.0);
         Trajectory poses = lawnmower(plan);
-        CHECK(poses.back().t_s == doctest::Approx(diagonal).epsilon(1e-3));
+        CHECK(poses.back().t_s == test::approx(diagonal).epsilon(1e-3));
         CHECK((position(poses.front()) - Vector3d(0, 0, 0)).norm() < 1e-9);
         // In four strips of d / 4: the outer ones reach d / 2 (the width at their inner edge), the
         // inner ones d. The steps between an outer and an inner line shift by d / 4 both ways.
@@ -195,7 +196,7 @@ TEST_SUITE("trajectory") {
         const double step = diagonal / 4.0;
         const double expected =
             2 * (diagonal / 2) + 2 * diagonal + 2 * std::hypot(step, step) + step;
-        CHECK(poses.back().t_s == doctest::Approx(expected).epsilon(1e-3));
+        CHECK(poses.back().t_s == test::approx(expected).epsilon(1e-3));
     }
 
     TEST_CASE("lawnmower refuses what cannot be flown") {

@@ -7,6 +7,7 @@
 
 #include "core/pose.h"
 #include "core/units.h"
+#include "support/approx.h"
 
 namespace sonarsim {
 
@@ -112,13 +113,13 @@ TEST_SUITE("wave motion") {
         add_wave_motion(motion, wave_key(7), poses);
         for (const TimedPose& pose : poses) {
             // It heads along y.
-            CHECK(pose.T_world_vehicle.translation.x() == doctest::Approx(1.0));
+            CHECK(pose.T_world_vehicle.translation.x() == test::approx(1.0));
             CHECK(std::fabs(pose.T_world_vehicle.translation.y() - 2.0) > 1e-3);
-            CHECK(pose.T_world_vehicle.translation.z() == doctest::Approx(3.0));
+            CHECK(pose.T_world_vehicle.translation.z() == test::approx(3.0));
             const Rpy rpy = rpy_from_rotation(pose.T_world_vehicle.rotation);
             CHECK(std::fabs(rpy.roll) > 1e-4);
-            CHECK(rpy.pitch == doctest::Approx(0.0));
-            CHECK(rpy.yaw == doctest::Approx(0.5 * pi));
+            CHECK(rpy.pitch == test::approx(0.0));
+            CHECK(rpy.yaw == test::approx(0.5 * pi));
         }
     }
 

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "support/approx.h"
+
 using namespace sonarsim;
 
 TEST_SUITE_BEGIN("validation");
@@ -21,10 +23,10 @@ TEST_CASE("an exponent is found again") {
     std::vector<double> y;
     for (const double v : x)
         y.push_back(0.7 * std::pow(v, 0.3));
-    CHECK(fit_exponent(x, y) == doctest::Approx(0.3));
+    CHECK(fit_exponent(x, y) == test::approx(0.3));
     // Worked example: log2 y = 0, 1, 1 at log2 x = 0, 1, 2 has the least-squares slope 1/2.
     CHECK(fit_exponent(std::vector{1.0, 2.0, 4.0}, std::vector{1.0, 2.0, 2.0}) ==
-          doctest::Approx(0.5));
+          test::approx(0.5));
     CHECK(std::isnan(fit_exponent(std::vector{2.0, 2.0}, std::vector{1.0, 3.0})));
     CHECK(std::isnan(fit_exponent(std::vector{1.0, 2.0}, std::vector{0.0, 3.0})));
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/units.h"
+#include "support/approx.h"
 #include "support/sanitized.h"
 #include "support/scenes.h"
 #include "validation/image_error.h"
@@ -40,7 +41,7 @@ TEST_CASE("the reference of a floor is its closed form, R H / r_mid" *
     const int last = static_cast<int>((H / std::sin(radians(20.0)) - 0.5) / view.bin_m()) - 2;
     for (int i = first; i <= last; ++i) {
         const double r = view.range_min_m + (i + 0.5) * view.bin_m();
-        CHECK(reference.intensity[i * 20 + 10] == doctest::Approx(R * H / r).epsilon(2e-3));
+        CHECK(reference.intensity[i * 20 + 10] == test::approx(R * H / r).epsilon(2e-3));
     }
 }
 
@@ -60,7 +61,7 @@ TEST_CASE("where two surfaces share a bin the reference weighs them by area" *
                                        view.bin_m()) +
                       1;
         const double r = view.range_min_m + (i + 0.5) * view.bin_m();
-        CHECK(reference.intensity[i * 20 + j] == doctest::Approx(0.5 * 4.0 / r).epsilon(5e-3));
+        CHECK(reference.intensity[i * 20 + j] == test::approx(0.5 * 4.0 / r).epsilon(5e-3));
     }
 }
 
@@ -98,8 +99,8 @@ TEST_CASE("the reference sees a ball of 2 cm at 8 m and a wire of 4 mm at 5 m") 
         if (x > 0.0F) occupied.push_back(x);
     }
     REQUIRE(occupied.size() == 2);
-    CHECK(occupied[0] / wire == doctest::Approx(1.0).epsilon(0.01));
-    CHECK(occupied[1] / (0.5 * R) == doctest::Approx(1.0).epsilon(0.01));
+    CHECK(occupied[0] / wire == test::approx(1.0).epsilon(0.01));
+    CHECK(occupied[1] / (0.5 * R) == test::approx(1.0).epsilon(0.01));
     CHECK(reference.moved < 0.01);
 }
 
@@ -125,9 +126,9 @@ TEST_CASE("rays and points of the surface together add up to its area") {
                           [&](const SurfacePoint& point) {
                               (point.range_m < 5.0 ? near : far) += point.area_m2;
                           });
-        CHECK(near / (0.4 * 0.5) == doctest::Approx(1.0).epsilon(5e-3));
+        CHECK(near / (0.4 * 0.5) == test::approx(1.0).epsilon(5e-3));
         // The near plate hides 1.5 times its size in the farther one.
-        CHECK(far / (1.2 * 1.2 - 0.6 * 0.75) == doctest::Approx(1.0).epsilon(5e-3));
+        CHECK(far / (1.2 * 1.2 - 0.6 * 0.75) == test::approx(1.0).epsilon(5e-3));
     }
 }
 
@@ -170,7 +171,7 @@ TEST_CASE("a reference sees copies of a mesh as it sees their triangles") {
     const Reference a = cast_reference(Caster(shared), shared, view, pose, goal);
     const Reference b = cast_reference(Caster(copied), copied, view, pose, goal);
     // The same rays to the same points; the corners differ by the rounding of a transform.
-    CHECK(a.rays_per_bin / b.rays_per_bin == doctest::Approx(1.0).epsilon(1e-3));
+    CHECK(a.rays_per_bin / b.rays_per_bin == test::approx(1.0).epsilon(1e-3));
     CHECK(image_error(a.intensity, b.intensity).relative_l1 < 1e-3);
     CHECK(a.moved < 0.01);
     // Points on the copies' triangles find them, not only rays over directions: half of a sphere is
@@ -193,17 +194,17 @@ TEST_CASE("points fill a triangle evenly") {
         corner += at.x() > 0.5;
     }
     // The part beyond the middle of an edge is a quarter of the triangle.
-    CHECK(corner / (0.25 * count) == doctest::Approx(1.0).epsilon(0.02));
+    CHECK(corner / (0.25 * count) == test::approx(1.0).epsilon(0.02));
 }
 
 TEST_CASE("image errors by hand") {
     const std::vector<float> truth{1.0F, 1.0F, 0.0F, 0.0F};
     const std::vector<float> image{1.0F, 0.0F, 1.0F, 0.0F};
     const ImageError error = image_error(image, truth);
-    CHECK(error.relative_l1 == doctest::Approx(1.0));
-    CHECK(error.relative_l2 == doctest::Approx(1.0));
-    CHECK(error.miss_rate == doctest::Approx(0.5));
-    CHECK(error.false_rate == doctest::Approx(0.5));
+    CHECK(error.relative_l1 == test::approx(1.0));
+    CHECK(error.relative_l2 == test::approx(1.0));
+    CHECK(error.miss_rate == test::approx(0.5));
+    CHECK(error.false_rate == test::approx(0.5));
     const std::vector<float> dark(4, 0.0F);
     CHECK(image_error(dark, dark).relative_l1 == 0.0);
     CHECK(image_error(image, dark).relative_l1 == 1.0);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/units.h"
+#include "support/approx.h"
 
 using namespace sonarsim;
 
@@ -58,7 +59,7 @@ TEST_CASE("two facets that share an edge are parted by it, be it a ridge or a va
             const GapEstimate gap = estimate_gap(on_plane(below, 1, edge, near),
                                                  on_plane(above, 2, edge, far), usual(), reach_m);
             CHECK(gap.continuous);
-            CHECK(gap.border == doctest::Approx(share).epsilon(0.01));
+            CHECK(gap.border == test::approx(share).epsilon(0.01));
             CHECK(gap.bends);
             // The uncertainty is at most the range between the rays.
             CHECK(gap.range_uncertainty_m > 0.0F);
@@ -79,12 +80,12 @@ TEST_CASE("a surface that hides another one breaks off") {
         CHECK_FALSE(gap.continuous);
         // Behind the wall the floor extends from 1 / sin 0.16 to 1 / sin 0.17, the wall hardly.
         CHECK(gap.range_uncertainty_m ==
-              doctest::Approx(1.0 / std::sin(0.16) - 1.0 / std::sin(0.17)).epsilon(1e-3));
+              test::approx(1.0 / std::sin(0.16) - 1.0 / std::sin(0.17)).epsilon(1e-3));
     }
     // Next to a ray that met nothing, the floor may extend to the reach.
     const GapEstimate horizon = estimate_gap(floor, nothing_at(0.01), usual(), reach_m);
     CHECK_FALSE(horizon.continuous);
-    CHECK(horizon.range_uncertainty_m == doctest::Approx(10.0 - 1.0 / std::sin(0.16)));
+    CHECK(horizon.range_uncertainty_m == test::approx(10.0 - 1.0 / std::sin(0.16)));
     // Out of reach nothing is uncertain.
     const CastRay far = on_plane(-0.09, 1, {0, 0, -1}, {0, 0, 1});
     CHECK(estimate_gap(far, nothing_at(0.01), usual(), reach_m).range_uncertainty_m == 0.0F);
@@ -110,16 +111,16 @@ TEST_CASE("without a neighbour, the next ray goes to where the plane leaves the 
     const CastRay floor = on_plane(-0.01, 1, {0, 0, -1e-3F}, {0, 0, 1});
     const CastRay nothing = nothing_at(0.01);
     const float next = split_angle(floor, nothing, reach_m);
-    CHECK(split_angle(nothing, floor, reach_m) == doctest::Approx(next));
+    CHECK(split_angle(nothing, floor, reach_m) == test::approx(next));
     const double range = 1e-3 / std::sin(-next);
     CHECK(range > 10.0);
     CHECK(range < 10.1);
     // No second ray is cast at the same angle.
-    CHECK(split_angle(floor, nothing_at(next), reach_m) == doctest::Approx(0.5 * (next - 0.01)));
+    CHECK(split_angle(floor, nothing_at(next), reach_m) == test::approx(0.5 * (next - 0.01)));
     // A wall stays within reach.
     const CastRay wall = on_plane(-0.01, 1, {4, 0, 0}, {1, 0, 0});
-    CHECK(split_angle(wall, nothing, reach_m) == doctest::Approx(0.0));
-    CHECK(split_angle(wall, floor, reach_m) == doctest::Approx(-0.01));
+    CHECK(split_angle(wall, nothing, reach_m) == test::approx(0.0));
+    CHECK(split_angle(wall, floor, reach_m) == test::approx(-0.01));
 }
 
 TEST_SUITE_END();

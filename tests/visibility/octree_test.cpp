@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/units.h"
+#include "support/approx.h"
 #include "support/sanitized.h"
 #include "support/scenes.h"
 #include "visibility/caster.h"
@@ -71,12 +72,12 @@ TEST_CASE("octree: its leaves hold the surface of the scene, no more and no less
         for (const double leaf : {0.0, 0.31, 0.1}) {
             const auto octree = make_octree_engine(scene, {leaf, 512, literal});
             const double truth = scene_area(scene);
-            CHECK(octree->statistics().leaf_area_m2 == doctest::Approx(truth).epsilon(1e-5));
+            CHECK(octree->statistics().leaf_area_m2 == test::approx(truth).epsilon(1e-5));
             octree->visible_surface(wide_view(20.0),
                                     {Eigen::Quaterniond::Identity(), {0.3, 0.2, 1.1}});
             octree->visible_surface(tank_view(), tank_pose(0));
             CHECK(octree->statistics().leaves > 100);
-            CHECK(octree->statistics().leaf_area_m2 == doctest::Approx(truth).epsilon(1e-5));
+            CHECK(octree->statistics().leaf_area_m2 == test::approx(truth).epsilon(1e-5));
         }
     }
 }
@@ -89,7 +90,7 @@ TEST_CASE("octree: a tilted plane keeps its area, too, and so does one on round 
     test::add_floor(scene, 2.0F, 0.0F, material);
     const auto octree = make_octree_engine(scene, {0.125, 512, false});
     octree->visible_surface(wide_view(10.0), {Eigen::Quaterniond::Identity(), {0, 0, 3}});
-    CHECK(octree->statistics().leaf_area_m2 == doctest::Approx(scene_area(scene)).epsilon(1e-5));
+    CHECK(octree->statistics().leaf_area_m2 == test::approx(scene_area(scene)).epsilon(1e-5));
 }
 
 TEST_CASE("octree leaf: the section of a cube by a plane along it is that square") {
@@ -102,10 +103,10 @@ TEST_CASE("octree leaf: the section of a cube by a plane along it is that square
     REQUIRE(count == 1);
     const LeafFacet facet = facets[0];
     CHECK((facet.centre - Eigen::Vector3f(1.25F, 2.25F, 0.25F)).norm() < 1e-6F);
-    CHECK(std::fabs(facet.normal.z()) == doctest::Approx(1.0));
-    CHECK(facet.area_m2 == doctest::Approx(0.25));
-    CHECK(facet.edge_u.norm() == doctest::Approx(0.25));
-    CHECK(facet.edge_v.norm() == doctest::Approx(0.25));
+    CHECK(std::fabs(facet.normal.z()) == test::approx(1.0));
+    CHECK(facet.area_m2 == test::approx(0.25));
+    CHECK(facet.edge_u.norm() == test::approx(0.25));
+    CHECK(facet.edge_v.norm() == test::approx(0.25));
     CHECK(facet.thickness_m < 1e-6F);
     CHECK(is_flat_rectangle(facet));
 }
@@ -139,11 +140,11 @@ TEST_CASE("octree leaf: a thin plate keeps both faces, and the larger material c
     std::vector<LeafFacet> facets;
     REQUIRE(LeafMaker(scene, caster).append({{0, 0, -0.25}, 0.5}, all_triangles(scene), facets) ==
             3);
-    CHECK(facets[0].normal.dot(facets[1].normal) == doctest::Approx(-1.0));
-    CHECK(facets[0].area_m2 == doctest::Approx(0.25));
-    CHECK(facets[1].area_m2 == doctest::Approx(0.25));
+    CHECK(facets[0].normal.dot(facets[1].normal) == test::approx(-1.0));
+    CHECK(facets[0].area_m2 == test::approx(0.25));
+    CHECK(facets[1].area_m2 == test::approx(0.25));
     // 0.2 m by 0.25 m.
-    CHECK(facets[2].area_m2 == doctest::Approx(0.05));
+    CHECK(facets[2].area_m2 == test::approx(0.05));
     CHECK(scene.triangle_material[facets[0].triangle] == steel);
     CHECK(scene.triangle_material[facets[2].triangle] == wood);
 }
@@ -258,8 +259,8 @@ TEST_CASE("octree: rays are traced as the ray engine does") {
     const std::array rays{Ray{{0, 0, 0}, {0, 0, -1}}, Ray{{0, 0, 0}, {0, 0, 1}}};
     std::array<Intersection, 2> hits;
     octree->intersect(pose, rays, hits);
-    CHECK(hits[0].distance_m == doctest::Approx(1.0));
-    CHECK(hits[0].normal.z() == doctest::Approx(1.0));
+    CHECK(hits[0].distance_m == test::approx(1.0));
+    CHECK(hits[0].normal.z() == test::approx(1.0));
     CHECK(std::isinf(hits[1].distance_m));
 }
 

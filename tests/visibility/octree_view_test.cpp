@@ -6,6 +6,7 @@
 #include "core/units.h"
 #include "paper/accumulate.h"
 #include "sonar/sonar.h"
+#include "support/approx.h"
 #include "support/sanitized.h"
 #include "support/scenes.h"
 #include "support/sonars.h"
@@ -88,7 +89,7 @@ TEST_CASE("octree view: the narrowest views see a wall") {
                 brightest = std::max(brightest,
                                      ping.intensity[static_cast<std::size_t>(i) * view.beams + j]);
             dark_beams += brightest == 0.0F;
-            if (view.azimuth_rad < 0.04) CHECK(brightest == doctest::Approx(truth).epsilon(0.02));
+            if (view.azimuth_rad < 0.04) CHECK(brightest == test::approx(truth).epsilon(0.02));
         }
         CHECK(dark_beams == 0);
     }

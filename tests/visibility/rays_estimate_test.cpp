@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/units.h"
+#include "support/approx.h"
 #include "support/lattice_errors.h"
 #include "support/sanitized.h"
 #include "support/scenes.h"
@@ -54,7 +55,7 @@ Scene smooth_swell() {
 
 TEST_CASE("estimate of the rays: bins by two sets of rays") {
     using enum RaySet;
-    const auto near = [](double x) { return doctest::Approx(x).epsilon(1e-5); };
+    const auto near = [](double x) { return test::approx(x).epsilon(1e-5); };
 
     SUBCASE("surface that both sets met is certain") {
         const SetDisagreement found =

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/units.h"
+#include "support/approx.h"
 #include "validation/shapes.h"
 
 using namespace sonarsim;
@@ -34,9 +35,9 @@ TEST_CASE("slivers: a reference gets surface that its rays missed, and no other"
     Reference reference{10, 1, std::vector<float>(10, 0.0F)};
     const std::vector<float> image(10, 1.0F);
     test::add_slivers(scene, view, image, reference);
-    CHECK(reference.intensity[5] == doctest::Approx(0.5).epsilon(0.005));
+    CHECK(reference.intensity[5] == test::approx(0.5).epsilon(0.005));
     CHECK(reference.intensity[6] == 0.0F);
-    CHECK(reference.intensity[8] == doctest::Approx(0.5 * corner / 8.0).epsilon(0.001));
+    CHECK(reference.intensity[8] == test::approx(0.5 * corner / 8.0).epsilon(0.001));
     CHECK(reference.intensity[9] == 0.0F);
     // Nothing is looked for in dark bins of the image, and what is known stays.
     Reference known{10, 1, std::vector<float>(10, 0.0F)};

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/units.h"
+#include "support/approx.h"
 
 using namespace sonarsim;
 
@@ -78,11 +79,11 @@ TEST_SUITE("water") {
                     advance(profile, 40.0, ray);
                     const double from_centre =
                         std::hypot(ray.along_m - centre_x, ray.height_m - centre_z);
-                    CHECK(from_centre == doctest::Approx(radius).epsilon(1e-11));
+                    CHECK(from_centre == test::approx(radius).epsilon(1e-11));
                     // Snell.
                     const double snell =
                         std::cos(ray.elevation_rad) / profile.speed_at(ray.height_m);
-                    CHECK(snell == doctest::Approx(std::cos(elevation) / c).epsilon(1e-11));
+                    CHECK(snell == test::approx(std::cos(elevation) / c).epsilon(1e-11));
                     worst = std::max(worst, std::fabs(from_centre - radius));
                     of_snell = std::max(of_snell, std::fabs(snell * c / std::cos(elevation) - 1.0));
                 }
@@ -101,7 +102,7 @@ TEST_SUITE("water") {
             (std::atanh(std::sin(from)) - std::atanh(std::sin(ray.elevation_rad))) / 0.3;
         MESSAGE("700 m in ", ray.time_s, " s, closed form ", time, " s, off by ", ray.time_s - time,
                 " s");
-        CHECK(ray.time_s == doctest::Approx(time).epsilon(1e-10));
+        CHECK(ray.time_s == test::approx(time).epsilon(1e-10));
     }
 
     TEST_CASE("place, time and direction are those of a numerical integration across layers") {
@@ -117,9 +118,9 @@ TEST_SUITE("water") {
             const WaterRay ray = after(profile, water_ray(profile, z, elevation), 300.0);
             const Going there = integrated(profile, {0.0, z, elevation, 0.0}, 300.0, 60000);
             // The integration does not see where within a step a layer ends.
-            CHECK(ray.along_m == doctest::Approx(there.x).epsilon(1e-5));
+            CHECK(ray.along_m == test::approx(there.x).epsilon(1e-5));
             CHECK(std::fabs(ray.height_m - there.z) < 2e-3);
-            CHECK(ray.time_s == doctest::Approx(there.t).epsilon(1e-6));
+            CHECK(ray.time_s == test::approx(there.t).epsilon(1e-6));
             apart_m = std::max(apart_m, std::hypot(ray.along_m - there.x, ray.height_m - there.z));
             apart_s = std::max(apart_s, std::fabs(ray.time_s - there.t));
         }
@@ -142,9 +143,9 @@ TEST_SUITE("water") {
                 after(profile, water_ray(profile, there.height_m, -there.elevation_rad), 150.0);
             CHECK(std::fabs(back.along_m - there.along_m) < 1e-6);
             CHECK(std::fabs(back.height_m + 2.0) < 1e-6);
-            CHECK(back.time_s == doctest::Approx(there.time_s).epsilon(1e-11));
+            CHECK(back.time_s == test::approx(there.time_s).epsilon(1e-11));
             CHECK(back.tube_m * profile.speed_at(there.height_m) ==
-                  doctest::Approx(there.tube_m * profile.speed_at(-2.0)).epsilon(1e-6));
+                  test::approx(there.tube_m * profile.speed_at(-2.0)).epsilon(1e-6));
             apart_m =
                 std::max(apart_m, std::hypot(back.along_m - there.along_m, back.height_m + 2.0));
             apart_s = std::max(apart_s, std::fabs(back.time_s - there.time_s));
@@ -205,8 +206,8 @@ TEST_SUITE("water") {
             const double down = cycle_of(-angle_deg);
             MESSAGE(angle_deg, " degrees: off WaveQ3D's ", cycle, " m by ", up - cycle, " and ",
                     down - cycle, " m");
-            CHECK(up == doctest::Approx(cycle).epsilon(1e-5));
-            CHECK(down == doctest::Approx(cycle).epsilon(1e-5));
+            CHECK(up == test::approx(cycle).epsilon(1e-5));
+            CHECK(down == test::approx(cycle).epsilon(1e-5));
         }
     }
 
@@ -219,7 +220,7 @@ TEST_SUITE("water") {
                 after(profile, water_ray(profile, -20.0, elevation + turn), 60.0);
             const double apart = (other.height_m - ray.height_m) * std::cos(ray.elevation_rad) -
                                  (other.along_m - ray.along_m) * std::sin(ray.elevation_rad);
-            CHECK(ray.tube_m == doctest::Approx(apart / turn).epsilon(1e-3));
+            CHECK(ray.tube_m == test::approx(apart / turn).epsilon(1e-3));
         }
     }
 
@@ -237,20 +238,20 @@ TEST_SUITE("water") {
                                         std::cos(a) * std::sin(azimuth), std::sin(a));
         const Eigen::Vector3d place =
             place_of(profile, {100.0, -50.0, 0.0}, direction, 1500.0 * time);
-        CHECK(place.x() == doctest::Approx(100.0 + x * std::cos(azimuth)).epsilon(1e-9));
-        CHECK(place.y() == doctest::Approx(-50.0 + x * std::sin(azimuth)).epsilon(1e-9));
-        CHECK(place.z() == doctest::Approx(z).epsilon(1e-8));
+        CHECK(place.x() == test::approx(100.0 + x * std::cos(azimuth)).epsilon(1e-9));
+        CHECK(place.y() == test::approx(-50.0 + x * std::sin(azimuth)).epsilon(1e-9));
+        CHECK(place.z() == test::approx(z).epsilon(1e-8));
         // From the height of a node, rays bend by the layer that they lead into.
         const SoundProfile valley{{-100.0, -50.0, 0.0}, {1520.0, 1480.0, 1520.0}, 1500.0};
         const WaterRay down = after(valley, water_ray(valley, -50.0, -0.3), 60.0);
         const WaterRay up = after(valley, water_ray(valley, -50.0, 0.3), 60.0);
-        CHECK(down.height_m + up.height_m == doctest::Approx(-100.0).epsilon(1e-12));
-        CHECK(down.time_s == doctest::Approx(up.time_s).epsilon(1e-12));
+        CHECK(down.height_m + up.height_m == test::approx(-100.0).epsilon(1e-12));
+        CHECK(down.time_s == test::approx(up.time_s).epsilon(1e-12));
         CHECK(valley.speed_at(down.height_m) > 1490.0);
         // In a channel a level ray stays at the node of the least speed.
         const SoundProfile channel{{-100.0, -50.0, 0.0}, {1520.0, 1480.0, 1520.0}, 1500.0};
         const Eigen::Vector3d far = place_of(channel, {0.0, 0.0, -50.0}, {1.0, 0.0, 0.0}, 15000.0);
-        CHECK(far.x() == doctest::Approx(14800.0).epsilon(1e-4));
+        CHECK(far.x() == test::approx(14800.0).epsilon(1e-4));
         CHECK(std::fabs(far.z() + 50.0) < 0.5);
     }
 }

@@ -7,6 +7,7 @@
 
 #include "scene/gltf/builder.h"
 #include "scene/gltf/load.h"
+#include "support/approx.h"
 
 using namespace sonarsim;
 using nlohmann::json;
@@ -43,7 +44,7 @@ void check_square(const Scene& scene) {
         const Eigen::Vector3d a = world_corner(scene, i, 0);
         area += 0.5 * (world_corner(scene, i, 1) - a).cross(world_corner(scene, i, 2) - a).norm();
     }
-    CHECK(area == doctest::Approx(1.0));
+    CHECK(area == test::approx(1.0));
     check_point(scene.bounds_min, 0, 0, 0);
     check_point(scene.bounds_max, 1, 0, 1);
 }
@@ -135,7 +136,7 @@ TEST_SUITE("scene") {
             {{{"attributes", {{"POSITION", accessor}}}, {"material", gltf.material("sand")}}});
         gltf.node({{"mesh", 0}});
         gltf.document["extensionsRequired"] = {"KHR_mesh_quantization"};
-        CHECK(load(gltf).bounds_max.x() == doctest::Approx(32767.0));
+        CHECK(load(gltf).bounds_max.x() == test::approx(32767.0));
         gltf.document["accessors"][0]["normalized"] = true;
         const Scene scene = load(gltf);
         check_point(world_corner(scene, 0, 1), 1, 0, 0);

@@ -14,6 +14,7 @@
 #include "scene/gltf/load.h"
 #include "scene/gltf/surface_of.h"
 #include "scene/placing/bottom.h"
+#include "support/approx.h"
 #include "support/temporary_folder.h"
 
 using namespace sonarsim;
@@ -75,11 +76,11 @@ TEST_CASE("the first row of a heightmap is the north, its first column the west"
     CHECK(has_vertex(surface, {101, 47, 4}));
     CHECK(has_vertex(surface, {105, 47, 6}));
     // Counter-clockwise from above: the whole map from 101 to 105 and from 47 to 49.
-    CHECK(upward_area(surface) == doctest::Approx(8.0));
+    CHECK(upward_area(surface) == test::approx(8.0));
     // Between the centres the surface is that of the two triangles: on the edge from the north-west
     // to the south-east the mean of these two, not of the other two.
     const Bottom bottom(surface);
-    CHECK(bottom.heights({102, 48})->highest == doctest::Approx(0.5 * (1 + 5)));
+    CHECK(bottom.heights({102, 48})->highest == test::approx(0.5 * (1 + 5)));
 }
 
 TEST_CASE("the mission's pixel size or extent replaces the place in the file") {

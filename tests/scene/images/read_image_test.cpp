@@ -11,6 +11,7 @@
 #include "core/file.h"
 #include "format/geotiff.h"
 #include "scene/images/exr_file.h"
+#include "support/approx.h"
 #include "support/temporary_folder.h"
 
 using namespace sonarsim;
@@ -143,7 +144,7 @@ TEST_CASE("feet become metres, degrees are reported, a map that is turned is ref
     const auto path = folder.path / "map.tif";
     write_geotiff(path, numbers(), columns, {.west_m = 10, .north_m = 50, .cell_m = 0.25});
     const auto feet = read_image(translated(path, "-a_srs EPSG:2263", "feet.tif")).reference;
-    CHECK(feet.grid->column_m == doctest::Approx(0.25 * 1200.0 / 3937.0).epsilon(1e-12));
+    CHECK(feet.grid->column_m == test::approx(0.25 * 1200.0 / 3937.0).epsilon(1e-12));
     const auto degrees = read_image(translated(path, "-a_srs EPSG:4326", "deg.tif")).reference;
     CHECK(degrees.in_degrees);
     CHECK(degrees.grid->column_m == 0.25);

@@ -12,6 +12,7 @@
 #include "scene/gltf/load.h"
 #include "scene/gltf/surface_of.h"
 #include "scene/seabed/seabed.h"
+#include "support/approx.h"
 #include "support/statistics.h"
 
 using namespace sonarsim;
@@ -97,10 +98,10 @@ TEST_CASE("rocks lie in the bed to their share, and their shapes fit a ball of t
         double farthest = 0.0;
         for (const Eigen::Vector3d& vertex : placed.vertices)
             farthest = std::max(farthest, (vertex - middle).norm());
-        CHECK(farthest == doctest::Approx(0.5 * rock.diameter_m));
+        CHECK(farthest == test::approx(0.5 * rock.diameter_m));
         const Eigen::AlignedBox3d box = box_of(placed);
         const double bed_z = -5.0 + 0.2 * middle.x() + 0.1 * middle.y();
-        CHECK((bed_z - box.min().z()) / box.sizes().z() == doctest::Approx(0.25).epsilon(1e-3));
+        CHECK((bed_z - box.min().z()) / box.sizes().z() == test::approx(0.25).epsilon(1e-3));
     }
     // Outwards, for the engines that care.
     for (const Surface& shape : bed.rock_shapes) {
@@ -141,7 +142,7 @@ TEST_CASE("sediments cover their shares, in patches of their size") {
     // and as often downwards. The waves of the borders have a sixteenth of the variance and 3 times
     // the slope, so that the slope is sqrt(15 / 16 + 9 / 16) = 1.22 times that of the patches.
     const double expected = 2.0 * 2.0 * 0.797 / 6.0 * 1.22;
-    CHECK(crossings / length_m == doctest::Approx(expected).epsilon(0.12));
+    CHECK(crossings / length_m == test::approx(expected).epsilon(0.12));
 }
 
 TEST_CASE("hollows have their depth and their place") {

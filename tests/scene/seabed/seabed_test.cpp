@@ -13,6 +13,7 @@
 #include "core/units.h"
 #include "format/geotiff.h"
 #include "scene/gltf/surface_of.h"
+#include "support/approx.h"
 #include "support/bed_spectrum.h"
 #include "support/temporary_folder.h"
 
@@ -62,7 +63,7 @@ std::string error_of(const SeabedRule& rule) {
 TEST_CASE("strengths in cm^4 become those in metres") {
     // W = w K^-g with K = 1 rad/cm is w cm^4 = w 1e-8 m^4 at 100 rad/m.
     const double strength = roughness_strength(0.003, 3.25);
-    CHECK(strength * std::pow(100.0, -3.25) == doctest::Approx(0.003e-8));
+    CHECK(strength * std::pow(100.0, -3.25) == test::approx(0.003e-8));
 }
 
 TEST_CASE("the spectrum of a bed has its strength and exponent") {
@@ -150,8 +151,7 @@ TEST_CASE("ripples have their length, direction and height") {
     const Seabed bed = make_seabed(rule);
     for (int column = 0; column < bed.grid.columns; ++column) {
         CHECK(bed.heights[static_cast<std::size_t>(column)] ==
-              doctest::Approx(0.015 * std::cos(2.0 * pi * bed.grid.x_m(column) / 0.25))
-                  .epsilon(1e-5));
+              test::approx(0.015 * std::cos(2.0 * pi * bed.grid.x_m(column) / 0.25)).epsilon(1e-5));
     }
 }
 

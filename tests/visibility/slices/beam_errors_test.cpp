@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "support/approx.h"
 #include "visibility/slices/beam_check.h"
 
 using namespace sonarsim;
@@ -56,11 +57,11 @@ BeamErrors errors_of_bins(const std::vector<int>& image, const std::vector<int>&
 
 TEST_CASE("slices: bins that surface only just reaches count as errors") {
     // The surface fills bins 2 to 4, the last with 0.0005, 0.002 or half a bin.
-    CHECK(error_of({{2.5F, 4.0005F}}) == doctest::Approx(0.16 / 3.0).epsilon(1e-3));
-    CHECK(error_of({{2.5F, 4.002F}}) == doctest::Approx(0.09 / 3.0).epsilon(1e-3));
+    CHECK(error_of({{2.5F, 4.0005F}}) == test::approx(0.16 / 3.0).epsilon(1e-3));
+    CHECK(error_of({{2.5F, 4.002F}}) == test::approx(0.09 / 3.0).epsilon(1e-3));
     CHECK(error_of({{2.5F, 4.5F}}) == 0.0);
     // Surface that ends just before the border fills two bins.
-    CHECK(error_of({{2.5F, 3.9995F}}) == doctest::Approx(0.26 / 2.0).epsilon(1e-3));
+    CHECK(error_of({{2.5F, 3.9995F}}) == test::approx(0.26 / 2.0).epsilon(1e-3));
     // A sliver in a bin that another surface fills is harmless.
     CHECK(error_of({{2.5F, 4.0005F}, {4.2F, 4.9F}}) == 0.0);
     CHECK(error_of({}) == 0.0);
@@ -72,11 +73,11 @@ TEST_CASE("slices: the error of edge bins is that of the beams so far") {
     errors.sums().add({2.5F, 4.0005F}, 1.5005F, 4.0005F, 1.0F);
     CHECK(errors.edge_bins() == 0.0);
     errors.begin_beam(1);
-    CHECK(errors.edge_bins() == doctest::Approx(0.16 / 3.0).epsilon(1e-3));
+    CHECK(errors.edge_bins() == test::approx(0.16 / 3.0).epsilon(1e-3));
     // Three more bins without sliver.
     errors.sums().add({6.5F, 8.5F}, 2.0F, 8.5F, 1.0F);
     errors.finish();
-    CHECK(errors.edge_bins() == doctest::Approx(0.16 / 6.0).epsilon(1e-3));
+    CHECK(errors.edge_bins() == test::approx(0.16 / 6.0).epsilon(1e-3));
 }
 
 TEST_CASE("slices: a drawn beam has its check's image, and stands for its neighbours") {
@@ -93,13 +94,13 @@ TEST_CASE("slices: a drawn beam has its check's image, and stands for its neighb
         return errors;
     };
     const BeamErrors whole = errors_with({2.5F, 5.5F}, 1.0);
-    CHECK(whole.of_checked() == doctest::Approx(1.0 / 4.0));  // the check has four bins
+    CHECK(whole.of_checked() == test::approx(1.0 / 4.0));  // the check has four bins
     CHECK(whole.of_others() == 0.0);
-    CHECK(whole.root_of_squares() == doctest::Approx(1.0 / 4.0));
+    CHECK(whole.root_of_squares() == test::approx(1.0 / 4.0));
     const BeamErrors drawn = errors_with({3.5F, 5.5F}, 4.0);
-    CHECK(drawn.of_checked() == doctest::Approx(2.0 / 3.0));
-    CHECK(drawn.of_others() == doctest::Approx(3.0 * 2.0 / 3.0));
-    CHECK(drawn.root_of_squares() == doctest::Approx(std::sqrt(2.0) / 3.0));
+    CHECK(drawn.of_checked() == test::approx(2.0 / 3.0));
+    CHECK(drawn.of_others() == test::approx(3.0 * 2.0 / 3.0));
+    CHECK(drawn.root_of_squares() == test::approx(std::sqrt(2.0) / 3.0));
 }
 
 TEST_CASE("slices: draws of equal weighted distances have no scatter, and certain beams add none") {
@@ -123,8 +124,7 @@ TEST_CASE("slices: draws of equal weighted distances have no scatter, and certai
     CHECK(deviation({{4.0, 1}, {1.0, 1}, {4.0, 1}}) == 0.0);
     // Weighted distances of 2 and 4: half the squared difference, times 1 - 1 / 2. The checks have
     // 4 and 5 bins.
-    CHECK(deviation({{2.0, 1}, {2.0, 2}}) ==
-          doctest::Approx(std::sqrt(0.5 * 0.5 * 2.0 * 2.0) / 9.0));
+    CHECK(deviation({{2.0, 1}, {2.0, 2}}) == test::approx(std::sqrt(0.5 * 0.5 * 2.0 * 2.0) / 9.0));
 }
 
 TEST_CASE("slices: a further draw knows the others anew, and earlier checks remain") {
@@ -140,15 +140,15 @@ TEST_CASE("slices: a further draw knows the others anew, and earlier checks rema
     check.add({2.5F, 5.5F}, 1.0F, 5.5F, 1.0F);
     errors.start_draw();
     errors.check(1, check, 4.0);
-    CHECK(errors.of_others() == doctest::Approx(3.0 / 13.0));
+    CHECK(errors.of_others() == test::approx(3.0 / 13.0));
     errors.start_draw();
     CHECK(errors.of_others() == 0.0);
     errors.check(0, check, 3.0);
     CHECK(errors.draws() == 1);
-    CHECK(errors.of_checked() == doctest::Approx(2.0 / 14.0));
-    CHECK(errors.of_others() == doctest::Approx(2.0 / 14.0));
-    CHECK(likely_error(errors) == doctest::Approx(0.0023 + 2.0 / 14.0 * (1.0 + 1.414)));
-    CHECK(likely_error_if_checked(errors) == doctest::Approx(0.0023 + 4.0 / 14.0));
+    CHECK(errors.of_checked() == test::approx(2.0 / 14.0));
+    CHECK(errors.of_others() == test::approx(2.0 / 14.0));
+    CHECK(likely_error(errors) == test::approx(0.0023 + 2.0 / 14.0 * (1.0 + 1.414)));
+    CHECK(likely_error_if_checked(errors) == test::approx(0.0023 + 4.0 / 14.0));
 }
 
 TEST_CASE("slices: the limit of few draws is that of Student's distribution") {
@@ -175,8 +175,8 @@ TEST_CASE("slices: the limit of few draws is that of Student's distribution") {
         return std::sqrt(above * above - bins * bins) / (1.414 * errors.others_deviation());
     };
     CHECK(times_deviation(3) > 3.0);
-    CHECK(times_deviation(7) == doctest::Approx(2.132).epsilon(0.02));
-    CHECK(times_deviation(61) == doctest::Approx(1.684).epsilon(0.01));
+    CHECK(times_deviation(7) == test::approx(2.132).epsilon(0.02));
+    CHECK(times_deviation(61) == test::approx(1.684).epsilon(0.01));
 }
 
 TEST_CASE("slices: neighbours that err alike are one run") {
@@ -184,9 +184,9 @@ TEST_CASE("slices: neighbours that err alike are one run") {
     // signal.
     const BeamErrors errors = errors_of_bins({1, 2, 5}, {3, 5, 7});
     CHECK(errors.occupied_bins() == 3.0);
-    CHECK(errors.of_checked() == doctest::Approx(4.0 / 3.0));
-    CHECK(errors.root_of_runs() == doctest::Approx(std::sqrt(6.0) / 3.0));
-    CHECK(errors.root_of_squares() == doctest::Approx(2.0 / 3.0));
+    CHECK(errors.of_checked() == test::approx(4.0 / 3.0));
+    CHECK(errors.root_of_runs() == test::approx(std::sqrt(6.0) / 3.0));
+    CHECK(errors.root_of_squares() == test::approx(2.0 / 3.0));
     CHECK(errors_of_bins({4}, {4}).root_of_runs() == 0.0);
 }
 
@@ -197,11 +197,11 @@ TEST_CASE("slices: the limit of few bins is that of Student's distribution over 
         const double above = estimated_error_of_few_bins(errors) - likely_error(errors);
         return above / (0.853 * errors.root_of_runs());
     };
-    CHECK(times_r(errors_of_bins({1, 5}, {3, 7})) == doctest::Approx(2.132).epsilon(0.02));
-    CHECK(times_r(errors_of_bins({1, 5}, {3, 7, 9})) == doctest::Approx(2.015).epsilon(0.02));
+    CHECK(times_r(errors_of_bins({1, 5}, {3, 7})) == test::approx(2.132).epsilon(0.02));
+    CHECK(times_r(errors_of_bins({1, 5}, {3, 7, 9})) == test::approx(2.015).epsilon(0.02));
     // One run decides alone: above 6 standard deviations in theory, 4.6 by the series.
     CHECK(times_r(errors_of_bins({1, 2}, {2})) > 4.0);
-    CHECK(estimated_error_of_few_bins(errors_of_bins({2}, {2})) == doctest::Approx(0.0023));
+    CHECK(estimated_error_of_few_bins(errors_of_bins({2}, {2})) == test::approx(0.0023));
     // Three bins: at a goal of 3 % one of them is more than the goal allows.
     CHECK(few_bins_decide(errors_of_bins({1}, {3, 5, 7}), 0.03));
     CHECK(!few_bins_decide(errors_of_bins({1}, {3, 5, 7}), 3.0));

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "support/approx.h"
+
 using namespace sonarsim;
 
 TEST_SUITE_BEGIN("slices");
@@ -33,7 +35,7 @@ TEST_CASE("slices: surface of one range keeps its area in far bins") {
     // The depth of such surface is below one step of a float.
     BeamSums sums(view_of(8192));
     sums.add({20.3F, 20.3F}, 0.5F, 20.0F, 1.0F);
-    CHECK(total_area(sums) == doctest::Approx(0.5).epsilon(0.1));
+    CHECK(total_area(sums) == test::approx(0.5).epsilon(0.1));
     CHECK(std::isfinite(sums.echo(sums.first())));
 }
 
@@ -54,7 +56,7 @@ TEST_CASE("slices: bins share the area of surface by its overlap, within the vie
             const bool in_view = i >= 0 && i < bins;
             const double expected = in_view ? 2.0 * std::max(high - low, 0.0) / (to - from) : 0.0;
             CHECK(static_cast<double>(sums.area(i)) ==
-                  doctest::Approx(expected).epsilon(1e-3).scale(0.1));
+                  test::approx(expected).epsilon(1e-3).scale(0.1));
         }
         sums.clear();
         CHECK(total_area(sums) == 0.0);

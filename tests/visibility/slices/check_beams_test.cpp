@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "support/approx.h"
 #include "support/sanitized.h"
 #include "support/scenes.h"
 #include "visibility/slices/clusters.h"
@@ -120,8 +121,8 @@ TEST_CASE("slices: checks in the sweep and checks of kept slices give the same")
         }
         const BeamErrors& a = all.image.errors;
         const BeamErrors& b = kept.image.errors;
-        CHECK(a.of_checked() == doctest::Approx(b.of_checked()).epsilon(1e-12));
-        CHECK(a.edge_bins() == doctest::Approx(b.edge_bins()).epsilon(1e-12));
+        CHECK(a.of_checked() == test::approx(b.of_checked()).epsilon(1e-12));
+        CHECK(a.edge_bins() == test::approx(b.edge_bins()).epsilon(1e-12));
         REQUIRE(all.image.checked == kept.image.checked);
         const auto& one = all.image.checked_samples.items();
         const auto& other = kept.image.checked_samples.items();

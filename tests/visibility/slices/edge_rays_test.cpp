@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/units.h"
+#include "support/approx.h"
 #include "support/scenes.h"
 
 using namespace sonarsim;
@@ -101,7 +102,7 @@ TEST_CASE("slices: right ends stay where they are, and other bins are not asked"
     const Settled right = settle(22.5, 25.05, 22.5, 25.05);
     CHECK(right.edges[25] == EdgeBin::filled);
     CHECK(bins_of(over_floor(), right.samples.items.front()).to ==
-          doctest::Approx(25.05).epsilon(1e-4));
+          test::approx(25.05).epsilon(1e-4));
     CHECK(right.edges[24] == EdgeBin::not_tested);
     CHECK(right.edges[30] == EdgeBin::not_tested);
 }

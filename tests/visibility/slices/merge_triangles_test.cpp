@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "support/approx.h"
 #include "support/scenes.h"
 
 using namespace sonarsim;
@@ -72,7 +73,7 @@ TEST_CASE("slices: flat faces keep their area and outline in a few triangles") {
             const Scene& merged = *result;
             CHECK(merged.triangles.size() == (flat && !two_materials ? 2 : 4));
             CHECK(area_of(merged) / (flat ? 2.0 : 1.0 + std::sqrt(2.0)) ==
-                  doctest::Approx(1.0).epsilon(1e-6));
+                  test::approx(1.0).epsilon(1e-6));
             for (std::size_t i = 0; i < merged.triangles.size(); ++i) {
                 // The triangles left of x = 0 have the first material.
                 float middle = 0.0F;
@@ -103,7 +104,7 @@ TEST_CASE("slices: a panel with two sides keeps both") {
         const auto merged = with_flat_faces_merged(scene, each_by_itself(scene));
         REQUIRE(merged);
         CHECK(merged->triangles.size() == 4);
-        CHECK(area_of(*merged) == doctest::Approx(2.0).epsilon(1e-6));
+        CHECK(area_of(*merged) == test::approx(2.0).epsilon(1e-6));
     }
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "support/approx.h"
 #include "visibility/slices/drawn_quads.h"
 
 using namespace sonarsim;
@@ -67,7 +68,7 @@ TEST_CASE("slices: eight quadrilaterals together have the corners of each alone"
             const QuadPoints alone = quads[lane].corners(quads[lane].low, quads[lane].high);
             for (int i = 0; i < 4; ++i) {
                 CHECK((all.corners[i].at.at(lane) - alone.at(i)).norm() < 1e-5F * alone.range[i]);
-                CHECK(all.corners[i].range[lane] == doctest::Approx(alone.range[i]).epsilon(1e-5));
+                CHECK(all.corners[i].range[lane] == test::approx(alone.range[i]).epsilon(1e-5));
             }
         }
     }
@@ -87,9 +88,9 @@ TEST_CASE("slices: a parallelogram has the area and the range of its quadrilater
             fit_parallelograms(corners, Eigen::Matrix3f::Identity(), false);
         for (int lane = 0; lane < lanes; ++lane) {
             const Surface surface = surface_of(quads[lane]);
-            CHECK(patches.area_m2[lane] == doctest::Approx(surface.area_m2).epsilon(1e-3));
-            CHECK(patches.nearest_m[lane] == doctest::Approx(surface.nearest_m).epsilon(2e-3));
-            CHECK(patches.farthest_m[lane] == doctest::Approx(surface.farthest_m).epsilon(2e-3));
+            CHECK(patches.area_m2[lane] == test::approx(surface.area_m2).epsilon(1e-3));
+            CHECK(patches.nearest_m[lane] == test::approx(surface.nearest_m).epsilon(2e-3));
+            CHECK(patches.farthest_m[lane] == test::approx(surface.farthest_m).epsilon(2e-3));
         }
     }
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "support/approx.h"
 #include "support/draws.h"
 #include "support/scenes.h"
 #include "visibility/angles.h"
@@ -84,10 +85,10 @@ TEST_CASE("slices: the image by points shows errors of single bins") {
     image.area[56] = 0.0F;
     image.area[10] = 1.0F;
     image.echo[10] = 1.0F;
-    CHECK(points.error_of(image, edges) == doctest::Approx(wrong / signal).epsilon(0.02));
+    CHECK(points.error_of(image, edges) == test::approx(wrong / signal).epsilon(0.02));
     // A bin that rays found filled is right where there are no points.
     edges[10] = EdgeBin::filled;
-    CHECK(points.error_of(image, edges) == doctest::Approx((wrong - 1.0) / signal).epsilon(0.02));
+    CHECK(points.error_of(image, edges) == test::approx((wrong - 1.0) / signal).epsilon(0.02));
 }
 
 TEST_CASE("slices: the image by points has slivers") {
@@ -103,7 +104,7 @@ TEST_CASE("slices: the image by points has slivers") {
         signal += static_cast<double>(image.intensity(k));
     const std::vector<EdgeBin> edges(100, EdgeBin::not_tested);
     const PointImage points = points_to(scene);
-    CHECK(points.error_of(image, edges) == doctest::Approx(1.0 / signal).epsilon(0.05));
+    CHECK(points.error_of(image, edges) == test::approx(1.0 / signal).epsilon(0.05));
     image.area[25] = 1e-7F;
     image.echo[25] = 1e-7F;
     CHECK(points.error_of(image, edges) < 0.001);
@@ -146,7 +147,7 @@ TEST_CASE("slices: pieces of triangles lie in one bin each, and leave nothing ou
                 }
             }
         }
-        CHECK(sum == doctest::Approx(area).epsilon(1e-4));
+        CHECK(sum == test::approx(area).epsilon(1e-4));
     }
 }
 

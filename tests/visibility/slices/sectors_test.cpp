@@ -4,6 +4,7 @@
 #include <random>
 
 #include "core/units.h"
+#include "support/approx.h"
 #include "support/sanitized.h"
 #include "support/scenes.h"
 #include "visibility/slices/fixtures.h"
@@ -68,7 +69,7 @@ TEST_CASE("slices: two wide beams have the surface of rods that stand in each of
                 return sum;
             };
             CHECK(area(image, beam, beam + 1) ==
-                  doctest::Approx(area(reference, 64 * beam, 64 * beam + 64)).epsilon(0.03));
+                  test::approx(area(reference, 64 * beam, 64 * beam + 64)).epsilon(0.03));
         }
     }
 }

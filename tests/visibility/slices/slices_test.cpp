@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "core/units.h"
+#include "support/approx.h"
 #include "support/sanitized.h"
 #include "support/scenes.h"
 #include "visibility/rays/rays_engine.h"
@@ -75,11 +76,11 @@ TEST_CASE("slices: a wall seen face on has its area, whole or in many triangles"
     for (const int n : {1, 7, 200}) {
         CAPTURE(n);
         const Samples samples = seen(wall(5.0F, n), view, {});
-        CHECK(area_of(samples) / area_of_wall(5.0, view) == doctest::Approx(1.0).epsilon(1e-5));
+        CHECK(area_of(samples) / area_of_wall(5.0, view) == test::approx(1.0).epsilon(1e-5));
         for (const Sample& sample : samples.items) {
-            CHECK(sample.position.x() == doctest::Approx(5.0).epsilon(1e-3));
-            CHECK(sample.height_m == doctest::Approx(5.0).epsilon(1e-5));
-            CHECK(sample.normal.x() == doctest::Approx(-1.0).epsilon(1e-5));
+            CHECK(sample.position.x() == test::approx(5.0).epsilon(1e-3));
+            CHECK(sample.height_m == test::approx(5.0).epsilon(1e-5));
+            CHECK(sample.normal.x() == test::approx(-1.0).epsilon(1e-5));
         }
     }
 }
@@ -104,8 +105,7 @@ TEST_CASE("slices: at a coarse goal the pieces of neighbouring slices become one
     for (int j = 0; j < view.beams; ++j) {
         CAPTURE(j);
         REQUIRE(area_of_beam(fine, j) > 0.0);
-        CHECK(area_of_beam(coarse, j) / area_of_beam(fine, j) ==
-              doctest::Approx(1.0).epsilon(1e-4));
+        CHECK(area_of_beam(coarse, j) / area_of_beam(fine, j) == test::approx(1.0).epsilon(1e-4));
     }
 }
 
@@ -138,8 +138,8 @@ TEST_CASE("slices: a sphere fills the solid angle that it should" *
     const double expected = 2.0 * pi * (1.0 - std::sqrt(1.0 - 0.01));
     for (const View& view : {fan_view(), cone_view()}) {
         // The missing part is ends of facets at the limb; it falls with the width of the gaps.
-        CHECK(filled(seen(scene, view, {}, 4)) / expected == doctest::Approx(1.0).epsilon(0.015));
-        CHECK(filled(seen(scene, view, {}, 16)) / expected == doctest::Approx(1.0).epsilon(0.004));
+        CHECK(filled(seen(scene, view, {}, 4)) / expected == test::approx(1.0).epsilon(0.015));
+        CHECK(filled(seen(scene, view, {}, 16)) / expected == test::approx(1.0).epsilon(0.004));
     }
 }
 
@@ -148,7 +148,7 @@ TEST_CASE("slices: a cone sees a disc, whatever it is cut into") {
     const double disc = pi * 16.0 / 3.0;
     for (const int n : {1, 40}) {
         CHECK(area_of(seen(wall(4.0F, n), cone_view(), {})) / disc ==
-              doctest::Approx(1.0).epsilon(5e-4));
+              test::approx(1.0).epsilon(5e-4));
     }
 }
 
@@ -157,13 +157,13 @@ TEST_CASE("slices: the two sides see a strip of the floor") {
     View view = sides_view();
     view.range_max_m = 30.0;
     const Samples samples = seen(wall(3.0F, 3), view, {});
-    CHECK(area_of(samples) / area_of_wall(3.0, view) == doctest::Approx(1.0).epsilon(0.003));
+    CHECK(area_of(samples) / area_of_wall(3.0, view) == test::approx(1.0).epsilon(0.003));
     double starboard = 0.0;
     for (const Sample& sample : samples.beam(0)) {
         CHECK(sample.position.y() < 1e-3);
         starboard += sample.area_m2;
     }
-    CHECK(starboard == doctest::Approx(0.5 * area_of(samples)).epsilon(0.001));
+    CHECK(starboard == test::approx(0.5 * area_of(samples)).epsilon(0.001));
 }
 
 TEST_CASE("slices: where two planes cross, each is seen on its side") {
@@ -181,7 +181,7 @@ TEST_CASE("slices: where two planes cross, each is seen on its side") {
         (is_above ? area_above : area_below) += sample.area_m2;
     }
     CHECK(area_below > 1.0);
-    CHECK(area_above == doctest::Approx(area_below).epsilon(1e-4));
+    CHECK(area_above == test::approx(area_below).epsilon(1e-4));
 }
 
 TEST_CASE("slices: a full turn and steep views see all of a sphere around the sonar") {
@@ -190,10 +190,10 @@ TEST_CASE("slices: a full turn and steep views see all of a sphere around the so
     View view = fan_view();
     view.azimuth_rad = 2.0 * pi;
     view.elevation_rad = pi;
-    CHECK(area_of(seen(scene, view, {})) == doctest::Approx(36.0 * pi).epsilon(0.01));
+    CHECK(area_of(seen(scene, view, {})) == test::approx(36.0 * pi).epsilon(0.01));
     // Latitudes within +-30 degrees: 2 pi R^2 (2 sin 30).
     view.elevation_rad = radians(60.0);
-    CHECK(area_of(seen(scene, view, {})) == doctest::Approx(18.0 * pi).epsilon(0.01));
+    CHECK(area_of(seen(scene, view, {})) == test::approx(18.0 * pi).epsilon(0.01));
 }
 
 TEST_CASE("slices: the same answer for the same question, and where coordinates are large") {
@@ -211,7 +211,7 @@ TEST_CASE("slices: the same answer for the same question, and where coordinates 
         there.origin += Eigen::Vector3d(5e5, 5e6, -50.0);
         const Pose moved = pitched(15.0, Eigen::Vector3d(-2.4, 0.4, 1.5) + there.origin);
         CHECK(area_of(seen(there, view, moved)) ==
-              doctest::Approx(area_of(seen(here, view, pose))).epsilon(1e-3));
+              test::approx(area_of(seen(here, view, pose))).epsilon(1e-3));
     }
 }
 
@@ -224,7 +224,7 @@ TEST_CASE("slices: rays see the same tank") {
         const Pose pose = pitched(15.0, {-2.4, 0.4, 1.5});
         CHECK(filled(slices->visible_surface(view, pose)) /
                   filled(rays->visible_surface(view, pose)) ==
-              doctest::Approx(1.0).epsilon(0.03));
+              test::approx(1.0).epsilon(0.03));
     }
 }
 
@@ -247,7 +247,7 @@ TEST_CASE("slices: three planes that cross in one slice are each seen where they
     }
     CHECK(area[1] < 1e-4);
     CHECK(area[0] > 1.0);
-    CHECK(area[2] / area[0] == doctest::Approx(1.0).epsilon(1e-4));
+    CHECK(area[2] / area[0] == test::approx(1.0).epsilon(1e-4));
 }
 
 TEST_CASE("slices: a finer goal asks for more slices and promises less error" *
