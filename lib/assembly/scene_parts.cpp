@@ -52,6 +52,11 @@ class LazyBottom {
     /// True if there is a bottom that does not move.
     bool exists() const { return is_of_files() || stands_still(scene_.objects.front()); }
 
+    /// Notes in its file that its nodes are the bottom. `files` are those of SceneParts.
+    void mark(std::vector<PlacedFile>& files) const {
+        files[is_ground() && !scene_.file.empty() ? 1 : 0].bottom = nodes();
+    }
+
     /// "; 'tyre' is 650 m long: millimetres? units: mm" where an object or the bottom may be in
     /// another unit; "" elsewhere. An object longer than the bottom cannot rest on it.
     std::string unit_questions(const ObjectConfig& object, const Surface& shape, double range_m) {
@@ -87,16 +92,18 @@ class LazyBottom {
     /// True unless objects alone make the scene.
     bool is_of_files() const { return !scene_.file.empty() || ground_; }
 
+    bool is_ground() const { return ground_ && (scene_.bottom.empty() || scene_.file.empty()); }
+
+    /// Patterns of its nodes; empty: all.
+    std::vector<std::string> nodes() const {
+        const bool is_bed = is_ground() && ground_->seabed && scene_.bottom.empty();
+        return is_bed ? std::vector<std::string>{seabed_instance} : scene_.bottom;
+    }
+
     Surface surface() const {
-        if (ground_ && (scene_.bottom.empty() || scene_.file.empty())) {
-            const std::vector<std::string> bed{seabed_instance};
-            return surface_of(*ground_, models_,
-                              ground_->seabed && scene_.bottom.empty() ? bed : scene_.bottom);
-        }
-        if (!scene_.file.empty()) {
-            return surface_of(file_of(scene_.file, scene_.mesh, scene_.place), models_,
-                              scene_.bottom);
-        }
+        if (is_ground()) return surface_of(*ground_, models_, nodes());
+        if (!scene_.file.empty())
+            return surface_of(file_of(scene_.file, scene_.mesh, scene_.place), models_, nodes());
         const ObjectConfig& first = scene_.objects.front();
         if (!stands_still(first)) {
             throw InputError(first.place.location,
@@ -106,7 +113,7 @@ class LazyBottom {
         PlacedFile file = file_of(first);
         file.T_world_file.translation() = Eigen::Vector3d(first.position_m.data());
         file.T_world_file.linear() = first.scale * attitude_of(first.rpy_deg).toRotationMatrix();
-        return surface_of(file, models_, scene_.bottom);
+        return surface_of(file, models_, nodes());
     }
 
     const SceneConfig& scene_;
@@ -286,7 +293,10 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
     if (!scene.bottom.empty()) bottom.get();
     const bool heights =
         std::ranges::find(mission.output.labels, Label::height) != mission.output.labels.end();
-    if (heights && bottom.exists()) parts.bottom = bottom.share();
+    if (heights && bottom.exists()) {
+        parts.bottom = bottom.share();
+        bottom.mark(parts.files);
+    }
     return parts;
 }
 

@@ -95,8 +95,6 @@ void ElevationFinder::add(std::uint32_t row, double echo, const CoveredBins& cov
 
 void ElevationFinder::find(std::uint32_t row, std::span<float> elevation_rad,
                            std::span<float> spread_rad) {
-    std::ranges::fill(elevation_rad, none);
-    std::ranges::fill(spread_rad, none);
     const BinSumRows<3>::Row sums = sums_.row(row);
     const auto [echo, first, second] = sums.of;
     // Most blocks hold water alone and are skipped.

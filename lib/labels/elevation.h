@@ -20,8 +20,9 @@ class ElevationFinder {
     /// Adds an echo of the patch to these bins of a row.
     void add(std::uint32_t row, double echo, const CoveredBins& covered);
 
-    /// The mean elevation of the echo of each bin and its standard deviation, rad; both are NaN in
-    /// bins without an echo. Means are of sin(theta), weighted with the echo. Clears the row.
+    /// The mean elevation of the echo of each bin and its standard deviation, rad. Means are of
+    /// sin(theta), weighted with the echo. Bins without an echo are left as they are, or NaN.
+    /// Clears the row.
     void find(std::uint32_t row, std::span<float> elevation_rad, std::span<float> spread_rad);
 
   private:

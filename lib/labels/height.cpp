@@ -1,7 +1,7 @@
 #include "labels/height.h"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 #include <optional>
 
 namespace sonarsim {
@@ -14,16 +14,28 @@ constexpr double on_bottom = 1e-4;
 // their true ones.
 constexpr double on_bottom_where_bent = 2e-3;
 
+// A vertical face of the bottom is not its own bottom: its height is that above its foot.
+constexpr float vertical = 1e-3F;
+
 }  // namespace
 
 HeightFinder::HeightFinder(const RangeBins& bins, int rows, const Bottom& bottom,
-                           const TruePlaces& places)
+                           std::span<const std::uint8_t> is_bottom, const TruePlaces& places)
     : bottom_(bottom),
+      is_bottom_instance_(is_bottom),
       places_(places),
       up_((places.T_world_sensor.rotation.conjugate() * Eigen::Vector3d::UnitZ()).cast<float>()),
       sums_(rows, bins.count) {}
 
+bool HeightFinder::lies_on_bottom(const Sample& sample) const {
+    return sample.instance < is_bottom_instance_.size() &&
+           is_bottom_instance_[sample.instance] != 0 &&
+           std::fabs(sample.normal.dot(up_)) > vertical;
+}
+
 bool HeightFinder::begin(const EchoPatch& patch, const RangePath& path) {
+    is_bottom_ = lies_on_bottom(*patch.sample);
+    if (is_bottom_) return true;
     const Eigen::Vector3d at = places_.of(patch.position.cast<double>());
     const double tolerance =
         (places_.is_measured() ? on_bottom : on_bottom_where_bent) * path.range_m;
@@ -63,7 +75,6 @@ void HeightFinder::add(std::uint32_t row, double echo, const CoveredBins& covere
 }
 
 void HeightFinder::find(std::uint32_t row, std::span<float> height_m) {
-    std::ranges::fill(height_m, std::numeric_limits<float>::quiet_NaN());
     const BinSumRows<2>::Row sums = sums_.row(row);
     const auto [echo, height] = sums.of;
     for (int i = sums.first; i < sums.last; ++i) {

@@ -1,6 +1,7 @@
 #include "labels/labels.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -161,10 +162,11 @@ PingLabels blank_labels(const View& view, const LabelRequest& request) {
     if (request.materials) labels.material.resize(n);
     if (request.shadow) labels.shadow.resize(n);
     if (request.annotations) labels.object_shadow.resize(n);
-    if (request.height) labels.height_m.resize(n);
+    constexpr float none = std::numeric_limits<float>::quiet_NaN();
+    if (request.height) labels.height_m.resize(n, none);
     if (request.elevation) {
-        labels.elevation_rad.resize(n);
-        labels.elevation_spread_rad.resize(n);
+        labels.elevation_rad.resize(n, none);
+        labels.elevation_spread_rad.resize(n, none);
     }
     return labels;
 }
@@ -211,7 +213,7 @@ PingLabels label_group(const TracedPing& traced, const PingSettings& settings, c
     if (request.elevation || request.height) {
         const TruePlaces places{traced.T_world_sensor, scene.sound_profile.get(), traced.motion,
                                 view.shape};
-        label_patches(echoes, view, places, request.bottom,
+        label_patches(echoes, view, places, request.bottom, scene.is_bottom,
                       {labels.elevation_rad, labels.elevation_spread_rad, labels.height_m});
     }
     return labels;

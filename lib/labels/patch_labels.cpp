@@ -1,7 +1,6 @@
 #include "labels/patch_labels.h"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 
 #include "labels/elevation.h"
@@ -41,7 +40,8 @@ struct PatchFinders {
 }  // namespace
 
 void label_patches(const SurfaceEchoes& echoes, const View& view, const TruePlaces& places,
-                   const Bottom* bottom, const PatchLabels& labels) {
+                   const Bottom* bottom, std::span<const std::uint8_t> is_bottom,
+                   const PatchLabels& labels) {
     const RangeBins bins = range_bins(view);
     // Patches that are sorted by beam need one row of sums, which stays in the cache.
     const bool sorted = !echoes.patch_begin.empty();
@@ -49,7 +49,7 @@ void label_patches(const SurfaceEchoes& echoes, const View& view, const TruePlac
     PatchFinders finders;
     if (!labels.elevation_rad.empty()) finders.elevation.emplace(bins, rows);
     if (!labels.height_m.empty() && bottom != nullptr)
-        finders.height.emplace(bins, rows, *bottom, places);
+        finders.height.emplace(bins, rows, *bottom, is_bottom, places);
     if (!sorted) {
         for (const EchoPatch& patch : echoes.patches)
             finders.add(echoes, patch, bins, [](const PatchEcho& echo) { return echo.beam; });
@@ -69,8 +69,6 @@ void label_patches(const SurfaceEchoes& echoes, const View& view, const TruePlac
         }
         if (finders.height) finders.height->find(row, own(labels.height_m));
     }
-    if (!finders.height)
-        std::ranges::fill(labels.height_m, std::numeric_limits<float>::quiet_NaN());
 }
 
 }  // namespace sonarsim

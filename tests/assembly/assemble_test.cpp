@@ -184,6 +184,19 @@ TEST_SUITE("assembly") {
         CHECK(run_job(mission, {.overwrite = true}, {}, stop).pings == 2);
     }
 
+    TEST_CASE("assemble: the instances of the bottom, for heights") {
+        const MissionOnDisk disk;
+        const auto is_bottom = [&](std::vector<std::string> overrides) {
+            overrides.emplace_back(
+                "scene.objects=[{name: other, file: wall.gltf, position_m: [1, 0, 0]}]");
+            return assemble(disk.load("{file: poses.csv}", overrides)).scene.is_bottom;
+        };
+        using Flags = std::vector<std::uint8_t>;
+        CHECK(is_bottom({}) == Flags{0, 0});
+        CHECK(is_bottom({"output.labels=[height]"}) == Flags{1, 0});
+        CHECK(is_bottom({"output.labels=[height]", "scene.bottom=[wa*]"}) == Flags{1, 0});
+    }
+
     TEST_CASE("assemble: the inputs' hash tells scenes, materials and poses apart") {
         const Mission mission = small_mission("out");
         const Assembly assembly = small_assembly(mission, 7);

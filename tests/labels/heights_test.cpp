@@ -149,4 +149,44 @@ TEST_CASE("labels: a wall on the border of the bottom has heights") {
     }
 }
 
+TEST_CASE("labels: surface of the bottom has the same height with and without a search") {
+    // A floor and a wall that are the bottom, and a box on it.
+    Scene scene = empty_scene();
+    const std::uint32_t m = add_material(scene, 0.5F);
+    add_floor(scene, 20.0F, 0.0F, m);
+    add_quad(scene, {8, -9, 0}, {8, 9, 0}, {8, 9, 5}, {8, -9, 5}, m);
+    Surface surface;
+    for (const Eigen::Vector3f& vertex : scene.vertices)
+        surface.vertices.push_back(vertex.cast<double>());
+    surface.triangles = scene.triangles;
+    const Bottom bottom(surface);
+    add_quad(scene, {4, -3, 0.5F}, {5, -3, 0.5F}, {5, 3, 0.5F}, {4, 3, 0.5F}, m);
+    SonarConfig config = small_imaging();
+    config.elevation_deg = 40.0;
+    const Sonar sonar = noise_free(config, 0.01);
+    const Pose pose{rotation_from_rpy(0.0, radians(20.0), 0.0), {0, 0, 2}};
+    for (const EngineKind type : engine_types) {
+        CAPTURE(static_cast<int>(type));
+        scene.is_bottom.clear();
+        const auto engine = make_engine(scene, {.type = type, .octree = {}});
+        const TracedPing traced = trace(sonar, scene, *engine, pose, 0);
+        const auto heights = [&] {
+            return label_ping(traced, sonar.settings, scene, group_objects(scene, {}), *engine,
+                              {.height = true, .bottom = &bottom})
+                .height_m;
+        };
+        const std::vector<float> searched = heights();
+        scene.is_bottom = {1, 1, 0};
+        const std::vector<float> known = heights();
+        int of_wall = 0;
+        for (std::size_t k = 0; k < known.size(); ++k) {
+            CHECK(std::isnan(known[k]) == std::isnan(searched[k]));
+            if (std::isnan(known[k])) continue;
+            CHECK(std::fabs(known[k] - searched[k]) < 1e-4F);
+            of_wall += known[k] > 1.0F ? 1 : 0;
+        }
+        CHECK(of_wall > 20);
+    }
+}
+
 TEST_SUITE_END();

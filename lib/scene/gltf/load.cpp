@@ -16,6 +16,7 @@
 #include "scene/gltf/mesh_builder.h"
 #include "scene/gltf/primitives.h"
 #include "scene/gltf/repeats.h"
+#include "scene/objects.h"
 #include "scene/seabed/seabed.h"
 
 namespace sonarsim {
@@ -138,6 +139,15 @@ Scene compose(std::span<const PlacedFile> files, SceneFiles& models, const Mater
     return scene;
 }
 
+/// True if all of the mesh's instance is the bottom of heights.
+bool is_bottom(const PlacedFile& file, const PlacedMesh& mesh) {
+    if (!file.bottom) return false;
+    if (file.bottom->empty()) return true;
+    return file.name.empty() && std::ranges::any_of(*file.bottom, [&](const std::string& pattern) {
+               return fits_pattern(pattern, mesh.instance);
+           });
+}
+
 /// InputError, with the place in the mission, for a material that the table lacks.
 void require_materials(std::span<const PlacedFile> files, const MaterialTable& table) {
     for (const PlacedFile& file : files) {
@@ -177,6 +187,7 @@ std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& 
                 scene.instances.push_back(mesh.instance);
                 scene.instance_classes.push_back(file.class_name.empty() ? mesh.label
                                                                          : file.class_name);
+                scene.is_bottom.push_back(is_bottom(file, mesh) ? 1 : 0);
             }
             next.instance_of_mesh.push_back(static_cast<std::uint32_t>(scene.instances.size() - 1));
         }
