@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/elementary.h"
+#include "core/units.h"
 #include "format/byte_fields.h"
 #include "format/ek80_pulse.h"
 
@@ -21,7 +22,6 @@ constexpr double s_from_1601_to_1970 = 11644473600.0;
 // 10 log10(2) / 256 dB for each step of a sample.
 constexpr double db_per_step = 0.011758984205624266;
 constexpr double lowest_db = -200.0;
-constexpr double db_per_neper = 4.342944819032518;  // 10 log10(e)
 
 /// The frequency of the channel that is read.
 double chosen_frequency(const std::vector<EkPing>& pings, std::optional<double> wanted) {
@@ -75,7 +75,7 @@ std::vector<double> levels_of(const EkPing& ping) {
     for (const std::complex<double>& sample : complex_samples(ping)) {
         const double power = ping.watts * std::norm(sample);
         if (!std::isfinite(power)) throw std::runtime_error("has samples that are no numbers");
-        levels.push_back(power > 0.0 ? db_per_neper * logarithm(power) : lowest_db);
+        levels.push_back(power > 0.0 ? db_of_e * logarithm(power) : lowest_db);
     }
     return levels;
 }
