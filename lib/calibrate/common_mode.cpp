@@ -14,7 +14,6 @@ namespace sonarsim {
 
 namespace {
 
-constexpr double db_of_neper_ahead = 4.342944819032518;
 // Beams stand out if they exceed the others by this many times their spread, and by at least 0.4
 // dB.
 constexpr double deviations_of_ahead = 4.0;
@@ -36,8 +35,8 @@ double excess_db(const Recording& recording, const LawFit& law, const NoiseFit& 
     double sum = 0.0, count = 0.0;
     for (std::size_t b = 0; b < noise.used.size(); ++b) {
         // A constant echo is straight ahead as well.
-        if (!noise.used[b].alone || weights[b] == 0.0) continue;
-        const double level = noise.at(noise.used[b].range_m) / db_of_neper_ahead;
+        if (!noise.used[b].without_echo || weights[b] == 0.0) continue;
+        const double level = noise.at(noise.used[b].range_m) / db_of_e;
         for (const RecordedPing& ping : recording.pings) {
             for (int i = noise.used[b].row; i < noise.used[b].row + rows_of_noise_block; ++i) {
                 const auto at = static_cast<std::size_t>(i) * static_cast<std::size_t>(ping.beams) +
@@ -48,14 +47,15 @@ double excess_db(const Recording& recording, const LawFit& law, const NoiseFit& 
             }
         }
     }
-    return db_of_neper_ahead * sum / count;
+    return db_of_e * sum / count;
 }
 
 /// The last beam in one direction before a gap of beams that do not stand out.
-int end_of(const std::vector<bool>& loud, int from, int step) {
+int end_of(const std::vector<bool>& stands_out, int from, int step) {
     int last = from;
-    for (int j = from; j >= 0 && j < std::ssize(loud) && std::abs(j - last) <= most_gap; j += step)
-        if (loud[static_cast<std::size_t>(j)]) last = j;
+    for (int j = from; j >= 0 && j < std::ssize(stands_out) && std::abs(j - last) <= most_gap;
+         j += step)
+        if (stands_out[static_cast<std::size_t>(j)]) last = j;
     return last;
 }
 
@@ -91,7 +91,7 @@ std::size_t beam_ahead(const std::vector<double>& sines) {
 AheadBeams ahead_beams(const Recording& recording, const LawFit& law, const NoiseFit& noise) {
     const std::vector<double> sines = beam_sines(recording);
     const bool has_noise = std::any_of(noise.used.begin(), noise.used.end(),
-                                       [](const NoiseBlock& block) { return block.alone; });
+                                       [](const NoiseBlock& block) { return block.without_echo; });
     if (sines.size() < 3 || !has_noise) return {};
     const std::vector<double> all(noise.used.size(), 1.0);
     std::vector<double> levels;
@@ -102,13 +102,13 @@ AheadBeams ahead_beams(const Recording& recording, const LawFit& law, const Nois
     for (const double level : levels)
         sizes.push_back(std::fabs(level - middle));
     const double over = std::max(deviations_of_ahead * 1.48 * median_of(sizes), least_over_db);
-    std::vector<bool> loud;
+    std::vector<bool> stands_out;
     for (const double level : levels)
-        loud.push_back(level - middle > over);
+        stands_out.push_back(level - middle > over);
     const std::size_t ahead = beam_ahead(sines);
-    if (!loud[ahead]) return {};
+    if (!stands_out[ahead]) return {};
     const int from = static_cast<int>(ahead);
-    return {end_of(loud, from, -1), end_of(loud, from, 1) + 1};
+    return {end_of(stands_out, from, -1), end_of(stands_out, from, 1) + 1};
 }
 
 Bounded common_mode(const Recording& recording, const LawFit& law, const NoiseFit& noise,

@@ -12,7 +12,6 @@ namespace sonarsim {
 
 namespace {
 
-constexpr double db_of_log_power = 4.342944819032518;
 constexpr std::size_t least_patches_of_figure = 12;
 
 /// The data that figures_of() works on.
@@ -76,7 +75,7 @@ void add_distribution(Judged& judged, const std::string& where,
     const std::vector<PatchMoments> amplitudes =
         patch_moments(judged.recording.pings, full_value, [&](double v, int row) {
             const double range_m = range_of_row(judged.recording, row);
-            const double gain = judged.noise.at(range_m) / db_of_log_power;
+            const double gain = judged.noise.at(range_m) / db_of_e;
             return exponential(0.5 * (law.log_power(v, full_value) - gain));
         });
     const std::vector<PatchMoments>& logs = judged.classes.patches;
@@ -142,7 +141,7 @@ void add_noise_levels(Judged& judged, const std::vector<NoiseBlock>& measured) {
             const auto same = [&](const NoiseBlock& block) { return block.row == rows[k].row; };
             const auto at = std::find_if(measured.begin(), measured.end(), same);
             // A single ping does not show the noise below a constant echo.
-            if (at == measured.end() || !rows[k].alone) continue;
+            if (at == measured.end() || !rows[k].without_echo) continue;
             levels.push_back(at->level_db);
             predicted += judged.noise.at(at->range_m);
         }

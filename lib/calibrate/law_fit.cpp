@@ -5,12 +5,12 @@
 
 #include "core/elementary.h"
 #include "core/error.h"
+#include "core/units.h"
 
 namespace sonarsim {
 
 namespace {
 
-constexpr double db_of_neper = 4.342944819032518;  // for powers: 10 / ln 10
 constexpr std::size_t least_patches = 8;
 // Between the laws' slopes of 1 and 0.
 constexpr double power_law_slope = 0.5;
@@ -143,7 +143,7 @@ LawPatches law_patches(const std::vector<RecordedPing>& pings, double full_value
 
 double LawFit::log_power(double value, double full_value) const {
     if (companding == Companding::log)
-        return (value / full_value + offset - 1.0) * dynamic_range_db.value / db_of_neper;
+        return (value / full_value + offset - 1.0) * dynamic_range_db.value / db_of_e;
     const double step = full_value > 15.0 ? 1.0 : full_value / 65535.0;
     return 2.0 / gamma.value *
            (log_of_value(value + offset * full_value, step) - logarithm(full_value));
@@ -219,7 +219,7 @@ LawFit fit_law(const std::vector<RecordedPing>& pings, double full_value,
         out.gamma = bootstrap(patches.places, gamma, least_error * gamma(all));
     } else {
         const auto range = [&](const std::vector<double>& w) {
-            return full_value * db_of_neper * sigma / deviation(w);
+            return full_value * db_of_e * sigma / deviation(w);
         };
         out.dynamic_range_db = bootstrap(patches.places, range, least_error * range(all));
     }

@@ -5,12 +5,12 @@
 
 #include "calibrated/decibel.h"
 #include "core/elementary.h"
+#include "core/units.h"
 
 namespace sonarsim {
 
 namespace {
 
-constexpr double db_of_neper_power = 4.342944819032518;
 constexpr int groups_of_beams = 8;
 // A block is on the law if it is within this many dB of it.
 constexpr double near_db = 0.8;
@@ -92,8 +92,8 @@ NoiseBlock block_of(const BlockSums& sums, const LawFit& law, int row, double ra
     NoiseBlock out{.row = row, .range_m = range_m};
     const double expected = law.statistics.variance;
     const double mean = sums.log_sum / sums.count;
-    out.level_db = db_of_neper_power * (mean - law.statistics.mean);
-    out.even = sums.zeros < 0.003 * sums.count;
+    out.level_db = db_of_e * (mean - law.statistics.mean);
+    out.homogeneous = sums.zeros < 0.003 * sums.count;
     if (sums.pairs > 0.0) {
         // The difference of independent log powers has twice their variance.
         const double kept = 1.0 - 0.5 * sums.log_difference / sums.pairs / expected;
@@ -101,18 +101,19 @@ NoiseBlock block_of(const BlockSums& sums, const LawFit& law, int row, double ra
         const double half = 0.5 * sums.power_difference / sums.pairs;
         if (kept > 0.25 && half < 0.75 * power * power) {
             if (law.statistics.looks > 1 || !law.statistics.excess.empty()) {
-                out.even = false;
+                out.homogeneous = false;
                 return out;
             }
             const double fresh = power - std::sqrt(power * power - half);
-            out.level_db = db_of_neper_power * logarithm(fresh);
+            out.level_db = db_of_e * logarithm(fresh);
             return out;
         }
     }
-    out.alone = true;
+    out.without_echo = true;
     const double independent = sums.count / groups_of_beams / 6.0;
-    out.even = out.even && spread_of_groups(sums) <
-                               0.3 + 3.0 * std::sqrt(expected / std::max(independent, 1.0));
+    out.homogeneous =
+        out.homogeneous &&
+        spread_of_groups(sums) < 0.3 + 3.0 * std::sqrt(expected / std::max(independent, 1.0));
     return out;
 }
 
@@ -135,7 +136,7 @@ Candidate best_level(const std::vector<NoiseBlock>& blocks, double absorption_db
                      const Shape& shape) {
     std::vector<double> offsets;
     for (const NoiseBlock& block : blocks) {
-        if (block.even)
+        if (block.homogeneous)
             offsets.push_back(block.level_db - gain_of(shape, absorption_db_per_m, block.range_m));
     }
     std::sort(offsets.begin(), offsets.end());
@@ -211,7 +212,7 @@ std::vector<NoiseBlock> blocks_near(const std::vector<NoiseBlock>& blocks,
     for (const NoiseBlock& block : blocks) {
         const double off =
             block.level_db - law.level_db - gain_of(law.shape, absorption_db_per_m, block.range_m);
-        if (block.even && std::fabs(off) <= within_db) out.push_back(block);
+        if (block.homogeneous && std::fabs(off) <= within_db) out.push_back(block);
     }
     return out;
 }
@@ -229,7 +230,7 @@ std::vector<NoiseBlock> noise_blocks(const Recording& recording, const LawFit& l
         const BlockSums sums = block_sums(recording, law, full_value, ahead, row);
         if (sums.count == 0.0 || range_m <= 0.0) continue;
         out.push_back(block_of(sums, law, row, range_m));
-        out.back().whole = !law.cuts_off(power_of_db(out.back().level_db), full_value);
+        out.back().without_zeros = !law.cuts_off(power_of_db(out.back().level_db), full_value);
     }
     return out;
 }

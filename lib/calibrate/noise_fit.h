@@ -13,10 +13,10 @@ namespace sonarsim {
 struct NoiseBlock {
     int row = 0;  ///< the first
     double range_m = 0.0;
-    double level_db = 0.0;  ///< re full scale
-    bool even = false;      ///< beams and pings have one level, and no value is 0
-    bool alone = false;     ///< no part is constant from ping to ping, so it has no echo
-    bool whole = false;     ///< hardly a value is 0
+    double level_db = 0.0;       ///< re full scale
+    bool homogeneous = false;    ///< beams and pings have one level, and no value is 0
+    bool without_echo = false;   ///< no part is constant from ping to ping, so it has no echo
+    bool without_zeros = false;  ///< hardly a value is 0
 };
 
 inline constexpr int rows_of_noise_block = 8;

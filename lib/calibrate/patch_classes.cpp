@@ -3,13 +3,13 @@
 #include <set>
 
 #include "core/elementary.h"
+#include "core/units.h"
 
 namespace sonarsim {
 
 namespace {
 
 constexpr double least_echo_db = 6.0;
-constexpr double db_of_neper_of_power = 4.342944819032518;
 
 /// True for a patch that has beams with noise that all elements share.
 bool straight_ahead(const PatchMoments& patch, const PatchSize& size, const AheadBeams& ahead) {
@@ -46,12 +46,12 @@ PatchClasses classified(const Recording& recording, const LawFit& law,
     out.places = grid.places();
     out.patches = patch_moments(recording.pings, full_value, [&](double v, int row) {
         const double level_db = noise ? noise->at(range_of_row(recording, row)) : 0.0;
-        return law.log_power(v, full_value) - level_db / db_of_neper_of_power;
+        return law.log_power(v, full_value) - level_db / db_of_e;
     });
     std::set<int> blocks;
     if (noise) {
         for (const NoiseBlock& block : noise->used) {
-            if (block.alone && block.whole) blocks.insert(block.row);
+            if (block.without_echo && block.without_zeros) blocks.insert(block.row);
         }
     }
     for (std::size_t k = 0; k < out.patches.size(); ++k) {
@@ -64,7 +64,7 @@ PatchClasses classified(const Recording& recording, const LawFit& law,
     out.noise = without_uneven(out.patches, out.noise);
     for (const std::size_t k : speckle_patches(out.patches, full_value > 15.0 ? 6.0 : 0.0)) {
         const PatchMoments& patch = out.patches[k];
-        const double above_db = db_of_neper_of_power * (patch.mean - law.statistics.mean);
+        const double above_db = db_of_e * (patch.mean - law.statistics.mean);
         if (!noise || above_db > least_echo_db) out.echoes.push_back(k);
     }
     return out;
