@@ -35,7 +35,7 @@ struct LabelledPing {
     std::vector<ObjectMask> polar;  ///< masks of the objects: rows of range, columns of beams
     std::vector<ObjectMask> fan;    ///< the same in the picture of the fan
     const FanBins* fan_bins = nullptr;
-    std::vector<SeenObject> seen;  ///< sorted by id; empty if no writer needs it
+    std::vector<ObjectInPing> seen;  ///< sorted by id; empty if no writer needs it
 };
 
 /// Labels the bins of a ping at the time `t_s`.

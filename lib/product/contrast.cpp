@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "core/elementary.h"
+#include "core/units.h"
 
 namespace sonarsim {
 
@@ -61,11 +62,10 @@ void add_surroundings(const LevelMap& map, const BinBox& box,
 
 double decibel_of(double ratio) {
     constexpr double limit_db = 100.0;
-    constexpr double db_of_log = 4.342944819032518;  // 10 / ln 10
     constexpr double least = 1e-10;
     if (!(ratio > least)) return -limit_db;
     if (!(ratio < 1.0 / least)) return limit_db;
-    return db_of_log * natural_log(static_cast<float>(ratio));
+    return db_of_e * natural_log(static_cast<float>(ratio));
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ std::uint16_t object_at(const PingLabels& labels, int range_bin, int beam) {
 }
 
 /// Adds the bins [from, to) of beam j.
-void add_bins(SeenObject& seen, int from, int to, int j) {
+void add_bins(ObjectInPing& seen, int from, int to, int j) {
     if (seen.bins == 0) {
         seen.range_first = from;
         seen.beam_first = j;
@@ -69,7 +69,7 @@ std::vector<float> levels_by_beam(const Ping& ping) {
 }
 
 /// The mean level around an object; nothing if all bins there are its own.
-std::optional<double> level_around(const SeenObject& seen, const PingLabels& labels,
+std::optional<double> level_around(const ObjectInPing& seen, const PingLabels& labels,
                                    const std::vector<float>& levels) {
     const auto margin_of = [](int first, int last) { return std::max(2, (last - first + 1) / 2); };
     const int rows = margin_of(seen.range_first, seen.range_last);
@@ -105,13 +105,13 @@ std::vector<Eigen::AlignedBox3f> seen_boxes(const SceneObjects& objects, const T
 
 /// Finds the shadows of the objects; `all` is indexed by object.
 void add_shadows(const PingLabels& labels, std::span<const PixelBox> fan_boxes,
-                 std::vector<SeenObject>& all) {
+                 std::vector<ObjectInPing>& all) {
     if (labels.object_shadow.empty()) return;
     for (int j = 0; j < labels.beams; ++j) {
         const std::size_t begin = static_cast<std::size_t>(j) * labels.range_bins;
         const auto own = std::span(labels.object_shadow).subspan(begin, labels.range_bins);
         for_each_run(own, [&](std::uint16_t id, int from, int to) {
-            SeenObject& object = all[id - 1];
+            ObjectInPing& object = all[id - 1];
             object.shadow.extend(j, from);
             object.shadow.extend(j, to - 1);
             object.shadow_bins += static_cast<std::uint64_t>(to - from);
@@ -135,7 +135,7 @@ class Contrasts {
             is_background_.push_back(objects.is_background(k) ? 1 : 0);
     }
 
-    void add_to(SeenObject& seen) const {
+    void add_to(ObjectInPing& seen) const {
         if (is_background_[seen.id] != 0) return;
         const auto id = static_cast<std::uint16_t>(seen.id);
         const BinBox box{seen.beam_first, seen.beam_last, seen.range_first, seen.range_last};
@@ -157,15 +157,15 @@ class Contrasts {
 
 }  // namespace
 
-ObjectFacts facts_of(const SeenObject& seen, const SceneObjects& objects, std::uint64_t pixels) {
+ObjectFacts facts_of(const ObjectInPing& seen, const SceneObjects& objects, std::uint64_t pixels) {
     return {objects.is_background(seen.id - 1), pixels, seen.visible_share, seen.contrast_db,
             seen.shadow_contrast_db};
 }
 
-std::vector<SeenObject> seen_objects(const Sonar& sonar, const SceneObjects& objects,
-                                     const TracedPing& traced, const PingLabels& labels,
-                                     const Ping& ping, std::span<const PixelBox> fan_boxes) {
-    std::vector<SeenObject> all(objects.objects.size());
+std::vector<ObjectInPing> seen_objects(const Sonar& sonar, const SceneObjects& objects,
+                                       const TracedPing& traced, const PingLabels& labels,
+                                       const Ping& ping, std::span<const PixelBox> fan_boxes) {
+    std::vector<ObjectInPing> all(objects.objects.size());
     std::vector<BinTotals> totals(all.size());
     const std::vector<float> levels = levels_by_beam(ping);
     const bool fan = std::ssize(sonar.azimuth_edges_rad) == labels.beams + 1;
@@ -188,9 +188,9 @@ std::vector<SeenObject> seen_objects(const Sonar& sonar, const SceneObjects& obj
     add_shadows(labels, fan_boxes, all);
     const Contrasts contrasts(objects, labels, levels);
     const std::vector<Eigen::AlignedBox3f> boxes = seen_boxes(objects, traced);
-    std::vector<SeenObject> seen;
+    std::vector<ObjectInPing> seen;
     for (std::size_t k = 0; k < all.size(); ++k) {
-        SeenObject& object = all[k];
+        ObjectInPing& object = all[k];
         if (object.bins == 0) continue;
         const auto bins = static_cast<double>(object.bins);
         object.id = static_cast<std::uint32_t>(k + 1);

@@ -15,7 +15,7 @@
 namespace sonarsim {
 
 /// One object in one ping. Its bins are those in which its echo is the largest.
-struct SeenObject {
+struct ObjectInPing {
     std::uint32_t id = 0;                 ///< as in PingLabels
     int range_first = 0, range_last = 0;  ///< inclusive bounds of its bins
     int beam_first = 0, beam_last = 0;
@@ -36,14 +36,14 @@ struct SeenObject {
 };
 
 /// The facts for is_annotated() of an object with `pixels` pixels in a picture.
-ObjectFacts facts_of(const SeenObject& seen, const SceneObjects& objects, std::uint64_t pixels);
+ObjectFacts facts_of(const ObjectInPing& seen, const SceneObjects& objects, std::uint64_t pixels);
 
 /// The objects in a ping, sorted by id. `labels` gives the object of each bin, `ping` the levels.
 /// `fan_boxes` are bin_boxes() of the fan; empty: no fan.
 /// The surroundings of an object are the box of its bins, enlarged on each side by half its size
 /// and at least by two bins.
-std::vector<SeenObject> seen_objects(const Sonar& sonar, const SceneObjects& objects,
-                                     const TracedPing& traced, const PingLabels& labels,
-                                     const Ping& ping, std::span<const PixelBox> fan_boxes);
+std::vector<ObjectInPing> seen_objects(const Sonar& sonar, const SceneObjects& objects,
+                                       const TracedPing& traced, const PingLabels& labels,
+                                       const Ping& ping, std::span<const PixelBox> fan_boxes);
 
 }  // namespace sonarsim

@@ -13,7 +13,7 @@ namespace sonarsim {
 namespace {
 
 /// Range and quality of one beam.
-Sounding sound(const Sonar& sonar, std::span<const double> beam) {
+Sounding sounding_of_beam(const Sonar& sonar, std::span<const double> beam) {
     if (std::ranges::none_of(beam, [](double value) { return value > 0.0; })) return {};
     DetectedReturn run = detect_return(beam);
     if (run.begin == run.end) run = {0, static_cast<int>(beam.size()), 1.0, 1.0};  // all alike
@@ -47,7 +47,7 @@ std::vector<Sounding> find_soundings(const Sonar& sonar, const Pose& T_world_veh
     for (int j = 0; j < ping.beams; ++j) {
         for (int i = 0; i < ping.range_bins; ++i)
             beam[i] = static_cast<double>(ping.at(i, j)) / (growth.empty() ? 1.0F : growth[i]);
-        soundings[j] = sound(sonar, beam);
+        soundings[j] = sounding_of_beam(sonar, beam);
         if (std::isnan(soundings[j].range_m)) continue;
         const SinCos azimuth = sincos(sonar.beam_azimuths_rad[j]);
         const Eigen::Vector3d ray(azimuth.cos, azimuth.sin, 0.0);

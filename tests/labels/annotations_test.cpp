@@ -20,7 +20,7 @@ namespace {
 struct FoundObjects {
     Sonar sonar;
     PingLabels labels;
-    std::vector<SeenObject> seen;
+    std::vector<ObjectInPing> seen;
 
     FoundObjects(const Scene& scene, const SonarConfig& config, const Pose& pose,
                  const std::vector<ObjectSphere>& spheres, bool all_shadows = false)
@@ -37,8 +37,8 @@ struct FoundObjects {
         seen = seen_objects(sonar, objects, traced, labels, ping, {});
     }
 
-    const SeenObject& object(std::uint32_t id) const {
-        const auto found = std::ranges::find(seen, id, &SeenObject::id);
+    const ObjectInPing& object(std::uint32_t id) const {
+        const auto found = std::ranges::find(seen, id, &ObjectInPing::id);
         REQUIRE(found != seen.end());
         return *found;
     }
@@ -87,7 +87,7 @@ TEST_CASE("annotations: the shadow of a wall on a flat floor is h r / (H - h) lo
         add_quad(scene, {x, -0.3F, 0}, {x, 0.3F, 0}, {x, 0.3F, top}, {x, -0.3F, top}, m);
         const FoundObjects found(scene, wide_fan(), looking_down(sonar_m, 25.0),
                                  {ObjectSphere{{r, 0.0, 0.5 * h}, 0.5 * h + 0.3}});
-        const SeenObject& wall = found.object(2);
+        const ObjectInPing& wall = found.object(2);
         const double end_m = std::hypot(r * sonar_m / (sonar_m - h), sonar_m);
         const double bin_m = found.sonar.settings.view.bin_m();
         CHECK(std::fabs(found.shadow_end_m(2) - end_m) < 2.5 * bin_m);
@@ -118,7 +118,7 @@ TEST_CASE("annotations: a sphere on a flat floor") {
                static_cast<float>(a), m, 64);
     const FoundObjects found(scene, wide_fan(), looking_down(sonar_m, 25.0),
                              {ObjectSphere{{x, y, a}, a}});
-    const SeenObject& sphere = found.object(2);
+    const ObjectInPing& sphere = found.object(2);
     const double distance = std::hypot(x, y, sonar_m - a);
     const double below = std::asin((sonar_m - a) / distance);
     const double end_m = sonar_m / std::sin(below - std::asin(a / distance));

@@ -88,7 +88,7 @@ class ObjectsWriter final : public Writer {
         const char* before = "\n";
         const std::vector<Pose> T_world_body =
             body_poses(context_.assembly, context_.assembly.trajectory[finished.id.pose].t_s);
-        for (const SeenObject& seen : finished.labels->seen) {
+        for (const ObjectInPing& seen : finished.labels->seen) {
             text += before + seen_json(seen, finished, T_world_body).dump(-1, ' ', false, replace);
             before = ",\n";
         }
@@ -96,7 +96,7 @@ class ObjectsWriter final : public Writer {
     }
 
   private:
-    Json seen_json(const SeenObject& seen, const FinishedPing& finished,
+    Json seen_json(const ObjectInPing& seen, const FinishedPing& finished,
                    std::span<const Pose> T_world_body) const {
         const SceneObjects& objects = context_.assembly.objects;
         const SceneObjects::Object& object = objects.objects[seen.id - 1];
@@ -133,7 +133,7 @@ class ObjectsWriter final : public Writer {
         return json;
     }
 
-    static Json shadow_json(const SeenObject& seen) {
+    static Json shadow_json(const ObjectInPing& seen) {
         const BinBox& box = seen.shadow;
         return {{"box_bins",
                  {{"range", {box.first_bin, box.last_bin + 1}},
@@ -143,7 +143,7 @@ class ObjectsWriter final : public Writer {
     }
 
     /// Null for an object that lies between the pixels.
-    Json fan_json(const SeenObject& seen, const ObjectMask* mask) const {
+    Json fan_json(const ObjectInPing& seen, const ObjectMask* mask) const {
         if (!mask) return nullptr;
         Json json = {
             {"box_px", {{"x", {mask->left, mask->right}}, {"y", {mask->top, mask->bottom}}}},

@@ -44,8 +44,8 @@ class YoloWriter final : public Writer {
         std::string text;
         for (const ObjectMask& mask :
              picture_.is_fan ? finished.labels->fan : finished.labels->polar) {
-            const SeenObject& seen =
-                *std::ranges::lower_bound(finished.labels->seen, mask.id, {}, &SeenObject::id);
+            const ObjectInPing& seen =
+                *std::ranges::lower_bound(finished.labels->seen, mask.id, {}, &ObjectInPing::id);
             const std::optional<PixelBox> box = box_of(seen, mask);
             if (!box) continue;
             text += std::to_string(objects_.class_of(mask.id - 1));
@@ -57,7 +57,7 @@ class YoloWriter final : public Writer {
 
   private:
     /// Nothing for an object that is not annotated.
-    std::optional<PixelBox> box_of(const SeenObject& seen, const ObjectMask& mask) const {
+    std::optional<PixelBox> box_of(const ObjectInPing& seen, const ObjectMask& mask) const {
         if (is_annotated(facts_of(seen, objects_, mask.area), rules_) != Annotated::yes)
             return std::nullopt;
         const BinBox& bins = seen.shadow;
