@@ -89,12 +89,12 @@ inline constexpr std::array coloured_material{
     Rule{"pbrMetallicRoughness", Kind::object, Holds::one, colours}};
 inline constexpr std::array texture{Rule{"source", Kind::index}};
 inline constexpr std::array image{Rule{"uri", Kind::uri}, Rule{"bufferView", Kind::index}};
-inline constexpr std::array of_textures{
+inline constexpr std::array texture_document{
     Rule{"asset", Kind::object, Holds::one, asset},
     Rule{"materials", Kind::object, Holds::array, coloured_material},
     Rule{"textures", Kind::object, Holds::array, texture},
     Rule{"images", Kind::object, Holds::array, image}};
-inline constexpr Rule textures_of_document{"", Kind::extras, Holds::one, of_textures};
+inline constexpr Rule textures_of_document{"", Kind::extras, Holds::one, texture_document};
 
 inline constexpr Rule whole_document{"", Kind::extras, Holds::one, document};
 inline constexpr Rule only_version{"", Kind::extras, Holds::one, std::span(document).first(1)};

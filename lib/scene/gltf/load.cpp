@@ -29,14 +29,14 @@ constexpr double suspicious_smallness_m = 1e-3;
 
 Eigen::Vector3d choose_origin(const Eigen::AlignedBox3d& box) {
     if (box.isEmpty()) return Eigen::Vector3d::Zero();
-    // Extents of 100 m and centres at 50 m are common. Without the shift `aside` they would lie
-    // exactly on a limit, and the rounding of a moved scene could change the result.
-    constexpr double aside = 1e-6;
+    // Extents of 100 m and centres at 50 m are common. Without the shift `limit_shift` they would
+    // lie exactly on a limit, and the rounding of a moved scene could change the result.
+    constexpr double limit_shift = 1e-6;
     double grid = 1.0;
-    while (grid < box.sizes().maxCoeff() * (1.0 - aside))
+    while (grid < box.sizes().maxCoeff() * (1.0 - limit_shift))
         grid *= 10.0;
     const Eigen::Vector3d cells = box.center() / grid;
-    return grid * (cells.array() + 0.5 + aside).floor().matrix();
+    return grid * (cells.array() + 0.5 + limit_shift).floor().matrix();
 }
 
 /// Warns once for each file and unit if the file is implausibly long or short.
@@ -101,10 +101,10 @@ void set_bounds(const std::vector<SurfaceExtent>& extents, const Repeats& repeat
 
 /// `materials` must be empty.
 Scene compose(std::span<const PlacedFile> files, SceneFiles& models, const MaterialRules& rules,
-              std::size_t share_beyond, MaterialNumbers& materials) {
+              std::size_t sharing_threshold, MaterialNumbers& materials) {
     Scene scene;
     const std::vector<OpenFile> open = open_files(files, models, scene);
-    const Repeats repeats = find_repeats(open, share_beyond);
+    const Repeats repeats = find_repeats(open, sharing_threshold);
     const std::vector<SurfaceExtent> extents = find_extents(open, repeats);
     note_extents(open, extents, scene);
     ReadingLimit limit;
@@ -197,14 +197,14 @@ std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& 
 
 Scene load_scene(std::span<const PlacedFile> files, SceneFiles& models, const MaterialTable& table,
                  const std::string& material_default, const Water& water,
-                 std::size_t share_beyond) {
+                 std::size_t sharing_threshold) {
     require_materials(files, table);
     MaterialRules rules;
     rules.fallback = material_default;
     for (const Material& material : table.materials)
         rules.known.insert(material.name);
     MaterialNumbers materials;
-    Scene scene = compose(files, models, rules, share_beyond, materials);
+    Scene scene = compose(files, models, rules, sharing_threshold, materials);
     resolve_materials(scene, table, water, materials.users);
     return scene;
 }

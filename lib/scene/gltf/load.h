@@ -35,7 +35,7 @@ inline constexpr std::size_t share_nothing = std::numeric_limits<std::size_t>::m
 ///
 /// Materials without a name or without a row in `table` become `material_default`, unless that is
 /// empty. Named files that do not move and are placed more than once become shared meshes with
-/// copies, if all their copies have more than `share_beyond` triangles together.
+/// copies, if all their copies have more than `sharing_threshold` triangles together.
 ///
 /// InputError for an invalid glTF 2.0 file, for compressed or skinned meshes, unknown required
 /// extensions, buffers outside of the file's folder, primitives without material, and materials
@@ -45,7 +45,7 @@ inline constexpr std::size_t share_nothing = std::numeric_limits<std::size_t>::m
 /// `rejects`; a scene may end up empty.
 Scene load_scene(std::span<const PlacedFile> files, SceneFiles& models, const MaterialTable& table,
                  const std::string& material_default, const Water& water,
-                 std::size_t share_beyond = share_nothing);
+                 std::size_t sharing_threshold = share_nothing);
 
 /// Opens the files and appends the names and classes of their instances to those of `scene`. Names
 /// of objects in the mission take precedence: nodes with the same name get another one. InputError

@@ -47,7 +47,7 @@ RepeatedFile& add_repeated(const OpenFile& first, std::deque<RepeatedFile>& file
 
 }  // namespace
 
-Repeats find_repeats(const std::vector<OpenFile>& open, std::size_t share_beyond) {
+Repeats find_repeats(const std::vector<OpenFile>& open, std::size_t sharing_threshold) {
     constexpr std::size_t most_triangles = 0xFFFF0000U;
     std::map<const PlacedFile*, std::vector<std::size_t>, LessReading> alike;
     for (std::size_t i = 0; i < open.size(); ++i) {
@@ -60,7 +60,7 @@ Repeats find_repeats(const std::vector<OpenFile>& open, std::size_t share_beyond
         triangles += group.second.size() * triangles_of(open[group.second.front()]);
     Repeats repeats;
     repeats.of_file.assign(open.size(), Repeats::none);
-    if (triangles <= share_beyond) return repeats;
+    if (triangles <= sharing_threshold) return repeats;
     if (triangles > most_triangles) {
         throw InputError(alike.begin()->first->place,
                          "repeated files have " + std::to_string(triangles) +

@@ -28,9 +28,9 @@ struct Repeats {
 };
 
 /// Finds the files that have names, do not move and are read more than once in the same way.
-/// Returns none if they have at most `share_beyond` triangles together, counted as often as they
-/// are placed. InputError if there are more triangles than 32 bits can number.
-Repeats find_repeats(const std::vector<OpenFile>& open, std::size_t share_beyond);
+/// Returns none if they have at most `sharing_threshold` triangles together, counted as often as
+/// they are placed. InputError if there are more triangles than 32 bits can number.
+Repeats find_repeats(const std::vector<OpenFile>& open, std::size_t sharing_threshold);
 
 /// Makes the shared meshes of a scene, each when its first copy is added.
 class SharedMeshes {

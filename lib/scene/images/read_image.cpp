@@ -138,12 +138,13 @@ class MemoryFile {
         std::ofstream(path(), std::ios::binary)
             .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     }
-    /// A copy of another file, with the bytes `stored.meaning` at `stored.meaning_at`.
+    /// A copy of another file, with the bytes `stored.photometric_bytes` at
+    /// `stored.photometric_offset`.
     MemoryFile(const std::filesystem::path& other, const StoredNumbers& stored) : MemoryFile() {
         std::ofstream copy(path(), std::ios::binary);
         copy << std::ifstream(other, std::ios::binary).rdbuf();
-        copy.seekp(static_cast<std::streamoff>(stored.meaning_at));
-        copy.write(stored.meaning.data(), std::ssize(stored.meaning));
+        copy.seekp(static_cast<std::streamoff>(stored.photometric_offset));
+        copy.write(stored.photometric_bytes.data(), std::ssize(stored.photometric_bytes));
     }
     ~MemoryFile() { close(file_); }
     MemoryFile(const MemoryFile&) = delete;
@@ -167,7 +168,7 @@ std::string bytes_of_image(ChildProcess& child, const std::filesystem::path& pat
                            const std::string& format, const StoredNumbers& stored,
                            const Location& where) {
     try {
-        if (stored.meaning_at == 0) return child.answer(request_of(format, path));
+        if (stored.photometric_offset == 0) return child.answer(request_of(format, path));
         const MemoryFile copy(path, stored);
         return child.answer(request_of(format, copy.path()));
     } catch (const InputError& error) {

@@ -15,10 +15,10 @@ namespace sonarsim {
 namespace {
 
 constexpr std::uint16_t bits_of_sample_tag = 258;
-constexpr std::uint16_t meaning_tag = 262;  // PhotometricInterpretation
+constexpr std::uint16_t photometric_tag = 262;  // PhotometricInterpretation
 constexpr std::uint16_t samples_tag = 277;
 constexpr std::uint16_t palette_tag = 320;
-constexpr std::uint16_t sort_tag = 339;  // SampleFormat
+constexpr std::uint16_t sample_format_tag = 339;  // SampleFormat
 
 constexpr int zero_is_white = 0;
 constexpr int zero_is_black = 1;
@@ -53,32 +53,32 @@ std::vector<std::array<float, 3>> palette_of(const TiffTags& tags, int bits,
 }
 
 StoredNumbers stored_in_tiff(const std::filesystem::path& path, const Location& where) {
-    const TiffTags tags =
-        read_tiff_tags(path, {bits_of_sample_tag, meaning_tag, samples_tag, palette_tag, sort_tag});
+    const TiffTags tags = read_tiff_tags(
+        path, {bits_of_sample_tag, photometric_tag, samples_tag, palette_tag, sample_format_tag});
     StoredNumbers out;
     const int bits = number_or(tags, bits_of_sample_tag, 1);
     if (bits != 8 && bits != 16 && bits != 32 && bits != 64) out.bits = bits;
-    if (out.bits != 0 && (number_or(tags, sort_tag, 1) != 1 || bits < 1 || bits > 16)) {
+    if (out.bits != 0 && (number_or(tags, sample_format_tag, 1) != 1 || bits < 1 || bits > 16)) {
         throw InputError(where, "has numbers of " + std::to_string(bits) +
                                     " bits, which are read up to 16 and without a sign; write it "
                                     "anew with gdal_translate -ot Float32");
     }
-    const int meaning = number_or(tags, meaning_tag, zero_is_black);
-    if (meaning == zero_is_black || meaning == red_green_blue) return out;
-    if (meaning != zero_is_white && meaning != of_palette) {
+    const int photometric = number_or(tags, photometric_tag, zero_is_black);
+    if (photometric == zero_is_black || photometric == red_green_blue) return out;
+    if (photometric != zero_is_white && photometric != of_palette) {
         throw InputError(where,
                          "has colours in another form than red, green and blue, which would not "
                          "stay exact; export it as PNG");
     }
-    if (meaning == of_palette) {
+    if (photometric == of_palette) {
         if (number_or(tags, samples_tag, 1) != 1)
             throw InputError(where, "has a palette and more channels; export it as PNG");
         if (bits > 16) throw InputError(where, "has a palette of more than 16 bits");
         out.palette = palette_of(tags, bits, where);
     }
-    out.meaning_at = tags.places.at(meaning_tag);
+    out.photometric_offset = tags.places.at(photometric_tag);
     const auto word = static_cast<char>(zero_is_black);
-    out.meaning = tags.is_big_endian ? std::array{'\0', word} : std::array{word, '\0'};
+    out.photometric_bytes = tags.is_big_endian ? std::array{'\0', word} : std::array{word, '\0'};
     return out;
 }
 
@@ -95,7 +95,7 @@ StoredNumbers stored_in_png(const std::filesystem::path& path) {
 
 /// Undoes the scaling of numbers to the range of their type: v * most_in_type / most_in_file,
 /// rounded down.
-void unspread(int bits, Image& image) {
+void undo_scaling(int bits, Image& image) {
     const auto most_in_file = static_cast<double>((1 << bits) - 1);
     const auto most_in_type = static_cast<double>((1 << image.bits) - 1);
     for (float& value : image.values)
@@ -139,7 +139,8 @@ StoredNumbers read_stored_numbers(const std::filesystem::path& path, const std::
 
 void restore_numbers(const StoredNumbers& stored, const Location& where, Image& image) {
     const bool holds_numbers = image.channels <= 2 && !image.is_float;
-    if (stored.bits > 0 && stored.bits < image.bits && holds_numbers) unspread(stored.bits, image);
+    if (stored.bits > 0 && stored.bits < image.bits && holds_numbers)
+        undo_scaling(stored.bits, image);
     if (stored.palette.empty()) return;
     if (image.channels != 1 || image.is_float)
         throw InputError(where, "has a palette and more than one channel; export it as PNG");

@@ -19,10 +19,10 @@ struct StoredNumbers {
     /// The colours, each of 8 bits, that pixels are indices into; empty: pixels are numbers or
     /// colours.
     std::vector<std::array<float, 3>> palette;
-    /// The place in the file of the 2 bytes that say what the numbers mean; 0: OpenImageIO does not
+    /// The offset in the file of the 2 bytes of PhotometricInterpretation; 0: OpenImageIO does not
     /// change the numbers.
-    std::uint64_t meaning_at = 0;
-    std::array<char, 2> meaning{};  ///< bytes that prevent the change
+    std::uint64_t photometric_offset = 0;
+    std::array<char, 2> photometric_bytes{};  ///< bytes that prevent the change
 };
 
 /// Reads these facts from a PNG or TIFF; other formats need none. InputError for a TIFF of other

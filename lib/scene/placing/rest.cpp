@@ -114,14 +114,14 @@ Eigen::Quaterniond slope_of(const Bottom& bottom, const Eigen::AlignedBox2d& box
     for (const Eigen::Vector3d& p : points)
         mean += p / static_cast<double>(points.size());
     Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
-    Eigen::Vector2d with_height = Eigen::Vector2d::Zero();
+    Eigen::Vector2d height_covariance = Eigen::Vector2d::Zero();
     for (const Eigen::Vector3d& p : points) {
         const Eigen::Vector2d off = (p - mean).head<2>();
         spread += off * off.transpose();
-        with_height += off * (p.z() - mean.z());
+        height_covariance += off * (p.z() - mean.z());
     }
     if (!(spread.determinant() > 0.0)) return Eigen::Quaterniond::Identity();
-    const Eigen::Vector2d slope = spread.inverse() * with_height;
+    const Eigen::Vector2d slope = spread.inverse() * height_covariance;
     const Eigen::Vector3d normal = Eigen::Vector3d(-slope.x(), -slope.y(), 1.0).normalized();
     return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal);
 }

@@ -40,10 +40,10 @@ class Draws {
 };
 
 std::size_t count_of(const ScatterRule& rule, std::uint64_t seed, std::uint32_t rule_index) {
-    constexpr std::uint32_t of_the_rule = 0xFFFFFFFFU;
+    constexpr std::uint32_t rule_count_key = 0xFFFFFFFFU;
     const auto fewest = static_cast<std::size_t>(rule.count[0]);
     const auto most = static_cast<std::size_t>(rule.count[1]);
-    return fewest + Draws(seed, rule_index, of_the_rule).one_of(most - fewest + 1, Draw::count);
+    return fewest + Draws(seed, rule_index, rule_count_key).one_of(most - fewest + 1, Draw::count);
 }
 
 /// Number of refused positions by reason.

@@ -10,11 +10,11 @@ namespace {
 
 constexpr double points_per_tile = 8.0;
 /// The counter of a tile's number of points; its points are counted from 0.
-constexpr std::uint32_t of_the_tile = 0xFFFFFFFFU;
+constexpr std::uint32_t tile_count_counter = 0xFFFFFFFFU;
 
 /// The number of points of a tile, by inversion of Poisson's distribution.
 std::uint32_t count_of_tile(std::uint32_t tile_x, std::uint32_t tile_y, PhiloxKey key) {
-    const PhiloxBlock block = philox({tile_x, tile_y, of_the_tile, 0}, key);
+    const PhiloxBlock block = philox({tile_x, tile_y, tile_count_counter, 0}, key);
     const double u = unit_double(block.x0, block.x1);
     double probability = exponential(-points_per_tile);
     double sum = probability;

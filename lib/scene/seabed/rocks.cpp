@@ -14,8 +14,8 @@ namespace {
 
 // The shapes of rocks, here and in cuts_of(), are chosen so that they look like boulders. They have
 // no source.
-constexpr std::uint32_t sorts = 12;  ///< different rocks
-constexpr std::uint32_t levels = 3;  ///< levels of detail of each
+constexpr std::uint32_t shape_count = 12;  ///< different rocks
+constexpr std::uint32_t levels = 3;        ///< levels of detail of each
 
 Surface icosahedron() {
     const double g = 0.5 * (1.0 + std::sqrt(5.0));
@@ -70,9 +70,9 @@ struct Cut {
     double distance;
 };
 
-std::vector<Cut> cuts_of(std::uint32_t sort, std::uint64_t seed) {
+std::vector<Cut> cuts_of(std::uint32_t shape, std::uint64_t seed) {
     constexpr std::uint32_t planes = 14;
-    const PhiloxKey key = bed_key(seed, BedDraw::rock_shapes, sort);
+    const PhiloxKey key = bed_key(seed, BedDraw::rock_shapes, shape);
     std::vector<Cut> out;
     out.reserve(planes);
     for (std::uint32_t n = 0; n < planes; ++n) {
@@ -123,9 +123,9 @@ std::vector<Surface> rock_shapes(std::uint64_t seed) {
     const Surface ball = icosahedron();
     const Surface finer = refined(ball);
     const Surface finest = refined(finer);
-    out.reserve(std::size_t{sorts} * levels);
-    for (std::uint32_t sort = 0; sort < sorts; ++sort) {
-        const std::vector<Cut> cuts = cuts_of(sort, seed);
+    out.reserve(std::size_t{shape_count} * levels);
+    for (std::uint32_t shape = 0; shape < shape_count; ++shape) {
+        const std::vector<Cut> cuts = cuts_of(shape, seed);
         for (const Surface* one : {&ball, &finer, &finest})
             out.push_back(cut_rock(*one, cuts));
     }
@@ -142,7 +142,8 @@ std::vector<Rock> rocks_in(const BedArea& area, const BedRocks& rocks, double ce
         rock.buried = draw_in(rocks.buried, point, 2, key);
         const double cells = rock.diameter_m / cell_m;
         const std::uint32_t level = (cells > 3.0 ? 1U : 0U) + (cells > 12.0 ? 1U : 0U);
-        rock.shape = levels * static_cast<std::uint32_t>(draw_of(point, 3, key) * sorts) + level;
+        rock.shape =
+            levels * static_cast<std::uint32_t>(draw_of(point, 3, key) * shape_count) + level;
         const SinCos turn = sincos(2.0 * pi * draw_of(point, 4, key));
         rock.T_world_shape = Eigen::Affine3d::Identity();
         rock.T_world_shape.linear() << turn.cos, -turn.sin, 0.0, turn.sin, turn.cos, 0.0, 0.0, 0.0,

@@ -25,8 +25,8 @@ struct RawTiff {
     int width = 0;
     int height = 0;
     int bits = 8;
-    int meaning = 3;  // PhotometricInterpretation: a palette
-    int sort = 1;     // SampleFormat: whole numbers without a sign
+    int photometric = 3;    // PhotometricInterpretation: a palette
+    int sample_format = 1;  // SampleFormat: whole numbers without a sign
     int samples = 1;
     std::vector<int> palette = {};  // all reds, greens, blues
     std::string pixels = {};
@@ -62,10 +62,10 @@ struct RawTiff {
         std::string out = big_endian ? std::string("MM\0*", 4) : std::string("II*\0", 4);
         out += number(8, 4) + number(entries, 2);
         out += one(256, whole(width)) + one(257, whole(height)) + one(258, whole(bits));
-        out += one(259, 1) + one(262, whole(meaning)) + entry(273, 4, 1, pixels_at);
+        out += one(259, 1) + one(262, whole(photometric)) + entry(273, 4, 1, pixels_at);
         out += one(277, whole(samples)) + one(278, whole(height));
         out += entry(279, 4, 1, pixels.size()) + entry(320, 3, palette.size(), palette_at);
-        out += one(339, whole(sort)) +
+        out += one(339, whole(sample_format)) +
                entry(no_data.empty() ? copyright : 42113, 2, no_data.size() + 5, text_at) +
                number(0, 4);
         for (const int value : palette)
@@ -189,7 +189,7 @@ TEST_CASE("numbers of few bits, and those whose 0 is white, are those that GDAL 
 
 TEST_CASE("half floats have the value of their sign, exponent and ten bits") {
     const TemporaryFolder folder;
-    RawTiff file{.width = 62, .height = 1024, .bits = 16, .meaning = 1, .sort = 3};
+    RawTiff file{.width = 62, .height = 1024, .bits = 16, .photometric = 1, .sample_format = 3};
     std::vector<float> values;
     // All finite halves: (1 + m / 1024) 2^(e - 15), and m 2^-24 for e = 0; e = 31 is infinite or
     // NaN.
@@ -224,7 +224,7 @@ TEST_CASE("TIFFs whose colours or numbers would not stay exact are refused") {
     };
     const RawTiff whole = ramp(8, std::vector<int>(768, 512), false);
     RawTiff file = whole;
-    file.meaning = 5;  // cyan, magenta, yellow, black
+    file.photometric = 5;  // cyan, magenta, yellow, black
     refused(file, "has colours in another form than red, green and blue");
     file = whole;
     file.palette.resize(767);
@@ -233,7 +233,7 @@ TEST_CASE("TIFFs whose colours or numbers would not stay exact are refused") {
     file.samples = 2;
     refused(file, "has a palette and more channels");
     file = ramp(4, std::vector<int>(48, 512), false);
-    file.sort = 2;  // with a sign
+    file.sample_format = 2;  // with a sign
     refused(file, "has numbers of 4 bits, which are read up to 16 and without a sign");
     file = whole;
     file.bits = 32;
