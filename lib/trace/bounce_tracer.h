@@ -53,10 +53,10 @@ struct BounceTracer {
         return uses_surface_image() ? mirror->image : Eigen::Vector3f(Eigen::Vector3f::Zero());
     }
     /// The true place of a second point, which may be an image in the water's surface.
-    Eigen::Vector3f seen(const Eigen::Vector3f& p) const {
+    Eigen::Vector3f true_point(const Eigen::Vector3f& p) const {
         return uses_surface_image() ? mirror->reflect_point(p) : p;
     }
-    Eigen::Vector3f seen_change(const Eigen::Vector3f& of_p) const {
+    Eigen::Vector3f true_change(const Eigen::Vector3f& of_p) const {
         return uses_surface_image() ? mirror->reflect_direction(of_p) : of_p;
     }
 };

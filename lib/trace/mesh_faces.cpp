@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <utility>
+
+#include "trace/joined_sets.h"
 
 namespace sonarsim {
 
@@ -41,21 +42,6 @@ SidesByEdge sides_by_edge(const FaceMesh& mesh) {
     }
     return out;
 }
-
-/// Disjoint sets of numbers (union-find).
-struct JoinedSets {
-    std::vector<std::uint32_t> parent;
-
-    explicit JoinedSets(std::size_t count) : parent(count) {
-        std::iota(parent.begin(), parent.end(), 0U);
-    }
-    std::uint32_t of(std::uint32_t k) {
-        while (parent[k] != k)
-            k = parent[k] = parent[parent[k]];
-        return k;
-    }
-    void join(std::uint32_t a, std::uint32_t b) { parent[of(a)] = of(b); }
-};
 
 /// The distance that a face reaches from the line through two points of its plane.
 float reach_from(const MeshFace& face, const Eigen::Vector3f& from, const Eigen::Vector3f& to) {

@@ -31,7 +31,7 @@ struct Plane {
 
 /// The counter that a sample adds to.
 using Outcome = std::uint64_t MultipathCounts::*;
-constexpr Outcome off_the_disc = nullptr;  ///< to be traced by itself
+constexpr Outcome needs_own_ray = nullptr;  ///< to be traced by itself
 
 /// True if two rays hit one plane, or both nothing.
 bool same_plane(const BounceHit& a, const BounceHit& b, float slack_m) {
@@ -61,12 +61,12 @@ Outcome reflect(const BounceTracer& context, const Sample& sample, const Plane& 
     const float t = (second.point - image).dot(second.normal) / along;
     if (!(t > 1.0F)) return &MultipathCounts::behind;
     const Eigen::Vector3f p = image + t * through;
-    if ((p - plane.middle).squaredNorm() > plane.radius_m * plane.radius_m) return off_the_disc;
+    if ((p - plane.middle).squaredNorm() > plane.radius_m * plane.radius_m) return needs_own_ray;
     const Eigen::Vector3f back = p - sonar;
     const float last_leg = arrival_range(back);
     const float range = arrival_range(t * first_leg, last_leg);
-    const Eigen::Vector3f seen = context.seen(p);
-    const float beam = context.field.beam(seen, last_leg);
+    const Eigen::Vector3f true_point = context.true_point(p);
+    const float beam = context.field.beam(true_point, last_leg);
     const Eigen::Vector3f q = specular_direction(through, second.normal);
     const float cosine = -q.dot(back) / (first_leg * last_leg);
     if (!(beam >= 0.0F && range < static_cast<float>(context.view.range_max_m)))
@@ -77,10 +77,10 @@ Outcome reflect(const BounceTracer& context, const Sample& sample, const Plane& 
         const Eigen::Vector3f of_p = t * edge + stretch * through;
         of_range = 0.5F * (stretch * first_leg + t * edge.dot(sample.position) / first_leg +
                            of_p.dot(back) / last_leg);
-        const Eigen::Vector3f of_seen = context.seen_change(of_p);
+        const Eigen::Vector3f of_true_point = context.true_change(of_p);
         of_beam = context.field.beams_per_rad() *
-                  (seen.x() * of_seen.y() - seen.y() * of_seen.x()) /
-                  (seen.x() * seen.x() + seen.y() * seen.y());
+                  (true_point.x() * of_true_point.y() - true_point.y() * of_true_point.x()) /
+                  (true_point.x() * true_point.x() + true_point.y() * true_point.y());
     };
     change(sample.edge_u, out.range_u, out.beam_u);
     change(sample.edge_v, out.range_v, out.beam_v);
@@ -104,7 +104,7 @@ bool follow(const BounceTracer& context, std::uint32_t sample, std::uint32_t ray
     b.sample = sample;
     b.ray = ray;
     const Outcome outcome = reflect(context, source, plane, b);
-    if (outcome == off_the_disc) return true;
+    if (outcome == needs_own_ray) return true;
     ++(counts.*outcome);
     const BounceHit& second = *plane.hit;
     b.point = second.point;
@@ -160,7 +160,7 @@ void drop_hidden(const BounceTracer& context, const std::vector<BounceHit>& seco
         if (ray_of[b.ray] != no_ray) continue;
         ray_of[b.ray] = static_cast<std::uint32_t>(rays.size());
         rays.push_back(
-            {Eigen::Vector3f::Zero(), context.seen(second_hits[b.ray].point).normalized()});
+            {Eigen::Vector3f::Zero(), context.true_point(second_hits[b.ray].point).normalized()});
     }
     std::vector<Intersection> hits(rays.size());
     context.engine.intersect(context.T_world_sensor, rays, hits);
@@ -168,7 +168,7 @@ void drop_hidden(const BounceTracer& context, const std::vector<BounceHit>& seco
     counts.hidden += std::erase_if(bounces, [&](const BouncePath& b) {
         const std::uint32_t ray = ray_of[b.ray];
         const BounceHit& second = second_hits[b.ray];
-        return hides(hits[ray], second, arrival_range(context.seen(second.point)), rays[ray]);
+        return hides(hits[ray], second, arrival_range(context.true_point(second.point)), rays[ray]);
     });
 }
 

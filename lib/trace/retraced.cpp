@@ -14,12 +14,12 @@ namespace sonarsim {
 namespace {
 
 // At most this many paths are tried at a time, to bound the memory.
-constexpr std::size_t most_untried = 4096;
+constexpr std::size_t most_candidates = 4096;
 
 /// Finds the surface that a way meets, at its apparent place. It receives all sound that met the
 /// source: when a point moves along an edge of the source, its image moves in the plane of this
 /// surface.
-bool unfold(const Sample& source, const Way& way, const Meeting& at, Sample& out) {
+bool unfold(const Sample& source, const Way& way, const WayHit& at, Sample& out) {
     const Arrival arrival = arrival_of(source.position);
     const float range = way.length_m + at.distance_m;
     const Eigen::Vector3f normal = way.unfold * at.normal;
@@ -68,13 +68,13 @@ RetracedSurface retraced_surface(const Multipath& multipath, const TraceContext&
     const BeamLocator field(trace.view);
     const auto range_max = static_cast<float>(trace.view.range_max_m);
     std::vector<Way> ways = first_ways(multipath, trace, samples);
-    std::vector<UntriedPath> untried;
+    std::vector<CandidatePath> candidates;
     for (int k = 1; k <= multipath.retraced && !ways.empty(); ++k) {
         const std::vector<Intersection> hits = cast_ways(trace, ways, counts);
         std::vector<Way> further;
         for (std::size_t i = 0; i < ways.size(); ++i) {
             Way& way = ways[i];
-            const Meeting at = meeting_at(trace, water, way.ray, hits[i]);
+            const WayHit at = hit_of_way(trace, water, way.ray, hits[i]);
             // Up to twice the range: sound may return over a shorter way.
             const float range = way.length_m + at.distance_m;
             if (!(range < 2.0F * range_max)) continue;
@@ -83,7 +83,7 @@ RetracedSurface retraced_surface(const Multipath& multipath, const TraceContext&
             if (at.surface.material != no_material && unfold(source, way, at, seen)) {
                 seen.material = at.surface.material;
                 seen.instance = hits[i].instance;
-                add_untried_paths(trace, field, way, at, seen, untried);
+                add_candidates(trace, field, way, at, seen, candidates);
                 const float reflected = way.reflected * way.reflected;
                 seen.strength = reflected * at.surface.strength;
                 if (range < range_max && reflected >= multipath.retraced_least) {
@@ -91,14 +91,14 @@ RetracedSurface retraced_surface(const Multipath& multipath, const TraceContext&
                     out.sources.push_back(way.source);
                 }
             }
-            if (untried.size() >= most_untried)
-                try_paths(multipath, trace, water, untried, out.unequal, counts);
+            if (candidates.size() >= most_candidates)
+                trace_candidates(multipath, trace, water, candidates, out.unequal, counts);
             reflect(at, way);
             if (way.reflected >= multipath.retraced_least) further.push_back(way);
         }
         ways = std::move(further);
     }
-    try_paths(multipath, trace, water, untried, out.unequal, counts);
+    trace_candidates(multipath, trace, water, candidates, out.unequal, counts);
     return out;
 }
 

@@ -60,7 +60,7 @@ struct Across {
     Eigen::Vector3d ends[2];   ///< on the facet
     Eigen::Vector3d normal;    ///< unit
     Eigen::Vector3d sideways;  ///< unit
-    double sonar_aside_m;      ///< the sonar's distance from the plane of normal and ruling
+    double sonar_off_plane_m;  ///< the sonar's distance from the plane of normal and ruling
 };
 
 Across across_at(const PlacedStrip& strip, double share) {
@@ -70,7 +70,7 @@ Across across_at(const PlacedStrip& strip, double share) {
     out.normal =
         (strip.first_normal + share * (strip.second_normal - strip.first_normal)).normalized();
     out.sideways = out.normal.cross(out.ends[1] - out.ends[0]).normalized();
-    out.sonar_aside_m = -out.sideways.dot(0.5 * (out.ends[0] + out.ends[1]));
+    out.sonar_off_plane_m = -out.sideways.dot(0.5 * (out.ends[0] + out.ends[1]));
     return out;
 }
 
@@ -115,13 +115,13 @@ SpecularParts specular_parts(const PlacedStrip& strip) {
     SpecularParts out;
     double low = 0.0;
     double high = 1.0;
-    double at_low = across_at(strip, low).sonar_aside_m;
-    double at_high = across_at(strip, high).sonar_aside_m;
+    double at_low = across_at(strip, low).sonar_off_plane_m;
+    double at_high = across_at(strip, high).sonar_off_plane_m;
     if ((at_low > 0.0) == (at_high > 0.0)) return out;
     double share = 0.5;
     for (int step = 0; step < 6; ++step) {
         share = low + (high - low) * at_low / (at_low - at_high);
-        const double at_share = across_at(strip, share).sonar_aside_m;
+        const double at_share = across_at(strip, share).sonar_off_plane_m;
         const bool lower = (at_share > 0.0) == (at_low > 0.0);
         (lower ? low : high) = share;
         (lower ? at_low : at_high) = at_share;

@@ -3,9 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <unordered_map>
 #include <utility>
+
+#include "trace/joined_sets.h"
 
 namespace sonarsim {
 
@@ -19,23 +20,6 @@ constexpr float most_height_ratio = 5.0F;
 constexpr float weld_share = 1e-5F;
 
 using Corners = std::array<std::uint32_t, 3>;
-
-/// Disjoint sets of numbers (union-find).
-class Joined {
-  public:
-    explicit Joined(std::size_t size) : parent_(size) {
-        std::iota(parent_.begin(), parent_.end(), 0U);
-    }
-    std::uint32_t of(std::uint32_t k) {
-        while (parent_[k] != k)
-            k = parent_[k] = parent_[parent_[k]];
-        return k;
-    }
-    void join(std::uint32_t a, std::uint32_t b) { parent_[of(a)] = of(b); }
-
-  private:
-    std::vector<std::uint32_t> parent_;
-};
 
 void find_ball(std::span<const Eigen::Vector3f> vertices, std::span<const Corners> triangles,
                TargetShape& shape) {
@@ -167,7 +151,7 @@ bool each_shared_edge(const std::vector<MeshEdge>& edges, Use use) {
 
 /// Turns the normals of each closed part of a closed mesh outwards: its volume is positive then.
 void turn_outwards(TargetShape& shape, const std::vector<MeshEdge>& edges) {
-    Joined parts(shape.triangles.size());
+    JoinedSets parts(shape.triangles.size());
     each_shared_edge(
         edges, [&](const MeshEdge& a, const MeshEdge& b) { parts.join(a.triangle, b.triangle); });
     std::vector<double> volume(shape.triangles.size(), 0.0);
@@ -216,9 +200,9 @@ float curvature_of(const TargetShape& shape, const TargetTriangle& triangle) {
 }
 
 /// Sets the normals at corners: weighted means over the triangles that join smoothly there.
-void bend(TargetShape& shape, const std::vector<MeshEdge>& edges) {
-    Joined regions(shape.triangles.size());
-    Joined corners(3 * shape.triangles.size());
+void set_smooth_normals(TargetShape& shape, const std::vector<MeshEdge>& edges) {
+    JoinedSets regions(shape.triangles.size());
+    JoinedSets corners(3 * shape.triangles.size());
     each_shared_edge(edges, [&](const MeshEdge& a, const MeshEdge& b) {
         if (!is_smooth(shape, a, b)) return;
         regions.join(a.triangle, b.triangle);
@@ -257,7 +241,7 @@ TargetShape target_shape(const TargetMesh& mesh) {
     const std::vector<MeshEdge> edges = sorted_edges(shape);
     shape.closed = each_shared_edge(edges, [](const MeshEdge&, const MeshEdge&) {});
     if (shape.closed) turn_outwards(shape, edges);
-    bend(shape, edges);
+    set_smooth_normals(shape, edges);
     std::ranges::stable_sort(shape.triangles, {}, &TargetTriangle::region);
     for (const TargetTriangle& triangle : shape.triangles) {
         shape.curvature_m = std::max(shape.curvature_m, std::fabs(triangle.curvature_m));

@@ -172,17 +172,17 @@ class TargetSampler {
         const float slope = target.placed->least_slope;
         std::optional<FacetTurn> turn;
         if (facet.curvature_m != 0.0F) turn.emplace(facet);
-        const bool glints = turn && turn->least <= highlight_reach * slope;
+        const bool may_highlight = turn && turn->least <= highlight_reach * slope;
         const float radius = std::fabs(facet.curvature_m);
         const float least_m = least_part_by_cell * target.cell_m;
         const float highlight_m = std::clamp(part_by_highlight * radius * slope, least_m,
                                              std::max(target.part_m, least_m));
-        const float per_turn = glints ? radius / highlight_m : 0.0F;
-        const float alike_m = 0.5F * (glints ? highlight_m : target.part_m);
+        const float per_turn = may_highlight ? radius / highlight_m : 0.0F;
+        const float alike_m = 0.5F * (may_highlight ? highlight_m : target.part_m);
         const float per_part = 1.0F / target.part_m;
         const auto size = [&](float du, float dv) {
             const float by_part = per_part * (du * u + dv * v).norm();
-            if (!glints) return by_part;
+            if (!may_highlight) return by_part;
             return std::max(by_part, per_turn * (du * turn->along_u + dv * turn->along_v).norm());
         };
         TargetFacet part = facet;

@@ -50,8 +50,8 @@ Piece image_over(const Way& way, unsigned chosen, Piece piece) {
 
 /// True if the image is known for this piece. A known image keeps the fewer reflections of the two.
 bool is_known(const Eigen::Vector3f& image, int reflections, float slack_m,
-              std::span<UntriedPath> of_piece) {
-    for (UntriedPath& known : of_piece) {
+              std::span<CandidatePath> of_piece) {
+    for (CandidatePath& known : of_piece) {
         if ((known.path.point.at - image).squaredNorm() > slack_m * slack_m) continue;
         known.reflections = std::min(known.reflections, reflections);
         return true;
@@ -61,11 +61,11 @@ bool is_known(const Eigen::Vector3f& image, int reflections, float slack_m,
 
 }  // namespace
 
-void add_untried_paths(const TraceContext& trace, const BeamLocator& field, const Way& way,
-                       const Meeting& at, const Sample& seen, std::vector<UntriedPath>& untried) {
+void add_candidates(const TraceContext& trace, const BeamLocator& field, const Way& way,
+                    const WayHit& at, const Sample& seen, std::vector<CandidatePath>& candidates) {
     if (way.reflections > Way::most_kept) return;
     const auto range_max = static_cast<float>(trace.view.range_max_m);
-    const std::size_t first = untried.size();
+    const std::size_t first = candidates.size();
     const float seen_range = arrival_range(seen.position);
     const float seen_sine = seen.height_m / seen_range;
     const Piece piece{way.ray.origin + at.distance_m * way.ray.direction, at.normal,
@@ -81,7 +81,7 @@ void add_untried_paths(const TraceContext& trace, const BeamLocator& field, cons
         if (!(sine >= least_seen_cosine && field.beam(image.at, range) >= 0.0F)) continue;
         const int reflections = std::popcount(chosen);
         if (is_known(image.at, reflections, slack_at(trace.view, range),
-                     std::span(untried).subspan(first)))
+                     std::span(candidates).subspan(first)))
             continue;
         SpecularPath path;
         path.point = {image.at, image.u, image.v};
@@ -93,27 +93,28 @@ void add_untried_paths(const TraceContext& trace, const BeamLocator& field, cons
         path.reflection = way.reflected * at.surface.strength;
         path.material = seen.material;
         path.sample = way.source;
-        untried.push_back({path, piece.at, reflections});
+        candidates.push_back({path, piece.at, reflections});
     }
 }
 
-void try_paths(const Multipath& multipath, const TraceContext& trace,
-               const std::optional<WaterMirror>& water, std::vector<UntriedPath>& untried,
-               std::vector<SpecularPath>& arrived, MultipathCounts& counts) {
-    std::vector<Way> ways(untried.size());
-    for (std::uint32_t k = 0; k < untried.size(); ++k) {
+void trace_candidates(const Multipath& multipath, const TraceContext& trace,
+                      const std::optional<WaterMirror>& water,
+                      std::vector<CandidatePath>& candidates, std::vector<SpecularPath>& arrived,
+                      MultipathCounts& counts) {
+    std::vector<Way> ways(candidates.size());
+    for (std::uint32_t k = 0; k < candidates.size(); ++k) {
         ways[k].source = k;
-        ways[k].ray = {Eigen::Vector3f::Zero(), arrival_of(untried[k].path.point.at).departure};
+        ways[k].ray = {Eigen::Vector3f::Zero(), arrival_of(candidates[k].path.point.at).departure};
     }
     while (!ways.empty()) {
         const std::vector<Intersection> hits = cast_ways(trace, ways, counts);
         std::vector<Way> further;
         for (std::size_t i = 0; i < ways.size(); ++i) {
             Way& way = ways[i];
-            UntriedPath& to = untried[way.source];
+            CandidatePath& to = candidates[way.source];
             const float range = arrival_range(to.path.point.at);
             const float slack = slack_at(trace.view, range);
-            const Meeting at = meeting_at(trace, water, way.ray, hits[i]);
+            const WayHit at = hit_of_way(trace, water, way.ray, hits[i]);
             const float left = range - way.length_m - at.distance_m;
             if (!(left >= -slack)) continue;
             if (way.reflections < to.reflections) {
@@ -128,7 +129,7 @@ void try_paths(const Multipath& multipath, const TraceContext& trace,
         }
         ways = std::move(further);
     }
-    untried.clear();
+    candidates.clear();
 }
 
 }  // namespace sonarsim

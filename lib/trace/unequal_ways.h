@@ -15,7 +15,7 @@
 namespace sonarsim {
 
 /// A piece of surface that a way reaches, and an image of it that another way may reach.
-struct UntriedPath {
+struct CandidatePath {
     SpecularPath path;
     Eigen::Vector3f place;  ///< the piece itself, in the scene
     int reflections;        ///< on the other way
@@ -24,13 +24,14 @@ struct UntriedPath {
 /// Adds the images of a piece over every proper subset of the reflectors of the way that met it, in
 /// their order; the empty subset gives the piece itself. `seen` is the piece at its image over the
 /// way. Images that find_bounces() has, and those outside the view, are left out.
-void add_untried_paths(const TraceContext& trace, const BeamLocator& field, const Way& way,
-                       const Meeting& at, const Sample& seen, std::vector<UntriedPath>& untried);
+void add_candidates(const TraceContext& trace, const BeamLocator& field, const Way& way,
+                    const WayHit& at, const Sample& seen, std::vector<CandidatePath>& candidates);
 
-/// Follows sound from the sonar to each image, and empties `untried`. A path is added to `arrived`
-/// if the sound meets the piece after exactly `reflections` reflections.
-void try_paths(const Multipath& multipath, const TraceContext& trace,
-               const std::optional<WaterMirror>& water, std::vector<UntriedPath>& untried,
-               std::vector<SpecularPath>& arrived, MultipathCounts& counts);
+/// Follows sound from the sonar to each image, and empties `candidates`. A path is added to
+/// `arrived` if the sound meets the piece after exactly `reflections` reflections.
+void trace_candidates(const Multipath& multipath, const TraceContext& trace,
+                      const std::optional<WaterMirror>& water,
+                      std::vector<CandidatePath>& candidates, std::vector<SpecularPath>& arrived,
+                      MultipathCounts& counts);
 
 }  // namespace sonarsim

@@ -7,7 +7,7 @@
 
 namespace sonarsim {
 
-void reflect(const Meeting& at, Way& way) {
+void reflect(const WayHit& at, Way& way) {
     const Eigen::Vector3f point = way.ray.origin + at.distance_m * way.ray.direction;
     if (way.reflections < Way::most_kept)
         way.reflectors[way.reflections] = {point, at.normal, at.surface.material == no_material};
@@ -32,8 +32,8 @@ std::vector<Intersection> cast_ways(const TraceContext& trace, std::span<const W
     return hits;
 }
 
-Meeting meeting_at(const TraceContext& trace, const std::optional<WaterMirror>& water,
-                   const Ray& ray, const Intersection& hit) {
+WayHit hit_of_way(const TraceContext& trace, const std::optional<WaterMirror>& water,
+                  const Ray& ray, const Intersection& hit) {
     const float to_water = water ? water->distance(ray) : std::numeric_limits<float>::infinity();
     if (to_water < hit.distance_m) return {to_water, -water->up, water->reflection};
     if (std::isinf(hit.distance_m)) return {hit.distance_m, -ray.direction, 0.0F};

@@ -20,7 +20,7 @@ namespace sonarsim {
 inline constexpr float least_seen_cosine = 0.01F;
 
 /// A surface that a way meets.
-struct Meeting {
+struct WayHit {
     float distance_m;
     Eigen::Vector3f normal;
     float reflection;
@@ -47,14 +47,14 @@ struct Way {
 };
 
 /// Continues a way after a reflection.
-void reflect(const Meeting& at, Way& way);
+void reflect(const WayHit& at, Way& way);
 
 /// The first hits of the rays of ways. Their number is added to `counts`.
 std::vector<Intersection> cast_ways(const TraceContext& trace, std::span<const Way> ways,
                                     MultipathCounts& counts);
 
 /// The surface at the hit of a ray.
-Meeting meeting_at(const TraceContext& trace, const std::optional<WaterMirror>& water,
-                   const Ray& ray, const Intersection& hit);
+WayHit hit_of_way(const TraceContext& trace, const std::optional<WaterMirror>& water,
+                  const Ray& ray, const Intersection& hit);
 
 }  // namespace sonarsim
