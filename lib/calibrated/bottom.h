@@ -75,13 +75,13 @@ Backscatter backscatter(double lambert_db, double reflection, double slope_rms);
 Backscatter backscatter(const SeafloorScattering& sea_bed);
 
 /// `exp_neg` is 0 from here on. This suffices for facets: a power of 1e-19 is left.
-inline constexpr float fades_at = 43.0F;
+inline constexpr float exp_neg_cutoff = 43.0F;
 /// The same for absorption, which a gain may compensate: the least power that floats hold.
 inline constexpr float least_loss = 87.0F;
 
 /// e^-x for x >= -88, relative error below 3e-6; 0 from x = `longest` on and for NaN. Without
 /// branches.
-inline float exp_neg(float x, float longest = fades_at) {
+inline float exp_neg(float x, float longest = exp_neg_cutoff) {
     const float turns = std::min(longest, x) * 1.44269504F;
     const float whole = std::floor(turns);
     const float rest = (turns - whole) * 0.69314718F;

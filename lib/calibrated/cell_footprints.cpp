@@ -102,9 +102,10 @@ void find_levels(const Surfaces& surfaces, const ScattererCells& cells, CellFoot
         const float ratio = std::max(1.0F, wanted_edge2(cells, range, sine) * per_area);
         // The exponent of a ratio of areas is twice that of the edges.
         const std::int32_t level = ((std::bit_cast<std::int32_t>(ratio) >> 23) - 127) >> 1;
-        const float whole = (4.0F / 3.0F) * (1.0F - power_of_two(2 * std::min(level, top)) / ratio);
+        const float unsplit_share =
+            (4.0F / 3.0F) * (1.0F - power_of_two(2 * std::min(level, top)) / ratio);
         out.level[k] = std::min(level, top);
-        out.whole[k] = level < top ? whole : 0.0F;
+        out.unsplit_share[k] = level < top ? unsplit_share : 0.0F;
         out.fine_m[k] = cells.least_edge_m * power_of_two(out.level[k]);
     }
 }

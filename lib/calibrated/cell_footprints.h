@@ -25,7 +25,7 @@ struct CellFootprints {
     Array<std::int32_t> axis;        ///< projected along; the first and second axes follow in turn
     Array<std::int32_t> level;       ///< level of the smaller cells
     Array<float> fine_m;             ///< edge of the smaller cells
-    Array<float> whole;              ///< share of the larger cells that are not split
+    Array<float> unsplit_share;      ///< share of the larger cells that are not split
     Array<float> area_by_projected;  ///< area times strength of the sample / its footprint's area
     Array<std::int32_t> base_first;  ///< the base: numbers of smaller cells, multiples of 8
     Array<std::int32_t> base_second, base_axis;

@@ -155,7 +155,7 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
                       .bin_m = static_cast<float>(bin_m),
                       .rows = view.range_bins,
                       .loss_per_m = static_cast<float>(0.2 * ln_10 * model.absorption_db_per_m),
-                      .raised = static_cast<float>(0.1 * ln_10 * raised_db),
+                      .ln_raised = static_cast<float>(0.1 * ln_10 * raised_db),
                       .elevation = elevation_pattern(radians(beam.elevation_width_deg),
                                                      beam.elevation_side_lobe_db, beam.elements)};
     model.water = water_column(water_of(water, instrument), instrument.frequency_hz,

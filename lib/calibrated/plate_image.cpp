@@ -114,17 +114,18 @@ struct PlateBlock {
             points.z[k] = point.z();
             const auto range = static_cast<float>(part.range_m);
             const float row = (range - equation.range_min_m) / equation.bin_m - 0.5F;
-            const bool meant = k < points.count;
+            const bool is_part = k < points.count;
             const bool inside = row > -0.5F && row < static_cast<float>(equation.rows) - 0.5F &&
                                 beam_of(scene.view, point) >= 0;
-            outside += meant && !inside ? 1 : 0;
+            outside += is_part && !inside ? 1 : 0;
             const double size = std::abs(part.amplitude);
             const double loss = static_cast<double>(equation.loss_per_m) * part.range_m;
-            const bool kept = meant && inside && size > 0.0;
+            const bool kept = is_part && inside && size > 0.0;
             echoes.range_m[k] = range;
             echoes.row[k] = kept ? row : 0.0F;
             echoes.power[k] =
-                kept ? static_cast<float>(size * size * exponential(equation.raised - loss)) : 0.0F;
+                kept ? static_cast<float>(size * size * exponential(equation.ln_raised - loss))
+                     : 0.0F;
             amplitudes.re[k] = kept ? static_cast<float>(part.amplitude.real() / size) : 0.0F;
             amplitudes.im[k] = kept ? static_cast<float>(part.amplitude.imag() / size) : 0.0F;
         }

@@ -68,7 +68,7 @@ void list_cells(const CellFootprints& p, int k, std::uint32_t key, CellList& who
                 CellList& split) {
     const Ints8 base_i = p.base_first[k] / 2;
     const Ints8 base_j = p.base_second[k] / 2;
-    const Ints8 first_split = static_cast<std::int32_t>(p.whole[k] * 0x1p24F);
+    const Ints8 first_split = static_cast<std::int32_t>(p.unsplit_share[k] * 0x1p24F);
     const bool along_first = p.rows_along_first[k] != 0;
     for (std::int32_t n = p.row_begin[k]; n < p.row_end[k]; n += lanes) {
         const Ints8 outer = Ints8(n) + lane_numbers();

@@ -13,7 +13,7 @@ namespace sonarsim {
 namespace {
 
 /// `exp_neg` of bottom.h, 8 at a time; a compiled loop over it takes twice as long.
-Floats8 exp_neg_of_8(Floats8 x, float longest = fades_at) {
+Floats8 exp_neg_of_8(Floats8 x, float longest = exp_neg_cutoff) {
     const Floats8 turns = least(x, longest) * 1.44269504F;
     const Floats8 whole = floor(turns);
     const Floats8 rest = (turns - whole) * 0.69314718F;
@@ -153,7 +153,7 @@ std::uint64_t apply_sonar_equation(const PatchBlock& pieces, const Scattering& s
         const Floats8 sine = least(read(pieces.height_m) * inverse, 1.0F);
         const Floats8 received = read(pieces.area_m2) * (spreading * spreading);
         const Floats8 loss =
-            exp_neg_of_8(fms(equation.loss_per_m, range, equation.raised), least_loss);
+            exp_neg_of_8(fms(equation.loss_per_m, range, equation.ln_raised), least_loss);
         const Floats8 power = strengths.at(pieces.material.data() + k, sine) * loss * received;
         range.store(echoes.range_m.data() + k);
         // In this order of arguments NaN stays NaN.
@@ -165,9 +165,9 @@ std::uint64_t apply_sonar_equation(const PatchBlock& pieces, const Scattering& s
     int outside = 0;
     for (int k = 0; k < count; ++k) {
         const bool inside = echoes.row[k] > -0.5F && echoes.row[k] < rows - 0.5F;
-        const bool meant = k < pieces.count;
-        outside += meant && !inside ? 1 : 0;
-        const bool kept = meant && inside;
+        const bool is_piece = k < pieces.count;
+        outside += is_piece && !inside ? 1 : 0;
+        const bool kept = is_piece && inside;
         echoes.power[k] = kept ? echoes.power[k] : 0.0F;
         echoes.row[k] = kept ? echoes.row[k] : 0.0F;
     }

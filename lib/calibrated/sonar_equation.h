@@ -33,7 +33,7 @@ struct SonarEquation {
     float bin_m = 0.0F;
     int rows = 0;
     float loss_per_m = 0.0F;  ///< two-way absorption: power falls as e^-(loss r)
-    float raised = 0.0F;      ///< powers are e^raised times their ratio to the source level
+    float ln_raised = 0.0F;   ///< powers are e^ln_raised times their ratio to the source level
     ElevationPattern elevation;
 };
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "calibrated/decibel.h"
 #include "calibrated/levels.h"
@@ -14,8 +13,6 @@
 namespace sonarsim {
 
 namespace {
-
-constexpr float no_end = std::numeric_limits<float>::infinity();
 
 /// The share of a side-scan sonar's pattern along the track that its view receives, by range; 1 for
 /// other sonars, whose weights include the pattern.
@@ -110,7 +107,7 @@ std::optional<WaterColumn> water_column(const WaterConfig& water, double frequen
     out.row_power.resize(padded);
     for (int row = 0; row < equation.rows; ++row) {
         const double range_m = equation.range_min_m + (row + 0.5) * equation.bin_m;
-        const double loss = equation.loss_per_m * range_m - equation.raised;
+        const double loss = equation.loss_per_m * range_m - equation.ln_raised;
         const double power = equation.bin_m / (range_m * range_m) * exponential(-loss) *
                              mean_along_track(beams, view, range_m);
         out.row_power[row] = static_cast<float>(std::min<double>(power, most_echo));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <variant>
@@ -12,6 +13,9 @@
 #include "trace/traced_ping.h"
 
 namespace sonarsim {
+
+/// The range or depth of an end that the water does not have.
+inline constexpr float no_end = std::numeric_limits<float>::infinity();
 
 /// The water's volume scattering, ready for the pings of a sonar; section 5 of docs/calibrated.md.
 struct WaterColumn {

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <limits>
 
 #include "calibrated/water_column.h"
 #include "trace/arrivals.h"
@@ -7,8 +6,6 @@
 namespace sonarsim {
 
 namespace {
-
-constexpr float ends_nowhere = std::numeric_limits<float>::infinity();
 
 // A cell is closed if surface covers this share of its solid angle; the number is chosen. Pieces of
 // surface count for the cell of their middle, so a wholly covered cell may get less than its solid
@@ -47,7 +44,7 @@ class CoveredCells {
         std::vector<float> out(cells_.count());
         for (int cell = 0; cell < cells_.count(); ++cell) {
             const bool closed = covered_sr_[cell] > least_cover * cells_.seen_sr[cell];
-            out[cell] = closed ? weighted_m_[cell] / covered_sr_[cell] : ends_nowhere;
+            out[cell] = closed ? weighted_m_[cell] / covered_sr_[cell] : no_end;
         }
         return out;
     }
@@ -88,7 +85,7 @@ void end_at_borders(const SightCells& cells, std::vector<float>& ends) {
     const std::vector<float> found = ends;
     for (int cell = 0; cell < cells.count(); ++cell) {
         const float seen = cells.seen_sr[cell];
-        if (found[cell] != ends_nowhere || seen == 0.0F) continue;
+        if (found[cell] != no_end || seen == 0.0F) continue;
         const int turn = cell % cells.turns;
         const auto take = [&](bool exists, int neighbour) {
             if (!exists || cells.seen_sr[neighbour] <= seen) return;
