@@ -145,7 +145,7 @@ void read_scene_files(const Mission& mission, SceneFiles& models) {
 
 /// The number of triangles beyond which load_scene() shares meshes. A million triangles take 170
 /// MB.
-std::size_t share_beyond(RepeatedFiles repeats, EngineKind engine) {
+std::size_t sharing_threshold(RepeatedFiles repeats, EngineKind engine) {
     constexpr std::size_t many_triangles = 4'000'000;
     if (repeats == RepeatedFiles::shared) return 0;
     const bool may_be_rays = engine == EngineKind::automatic || engine == EngineKind::rays;
@@ -189,13 +189,13 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
     SceneParts parts = place_scene(mission, assembly.trajectory, assembly.sonars, models);
     assembly.scene = load_scene(parts.files, models, materials, mission.scene.material_default,
                                 {mission.water.density_kg_m3, mission.water.sound_speed_m_s},
-                                share_beyond(mission.scene.repeats, settings.type));
+                                sharing_threshold(mission.scene.repeats, settings.type));
     lay_ground_maps(mission.scene, materials,
                     {mission.water.density_kg_m3, mission.water.sound_speed_m_s}, parts.files,
                     models, assembly.scene);
     models.images().end();
-    for (std::string& question : parts.questions)
-        assembly.scene.warnings.push_back(std::move(question));
+    for (std::string& warning : parts.orientation_warnings)
+        assembly.scene.warnings.push_back(std::move(warning));
     assembly.motions = std::move(parts.motions);
     assembly.bottom = std::move(parts.bottom);
     assembly.seabed = std::move(parts.seabed);

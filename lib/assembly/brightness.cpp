@@ -25,7 +25,7 @@ constexpr double share_below_white = 0.99;       // quantile of the occupied bin
 // A few glints far above all other echoes, as in the calibrated model, are allowed to saturate.
 constexpr double share_usual = 0.9;
 constexpr double most_above_usual = 10.0;
-constexpr double nothing_seen = 1.0;  // any value works
+constexpr double full_scale_without_echo = 1.0;  // any value works
 
 /// Rounds up to two digits. It multiplies and divides, since the last bit of powers and logarithms
 /// depends on the library.
@@ -99,10 +99,10 @@ double find_full_scale(const Mission& mission, const Scene& scene, const Traject
                 occupied.push_back(ping.intensity[i]);
         }
     }
-    if (occupied.empty()) return nothing_seen;
+    if (occupied.empty()) return full_scale_without_echo;
     const double white = std::min<double>(quantile(occupied, share_below_white),
                                           most_above_usual * quantile(occupied, share_usual));
-    return std::isfinite(white) ? two_digits_up(white) : nothing_seen;
+    return std::isfinite(white) ? two_digits_up(white) : full_scale_without_echo;
 }
 
 }  // namespace

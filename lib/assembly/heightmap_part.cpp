@@ -7,7 +7,7 @@
 
 namespace sonarsim {
 
-Eigen::AlignedBox2d seen_by(std::span<const Sonar> sonars, const Trajectory& vehicle) {
+Eigen::AlignedBox2d ground_in_range(std::span<const Sonar> sonars, const Trajectory& vehicle) {
     Eigen::AlignedBox2d seen;
     for (const Sonar& sonar : sonars) {
         const double reach_m = sonar.settings.view.range_max_m;

@@ -186,10 +186,11 @@ ScatterRule rule_of(const ScatterConfig& config) {
 /// An object that is turned by more than this is not expected to stand upright in its file.
 constexpr double most_tilt_deg = 45.0;
 
-void note_question(const std::string& question, SceneParts& parts) {
-    if (question.empty() || std::ranges::find(parts.questions, question) != parts.questions.end())
+void add_orientation_warning(const std::string& question, SceneParts& parts) {
+    if (question.empty() ||
+        std::ranges::find(parts.orientation_warnings, question) != parts.orientation_warnings.end())
         return;
-    parts.questions.push_back(question);
+    parts.orientation_warnings.push_back(question);
 }
 
 bool is_upright(const ObjectConfig& object) {
@@ -217,7 +218,7 @@ void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64
         std::max({std::abs(config.roll_deg[0]), std::abs(config.roll_deg[1]),
                   std::abs(config.pitch_deg[0]), std::abs(config.pitch_deg[1])}) < most_tilt_deg;
     for (std::size_t i = 0; upright && i < kinds.size(); ++i)
-        note_question(up_question(kinds[i], shapes[i]), parts);
+        add_orientation_warning(up_question(kinds[i], shapes[i]), parts);
     std::vector<PlacedFile>& files = parts.files;
     std::size_t number = 0;
     for (const ScatteredObject& object : scatter(rule, index, seed, bottom.get(), taken)) {
@@ -239,7 +240,7 @@ void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64
 SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
                        std::span<const Sonar> sonars, SceneFiles& models) {
     const SceneConfig& scene = mission.scene;
-    const Eigen::AlignedBox2d seen = seen_by(sonars, vehicle);
+    const Eigen::AlignedBox2d seen = ground_in_range(sonars, vehicle);
     SceneParts parts;
     if (!scene.file.empty()) parts.files.push_back(file_of(scene.file, scene.mesh, scene.place));
     Shapes shapes(models);
@@ -266,7 +267,7 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
                                  (object.mesh.exclude.empty() ? "; name another file"
                                                               : " but what `exclude` leaves out"));
         }
-        if (is_upright(object)) note_question(up_question(file, shape), parts);
+        if (is_upright(object)) add_orientation_warning(up_question(file, shape), parts);
         file.T_world_file = transform_of(object, shape, bottom, range_m);
         if (object.trajectory) {
             parts.motions.push_back(motion_of(object, vehicle));

@@ -23,7 +23,8 @@ struct SceneParts {
     std::shared_ptr<const Bottom> bottom;
     std::shared_ptr<const Seabed> seabed;  ///< the part of scene.seabed that was made; null: none
     Thinning heightmap;                    ///< rows that were left out
-    std::vector<std::string> questions;    ///< sentences about files that may lie on their side
+    /// Sentences about files that may lie on their side.
+    std::vector<std::string> orientation_warnings;
 };
 
 /// Places all objects of a mission: lowers objects to the bottom and draws the scattered ones.

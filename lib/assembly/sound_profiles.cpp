@@ -101,7 +101,7 @@ std::vector<ProfilePointConfig> points_of_file(const std::filesystem::path& file
 }
 
 /// InputError for multipath, which requires straight paths of sound.
-void refuse_straight_sound(const Mission& mission) {
+void refuse_multipath(const Mission& mission) {
     for (const SonarConfig& sensor : mission.sensors) {
         if (sensor.multipath.method == MultipathMethod::none) continue;
         throw InputError(
@@ -129,7 +129,7 @@ SoundProfile sound_profile(const SoundProfileConfig& config, const Mission& miss
 
 void add_sound_profiles(const Mission& mission, Scene& scene, std::span<Sonar> sonars) {
     if (!mission.water.profile) return;
-    refuse_straight_sound(mission);
+    refuse_multipath(mission);
     scene.sound_profile =
         std::make_shared<const SoundProfile>(sound_profile(*mission.water.profile, mission));
     std::shared_ptr<const SoundProfile> assumed;

@@ -52,11 +52,11 @@ std::vector<Pose> poses_of_trial(const Sonar& sonar, const Trajectory& vehicle) 
 
 bool may_be_thinned(const Mission& mission, const PlacedFile& map, SceneFiles& models) {
     constexpr std::size_t few_heights = std::size_t{1} << 18;
-    if (!map.heightmap || !has_no_truth_of_heights(mission)) return false;
+    if (!map.heightmap || !allows_thinning(mission)) return false;
     return heights_in(models.model(map)) >= few_heights;
 }
 
-bool has_no_truth_of_heights(const Mission& mission) {
+bool allows_thinning(const Mission& mission) {
     const SceneConfig& scene = mission.scene;
     if (!scene.heightmap || scene.heightmap->keep == KeptHeights::all) return false;
     const bool has_truth = !mission.output.labels.empty() || !scene.scatter.empty() ||

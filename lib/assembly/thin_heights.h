@@ -22,7 +22,7 @@ struct Thinning {
 bool may_be_thinned(const Mission& mission, const PlacedFile& map, SceneFiles& models);
 
 /// True if the mission allows thinning and no truth depends on the heights that it leaves out.
-bool has_no_truth_of_heights(const Mission& mission);
+bool allows_thinning(const Mission& mission);
 
 /// The greatest of 1, 2, 4, 8 and 16 for which every n-th row and column of a map is enough for the
 /// sonars: their images change by no more than a quarter of `relative_l1`. The change is measured

@@ -97,14 +97,14 @@ TEST_SUITE("thin heights") {
 
     TEST_CASE("truth keeps all heights") {
         Mission mission;
-        CHECK_FALSE(has_no_truth_of_heights(mission));
+        CHECK_FALSE(allows_thinning(mission));
         mission.scene.heightmap.emplace();
         mission.sensors.emplace_back();
-        CHECK(has_no_truth_of_heights(mission));
+        CHECK(allows_thinning(mission));
         const auto refused = [&](const auto& change) {
             Mission other = mission;
             change(other);
-            return !has_no_truth_of_heights(other);
+            return !allows_thinning(other);
         };
         CHECK(refused([](Mission& m) { m.output.labels = {Label::instance}; }));
         CHECK(refused([](Mission& m) { m.scene.heightmap->keep = KeptHeights::all; }));
