@@ -15,7 +15,7 @@ constexpr int across = 17;
 constexpr int up_and_down = 5;
 
 /// The middle of the i-th of n equal parts of an angle that is centred on 0.
-double part(double whole, int i, int n) {
+double part_centre(double whole, int i, int n) {
     return whole * ((i + 0.5) / n - 0.5);
 }
 
@@ -27,7 +27,8 @@ std::vector<Eigen::Vector3f> look_around(const View& view) {
     // azimuth.
     const double golden = pi * (3.0 - std::sqrt(5.0));
     for (int i = 0; i < all_around; ++i)
-        out.push_back(direction_of(golden * i, std::asin(part(2.0, i, all_around))).cast<float>());
+        out.push_back(
+            direction_of(golden * i, std::asin(part_centre(2.0, i, all_around))).cast<float>());
     for (int i = 0; i < across; ++i) {
         for (int k = 0; k < up_and_down; ++k) {
             if (view.shape == ViewShape::cone) {
@@ -35,8 +36,8 @@ std::vector<Eigen::Vector3f> look_around(const View& view) {
                 const double turn = 2.0 * pi * i / across;
                 out.push_back(direction_off_boresight(off, turn).cast<float>());
             } else {
-                out.push_back(direction_of(part(view.azimuth_rad, i, across),
-                                           part(view.elevation_rad, k, up_and_down))
+                out.push_back(direction_of(part_centre(view.azimuth_rad, i, across),
+                                           part_centre(view.elevation_rad, k, up_and_down))
                                   .cast<float>());
             }
         }

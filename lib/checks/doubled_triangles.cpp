@@ -67,10 +67,10 @@ DoubledTriangles find_doubled(const Scene& scene) {
         ++pairs[std::minmax(one, other)];
     }
     for (const auto& [pair, count] : pairs) {
-        if (count <= found.between_them) continue;
-        found.one = pair.first;
-        found.other = pair.second;
-        found.between_them = count;
+        if (count <= found.shared_triangles) continue;
+        found.first_instance = pair.first;
+        found.second_instance = pair.second;
+        found.shared_triangles = count;
     }
     return found;
 }

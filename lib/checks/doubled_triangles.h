@@ -11,8 +11,8 @@ namespace sonarsim {
 struct DoubledTriangles {
     std::size_t count = 0;
     /// The two instances that share most of these triangles; indices into Scene::instances.
-    std::uint32_t one = 0, other = 0;
-    std::size_t between_them = 0;
+    std::uint32_t first_instance = 0, second_instance = 0;
+    std::size_t shared_triangles = 0;
 };
 
 /// Searches the scene's own triangles by sorting them. Bodies that move and copies of shared meshes

@@ -117,9 +117,9 @@ void judge_doubles(const Scene& scene, std::vector<Warning>& out) {
     const DoubledTriangles doubled = find_doubled(scene);
     if (doubled.count * share <= scene.triangles.size()) return;
     out.push_back(make_warning(WarningCode::doubled_triangles, "scene",
-                               printable(scene.instances[doubled.one]),
-                               printable(scene.instances[doubled.other]), doubled.between_them,
-                               doubled.count, scene.triangles.size()));
+                               printable(scene.instances[doubled.first_instance]),
+                               printable(scene.instances[doubled.second_instance]),
+                               doubled.shared_triangles, doubled.count, scene.triangles.size()));
 }
 
 /// The number of triangles of a scene; a mesh with copies counts once.

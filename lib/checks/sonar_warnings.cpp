@@ -28,7 +28,7 @@ void judge_blindness(const Sonar& sonar, const SonarSurvey& found, std::vector<W
         config.range_max_m, depths);
     add(WarningCode::range_begins_late, why.too_near, why.ends_m.high, config.range_min_m);
     const bool cone = sonar.settings.view.shape == ViewShape::cone;
-    add(WarningCode::elevation_too_narrow, why.too_flat, why.elevation_deg.low,
+    add(WarningCode::elevation_too_narrow, why.elevation_too_narrow, why.elevation_deg.low,
         why.elevation_deg.high, cone ? "opening_deg" : "elevation_deg",
         cone ? config.opening_deg : config.elevation_deg);
     add(WarningCode::looks_elsewhere, why.elsewhere);

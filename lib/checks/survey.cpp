@@ -70,7 +70,7 @@ void explain(const View& view, const Surroundings& around, double to_scene_m,
         ++why.too_near;
         why.ends_m.take(in_view.high);
     } else if (std::isfinite(flattest)) {
-        ++why.too_flat;
+        ++why.elevation_too_narrow;
         why.elevation_deg.take(flattest);
     } else if (somewhere) {
         ++why.elsewhere;

@@ -27,16 +27,18 @@ struct ValueRange {
 
 /// Counts of the pings without returns, by the reason.
 struct NoReturnReasons {
-    std::size_t too_far = 0;    ///< the surface in view begins behind range_max_m
-    std::size_t too_near = 0;   ///< the surface in view ends before range_min_m
-    std::size_t too_flat = 0;   ///< within range, surface lies only above or below the view
+    std::size_t too_far = 0;   ///< the surface in view begins behind range_max_m
+    std::size_t too_near = 0;  ///< the surface in view ends before range_min_m
+    /// Within range, surface lies only above or below the view.
+    std::size_t elevation_too_narrow = 0;
     std::size_t elsewhere = 0;  ///< within range, surface lies only in other directions
     std::size_t nothing = 0;    ///< no surface within range in any direction
     std::size_t depths = 0;     ///< z out of range above the scene, but -z in range
     ValueRange in_view_m;       ///< start of the surface in view, for pings that are too far
     ValueRange ends_m;          ///< end of the surface in view, for pings that are too near
-    ValueRange elevation_deg;   ///< elevation of the surface nearest to the view, if too flat
-    ValueRange nearest_m;       ///< distance to the box around the scene, for pings with nothing
+    /// Elevation of the surface nearest to the view, if the view is too narrow.
+    ValueRange elevation_deg;
+    ValueRange nearest_m;  ///< distance to the box around the scene, for pings with nothing
 };
 
 /// A sonar's view of the scene in a few of its pings along the trajectory.

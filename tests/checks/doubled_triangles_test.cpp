@@ -40,9 +40,9 @@ TEST_CASE("doubled triangles: those of two nodes, in whatever order their corner
     again(quad + 2, other);
     const DoubledTriangles found = find_doubled(scene);
     CHECK(found.count == 3);
-    CHECK(found.one == one);
-    CHECK(found.other == other);
-    CHECK(found.between_them == 2);
+    CHECK(found.first_instance == one);
+    CHECK(found.second_instance == other);
+    CHECK(found.shared_triangles == 2);
 }
 
 TEST_SUITE_END();
