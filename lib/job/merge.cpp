@@ -197,7 +197,7 @@ std::vector<Copy> plan_copies(const std::vector<PingId>& all,
 }
 
 /// The bytes of a ping. InputError unless they are those that the journal of its part lists.
-EncodedPing sound_ping(const Copy& copy) {
+EncodedPing verified_ping(const Copy& copy) {
     const Part& from = *copy.from;
     EncodedPing encoded = read_ping(from.layout, from.records, *from.finished, copy.id);
     const SensorLayout& sensor = from.layout.sensors[copy.id.sensor];
@@ -230,7 +230,7 @@ void copy_pings(const std::vector<std::unique_ptr<Part>>& parts, const std::vect
     ordered_pipeline(
         copies.size(), 2 * static_cast<std::size_t>(threads), stop,
         [&](std::size_t i) {
-            EncodedPing encoded = sound_ping(copies[i]);
+            EncodedPing encoded = verified_ping(copies[i]);
             files.write(copies[i].id, encoded);
             return encoded;
         },

@@ -90,18 +90,18 @@ std::string cure_of(const std::string& name) {
 }
 
 /// The result of checking one file.
-struct Look {
+struct FileCheck {
     std::uint64_t bytes = 0;
     std::string error;
     std::map<std::string, Shape> shapes;  ///< key "sensor/polar": files of a kind have one shape
 };
 
 /// Stores the shape of a file, and an error if its shape or its ids differ from dataset.json.
-void note_opened(Look& look, const DescribedFile& file, const std::optional<std::size_t>& ids,
-                 const OpenedFile& opened) {
+void note_opened(FileCheck& result, const DescribedFile& file,
+                 const std::optional<std::size_t>& ids, const OpenedFile& opened) {
     if (ids && opened.largest && *opened.largest > *ids) {
-        look.error = "has the id " + std::to_string(*opened.largest) + ", and dataset.json names " +
-                     std::to_string(*ids);
+        result.error = "has the id " + std::to_string(*opened.largest) +
+                       ", and dataset.json names " + std::to_string(*ids);
     }
     if (!file.sensor || file.kind.empty() || file.kind == "records") return;
     const Shape& shape = opened.shape;
@@ -110,16 +110,16 @@ void note_opened(Look& look, const DescribedFile& file, const std::optional<std:
     Shape expected = array ? array->shape : Shape{};
     const std::string kind = file.sensor->name + "/" + file.kind;
     const bool declared = !expected.empty();
-    if (!declared) expected = look.shapes.try_emplace(kind, shape).first->second;
-    if (shape == expected || !look.error.empty()) return;
-    look.error = "is " + shape_text(shape) +
-                 (declared ? ", and dataset.json says " : ", and the others are ") +
-                 shape_text(expected);
+    if (!declared) expected = result.shapes.try_emplace(kind, shape).first->second;
+    if (shape == expected || !result.error.empty()) return;
+    result.error = "is " + shape_text(shape) +
+                   (declared ? ", and dataset.json says " : ", and the others are ") +
+                   shape_text(expected);
 }
 
 /// Opens every file in a pack. They must be those of dataset.json, in its order.
-void look_into(const fs::path& path, const DescribedFile& pack, const DatasetFile& dataset,
-               Look& look) {
+void check_pack(const fs::path& path, const DescribedFile& pack, const DatasetFile& dataset,
+                FileCheck& result) {
     const DescribedSensor& sensor = *pack.sensor;
     const NamedTexts& members = sensor.packs->members;
     const std::uint64_t number = parse_unsigned(path.stem().string()).value_or(0);
@@ -136,9 +136,9 @@ void look_into(const fs::path& path, const DescribedFile& pack, const DatasetFil
                                      (more ? expected : std::string("its end")) + " should be");
         }
         const DescribedFile file{name, pack.sensor, members[k].first};
-        const bool sound = look.error.empty();
-        note_opened(look, file, count_ids(file, dataset), open_bytes(name, bytes));
-        if (sound && !look.error.empty()) look.error = name + " in it " + look.error;
+        const bool had_no_error = result.error.empty();
+        note_opened(result, file, count_ids(file, dataset), open_bytes(name, bytes));
+        if (had_no_error && !result.error.empty()) result.error = name + " in it " + result.error;
         if (++k < members.size()) return;
         k = 0;
         ++ping;
@@ -146,41 +146,41 @@ void look_into(const fs::path& path, const DescribedFile& pack, const DatasetFil
     if (ping < end) throw std::runtime_error("lacks pings from its end");
 }
 
-Look look_at(const fs::path& folder, const Task& task, const DatasetFile& dataset) {
+FileCheck check_file(const fs::path& folder, const Task& task, const DatasetFile& dataset) {
     const fs::path path = folder / task.file.name;
-    Look look;
-    look.bytes = fs::file_size(path);
+    FileCheck result;
+    result.bytes = fs::file_size(path);
     try {
         if (task.file.kind == "packs")
-            look_into(path, task.file, dataset, look);
+            check_pack(path, task.file, dataset, result);
         else
-            note_opened(look, task.file, task.ids, open_file(path));
+            note_opened(result, task.file, task.ids, open_file(path));
     } catch (const std::system_error&) {
         throw;
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& error) {
-        look.error = std::string("does not open: ") + error.what();
+        result.error = std::string("does not open: ") + error.what();
     }
     if (sha256_of_file(path) != task.sum) {
-        look.error = "its bytes differ from SHA256SUMS" +
-                     (look.error.empty() ? "" : ", and it " + look.error);
+        result.error = "its bytes differ from SHA256SUMS" +
+                       (result.error.empty() ? "" : ", and it " + result.error);
     }
-    return look;
+    return result;
 }
 
-void look_at_all(const fs::path& folder, const DatasetFile& dataset, const std::vector<Task>& tasks,
+void check_files(const fs::path& folder, const DatasetFile& dataset, const std::vector<Task>& tasks,
                  int threads, const ProgressCallback& progress, const std::atomic<bool>& stop,
                  DatasetCheck& check) {
     std::map<std::string, Shape> shapes;  // the first file of each kind
     ordered_pipeline(
         tasks.size(), 4 * static_cast<std::size_t>(threads), stop,
-        [&](std::size_t i) { return look_at(folder, tasks[i], dataset); },
-        [&](const Look& look) {
+        [&](std::size_t i) { return check_file(folder, tasks[i], dataset); },
+        [&](const FileCheck& result) {
             const std::string& name = tasks[check.files++].file.name;
-            check.bytes += look.bytes;
-            std::string error = look.error;
-            for (const auto& [kind, shape] : look.shapes) {
+            check.bytes += result.bytes;
+            std::string error = result.error;
+            for (const auto& [kind, shape] : result.shapes) {
                 const Shape& first = shapes.try_emplace(kind, shape).first->second;
                 if (error.empty() && shape != first)
                     error = "is " + shape_text(shape) + ", and the others are " + shape_text(first);
@@ -237,7 +237,7 @@ DatasetCheck verify_dataset(const fs::path& folder, int threads, const ProgressC
         }
     }
     on_threads(threads,
-               [&](int n) { look_at_all(folder, dataset, tasks, n, progress, stop, check); });
+               [&](int n) { check_files(folder, dataset, tasks, n, progress, stop, check); });
     return check;
 }
 
