@@ -88,8 +88,8 @@ std::vector<double> sum_of(const std::vector<std::vector<double>>& counts) {
 
 /// The 95 % quantile of the Jensen-Shannon divergence over draws that redistribute all places of
 /// both recordings; common places are exchanged one by one.
-double usual_distance(const MeasuredHistogram& real, const MeasuredHistogram& simulated,
-                      bool is_paired, std::uint32_t seed) {
+double chance_distance(const MeasuredHistogram& real, const MeasuredHistogram& simulated,
+                       bool is_paired, std::uint32_t seed) {
     std::vector<double> drawn(exchanges);
     in_parallel(drawn.size(), [&](std::size_t k) {
         std::vector<double> one(real.counts.front().size());
@@ -127,7 +127,7 @@ ComparedHistogram compared(const MeasuredHistogram& real, const MeasuredHistogra
     out.jensen_shannon = jensen_shannon(a, b);
     out.kullback_leibler = kullback_leibler(a, b);
     out.earth_movers = real.bin_width * earth_movers(a, b);
-    out.usual_jensen_shannon = usual_distance(real, simulated, is_paired, seed);
+    out.chance_jensen_shannon = chance_distance(real, simulated, is_paired, seed);
     return out;
 }
 

@@ -31,7 +31,7 @@ struct ComparedHistogram {
     double jensen_shannon = 0.0;
     double kullback_leibler = 0.0;
     double earth_movers = 0.0;
-    double usual_jensen_shannon = 0.0;  ///< 95 % of draws with places exchanged lie below
+    double chance_jensen_shannon = 0.0;  ///< 95 % of draws with places exchanged lie below
 };
 
 struct Comparison {

@@ -64,7 +64,7 @@ std::string comparison_text(const Comparison& c) {
         text += fmt::format(
             "{}: Jensen-Shannon {} bits (by chance up to {}), Kullback-Leibler {} nats, earth "
             "mover's {} {}\n",
-            h.name, digits(h.jensen_shannon), digits(h.usual_jensen_shannon),
+            h.name, digits(h.jensen_shannon), digits(h.chance_jensen_shannon),
             digits(h.kullback_leibler), digits(h.earth_movers), h.unit);
     }
     if (c.has_relative_levels)
@@ -111,7 +111,7 @@ Json comparison_json(const Comparison& c) {
     for (const ComparedHistogram& h : c.histograms) {
         json["histograms"].push_back({{"name", h.name},
                                       {"jensen_shannon_bits", h.jensen_shannon},
-                                      {"usual_jensen_shannon_bits", h.usual_jensen_shannon},
+                                      {"usual_jensen_shannon_bits", h.chance_jensen_shannon},
                                       {"kullback_leibler_nats", h.kullback_leibler},
                                       {"earth_movers", h.earth_movers},
                                       {"earth_movers_unit", h.unit}});

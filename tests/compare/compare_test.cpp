@@ -79,7 +79,7 @@ TEST_SUITE("compare") {
         CHECK(shape.differs);
         CHECK(std::fabs(shape.estimate.real) < 0.05);
         CHECK(std::fabs(shape.estimate.simulated - 0.5) < 0.1);
-        CHECK(one.histograms[0].jensen_shannon > 3.0 * one.histograms[0].usual_jensen_shannon);
+        CHECK(one.histograms[0].jensen_shannon > 3.0 * one.histograms[0].chance_jensen_shannon);
         CHECK_FALSE(figure_of(one, "image: level, dB").agrees == false);
     }
 
