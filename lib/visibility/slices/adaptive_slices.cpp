@@ -205,15 +205,16 @@ void AdaptiveSlices::find_outstanding(const Subgap& subgap) {
     const SliceResult& b = results_[subgap.high];
     for (const UnseenPiece& piece : around_[subgap.gap - first_gap_].unseen) {
         if (!(a.slice.u < piece.facet_u.from && piece.facet_u.to < b.slice.u)) continue;
-        if (piece.u < a.high.u ? stands_out(piece, a, a.high) : stands_out(piece, b, b.low))
+        if (piece.u < a.high.u ? is_nearer_than_predicted(piece, a, a.high)
+                               : is_nearer_than_predicted(piece, b, b.low))
             outstanding_.push_back(&piece);
     }
 }
 
 /// True if the piece is nearer than the surface that a slice predicts there by more than
 /// `same_range`, or if the slice predicts none. `ends` are those of the slice, moved to one side.
-bool AdaptiveSlices::stands_out(const UnseenPiece& piece, const SliceResult& near,
-                                const MovedEnds& ends) const {
+bool AdaptiveSlices::is_nearer_than_predicted(const UnseenPiece& piece, const SliceResult& near,
+                                              const MovedEnds& ends) const {
     const float share = (piece.u - near.slice.u) / (ends.u - near.slice.u);
     const auto place = [&](const MovedEnd& end) -> float {
         return end.at_slice + share * (end.w - end.at_slice);

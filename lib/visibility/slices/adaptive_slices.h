@@ -95,7 +95,8 @@ class AdaptiveSlices {
     void estimate(Subgap& subgap);
     void add_unseen(Subgap& subgap);
     void find_outstanding(const Subgap& subgap);
-    bool stands_out(const UnseenPiece& piece, const SliceResult& near, const MovedEnds& ends) const;
+    bool is_nearer_than_predicted(const UnseenPiece& piece, const SliceResult& near,
+                                  const MovedEnds& ends) const;
     bool alike(const SliceResult& a, const SliceResult& b) const;
     bool certain(const Subgap& subgap) const;
     void scan_check();

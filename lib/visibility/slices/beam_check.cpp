@@ -30,7 +30,7 @@ constexpr double bins_of_one_cause = 8.0;
 constexpr double enough_at_first = 0.25;
 
 // Error of the check's own patches: boxes in range for curved surface. It is error_of_shapes() in
-// slices_engine.cpp at its finest, which was fitted to the tank and the lifeboat
+// swept_frame.cpp at its finest, which was fitted to the tank and the lifeboat
 // (docs/notes/2026-11-21-slices-estimate.md).
 constexpr double error_of_fine_patches = 0.0023;
 
@@ -101,7 +101,7 @@ double estimated_error_of_few_bins(const BeamErrors& errors) {
     return likely_error(errors) + student(runs) * deviation_of_bins * run;
 }
 
-double enough_for_few_bins(double goal, int pass) {
+double pass_limit_of_few_bins(double goal, int pass) {
     return pass == 1 ? enough_at_first * goal : goal;
 }
 

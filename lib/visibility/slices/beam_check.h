@@ -84,6 +84,6 @@ double estimated_error_of_few_bins(const BeamErrors& errors);
 
 /// The largest estimate that suffices after a pass over a view in which few bins decide. The first
 /// pass is 1.
-double enough_for_few_bins(double goal, int pass);
+double pass_limit_of_few_bins(double goal, int pass);
 
 }  // namespace sonarsim

@@ -75,7 +75,8 @@ class SlicesEngine final : public VisibilityEngine {
             if (last) return std::move(result.samples);
             if (result.few_bins) least_slices *= times_the_slices;
             draws = false;
-            finer.relative_l1 *= std::clamp(aimed_share * goal / result.if_checked, 0.25, 0.67);
+            finer.relative_l1 *=
+                std::clamp(aimed_share * goal / result.error_if_checked, 0.25, 0.67);
         }
     }
 
@@ -92,15 +93,15 @@ class SlicesEngine final : public VisibilityEngine {
   private:
     struct Pass {
         Samples samples;
-        double if_checked;  ///< the estimated error if all beams were checked
-        double edge_bins;   ///< part of edge bins in the estimated error
-        bool few_bins;      ///< few bins decide
+        double error_if_checked;  ///< the estimated error if all beams were checked
+        double edge_bins;         ///< part of edge bins in the estimated error
+        bool few_bins;            ///< few bins decide
     };
 
     /// True if the ping needs no further pass, or gets none.
     bool is_last(const Pass& result, const View& view, int pass) const {
         const double goal = view.relative_l1;
-        const double enough = result.few_bins ? enough_for_few_bins(goal, pass) : goal;
+        const double enough = result.few_bins ? pass_limit_of_few_bins(goal, pass) : goal;
         // More slices do not help against edge bins.
         const bool hopeless = result.edge_bins > goal;
         return result.samples.estimated_l1 <= enough || hopeless || options_.per_beam > 0 ||
@@ -149,9 +150,9 @@ class SlicesEngine final : public VisibilityEngine {
         const bool few_bins = few_bins_decide(errors, goal);
         image.samples.estimated_l1 =
             few_bins ? estimated_error_of_few_bins(errors) : estimated_error(errors);
-        const double if_checked =
+        const double error_if_checked =
             errors.of_others() > 0.0 ? likely_error_if_checked(errors) : image.samples.estimated_l1;
-        return {std::move(image.samples), if_checked, errors.edge_bins(), few_bins};
+        return {std::move(image.samples), error_if_checked, errors.edge_bins(), few_bins};
     }
 
     const Scene* scene_;
