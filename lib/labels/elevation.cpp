@@ -12,7 +12,7 @@ namespace sonarsim {
 namespace {
 
 /// The variance of sin(theta) in a patch at one range.
-double spread_at_one_range(const EchoPatch& patch) {
+double variance_at_one_range(const EchoPatch& patch) {
     const auto [range, departure, d] = arrival_of(patch.position);
     const float u = d.dot(patch.edge_u);
     const float v = d.dot(patch.edge_v);
@@ -64,7 +64,7 @@ void ElevationFinder::begin(const EchoPatch& patch, const RangePath& path) {
     const Eigen::Vector3f axis = Eigen::Vector3f::UnitZ();
     rise_m_ = patch.position.dot(axis);
     slope_ = path.per_range.dot(axis);
-    besides_ = spread_at_one_range(patch);
+    variance_at_range_ = variance_at_one_range(patch);
 }
 
 void ElevationFinder::cover(const CoveredBins& covered) {
@@ -76,7 +76,7 @@ void ElevationFinder::cover(const CoveredBins& covered) {
         const double leaves = sine_at(k + 1);
         const double along = leaves - enters;
         mean_[k] = 0.5 * (enters + leaves);
-        square_[k] = mean_[k] * mean_[k] + along * along / 12.0 + besides_;
+        square_[k] = mean_[k] * mean_[k] + along * along / 12.0 + variance_at_range_;
     }
 }
 

@@ -30,7 +30,7 @@ class ElevationFinder {
     /// squares.
     BinSumRows<3> sums_;
     // This patch:
-    double rise_m_ = 0.0, slope_ = 0.0, besides_ = 0.0;
+    double rise_m_ = 0.0, slope_ = 0.0, variance_at_range_ = 0.0;
     std::array<double, CoveredBins::at_once> mean_{}, square_{};  ///< sin(theta), by bin
 };
 

@@ -67,7 +67,7 @@ class LineTracer {
         nodes_.clear();
         nodes_.reserve(2 * lines.size());
         for (const SightLine& line : lines)
-            nodes_.push_back({objects_.object_of(line.sample->instance), line.first});
+            nodes_.push_back({objects_.object_of(line.sample->instance), line.first_node});
         std::erase_if(lines, [&](const SightLine& line) { return !is_wanted(line); });
         pieces_.reserve(2 * lines.size());
     }
@@ -77,14 +77,14 @@ class LineTracer {
         line.range_m = line.range_m * (1.0F + step_behind) + met.distance_m;
         if (!(line.range_m < range_max_m_)) return false;
         if (is_shadow(line)) {
-            pieces_.push_back({line.beam, nodes_[line.first].object, line.range_m,
+            pieces_.push_back({line.beam, nodes_[line.first_node].object, line.range_m,
                                half_extent(line, line.range_m, met.normal), line.solid_angle});
         }
         const std::uint32_t object = objects_.object_of(met.instance);
-        if (!has_met(nodes_, line.passed, object)) {
+        if (!has_met(nodes_, line.last_node, object)) {
             solid_angles_[object].hidden += line.solid_angle;
-            nodes_.push_back({object, line.passed});
-            line.passed = static_cast<std::uint32_t>(nodes_.size() - 1);
+            nodes_.push_back({object, line.last_node});
+            line.last_node = static_cast<std::uint32_t>(nodes_.size() - 1);
         }
         return is_wanted(line);
     }
@@ -98,7 +98,7 @@ class LineTracer {
 
   private:
     bool is_shadow(const SightLine& line) const {
-        return all_ || !objects_.is_background(nodes_[line.first].object);
+        return all_ || !objects_.is_background(nodes_[line.first_node].object);
     }
     bool is_wanted(const SightLine& line) const {
         if (directions_.is_empty_behind(line.direction, line.range_m)) return false;

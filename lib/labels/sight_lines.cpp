@@ -28,8 +28,8 @@ void add_line(const Sample& sample, const Eigen::Vector3f& place, float share_u,
                      .share_u = share_u,
                      .share_v = share_v,
                      .beam = static_cast<std::uint32_t>(beam),
-                     .first = number,
-                     .passed = number});
+                     .first_node = number,
+                     .last_node = number});
 }
 
 /// The number of parts, at least 1, of an edge across the line of sight: each spans one beam of the

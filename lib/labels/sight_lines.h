@@ -20,8 +20,8 @@ struct SightLine {
     const Sample* sample;
     float share_u, share_v;
     std::uint32_t beam;
-    std::uint32_t first;   ///< the first node of its way
-    std::uint32_t passed;  ///< the last one
+    std::uint32_t first_node;  ///< the first node of its way
+    std::uint32_t last_node;   ///< the last one
 };
 
 /// The sight lines of a ping, one to a sample.
