@@ -68,7 +68,7 @@ int report_hard(const ReportArguments& arguments) {
 
 /// The mission without the water's echoes, which no engine finds, and with one sample per range
 /// bin, since several samples do not add up.
-Mission of_surfaces(Mission mission) {
+Mission without_water_echoes(Mission mission) {
     mission.water.content = WaterContent::none;
     mission.water.scattering_db_per_m3.reset();
     mission.water.suspended_mg_l.reset();
@@ -101,7 +101,7 @@ int report(const ReportArguments& arguments) {
     if (arguments.mission.file.empty()) throw CLI::RequiredError("mission");
     const double start = seconds_now();
     start_logging(arguments.log);
-    const Mission mission = of_surfaces(load(arguments.mission));
+    const Mission mission = without_water_echoes(load(arguments.mission));
     if (mission.variants > 0) {
         throw InputError({arguments.mission.file.string()},
                          "the report measures one scene, and this mission has variants; give it "

@@ -91,7 +91,7 @@ std::string stages(const Report& report, const std::string& sensor) {
 }
 
 /// Compares the mission's own setting with bare Embree, and names the slowest stage.
-std::string floors(const Report& report, const std::string& sensor) {
+std::string embree_comparison(const Report& report, const std::string& sensor) {
     for (const ReportRow& row : report.rows) {
         double sum = 0.0;
         for (const auto& timer : ping_timers)
@@ -242,7 +242,8 @@ std::string report_text(const Report& report) {
             reference.rays_per_bin.centre, percent(reference.moved.centre),
             percent(reference.moved.max), percent(reference.apart.centre),
             percent(reference.apart.max));
-        text += floors(report, reference.sensor) + explain_auto(report, reference.sensor) + "\n" +
+        text += embree_comparison(report, reference.sensor) +
+                explain_auto(report, reference.sensor) + "\n" +
                 multipath(report, reference.sensor) + labels(report, reference.sensor);
     }
     return text + growth_text(report) +

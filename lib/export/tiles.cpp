@@ -9,15 +9,16 @@ namespace sonarsim {
 namespace {
 
 /// The part of an object on one side of a picture's nadir.
-struct Sided {
+struct ObjectOnSide {
     SourceObject object;
     int from = 0, to = 0;  ///< columns of the side
 };
 
-std::vector<Sided> on_sides(const SourcePicture& source, const std::vector<SourceObject>& objects) {
+std::vector<ObjectOnSide> on_sides(const SourcePicture& source,
+                                   const std::vector<SourceObject>& objects) {
     std::vector<int> borders{0, source.width};
     if (source.nadir) borders.insert(borders.begin() + 1, *source.nadir);
-    std::vector<Sided> sided;
+    std::vector<ObjectOnSide> sided;
     for (const SourceObject& object : objects) {
         if (object.class_number == 0) continue;
         for (std::size_t k = 0; k + 1 < borders.size(); ++k) {
@@ -25,7 +26,8 @@ std::vector<Sided> on_sides(const SourcePicture& source, const std::vector<Sourc
                 cut_mask(object.mask, source.height, {0, source.width, 0, source.height},
                          borders[k], borders[k + 1]);
             if (part.area == 0) continue;
-            Sided& one = sided.emplace_back(Sided{object, borders[k], borders[k + 1]});
+            ObjectOnSide& one =
+                sided.emplace_back(ObjectOnSide{object, borders[k], borders[k + 1]});
             one.object.mask = part;
         }
     }
@@ -42,9 +44,9 @@ SplitPart part_of_frame(const SourcePicture& source, const Frame& frame) {
                : SplitPart::none;
 }
 
-std::vector<SourceObject> objects_in(const SourcePicture& source, const std::vector<Sided>& sided,
-                                     const Frame& frame, const ExportOptions& options,
-                                     LeftOut& left_out) {
+std::vector<SourceObject> objects_in(const SourcePicture& source,
+                                     const std::vector<ObjectOnSide>& sided, const Frame& frame,
+                                     const ExportOptions& options, LeftOut& left_out) {
     // A map of classes has pixels of objects of any size.
     const bool is_map = options.kind == ExportKind::masks;
     const bool has_crowds = is_map || options.kind == ExportKind::coco;
@@ -52,7 +54,7 @@ std::vector<SourceObject> objects_in(const SourcePicture& source, const std::vec
     const int least = options.least_pixels > 0 ? options.least_pixels : source.min_pixels;
     const auto least_pixels = static_cast<std::uint64_t>(is_map ? 1 : least);
     std::vector<SourceObject> objects;
-    for (const Sided& one : sided) {
+    for (const ObjectOnSide& one : sided) {
         const ObjectMask& whole = one.object.mask;
         const bool meets = whole.left < frame.right && whole.right > frame.left &&
                            whole.top < frame.bottom && whole.bottom > frame.top;
@@ -96,7 +98,7 @@ void for_each_exported(const SourcePicture& source, const std::vector<SourceObje
                        PixelReader& reader, const ExportOptions& options, LeftOut& left_out,
                        const std::function<void(const ExportedPicture&)>& visit) {
     const std::vector<Frame> frames = frames_of(source, options);
-    const std::vector<Sided> sided = on_sides(source, objects);
+    const std::vector<ObjectOnSide> sided = on_sides(source, objects);
     std::string bytes = reader.file(source);
     const Pixels pixels = reader.read(source, bytes);
     for (const Frame& frame : frames) {

@@ -29,8 +29,8 @@ std::vector<Cosine> draw_cosines(std::uint32_t movement, const WaveMotion& motio
         // Keep the share off 0 and 1, so that its logarithm is finite and not 0.
         const double share =
             std::clamp((k + unit_double(words.x0, words.x1)) / cosines, 1e-9, 1.0 - 1e-9);
-        const double of_peak = std::sqrt(std::sqrt(1.25 / -logarithm(share)));
-        const double rad_per_s = 2.0 * pi * of_peak / motion.period_s;
+        const double peak_ratio = std::sqrt(std::sqrt(1.25 / -logarithm(share)));
+        const double rad_per_s = 2.0 * pi * peak_ratio / motion.period_s;
         const double late = rad_per_s * motion.lag_s;
         out.push_back({rad_per_s, 2.0 * pi * unit_double(words.x2, words.x3) - arctan2(late, 1.0),
                        1.0 / std::sqrt(1.0 + late * late)});

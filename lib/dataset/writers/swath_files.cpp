@@ -81,7 +81,7 @@ void write_xtf(const WriterContext& context, const RecordFile& rows,
 }
 
 /// The automatic cell size: neighbouring pings and bins leave no cell between them empty.
-double own_cell_m(const WriterContext& context) {
+double automatic_cell_m(const WriterContext& context) {
     const Trajectory& trajectory = context.assembly.trajectory;
     double way_m = 0.0;
     for (std::size_t k = 1; k < trajectory.size(); ++k) {
@@ -101,7 +101,7 @@ void write_mosaic(const WriterContext& context, const RecordFile& rows,
     for_each_row(context, rows, [&](const RecordedRow& row) {
         row.swath ? add_bounds(*row.swath, bounds) : void(++dark);
     });
-    Bathymetry map = make_bathymetry(bounds, asked_m > 0.0 ? asked_m : own_cell_m(context));
+    Bathymetry map = make_bathymetry(bounds, asked_m > 0.0 ? asked_m : automatic_cell_m(context));
     const double bin_m = context.sonar().settings.view.bin_m();
     for_each_row(context, rows, [&](const RecordedRow& row) {
         if (row.swath) rasterize(*row.swath, bin_m, row.values, map);
