@@ -27,7 +27,7 @@ render() {  # OUT [options]
 
 expected=
 failed=0
-tell() {  # OUT WORDS
+report_sum() {  # OUT WORDS
     local sum
     sum=$(sha256sum <"$1/SHA256SUMS" | cut -c1-64)
     expected=${expected:-$sum}
@@ -36,9 +36,9 @@ tell() {  # OUT WORDS
 }
 
 render "$work/j1" -j1
-tell "$work/j1" "-j1"
+report_sum "$work/j1" "-j1"
 render "$work/j2" -j2
-tell "$work/j2" "-j2"
+report_sum "$work/j2" "-j2"
 
 for k in 1 2 3; do
     render "$work/part$k" -j"$k" --shard "$k/3"
@@ -46,7 +46,7 @@ done
 for order in "1 2 3" "1 3 2" "2 1 3" "2 3 1" "3 1 2" "3 2 1"; do
     read -r -a parts <<<"$order"
     "$program" merge "${parts[@]/#/$work/part}" "$work/merged" --quiet
-    tell "$work/merged" "3 shards, merged as $order"
+    report_sum "$work/merged" "3 shards, merged as $order"
     rm -r "$work/merged"
 done
 
@@ -65,7 +65,7 @@ for ((k = 1; k <= 10; ++k)); do
 done
 left=$(pings)
 render "$work/killed" -j2
-tell "$work/killed" "$kills kill -9, the last with $left pings written, then resumed"
+report_sum "$work/killed" "$kills kill -9, the last with $left pings written, then resumed"
 
 for ((k = 1; k <= 3; ++k)); do
     SONARSIM=$program SLURM_ARRAY_TASK_ID=$k SLURM_ARRAY_TASK_COUNT=3 SLURM_ARRAY_TASK_MIN=1 \
@@ -73,20 +73,20 @@ for ((k = 1; k <= 3; ++k)); do
         "${small[@]}" 2>/dev/null
 done
 SONARSIM=$program bash "$root/scripts/slurm/merge.sbatch" "$work/slurm" 3
-tell "$work/slurm" "Slurm array of 3 tasks, its variables set by hand (a real one: tests/cli/test_clusters.py)"
+report_sum "$work/slurm" "Slurm array of 3 tasks, its variables set by hand (a real one: tests/cli/test_clusters.py)"
 
 if command -v parallel >/dev/null; then
     parallel -j2 "$program" render "$mission" "${small[@]}" --quiet --threads 1 \
         --shard '{}/4' --out "$work/gnu{}" ::: 1 2 3 4
     "$program" merge "$work"/gnu{1,2,3,4} "$work/gnu" --quiet
-    tell "$work/gnu" "GNU parallel, 4 shards"
+    report_sum "$work/gnu" "GNU parallel, 4 shards"
 else
     echo "not tried: GNU parallel (apt-get install parallel)"
 fi
 
 inputs "$work/another folder/deeper"
 (cd "$work/another folder/deeper" && render out)
-tell "$work/another folder/deeper/out" "another folder"
+report_sum "$work/another folder/deeper/out" "another folder"
 
 if ((EUID == 0)) && command -v setpriv >/dev/null; then
     inputs "$work/user"
@@ -94,7 +94,7 @@ if ((EUID == 0)) && command -v setpriv >/dev/null; then
     chown -R nobody "$work/user"
     (cd "$work/user" && setpriv --reuid=nobody --regid=nogroup --clear-groups env HOME=/nowhere \
         TZ=Asia/Tokyo LANG=C ./sonarsim render "$mission" "${small[@]}" --quiet --out out)
-    tell "$work/user/out" "another user, home, time zone and language ($(stat -c %U "$work/user/out"))"
+    report_sum "$work/user/out" "another user, home, time zone and language ($(stat -c %U "$work/user/out"))"
 else
     echo "not tried: another user (needs root)"
 fi

@@ -87,7 +87,7 @@ class Dataset:
         try:
             self._read()
         except (KeyError, TypeError, AttributeError, IndexError) as fault:
-            raise ValueError(f"{path}: is damaged: {fault!r}; sonarsim verify tells which key"
+            raise ValueError(f"{path}: is damaged: {fault!r}; sonarsim verify names the key"
                              ) from fault
         except ValueError as fault:
             raise ValueError(f"{path}: {fault}") from fault
@@ -371,7 +371,7 @@ def read_png(data):
     pixel = channels * bits // 8
     expected = height * (1 + width * pixel)
     if not width or not height or expected > MOST_INFLATED * len(data):
-        raise ValueError("is a PNG that cannot hold the pixels it tells")
+        raise ValueError("is a PNG whose width and height cannot be right")
     rows = np.frombuffer(unpacked(b"".join(packed), expected), np.uint8)
     rows = rows.reshape(height, 1 + width * pixel)
     pixels = unfiltered(rows[:, 0], rows[:, 1:].reshape(height, width, pixel))
@@ -387,7 +387,7 @@ def unpacked(data, expected):
     except zlib.error as fault:
         raise ValueError(f"cannot be unpacked: {fault}") from fault
     if len(out) != expected:
-        raise ValueError("is a PNG with more or fewer rows than it tells")
+        raise ValueError("is a PNG with more or fewer rows than its header says")
     return out
 
 
@@ -412,7 +412,7 @@ def read_npy(data):
         raise ValueError("is no .npy file, format 1.0")
     shape, _, dtype = np.lib.format.read_array_header_1_0(file)
     if dtype.hasobject or math.prod(shape) * dtype.itemsize != len(data) - file.tell():
-        raise ValueError(f"is {len(data)} bytes long and tells {shape} of {dtype}")
+        raise ValueError(f"is {len(data)} bytes long, and its header says {shape} of {dtype}")
     return np.load(io.BytesIO(data))
 
 

@@ -57,7 +57,7 @@ points := $(sort $(points))
 # Bins without an echo hold noise alone, and points with one seed have the same noise.
 seeds := $(if $(filter seed,$(axes)),$(sort $(seed)),one)
 $(if $(filter-out $(words $(seeds)),$(words $(points))),$(warning points that share a seed have the \
-same noise, bit for bit, in every bin that nothing lights. To train with one and test with another \
+same noise, bit for bit, in every bin without an echo. To train with one and test with another \
 is a leak: give each a seed of its own, or keep those of one seed on the same side))
 
 # The folder of a point. Characters that a file name or make does not take are dropped or replaced.
