@@ -20,8 +20,8 @@ constexpr double widest_strip = 0.0088;      // fan, rad
 constexpr double widest_side_strip = 0.035;  // port_starboard, rad
 constexpr int cone_slices = 96;              // at one per beam
 
-// The poles of a view lie at w = infinity; surface within 1e-3 rad of them is ignored.
-constexpr double steepest = 1e3;
+// The poles of a view lie at w = infinity; surface within 1e-5 rad of them is ignored.
+constexpr double steepest = 1e5;
 
 double tangent(double angle) {
     const SinCos s = sincos(angle);

@@ -152,6 +152,17 @@ TEST_CASE("slices: a cone sees a disc, whatever it is cut into") {
     }
 }
 
+TEST_CASE("slices: the narrowest cone sees its disc") {
+    for (const double opening_deg : {0.3, 0.1, 0.01}) {
+        View view = cone_view();
+        view.azimuth_rad = view.elevation_rad = radians(opening_deg);
+        const double radius = 4.0 * std::tan(radians(0.5 * opening_deg));
+        // At 0.01 degrees, the surface within 1e-5 rad of the axis and rounding are missing.
+        CHECK(area_of(seen(wall(4.0F, 1), view, {})) ==
+              test::approx(pi * radius * radius).epsilon(opening_deg < 0.1 ? 0.2 : 5e-3));
+    }
+}
+
 TEST_CASE("slices: the two sides see a strip of the floor") {
     // Elevations +-e on the wall x = d: 2 e r_ground dy = 2 tan(e) sqrt(d^2 + y^2) dy.
     View view = sides_view();
