@@ -27,6 +27,7 @@ class ImageFormer {
           beams_(beams),
           context_(context),
           scene_draws_(context.draws.of_scene(Stream::scatterers)),
+          clutter_draws_(context.draws.of_scene_in_all_looks(Stream::scatterers)),
           ping_draws_(context.draws.of(Stream::speckle)),
           sonar_{traced.T_world_sensor.rotation.toRotationMatrix().cast<float>(),
                  traced.T_world_sensor.translation - context.scene.origin},
@@ -111,7 +112,7 @@ class ImageFormer {
                                  model_.equation, echoes_);
         ping_.counts.out_of_range += find_columns(beams_, patches, echoes_);
         if (speckle_ != SpeckleMode::none)
-            add_clutter(patches, model_.clutter, sonar_, scene_draws_, echoes_);
+            add_clutter(patches, model_.clutter, sonar_, clutter_draws_, echoes_);
     }
 
     /// Adds the echoes of the sediment below sea beds. Their amplitudes are drawn for each ping.
@@ -272,7 +273,7 @@ class ImageFormer {
     const CalibratedModel& model_;
     const Beams& beams_;
     const FormContext& context_;
-    PhiloxKey scene_draws_, ping_draws_;
+    PhiloxKey scene_draws_, clutter_draws_, ping_draws_;
     SonarInScene sonar_;
     ScatteringOfScene scattering_;
     std::vector<float> slopes_;

@@ -8,12 +8,6 @@ namespace sonarsim {
 
 namespace {
 
-/// The draws of a look, which has a seed of its own.
-PingDraws draws_of_look(PingDraws draws, int look) {
-    draws.seed += std::uint64_t{0x9E3779B97F4A7C15U} * static_cast<std::uint64_t>(look);
-    return draws;
-}
-
 /// Averages the powers of several looks, and makes one range bin of several samples. The counts are
 /// those of the first look.
 void form_looks(const CalibratedModel& model, const TracedPing& traced, const FormContext& context,
@@ -26,7 +20,7 @@ void form_looks(const CalibratedModel& model, const TracedPing& traced, const Fo
         Ping of_look = ping;
         of_look.intensity.assign(sum.size(), 0.0F);
         FormContext with_draws = context;
-        with_draws.draws = draws_of_look(context.draws, look);
+        with_draws.draws.look = static_cast<std::uint32_t>(look);
         form_look(model, traced, with_draws, of_look);
         for (std::size_t k = 0; k < sum.size(); ++k)
             sum[k] += of_look.intensity[k] / static_cast<float>(looks);

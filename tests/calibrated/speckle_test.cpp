@@ -5,6 +5,7 @@
 #include <complex>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "calibrated/preset_fixtures.h"
@@ -265,10 +266,12 @@ TEST_SUITE("calibrated") {
             }
             return kept / sum;
         };
-        for (const double shape : {1.0, 4.0}) {
+        for (const auto& [shape, looks] : {std::pair{1.0, 1}, {4.0, 1}, {1.0, 8}}) {
             const Patch patch("didson_1800khz", 5.0, 0.02, 66,
-                              "    instrument: {usual_water: none, receiver: {samples: 1}, "
-                              "speckle: {clutter_m: 0.1, clutter_shape: " +
+                              "    instrument: {usual_water: none, receiver: {samples: 1, looks: " +
+                                  std::to_string(looks) +
+                                  "}, "
+                                  "speckle: {clutter_m: 0.1, clutter_shape: " +
                                   std::to_string(shape) + "}}\n");
             const LineArray array = array_of(patch.sonar);
             const double along = share_in_one(
@@ -287,7 +290,9 @@ TEST_SUITE("calibrated") {
                     squares += p * p / (3.0 * static_cast<double>(powers.size()));
                 }
             }
-            const double found = 1.0 / (0.5 * squares / (mean * mean) - 1.0) * along * across;
+            // With L looks at one clutter, <p^2> / <p>^2 = (1 + 1 / L) (1 + its variance).
+            const double found =
+                1.0 / (squares / (mean * mean) / (1.0 + 1.0 / looks) - 1.0) * along * across;
             MESSAGE("shape ", found, " where ", shape, " was asked for; of the variance ",
                     along * across, " is left");
             // The ratio of 3 times 400 cells with the moments of a gamma distribution of shape 1 is
