@@ -10,6 +10,8 @@
 #include "calibrated/pulse_band.h"
 #include "core/elementary.h"
 #include "core/error.h"
+#include "mission/ping_draws.h"
+#include "sonar/sonar_at_pose.h"
 
 namespace sonarsim {
 
@@ -106,9 +108,17 @@ void add_ping_motions(const Mission& mission, const Trajectory& trajectory, cons
                              "': multipath supports only a sonar at rest during a ping; leave out "
                              "multipath or moves_in_ping");
         }
+        if (vehicle_varies_by_ping(mission)) {
+            throw InputError(
+                "sensor '" + sonar.config.name +
+                "': moves_in_ping takes speeds from successive poses, and `vary` draws "
+                "the vehicle's offset or turn anew for each; leave out one");
+        }
         std::vector<PingMotion> motions;
         for (std::size_t pose = 0; pose < trajectory.size(); ++pose)
-            motions.push_back(motion_at(trajectory, pose, sonar, sound_speed_m_s));
+            motions.push_back(motion_at(
+                trajectory, pose, *SonarAtPose(mission, sonar, static_cast<std::uint32_t>(pose)),
+                sound_speed_m_s));
         for (PingMotion& motion : motions)
             add_doppler(sonar.config, sound_speed_m_s, motion);
         sonar.motions = std::make_shared<const std::vector<PingMotion>>(std::move(motions));

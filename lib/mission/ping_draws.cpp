@@ -138,6 +138,13 @@ bool varies_by_ping(const Mission& mission, std::string_view sensor) {
     return varies;
 }
 
+bool vehicle_varies_by_ping(const Mission& mission) {
+    bool varies = false;
+    for_each_rule(mission, vehicle_section,
+                  [&](const VaryConfig&, std::uint32_t) { varies = true; });
+    return varies;
+}
+
 void draw_for_ping(const Mission& mission, std::uint32_t pose, SonarConfig& sensor) {
     const std::string section = section_of(sensor.name);
     draw_section(mission, section, pose, numbers_of(sensor, section));

@@ -21,6 +21,9 @@ std::vector<std::string> extremes_of(const VaryConfig& rule);
 /// True if any key of a sensor is drawn for every ping.
 bool varies_by_ping(const Mission& mission, std::string_view sensor);
 
+/// True if any key of the vehicle is drawn for every ping.
+bool vehicle_varies_by_ping(const Mission& mission);
+
 /// Draws the varying keys of a sensor at a pose.
 void draw_for_ping(const Mission& mission, std::uint32_t pose, SonarConfig& sensor);
 
