@@ -21,8 +21,8 @@ void SoundingBounds::add(const Eigen::Vector3d& position) {
 }
 
 void Bathymetry::add(const Eigen::Vector3d& position) {
-    const double column = std::floor((position.x() - west_m) / cell_m);
-    const double row = std::floor((north_m - position.y()) / cell_m);
+    const double column = std::floor(position.x() / cell_m) - first_column;
+    const double row = first_row - std::floor(position.y() / cell_m);
     if (!(column >= 0.0 && column < columns && row >= 0.0 && row < rows)) return;
     const std::size_t cell =
         static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column);
@@ -48,12 +48,14 @@ Bathymetry make_bathymetry(const SoundingBounds& bounds, double cell_m) {
     // The grid begins at a multiple of the cell size, which may add a cell on either side.
     while ((size.x() / grid.cell_m + 2.0) * (size.y() / grid.cell_m + 2.0) > most_map_cells)
         grid.cell_m = round_up_125(1.001 * grid.cell_m);
-    const double first_column = std::floor(bounds.min.x() / grid.cell_m);
-    const double first_row = std::floor(bounds.max.y() / grid.cell_m) + 1.0;
-    grid.west_m = first_column * grid.cell_m;
-    grid.north_m = first_row * grid.cell_m;
-    grid.columns = static_cast<int>(std::floor(bounds.max.x() / grid.cell_m) - first_column) + 1;
-    grid.rows = static_cast<int>(first_row - std::floor(bounds.min.y() / grid.cell_m));
+    grid.first_column = std::floor(bounds.min.x() / grid.cell_m);
+    grid.first_row = std::floor(bounds.max.y() / grid.cell_m);
+    grid.west_m = grid.first_column * grid.cell_m;
+    grid.north_m = (grid.first_row + 1.0) * grid.cell_m;
+    const double last_column = std::floor(bounds.max.x() / grid.cell_m);
+    const double last_row = std::floor(bounds.min.y() / grid.cell_m);
+    grid.columns = static_cast<int>(last_column - grid.first_column) + 1;
+    grid.rows = static_cast<int>(grid.first_row - last_row) + 1;
     grid.sum.assign(static_cast<std::size_t>(grid.columns) * grid.rows, 0.0);
     grid.count.assign(grid.sum.size(), 0);
     return grid;

@@ -27,8 +27,10 @@ struct SoundingBounds {
 /// the least x. Cells begin at multiples of their size, so that grids of one size fit together.
 struct Bathymetry {
     double cell_m = 0.0;
-    double west_m = 0.0;   ///< world x of the left edge
-    double north_m = 0.0;  ///< world y of the upper edge
+    double west_m = 0.0;        ///< world x of the left edge
+    double north_m = 0.0;       ///< world y of the upper edge
+    double first_column = 0.0;  ///< number of the left column; a cell k covers [k, k + 1) cell_m
+    double first_row = 0.0;     ///< number of the upper row along y
     int columns = 0;
     int rows = 0;
     std::vector<double> sum;           ///< [rows, columns], sums of world z

@@ -123,8 +123,8 @@ Picture draw_bathymetry(const Bathymetry& grid) {
     const int longer = std::max({grid.columns, grid.rows, 1});
     const int zoom = std::max(1, map_px / longer);              // pixels per cell
     const int step = (longer + most_map_px - 1) / most_map_px;  // cells per pixel
-    const int width = grid.columns / step * zoom;
-    const int height = grid.rows / step * zoom;
+    const int width = (grid.columns + step - 1) / step * zoom;
+    const int height = (grid.rows + step - 1) / step * zoom;
     Picture picture(std::max(width, 200) + 2 * margin + legend_width,
                     std::max(height, 100) + 2 * margin + bar_height, backdrop);
     for (int y = 0; y < height; ++y) {

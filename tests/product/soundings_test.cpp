@@ -2,8 +2,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <span>
 
 #include "core/units.h"
 #include "product/bathymetry.h"
@@ -136,6 +138,41 @@ TEST_SUITE("product") {
         CHECK(grid.mean_z()[0] == -5.5F);
     }
 
+    TEST_CASE("bathymetry: no sounding is lost on the border of a cell") {
+        std::mt19937 random(1);
+        std::uniform_int_distribution<int> tenths(-200, 200);
+        for (const double cell_m : {0.1, 0.3, 0.5, 1.0, 2.0}) {
+            std::vector<Eigen::Vector3d> points;
+            SoundingBounds bounds;
+            for (int k = 0; k < 50; ++k) {
+                points.emplace_back(0.1 * tenths(random), 0.1 * tenths(random), -1.0);
+                bounds.add(points.back());
+            }
+            Bathymetry grid = make_bathymetry(bounds, cell_m);
+            for (const Eigen::Vector3d& point : points)
+                grid.add(point);
+            std::uint32_t sum = 0;
+            for (const std::uint32_t count : grid.count)
+                sum += count;
+            CHECK(sum == points.size());
+        }
+    }
+
+    TEST_CASE("bathymetry: the picture of a long and narrow map shows its cells") {
+        SoundingBounds bounds;
+        bounds.add({0.5, 0.5, 0});
+        bounds.add({9999.5, 1.5, 0});
+        Bathymetry grid = make_bathymetry(bounds, 1.0);
+        for (int x = 0; x < 10000; ++x) {
+            for (const double y : {0.5, 1.5})
+                grid.add({x + 0.5, y, -10.0 - 0.001 * x});
+        }
+        Picture picture = draw_bathymetry(grid);
+        // Three cells to a pixel, in a row below the margin.
+        const std::span<const Rgb> row(picture.row(10) + 10, 3333);
+        CHECK(std::ranges::none_of(row, [](const Rgb& p) { return p == backdrop; }));
+    }
+
     TEST_CASE("bathymetry: cells suit the soundings, and never are too many") {
         SoundingBounds bounds;
         bounds.add({0, 0, 0});
@@ -179,6 +216,7 @@ TEST_SUITE("product") {
             bounds.add({far, far, far});
             Bathymetry grid = make_bathymetry(bounds, 1.0);
             grid.add({far, far, far});
+            REQUIRE(grid.count[0] == 1);
             CHECK(draw_bathymetry(grid).width > 0);
         }
     }
