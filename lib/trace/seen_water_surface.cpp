@@ -84,7 +84,11 @@ class SurfaceCutter {
         if (!(nearest < reach_m_)) return;
         const float most_m = std::min(most_range_share * nearest, depth_m_);
         if (!(farthest - nearest > most_m)) return add_sample(cell);
-        if (cuts == 0) return;  // at the horizon
+        if (cuts == 0) {
+            // A cell that reaches much farther ends at the horizon.
+            if (farthest < 2.0F * nearest) add_sample(cell);
+            return;
+        }
         for (const double a : {-0.5, 0.5}) {
             for (const double e : {-0.5, 0.5}) {
                 add({azimuth + a * half_azimuth, elevation + e * half_elevation, 0.5 * half_azimuth,

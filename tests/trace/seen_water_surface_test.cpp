@@ -102,6 +102,26 @@ TEST_SUITE("ping") {
               test::approx(expected).epsilon(0.03));
     }
 
+    // As above, far and at a grazing angle: 1 m below the surface, with fine bins.
+    TEST_CASE("water's surface: it is seen up to the end of the range") {
+        View view = view_to_surface(ViewShape::port_starboard, 170.0, 2.0);
+        view.beams = 2;
+        view.range_max_m = 100.0;
+        view.range_bins = 4000;
+        const Pose down = {rotation_from_rpy(0.0, radians(90.0), 0.0),
+                           Eigen::Vector3d(0.0, 0.0, surface_m - 1.0)};
+        double expected = 0.0;
+        constexpr int steps = 4000;
+        for (int k = 0; k < steps; ++k) {
+            const double r = 80.0 + 20.0 * (k + 0.5) / steps;
+            expected +=
+                4.0 * std::sin(radians(1.0)) * r * r / std::sqrt(r * r - 1.0) * 20.0 / steps;
+        }
+        const Scene nothing = empty_scene();
+        CHECK(area_between(nothing, view, down, 80.0, 100.0) ==
+              test::approx(expected).epsilon(0.03));
+    }
+
     TEST_CASE("water's surface: what hides it, and a sonar above it") {
         Scene scene = scene_below();
         add_quad(scene, {-50.0F, -50.0F, 3.0F}, {50.0F, -50.0F, 3.0F}, {50.0F, 50.0F, 3.0F},
