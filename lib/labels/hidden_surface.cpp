@@ -169,7 +169,7 @@ std::vector<std::uint8_t> hidden_bins(const std::vector<HiddenPiece>& pieces, co
                                       int beams) {
     std::vector<std::uint8_t> covered(static_cast<std::size_t>(beams) * bins.count);
     const auto bin_at = [&](float range_m) {
-        const float bin = (range_m - bins.min_m) / bins.bin_m;
+        const float bin = std::floor((range_m - bins.min_m) / bins.bin_m);
         return static_cast<int>(std::clamp(bin, -1.0F, static_cast<float>(bins.count)));
     };
     for (const HiddenPiece& hidden : pieces) {

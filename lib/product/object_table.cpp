@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/units.h"
 #include "product/object_masks.h"
 
 namespace sonarsim {
@@ -169,6 +170,7 @@ std::vector<ObjectInPing> seen_objects(const Sonar& sonar, const SceneObjects& o
     std::vector<BinTotals> totals(all.size());
     const std::vector<float> levels = levels_by_beam(ping);
     const bool fan = std::ssize(sonar.azimuth_edges_rad) == labels.beams + 1;
+    const bool full_turn = fan && sonar.settings.view.azimuth_rad >= 2.0 * pi;
     const auto middle = [](const std::vector<double>& edges, int k) {
         return 0.5 * (edges[k] + edges[k + 1]);
     };
@@ -178,11 +180,19 @@ std::vector<ObjectInPing> seen_objects(const Sonar& sonar, const SceneObjects& o
     for (int j = 0; j < labels.beams; ++j) {
         const std::size_t begin = static_cast<std::size_t>(j) * labels.range_bins;
         const double azimuth_rad = fan ? middle(sonar.azimuth_edges_rad, j) : 0.0;
+        // In a full turn, the azimuth nearest to that of the object's first beam.
+        const auto near_first = [&](int first) {
+            if (!full_turn) return azimuth_rad;
+            const double turn = 2.0 * pi;
+            const double from = middle(sonar.azimuth_edges_rad, first);
+            return azimuth_rad + turn * std::round((from - azimuth_rad) / turn);
+        };
         const auto own = std::span(labels.object).subspan(begin, labels.range_bins);
         for_each_run(own, [&](std::uint16_t id, int from, int to) {
             add_bins(all[id - 1], from, to, j);
             add_to_totals(std::span(levels).subspan(begin + from, to - from),
-                          std::span(ranges_m).subspan(from), azimuth_rad, totals[id - 1]);
+                          std::span(ranges_m).subspan(from), near_first(all[id - 1].beam_first),
+                          totals[id - 1]);
         });
     }
     add_shadows(labels, fan_boxes, all);
@@ -197,6 +207,7 @@ std::vector<ObjectInPing> seen_objects(const Sonar& sonar, const SceneObjects& o
         object.level = totals[k].level / bins;
         object.range_m = totals[k].range_m / bins;
         if (fan) object.azimuth_rad = totals[k].azimuth_rad / bins;
+        if (full_turn) object.azimuth_rad = std::remainder(*object.azimuth_rad, 2.0 * pi);
         object.surrounding_level = level_around(object, labels, levels);
         object.box_sensor_m = boxes[k];
         contrasts.add_to(object);
