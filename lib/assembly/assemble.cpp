@@ -43,6 +43,25 @@ std::vector<InputFile> inputs_of(const Mission& mission) {
     return inputs;
 }
 
+/// Sets the origin and the bounds of a scene in which all surface moves.
+void place_moving_scene(const Trajectory& vehicle, std::span<const Trajectory> motions,
+                        Scene& scene) {
+    if (scene.bodies.empty() || !scene.vertices.empty() || !scene.copies.empty()) return;
+    Eigen::AlignedBox3d bounds;
+    for (std::size_t k = 0; k < motions.size(); ++k) {
+        float radius_m = 0.0F;
+        for (const Eigen::Vector3f& vertex : scene.bodies[k].vertices)
+            radius_m = std::max(radius_m, vertex.norm());
+        for (const TimedPose& at : motions[k]) {
+            const Eigen::Array3d place = at.T_world_vehicle.translation.array();
+            bounds.extend(Eigen::AlignedBox3d(place - radius_m, place + radius_m));
+        }
+    }
+    scene.bounds_min = bounds.min();
+    scene.bounds_max = bounds.max();
+    scene.origin = vehicle.front().T_world_vehicle.translation.array().round();
+}
+
 /// The warning that the surface of the water has no effect on some or all pings; "": none.
 std::string surface_warning(const Mission& mission, const Assembly& assembly) {
     const WaterSurfaceConfig& config = *mission.scene.water_surface;
@@ -190,6 +209,7 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
     assembly.scene = load_scene(parts.files, models, materials, mission.scene.material_default,
                                 {mission.water.density_kg_m3, mission.water.sound_speed_m_s},
                                 sharing_threshold(mission.scene.repeats, settings.type));
+    place_moving_scene(assembly.trajectory, parts.motions, assembly.scene);
     lay_ground_maps(mission.scene, materials,
                     {mission.water.density_kg_m3, mission.water.sound_speed_m_s}, parts.files,
                     models, assembly.scene);

@@ -7,10 +7,11 @@
 
 namespace sonarsim {
 
-Eigen::AlignedBox2d ground_in_range(std::span<const Sonar> sonars, const Trajectory& vehicle) {
+Eigen::AlignedBox2d ground_in_range(std::span<const Sonar> sonars, const Trajectory& vehicle,
+                                    double faster) {
     Eigen::AlignedBox2d seen;
     for (const Sonar& sonar : sonars) {
-        const double reach_m = sonar.settings.view.range_max_m;
+        const double reach_m = faster * sonar.settings.view.range_max_m;
         for (std::size_t i = 0; i < vehicle.size(); ++i) {
             const Pose at =
                 sensor_pose(sonar, vehicle[i].T_world_vehicle, static_cast<std::uint32_t>(i));

@@ -15,8 +15,10 @@
 namespace sonarsim {
 
 /// A box around the ground within the range of any ping, world x and y. Ground outside returns no
-/// echo and hides no surface that does.
-Eigen::AlignedBox2d ground_in_range(std::span<const Sonar> sonars, const Trajectory& vehicle);
+/// echo and hides no surface that does. `faster`: the greatest speed of sound over that by which
+/// sonars measure ranges, or 1.
+Eigen::AlignedBox2d ground_in_range(std::span<const Sonar> sonars, const Trajectory& vehicle,
+                                    double faster);
 
 /// Patterns of the instances that are the bottom: scene.bottom, else the heightmap or the seabed.
 std::vector<std::string> bottom_patterns(const SceneConfig& scene);

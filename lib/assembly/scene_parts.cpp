@@ -11,6 +11,7 @@
 #include "assembly/poses.h"
 #include "assembly/seabed_part.h"
 #include "assembly/shapes.h"
+#include "assembly/sound_profiles.h"
 #include "core/error.h"
 #include "core/named_at.h"
 #include "core/text.h"
@@ -20,6 +21,7 @@
 #include "scene/placing/scatter.h"
 #include "scene/placing/standing.h"
 #include "scene/unit_question.h"
+#include "water/sound_profile.h"
 
 namespace sonarsim {
 
@@ -235,12 +237,19 @@ void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64
     }
 }
 
+/// The greatest speed of sound over that by which sonars measure ranges, or 1 if that is more.
+double faster_sound(const Mission& mission) {
+    if (!mission.water.profile) return 1.0;
+    const SoundProfile profile = sound_profile(*mission.water.profile, mission);
+    return std::max(std::ranges::max(profile.speed_m_s) / profile.range_speed_m_s, 1.0);
+}
+
 }  // namespace
 
 SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
                        std::span<const Sonar> sonars, SceneFiles& models) {
     const SceneConfig& scene = mission.scene;
-    const Eigen::AlignedBox2d seen = ground_in_range(sonars, vehicle);
+    const Eigen::AlignedBox2d seen = ground_in_range(sonars, vehicle, faster_sound(mission));
     SceneParts parts;
     if (!scene.file.empty()) parts.files.push_back(file_of(scene.file, scene.mesh, scene.place));
     Shapes shapes(models);

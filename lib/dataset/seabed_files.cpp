@@ -95,9 +95,10 @@ std::vector<std::pair<std::string, std::string>> seabed_files(const Seabed& bed)
               {"rocks", list_rocks(bed)}};
     list = list_hollows(bed, std::move(list));
     list["tufts"] = bed.tufts;
+    // A square of the mesh has the material of its north-western height.
     const std::string world_file =
-        fmt::format("{}\n0\n0\n{}\n{}\n{}\n", grid.cell_m, -grid.cell_m,
-                    place.west_m + 0.5 * grid.cell_m, place.north_m - 0.5 * grid.cell_m);
+        fmt::format("{}\n0\n0\n{}\n{}\n{}\n", grid.cell_m, -grid.cell_m, place.west_m + grid.cell_m,
+                    place.north_m - grid.cell_m);
     return {{seabed_heights_name, geotiff_bytes(bed.heights, grid.columns, place)},
             {seabed_materials_name, png_bytes(bed.sediments, grid.columns, grid.rows)},
             {seabed_place_name, world_file},
