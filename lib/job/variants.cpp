@@ -209,7 +209,7 @@ void begin_variants(const fs::path& folder, const Json& json, std::span<const Mi
                          "output.folder, or remove it");
     if (found && *found != json && !overwrite) {
         std::string difference = variants_difference(*found, json);
-        if (difference.empty())
+        if (difference.empty() && !variants.empty())
             difference =
                 mission_differences(folder / variant_folder(0),
                                     resolved_yaml(portable(variants.front()), sonar_keys()));

@@ -39,7 +39,7 @@ inline bool is_taken_by_dataset(std::string_view name) {
 
 /// True if no mission may have the name.
 inline bool is_taken_by_collection(std::string_view name) {
-    return name == collection_name || name == checksums_name;
+    return name == collection_name || name == checksums_name || name == variants_name;
 }
 
 }  // namespace sonarsim

@@ -52,6 +52,16 @@ class Collection(Sandbox):
         self.assertEqual(subprocess.run(["sha256sum", "--quiet", "-c", "SHA256SUMS"], cwd=out,
                                         check=False).returncode, 0)
 
+    def test_background_is_no_category(self):
+        own = json.loads((self.folder / "a/dataset.json").read_text())["labels"]["classes"][0]["name"]
+        for seed in "45":
+            self.assert_renders("--seed", seed, "--set", "output.labels=[coco]", "--set",
+                                f"labels.background=[{own}]", "--out", seed)
+        self.assertEqual(self.collect("4", "5", "both").returncode, 0)
+        coco = json.loads((self.folder / "both/labels/coco.json").read_text())
+        self.assertEqual(coco["categories"], [])
+        self.assertNotIn("W33", self.run_sonarsim("status", "both").stderr)
+
     def test_again_and_verify(self):
         self.collect("a", "b", "all")
         whole = digest(self.folder / "all")

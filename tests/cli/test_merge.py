@@ -38,6 +38,17 @@ class Merge(Sandbox):
         result = self.run_sonarsim("verify", "part3-part1-part2")
         self.assertEqual(result.returncode, 0, result.stderr)
 
+    def test_soundings_where_sound_bends(self):
+        bent = ("--set", "sensors={mbes: {kind: profiling, azimuth_deg: 90, range_max_m: 4, range_bins: 100, "
+                "azimuth_bins: 8}}", "--set", "scene.water_surface={height_m: 5}",
+                "--set", "water.profile={points: [{depth_m: 0, sound_speed_m_s: 1500}]}")
+        self.assert_renders(*bent, "--out", "bent")
+        for k in "12":
+            self.assert_renders(*bent, "--shard", f"{k}/2", "--out", f"bent{k}")
+        result = self.merge("bent1", "bent2", "both")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(digest(self.folder / "both"), digest(self.folder / "bent"))
+
     def test_again_and_what_overlaps(self):
         self.assert_merges("part1", "part2", "part3", "all")
         result = self.run_sonarsim("merge", "part1", "part2", "part3", "all", "--json")

@@ -129,6 +129,13 @@ class Variants(Sandbox):
         self.assertEqual(result.returncode, 1)
         self.assertIn("variant_0003", result.stderr)
 
+    def test_merge_into_variants_of_another_mission(self):
+        self.assert_renders()
+        self.assert_renders("--set", "sensors.fls.noise.mult_sigma=0.3", "--out", "other")
+        self.assertEqual(self.run_sonarsim("merge", "out", "joined").returncode, 0)
+        self.assert_refused(self.run_sonarsim("merge", "other", "joined"),
+                            "holds variants of another mission")
+
     def test_a_variant_renders_alone(self):
         self.assert_renders()
         own = self.out / "variant_0004"

@@ -137,10 +137,12 @@ void write_joined_labels(const fs::path& folder, std::span<const CocoMember> mem
     Json info = {{"mission", description}, {"program_version", members.front().program_version}};
     std::map<std::string, std::uint64_t> category_ids;
     info["labels"]["classes"] = Json::array();
+    const std::vector<std::string> annotated = classes_of(members);
     for (const std::string& name : classes) {
         const std::uint64_t id = category_ids.size() + 1;
         category_ids.emplace(name, id);
-        info["labels"]["classes"].push_back({{"id", id}, {"name", name}});
+        if (std::ranges::find(annotated, name) != annotated.end())
+            info["labels"]["classes"].push_back({{"id", id}, {"name", name}});
     }
     std::vector<std::uint64_t> offsets{0};
     for (const CocoMember& member : members)

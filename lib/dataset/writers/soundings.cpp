@@ -206,7 +206,7 @@ class SoundingsWriter final : public Writer {
 
   private:
     std::size_t fields() const {
-        return context_.sonar().true_profile ? bent_fields : straight_fields;
+        return context_.mission.water.profile ? bent_fields : straight_fields;
     }
     std::size_t beams() const { return context_.sonar().settings.view.beams; }
 
