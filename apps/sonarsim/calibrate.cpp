@@ -94,7 +94,7 @@ int calibrate_command(const CalibrateArguments& arguments) {
 void add_calibrate_options(CLI::App& command, CalibrateArguments& arguments) {
     command
         .add_option("recording", arguments.recording,
-                    "The pings: a folder with recording.yaml, an XTF file or a dataset")
+                    "The pings: a folder with recording.yaml, or a dataset")
         ->required()
         ->type_name("REAL");
     command

@@ -6,6 +6,8 @@
 #include "calibrate/usable.h"
 #include "calibrated/model.h"
 #include "calibrated/pulse_band.h"
+#include "core/elementary.h"
+#include "core/text.h"
 #include "core/units.h"
 #include "sonar/sonar.h"
 
@@ -13,11 +15,11 @@ namespace sonarsim {
 
 namespace {
 
-/// The full angle of a fan of these beams, half a step beyond the outer two.
-double full_angle(const std::vector<double>& bearings) {
-    const auto [least, most] = std::minmax_element(bearings.begin(), bearings.end());
-    const auto beams = static_cast<double>(bearings.size());
-    return (*most - *least) * beams / std::max(beams - 1.0, 1.0);
+/// The extent of a row of evenly spaced numbers, half a step beyond the outer two.
+double full_extent(const std::vector<double>& row) {
+    const auto [least, most] = std::minmax_element(row.begin(), row.end());
+    const auto count = static_cast<double>(row.size());
+    return (*most - *least) * count / std::max(count - 1.0, 1.0);
 }
 
 /// Unevenness of the steps of a row of numbers: their variance over their squared mean.
@@ -40,8 +42,10 @@ SonarConfig of_shape(SonarConfig config, const Recording& recording) {
     config.range_max_m = recording.first_range_m + (config.range_bins - 0.5) * step_m;
     if (config.kind != SonarKind::imaging || recording.bearing_rad.size() < 2) return config;
     config.azimuth_bins = recording.pings.front().beams;
-    config.azimuth_deg = degrees(full_angle(recording.bearing_rad));
-    const bool sine = unevenness(beam_sines(recording)) < unevenness(recording.bearing_rad);
+    const std::vector<double> sines = beam_sines(recording);
+    const bool sine = unevenness(sines) < unevenness(recording.bearing_rad);
+    config.azimuth_deg = degrees(sine ? 2.0 * arcsin(std::min(0.5 * full_extent(sines), 1.0))
+                                      : full_extent(recording.bearing_rad));
     config.instrument.beam.spread = sine ? BeamSpacing::equal_sine : BeamSpacing::equal_angle;
     return config;
 }
@@ -55,13 +59,13 @@ StartInstrument start_instrument(const SonarConfig& config, const WaterConfig& w
 void add_shape(const SonarConfig& config, std::vector<PresetValue>& out) {
     const char* const file = "file: of the pings";
     if (config.kind == SonarKind::imaging) {
-        out.push_back({"azimuth_deg", four_digits(config.azimuth_deg), file});
+        out.push_back({"azimuth_deg", number_text(config.azimuth_deg), file});
         out.push_back({"azimuth_bins", std::to_string(config.azimuth_bins), file});
         const bool sine = config.instrument.beam.spread == BeamSpacing::equal_sine;
         out.push_back({"instrument.beam.spread", sine ? "sine" : "angle", file});
     }
-    out.push_back({"range_min_m", four_digits(config.range_min_m), file});
-    out.push_back({"range_max_m", four_digits(config.range_max_m), file});
+    out.push_back({"range_min_m", number_text(config.range_min_m), file});
+    out.push_back({"range_max_m", number_text(config.range_max_m), file});
     out.push_back({"range_bins", std::to_string(config.range_bins), file});
 }
 

@@ -38,7 +38,9 @@ std::string percent(double share) {
 }
 
 void check_values(const Recording& recording) {
-    const double full_value = full_value_of(recording);
+    // Values are rounded to whole numbers, unless all lie below 15.
+    const double largest = full_value_of(recording) * (1.0 - recording.law.offset);
+    const double saturated = largest > 15.0 ? largest - 0.5 : largest;
     double count = 0.0, zeros = 0.0, full = 0.0;
     float least = recording.pings.front().values.front();
     float most = least;
@@ -46,7 +48,7 @@ void check_values(const Recording& recording) {
         for (const float value : ping.values) {
             count += 1.0;
             zeros += value <= 0.0F ? 1.0 : 0.0;
-            full += full_value > 0.0 && value >= full_value ? 1.0 : 0.0;
+            full += largest > 0.0 && value >= saturated ? 1.0 : 0.0;
             least = std::min(least, value);
             most = std::max(most, value);
         }

@@ -40,8 +40,8 @@ RecordedImages images_of(const Recording& recording) {
     images.ranges = first.ranges;
     images.columns = first.beams;
     if (recording.law.full_value > 0.0)
-        images.full_power =
-            static_cast<float>(power_of(recording.law, clipped_share * recording.law.full_value));
+        images.full_power = static_cast<float>(
+            power_of(recording.law, clipped_share * largest_value(recording.law)));
     images.least_power = static_cast<float>(power_of(recording.law, 0.0));
     if (recording.kind == RecordedKind::imaging) {
         images.bearing_rad = recording.bearing_rad;

@@ -9,7 +9,7 @@ namespace sonarsim {
 double power_of(const RecordedLaw& law, double value) {
     const double share = value / (law.full_value > 0.0 ? law.full_value : 1.0);
     if (law.kind == RecordedLaw::Kind::decibel)
-        return power(10.0, (share - 1.0) * law.range_db / 10.0);
+        return power(10.0, (share + law.offset - 1.0) * law.range_db / 10.0);
     if (!(value > 0.0)) return 0.0;
     const double whole = share + law.offset;
     if (law.kind == RecordedLaw::Kind::power) return whole;

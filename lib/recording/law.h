@@ -7,8 +7,13 @@
 
 namespace sonarsim {
 
-/// The power A^2 that a value stands for, 1 for `full_value` (for the value 1 where the law has no
-/// `full_value`). A value of 0 has the power 0, but for `decibel` that of the lowest level.
+/// The largest value that the instrument delivers; 0: not known.
+inline double largest_value(const RecordedLaw& law) {
+    return law.full_value * (1.0 - law.offset);
+}
+
+/// The power A^2 that a value stands for, 1 for the largest_value() (for the value 1 where the law
+/// has no `full_value`). A value of 0 has the power 0, but for `decibel` that of the lowest level.
 double power_of(const RecordedLaw& law, double value);
 
 /// power_of() of all values of a ping.

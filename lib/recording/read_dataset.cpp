@@ -185,7 +185,7 @@ Recording read_dataset_recording(const fs::path& folder, const RecordingOptions&
         const auto polar = raw ? raw : pattern_of(patterns, "polar");
         if (!polar)
             throw InputError({folder.string()},
-                             "has neither raw/ nor polar/ of this sensor; set output.polar: npy");
+                             "has neither raw/ nor polar/ of this sensor; set output.polar: true");
         if (is_soundings) {
             read_dataset_soundings(source, *polar, recording);
         } else {

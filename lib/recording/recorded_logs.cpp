@@ -1,6 +1,9 @@
 #include "recording/recorded_logs.h"
 
 #include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include "core/error.h"
 #include "core/units.h"
@@ -55,23 +58,41 @@ void take_facts_of_log(const SonarLog& log, const RecordingFile& file, Recording
         recording.frequency_hz = log.frequency_hz;
 }
 
+/// InputError if the file `path` has other ranges, beams or levels than the first of several files.
+void require_alike(const SonarLog& log, const SonarLog& first, const std::filesystem::path& path) {
+    const auto differs = [&](double a, double b) { return std::fabs(a - b) > 1e-6 * std::fabs(b); };
+    const auto refuse = [&](const char* what) {
+        throw InputError({path.string()}, std::string("has ") + what + " than the first file");
+    };
+    if (log.kind != first.kind) refuse("another kind of sonar");
+    if (differs(log.range_step_s, first.range_step_s)) refuse("another step of range");
+    if (std::fabs(log.first_range_s - first.first_range_s) > 0.5 * first.range_step_s)
+        refuse("another first range");
+    if (differs(log.frequency_hz, first.frequency_hz)) refuse("another frequency");
+    if (log.bearing_rad.size() != first.bearing_rad.size()) refuse("another number of beams");
+    if (log.decibels.has_value() != first.decibels.has_value() ||
+        (log.decibels && (log.decibels->range_db != first.decibels->range_db ||
+                          log.decibels->full_value != first.decibels->full_value)))
+        refuse("another scale of levels");
+}
+
 }  // namespace
 
 void read_log_pings(const RecordingFile& file, std::size_t most_pings, Recording& recording) {
     std::size_t values = 0;
-    double step_s = 0.0;
+    std::optional<SonarLog> first;  // without its pings
     for (const std::filesystem::path& path : file.logs) {
         if (recording.pings.size() >= most_pings) break;
         SonarLog log = parsed_file(path, [&](const std::string& bytes) {
             return read_sonar_log(bytes, most_pings - recording.pings.size(), file.frequency_hz);
         });
-        if (recording.pings.empty()) {
+        const std::vector<LoggedPing> pings = std::exchange(log.pings, {});
+        if (!first) {
             take_facts_of_log(log, file, recording);
-            step_s = log.range_step_s;
+            first = log;
         }
-        if (std::fabs(log.range_step_s - step_s) > 1e-6 * step_s)
-            throw InputError({path.string()}, "has another step of range than the first file");
-        for (LoggedPing& own : log.pings) {
+        require_alike(log, *first, path);
+        for (const LoggedPing& own : pings) {
             count_values(own.values.size(), path, values);
             RecordedPing& ping = recording.pings.emplace_back();
             ping.time_s = own.t_s;
@@ -79,7 +100,7 @@ void read_log_pings(const RecordingFile& file, std::size_t most_pings, Recording
                 ping.time_s = static_cast<double>(recording.pings.size() - 1) / file.rate_hz;
             ping.ranges = own.ranges;
             ping.beams = own.beams;
-            ping.values = std::move(own.values);
+            ping.values = own.values;
             ping.bearing_rad = radians(file.head_first_deg) + own.bearing_rad;
         }
     }

@@ -196,6 +196,12 @@ TEST_SUITE("recording") {
         const Recording didson = load_recording(folder.path);
         CHECK(didson.range_step_m == test::approx(0.015));
         CHECK(power_of(didson.law, 127.5) == test::approx(std::pow(10.0, -4.5)));
+        // Another window begins at another range.
+        write_file(folder.path / "far.ddf", didson_file(3, 2, 4, 100, 10));
+        refused(
+            "kind: imaging\nlogs: [d.ddf, far.ddf]\nsound_speed_m_s: 1500\n"
+            "bearing_first_deg: 14\nbearing_last_deg: -14\n",
+            "has another first range than the first file");
         write_file(folder.path / "c.log",
                    ping360_message(100, {1, 2, 3}, false) + ping360_message(101, {1, 2, 3}, false));
         const std::string head = "kind: scanning\nlogs: c.log\nlaw: {kind: amplitude}\n";
@@ -281,6 +287,11 @@ TEST_SUITE("recording") {
         const RecordedLaw db{.kind = RecordedLaw::Kind::decibel, .range_db = 60};
         CHECK(power_of(db, 255) == test::approx(1.0));
         CHECK(power_of(db, 0) == test::approx(1e-6));
+        const RecordedLaw lowered{
+            .kind = RecordedLaw::Kind::decibel, .range_db = 80, .full_value = 100, .offset = 0.1};
+        CHECK(largest_value(lowered) == test::approx(90.0));
+        CHECK(power_of(lowered, 90) == test::approx(1.0));
+        CHECK(power_of(lowered, 40) == test::approx(1e-4));
         const RecordedLaw raised{
             .kind = RecordedLaw::Kind::amplitude, .full_value = 100, .offset = 0.1};
         CHECK(power_of(raised, 40) == test::approx(0.25));
