@@ -62,6 +62,9 @@ int report_hard(const ReportArguments& arguments) {
             results.push_back(std::move(result));
         }
     }
+    if (results.empty())
+        throw InputError("--hard: no case has '" + printable(arguments.hard_name) +
+                         "' in its name");
     fmt::print("{}", hard_table(results));
     return all_hold ? exit_done : exit_failed;
 }
@@ -92,7 +95,13 @@ std::vector<Setting> settings_of(const ReportArguments& arguments, const Mission
         if (refusals.insert(refusal).second) spdlog::info("left out: {}", refusal);
         return true;
     });
-    if (settings.empty()) throw InputError({arguments.mission.file.string()}, *refusals.begin());
+    if (settings.empty()) {
+        throw InputError({arguments.mission.file.string()},
+                         refusals.empty()
+                             ? "--engines: no setting of these engines suits the range "
+                               "bins of this mission; add another engine"
+                             : *refusals.begin());
+    }
     return settings;
 }
 
@@ -113,6 +122,10 @@ int report(const ReportArguments& arguments) {
         throw InputError({arguments.mission.file.string()},
                          "the report measures scenes that stand still; leave the trajectories of "
                          "objects out");
+    }
+    if (assembly.scene.sound_profile) {
+        throw InputError({arguments.mission.file.string()},
+                         "the report measures straight paths of sound; leave water.profile out");
     }
     const double assembled_s = seconds_now() - start;
     log_warnings(reading_warnings(assembly.scene));

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <string>
 #include <utility>
 
+#include "core/error.h"
 #include "visibility/embree_build.h"
 #include "visibility/embree_trace.h"
 
@@ -16,6 +18,9 @@ namespace sonarsim {
 namespace {
 
 static_assert(Caster::nothing == RTC_INVALID_GEOMETRY_ID);
+
+// Facets of all placed trees have numbers of 32 bits, and `nothing` is none of them.
+constexpr std::size_t most_facets = 0xFFFF0000U;
 
 /// The normal is computed from edges in double: in float, a needle's cross product is mostly
 /// cancellation.
@@ -167,6 +172,13 @@ std::shared_ptr<const Caster::Trees> Caster::make_trees(const Scene& scene) {
         facets += body.triangles.size();
     for (const SharedMesh& mesh : scene.shared_meshes)
         facets += mesh.triangles.size();
+    std::size_t placed = facets;
+    for (const MeshCopy& copy : scene.copies)
+        placed += scene.shared_meshes[copy.mesh].triangles.size();
+    if (placed > most_facets) {
+        throw InputError("the scene has " + std::to_string(placed) + " triangles; at most " +
+                         std::to_string(most_facets) + " are supported");
+    }
     made->facets.reserve(facets);
     made->first_of_tree.push_back(0);
     made->add(scene, [&](std::size_t i) { return scene.triangle_instance[i]; });

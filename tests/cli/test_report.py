@@ -136,6 +136,13 @@ class Report(Sandbox):
 
     def test_bad_input(self):
         self.assertEqual(self.run_sonarsim("report").returncode, 2)
+        self.assert_refused(self.run_sonarsim("report", "--hard", "nosuchcase"),
+                            "no case has 'nosuchcase' in its name")
+        coarse = ("--set", "sensors.fls.range_bins=8", "--engines", "literal", *QUICK)
+        self.assert_refused(self.run_sonarsim("report", "mission.yaml", *coarse), "--engines: no setting")
+        bent = ("--set", "scene.water_surface={height_m: 5}", "--set",
+                "water.profile={points: [{depth_m: 0, sound_speed_m_s: 1500}]}")
+        self.assert_refused(self.run_sonarsim("report", "mission.yaml", *bent, *QUICK), "water.profile")
         self.assert_refused(self.run_sonarsim("report", "none.yaml"), "none.yaml")
         self.assertEqual(self.run_sonarsim("report", "mission.yaml", "--poses", "0").returncode, 2)
 
