@@ -190,6 +190,7 @@ class Sensor:
     def raw(self, index, name):
         """The bytes of a ping's file."""
         number = self.pings[index]
+        index %= len(self.pings)
         if not self._packs:
             return (self.folder / (self._files[name] % number)).read_bytes()
         pack = index // self._packs["pings"]
@@ -237,7 +238,11 @@ class Sensor:
         ahead = self.range_edges_m[-1] - (np.arange(height)[:, None] + 0.5) * pixel_m
         port = (0.5 * width - (np.arange(width)[None, :] + 0.5)) * pixel_m
         row = bin_of(np.hypot(ahead, port), self.range_edges_m)
-        column = bin_of(np.arctan2(port, ahead), self.azimuth_edges_rad)
+        azimuth = np.arctan2(port, ahead)
+        column = bin_of(azimuth, self.azimuth_edges_rad)
+        # Straight astern, a full turn ends.
+        last = len(self.azimuth_edges_rad) - 2
+        column = np.where(azimuth == self.azimuth_edges_rad[-1], last, column)
         fan = np.asarray(polar)[np.maximum(row, 0), np.maximum(column, 0)]
         fan[(row < 0) | (column < 0)] = blank
         return fan

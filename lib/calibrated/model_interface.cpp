@@ -72,9 +72,11 @@ EchoModel::SignalAndNoise CalibratedModel::signal_and_noise(float clean, float n
 void CalibratedModel::describe(nlohmann::ordered_json& sensor) const {
     const ReceiverConfig& receiver = instrument.receiver;
     const bool absolute = !is_relative_source(levels.source_level_db);
+    // The gain is constant up to tvg_from_m.
+    const std::string range = receiver.tvg_from_m > 0.0 ? "max(range_m, tvg_from_m)" : "range_m";
     sensor["instrument"] = {
-        {"echo_level", std::string("full_scale_db + 10 log10(polar) - tvg_log log10(range_m)") +
-                           (receiver.tvg_absorption ? " - 2 absorption_db_per_m range_m" : "")},
+        {"echo_level", "full_scale_db + 10 log10(polar) - tvg_log log10(" + range + ")" +
+                           (receiver.tvg_absorption ? " - 2 absorption_db_per_m " + range : "")},
         {"echo_level_unit", absolute ? "dB re 1 uPa" : "dB re the source level, per uPa at 1 m"},
         {"source_level_db", levels.source_level_db},
         {"noise_db", levels.noise_db},
@@ -84,6 +86,7 @@ void CalibratedModel::describe(nlohmann::ordered_json& sensor) const {
         {"tvg_makes_up_for_absorption", receiver.tvg_absorption},
         {"sound_speed_m_s", sound_speed_m_s},
         {"wavelength_m", wavelength_m}};
+    if (receiver.tvg_from_m > 0.0) sensor["instrument"]["tvg_from_m"] = receiver.tvg_from_m;
     if (receiver.tvg_step_db > 0.0) sensor["instrument"]["tvg_step_db"] = receiver.tvg_step_db;
 }
 

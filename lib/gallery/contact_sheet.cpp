@@ -219,7 +219,7 @@ SheetSummary write_contact_sheet(const fs::path& folder, const fs::path& file,
         throw InputError({folder.string()},
                          "has no pictures" + whose +
                              "; output.fan or output.image writes them, and tar archives "
-                             "(output.pack_pings) have to be unpacked");
+                             "(output.pack) have to be unpacked");
     }
     if (pictures.size() > most_on_sheet) {
         throw InputError({folder.string()}, "has " + std::to_string(pictures.size()) +

@@ -75,7 +75,9 @@ std::string draw_value(const VaryConfig& rule, std::uint64_t seed, std::uint32_t
         const double count = std::floor((*rule.whole)[1]) - low + 1.0;
         if (count < 1.0)
             throw InputError(rule.place.location, "there is no whole number in 'whole'");
-        return number_text(low + static_cast<double>(one_of(count, share)));
+        // No exponent, which keys of whole numbers refuse.
+        return std::to_string(static_cast<std::int64_t>(low) +
+                              static_cast<std::int64_t>(one_of(count, share)));
     }
     return rule.choice[one_of(static_cast<double>(rule.choice.size()), share)];
 }

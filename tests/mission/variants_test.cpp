@@ -39,6 +39,12 @@ std::pair<double, double> moments(const VaryConfig& rule, Function f) {
 
 // A mean of 20,000 draws lies within 4 sigma / sqrt(20000) = 0.0283 sigma of what it should be, but
 // for 6 cases in 100,000; a standard deviation of a normal law within 0.02 of its own size.
+TEST_CASE("variants: a whole number has no exponent") {
+    VaryConfig rule;
+    rule.whole = {100000, 100000};
+    CHECK(draw_value(rule, 11, 2, 0) == "100000");
+}
+
 TEST_CASE("draws: uniform, in the logarithm, and normal") {
     VaryConfig uniform;
     uniform.uniform = {2.0, 5.0};
