@@ -1,6 +1,7 @@
 #include "visibility/slices/scan.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/elementary.h"
@@ -20,13 +21,16 @@ constexpr double widest_strip = 0.0088;      // fan, rad
 constexpr double widest_side_strip = 0.035;  // port_starboard, rad
 constexpr int cone_slices = 96;              // at one per beam
 
-// The poles of a view lie at w = infinity; surface within 1e-5 rad of them is ignored.
-constexpr double steepest = 1e5;
+// The poles of a view lie at w = infinity. Surface within 1e-3 rad of the poles of elevation is
+// ignored: within 1e-5 rad, the area of a sphere would be 5 % too large. The axis of a cone, which
+// may be narrow, and the ends of a sector of 180 degrees lie at infinity, too.
+constexpr double steepest = 1e3;
+constexpr double steepest_of_cone = 1e5;
 
-double tangent(double angle) {
+double tangent(double angle, double steepest_slope = steepest) {
     const SinCos s = sincos(angle);
-    return s.cos > 0.0 ? std::clamp(s.sin / s.cos, -steepest, steepest)
-                       : std::copysign(steepest, s.sin);
+    return s.cos > 0.0 ? std::clamp(s.sin / s.cos, -steepest_slope, steepest_slope)
+                       : std::copysign(steepest_slope, s.sin);
 }
 
 /// Offset of slice `k` from its place, in strips: small, and different for each slice, so that
@@ -52,7 +56,9 @@ struct Strips {
 /// Adds the slices and beams of a sector that holds the strips [first, last) and whose middle is at
 /// `centre`.
 void add_slices(const Strips& strips, int first, int last, double centre, SliceFrame& frame) {
-    const auto u = [&](double at) { return static_cast<float>(tangent(strips.at(at) - centre)); };
+    const auto u = [&](double at) {
+        return static_cast<float>(tangent(strips.at(at) - centre, steepest_of_cone));
+    };
     for (int k = first; k <= last; ++k)
         frame.slices.push_back(slice_at(frame, u(k + aside(k))));
     frame.slices_per_beam = strips.per_beam;
@@ -63,8 +69,9 @@ void add_slices(const Strips& strips, int first, int last, double centre, SliceF
     frame.beam_u.push_back(u(last));
 }
 
-/// Frames whose axis along is the pole of the view: slices are meridians between two latitudes.
-void add_meridians(const Strips& strips, double latitude_low, double latitude_high,
+/// Frames whose axis along is the pole of the view: slices are meridians between two latitudes
+/// with these tangents.
+void add_meridians(const Strips& strips, const std::array<double, 2>& tangents,
                    const Eigen::Matrix3d& axes, std::vector<SliceFrame>& frames) {
     const int enough = std::max(
         1, static_cast<int>(std::ceil(strips.count * strips.width / widest_sector - 1e-9)));
@@ -83,8 +90,8 @@ void add_meridians(const Strips& strips, double latitude_low, double latitude_hi
         const SinCos turn = sincos(centre);
         SliceFrame frame;
         frame.meridians = true;
-        frame.tan_low = static_cast<float>(tangent(latitude_low));
-        frame.tan_high = static_cast<float>(tangent(latitude_high));
+        frame.tan_low = static_cast<float>(tangents[0]);
+        frame.tan_high = static_cast<float>(tangents[1]);
         Eigen::Matrix3d R;
         R.row(0) = turn.cos * axes.row(0) + turn.sin * axes.row(1);
         R.row(1) = turn.cos * axes.row(1) - turn.sin * axes.row(0);
@@ -156,7 +163,7 @@ std::vector<SliceFrame> slice_frames(const View& view, int per_beam) {
         case ViewShape::fan:
             add_meridians(strips_over(-half_azimuth, view.azimuth_rad, view.beams,
                                       enough(view.azimuth_rad / view.beams, widest_strip)),
-                          -half_elevation, half_elevation, axes, frames);
+                          {tangent(-half_elevation), tangent(half_elevation)}, axes, frames);
             break;
         case ViewShape::port_starboard:
             for (const int side : {0, 1}) {
@@ -170,7 +177,8 @@ std::vector<SliceFrame> slice_frames(const View& view, int per_beam) {
         case ViewShape::cone:
             axes << 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0;
             add_meridians(strips_over(-pi, 2.0 * pi, 1, cone_slices * per_beam),
-                          0.5 * pi - half_azimuth, 0.5 * pi, axes, frames);
+                          {tangent(0.5 * pi - half_azimuth, steepest_of_cone), steepest_of_cone},
+                          axes, frames);
             break;
     }
     return frames;
