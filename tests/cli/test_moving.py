@@ -27,6 +27,25 @@ class Moving(Composed):
                 self.assertAlmostEqual(got, wanted, places=9)
         self.assertEqual(len({v for k, v in first.items() if "polar" in k}), 6)
 
+    def test_large_coordinates_lose_nothing_where_all_moves(self):
+        def images(x, y):
+            path = f"0 {x + 4} {y - 1} 0 0 0 0 1\n2 {x + 4} {y + 1} 0 0 0 0 1\n"
+            self.write("fish.txt", path)
+            self.write("mission.yaml", "scene: {materials: materials.csv, objects: [{name: fish, file: crate.gltf, "
+                       "material: steel, trajectory: {file: fish.txt}}]}\n"
+                       f"trajectory: {{waypoints: [{{position_m: [{x}, {y}, 0]}}, {{position_m: [{x + 0.3}, {y}, 0]}}], "
+                       "rate_hz: 3, speed_m_s: 0.5}\nengine: rays\n"
+                       "sensors: {fls: {kind: imaging, azimuth_bins: 32, range_max_m: 8, range_bins: 100}}\n"
+                       "output: {folder: out, fan: false, labels: [clean]}\n")
+            result = self.run_sonarsim("render", "mission.yaml", "--overwrite")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertNotIn("W01", result.stderr)
+            data = (self.out / "fls/clean/000001.npy").read_bytes()
+            return struct.unpack(f"<{100 * 32}f", data[-4 * 100 * 32:])
+        near, far = images(0, 0), images(500000, 6000000)
+        self.assertGreater(sum(near), 0)
+        self.assertLess(sum(abs(a - b) for a, b in zip(near, far)), 1e-3 * sum(near))
+
     def test_labels_have_its_box_at_every_ping(self):
         self.edit("mission.yaml", "output:\n", "output:\n  labels: [objects]\n")
         self.assert_renders()

@@ -66,6 +66,22 @@ class PingDraws(Sandbox):
         self.assert_renders("--overwrite", "--seed", "8")
         self.assertNotEqual(self.metas()[0]["drawn"], metas[0]["drawn"])
 
+    def test_a_drawn_mount_moves_as_a_fixed_one(self):
+        mission = (self.folder / "mission.yaml").read_text().replace(VARY, "")
+        moving = ("--set", "sensors.fls.moves_in_ping=true")
+        self.write("mission.yaml", mission)
+        self.assert_renders(*moving, "--set", "sensors.fls.mount.rpy_deg=[0, 0, 70]", "--out", "fixed")
+        self.write("mission.yaml", mission + "\nvary:\n  - {key: sensors.fls.mount.rpy_deg.2, choice: [70, 70], "
+                   "per: ping}\n")
+        self.assert_renders(*moving, "--out", "drawn")
+        images = [{name: sum for name, sum in digest(self.folder / out).items() if name.endswith(".npy")}
+                  for out in ("fixed", "drawn")]
+        self.assertTrue(images[0])
+        self.assertEqual(*images)
+        self.write("mission.yaml", mission + "\nvary:\n  - {key: vehicle.offset_m.2, uniform: [-0.2, 0.2], "
+                   "per: ping}\n")
+        self.assert_refused(self.run_sonarsim("validate", "mission.yaml", *moving), "moves_in_ping")
+
     def test_variants_draw_for_their_pings(self):
         self.edit("mission.yaml", "vary:\n",
                   "variants: 2\nvary:\n  - {key: water.density_kg_m3, uniform: [990, 1030]}\n")

@@ -66,6 +66,22 @@ Pose looking_down(double height_m, double pitch_deg) {
 
 TEST_SUITE_BEGIN("labels");
 
+TEST_CASE("annotations: the azimuth of an object astern, in a full turn") {
+    for (const float y : {0.0F, 0.4F, -0.4F}) {
+        CAPTURE(y);
+        Scene scene = empty_scene();
+        const std::uint32_t m = add_material(scene, 0.5F);
+        add_floor(scene, 30.0F, 0.0F, m);
+        add_quad(scene, {-6, y - 1, 0}, {-6, y - 1, 2}, {-6, y + 1, 2}, {-6, y + 1, 0}, m);
+        SonarConfig config = wide_fan();
+        config.azimuth_deg = 360.0;
+        const FoundObjects found(scene, config, looking_down(1.0, 0.0), {});
+        const double expected = std::atan2(static_cast<double>(y), -6.0);
+        const double apart = *found.object(2).azimuth_rad - expected;
+        CHECK(std::fabs(std::remainder(apart, 2.0 * pi)) < radians(1.5));
+    }
+}
+
 TEST_CASE("annotations: the shadow of a wall on a flat floor is h r / (H - h) long") {
     // The line over the edge of a wall of height h at the distance r falls by H - h on r, and by
     // the h that is left on h r / (H - h): the shadow ends r + h r / (H - h) = r H / (H - h) away.

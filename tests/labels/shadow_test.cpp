@@ -5,6 +5,7 @@
 #include <random>
 #include <vector>
 
+#include "labels/hidden_surface.h"
 #include "sonar/kinds.h"
 #include "support/labelled.h"
 #include "support/sanitized.h"
@@ -210,6 +211,18 @@ TEST_CASE("labels: the shadows of a side-scan are those that rays through all su
         add_score(scene, sonar, pose, {16000, 8}, score);
     }
     check(score);
+}
+
+TEST_CASE("labels: hidden surface before the first bin and behind the last covers none") {
+    const RangeBins bins{.min_m = 1.0F, .bin_m = 0.1F, .count = 10};
+    const auto covered = [&](float range_m) {
+        return hidden_bins({{0, 0, range_m, 0.01F, 1.0F}}, bins, 1);
+    };
+    const std::vector<std::uint8_t> none(10, 0);
+    CHECK(covered(0.95F) == none);
+    CHECK(covered(2.05F) == none);
+    CHECK(covered(1.05F).front() == 1);
+    CHECK(covered(1.95F).back() == 1);
 }
 
 TEST_SUITE_END();
