@@ -8,6 +8,7 @@ namespace sonarsim {
 
 std::vector<Plant> plants_in(const BedArea& area, const BedGrid& grid, const BedPlants& plants,
                              std::uint64_t seed) {
+    if (!(plants.share > 0.0)) return {};
     const PhiloxKey key = bed_key(seed, BedDraw::plants);
     const std::vector<float> here =
         patches(grid, plants.share, plants.patch_m, bed_key(seed, BedDraw::plant_patches));
