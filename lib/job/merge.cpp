@@ -224,6 +224,11 @@ void copy_pings(const std::vector<std::unique_ptr<Part>>& parts, const std::vect
     const FinishedPings there(layout, records);
     const std::vector<Copy> copies = plan_copies(all, parts, there);
     summary.skipped = all.size() - copies.size();
+    std::vector<PingId> todo;
+    for (const Copy& copy : copies)
+        todo.push_back(copy.id);
+    std::ranges::sort(todo);
+    remove_leftovers(layout, todo, true);
     constexpr double checkpoint_s = 5.0;
     Journal journal(layout.folder, journal_part(1, 1), checkpoint_s);
     PingFiles files(layout, records, there);

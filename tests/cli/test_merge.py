@@ -49,6 +49,12 @@ class Merge(Sandbox):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(digest(self.folder / "both"), digest(self.folder / "bent"))
 
+    def test_temporary_files_of_a_killed_merge_go(self):
+        self.assert_merges("part1", "part2", "part3", "all")
+        ping = self.folder / "all/fls/polar/000003.npy"
+        ping.rename(ping.with_name(".000003.npy.0123456789abcdef.part"))
+        self.assert_merges("part1", "part2", "part3", "all")
+
     def test_again_and_what_overlaps(self):
         self.assert_merges("part1", "part2", "part3", "all")
         result = self.run_sonarsim("merge", "part1", "part2", "part3", "all", "--json")
