@@ -22,10 +22,13 @@ constexpr double widest_side_strip = 0.035;  // port_starboard, rad
 constexpr int cone_slices = 96;              // at one per beam
 
 // The poles of a view lie at w = infinity. Surface within 1e-3 rad of the poles of elevation is
-// ignored: within 1e-5 rad, the area of a sphere would be 5 % too large. The axis of a cone, which
-// may be narrow, and the ends of a sector of 180 degrees lie at infinity, too.
+// ignored: within 1e-5 rad, the area of a sphere would be 5 % too large. The ends of a sector of
+// 180 degrees lie at infinity, too.
 constexpr double steepest = 1e3;
-constexpr double steepest_of_cone = 1e5;
+constexpr double steepest_at_most = 1e5;
+
+// The axis of a cone is a pole as well. Surface within this share of half the opening is ignored.
+constexpr double ignored_at_axis = 1e-3;
 
 double tangent(double angle, double steepest_slope = steepest) {
     const SinCos s = sincos(angle);
@@ -57,7 +60,7 @@ struct Strips {
 /// `centre`.
 void add_slices(const Strips& strips, int first, int last, double centre, SliceFrame& frame) {
     const auto u = [&](double at) {
-        return static_cast<float>(tangent(strips.at(at) - centre, steepest_of_cone));
+        return static_cast<float>(tangent(strips.at(at) - centre, steepest_at_most));
     };
     for (int k = first; k <= last; ++k)
         frame.slices.push_back(slice_at(frame, u(k + aside(k))));
@@ -176,9 +179,11 @@ std::vector<SliceFrame> slice_frames(const View& view, int per_beam) {
             break;
         case ViewShape::cone:
             axes << 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0;
-            add_meridians(strips_over(-pi, 2.0 * pi, 1, cone_slices * per_beam),
-                          {tangent(0.5 * pi - half_azimuth, steepest_of_cone), steepest_of_cone},
-                          axes, frames);
+            add_meridians(
+                strips_over(-pi, 2.0 * pi, 1, cone_slices * per_beam),
+                {tangent(0.5 * pi - half_azimuth, steepest_at_most),
+                 std::clamp(1.0 / (ignored_at_axis * half_azimuth), steepest, steepest_at_most)},
+                axes, frames);
             break;
     }
     return frames;
