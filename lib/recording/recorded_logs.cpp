@@ -60,15 +60,18 @@ void take_facts_of_log(const SonarLog& log, const RecordingFile& file, Recording
 
 /// InputError if the file `path` has other ranges, beams or levels than the first of several files.
 void require_alike(const SonarLog& log, const SonarLog& first, const std::filesystem::path& path) {
-    const auto differs = [&](double a, double b) { return std::fabs(a - b) > 1e-6 * std::fabs(b); };
+    const auto differ = [](double a, double b, double share) {
+        return std::fabs(a - b) > share * std::fabs(b);
+    };
     const auto refuse = [&](const char* what) {
         throw InputError({path.string()}, std::string("has ") + what + " than the first file");
     };
     if (log.kind != first.kind) refuse("another kind of sonar");
-    if (differs(log.range_step_s, first.range_step_s)) refuse("another step of range");
+    if (differ(log.range_step_s, first.range_step_s, 1e-6)) refuse("another step of range");
     if (std::fabs(log.first_range_s - first.first_range_s) > 0.5 * first.range_step_s)
         refuse("another first range");
-    if (differs(log.frequency_hz, first.frequency_hz)) refuse("another frequency");
+    // Sonars round it, and sweeps have a mean of their own. Chosen.
+    if (differ(log.frequency_hz, first.frequency_hz, 0.01)) refuse("another frequency");
     if (log.bearing_rad.size() != first.bearing_rad.size()) refuse("another number of beams");
     if (log.decibels.has_value() != first.decibels.has_value() ||
         (log.decibels && (log.decibels->range_db != first.decibels->range_db ||
@@ -86,13 +89,13 @@ void read_log_pings(const RecordingFile& file, std::size_t most_pings, Recording
         SonarLog log = parsed_file(path, [&](const std::string& bytes) {
             return read_sonar_log(bytes, most_pings - recording.pings.size(), file.frequency_hz);
         });
-        const std::vector<LoggedPing> pings = std::exchange(log.pings, {});
+        std::vector<LoggedPing> pings = std::exchange(log.pings, {});
         if (!first) {
             take_facts_of_log(log, file, recording);
             first = log;
         }
         require_alike(log, *first, path);
-        for (const LoggedPing& own : pings) {
+        for (LoggedPing& own : pings) {
             count_values(own.values.size(), path, values);
             RecordedPing& ping = recording.pings.emplace_back();
             ping.time_s = own.t_s;
@@ -100,7 +103,7 @@ void read_log_pings(const RecordingFile& file, std::size_t most_pings, Recording
                 ping.time_s = static_cast<double>(recording.pings.size() - 1) / file.rate_hz;
             ping.ranges = own.ranges;
             ping.beams = own.beams;
-            ping.values = own.values;
+            ping.values = std::move(own.values);
             ping.bearing_rad = radians(file.head_first_deg) + own.bearing_rad;
         }
     }

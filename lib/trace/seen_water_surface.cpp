@@ -85,7 +85,7 @@ class SurfaceCutter {
         const float most_m = std::min(most_range_share * nearest, depth_m_);
         if (!(farthest - nearest > most_m)) return add_sample(cell);
         if (cuts == 0) {
-            // A cell that reaches much farther ends at the horizon.
+            // A cell that reaches to twice its nearest range, or beyond, is at the horizon. Chosen.
             if (farthest < 2.0F * nearest) add_sample(cell);
             return;
         }

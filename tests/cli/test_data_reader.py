@@ -118,6 +118,21 @@ class Reader(Sandbox):
             row = ramp[len(ramp) // 4]
             self.assertTrue((np.diff(row[row >= 0]) <= 0).all())
 
+    def test_to_fan_straight_astern(self):
+        """A full turn ends straight astern, on the middle column of an odd width."""
+        self.assert_renders("--out", "full", "--set", "sensors.round.azimuth_deg=360")
+        sensor = self.open("full")["round"]
+        shape = (len(sensor.range_edges_m) - 1, len(sensor.azimuth_edges_rad) - 1)
+        height, _, _ = sensor.fan_shape(65)
+        fan = sensor.to_fan(np.ones(shape), 65)
+        self.assertEqual(fan[3 * height // 4, 32], 1)
+
+    def test_negative_indices_count_from_the_end(self):
+        self.assert_renders("--out", "packed", "--set", "output.pack=tar")
+        for folder in (None, "packed"):
+            sensor = (self.open(folder) if folder else self.open())["fls"]
+            self.assertEqual(sensor.raw(-1, "polar"), sensor.raw(len(sensor) - 1, "polar"))
+
     def test_the_fan_is_that_of_sonarsim(self):
         """Same frame, same place: the programs differ in how they mix bins, and not in where."""
         sensor = self.open()["fls"]

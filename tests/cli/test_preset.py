@@ -71,10 +71,19 @@ class Preset(Sandbox):
         self.assertEqual(self.run_sonarsim("render", "mission.yaml").returncode, 0)
         reported = json.loads((self.folder / "out" / "dataset.json").read_text())["sensors"][0]["instrument"]
         self.assertEqual(reported["echo_level_unit"], "dB re 1 uPa")
+        self.assertIn("tvg_log log10(range_m)", reported["echo_level"])
+        self.assertNotIn("tvg_from_m", reported)
         self.assertGreater(reported["source_level_db"], 150)
         self.assertGreater(reported["noise_db"], 0)
         self.assertGreater(reported["full_scale_db"], reported["noise_db"])
         self.assertIn("noise_db: auto", (self.folder / "out" / "mission.resolved.yaml").read_text())
+
+    def test_the_echo_level_has_the_start_of_the_gain(self):
+        self.calibrated("{frequency_hz: 9e5, receiver: {tvg_from_m: 1.5}}")
+        self.assertEqual(self.run_sonarsim("render", "mission.yaml").returncode, 0)
+        reported = json.loads((self.folder / "out" / "dataset.json").read_text())["sensors"][0]["instrument"]
+        self.assertEqual(reported["tvg_from_m"], 1.5)
+        self.assertIn("tvg_log log10(max(range_m, tvg_from_m))", reported["echo_level"])
 
     def test_levels_in_two_units_are_refused(self):
         self.calibrated("{source_level_db: 210, receiver: {noise_db: -100}}")

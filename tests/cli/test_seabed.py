@@ -125,6 +125,28 @@ class TestSeabed(Composed):
             self.assertGreater(sum(one), 0)
             self.assertLess(sum(abs(a - b) for a, b in zip(one, other, strict=True)), 1e-4 * sum(one))
 
+    def test_materials_are_a_sediment_map(self):
+        """Both files of seabed/ as the ground of the next mission give the same images."""
+        self.write("materials.csv", "material,density_kg_m3,sound_speed_m_s\nConcrete,2400,3100\nmud,1150,1470\n"
+                   "sand,1900,1700\nsteel,7850,5890\n")
+        self.edit("mission.yaml", "labels: true", "labels: [clean]")
+        self.edit("mission.yaml", "    material: Concrete\n",
+                  "    sediments: [{material: sand, share: 1}, {material: mud, share: 1}]\n    patch_m: 1\n")
+        self.edit("mission.yaml", "cell_m: 0.2", "cell_m: 0.1")
+        text = (self.folder / "mission.yaml").read_text()
+        self.assert_renders()
+        listed = json.loads((self.out / "seabed/seabed.json").read_text())["materials"]
+        names = ", ".join(f"{one['value']}: {one['material']}" for one in listed)
+        start, end = text.index("  seabed:"), text.index("  objects:")
+        self.write("again.yaml", text[:start] + "  heightmap: {file: out/seabed/heights.tif, material: sand, keep: all}\n"
+                   f"  sediment_map: {{file: out/seabed/materials.png, materials: {{{names}}}}}\n" + text[end:])
+        result = self.run_sonarsim("render", "again.yaml", "--out", "again")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        one, other = (array.array("f", (folder / "fls/clean/000000.npy").read_bytes()[128:])
+                      for folder in (self.out, self.folder / "again"))
+        self.assertGreater(sum(one), 0)
+        self.assertLess(sum(abs(a - b) for a, b in zip(one, other, strict=True)), 0.04 * sum(one))
+
     def test_presets(self):
         """Each bed of configs/seabeds, with keys of the mission's own above those of the file."""
         self.edit("mission.yaml", "    material: Concrete\n", "")
