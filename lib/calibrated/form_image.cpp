@@ -93,7 +93,7 @@ class ImageFormer {
         }
         if (model_.pulse_floor.share > 0.0F) {
             add_pulse_floor(model_.pulse_floor, of_powers ? PowerForm::power : PowerForm::amplitude,
-                            speckle_gain_, context_.draws.of(stream_named("pulse floor")),
+                            pulse_floor_gain(), context_.draws.of(stream_named("pulse floor")),
                             coherent ? &*coherent : nullptr, grid);
         }
         // 3, 4. Beams, the receiver's noise and its gain.
@@ -103,6 +103,21 @@ class ImageFormer {
     }
 
   private:
+    /// The far side lobes are drawn in each column, after the pulse. The amplitudes of
+    /// `speckle: ping` were drawn in each column as well, and nearly all have the right power
+    /// there.
+    float pulse_floor_gain() const {
+        switch (speckle_) {
+            case SpeckleMode::none:
+                return split_gain(beams_);
+            case SpeckleMode::ping:
+                return 1.0F;
+            case SpeckleMode::scene:
+                break;
+        }
+        return split_gain(beams_) * scalloping_gain(beams_);
+    }
+
     /// Computes the echoes of a block of patches: levels, range bins and columns of the grid.
     void find(const PatchBlock& patches) {
         const SedimentScattering* const sediment = scattering_.sediment();

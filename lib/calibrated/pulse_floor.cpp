@@ -13,12 +13,12 @@ namespace {
 
 constexpr double no_floor_db = -300.0;
 
-void add_powers_of(const EchoGrid& amplitudes, int column, std::span<float> powers) {
+void add_powers_of(const EchoGrid& amplitudes, int column, float gain, std::span<float> powers) {
     const float* const cells = amplitudes.column(column);
     for (std::ptrdiff_t row = 0; row < amplitudes.rows(); ++row) {
         const float re = cells[2 * row];
         const float im = cells[2 * row + 1];
-        powers[row] += std::fma(re, re, im * im);
+        powers[row] += gain * std::fma(re, re, im * im);
     }
 }
 
@@ -54,15 +54,15 @@ void add_pulse_floor(const PulseFloor& floor, PowerForm form, float gain, Philox
     for (int column = 0; column < grid.columns(); ++column) {
         std::ranges::fill(powers, 0.0F);
         if (form == PowerForm::amplitude) {
-            add_powers_of(grid, column, powers);
+            add_powers_of(grid, column, gain, powers);
         } else {
             const float* const cells = grid.column(column);
             for (std::ptrdiff_t row = 0; row < grid.rows(); ++row)
                 powers[row] = std::max(cells[2 * row], 0.0F);
         }
-        if (coherent != nullptr) add_powers_of(*coherent, column, powers);
+        if (coherent != nullptr) add_powers_of(*coherent, column, gain, powers);
         spread(floor, powers, sums);
-        add_drawn(form, sums, gain, column, key, grid);
+        add_drawn(form, sums, 1.0F, column, key, grid);
     }
 }
 

@@ -17,7 +17,7 @@ struct PulseFloor {
 PulseFloor pulse_floor(const PulseConfig& pulse, double bin_m, double sound_speed_m_s);
 
 /// Adds the far side lobes of the echoes in `grid`, and of the amplitudes in `coherent`, which may
-/// be null, to `grid`.
+/// be null, to `grid`. `gain`: of the lobes of amplitudes.
 void add_pulse_floor(const PulseFloor& floor, PowerForm form, float gain, PhiloxKey key,
                      const EchoGrid* coherent, EchoGrid& grid);
 
