@@ -54,7 +54,7 @@ void add_interference(const InterferenceConfig& interference, const ImageRows& r
     const PhiloxBlock first = philox({0, 0, 0, 0}, key);
     const double extent_m = rows.bin_m * rows.rows;
     const double moved_m = extent_m * unit_double(first.x0, first.x1) +
-                           interference.step_m * static_cast<double>(draws.ping);
+                           interference.step_m * static_cast<double>(draws.number());
     const double at_m = moved_m - extent_m * std::floor(moved_m / extent_m);
     const auto level = static_cast<float>(power_of_db(interference.level_db));
     const int begin = static_cast<int>(at_m / rows.bin_m);
@@ -116,7 +116,7 @@ void blank(const ReceiverConfig& receiver, const ImageRows& rows, std::span<floa
 double drifting_gain_db(const ReceiverConfig& receiver, const PingDraws& draws) {
     // Normal numbers are drawn a fixed number of pings apart and interpolated with weights whose
     // squares add up to 1, so the standard deviation is the same in every ping.
-    const double at = static_cast<double>(draws.ping) / receiver.gain_drift_pings;
+    const double at = static_cast<double>(draws.number()) / receiver.gain_drift_pings;
     const double whole = std::floor(at);
     const PhiloxKey key = stream_key(draws.seed, draws.sensor, 0, stream_named("gain drift"));
     const auto node = static_cast<std::uint32_t>(whole);

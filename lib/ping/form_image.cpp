@@ -20,7 +20,10 @@ Ping form_group(const TracedPing& traced, const PingSettings& settings, const Sc
     settings.model->form(traced,
                          {.view = settings.view,
                           .scene = scene,
-                          .draws = {key.seed, settings.stream, key.ping},
+                          .draws = {.seed = key.seed,
+                                    .sensor = settings.stream,
+                                    .ping = key.ping,
+                                    .every = settings.every},
                           .terms = terms},
                          ping);
     return ping;

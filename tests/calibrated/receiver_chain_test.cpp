@@ -184,6 +184,25 @@ TEST_SUITE("calibrated") {
         CHECK(std::sqrt(steps2 / 4999) == test::approx(2.0 * pi / 40.0).epsilon(0.18));
     }
 
+    // A sonar of `every: 5` has its n-th ping at the pose 5 n.
+    TEST_CASE("receiver: drift and interference count pings, not poses") {
+        ReceiverConfig chain;
+        chain.gain_drift_db = 2.0;
+        chain.interference = {.level_db = 60.0, .length_m = 0.5, .step_m = 3.0};
+        CHECK(drifting_gain_db(chain, {.seed = 5, .sensor = 2, .ping = 35, .every = 5}) ==
+              drifting_gain_db(chain, {.seed = 5, .sensor = 2, .ping = 7}));
+        const std::vector<float> flat(chain_rows, 1.0F);
+        const ImageRows rows{10.0, 0.01, chain_rows, 1, flat};
+        std::vector<float> fifth(chain_rows);
+        std::vector<float> each(chain_rows);
+        add_faults(chain, rows, {.seed = 5, .sensor = 2, .ping = 35, .every = 5}, fifth);
+        add_faults(chain, rows, {.seed = 5, .sensor = 2, .ping = 7}, each);
+        CHECK(fifth == each);
+        SonarConfig config = calibrated(default_sonar(SonarKind::echosounder), 2e5);
+        config.every = 5;
+        CHECK(make_sonar(config, {}, {}).settings.every == 5);
+    }
+
     TEST_CASE("receiver: ringing, blanking, interference and spikes lie where they should") {
         const std::vector<float> plain = noise_image({});
         ReceiverConfig ringing;
