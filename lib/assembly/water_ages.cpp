@@ -9,6 +9,7 @@
 #include "calibrated/line_array.h"
 #include "core/elementary.h"
 #include "core/units.h"
+#include "sonar/sonar_at_pose.h"
 
 namespace sonarsim {
 
@@ -57,17 +58,18 @@ void add_water_ages(const Mission& mission, const Trajectory& trajectory, std::s
             sonar.config.instrument.speckle.mode == SpeckleMode::ping)
             continue;
         const AgeScales scales = age_scales(sonar, mission.water);
-        std::vector<double> ages;
+        // From ping to ping: what `vary` draws for the poses between two pings moves nothing.
+        const auto every = static_cast<std::size_t>(sonar.config.every);
+        std::vector<double> ages(trajectory.size());
         Pose before;
-        for (std::size_t k = 0; k < trajectory.size(); ++k) {
-            const Pose at =
-                sensor_pose(sonar, trajectory[k].T_world_vehicle, static_cast<std::uint32_t>(k));
-            double age = 0.0;
+        for (std::size_t k = 0; k < trajectory.size(); k += every) {
+            const auto pose = static_cast<std::uint32_t>(k);
+            const Pose at = sensor_pose(*SonarAtPose(mission, sonar, pose),
+                                        trajectory[k].T_world_vehicle, pose);
             if (k > 0) {
-                const double time_s = trajectory[k].t_s - trajectory[k - 1].t_s;
-                age = ages.back() + age_between(scales, before, at, time_s, current_m_s);
+                const double time_s = trajectory[k].t_s - trajectory[k - every].t_s;
+                ages[k] = ages[k - every] + age_between(scales, before, at, time_s, current_m_s);
             }
-            ages.push_back(age);
             before = at;
         }
         sonar.water_ages = std::make_shared<const std::vector<double>>(std::move(ages));

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <cstdint>
 
 #include "core/units.h"
 #include "support/approx.h"
@@ -89,6 +90,27 @@ TEST_SUITE("assembly") {
             pose.T_world_vehicle.translation += pose.t_s * Eigen::Vector3d(0.3, 0.0, -0.1);
         add_water_ages(current, poses, sonars);
         CHECK(sonars[0].water_ages->back() == test::approx(2.0 / pi * phase_spread(1.0)));
+        // A mount that is drawn for each ping turns the sonar, here by up to 3 of its 7 degrees.
+        Mission shaken = frozen;
+        shaken.sensors = {sonars[0].config};
+        shaken.sensors[0].name = sonars[0].config.name = "sounder";
+        VaryConfig& rule = shaken.vary.emplace_back();
+        rule.key = "sensors.sounder.mount.rpy_deg.0";
+        rule.per = VaryPer::ping;
+        rule.uniform = {-1.5, 1.5};
+        sonars[0].config.every = 2;
+        poses = at_rest(11, 0.1);
+        add_water_ages(shaken, poses, sonars);
+        const std::vector<double>& drawn = *sonars[0].water_ages;
+        for (std::uint32_t k = 2; k < 11; k += 2) {
+            const auto roll_deg = [&](std::uint32_t pose) {
+                return drawn_sonar(shaken, sonars[0], pose)->config.mount.rpy_deg[0];
+            };
+            CHECK(drawn[k] - drawn[k - 2] ==
+                  test::approx(std::fabs(roll_deg(k) - roll_deg(k - 2)) / 7.0));
+        }
+        CHECK(drawn.back() > 0.1);
+        sonars[0].config.every = 1;
         // Without the key there are none.
         std::vector<Sonar> others{resting_sounder({})};
         add_water_ages({}, poses, others);
