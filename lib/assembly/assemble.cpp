@@ -27,6 +27,7 @@
 #include "scene/gltf/scene_files.h"
 #include "scene/maps/ground_maps.h"
 #include "sonar/engine_settings.h"
+#include "sonar/sonar_at_pose.h"
 #include "trajectory/files.h"
 
 namespace sonarsim {
@@ -71,8 +72,9 @@ std::string surface_warning(const Mission& mission, const Assembly& assembly) {
         if (sonar.config.multipath.method == MultipathMethod::none) continue;
         const auto every = static_cast<std::size_t>(sonar.config.every);
         for (std::size_t i = 0; i < assembly.trajectory.size(); i += every) {
-            const Pose at = sensor_pose(sonar, assembly.trajectory[i].T_world_vehicle,
-                                        static_cast<std::uint32_t>(i));
+            const auto pose = static_cast<std::uint32_t>(i);
+            const Pose at = sensor_pose(*SonarAtPose(mission, sonar, pose),
+                                        assembly.trajectory[i].T_world_vehicle, pose);
             ++pings;
             above += at.translation.z() >= config.height_m;
         }

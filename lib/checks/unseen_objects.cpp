@@ -7,7 +7,7 @@
 #include "core/text.h"
 #include "core/units.h"
 #include "scene/copies.h"
-#include "sonar/sonar.h"
+#include "sonar/sonar_at_pose.h"
 #include "trace/arrivals.h"
 #include "visibility/angles.h"
 #include "visibility/view.h"
@@ -80,8 +80,8 @@ struct PoseInView {
 
 /// The poses at which a part of the sphere around an object is in the view of a sonar and within
 /// its range, with the least angle off the view first.
-std::vector<PoseInView> poses_in_view(const Assembly& assembly, const Sonar& sonar,
-                                      const Extent& extent) {
+std::vector<PoseInView> poses_in_view(const Mission& mission, const Assembly& assembly,
+                                      const Sonar& sonar, const Extent& extent) {
     const View& view = sonar.settings.view;
     const auto every = static_cast<std::size_t>(sonar.config.every);
     const std::size_t pings = (assembly.trajectory.size() + every - 1) / every;
@@ -90,7 +90,8 @@ std::vector<PoseInView> poses_in_view(const Assembly& assembly, const Sonar& son
     for (std::size_t i = 0; i < assembly.trajectory.size(); i += step) {
         const TimedPose& at = assembly.trajectory[i];
         const auto pose = static_cast<std::uint32_t>(i);
-        const Pose T_world_sensor = sensor_pose(sonar, at.T_world_vehicle, pose);
+        const Pose T_world_sensor =
+            sensor_pose(*SonarAtPose(mission, sonar, pose), at.T_world_vehicle, pose);
         Pose T_world_object;
         if (extent.body >= 0) T_world_object = body_poses(assembly, at.t_s)[extent.body];
         const Eigen::Vector3d world =
@@ -110,8 +111,9 @@ std::vector<PoseInView> poses_in_view(const Assembly& assembly, const Sonar& son
 
 /// True if a sonar sees the instance in one of a few of `poses`, which begin with those that look
 /// straight at it.
-bool sees(const Assembly& assembly, const Sonar& sonar, const std::vector<PoseInView>& poses,
-          std::uint32_t instance, const VisibilityEngine& rays) {
+bool sees(const Mission& mission, const Assembly& assembly, const Sonar& sonar,
+          const std::vector<PoseInView>& poses, std::uint32_t instance,
+          const VisibilityEngine& rays) {
     const std::size_t straight =
         static_cast<std::size_t>(std::ranges::count(poses, 0.0, &PoseInView::angle_off));
     const std::size_t tries = std::min(poses.size(), most_tries);
@@ -120,8 +122,8 @@ bool sees(const Assembly& assembly, const Sonar& sonar, const std::vector<PoseIn
         const std::uint32_t pose = poses[(2 * k + 1) * among / (2 * tries)].pose;
         const TimedPose& at = assembly.trajectory[pose];
         const TracedPing traced =
-            trace(sonar, assembly.scene, *engine_at(rays, assembly.motions, at.t_s),
-                  at.T_world_vehicle, pose);
+            trace(*SonarAtPose(mission, sonar, pose), assembly.scene,
+                  *engine_at(rays, assembly.motions, at.t_s), at.T_world_vehicle, pose);
         const auto is_it = [&](const Sample& sample) {
             const double range = arrival_range(sample.position);
             return sample.instance == instance && range >= sonar.settings.view.range_min_m &&
@@ -163,9 +165,9 @@ std::vector<Warning> unseen_objects(const Mission& mission, const Assembly& asse
         bool seen = false;
         for (std::size_t i = 0; i < assembly.sonars.size() && !seen; ++i) {
             const std::vector<PoseInView> poses =
-                poses_in_view(assembly, assembly.sonars[i], extents[instance]);
+                poses_in_view(mission, assembly, assembly.sonars[i], extents[instance]);
             in_view = in_view || !poses.empty();
-            seen = sees(assembly, assembly.sonars[i], poses, instance, rays);
+            seen = sees(mission, assembly, assembly.sonars[i], poses, instance, rays);
         }
         if (!seen) (in_view ? hidden : never_in_view).push_back(scene.instances[instance]);
     }

@@ -5,6 +5,7 @@
 #include "assembly/engine_at.h"
 #include "checks/find_warnings.h"
 #include "core/text.h"
+#include "sonar/sonar_at_pose.h"
 #include "trace/particles.h"
 
 namespace sonarsim {
@@ -14,15 +15,16 @@ namespace {
 constexpr std::size_t most_particle_pings = 200;  // the most pings of each sonar to test
 
 /// Marks the instances of the targets that a sonar sees at a pose.
-void mark_seen(const Assembly& assembly, const Sonar& sonar, std::size_t pose,
-               const VisibilityEngine& rays, std::vector<bool>& is_seen) {
+void mark_seen(const Mission& mission, const Assembly& assembly, const Sonar& sonar,
+               std::size_t pose, const VisibilityEngine& rays, std::vector<bool>& is_seen) {
     const TimedPose& at = assembly.trajectory[pose];
     const Particles& particles = *sonar.settings.particles;
     const View& view = sonar.settings.view;
+    const auto index = static_cast<std::uint32_t>(pose);
     const SeenParticles seen = seen_particles(
         particles, particles.time_s[pose], view, sonar.settings.guard_beams,
         *engine_at(rays, assembly.motions, at.t_s),
-        sensor_pose(sonar, at.T_world_vehicle, static_cast<std::uint32_t>(pose)), {});
+        sensor_pose(*SonarAtPose(mission, sonar, index), at.T_world_vehicle, index), {});
     for (const Sample& sample : seen.samples) {
         if (sample.height_m >= static_cast<float>(view.range_min_m))
             is_seen[sample.instance] = true;
@@ -58,7 +60,7 @@ std::vector<Warning> unseen_particles(const Mission& mission, const Assembly& as
         const std::size_t step = every * ((pings + most_particle_pings - 1) / most_particle_pings);
         for (std::size_t pose = 0; pose < assembly.trajectory.size() && !names.empty();
              pose += step) {
-            mark_seen(assembly, sonar, pose, rays, is_seen);
+            mark_seen(mission, assembly, sonar, pose, rays, is_seen);
             names = unseen_groups(mission, assembly.scene, is_seen);
         }
     }

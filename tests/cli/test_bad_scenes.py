@@ -102,6 +102,12 @@ class BadObjects(Composed):
                       "{name: b, file: crate.gltf, scale: 0.5, position_m: [5, 0, 1]}"])
         self.warned("W21 scene: 1 object is in view but not seen", "'b'; these may lie behind")
 
+    def test_a_mount_that_is_drawn_away_from_an_object(self):
+        self.objects(["{name: a, file: crate.gltf, position_m: [5, 0, 1]}"])
+        turned = "\nvary: [{key: sensors.fls.mount.rpy_deg.2, uniform: [175, 185], per: ping}]\n"
+        self.write("mission.yaml", (self.folder / "mission.yaml").read_text() + turned)
+        self.warned("W21 scene: 1 object is not in view", "'a'; move these")
+
     def test_a_count_of_zero(self):
         self.scene("  file: floor.gltf\n  materials: materials.csv\n" +
                    SCATTER.replace("count: 5", "count: 0"))

@@ -54,6 +54,18 @@ class Particles(Composed):
         self.assertIn("W36 scene.particles: no tested ping sees a target of these groups of "
                       "scene.particles: 'fish'", result.stdout + result.stderr)
 
+    def test_a_mount_that_is_drawn_sees_what_its_pings_see(self):
+        """Astern and 20 degrees up, where the bow that points 20 degrees down turns the sonar."""
+        self.calibrated()
+        self.edit("mission.yaml", "position_m: [4, 0.5, 0.6]", "position_m: [-4, 0.5, 3.4]")
+        turned = "\nvary: [{key: sensors.fls.mount.rpy_deg.2, uniform: [175, 185], per: ping}]\n"
+        self.write("mission.yaml", (self.folder / "mission.yaml").read_text() + turned)
+        result = self.run_sonarsim("validate", str(self.folder / "mission.yaml"))
+        self.assertNotIn("W36", result.stdout + result.stderr)
+        self.assert_renders()
+        meta = json.loads((self.out / "fls/meta/000003.json").read_text())
+        self.assertEqual(list(meta["particles"]), ["fish_1"])
+
     def test_buried_ones_are_labelled_so(self):
         """A point and two crates in mud, one of them scattered, by sound of 12 kHz."""
         self.write("materials.csv", "material,density_kg_m3,sound_speed_m_s,grain_phi\n"
