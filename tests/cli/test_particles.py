@@ -43,6 +43,16 @@ class Particles(Composed):
             y = 0.5 + 0.1 * k
             self.assertAlmostEqual(fish[0]["range_m"], (16 + y * y + 1.96) ** 0.5, delta=0.1)
 
+    def test_packs_have_room_for_all_targets(self):
+        self.calibrated()
+        self.edit("mission.yaml", "count: 1,", "count: 80, size_m: [0.5, 0.5, 0.5],")
+        files = [f"output.{kind}=false" for kind in ("labels", "image", "polar", "fan", "raw")]
+        settings = [word for one in files + ["output.pack=tar", "output.pack_size_mb=0.06"] for word in ("--set", one)]
+        self.assert_renders(*settings)
+        packs = list(self.out.rglob("*.tar"))
+        self.assertLessEqual(max(pack.stat().st_size for pack in packs), 60_000)
+        self.assertGreater(sum(pack.stat().st_size for pack in packs), 60_000)
+
     def test_targets_that_no_ping_sees_warn(self):
         self.calibrated()
         result = self.run_sonarsim("validate", str(self.folder / "mission.yaml"))

@@ -1,9 +1,46 @@
+#include <algorithm>
+#include <cstdint>
+#include <set>
+
 #include "dataset/ping_metadata.h"
 #include "dataset/writer.h"
+#include "mission/ping_draws.h"
 
 namespace sonarsim {
 
 namespace {
+
+constexpr double bytes_per_byte = 6.0;  // of a text in JSON, which may be escaped: \u0001
+
+double longest_drawn(const DrawnValues& drawn) {
+    double bytes = 0.0;
+    for (const auto& [key, value] : drawn)
+        bytes += 50.0 + bytes_per_byte * static_cast<double>(key.size() + value.size());
+    return bytes;
+}
+
+/// More than the bytes of the metadata of any ping: what grows with the mission is counted.
+double longest_metadata(const WriterContext& context) {
+    constexpr double common = 2500.0;
+    constexpr double longest_object = 500.0;  // a pose, or the targets of one instance
+    const Mission& mission = context.mission;
+    const Scene& scene = context.assembly.scene;
+    std::set<std::uint32_t> targets;
+    if (const auto& particles = context.sonar().settings.particles) {
+        for (const Particle& particle : particles->all)
+            targets.insert(particle.instance);
+    }
+    double bytes = common + longest_drawn(mission.variant.drawn) +
+                   longest_drawn(drawn_for_ping(mission, context.sonar().config.name, 0));
+    const auto add_object = [&](std::uint32_t instance) {
+        bytes +=
+            longest_object + bytes_per_byte * static_cast<double>(scene.instances[instance].size());
+    };
+    for (const Body& body : scene.bodies)
+        add_object(body.instance);
+    std::ranges::for_each(targets, add_object);
+    return bytes;
+}
 
 /// meta/NNNNNN.json: time, poses, seed, counts and what was measured.
 class MetaWriter final : public Writer {
@@ -11,8 +48,7 @@ class MetaWriter final : public Writer {
     explicit MetaWriter(const WriterContext& context) : context_(context) {}
 
     WriterOutputs outputs() const override {
-        constexpr double longest = 2500.0;
-        return {PingFile{"meta", ".json"}, longest, {}};
+        return {PingFile{"meta", ".json"}, longest_metadata(context_), {}};
     }
 
     std::string encode(const FinishedPing& finished) const override {
