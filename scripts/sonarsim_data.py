@@ -202,7 +202,8 @@ class Sensor:
             return file.read(size)      # tar_members() has checked that the file holds as many bytes
 
     def read(self, index, name):
-        """The content of a ping's file or record of this name: an array, a dict for JSON, a str for text."""
+        """The content of a ping's file or record of this name: an array, a dict for JSON, a str for text, the
+        bytes of the file for a fan that is a JPEG or WebP."""
         if name in self._records:
             records = self.records(name)
             return records[:, index] if self.axes(name)[-1] == "ping" else records[index]
@@ -480,7 +481,7 @@ def read_json(data):
 
 
 DECODERS = {".npy": read_npy, ".png": read_png, ".exr": read_exr, ".tif": read_tiff,
-            ".json": read_json, ".txt": bytes.decode}
+            ".json": read_json, ".txt": bytes.decode, ".jpg": bytes, ".webp": bytes}
 
 
 def main(folder):
@@ -491,7 +492,7 @@ def main(folder):
               f"{', packed' if sensor.description.get('packs') else ''}")
         for name, value in (sensor[0].items() if len(sensor) else ()):
             is_array = isinstance(value, np.ndarray)
-            other = "text" if isinstance(value, str) else "JSON"
+            other = {str: "text", bytes: "bytes of a JPEG or WebP"}.get(type(value), "JSON")
             print(f"    {name:<16}", f"{value.dtype} {list(value.shape)}" if is_array else other)
     for what in ("instances", "classes"):
         if getattr(dataset, what):

@@ -171,6 +171,17 @@ class Reader(Sandbox):
             with self.assertRaises(ValueError):
                 sonarsim_data.read_tiff(data)
 
+    def test_fans_in_jpeg_and_webp(self):
+        """They come as the bytes of their files, since numpy reads neither."""
+        for fan, begins, more in (("jpeg", b"\xff\xd8\xff", ()), ("webp", b"RIFF", ("--set", "output.pack=tar"))):
+            self.assert_renders("--overwrite", "--out", "other", "--set", f"output.fan={fan}", *more)
+            sample = dict(self.open("other")["fls"][0])
+            self.assertEqual(sample["fan"][:len(begins)], begins)
+            result = subprocess.run([sys.executable, "-B", SCRIPTS / "sonarsim_data.py", self.folder / "other"],
+                                    capture_output=True, text=True, check=False)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertRegex(result.stdout, r"fan +bytes of a JPEG or WebP\n")
+
     def test_openexr_without_its_library(self):
         """The mission ends before the first ping, with the name of the package and without a folder."""
         if pathlib.Path("/usr/local/lib/sonarsim").exists():
