@@ -16,7 +16,7 @@
 # with a meaning to make or the shell are refused, such as $ ' " * ( ; and !.
 
 noise_keys := range_lambda_m scatterer_m add_sigma mult_sigma
-keys := $(noise_keys) seed engine
+keys := $(noise_keys) seed engine variants
 known := MISSION OUT SENSOR SONARSIM $(keys)
 
 root := $(abspath $(dir $(lastword $(MAKEFILE_LIST)))/..)
@@ -70,15 +70,19 @@ value_of = $(patsubst $(2)=%,%,$(filter $(2)=%,$(call settings,$(1))))
 key = $(if $(filter $(1),$(noise_keys)),$(SENSOR:%=sensors.%.noise.$(1)),$(1))
 sets = $(foreach a,$(axes),$(foreach k,$(call key,$(a)),--set '$(k)=$(call value_of,$(1),$(a))'))
 
-targets := $(folders:%=$(OUT)/%/dataset.json)
+targets := $(folders:%=$(OUT)/%/SHA256SUMS)
 point = $(strip $(foreach p,$(points),$(if $(filter $(call folder,$(p)),$(notdir $(@D))),$(p))))
-are_done = $(if $(targets),$(shell grep -ls '"complete": *true' $(targets:%='%')))
+# A dataset is done if it is complete, the variants of a mission if all of them are.
+are_done = $(if $(targets),$(shell for sums in $(targets:%='%'); do d="$${sums%/*}"; \
+    if [ -e "$$d/variants.json" ]; then all=$$(grep -c '"folder": "variant_' "$$d/variants.json"); else all=1; fi; \
+    whole=$$(grep -ls '"complete": *true' "$$d/dataset.json" "$$d"/variant_*/dataset.json | wc -l); \
+    [ "$$whole" -ne "$$all" ] || echo "$$sums"; done))
 done := $(are_done)
 
 .PHONY: all again
 all: $(OUT)/index.csv
 
-# make would delete a half-done dataset.json on Ctrl-C, and with it what a resume needs.
+# make would delete the sums of variants on Ctrl-C.
 .PRECIOUS: $(targets)
 
 # --shard: all of a point, even where the sweep runs in a task of a Slurm array.
@@ -95,7 +99,7 @@ $(filter-out $(done),$(targets)): again
 
 cell = $(if $(findstring $(comma),$(1)),"$(1)",$(1))
 row = $(subst $(space),$(comma),$(foreach a,$(axes),$(call cell,$(call value_of,$(1),$(a)))))
-whole = $(filter $(finished),$(OUT)/$(call folder,$(1))/dataset.json)
+whole = $(filter $(finished),$(OUT)/$(call folder,$(1))/SHA256SUMS)
 # The points of this grid that failed; OUT/failed/ may have notes of earlier grids as well.
 failed = $(foreach f,$(folders),$(if $(wildcard $(OUT)/failed/$(f).txt),$(f)))
 

@@ -49,7 +49,8 @@ std::string sheet_format(const fs::path& file) {
     throw InputError({file.string()}, "a contact sheet is a .png, a .jpg or a .webp");
 }
 
-/// The folders of a sweep's points, within that of the sweep.
+/// The datasets of a sweep's points, within the folder of the sweep. A point of a mission with
+/// variants is shown by the first of them.
 std::vector<std::string> sweep_folders(const fs::path& sweep) {
     const fs::path index = sweep / "index.csv";
     const CsvTable table = read_csv(index, std::size_t{64} << 20);
@@ -63,7 +64,8 @@ std::vector<std::string> sweep_folders(const fs::path& sweep) {
             throw InputError({index.string(), row.line},
                              "'" + printable(folder) + "' is no folder of a sweep");
         }
-        folders.push_back(folder);
+        const std::string first = page_members(sweep / folder).members.front().folder;
+        folders.push_back(first.empty() ? folder : folder + "/" + first);
     }
     return folders;
 }

@@ -81,6 +81,20 @@ class Sweep(Sandbox):
         sheet = (self.folder / "grid/contact_sheet.png").read_bytes()
         self.assertEqual(sheet[:4], b"\x89PNG")
 
+    def test_a_mission_with_variants(self):
+        grid = ["variants=1 2", "seed=1"]
+        result = self.sweep(*grid)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual((self.folder / "grid/index.csv").read_text().splitlines(),
+                         ['seed,variants,folder', '1,1,"seed=1,variants=1"', '1,2,"seed=1,variants=2"'])
+        self.assertTrue((self.folder / "grid/contact_sheet.png").exists(), result.stderr)
+        self.assertNotIn("render", self.sweep(*grid).stdout)
+        spoilt = self.folder / "grid/seed=1,variants=2/variant_0001/dataset.json"
+        spoilt.write_text(json.dumps({**json.loads(spoilt.read_text()), "complete": False}))
+        resumed = self.sweep(*grid)
+        self.assertEqual(resumed.stdout.count(" render "), 1, resumed.stdout)
+        self.assertIs(self.dataset(spoilt.parent)["complete"], True)
+
     def test_a_point_that_fails(self):
         """The others are rendered, and the sweep says which it was and why; the next one tries again."""
         grid = ["-j2", "sensors.fls.range_max_m=5 0.01 6", "seed=1"]
