@@ -224,6 +224,12 @@ void require_whole_ply(std::string_view bytes, const std::string& file) {
     const PlyHeader header = take_header(bytes, file);
     PlyBody body(bytes, header.form);
     for (const PlyElement& element : header.elements) {
+        // libassimp reads only the first triangle of a strip.
+        if (element.name == "tristrips" && element.count > 0) {
+            throw InputError(Location{file},
+                             "has its surface as strips of triangles (tristrips), which are not "
+                             "read; save it with faces, as MeshLab does");
+        }
         for (std::uint64_t i = 0; i < element.count; ++i) {
             if (skip_element(body, element)) continue;
             throw InputError(Location{file}, "element '" + printable(element.name) +

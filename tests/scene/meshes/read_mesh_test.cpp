@@ -206,6 +206,11 @@ TEST_SUITE("scene") {
             {"a.ply", ply_header("binary_big_endian", huge), "in number 1 of 4000000000"},
             {"a.ply", ply_header("ascii", huge), "in number 1 of 4000000000"},
             {"a.ply", far_index, "is out of range; there are 4 vertices"},
+            {"a.ply",
+             "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+             "property float z\nelement tristrips 1\nproperty list int int vertex_indices\n"
+             "end_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n4 0 1 2 3\n",
+             "a.ply: has its surface as strips of triangles"},
         }};
         for (const auto& file : faulty) {
             const std::string& part = file[2];
