@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <map>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -107,8 +108,7 @@ class ModelBuilder {
         std::string name = printable(take(bytes, head.node_bytes));
         if (name.empty()) name = printable(path_.stem().string());
         const std::string material = printable(take(bytes, head.material_bytes));
-        if (model_.nodes.empty() || model_.nodes.back().name != name) add_node(name);
-        auto& primitives = model_.meshes.back().primitives;
+        auto& primitives = mesh_of(name).primitives;
         const int positions = add_accessor(take(bytes, head.vertices * vertex_bytes), head.vertices,
                                            TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
         if (head.triangles > 0) {
@@ -136,11 +136,17 @@ class ModelBuilder {
     }
 
   private:
-    void add_node(const std::string& name) {
-        tinygltf::Node& node = model_.nodes.emplace_back();
-        node.name = name;
-        node.mesh = static_cast<int>(model_.meshes.size());
-        model_.meshes.emplace_back().name = name;
+    /// The mesh of the node of this name. A name may occur again after others: the faces of a group
+    /// of an OBJ may stand in several places.
+    tinygltf::Mesh& mesh_of(const std::string& name) {
+        const auto [found, is_new] = mesh_of_name_.emplace(name, model_.meshes.size());
+        if (is_new) {
+            tinygltf::Node& node = model_.nodes.emplace_back();
+            node.name = name;
+            node.mesh = static_cast<int>(model_.meshes.size());
+            model_.meshes.emplace_back().name = name;
+        }
+        return model_.meshes[found->second];
     }
 
     int add_accessor(std::string_view bytes, std::size_t count, int component, int type) {
@@ -170,6 +176,7 @@ class ModelBuilder {
 
     const std::filesystem::path& path_;
     tinygltf::Model model_;
+    std::map<std::string, std::size_t> mesh_of_name_;
 };
 
 tinygltf::Model model_of(std::string_view bytes, const std::filesystem::path& path,

@@ -167,6 +167,14 @@ TEST_SUITE("scene") {
         CHECK(scene.rejects.skipped_primitives == 1);
     }
 
+    TEST_CASE("OBJ: a group whose faces stand in several places is one instance") {
+        const Scene scene = scene_of("crane.obj",
+                                     "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\n"
+                                     "g jib\nf 1 2 3\ng cab\nf 1 3 4\ng jib\nf 2 3 4\n");
+        CHECK(scene.instances == std::vector<std::string>{"jib", "cab"});
+        CHECK(scene.triangle_instance == std::vector<std::uint32_t>{0, 0, 1});
+    }
+
     TEST_CASE("OBJ, STL and PLY: values that are no numbers are left out and counted") {
         CHECK(scene_of("a.obj", "v 0 0 0\nv nan 0 0\nv 1 1 0\nv 1 0 0\nf 1 2 3\nf 1 3 4\n")
                   .rejects.non_finite_triangles == 1);
