@@ -199,6 +199,15 @@ tinygltf::Model model_of(std::string_view bytes, const std::filesystem::path& pa
     }
 }
 
+/// Changes the text of an OBJ where libassimp would misread it: it takes a byte order mark for a
+/// part of the first line, and gives the faces before the first usemtl the material of that.
+void mend_obj(std::string& text) {
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
+    // libassimp's name for no material.
+    if (text.find("usemtl") != std::string::npos) text.insert(0, "usemtl DefaultMaterial\n");
+}
+
 }  // namespace
 
 bool is_mesh_file(const std::filesystem::path& path) {
@@ -214,7 +223,8 @@ bool is_mesh_file(const std::filesystem::path& path) {
 tinygltf::Model read_mesh(const std::filesystem::path& path) {
     const std::string file = path.string();
     const std::string format = format_of(path);
-    const std::string bytes = read_file(path, max_mesh_bytes);
+    std::string bytes = read_file(path, max_mesh_bytes);
+    if (format == "obj") mend_obj(bytes);
     std::string_view whole = bytes;
     if (format == "stl") whole = whole_stl(bytes, file);
     if (format == "ply") require_whole_ply(bytes, file);
