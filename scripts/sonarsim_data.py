@@ -57,7 +57,7 @@ def open_datasets(folder):
         if not (folder / file).is_file():
             continue
         try:
-            names = [one["folder"] for one in json.loads((folder / file).read_text())[key]]
+            names = [one["folder"] for one in json.loads((folder / file).read_bytes())[key]]
             sound = all(name not in ("", ".", "..") and "/" not in name for name in names)
         except (ValueError, RecursionError, KeyError, TypeError) as fault:
             raise ValueError(f"{folder / file}: is damaged: {fault!r}") from fault
@@ -76,7 +76,7 @@ class Dataset:
         if not path.is_file():
             raise ValueError(f"{folder}: is no dataset of sonarsim: it has no dataset.json")
         try:
-            self.description = json.loads(path.read_text())
+            self.description = json.loads(path.read_bytes())    # UTF-8, whatever the locale
         except (ValueError, RecursionError) as fault:
             raise ValueError(f"{path}: is no JSON, or damaged: {fault}") from fault
         is_ours = isinstance(self.description, dict) and (

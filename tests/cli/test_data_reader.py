@@ -182,6 +182,14 @@ class Reader(Sandbox):
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertRegex(result.stdout, r"fan +bytes of a JPEG or WebP\n")
 
+    def test_names_in_any_locale(self):
+        gltf = self.folder / "box.gltf"
+        self.write("box.gltf", gltf.read_text().replace('"walls"', '"W\\u00e4nde"'))
+        self.assert_renders("--overwrite")
+        # A locale of ASCII alone, as that of Windows or Latin-1 reads UTF-8 wrongly, too.
+        ascii_only = {"LC_ALL": "C", "PYTHONCOERCECLOCALE": "0", "PYTHONUTF8": "0", "PYTHONIOENCODING": "utf-8"}
+        self.assertIn("instances: 1 W\u00e4nde", self.describe(**ascii_only))
+
     def test_openexr_without_its_library(self):
         """The mission ends before the first ping, with the name of the package and without a folder."""
         if pathlib.Path("/usr/local/lib/sonarsim").exists():
