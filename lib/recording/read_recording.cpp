@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/text.h"
 #include "recording/read_dataset.h"
 #include "recording/recorded_arrays.h"
 #include "recording/recording_file.h"
@@ -37,7 +38,8 @@ Recording load_recording(const fs::path& path, const RecordingOptions& options) 
                          "is no recording: it has neither recording.yaml (docs/compare.md) nor "
                          "dataset.json");
     }
-    recording.name = path.lexically_normal().string();
+    // It stands in JSON, in SVG and in a comment of a preset, which hold UTF-8 without line breaks.
+    recording.name = printable(path.lexically_normal().string());
     return recording;
 }
 

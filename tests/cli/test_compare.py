@@ -1,5 +1,6 @@
 """sonarsim compare: arrays and datasets against each other, what is written, and what is refused."""
 import json
+import os
 import unittest
 
 from sandbox import Sandbox, path_csv
@@ -94,6 +95,14 @@ class Compare(Sandbox):
             self.assertEqual((reported["agreement"], reported["same"]), (1.0, True), sensor)
             self.assertEqual(reported["real"]["pings"], 72)
         self.assert_refused(self.compare("out", "out", "--sensor", "fls", "--real-sensor", "sss"), "one kind")
+
+    def test_a_folder_whose_name_is_no_utf_8(self):
+        self.assert_renders()
+        folder = os.fsdecode(b"o\xffut")
+        self.out.rename(self.folder / folder)
+        self.assert_compares(folder, folder, "--out", "compared")
+        reported = json.loads((self.folder / "compared/compare.json").read_text())
+        self.assertEqual(reported["real"]["name"], "o\\xffut")
 
     def test_what_is_refused(self):
         self.assert_renders()
