@@ -1,5 +1,7 @@
 #include "mission/holoocean.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -82,6 +84,24 @@ double rate_of(const YamlNode& sensor, double ticks) {
     return rate != nullptr ? number_in(*rate, "Hz", above(0)) : ticks;
 }
 
+/// The poses from ping to ping of a sonar. Warns if no whole number of them makes its rate.
+int every_of(const YamlNode& sensor, double rate_hz, double ticks,
+             std::vector<std::string>& warnings) {
+    constexpr double tolerance = 0.01;
+    const double wanted_hz = rate_of(sensor, ticks);
+    const double every = std::clamp(std::round(rate_hz / wanted_hz), 1.0, 1e6);
+    const double made_hz = rate_hz / every;
+    if (std::fabs(made_hz - wanted_hz) > tolerance * wanted_hz) {
+        const YamlNode* const rate = sensor.find("Hz");
+        warnings.push_back(
+            (rate != nullptr ? *rate : sensor).place.location().text() +
+            fmt::format(": {:.4g} Hz become {:.4g} Hz: a sonar pings at every n-th pose, of which "
+                        "there are {:.4g} in a second",
+                        wanted_hz, made_hz, rate_hz));
+    }
+    return static_cast<int>(every);
+}
+
 using FoundSonars = std::vector<std::pair<const YamlNode*, const SonarType*>>;
 
 /// The agent's sensors that are sonars. Warns of the others.
@@ -137,8 +157,8 @@ std::string sensors_yaml(const FoundSonars& sonars, double rate_hz, double ticks
         const auto same = std::ranges::count(names, name);
         names.push_back(name);
         if (same > 0) name += "_" + std::to_string(same + 1);
-        const double every = std::round(rate_hz / rate_of(*sensor, ticks));
-        yaml += sonar_yaml(name, *type, sonar, static_cast<int>(std::max(1.0, every)), *sensor);
+        const int every = every_of(*sensor, rate_hz, ticks, warnings);
+        yaml += sonar_yaml(name, *type, sonar, every, *sensor);
         if (const YamlNode* const socket = sensor->find("socket")) {
             const std::string where = type->looks_down ? "; by default it looks down here" : "";
             warnings.push_back(

@@ -147,6 +147,12 @@ class HoloOcean(Sandbox):
                 self.assertIn(message, result.stderr)
                 self.assertRegex(result.stderr, r"error: scenario\.json:\d+:\d+: ")
 
+    def test_a_rate_that_does_not_divide_the_fastest(self):
+        self.write("scenario.json", SCENARIO.replace('"Hz": 10', '"Hz": 8'))
+        result = self.run_import()
+        self.assertIn("every: 3", result.stdout)
+        self.assertIn("scenario.json:9:92: 8 Hz become 6.667 Hz", result.stderr)
+
     def test_every_parameter_is_in_the_page(self):
         code = "".join(p.read_text() for p in (ROOT / "lib/mission").glob("holoocean*.cpp"))
         page = (ROOT / "docs/holoocean.md").read_text()
