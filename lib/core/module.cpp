@@ -12,22 +12,39 @@ namespace sonarsim {
 namespace {
 
 /// Modules lie below the folder of the program or of its tests in a build tree, and next to bin/
-/// after an installation. A program that only links the library finds the installed ones. "": none.
+/// after an installation; those of the package of Python below the folders above its own module. A
+/// program that only links the library finds the installed ones. "": none.
 std::filesystem::path file_of_module(const std::string& name) {
+    struct Start {
+        std::filesystem::path file;
+        int levels;  ///< number of the folders above it that are searched
+    };
     const std::filesystem::path file = "lib/sonarsim/libsonarsim_" + name + ".so";
-    std::error_code error;
-    const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-    std::filesystem::path folder = program.parent_path();
-    for (int level = 0; !error && level < 3; ++level, folder = folder.parent_path()) {
-        std::error_code ignored;
-        if (std::filesystem::exists(folder / file, ignored)) return folder / file;
+    std::error_code ignored;
+    // PREFIX/lib/python3/dist-packages/sonarsim/ holds the module of Python.
+    for (const Start& start :
+         {Start{module_of_python(), 5},
+          Start{std::filesystem::read_symlink("/proc/self/exe", ignored), 3}}) {
+        std::filesystem::path folder = start.file.parent_path();
+        for (int level = 0; !folder.empty() && level < start.levels; ++level) {
+            if (std::filesystem::exists(folder / file, ignored)) return folder / file;
+            folder = folder.parent_path();
+        }
     }
     const std::filesystem::path installed = SONARSIM_PREFIX / file;
-    std::error_code ignored;
     return std::filesystem::exists(installed, ignored) ? installed : "";
 }
 
 }  // namespace
+
+std::filesystem::path module_of_python() {
+    static const char here = 0;
+    Dl_info info{};
+    if (::dladdr(&here, &info) == 0 || info.dli_fname == nullptr) return {};
+    const std::filesystem::path file = info.dli_fname;
+    std::error_code unknown;
+    return file.extension() == ".so" ? std::filesystem::canonical(file, unknown) : "";
+}
 
 void* module_symbol(const std::string& name, const char* symbol, const std::string& package) {
     const std::string title = "the module libsonarsim_" + name + ".so";

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 namespace sonarsim {
@@ -8,10 +9,13 @@ namespace sonarsim {
 inline constexpr const char* image_module = "images";
 inline constexpr const char* image_package = "libopenimageio-dev";
 
-/// The address of `symbol` in lib/sonarsim/libsonarsim_NAME.so next to or above the program. A
-/// module links a library that few missions need, so that the program starts without it. It stays
-/// loaded. InputError without the module, or without the library that it links: the sentence names
-/// `package`, Debian's package to build the module with.
+/// The module of Python that holds this code; empty in a program.
+std::filesystem::path module_of_python();
+
+/// The address of `symbol` in lib/sonarsim/libsonarsim_NAME.so next to or above the program, or the
+/// module of Python. A module links a library that few missions need, so that the program starts
+/// without it. It stays loaded. InputError without the module, or without the library that it
+/// links: the sentence names `package`, Debian's package to build the module with.
 void* module_symbol(const std::string& name, const char* symbol, const std::string& package);
 
 }  // namespace sonarsim

@@ -1,7 +1,5 @@
 #include "mission/preset.h"
 
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <string>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "core/file.h"
+#include "core/module.h"
 #include "core/text.h"
 #include "mission/node_values.h"
 
@@ -32,16 +31,6 @@ void fill_in(YamlNode& section, const YamlNode& preset) {
     }
 }
 
-/// The module of Python that holds this code; empty in a program.
-std::filesystem::path own_module() {
-    static const char here = 0;
-    Dl_info info{};
-    if (::dladdr(&here, &info) == 0 || info.dli_fname == nullptr) return {};
-    const std::filesystem::path file = info.dli_fname;
-    std::error_code unknown;
-    return file.extension() == ".so" ? std::filesystem::canonical(file, unknown) : "";
-}
-
 /// The folders with files that come with the program: share/ of an installation, or the checkout
 /// that holds the build folder. The module of Python lies three folders below a checkout, or four
 /// below the prefix of an installation.
@@ -50,7 +39,7 @@ std::vector<std::filesystem::path> shipped_folders() {
     const auto add = [&](const std::filesystem::path& above) {
         out.insert(out.end(), {above / "share/sonarsim/configs", above / "configs"});
     };
-    std::filesystem::path above = own_module().parent_path();
+    std::filesystem::path above = module_of_python().parent_path();
     for (int level = 0; !above.empty() && level < 4; ++level) {
         above = above.parent_path();
         add(above);

@@ -122,6 +122,12 @@ class Package(Sandbox):
 
 
 class SameBytes(Package):
+    def test_a_scene_that_libassimp_reads(self):
+        """Its module lies by the package and not by the interpreter."""
+        self.write("slab.obj", "v -9 -9 3\nv 9 -9 3\nv 0 9 3\nusemtl Concrete\nf 1 2 3\n")
+        self.assert_renders("--set", "scene.file=slab.obj")
+        self.assert_same(self.open({"scene.file": "slab.obj"}), self.out)
+
     def test_all_kinds_and_labels(self):
         self.write("mission.yaml", KINDS)
         self.write("path.csv", path_csv(POSES))
