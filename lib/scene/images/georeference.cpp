@@ -110,6 +110,10 @@ Georeference reference_of_tiff(const std::filesystem::path& image) {
                                         "' (GDAL_NODATA), which is no number; set it anew, as "
                                         "with gdal_translate -a_nodata -9999");
         }
+    } else if (has_tiff_mask(image)) {
+        throw InputError(where,
+                         "marks unknown pixels by a mask, which is not read; mark them by a value, "
+                         "as with gdalwarp -dstnodata -9999");
     }
     return out;
 }

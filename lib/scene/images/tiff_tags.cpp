@@ -81,6 +81,30 @@ void store_tag(const TiffBytes& file, std::uint16_t tag, std::uint64_t type, std
         values.push_back(value_of(file, bytes.substr(i, size), type));
 }
 
+/// The sizes in the lists of tags of a file, one list for each of its images. Counts and offsets
+/// have 8 bytes in a BigTIFF and 4 in a TIFF. The count of a TIFF's list has 2.
+struct TiffLists {
+    std::size_t word = 4;
+    std::size_t counter = 2;
+    std::uint64_t first = 0;  ///< the place of the first list
+
+    std::size_t entry_bytes() const { return 4 + 2 * word; }
+    /// The place of an entry of a list; behind the last one stands the place of the next list.
+    std::uint64_t entry_at(std::uint64_t list, std::uint64_t i) const {
+        return list + counter + i * entry_bytes();
+    }
+};
+
+TiffLists open_lists(TiffBytes& file) {
+    const std::string start = file.at(0, 4);
+    file.is_big_endian = start[0] == 'M';
+    const bool is_big = start[0] == 'M' ? start[3] == '+' : start[2] == '+';
+    TiffLists lists;
+    if (is_big) lists.word = lists.counter = 8;
+    lists.first = file.number_at(is_big ? 8 : 4, lists.word);
+    return lists;
+}
+
 }  // namespace
 
 bool is_tiff(const std::filesystem::path& path) {
@@ -93,20 +117,14 @@ bool is_tiff(const std::filesystem::path& path) {
 
 TiffTags read_tiff_tags(const std::filesystem::path& path, const std::set<std::uint16_t>& wanted) {
     TiffBytes file(path);
-    const std::string start = file.at(0, 4);
-    file.is_big_endian = start[0] == 'M';
-    // Counts and offsets have 8 bytes in a BigTIFF and 4 in a TIFF. The count of a TIFF's list has
-    // 2.
-    const bool is_big = start[0] == 'M' ? start[3] == '+' : start[2] == '+';
-    const std::size_t word = is_big ? 8 : 4;
-    const std::size_t counter = is_big ? 8 : 2;
-    const std::uint64_t list = file.number_at(is_big ? 8 : 4, word);
-    const std::uint64_t count = file.number_at(list, counter);
-    const std::size_t entry_bytes = 4 + 2 * word;
+    const TiffLists lists = open_lists(file);
+    const std::size_t word = lists.word;
+    const std::uint64_t count = file.number_at(lists.first, lists.counter);
     TiffTags tags;
     tags.is_big_endian = file.is_big_endian;
     for (std::uint64_t i = 0; i < count; ++i) {
-        const std::string entry = file.at(list + counter + i * entry_bytes, entry_bytes);
+        const std::uint64_t at = lists.entry_at(lists.first, i);
+        const std::string entry = file.at(at, lists.entry_bytes());
         const std::string_view bytes = entry;
         const auto tag = static_cast<std::uint16_t>(file.number(bytes.substr(0, 2)));
         if (!wanted.contains(tag)) continue;
@@ -117,12 +135,30 @@ TiffTags read_tiff_tags(const std::filesystem::path& path, const std::set<std::u
         const std::size_t total = size * values;
         const std::string_view field = bytes.substr(4 + word, word);
         const std::string far = total > word ? file.at(file.number(field), total) : "";
-        tags.places[tag] =
-            total > word ? file.number(field) : list + counter + i * entry_bytes + 4 + word;
+        tags.places[tag] = total > word ? file.number(field) : at + 4 + word;
         store_tag(file, tag, type, total > word ? std::string_view(far) : field.substr(0, total),
                   tags);
     }
     return tags;
+}
+
+bool has_tiff_mask(const std::filesystem::path& path) {
+    constexpr std::uint64_t subfile_tag = 254;  // NewSubfileType
+    constexpr std::uint64_t is_mask = 4;
+    constexpr int most_images = 64;  // more than a map has with its overviews
+    TiffBytes file(path);
+    const TiffLists lists = open_lists(file);
+    std::uint64_t list = lists.first;
+    for (int image = 0; list != 0 && image < most_images; ++image) {
+        const std::uint64_t count = file.number_at(list, lists.counter);
+        // The tags are in ascending order, and this is the first that there is.
+        if (count > 0 && file.number_at(lists.entry_at(list, 0), 2) == subfile_tag) {
+            const std::uint64_t field = lists.entry_at(list, 0) + 4 + lists.word;
+            if ((file.number_at(field, 4) & is_mask) != 0) return true;
+        }
+        list = file.number_at(lists.entry_at(list, count), lists.word);
+    }
+    return false;
 }
 
 }  // namespace sonarsim

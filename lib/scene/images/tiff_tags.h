@@ -25,4 +25,8 @@ bool is_tiff(const std::filesystem::path& path);
 /// these, reaches beyond the end of the file.
 TiffTags read_tiff_tags(const std::filesystem::path& path, const std::set<std::uint16_t>& wanted);
 
+/// True if the file holds a mask of its pixels, as GDAL writes it where pixels are unknown.
+/// InputError if a list of tags reaches beyond the end of the file.
+bool has_tiff_mask(const std::filesystem::path& path);
+
 }  // namespace sonarsim

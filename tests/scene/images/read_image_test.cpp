@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -160,6 +161,24 @@ TEST_CASE("feet become metres, degrees are reported, a map that is turned is ref
     CHECK(tells(error_of_image(marked), "pixels '-99,9' (GDAL_NODATA), which is no number"));
     std::filesystem::rename(folder.path / "turned.tfw", folder.path / "turned.TFW");
     CHECK(tells(error_of_image(turned), "turned.TFW: is no world file, which has six numbers"));
+}
+
+TEST_CASE("a mask of unknown pixels is refused, unless a value marks them, too") {
+    const TemporaryFolder folder;
+    const auto path = folder.path / "map.tif";
+    // A second list of tags: NewSubfileType is 4, as GDAL writes a mask.
+    const std::string mask("\1\0\xfe\0\4\0\1\0\0\0\4\0\0\0\0\0\0\0", 18);
+    const auto with_mask = [&](std::string bytes, std::size_t tags) {
+        const auto at = static_cast<std::uint32_t>(bytes.size());
+        std::memcpy(&bytes[10 + 12 * tags], &at, sizeof at);
+        write_file(path, bytes + mask);
+        return error_of_image(path);
+    };
+    const std::string plain = tiff_bytes(numbers(), columns);
+    write_file(path, plain);
+    CHECK(error_of_image(path).empty());
+    CHECK(tells(with_mask(plain, 10), "marks unknown pixels by a mask"));
+    CHECK(with_mask(geotiff_bytes(numbers(), columns, {}), 13).empty());  // NaN is its mark
 }
 
 TEST_CASE("images that cannot be read are refused with the reason") {
