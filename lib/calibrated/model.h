@@ -78,6 +78,7 @@ struct CalibratedModel final : EchoModel {
     void describe(nlohmann::ordered_json& sensor) const override;
     int raw_bits() const override { return instrument.receiver.bits; }
     std::vector<std::uint16_t> raw(const Ping& ping) const override;
+    std::span<const float> mean_noise() const override;
 };
 
 /// The sines of the azimuths of a fan's beams, and of the edges between them.

@@ -90,6 +90,13 @@ void CalibratedModel::describe(nlohmann::ordered_json& sensor) const {
     if (receiver.tvg_step_db > 0.0) sensor["instrument"]["tvg_step_db"] = receiver.tvg_step_db;
 }
 
+std::span<const float> CalibratedModel::mean_noise() const {
+    constexpr double none_db = -300.0;  // docs/mission.md
+    const bool has_noise =
+        levels.noise_db > none_db || instrument.receiver.common_mode_db > none_db;
+    return has_noise ? std::span<const float>(noise_values) : std::span<const float>();
+}
+
 std::vector<std::uint16_t> CalibratedModel::raw(const Ping& ping) const {
     return companded(ping.intensity, instrument.receiver);
 }

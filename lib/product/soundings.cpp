@@ -30,6 +30,23 @@ Sounding sounding_of_beam(const Sonar& sonar, std::span<const double> beam) {
     return sounding;
 }
 
+/// Divides a beam by its background: the mean noise of the receiver, which the TVG raises with
+/// range, and what the median bin has above it, such as water or side lobes. Noise at long range,
+/// which may be stronger than the bottom, would else pass for it; and divided by the noise alone,
+/// water near the sonar would.
+void divide_by_background(std::span<double> beam, std::span<const float> noise) {
+    constexpr double median_share = 0.693;  // of the mean of an exponential number, ln 2
+    constexpr double least = 1e-30;
+    std::vector<double> excess(beam.size());
+    for (std::size_t i = 0; i < beam.size(); ++i)
+        excess[i] = beam[i] - median_share * noise[i];
+    const auto middle = excess.begin() + static_cast<std::ptrdiff_t>(excess.size() / 2);
+    std::nth_element(excess.begin(), middle, excess.end());
+    const double constant = std::max(*middle, least);
+    for (std::size_t i = 0; i < beam.size(); ++i)
+        beam[i] /= constant + noise[i];
+}
+
 }  // namespace
 
 int beams_with_sounding(const Ping& ping) {
@@ -45,11 +62,13 @@ std::vector<Sounding> find_soundings(const Sonar& sonar, const Pose& T_world_veh
                                      const Ping& ping) {
     const Pose T_world_sensor = T_world_vehicle * sonar.T_vehicle_sensor;
     const std::span<const float> growth = sonar.settings.model->noise_growth();
+    const std::span<const float> noise = sonar.settings.model->mean_noise();
     std::vector<Sounding> soundings(ping.beams);
     std::vector<double> beam(ping.range_bins);
     for (int j = 0; j < ping.beams; ++j) {
         for (int i = 0; i < ping.range_bins; ++i)
             beam[i] = static_cast<double>(ping.at(i, j)) / (growth.empty() ? 1.0F : growth[i]);
+        if (!noise.empty()) divide_by_background(beam, noise);
         soundings[j] = sounding_of_beam(sonar, beam);
         if (std::isnan(soundings[j].range_m)) continue;
         const SinCos azimuth = sincos(sonar.beam_azimuths_rad[j]);

@@ -61,6 +61,9 @@ class EchoModel {
 
     /// The factor by which the noise grows with range, by range bin; empty: it does not grow.
     virtual std::span<const float> noise_growth() const { return {}; }
+    /// The mean value of the receiver's noise, by range bin; empty: it has none, or noise_growth()
+    /// tells how it grows.
+    virtual std::span<const float> mean_noise() const { return {}; }
     /// The signal of a pixel and the size of its noise. `clean` is the value of the pixel without
     /// the noise of pixels, `noisy` its value with that noise.
     struct SignalAndNoise {

@@ -94,8 +94,8 @@ TEST_SUITE("product") {
     }
 
     TEST_CASE("soundings: noise that does not grow with range does not hide a bottom that is far") {
-        // The noise of a calibrated sonar is the same at all ranges. Divided by (r / r_max)^2, that
-        // of the first bins would stand 4e4 above that of the last ones.
+        // Water that scatters is as bright at all ranges here. Divided by (r / r_max)^2, or by the
+        // receiver's noise, the first bins would stand 4e4 above the last ones, or more.
         SonarConfig config = three_beams(true).config;
         config.model = ModelKind::calibrated;
         const Sonar sonar = make_sonar(config, {});
@@ -114,6 +114,36 @@ TEST_SUITE("product") {
                 CHECK(sounding.quality > map_quality);
             }
         }
+    }
+
+    TEST_CASE("soundings: noise that the TVG raises does not hide a bottom that is near") {
+        // The receiver's noise of the calibrated model grows to 0.007 at 40 m, over many bins. The
+        // bottom at 4 m has 0.01 in one bin, a million times the noise there.
+        SonarConfig config = three_beams().config;
+        config.model = ModelKind::calibrated;
+        config.range_max_m = 40.0;
+        const Sonar sonar = make_sonar(config, {});
+        const std::span<const float> mean = sonar.settings.model->mean_noise();
+        REQUIRE(mean.size() == 100);
+        CHECK(mean[99] > 0.005F);
+        CHECK(mean[10] < 1e-8F);
+        std::mt19937 random(3);
+        std::uniform_real_distribution<double> unit(1e-9, 1.0);
+        for (int trial = 0; trial < 100; ++trial) {
+            Ping ping = dark(sonar);
+            for (int i = 0; i < 100; ++i) {
+                for (int j = 0; j < 3; ++j) {
+                    const double noise = -mean[i] * std::log(unit(random));
+                    ping.intensity[i * 3 + j] = static_cast<float>(noise + (i == 10 ? 0.01 : 0.0));
+                }
+            }
+            for (const Sounding& sounding : find_soundings(sonar, Pose{}, ping)) {
+                CHECK(sounding.range_m == test::approx(4.2).epsilon(0.01));
+                CHECK(sounding.quality > map_quality);
+            }
+        }
+        config.instrument.receiver.noise_db = -300.0;  // none
+        CHECK(make_sonar(config, {}).settings.model->mean_noise().empty());
     }
 
     TEST_CASE("bathymetry: means per cell, north up") {
