@@ -68,8 +68,10 @@ std::vector<ObjectMotion> object_motions_at(const Scene& scene, std::span<const 
 }
 
 double swept_hz(const SonarConfig& config, double sound_speed_m_s) {
-    const double bin_m = (config.range_max_m - config.range_min_m) / config.range_bins;
-    return pulse_band(config.instrument.pulse, bin_m, sound_speed_m_s).sweep_hz;
+    // A pulse without resolution_m is as long as a sample, of which a bin may have several.
+    const double samples = 1.0 * config.range_bins * config.instrument.receiver.samples;
+    const double sample_m = (config.range_max_m - config.range_min_m) / samples;
+    return pulse_band(config.instrument.pulse, sample_m, sound_speed_m_s).sweep_hz;
 }
 
 /// Range shift over speed, f T / B, of a pulse that sweeps over B in T. A shift of 2 v f / c in

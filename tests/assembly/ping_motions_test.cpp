@@ -95,4 +95,27 @@ TEST_SUITE("assembly") {
         CHECK(band_hz * 2.0 * 0.015 / mission.water.sound_speed_m_s ==
               test::approx(1.2).epsilon(0.1));
     }
+
+    TEST_CASE("ping motions: a pulse without a resolution sweeps over the band of a sample") {
+        const Trajectory vehicle{{0.0, {}}, {1.0, {Eigen::Quaterniond::Identity(), {1, 0, 0}}}};
+        SonarConfig config = default_sonar(SonarKind::sidescan);
+        config.model = ModelKind::calibrated;
+        config.moves_in_ping = true;
+        config.instrument.pulse.duration_s = 1e-3;
+        config.instrument.pulse.sweep = Sweep::up;
+        config.range_bins = 1200;
+        const auto motion = [&] {
+            std::vector<Sonar> sonars{make_sonar(config, {})};
+            add_ping_motions({}, vehicle, {}, {}, sonars);
+            return (*sonars[0].motions)[0];
+        };
+        const PingMotion of_bins = motion();
+        config.range_bins = 400;
+        config.instrument.receiver.samples = 3;
+        const PingMotion of_samples = motion();
+        CHECK(of_bins.doppler_s > 0.0);
+        CHECK(of_samples.doppler_s == test::approx(of_bins.doppler_s).epsilon(1e-12));
+        CHECK(of_samples.loss.band_s_per_m ==
+              test::approx(of_bins.loss.band_s_per_m).epsilon(1e-12));
+    }
 }
