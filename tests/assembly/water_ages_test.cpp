@@ -82,6 +82,12 @@ TEST_SUITE("assembly") {
         CHECK(ages[3] - ages[2] == test::approx(0.1));
         CHECK(ages[9] == ages[3]);
         CHECK(ages[10] == ages[9] + 2.0);
+        // A pulse without resolution_m is as long as a sample, here 2.5 cm.
+        std::vector<Sonar> sampled{resting_sounder(mission)};
+        sampled[0].config.instrument.pulse.resolution_m = 0.0;
+        sampled[0].config.instrument.receiver.samples = 4;
+        add_water_ages(frozen, poses, sampled);
+        CHECK((*sampled[0].water_ages)[1] == test::approx(0.02 / 0.025));
         // A sonar that goes with the water stays in it.
         Mission current = mission;
         current.water.current_m_s = {0.3, 0.0, -0.1};
