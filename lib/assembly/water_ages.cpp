@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "calibrated/line_array.h"
+#include "calibrated/pulse_band.h"
 #include "core/elementary.h"
 #include "core/units.h"
 #include "sonar/sonar_at_pose.h"
@@ -26,8 +27,8 @@ AgeScales age_scales(const Sonar& sonar, const WaterConfig& water) {
     const double width_rad = radians(instrument.beam.width_deg);
     const double half_array_m =
         0.5 * wavelength_m * line_array(width_rad, instrument.beam.side_lobe_db).wavelengths;
-    const double sample_m = sonar.settings.view.bin_m() / instrument.receiver.samples;
-    const double pulse_m = std::max(instrument.pulse.resolution_m, sample_m);
+    const double pulse_m =
+        std::max(instrument.pulse.resolution_m, sample_m(sonar.settings.view, instrument.receiver));
     // 2 / pi times 2 k u.
     return {.per_s = 8.0 * *water.drift_rms_m_s / wavelength_m,
             .per_m = 1.0 / std::min(half_array_m, pulse_m),

@@ -141,8 +141,9 @@ void calibrate_soundings(const SplitRecording& parts, const SonarConfig& start,
                          const WaterConfig& water, const CalibrationOptions& options,
                          Calibration& out) {
     const InstrumentConfig& instrument = start.instrument;
-    const double bin_m = (start.range_max_m - start.range_min_m) / start.range_bins;
-    const PulseBand band = pulse_band(instrument.pulse, bin_m, water.sound_speed_m_s);
+    const double samples = 1.0 * start.range_bins * instrument.receiver.samples;
+    const double sample_m = (start.range_max_m - start.range_min_m) / samples;
+    const PulseBand band = pulse_band(instrument.pulse, sample_m, water.sound_speed_m_s);
     const SoundingsGeometry geometry{band.length_m, radians(instrument.beam.width_deg),
                                      instrument.receiver.tvg_log};
     out.soundings =

@@ -60,7 +60,8 @@ InstrumentLevels instrument_levels(const InstrumentConfig& instrument, const Wat
                                    const View& view) {
     const ReceiverConfig& receiver = instrument.receiver;
     InstrumentLevels out;
-    out.noise_hz = pulse_band(instrument.pulse, view.bin_m(), water.sound_speed_m_s).noise_hz;
+    out.noise_hz =
+        pulse_band(instrument.pulse, sample_m(view, receiver), water.sound_speed_m_s).noise_hz;
     out.receiving_directivity_db = db_of_power(receiving_directivity(instrument.beam));
     out.transmitting_directivity_db = db_of_power(transmitting_directivity(instrument.beam, view));
     out.thermal_noise_db = thermal_noise_db(instrument.frequency_hz);

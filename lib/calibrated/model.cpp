@@ -134,7 +134,7 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
         absorption_db_per_m(instrument.frequency_hz,
                             {water.temperature_c, water.salinity_psu, water.depth_m, water.ph});
 
-    model.levels = instrument_levels(instrument, water, view);
+    model.levels = instrument_levels(instrument, water, view_of_image);
     const double noise_db = model.levels.noise_db - model.levels.source_level_db;
     const bool has_common_mode = receiver.common_mode_db > no_common_mode_db;
     const double common_mode_db =
