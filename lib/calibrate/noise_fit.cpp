@@ -181,14 +181,26 @@ Candidate least_squares(const std::vector<NoiseBlock>& blocks, double absorption
     return out;
 }
 
+/// The step between the starts of starts_of(), as a share of the farthest range.
+constexpr double start_step = 0.02;
+
 /// The ranges at which the gain may begin to grow: 0, and those of the nearest blocks.
 std::vector<double> starts_of(const std::vector<NoiseBlock>& blocks) {
     std::vector<double> out{0.0};
     if (blocks.empty()) return out;
     const double first = 1.4 * blocks.front().range_m;
-    const double step = 0.02 * blocks.back().range_m;
+    const double step = start_step * blocks.back().range_m;
     for (int k = 0; first + k * step < 20.0 * step; ++k)
         out.push_back(first + k * step);
+    return out;
+}
+
+/// A finer grid about a start of starts_of(), whose steps would bend the law by up to a decibel.
+std::vector<double> starts_about(double from_m, double farthest_m) {
+    if (from_m == 0.0) return {0.0};
+    std::vector<double> out;
+    for (int k = -10; k <= 10; ++k)
+        out.push_back(std::max(from_m + 0.1 * k * start_step * farthest_m, 0.0));
     return out;
 }
 
@@ -246,25 +258,26 @@ std::optional<NoiseFit> fit_noise(const std::vector<NoiseBlock>& blocks,
     std::vector<NoiseBlock> used = blocks_near(blocks, absorption_db_per_m, law, near_db);
     const double least = least_share * static_cast<double>(blocks.size());
     if (used.size() < least_blocks || static_cast<double>(used.size()) < least) return {};
-    for (int round = 0; round < 3; ++round) {
-        const std::vector<double> all(used.size(), 1.0);
-        law = least_squares(used, absorption_db_per_m, law.shape.from_m, all);
-        used = blocks_near(blocks, absorption_db_per_m, law, 1.2 * near_db);
-        if (used.size() < least_blocks) return {};
-    }
-    const std::vector<double> starts =
-        law.shape.from_m > 0.0 ? starts_of(blocks) : std::vector<double>{0.0};
-    const auto fitted = [&](const std::vector<double>& weights) {
+    const auto best_fit = [&](const std::vector<double>& weights) {
         Candidate best;
-        for (const double from_m : starts) {
+        for (const double from_m : starts_about(law.shape.from_m, blocks.back().range_m)) {
             const Candidate here = least_squares(used, absorption_db_per_m, from_m, weights);
             if (here.score > best.score) best = here;
         }
+        return best;
+    };
+    for (int round = 0; round < 5; ++round) {
+        law = best_fit(std::vector<double>(used.size(), 1.0));
+        used = blocks_near(blocks, absorption_db_per_m, law, 1.2 * near_db);
+        if (used.size() < least_blocks) return {};
+    }
+    const auto fitted = [&](const std::vector<double>& weights) {
+        const Candidate best = best_fit(weights);
         return std::vector<double>{best.level_db, best.shape.log_factor, best.shape.from_m};
     };
     const std::vector<Bounded> found = bootstrap_all(
         static_cast<int>(used.size()), fitted,
-        {least_level_db, 0.2, law.shape.from_m > 0.0 ? 0.02 * used.back().range_m : 0.0});
+        {least_level_db, 0.2, law.shape.from_m > 0.0 ? start_step * used.back().range_m : 0.0});
     return NoiseFit{.level_db = found[0],
                     .tvg_log = found[1],
                     .tvg_from_m = found[2],
