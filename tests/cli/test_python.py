@@ -10,7 +10,9 @@ import subprocess
 import sys
 import threading
 import time
+import types
 import unittest
+import unittest.mock
 
 PACKAGE = os.environ.get("SONARSIM_PYTHON_PACKAGE")
 PYTHON = os.environ.get("SONARSIM_PYTHON_EXECUTABLE", sys.executable)
@@ -332,6 +334,32 @@ class Torch(Package):
         finally:
             del sys.modules["torch"]
             sys.modules.update(kept)
+
+    def test_workers_share_a_shard(self):
+        """Every number of workers makes the pings of the shard, each once. The test needs no torch: what
+        it says to a worker stands in for it."""
+        plain = (self.folder / "mission.yaml").read_text()
+        tools = types.SimpleNamespace(IterableDataset=object, get_worker_info=None)
+        torch_like = types.SimpleNamespace(utils=types.SimpleNamespace(data=tools))
+        with unittest.mock.patch.dict(sys.modules, {"torch": torch_like}):
+            sys.modules.pop("sonarsim.torch", None)
+            dataset = importlib.import_module("sonarsim.torch").PingDataset
+            for variants, shard, expected in (
+                    (VARIED, (1, 3), [(1, k) for k in range(6)]),
+                    (VARIED, (0, 2), [(v, k) for v in (0, 2) for k in range(6)]),
+                    (VARIED, (1, 4), [(v, k) for v in range(3) for k in (1, 5)]),
+                    ("", (1, 2), [(None, k) for k in (1, 3, 5)])):
+                self.write("mission.yaml", plain + variants)
+                data = dataset(self.folder / "mission.yaml", shard=shard,
+                               transform=lambda ping: (ping.variant, ping.number))
+                self.assertEqual(len(data), len(expected))
+                for workers in range(5):
+                    found = []
+                    for worker in range(max(1, workers)):
+                        info = types.SimpleNamespace(id=worker, num_workers=workers) if workers else None
+                        tools.get_worker_info = lambda info=info: info
+                        found += data
+                    self.assertEqual(sorted(found), expected, (variants, shard, workers))
 
     @unittest.skipIf(torch is None, "needs torch")
     def test_workers(self):

@@ -203,9 +203,7 @@ class Mission:
             raise ValueError(f"shard is {shard} and must be (i, n) with i from 0 to n - 1")
         if threads < 1:
             raise ValueError(f"threads is {threads} and must be 1 or more")
-        if not self.variants:
-            return _ahead(self._jobs(sensor, shard), threads)
-        return self._pings_of_variants(sensor, threads, shard)
+        return self._pings(sensor, threads, shard)
 
     def __iter__(self) -> Iterator[Ping]:
         return self.pings()
@@ -253,17 +251,24 @@ class Mission:
                     yield functools.partial(self._make, number, k)
                 at += 1
 
-    def _pings_of_variants(self, sensor: str | None, threads: int, shard: tuple[int, int]
-                           ) -> Iterator[Ping]:
-        for k, rest in self._shares(shard):
-            yield from self.variants[k].pings(sensor, threads=threads, shard=rest)
+    def _pings(self, sensor: str | None, threads: int, *shards: tuple[int, int]) -> Iterator[Ping]:
+        """The pings of a shard; with more of them, of a shard of that shard."""
+        shares = self._shares(*shards)
+        if not self.variants:
+            return _ahead(self._jobs(sensor, shares[0][1]), threads)
+        return (ping for k, rest in shares
+                for ping in self.variants[k].pings(sensor, threads=threads, shard=rest))
 
-    def _shares(self, shard: tuple[int, int]) -> Iterator[tuple[int, tuple[int, int]]]:
-        """The variants of a shard, each with the shard of its pings."""
-        index, count = shard
-        if len(self.variants) >= count:
-            return ((k, (0, 1)) for k in range(index, len(self.variants), count))
-        return ((k, shard) for k in range(len(self.variants)))
+    def _shares(self, *shards: tuple[int, int]) -> list[tuple[int, tuple[int, int]]]:
+        """The variants of a shard, or of a shard of a shard, each with the shard of its pings. A mission
+        without variants counts as one."""
+        shares = [(k, (0, 1)) for k in range(max(1, len(self.variants)))]
+        for index, count in shards:
+            if len(shares) >= count:
+                shares = shares[index::count]
+            else:
+                shares = [(k, (first + step * index, step * count)) for k, (first, step) in shares]
+        return shares
 
     def _make(self, number: int, index: int) -> Ping:
         image, arrays, texts, metadata = self._loaded.ping(number, index)

@@ -32,9 +32,11 @@ class PingDataset(torch.utils.data.IterableDataset):  # type: ignore[misc]
     mission has several. An item is a tuple of tensors in the order of `names`: "image", "raw" or a
     label; or what `transform` makes of the sonarsim.Ping. uint16 becomes int32, since torch has none.
 
-    Each worker of a DataLoader renders its share, which is disjoint from the others', on `threads`
-    threads: whole variants if there are at least as many as workers, else every n-th ping. `shard`
-    (i, n) is the share of a process among several machines. Each worker opens the mission itself.
+    `shard` (i, n) is the part of a process among several machines, as in sonarsim.Mission.pings().
+    Each worker of a DataLoader renders its share of it, which is disjoint from the others', on
+    `threads` threads: whole variants if there are at least as many as workers, else every n-th ping.
+    Which pings come does not depend on the number of workers; their order does, since the loader takes
+    batches from the workers in turn. Each worker opens the mission itself.
     """
 
     def __init__(self, mission: str | os.PathLike[str] | Mapping[str, Any],
@@ -59,11 +61,10 @@ class PingDataset(torch.utils.data.IterableDataset):  # type: ignore[misc]
         return self._count
 
     def __iter__(self) -> Iterator[Any]:
-        index, count = self._shard
         worker = torch.utils.data.get_worker_info()
-        if worker is not None:
-            index, count = index + count * worker.id, count * worker.num_workers
-        for ping in self._load().pings(self.sensor, threads=self._threads, shard=(index, count)):
+        # The workers share this shard: which pings it has must not depend on their number.
+        share = (0, 1) if worker is None else (worker.id, worker.num_workers)
+        for ping in self._load()._pings(self.sensor, self._threads, self._shard, share):
             yield self._transform(ping) if self._transform else self._tensors(ping)
 
     def _load(self) -> sonarsim.Mission:
