@@ -20,6 +20,7 @@
 #include "disk.h"
 #include "job/folder.h"
 #include "job/ping_cost.h"
+#include "job/variants.h"
 #include "logging.h"
 #include "mission/variants.h"
 #include "mission_options.h"
@@ -267,6 +268,8 @@ int validate(const ValidateArguments& arguments) {
     const Mission mission = load(arguments.mission);
     const std::vector<Mission> variants = load_variants(arguments.mission, mission);
     if (!variants.empty()) {
+        inspect_variants(mission.output.folder, describe_variants(mission, variants), variants,
+                         arguments.overwrite);
         VariantFindings all = check_variants(variants, arguments.overwrite);
         for (Warning& warning : split_warnings(mission.output.split, variants.size()))
             all.warnings.push_back(std::move(warning));

@@ -198,11 +198,11 @@ bool is_complete(const fs::path& dataset) {
     return description && description->value("complete", Json()) == true;
 }
 
-void begin_variants(const fs::path& folder, const Json& json, std::span<const Mission> variants,
-                    bool overwrite) {
+std::optional<Json> inspect_variants(const fs::path& folder, const Json& json,
+                                     std::span<const Mission> variants, bool overwrite) {
     // In this order: another shard may write variants.json at any moment.
     const bool has_files = fs::exists(folder) && !is_unused(folder);
-    const std::optional<Json> found = read_variants(folder);
+    std::optional<Json> found = read_variants(folder);
     if (!found && has_files)
         throw InputError({folder.string()},
                          "holds files that are no variants of a sonarsim mission; choose another "
@@ -218,6 +218,12 @@ void begin_variants(const fs::path& folder, const Json& json, std::span<const Mi
     }
     if (found) require_no_links(folder, *found);
     require_no_links(folder, json);
+    return found;
+}
+
+void begin_variants(const fs::path& folder, const Json& json, std::span<const Mission> variants,
+                    bool overwrite) {
+    const std::optional<Json> found = inspect_variants(folder, json, variants, overwrite);
     if (found && overwrite) {
         for (const fs::path& old : folders_of_variants(folder, *found))
             remove_variant(old, variants.front());
@@ -228,16 +234,6 @@ void begin_variants(const fs::path& folder, const Json& json, std::span<const Mi
 
 void finish_variants(const fs::path& folder, const Json& json) {
     write_label_files(folder, json, folders_of_variants(folder, json), common_sums(json));
-}
-
-std::map<std::string, std::string> split_lists(const Json& json) {
-    std::map<std::string, std::string> lists;
-    for (const Json& variant : json.at("variants")) {
-        const std::string part = variant.value("split", "");
-        if (std::ranges::find(split_part_names, part) != split_part_names.end())
-            lists[split_file_of(part)] += variant.at("folder").get<std::string>() + '\n';
-    }
-    return lists;
 }
 
 RenderSummary run_variants(const Mission& mission, std::span<const Mission> variants,

@@ -44,8 +44,15 @@ std::vector<std::filesystem::path> folders_of_variants(const std::filesystem::pa
 /// The text of the lists of the split by file, "split/train.txt".
 std::map<std::string, std::string> split_lists(const nlohmann::ordered_json& json);
 
-/// Makes `folder`, which is locked, ready for variants, or throws InputError when it holds
-/// something else; with `overwrite` removes those that another variants.json names.
+/// The variants.json of the output folder; nothing if it has none. InputError when the folder holds
+/// other files, a link or, unless with `overwrite`, other variants than those of `json`.
+std::optional<nlohmann::ordered_json> inspect_variants(const std::filesystem::path& folder,
+                                                       const nlohmann::ordered_json& json,
+                                                       std::span<const Mission> variants,
+                                                       bool overwrite);
+
+/// Makes `folder`, which is locked, ready for variants, or throws InputError as inspect_variants();
+/// with `overwrite` removes those that another variants.json names.
 void begin_variants(const std::filesystem::path& folder, const nlohmann::ordered_json& json,
                     std::span<const Mission> variants, bool overwrite);
 

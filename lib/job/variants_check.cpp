@@ -7,6 +7,7 @@
 #include "dataset/coco/join.h"
 #include "dataset/layout.h"
 #include "dataset/ping_metadata.h"
+#include "dataset/split.h"
 #include "job/checksums.h"
 #include "job/folder_lock.h"
 #include "job/joined_labels.h"
@@ -110,6 +111,16 @@ std::string variants_difference(const Json& there, const Json& here) {
         add(key, there.value(key, Json()), here.value(key, Json()));
     add("variants", there.at("variants").size(), here.at("variants").size());
     return text.empty() ? "" : text + ")";
+}
+
+std::map<std::string, std::string> split_lists(const Json& json) {
+    std::map<std::string, std::string> lists;
+    for (const Json& variant : json.at("variants")) {
+        const std::string part = variant.value("split", "");
+        if (std::ranges::find(split_part_names, part) != split_part_names.end())
+            lists[split_file_of(part)] += variant.at("folder").get<std::string>() + '\n';
+    }
+    return lists;
 }
 
 MergeSummary merge_variants(const std::vector<fs::path>& parts, const fs::path& out, int threads,

@@ -162,6 +162,21 @@ class Variants(Sandbox):
         self.write("other/thesis.txt", "years of work")
         self.assert_refused(self.render("--out", "other"), "no variants of a sonarsim mission")
 
+    def test_validate_refuses_a_folder_as_render_does(self):
+        self.assert_renders("--set", "variants=2")
+        self.write("other/thesis.txt", "years of work")
+        whole = digest(self.folder)
+        for command in ("validate", "render"):
+            self.assert_refused(self.run_sonarsim(command, "mission.yaml", "--set", "variants=3"),
+                                "variants: 2 there, 3 here", "--overwrite")
+            self.assert_refused(self.run_sonarsim(command, "mission.yaml", "--out", "other", "--overwrite"),
+                                "no variants of a sonarsim mission")
+            self.assertEqual(digest(self.folder), whole)
+        for arguments in (("--set", "variants=2"), ("--set", "variants=3", "--overwrite"), ("--out", "new")):
+            result = self.run_sonarsim("validate", "mission.yaml", *arguments)
+            self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(digest(self.folder), whole)
+
     def test_bad_keys(self):
         for old, new, fragments in (
                 ("noise.add_sigma", "noise.add_sgma",
