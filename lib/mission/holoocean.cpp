@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 #include "core/text.h"
 #include "mission/document.h"
@@ -147,16 +148,16 @@ void add_water(const ImportedSonar& sonar, const YamlNode& sensor, Settings& wat
 std::string sensors_yaml(const FoundSonars& sonars, double rate_hz, double ticks, Settings& water,
                          std::vector<std::string>& warnings) {
     std::string yaml;
-    std::vector<std::string> names;
+    std::set<std::string> names;
     for (const auto& [sensor, type] : sonars) {
         const ImportedSonar sonar = import_sonar(*sensor, *type, warnings);
         add_water(sonar, *sensor, water, warnings);
         const YamlNode* const given = sensor->find("sensor_name");
-        std::string name =
+        const std::string wanted =
             name_from(given != nullptr ? text_in(*given, "sensor_name") : type->type);
-        const auto same = std::ranges::count(names, name);
-        names.push_back(name);
-        if (same > 0) name += "_" + std::to_string(same + 1);
+        std::string name = wanted;
+        for (int other = 2; !names.insert(name).second; ++other)
+            name = wanted + "_" + std::to_string(other);
         const int every = every_of(*sensor, rate_hz, ticks, warnings);
         yaml += sonar_yaml(name, *type, sonar, every, *sensor);
         if (const YamlNode* const socket = sensor->find("socket")) {

@@ -125,6 +125,20 @@ class HoloOcean(Sandbox):
                     result = self.run_sonarsim("validate", "imported.yaml")
                     self.assertEqual(result.returncode, 0, result.stderr)
 
+    def test_sonars_of_one_name_stay_apart(self):
+        """Also where a sensor has the name that another one of two gets."""
+        names = ("fls", "fls", "fls_2", "fls", "fls 2")
+        result = self.import_sensors([
+            {"sensor_type": "ImagingSonar", "sensor_name": name, "location": [k, 0, 0]}
+            for k, name in enumerate(names)])
+        self.assertEqual(result.returncode, 0, result.stderr)
+        found = re.findall(r"  (\w+):\n    kind: imaging\n(?:    mount: {translation_m: \[(\d))?", result.stdout)
+        self.assertEqual(found, [("fls", ""), ("fls_2", "1"), ("fls_2_2", "2"), ("fls_3", "3"),
+                                 ("fls_2_3", "4")])
+        self.write("imported.yaml", result.stdout)
+        result = self.run_sonarsim("validate", "imported.yaml")
+        self.assertEqual(result.returncode, 0, result.stderr)
+
     def test_a_sonar_that_is_not_known_is_told_with_the_list(self):
         result = self.import_sensors([{"sensor_type": "QuantumSonar"}, {"sensor_type": "IMUSensor"},
                                       {"sensor_type": "GPUImagingSonar"}])
