@@ -82,6 +82,10 @@ std::vector<ProfilePointConfig> points_of_file(const std::filesystem::path& file
                              "a profile of sound speed needs the columns depth_m and "
                              "sound_speed_m_s");
         }
+        if (std::ranges::count(csv.header.fields, name) > 1) {
+            throw InputError({csv.file, csv.header.line},
+                             "the column '" + std::string(name) + "' occurs twice; leave one out");
+        }
         return static_cast<std::size_t>(found - csv.header.fields.begin());
     };
     const std::size_t depth = column("depth_m");

@@ -82,6 +82,7 @@ TEST_SUITE("assembly") {
             CHECK_THROWS_WITH_AS(profile_of_file(file), doctest::Contains(why.c_str()), InputError);
         };
         refuses("depth_m,speed\n1,1500\n", "sound_speed_m_s");
+        refuses("depth_m,sound_speed_m_s,depth_m\n1,1500,2\n", "'depth_m' occurs twice");
         refuses("depth_m,sound_speed_m_s\n1,1500\n1,1501\n", "greater than in the row before");
         refuses("depth_m,sound_speed_m_s\n1,150\n", "from 1000 to 2000");
         refuses("depth_m,sound_speed_m_s\n", "no rows");
