@@ -113,6 +113,8 @@ XtfSide side_at(std::string_view record, XtfChannel channel, std::size_t& at) {
     if (at > record.size() || samples > (record.size() - at) / bytes)
         refuse_xtf("has more samples than their record");
     const auto factor = static_cast<float>(std::ldexp(1.0, -std::clamp(weight, -64, 64)));
+    constexpr std::array full_values{255.0, 65535.0, 4294967295.0, 0.0};
+    side.full_value = factor * full_values[static_cast<std::size_t>(channel.sample)];
     for (std::size_t k = 0; k < samples; ++k)
         side.samples.push_back(factor * sample_at(record.substr(at), channel.sample, k));
     at += samples * bytes;
@@ -192,15 +194,13 @@ void for_each_record(std::string_view bytes, std::size_t channels, int type, con
 XtfPings read_xtf(std::string_view bytes, std::size_t most_pings) {
     const std::vector<XtfChannel> channels = channels_of(bytes);
     XtfPings out;
-    for (const XtfChannel& channel : channels) {
-        if (channel.type != 1) continue;
-        constexpr std::array full_values{255.0, 65535.0, 4294967295.0, 0.0};
-        out.full_value = full_values[static_cast<std::size_t>(channel.sample)];
-        break;
-    }
     for_each_record(bytes, channels.size(), xtf_side_scan, [&](std::string_view record) {
         auto ping = ping_of_record(record, channels, out.frequency_hz);
-        if (ping) out.pings.push_back(std::move(*ping));
+        if (ping) {
+            out.full_value =
+                std::max({out.full_value, ping->port.full_value, ping->starboard.full_value});
+            out.pings.push_back(std::move(*ping));
+        }
         return out.pings.size() < most_pings;
     });
     return out;

@@ -12,6 +12,7 @@ namespace sonarsim {
 struct XtfSide {
     std::vector<float> samples;
     double slant_range_m = 0.0;  ///< to the end of the last sample
+    double full_value = 0.0;     ///< the largest that a sample can be; 0 for floats
 };
 
 struct XtfSidescanPing {
@@ -25,7 +26,7 @@ struct XtfSidescanPing {
 /// The side-scan pings of an XTF file: each ping's first port channel and first starboard channel.
 /// Samples are unsigned 8 or 16 bits, 32 bits or IEEE floats, times 2^-weight of the channel.
 struct XtfPings {
-    double full_value = 0.0;    ///< the largest that the samples can hold; 0 for floats
+    double full_value = 0.0;    ///< the largest of all sides
     double frequency_hz = 0.0;  ///< 0: not known
     std::vector<XtfSidescanPing> pings;
 };

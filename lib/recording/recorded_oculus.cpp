@@ -6,6 +6,7 @@
 #include "core/units.h"
 #include "format/oculus_reader.h"
 #include "recording/file_of_pings.h"
+#include "recording/law.h"
 
 namespace sonarsim {
 
@@ -13,6 +14,7 @@ namespace {
 
 /// Takes the values that hold for all pings from the first one.
 void take_facts(const OculusPing& first, const RecordingFile& file, Recording& recording) {
+    take_full_value(first.full_value, recording.law);
     recording.range_step_m = first.range_step_m;
     recording.first_range_m = 0.5 * first.range_step_m;
     if (file.sound_speed_m_s == 0.0) recording.sound_speed_m_s = first.sound_speed_m_s;

@@ -8,6 +8,7 @@
 #include "core/text.h"
 #include "format/xtf_reader.h"
 #include "recording/file_of_pings.h"
+#include "recording/law.h"
 
 namespace sonarsim {
 
@@ -47,6 +48,7 @@ void read_xtf_pings(const RecordingFile& file, std::size_t most_pings, Recording
                 recording.range_step_m =
                     first.slant_range_m / static_cast<double>(first.samples.size());
                 recording.first_range_m = 0.5 * recording.range_step_m;
+                take_full_value(xtf.full_value, recording.law);
                 if (file.sound_speed_m_s == 0.0) recording.sound_speed_m_s = ping.sound_speed_m_s;
                 if (!recording.frequency_hz && xtf.frequency_hz > 0.0)
                     recording.frequency_hz = xtf.frequency_hz;

@@ -20,6 +20,7 @@ struct RecordedLaw {
     double range_db = 0;      ///< range of `decibel`
     double full_value = 255;  ///< the largest value that the instrument delivers; 0 for none
     double offset = 0;        ///< share of `full_value` that the instrument subtracts
+    bool full_value_is_auto = false;  ///< `full_value` is not given
 };
 
 /// The kinds of data that instruments deliver.

@@ -1,6 +1,7 @@
 #include "recording/recording_file.h"
 
 #include <array>
+#include <optional>
 
 #include "core/error.h"
 #include "mission/document.h"
@@ -32,7 +33,10 @@ void describe(MissionReader& v, RecordedLaw& c) {
     v.choice("kind", c.kind, law_kinds, "meaning of a value", required);
     v.number("exponent", c.exponent, between(0.1, 2), "of gamma");
     v.number("range_db", c.range_db, between(0, 300), "of decibel");
-    v.number("full_value", c.full_value, at_least(0), "largest value; 0: none");
+    std::optional<double> full_value;
+    v.number_or_auto("full_value", full_value, at_least(0), "largest value; 0: none");
+    c.full_value = full_value.value_or(c.full_value);
+    c.full_value_is_auto = !full_value.has_value();
     v.number("offset", c.offset, between(0, 0.9), "share of full_value that was taken away");
     v.require(c.kind != RecordedLaw::Kind::decibel || (c.range_db > 0.0 && c.full_value > 0.0),
               {"kind", "range_db", "full_value"},

@@ -21,6 +21,7 @@
 #include "recording/arrays.h"
 #include "recording/law.h"
 #include "support/approx.h"
+#include "support/oculus_message.h"
 #include "support/temporary_folder.h"
 
 using namespace sonarsim;
@@ -117,6 +118,40 @@ TEST_SUITE("recording") {
         CHECK(message_of(folder.path).find("split the file") != std::string::npos);
         write_file(folder.path / "recording.yaml", yaml + "recording.yaml\n");
         CHECK(message_of(folder.path).find("is no XTF file") != std::string::npos);
+    }
+
+    TEST_CASE("recording: the full value follows the size of the samples unless it is given") {
+        const TemporaryFolder folder;
+        const auto full_value = [&](const std::string& yaml) {
+            write_file(folder.path / "recording.yaml", yaml + "\n");
+            return load_recording(folder.path).law.full_value;
+        };
+        XtfPing ping;
+        ping.range_max_m = 30.0;
+        ping.sound_speed_m_s = 1500.0;
+        const std::vector<std::uint16_t> row{1, 2, 3, 4, 5, 6};
+        std::string xtf = xtf_header({}) + xtf_record(ping, row);
+        write_file(folder.path / "a.xtf", xtf);
+        const std::string of_xtf = "kind: sidescan\nxtf: a.xtf\nlaw: {kind: amplitude";
+        CHECK(full_value(of_xtf + "}") == 65535.0);
+        CHECK(full_value(of_xtf + ", full_value: auto}") == 65535.0);
+        CHECK(full_value(of_xtf + ", full_value: 255}") == 255.0);
+        CHECK(full_value(of_xtf + ", full_value: 0}") == 0.0);
+        // A weight of 1 halves the samples of the first side, and of 2 quarters those of the other.
+        const std::size_t channel = 1024 + 256;
+        xtf[channel + 58] = 1;
+        xtf[channel + 64 + 6 + 58] = 2;
+        write_file(folder.path / "a.xtf", xtf);
+        CHECK(full_value(of_xtf + "}") == 32767.5);
+        const std::string of_oculus =
+            "kind: imaging\noculus: a.oculus\nrate_hz: 1\nlaw: {kind: gamma";
+        write_file(folder.path / "a.oculus",
+                   test::oculus_message(1, 1, std::vector<std::uint8_t>(12, 9)));
+        CHECK(full_value(of_oculus + "}") == 65535.0);
+        CHECK(full_value(of_oculus + ", full_value: 4095}") == 4095.0);
+        write_file(folder.path / "a.oculus",
+                   test::oculus_message(2, 0, std::vector<std::uint8_t>(6, 9)));
+        CHECK(full_value(of_oculus + "}") == 255.0);
     }
 
     TEST_CASE("recording: XTF files of a multibeam's soundings") {
