@@ -53,6 +53,13 @@ Member read_member(const fs::path& from) {
                          "what is missing, or merge its shards first");
     }
     Member member{from, std::move(description), read_checksums(sums), {}};
+    for (const auto& [name, sum] : member.sums) {
+        if (!fs::is_regular_file(from / name)) {
+            throw InputError(
+                {(from / name).string()},
+                "is missing, and SHA256SUMS lists it; sonarsim verify says what to do");
+        }
+    }
     member.sums[checksums_name] = sha256_of_file(sums);
     return member;
 }
@@ -163,7 +170,7 @@ FolderLock begin_collection(const fs::path& out, const Json& description) {
         throw InputError({out.string()},
                          "holds a collection of other datasets; choose another folder");
     }
-    if (!fs::is_empty(out)) throw InputError({out.string()}, "is not empty; choose another folder");
+    if (!is_unused(out)) throw InputError({out.string()}, "is not empty; choose another folder");
     write_file_durably(out / collection_name, json_text(description));
     return lock;
 }
@@ -213,12 +220,15 @@ CollectionSummary collect_datasets(const std::vector<fs::path>& parts, const fs:
     };
     std::vector<Copy> copies;
     std::string sums;
+    std::set<fs::path> folders{out, out / labels_folder_name};
     for (const Member& member : members) {
         for (const auto& [name, sum] : member.sums) {
             copies.push_back({member.from / name, out / member.folder / name, sum});
+            folders.insert(copies.back().to.parent_path());
             sums += checksum_line(sum, member.folder + "/" + name);
         }
     }
+    std::ranges::for_each(folders, remove_temporary_files);
     CollectionSummary summary{.warnings = seeds_shared_by(members)};
     if (!lock.works()) summary.warnings.push_back(sentence(no_locks_warning(out)));
     on_threads(threads, [&](int n) {

@@ -150,6 +150,12 @@ void remove_dataset(const Layout& layout, const Mission& mission) {
     sync_file_system(folder);
 }
 
+void remove_temporary_files(const fs::path& folder) {
+    if (!fs::is_directory(folder)) return;
+    for (const fs::path& file : temporary_files(folder))
+        fs::remove(file);
+}
+
 void begin_dataset(const Layout& layout, const CommonFiles& files) {
     fs::create_directories(layout.folder);
     // dataset.json is written first and durably: a run refuses a folder with other files but
@@ -175,17 +181,13 @@ bool has_common_files(const Layout& layout) {
 }
 
 void remove_leftovers(const Layout& layout, const std::vector<PingId>& todo, bool alone) {
-    const auto remove_all = [](const fs::path& folder) {
-        for (const fs::path& file : temporary_files(folder))
-            fs::remove(file);
-    };
     if (alone) {
-        remove_all(layout.folder);
+        remove_temporary_files(layout.folder);
         for (const std::string& product : layout.products)
-            remove_all((layout.folder / product).parent_path());
+            remove_temporary_files((layout.folder / product).parent_path());
     }
     for (std::uint32_t sensor = 0; sensor < layout.sensors.size(); ++sensor) {
-        if (alone) remove_all(layout.sensor_folder(sensor));
+        if (alone) remove_temporary_files(layout.sensor_folder(sensor));
         if (layout.sensors[sensor].pings_per_pack > 0) continue;  // packs have no temporary names
         for (const auto& part : layout.sensors[sensor].per_ping) {
             const auto* kind = std::get_if<PingFile>(&part);

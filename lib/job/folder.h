@@ -66,6 +66,9 @@ void begin_dataset(const Layout& layout, const CommonFiles& files);
 /// True if the common files other than dataset.json and the journal are there.
 bool has_common_files(const Layout& layout);
 
+/// Removes the temporary files that lie in the folder itself, which may be missing.
+void remove_temporary_files(const std::filesystem::path& folder);
+
 /// Removes the temporary files of the pings in `todo` (sorted) that an interrupted run left, and
 /// with `alone`, when no other shard may be at work, those of the common files.
 void remove_leftovers(const Layout& layout, const std::vector<PingId>& todo, bool alone);

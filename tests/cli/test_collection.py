@@ -74,6 +74,23 @@ class Collection(Sandbox):
         self.assertEqual(digest(self.folder / "all"), whole)
         self.assertEqual(self.run_sonarsim("verify", "all").returncode, 0)
 
+    def test_temporary_files_of_a_killed_run_go(self):
+        """Those of a run that was killed before its first whole file, and those of one killed later."""
+        ending = ".0123456789abcdef.part"
+        self.write(f"all/.collection.json{ending}", "{")
+        self.assertEqual(self.collect("a", "b", "all").returncode, 0)
+        whole = digest(self.folder / "all")
+        for name in (".SHA256SUMS", "labels/.coco.json", "pool/.dataset.json", "pool/fls/polar/.000001.npy"):
+            self.write(f"all/{name}{ending}", "{")
+        result = self.collect("a", "b", "all")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(digest(self.folder / "all"), whole)
+
+    def test_a_missing_file_is_told_before_anything_is_written(self):
+        (self.folder / "b/fls/polar/000001.npy").unlink()
+        self.assert_refused(self.collect("a", "b", "all"), "b/fls/polar/000001.npy", "is missing")
+        self.assertFalse((self.folder / "all").exists())
+
     def test_another_dataset_in_the_place_of_one(self):
         """Whole by itself, and not what was collected."""
         self.collect("a", "b", "all")
