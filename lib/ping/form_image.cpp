@@ -1,5 +1,7 @@
 #include "ping/form_image.h"
 
+#include <cmath>
+
 namespace sonarsim {
 
 namespace {
@@ -41,7 +43,12 @@ Ping form_image(const TracedPing& traced, const PingSettings& settings, const Sc
             if (traced.group_of_beam[beam] == static_cast<int>(k) + 1)
                 ping.intensity[at] = later.intensity[at];
         }
+        ping.estimated_l1 = std::fmax(ping.estimated_l1, later.estimated_l1);
+        ping.counts += later.counts;
+        ping.seconds += later.seconds;
     }
+    // Each group is traced with all beams and gives its own to the image.
+    divide(ping.counts, traced.later_groups.size() + 1);
     return ping;
 }
 

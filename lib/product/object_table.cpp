@@ -90,7 +90,7 @@ std::optional<double> level_around(const ObjectInPing& seen, const PingLabels& l
     return sum / static_cast<double>(bins);
 }
 
-/// The bounding box of each object's visible footprints.
+/// The bounding box of each object's visible footprints, in the sensor's frame at the ping's time.
 std::vector<Eigen::AlignedBox3f> seen_boxes(const SceneObjects& objects, const TracedPing& traced) {
     std::vector<Eigen::AlignedBox3f> boxes(objects.objects.size());
     const auto extend = [&](const Sample& sample) {
@@ -99,8 +99,31 @@ std::vector<Eigen::AlignedBox3f> seen_boxes(const SceneObjects& objects, const T
         box.extend(sample.position - reach);
         box.extend(sample.position + reach);
     };
-    std::ranges::for_each(traced.samples.items, extend);
-    std::ranges::for_each(traced.outside_sector, extend);
+    if (traced.later_groups.empty()) {
+        std::ranges::for_each(traced.samples.items, extend);
+        std::ranges::for_each(traced.outside_sector, extend);
+        return boxes;
+    }
+    const auto extend_by_group = [&](const TracedPing& group, int number) {
+        const Eigen::Quaterniond to_first = traced.T_world_sensor.rotation.conjugate();
+        const Eigen::Matrix3f turn =
+            (to_first * group.T_world_sensor.rotation).toRotationMatrix().cast<float>();
+        const Eigen::Vector3f shift =
+            (to_first * (group.T_world_sensor.translation - traced.T_world_sensor.translation))
+                .cast<float>();
+        for (std::size_t j = 0; j < traced.group_of_beam.size(); ++j) {
+            if (traced.group_of_beam[j] != number) continue;
+            for (Sample sample : group.samples.beam(static_cast<int>(j))) {
+                sample.position = turn * sample.position + shift;
+                sample.edge_u = turn * sample.edge_u;
+                sample.edge_v = turn * sample.edge_v;
+                extend(sample);
+            }
+        }
+    };
+    extend_by_group(traced, 0);
+    for (std::size_t k = 0; k < traced.later_groups.size(); ++k)
+        extend_by_group(traced.later_groups[k], static_cast<int>(k) + 1);
     return boxes;
 }
 

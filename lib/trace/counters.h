@@ -101,6 +101,14 @@ inline PingCounts& operator+=(PingCounts& sum, const PingCounts& counts) {
     return sum;
 }
 
+/// Divides every count and rounds it up, so that only 0 becomes 0.
+inline void divide(PingCounts& counts, std::uint64_t by) {
+    for (const auto& counter : ping_counters)
+        counts.*counter.member = (counts.*counter.member + by - 1) / by;
+    for (const auto& counter : multipath_counters)
+        counts.multipath.*counter.member = (counts.multipath.*counter.member + by - 1) / by;
+}
+
 inline PingSeconds& operator+=(PingSeconds& sum, const PingSeconds& seconds) {
     add(ping_timers, sum, seconds);
     return sum;

@@ -5,6 +5,7 @@
 
 #include "core/units.h"
 #include "labels/labels.h"
+#include "product/object_table.h"
 #include "sonar/kinds.h"
 #include "sonar/sonar.h"
 #include "support/labelled.h"
@@ -100,6 +101,55 @@ TEST_SUITE("sonar") {
             bright += is_bright(found.clean, j) ? 1 : 0;
         }
         CHECK(bright == 12);
+    }
+
+    TEST_CASE("shutter: counts are the means of the groups, the error is the largest of them") {
+        const Scene scene = plates();
+        const auto engine = make_rays_engine(scene);
+        const Sonar sonar = yawing_camera(ShutterOrder::interleaved, turn_deg_s);
+        TracedPing traced = trace(sonar, scene, *engine, {}, 0);
+        traced.samples.estimated_l1 = 0.01;
+        std::uint64_t samples =
+            form_image(traced.later_groups[0], sonar.settings, scene, {}).counts.samples;
+        for (std::size_t k = 1; k < 5; ++k)
+            samples += form_image(traced.later_groups[k], sonar.settings, scene, {}).counts.samples;
+        for (TracedPing& later : traced.later_groups)
+            later.samples.estimated_l1 = 0.02;
+        traced.later_groups[3].samples.estimated_l1 = 0.5;
+        const Ping ping = form_image(traced, sonar.settings, scene, {});
+        CHECK(ping.estimated_l1 == 0.5);
+        CHECK(ping.counts.samples == (traced.counts.samples + samples + 5) / 6);
+        // A sample of the last group alone counts.
+        traced.counts.samples = 0;
+        for (TracedPing& later : traced.later_groups)
+            later.counts.samples = 0;
+        traced.later_groups[4].counts.samples = 1;
+        CHECK(form_image(traced, sonar.settings, scene, {}).counts.samples == 1);
+    }
+
+    // Sound comes back from 10 m when the fan has turned by 0.533 degrees more than the group's
+    // 2 degrees, so that a plate lies this much to starboard of its place. The first group sees the
+    // plates from -30 to 30 degrees, and the last beams those at 35 and 40 degrees.
+    TEST_CASE("shutter: the box of an object is that of what the beams of all groups see") {
+        const Scene scene = plates();
+        const auto engine = make_rays_engine(scene);
+        const Sonar sonar = yawing_camera(ShutterOrder::in_turn, turn_deg_s);
+        const TracedPing traced = trace(sonar, scene, *engine, {}, 0);
+        const SceneObjects objects = group_objects(scene, {});
+        const PingLabels labels =
+            label_ping(traced, sonar.settings, scene, objects, *engine, everything);
+        const Ping ping = form_image(traced, sonar.settings, scene, {});
+        const auto seen = seen_objects(sonar, objects, traced, labels, ping, {});
+        CHECK(seen.size() == 12);
+        const double late_deg = turn_deg_s * 2.0 * 10.0 / 1500.0;
+        for (const ObjectInPing& plate : seen) {
+            CAPTURE(plate.id);
+            const double azimuth = radians(5.0 * (static_cast<int>(plate.id) - 10) - late_deg);
+            REQUIRE(!plate.box_sensor_m.isEmpty());
+            // Footprints of rays are up to 0.5 degrees wide, 0.09 m.
+            CHECK(std::fabs(plate.box_sensor_m.center().y() - 10.0 * std::sin(azimuth)) < 0.09);
+            CHECK(std::fabs(plate.box_sensor_m.center().x() - 10.0 * std::cos(azimuth)) < 0.09);
+        }
     }
 
     TEST_CASE("shutter: at speed 0 the same bytes as all beams at once") {
