@@ -122,6 +122,28 @@ TEST_CASE("estimate of the rays: the share of dark bins") {
     CHECK(share_of_dark_bins(scene, Caster(scene), view, pose, image, 400) == 0.0);
 }
 
+TEST_CASE("estimate of the rays: a thin rod that no ray meets, of many beams") {
+    // The rod is 0.014 degrees wide, and beams are 0.12. Some poses see it, and others do not.
+    Scene scene = test::empty_scene();
+    const std::uint32_t m = test::add_material(scene, 0.5F);
+    test::add_quad(scene, {4, -0.0005F, -1}, {4, 0.0005F, -1}, {4, 0.0005F, 1}, {4, -0.0005F, 1},
+                   m);
+    const auto rays = make_rays_engine(scene);
+    const View view{radians(60.0), radians(12.0), 0.5, 6.0, 48, 512, 0.03};
+    int missed = 0;
+    for (int k = 0; k < 16; ++k) {
+        const Samples samples = rays->visible_surface(
+            view, {rotation_from_rpy(0.0, 0.0, radians(0.37 * k)), Eigen::Vector3d::Zero()});
+        if (!samples.items.empty()) continue;
+        ++missed;
+        CHECK(samples.estimated_l1 == 1.0);
+    }
+    CHECK(missed > 4);
+    // With the rod behind the sonar, nothing is missed.
+    CHECK(rays->visible_surface(view, {rotation_from_rpy(0.0, 0.0, pi), Eigen::Vector3d::Zero()})
+              .estimated_l1 == 0.0);
+}
+
 TEST_CASE("estimate of the rays: over a smooth floor it is within the goal") {
     const Scene scene = smooth_swell();
     const auto rays = make_rays_engine(scene);

@@ -63,8 +63,10 @@ class RaysEngine final : public VisibilityEngine {
             return samples;
         }
         const std::size_t probes = std::max(rays / rays_per_probe, fewest_probes);
+        // Surface that is thinner than a few beams may lie between those that are compared.
+        const SetDisagreement probed = image.signal == 0.0 ? of_all_beams(view, samples) : image;
         samples.estimated_l1 =
-            image.error() + share_of_dark_bins(*scene_, caster_, view, pose, image, probes);
+            image.error() + share_of_dark_bins(*scene_, caster_, view, pose, probed, probes);
         return samples;
     }
 

@@ -13,6 +13,16 @@ namespace {
 // The sums over 64 beams are known to a few per cent.
 constexpr int most_compared_beams = 64;
 
+/// Half of a sample's extent in range, in bins.
+float half_extent(const Sample& sample, float per_range, float per_bin) {
+    // Avoids a division by zero for a patch without depth.
+    constexpr float least_half = 1e-3F;
+    return std::max((std::fabs(sample.position.dot(sample.edge_u)) +
+                     std::fabs(sample.position.dot(sample.edge_v))) *
+                        per_range * per_bin,
+                    least_half);
+}
+
 }  // namespace
 
 double SetDisagreement::error() const {
@@ -31,6 +41,23 @@ double SetDisagreement::error() const {
     const double twice_standard_error = std::sqrt(2.0 * squares);
     return (0.5 * difference + std::sqrt(first_alone * second_alone) + twice_standard_error) /
            signal;
+}
+
+SetDisagreement of_all_beams(const View& view, const Samples& samples) {
+    const auto per_bin = static_cast<float>(1.0 / view.bin_m());
+    SetDisagreement out;
+    out.occupied.resize(static_cast<std::size_t>(view.beams) * view.range_bins);
+    for (int j = 0; j < view.beams; ++j) {
+        const auto beam = out.occupied.begin() + std::ptrdiff_t{j} * view.range_bins;
+        for (const Sample& sample : samples.beam(j)) {
+            const float range = sample.position.norm();
+            const float centre = (range - static_cast<float>(view.range_min_m)) * per_bin;
+            const float half = half_extent(sample, 1.0F / range, per_bin);
+            const OverlappedBins<float> covered(centre - half, centre + half, view.range_bins);
+            std::fill(beam + covered.begin, beam + covered.end, std::uint8_t{1});
+        }
+    }
+    return out;
 }
 
 SetComparison::SetComparison(const View& view, std::span<const Material> materials)
@@ -57,12 +84,7 @@ void SetComparison::add_beam(int beam, std::span<const Sample> samples,
 void SetComparison::add(const Sample& sample, RaySet set) {
     const float range = sample.position.norm();
     const float per_range = 1.0F / range;
-    // Avoids a division by zero for a patch without depth.
-    constexpr float least_half = 1e-3F;
-    const float half = std::max((std::fabs(sample.position.dot(sample.edge_u)) +
-                                 std::fabs(sample.position.dot(sample.edge_v))) *
-                                    per_range * per_bin_,
-                                least_half);
+    const float half = half_extent(sample, per_range, per_bin_);
     const float centre = (range - range_min_m_) * per_bin_;
     const OverlappedBins<float> covered(centre - half, centre + half,
                                         static_cast<int>(bins_.size()));

@@ -26,6 +26,9 @@ struct SetDisagreement {
     double error() const;
 };
 
+/// The bins of an image in all beams, with no comparison.
+SetDisagreement of_all_beams(const View& view, const Samples& samples);
+
 /// Compares the images of a view with at most about 64 beams, evenly spread, to save time.
 class SetComparison {
   public:
