@@ -96,8 +96,7 @@ void check_header(std::string_view line, const Location& where) {
 
 void for_each_csv_row(std::string_view text, const std::string& file_name,
                       const std::function<void(CsvRow& row)>& visit) {
-    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-    if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+    text = without_byte_order_mark(text);
     check_text(text, file_name);
     std::size_t columns = 0;
     int header_line = 0;

@@ -82,6 +82,11 @@ std::size_t utf8_length(std::string_view text) {
     return overlong || surrogate || beyond_unicode ? 0 : length;
 }
 
+std::string_view without_byte_order_mark(std::string_view text) {
+    constexpr std::string_view mark = "\xEF\xBB\xBF";
+    return text.starts_with(mark) ? text.substr(mark.size()) : text;
+}
+
 std::string printable(std::string_view text) {
     constexpr std::string_view digits = "0123456789abcdef";
     std::string out;

@@ -21,6 +21,9 @@ std::string number_text(double value);
 
 std::string_view trim(std::string_view text);
 
+/// The text of a file without the UTF-8 byte order mark that some editors put at its start.
+std::string_view without_byte_order_mark(std::string_view text);
+
 /// Length of the well-formed UTF-8 character at the start of `text`; 0 if there is none.
 std::size_t utf8_length(std::string_view text);
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/file.h"
+#include "core/text.h"
 #include "dataset/coco/coco.h"
 #include "dataset/coco/statistics.h"
 #include "dataset/shared_products.h"
@@ -29,7 +30,7 @@ std::string pose_list(const Layout& layout, SplitPart part,
 std::string class_list(const nlohmann::ordered_json& description) {
     std::string text;
     for (const auto& one : description.at("labels").at("classes"))
-        text += one.at("name").get<std::string>() + '\n';
+        text += printable(one.at("name").get<std::string>()) + '\n';
     return text;
 }
 

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/text.h"
 #include "dataset/ping_metadata.h"
 #include "export/format.h"
 #include "export/objects_json.h"
@@ -47,7 +48,7 @@ class WebDatasetExport final : public ExportFormat {
             write(part, shard);
         std::string names;
         for (const std::string& name : context_.classes)
-            names += name + '\n';
+            names += printable(name) + '\n';
         write_file(context_.folder / "classes.txt", names);
     }
 

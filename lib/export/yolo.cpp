@@ -53,7 +53,7 @@ class YoloExport final : public ExportFormat {
         for (std::size_t k = 0; k < context_.classes.size(); ++k) {
             text += "  " + std::to_string(k) + ": " +
                     nlohmann::json(context_.classes[k])
-                        .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) +
+                        .dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) +
                     "\n";
         }
         write_file(context_.folder / "data.yaml", text);

@@ -225,8 +225,7 @@ YamlNode* YamlNode::find(std::string_view wanted) {
 
 YamlNode read_document(std::string_view text, const std::string& source, Lines lines) {
     Builder builder(std::make_shared<const std::string>(source), lines);
-    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-    if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+    text = without_byte_order_mark(text);
     check_characters(text, builder.place(YAML::Mark{}), lines);
     try {
         std::istringstream stream{std::string(text)};

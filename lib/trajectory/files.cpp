@@ -202,6 +202,7 @@ Trajectory parse_csv_trajectory(std::string_view text, const std::string& file) 
 
 Trajectory parse_tum(std::string_view text, const std::string& file) {
     Trajectory trajectory;
+    text = without_byte_order_mark(text);
     for (int number = 1; !text.empty(); ++number) {
         const std::string_view line = text.substr(0, text.find('\n'));
         text.remove_prefix(std::min(line.size() + 1, text.size()));

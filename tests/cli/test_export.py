@@ -44,6 +44,22 @@ class Export(Exported):
                 self.assertEqual((self.dest / f"images/{part}/{name}.png").read_bytes(),
                                  (self.out / f"{sensor}/fan/{number}.png").read_bytes())
 
+    def test_a_class_with_a_line_break_keeps_its_number(self):
+        room = json.loads((self.folder / "room.gltf").read_text())
+        room["nodes"][0]["extras"] = {"sonar": {"class": "a\nb\u2028c"}}
+        self.write("room.gltf", json.dumps(room))
+        self.edit("mission.yaml", "labels: [coco]", "labels: [coco, yolo]")
+        self.assert_renders()
+        names = [one["name"] for one in self.dataset()["labels"]["classes"]]
+        self.assertIn("a\nb\u2028c", names)
+        self.assert_exports("--sensor", "fls")
+        self.assertEqual(check_yolo(self.dest)[0], names)
+        self.assert_exports("--sensor", "fls", form="webdataset", dest="shards")
+        for file in (self.out / "labels/classes.txt", self.folder / "shards/classes.txt"):
+            lines = file.read_text().split("\n")[:-1]
+            self.assertEqual([line.split("\\")[0] for line in lines],
+                             [name.split("\n")[0] for name in names])
+
     def test_specks_are_left_out(self):
         self.assert_renders()
         coco = self.load("labels/coco_fan.json")

@@ -105,9 +105,7 @@ void check_format(const std::filesystem::path& path, std::string_view bytes) {
 
 /// Throws InputError for a file that is not even JSON.
 void check_json(std::string_view bytes, const Location& where) {
-    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-    const std::size_t skipped = bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
-    const std::string_view text = trim(bytes.substr(skipped));
+    const std::string_view text = trim(without_byte_order_mark(bytes));
     if (text.starts_with('{') || text.starts_with('[')) return;
     const std::string format(known_format(bytes));
     const bool is_picture = format.find("picture") != std::string::npos;

@@ -202,8 +202,7 @@ tinygltf::Model model_of(std::string_view bytes, const std::filesystem::path& pa
 /// Changes the text of an OBJ where libassimp would misread it: it takes a byte order mark for a
 /// part of the first line, and gives the faces before the first usemtl the material of that.
 void mend_obj(std::string& text) {
-    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-    if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
+    text = without_byte_order_mark(text);
     // libassimp's name for no material.
     if (text.find("usemtl") != std::string::npos) text.insert(0, "usemtl DefaultMaterial\n");
 }
