@@ -29,11 +29,10 @@ struct Temperature {
 std::vector<Temperature> temperatures(NamedProfile named, double celsius) {
     constexpr double deepest_m = 8000.0;
     switch (named) {
-        case NamedProfile::mixed_layer:
-            return {{0.0, celsius},
-                    {50.0, celsius},
-                    {100.0, celsius - 6.0},
-                    {deepest_m, celsius - 6.0}};
+        case NamedProfile::mixed_layer: {
+            const double below = std::max(celsius - 6.0, std::min(celsius, 0.0));
+            return {{0.0, celsius}, {50.0, celsius}, {100.0, below}, {deepest_m, below}};
+        }
         case NamedProfile::summer:
             return {{0.0, 20.0}, {8.0, 20.0}, {30.0, 8.0}, {deepest_m, 8.0}};
         default:

@@ -32,8 +32,8 @@ void describe(Visitor& v, SoundProfileConfig& c) {
     v.choice("named", c.named, named_profiles,
              "a profile that is made from temperatures and water.salinity_psu: `isothermal` is "
              "water of water.temperature_c at all depths; `mixed_layer` has it down to 50 m and "
-             "cools by 6 degrees down to 100 m; `summer` has 20 degrees down to 8 m and 8 degrees "
-             "below 30 m");
+             "cools by 6 degrees down to 100 m, but not below 0; `summer` has 20 degrees down to 8 "
+             "m and 8 degrees below 30 m");
     v.path("file", c.file, "CSV with the columns depth_m and sound_speed_m_s, in rising depth");
     v.list("points", c.points, 0,
            "the same as a list; the speed is linear between two points and constant beyond them");

@@ -71,6 +71,18 @@ TEST_SUITE("assembly") {
         CHECK(std::ranges::is_sorted(mixed.height_m));
     }
 
+    TEST_CASE("sound profiles: below a cold mixed layer no water is colder than 0 degrees") {
+        // At 100 m: 1448.96 + 1.63 + 0.0017 = 1450.59 at 0 degrees; 1441.2 at -2 (1450.59 - 9.182 -
+        // 0.2122 - 0.0019).
+        Mission mission = watery(named(NamedProfile::mixed_layer));
+        const auto speed_at_100_m = [&](double celsius) {
+            mission.water.temperature_c = celsius;
+            return sound_profile(*mission.water.profile, mission).speed_at(-97.0);
+        };
+        CHECK(speed_at_100_m(4.0) == test::approx(1450.592).epsilon(1e-6));
+        CHECK(speed_at_100_m(-2.0) == test::approx(1441.196).epsilon(1e-6));
+    }
+
     TEST_CASE("sound profiles: a file, and what is wrong with one") {
         const test::TemporaryFolder folder;
         const auto file = folder.path / "ctd.csv";
