@@ -53,6 +53,23 @@ TEST_CASE("a smooth field has variance 1 and the correlation of its length") {
     CHECK(std::abs(along_y / count - std::exp(-1.0)) < 0.046);
 }
 
+TEST_CASE("a smooth field far below the cells takes no finer lattice, and cells are independent") {
+    const BedGrid grid{0.5, -80, 79, 160, 160};
+    const std::vector<float> field = smooth_field(grid, 1e-300, key_of(5));
+    CHECK(field == smooth_field(grid, 0.005, key_of(5)));
+    double squares = 0.0;
+    double neighbours = 0.0;
+    for (std::size_t i = 0; i + 1 < field.size(); ++i) {
+        squares += static_cast<double>(field[i]) * static_cast<double>(field[i]);
+        neighbours += static_cast<double>(field[i]) * static_cast<double>(field[i + 1]);
+    }
+    // The variance of 25,600 independent values has the deviation sqrt(2 / 25600), 0.0088, and the
+    // correlation 1 / sqrt(25600), 0.00625; limits are 4 of them, p = 6e-5.
+    const auto count = static_cast<double>(field.size());
+    CHECK(std::abs(squares / count - 1.0) < 0.036);
+    CHECK(std::abs(neighbours / count) < 0.025);
+}
+
 TEST_CASE("a part of a smooth field has the values of the whole, at any place") {
     const BedGrid whole{0.3, -50, 40, 90, 70};
     const BedGrid part{0.3, -17, 21, 20, 33};
