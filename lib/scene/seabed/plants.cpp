@@ -13,11 +13,12 @@ std::vector<Plant> plants_in(const BedArea& area, const BedGrid& grid, const Bed
     const std::vector<float> here =
         patches(grid, plants.share, plants.patch_m, bed_key(seed, BedDraw::plant_patches));
     std::vector<Plant> out;
-    for (const BedPoint& point : poisson_points(area, plants.density_per_m2, key)) {
-        const std::size_t cell = grid.cell_at(point.x_m, point.y_m);
-        if (draw_of(point, 1, key) >= static_cast<double>(here[cell])) continue;
+    const auto grows = [&](const BedPoint& point) {
+        const float share = here[grid.cell_at(point.x_m, point.y_m)];
+        return share > 0.0F && draw_of(point, 1, key) < static_cast<double>(share);
+    };
+    for (const BedPoint& point : poisson_points(area, plants.density_per_m2, key, grows))
         out.push_back({point.x_m, point.y_m, draw_in(plants.height_m, point, 2, key), point});
-    }
     return out;
 }
 

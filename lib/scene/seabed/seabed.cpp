@@ -164,9 +164,11 @@ void lay_rocks(const SeabedRule& rule, Seabed& bed) {
 
 void plant_tufts(const SeabedRule& rule, Seabed& bed) {
     constexpr double most_tufts = 500000.0;
+    constexpr double most_tried = 1e8;  // some 10 s
     const BedArea area = area_of_grid(bed.grid);
     require_room(rule, area, rule.plants->density_per_m2 * rule.plants->share, most_tufts,
                  "plants");
+    require_room(rule, area, rule.plants->density_per_m2, most_tried, "plants before `share`");
     bed.plant_material = rule.plants->material;
     bed.plant_class = rule.plants->class_name;
     for (const Plant& plant : plants_in(area, bed.grid, *rule.plants, rule.seed)) {

@@ -73,7 +73,7 @@ std::vector<std::string> materials_of(const Seabed& bed);
 
 /// Makes a part of a bed. The same rule makes the same bed in every part, except for the numbers of
 /// the rocks. InputError at the rule's place for a part with more than 2^25 heights, fewer than 2 x
-/// 2, more than 50,000 rocks or 500,000 tufts, or too many pockmarks or scars.
+/// 2, more than 50,000 rocks or 500,000 tufts, or too many pockmarks, scars or tufts to draw from.
 Seabed make_seabed(const SeabedRule& rule);
 
 }  // namespace sonarsim

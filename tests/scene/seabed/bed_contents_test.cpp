@@ -258,6 +258,9 @@ TEST_CASE("more rocks or plants than have room are refused") {
     rule.plants = BedPlants{1000.0, {0.1, 0.2}};
     CHECK_THROWS_WITH_AS(make_seabed(rule), doctest::Contains("plants, and at most 500000"),
                          InputError);
+    // The few plants that a small share leaves are drawn among all.
+    rule.plants = BedPlants{1e6, {0.1, 0.2}, 1e-5};
+    CHECK_THROWS_WITH_AS(make_seabed(rule), doctest::Contains("plants before `share`"), InputError);
     // Hollows also count by their middles outside the part that the mission needs, and by the cells
     // that each covers: without a limit these took hours.
     rule.plants.reset();
