@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "scene/waves.h"
 
@@ -44,5 +45,23 @@ TEST_SUITE("scene") {
         }
         CHECK(found > 100);
         CHECK(found < 450);
+    }
+
+    TEST_CASE("bottom: thousands of triangles, each over all of it") {
+        // In a grid of 438 x 438 cells they would lie in more than 2^32 cells together.
+        constexpr int layers = 24000;
+        Surface stack;
+        for (std::uint32_t k = 0; k < layers; ++k) {
+            const double z = -1.0 * k;
+            for (const auto& [x, y] : {std::pair{-9.0, -9.0}, {27.0, -9.0}, {-9.0, 27.0}})
+                stack.vertices.emplace_back(x, y, z);
+            stack.triangles.push_back({3 * k, 3 * k + 1, 3 * k + 2});
+        }
+        const Bottom bottom(stack);
+        CHECK(bottom.highest_below({0.0, 0.0, -4000.5}, 0.0) == -4001.0);
+        const auto heights = bottom.heights({1.0, 2.0});
+        REQUIRE(heights.has_value());
+        CHECK(heights->lowest == -23999.0);
+        CHECK(heights->highest == 0.0);
     }
 }

@@ -20,6 +20,9 @@ constexpr int most_cells = 1024;  // limit along x and along y
 // faster.
 constexpr double cells_per_triangle = 8.0;
 
+// Large triangles lie in many cells. So many numbers of triangles take 1 GB.
+constexpr std::uint64_t most_places = std::uint64_t{1} << 28;
+
 Eigen::AlignedBox2d area_of(const Surface& surface, std::uint32_t triangle) {
     Eigen::AlignedBox2d box;
     for (const std::uint32_t vertex : surface.triangles[triangle])
@@ -55,6 +58,8 @@ Bottom::Bottom(Surface surface) : surface_(std::move(surface)) {
         area_.extend(vertex.head<2>());
     const auto count = static_cast<std::uint32_t>(surface_.triangles.size());
     side_ = std::clamp(static_cast<int>(std::sqrt(cells_per_triangle * count)), 1, most_cells);
+    while (side_ > 1 && places_of_triangles() > most_places)
+        side_ /= 2;
     // Count first, then fill.
     std::vector<std::uint32_t> size(static_cast<std::size_t>(side_) * side_ + 1, 0);
     const auto for_each_cell = [&](std::uint32_t triangle, const auto& visit) {
@@ -79,6 +84,16 @@ Bottom::Bottom(Surface surface) : surface_(std::move(surface)) {
                              [&](std::uint32_t t) { return boxes_[t].max[2]; });
     for (const std::uint32_t t : downwards)
         for_each_cell(t, [&](std::size_t cell) { triangles_[size[cell]++] = t; });
+}
+
+std::uint64_t Bottom::places_of_triangles() const {
+    std::uint64_t places = 0;
+    for (std::uint32_t t = 0; t < surface_.triangles.size(); ++t) {
+        const Eigen::AlignedBox2d box = area_of(surface_, t);
+        const Eigen::Array2i cells = cell_of(box.max()) - cell_of(box.min()) + 1;
+        places += static_cast<std::uint64_t>(cells.x()) * static_cast<std::uint64_t>(cells.y());
+    }
+    return places;
 }
 
 void Bottom::make_boxes() {

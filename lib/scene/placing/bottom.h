@@ -52,6 +52,8 @@ class Bottom {
     };
 
     Eigen::Array2i cell_of(const Eigen::Vector2d& point) const;
+    /// The number of triangles in all cells of the grid, a triangle once in each of its cells.
+    std::uint64_t places_of_triangles() const;
     void make_boxes();
 
     Surface surface_;
