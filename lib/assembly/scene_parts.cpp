@@ -284,7 +284,7 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
         }
         if (bottom.is(object)) continue;
         const Surface placed = moved(shape, file.T_world_file);
-        if (!object.buried && lies_below(bottom.get(), placed)) {
+        if (!object.buried && bottom.exists() && lies_below(bottom.get(), placed)) {
             throw InputError(object.place.location,
                              title_of(object) + " lies wholly below the bottom; " +
                                  (object.place_on == ObjectPlace::free

@@ -27,6 +27,17 @@ class Moving(Composed):
                 self.assertAlmostEqual(got, wanted, places=9)
         self.assertEqual(len({v for k, v in first.items() if "polar" in k}), 6)
 
+    def test_objects_that_float_need_no_bottom(self):
+        """The first object moves, so there is no bottom, and none of the others rests on one."""
+        fish = ("{name: fish, file: crate.gltf, material: steel, trajectory: {waypoints: [{position_m: "
+                "[4, -2, 1]}, {position_m: [4, 2, 1]}], speed_m_s: 4, rate_hz: 5}}")
+        crate = "{name: crate, file: crate.gltf, position_m: [6, 0, 0]%s}"
+        self.objects([fish, crate % ""], "  materials: materials.csv\n")
+        self.assert_renders()
+        self.objects([fish, crate % ", place: on_bottom"], "  materials: materials.csv\n")
+        self.assert_refused(self.run_sonarsim("validate", "mission.yaml"),
+                            "must neither move nor rest on the bottom")
+
     def test_large_coordinates_lose_nothing_where_all_moves(self):
         def images(x, y):
             path = f"0 {x + 4} {y - 1} 0 0 0 0 1\n2 {x + 4} {y + 1} 0 0 0 0 1\n"
