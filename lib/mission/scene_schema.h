@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -151,6 +152,15 @@ void describe(Visitor& v, WaterSurfaceConfig& c) {
            "the surface sends sound back to sonars of the calibrated model, by water.wind_m_s");
 }
 
+/// True if an object has the name of an instance that the heightmap or seabed makes.
+inline bool names_ground(const SceneConfig& c) {
+    return std::ranges::any_of(c.objects, [&](const ObjectConfig& object) {
+        return (c.heightmap && object.name == heightmap_instance) ||
+               (c.seabed && object.name == seabed_instance) ||
+               (c.seabed && c.seabed->plants && object.name == plants_instance);
+    });
+}
+
 template <class Visitor>
 void describe(Visitor& v, SceneConfig& c) {
     v.place(c.place);
@@ -195,6 +205,9 @@ void describe(Visitor& v, SceneConfig& c) {
               "sediment_map and backscatter_map must be placed alike, both above or both by uv");
     v.require(!c.heightmap || !c.seabed, {"heightmap", "seabed"},
               "heightmap and seabed are both the bottom; give one of them");
+    v.require(!names_ground(c), {"objects"},
+              "an object has the name of the ground, which is 'heightmap', 'seabed' or 'plants'; "
+              "give it another");
 }
 
 }  // namespace sonarsim

@@ -112,7 +112,8 @@ struct SeabedConfig {
     bool operator==(const SeabedConfig&) const = default;
 };
 
-/// The instance that a seabed makes, besides its rocks and plants.
+/// The instances that a seabed makes, besides its rocks.
 inline constexpr const char* seabed_instance = "seabed";
+inline constexpr const char* plants_instance = "plants";
 
 }  // namespace sonarsim

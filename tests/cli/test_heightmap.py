@@ -11,7 +11,7 @@ import subprocess
 import unittest
 import zlib
 
-from composed import Composed, gltf
+from composed import Composed, box_mesh, gltf
 from sandbox import SONARSIM
 
 COLUMNS, ROWS, PIXEL = 48, 40, 0.25
@@ -186,6 +186,19 @@ class Heightmap(Composed):
         self.assertAlmostEqual(crate["max"][2] - crate["min"][2], 1, delta=1e-5)
         # It touches the map 10 cm below its highest point there, which lies between 0 and 1 m.
         self.assertTrue(-0.2 < crate["min"][2] < 1)
+
+    def test_its_name_is_its_own(self):
+        """Labels and maps find the ground by its name: a node of the scene's file gets another."""
+        self.write("crate.gltf", gltf([{"name": "heightmap", "mesh": 0}], [box_mesh()]))
+        self.mission("  file: crate.gltf\n" + self.OWN)
+        self.edit("mission.yaml", "labels: true", "labels: [coco]")
+        self.assert_renders()
+        labels = self.dataset()["labels"]
+        self.assertEqual([one["name"] for one in labels["instances"]], ["heightmap_2", "heightmap"])
+        self.assertEqual(labels["annotations"]["background"], ["heightmap"])
+        self.mission(self.OWN, OBJECTS.replace("name: crate", "name: heightmap"), out="other")
+        self.assert_refused(self.run_sonarsim("validate", "mission.yaml"),
+                            "an object has the name of the ground")
 
     def test_own_bathymetry(self):
         """What a profiler writes of the ground is the same ground for the next mission."""

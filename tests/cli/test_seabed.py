@@ -4,7 +4,7 @@ import json
 import unittest
 
 import clean_clone
-from composed import Composed
+from composed import Composed, box_mesh, gltf
 from sandbox import digest
 
 MISSION = """\
@@ -51,6 +51,19 @@ class TestSeabed(Composed):
         self.assertEqual(digest(self.out / "fls"), digest(self.folder / "again/fls"))
         self.assert_renders("--set", "output.folder=other", "--set", "seed=6")
         self.assertNotEqual(digest(self.out / "fls/polar"), digest(self.folder / "other/fls/polar"))
+
+    def test_its_name_is_its_own(self):
+        """A node of the scene's file called seabed is not the bed; no object may be called so."""
+        self.write("mission.yaml", MISSION.replace("  seabed:\n", "  file: wreck.gltf\n  seabed:\n"))
+        self.write("wreck.gltf", gltf([{"name": "seabed", "mesh": 0, "translation": [5, 0, 3]}],
+                                      [box_mesh()]))
+        self.assert_renders()
+        self.assertEqual(self.names(), ["seabed_2", "seabed", "crate"])
+        self.write("mission.yaml", MISSION.replace("name: crate", "name: seabed"))
+        self.assert_refused(self.run_sonarsim("validate", "mission.yaml"), "mission.yaml:",
+                            "an object has the name of the ground")
+        self.write("mission.yaml", MISSION.replace("name: crate", "name: plants"))
+        self.assertEqual(self.run_sonarsim("validate", "mission.yaml").returncode, 0)
 
     RICH = MISSION.replace("    material: Concrete\n", """\
     sediments: [{material: Concrete, share: 2}, {material: steel, share: 1}]

@@ -148,6 +148,11 @@ bool is_bottom(const PlacedFile& file, const PlacedMesh& mesh) {
            });
 }
 
+/// True for the heightmap or seabed, of which a scene has one at most.
+bool is_ground(const PlacedFile& file) {
+    return file.heightmap || file.seabed;
+}
+
 /// InputError, with the place in the mission, for a material that the table lacks.
 void require_materials(std::span<const PlacedFile> files, const MaterialTable& table) {
     for (const PlacedFile& file : files) {
@@ -171,12 +176,17 @@ std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& 
         throw InputError(file.place, "there is an object '" + printable(file.name) +
                                          "' already; give each a name of its own");
     }
+    // The rules of the mission know the ground by the names of its nodes, so they come first.
+    std::vector<PlacedMesh> ground;
+    for (const PlacedFile& file : files) {
+        if (is_ground(file)) ground = place_meshes(models.model(file), file, names);
+    }
     std::vector<OpenFile> open;
     for (const PlacedFile& file : files) {
         OpenFile& next = open.emplace_back();
         next.placed = &file;
         next.model = &models.model(file);
-        next.meshes = place_meshes(*next.model, file, names);
+        next.meshes = is_ground(file) ? std::move(ground) : place_meshes(*next.model, file, names);
         if (next.meshes.empty() && !file.exclude.empty()) {
             throw InputError(file.place, "exclude leaves nothing of " + file.file.string() +
                                              "; `sonarsim inspect` lists the names of its nodes");

@@ -48,8 +48,8 @@ Scene load_scene(std::span<const PlacedFile> files, SceneFiles& models, const Ma
                  std::size_t sharing_threshold = share_nothing);
 
 /// Opens the files and appends the names and classes of their instances to those of `scene`. Names
-/// of objects in the mission take precedence: nodes with the same name get another one. InputError
-/// for a name that is taken.
+/// of objects in the mission take precedence, then those of the heightmap or seabed: nodes with the
+/// same name get another one. InputError for a name that is taken.
 std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& models,
                                  Scene& scene);
 
