@@ -207,6 +207,7 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
     // these only the files themselves are checked.
     if (errors.count() > 0) errors.attempt([&] { read_scene_files(mission, models); });
     errors.raise();
+    add_ping_motions(mission, assembly.trajectory, assembly.sonars);
     SceneParts parts = place_scene(mission, assembly.trajectory, assembly.sonars, models);
     assembly.scene = load_scene(parts.files, models, materials, mission.scene.material_default,
                                 {mission.water.density_kg_m3, mission.water.sound_speed_m_s},
@@ -225,8 +226,7 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
     add_water_surface(mission, assembly);
     add_particles(mission, assembly.trajectory, assembly.scene, assembly.sonars);
     add_sound_profiles(mission, assembly.scene, assembly.sonars);
-    add_ping_motions(mission, assembly.trajectory, assembly.scene, assembly.motions,
-                     assembly.sonars);
+    add_object_motions(assembly.trajectory, assembly.scene, assembly.motions, assembly.sonars);
     add_water_ages(mission, assembly.trajectory, assembly.sonars);
     warn_of_empty_scatter(mission, assembly.scene);
     if (!mission.output.labels.empty() || !mission.classes.empty()) {

@@ -4,19 +4,30 @@
 #include <cstdint>
 
 #include "assembly/placed_files.h"
+#include "sonar/sonar_at_pose.h"
 
 namespace sonarsim {
 
-Eigen::AlignedBox2d ground_in_range(std::span<const Sonar> sonars, const Trajectory& vehicle,
-                                    double faster) {
+Eigen::AlignedBox2d ground_in_range(const Mission& mission, std::span<const Sonar> sonars,
+                                    const Trajectory& vehicle, double faster) {
     Eigen::AlignedBox2d seen;
     for (const Sonar& sonar : sonars) {
         const double reach_m = faster * sonar.settings.view.range_max_m;
-        for (std::size_t i = 0; i < vehicle.size(); ++i) {
-            const Pose at =
-                sensor_pose(sonar, vehicle[i].T_world_vehicle, static_cast<std::uint32_t>(i));
+        const auto extend = [&](const Pose& at) {
             const Eigen::Vector2d place = at.translation.head<2>();
             seen.extend(Eigen::AlignedBox2d(place.array() - reach_m, place.array() + reach_m));
+        };
+        const int later_groups = sonar.config.shutter.groups - 1;
+        for (std::size_t i = 0; i < vehicle.size(); ++i) {
+            const auto pose = static_cast<std::uint32_t>(i);
+            const SonarAtPose then(mission, sonar, pose);
+            const Pose at = sensor_pose(*then, vehicle[i].T_world_vehicle, pose);
+            extend(at);
+            if (!sonar.motions || later_groups == 0) continue;
+            const PingMotion& motion = (*sonar.motions)[i];
+            if (motion.is_still()) continue;
+            const double last_s = later_groups * group_period_s(sonar, motion.sound_speed_m_s);
+            extend(pose_after(motion, at, last_s));
         }
     }
     return seen;

@@ -7,18 +7,18 @@
 #include <vector>
 
 #include "assembly/shapes.h"
-#include "mission/scene_config.h"
+#include "mission/mission.h"
 #include "scene/placed_file.h"
 #include "sonar/sonar.h"
 #include "trajectory/trajectory.h"
 
 namespace sonarsim {
 
-/// A box around the ground within the range of any ping, world x and y. Ground outside returns no
-/// echo and hides no surface that does. `faster`: the greatest speed of sound over that by which
-/// sonars measure ranges, or 1.
-Eigen::AlignedBox2d ground_in_range(std::span<const Sonar> sonars, const Trajectory& vehicle,
-                                    double faster);
+/// A box around the ground within the range of any ping and of its later groups of beams, world x
+/// and y. Ground outside returns no echo and hides no surface that does. The sonars have their
+/// motions. `faster`: the greatest speed of sound over that by which sonars measure ranges, or 1.
+Eigen::AlignedBox2d ground_in_range(const Mission& mission, std::span<const Sonar> sonars,
+                                    const Trajectory& vehicle, double faster);
 
 /// Patterns of the instances that are the bottom: scene.bottom, else the heightmap or the seabed.
 std::vector<std::string> bottom_patterns(const SceneConfig& scene);

@@ -100,8 +100,8 @@ void add_doppler(const SonarConfig& config, double sound_speed_m_s, PingMotion& 
 
 }  // namespace
 
-void add_ping_motions(const Mission& mission, const Trajectory& trajectory, const Scene& scene,
-                      std::span<const Trajectory> bodies, std::span<Sonar> sonars) {
+void add_ping_motions(const Mission& mission, const Trajectory& trajectory,
+                      std::span<Sonar> sonars) {
     const double sound_speed_m_s = mission.water.sound_speed_m_s;
     for (Sonar& sonar : sonars) {
         if (!sonar.config.moves_in_ping) continue;
@@ -124,7 +124,13 @@ void add_ping_motions(const Mission& mission, const Trajectory& trajectory, cons
         for (PingMotion& motion : motions)
             add_doppler(sonar.config, sound_speed_m_s, motion);
         sonar.motions = std::make_shared<const std::vector<PingMotion>>(std::move(motions));
-        if (bodies.empty()) continue;
+    }
+}
+
+void add_object_motions(const Trajectory& trajectory, const Scene& scene,
+                        std::span<const Trajectory> bodies, std::span<Sonar> sonars) {
+    for (Sonar& sonar : sonars) {
+        if (!sonar.config.moves_in_ping || bodies.empty()) continue;
         std::vector<std::vector<ObjectMotion>> of_objects;
         for (std::size_t pose = 0; pose < trajectory.size(); ++pose)
             of_objects.push_back(object_motions_at(scene, bodies, trajectory, pose));

@@ -9,10 +9,13 @@
 namespace sonarsim {
 
 /// Sets the motions of the sonars with moves_in_ping at each pose, by the poses before and after
-/// it, and those of the scene's bodies, whose trajectories are `bodies`. InputError if such a sonar
-/// has a setting that supports only a sonar at rest.
-void add_ping_motions(const Mission& mission, const Trajectory& trajectory, const Scene& scene,
-                      std::span<const Trajectory> bodies, std::span<Sonar> sonars);
+/// it. InputError if such a sonar has a setting that supports only a sonar at rest.
+void add_ping_motions(const Mission& mission, const Trajectory& trajectory,
+                      std::span<Sonar> sonars);
+
+/// Sets the motions of the scene's bodies, whose trajectories are `bodies`, in these sonars.
+void add_object_motions(const Trajectory& trajectory, const Scene& scene,
+                        std::span<const Trajectory> bodies, std::span<Sonar> sonars);
 
 /// The coherent echo of smooth faces supports only a sonar at rest: removes it from sonars that
 /// move in a ping, and adds a warning to the scene.

@@ -249,7 +249,8 @@ double faster_sound(const Mission& mission) {
 SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
                        std::span<const Sonar> sonars, SceneFiles& models) {
     const SceneConfig& scene = mission.scene;
-    const Eigen::AlignedBox2d seen = ground_in_range(sonars, vehicle, faster_sound(mission));
+    const Eigen::AlignedBox2d seen =
+        ground_in_range(mission, sonars, vehicle, faster_sound(mission));
     SceneParts parts;
     if (!scene.file.empty()) parts.files.push_back(file_of(scene.file, scene.mesh, scene.place));
     Shapes shapes(models);

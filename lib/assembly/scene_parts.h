@@ -28,9 +28,9 @@ struct SceneParts {
 };
 
 /// Places all objects of a mission: lowers objects to the bottom and draws the scattered ones.
-/// `vehicle` gives the times of the pings. Throws InputError with the place in the mission for an
-/// object below the bottom or outside it, for one that finds no room, and for a motion that does
-/// not last from the first to the last ping.
+/// `vehicle` gives the times of the pings; the sonars have their motions. Throws InputError with
+/// the place in the mission for an object below the bottom or outside it, for one that finds no
+/// room, and for a motion that does not last from the first to the last ping.
 ///
 /// A heightmap or seabed is made where the sonars reach it or objects at rest stand on it. Heights
 /// that the sonars do not resolve are left out, see thin_heights().

@@ -82,6 +82,11 @@ TracedPing trace_at(const Sonar& sonar, const Scene& scene, const VisibilityEngi
 
 }  // namespace
 
+double group_period_s(const Sonar& sonar, double sound_speed_m_s) {
+    const double period_s = sonar.config.shutter.period_s;
+    return period_s > 0.0 ? period_s : 2.0 * sonar.settings.view.range_max_m / sound_speed_m_s;
+}
+
 std::vector<int> groups_of_beams(const ShutterConfig& shutter, int beams) {
     std::vector<int> groups(beams);
     for (int j = 0; j < beams; ++j) {
@@ -104,9 +109,7 @@ TracedPing trace(const Sonar& sonar, const Scene& scene, const VisibilityEngine&
     if (shutter.groups == 1 || !(motion.sound_speed_m_s > 0.0) ||
         (motion.is_still() && !others_move))
         return traced;
-    const double period_s = shutter.period_s > 0.0
-                                ? shutter.period_s
-                                : 2.0 * sonar.settings.view.range_max_m / motion.sound_speed_m_s;
+    const double period_s = group_period_s(sonar, motion.sound_speed_m_s);
     for (int group = 1; group < shutter.groups; ++group) {
         const double later_s = group * period_s;
         traced.later_groups.push_back(trace_at(sonar, scene, engine,

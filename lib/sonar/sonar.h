@@ -31,6 +31,9 @@ void find_targets(std::span<Sonar> sonars, const Scene& scene);
 /// `vary` names no key of this sonar.
 std::optional<Sonar> drawn_sonar(const Mission& mission, const Sonar& sonar, std::uint32_t pose);
 
+/// The time from one group of beams to the next, s.
+double group_period_s(const Sonar& sonar, double sound_speed_m_s);
+
 /// The group in which each beam of a fan transmits.
 std::vector<int> groups_of_beams(const ShutterConfig& shutter, int beams);
 

@@ -30,7 +30,7 @@ TEST_SUITE("assembly") {
         config.mount.translation_m = {3.0, 0.0, 0.0};
         std::vector<Sonar> sonars{make_sonar(config, {}), make_sonar(config, {})};
         sonars[1].config.moves_in_ping = true;
-        add_ping_motions(mission, trajectory, {}, {}, sonars);
+        add_ping_motions(mission, trajectory, sonars);
         CHECK(!sonars[0].motions);
         REQUIRE(sonars[1].motions->size() == 20);
         const PingMotion& motion = (*sonars[1].motions)[10];
@@ -39,10 +39,10 @@ TEST_SUITE("assembly") {
         CHECK(motion.sound_speed_m_s == mission.water.sound_speed_m_s);
         // One pose has no rates.
         trajectory.resize(1);
-        add_ping_motions(mission, trajectory, {}, {}, sonars);
+        add_ping_motions(mission, trajectory, sonars);
         CHECK(sonars[1].motions->front().is_still());
         sonars[1].config.multipath.method = MultipathMethod::exact;
-        CHECK_THROWS_WITH_AS(add_ping_motions(mission, trajectory, {}, {}, sonars),
+        CHECK_THROWS_WITH_AS(add_ping_motions(mission, trajectory, sonars),
                              doctest::Contains("multipath"), InputError);
     }
 
@@ -72,7 +72,8 @@ TEST_SUITE("assembly") {
         Mission mission;
         const std::vector<Trajectory> bodies{stands, goes};
         std::swap(scene.bodies[0].instance, scene.bodies[1].instance);
-        add_ping_motions(mission, vehicle, scene, bodies, sonars);
+        add_ping_motions(mission, vehicle, sonars);
+        add_object_motions(vehicle, scene, bodies, sonars);
         const std::vector<ObjectMotion>& moving = (*sonars[0].object_motions)[4];
         REQUIRE(moving.size() == 1);
         CHECK(moving[0].instance == 7);
@@ -88,7 +89,7 @@ TEST_SUITE("assembly") {
         CHECK((*sonars[0].motions)[4].loss.band_s_per_m ==
               test::approx(hz_s_per_m / band_hz).epsilon(1e-12));
         sonars[0].config.instrument.pulse.sweep = Sweep::tone;
-        add_ping_motions(mission, vehicle, scene, bodies, sonars);
+        add_ping_motions(mission, vehicle, sonars);
         CHECK((*sonars[0].motions)[4].doppler_s == 0.0);
         CHECK((*sonars[0].motions)[4].loss.turns_s_per_m ==
               test::approx(hz_s_per_m * 1e-3).epsilon(1e-12));
