@@ -12,12 +12,11 @@ PingShadows::PingShadows(Wanted wanted, const TracedPing& traced, const SurfaceE
     const RangeBins bins = range_bins(view);
     hidden_ = find_hidden_surface(traced, echoes, view, objects, engine, directions,
                                   wanted.of_all ? By::all : By::objects);
-    of_all_.emplace(hidden_.pieces, bins, view.beams);
+    of_all_.emplace(hidden_.pieces, view);
     if (wanted.of_objects) {
         by_objects_ = hidden_by_objects(hidden_.pieces, objects);
         covered_by_objects_ = hidden_bins(by_objects_, bins, view.beams);
-        if (by_objects_.size() < hidden_.pieces.size())
-            of_objects_.emplace(by_objects_, bins, view.beams);
+        if (by_objects_.size() < hidden_.pieces.size()) of_objects_.emplace(by_objects_, view);
     }
     if (wanted.of_all) {
         if (!echoes.cones.exist()) covered_ = engine.covered_bins(view, traced.T_world_sensor);

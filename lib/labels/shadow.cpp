@@ -46,11 +46,15 @@ bool name_dark_bins(std::span<const std::uint8_t> covered, std::span<const std::
 
 }  // namespace
 
-ShadowFinder::ShadowFinder(std::span<const HiddenPiece> pieces, const RangeBins& bins, int beams)
-    : bins_(bins), pieces_(pieces), beam_begin_(beams + 1, 0), owners_(beams) {
+ShadowFinder::ShadowFinder(std::span<const HiddenPiece> pieces, const View& view)
+    : bins_(range_bins(view)),
+      full_turn_(is_full_turn(view)),
+      pieces_(pieces),
+      beam_begin_(view.beams + 1, 0),
+      owners_(view.beams) {
     for (const HiddenPiece& hidden : pieces_)
         ++beam_begin_[hidden.beam + 1];
-    for (int j = 0; j < beams; ++j)
+    for (int j = 0; j < view.beams; ++j)
         beam_begin_[j + 1] += beam_begin_[j];
     std::vector<std::uint32_t> next = beam_begin_;
     places_.resize(pieces_.size());
@@ -96,7 +100,8 @@ void ShadowFinder::find_owners(int j, std::span<std::uint16_t> owners) {
 std::span<const std::uint16_t> ShadowFinder::nearest_owners(int j) {
     const auto beams = static_cast<int>(owners_.size());
     for (int away = 0; away < beams; ++away) {
-        for (const int beam : {j - away, j + away}) {
+        for (int beam : {j - away, j + away}) {
+            if (full_turn_) beam = (beam + beams) % beams;
             if (beam < 0 || beam >= beams) continue;
             if (fill_gaps(owners(beam))) return owners(beam);
         }

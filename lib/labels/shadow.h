@@ -15,7 +15,7 @@ namespace sonarsim {
 class ShadowFinder {
   public:
     /// `pieces`: the hidden surface. They must outlive the finder.
-    ShadowFinder(std::span<const HiddenPiece> pieces, const RangeBins& bins, int beams);
+    ShadowFinder(std::span<const HiddenPiece> pieces, const View& view);
 
     /// Fills `shadow` [range bins] of beam j with 1 + the index of the object that hides, or 0.
     /// `covered` is 1 for the bins that some surface falls into, `occupied` for those that show
@@ -37,6 +37,7 @@ class ShadowFinder {
     std::vector<std::uint16_t>& owners(int j);
 
     RangeBins bins_;
+    bool full_turn_;
     std::span<const HiddenPiece> pieces_;
     std::vector<std::uint32_t> beam_begin_;  ///< beams + 1 offsets into `places_`
     std::vector<Place> places_;              ///< sorted by beam

@@ -19,12 +19,17 @@ struct RangeLevels {
     int width() const { return std::max(last - first + 1, 2); }
 };
 
+/// The index of the first bin of a box on a line.
+std::size_t first_bin_of(const LevelMap& map, int line, const BinBox& box) {
+    return static_cast<std::size_t>(map.line_at(line)) * map.bins + box.first_bin;
+}
+
 /// The marked bins of a box, range by range.
 std::vector<RangeLevels> marked_levels(const LevelMap& map, std::span<const std::uint16_t> marks,
                                        std::uint16_t id, const BinBox& box) {
     std::vector<RangeLevels> ranges(static_cast<std::size_t>(box.last_bin - box.first_bin) + 1);
     for (int line = box.first_line; line <= box.last_line; ++line) {
-        const std::size_t begin = static_cast<std::size_t>(line) * map.bins + box.first_bin;
+        const std::size_t begin = first_bin_of(map, line, box);
         for (std::size_t k = 0; k < ranges.size(); ++k) {
             if (marks[begin + k] != id) continue;
             RangeLevels& range = ranges[k];
@@ -43,9 +48,11 @@ void add_surroundings(const LevelMap& map, const BinBox& box,
     int widest = 0;
     for (const RangeLevels& range : ranges)
         widest = std::max(widest, range.width());
-    const int last = std::min(box.last_line + widest, map.lines - 1);
-    for (int line = std::max(box.first_line - widest, 0); line <= last; ++line) {
-        const std::size_t begin = static_cast<std::size_t>(line) * map.bins + box.first_bin;
+    int first = box.first_line - widest;
+    if (!map.full_turn) first = std::max(first, 0);
+    const int end = map.full_turn ? first + map.lines : map.lines;
+    for (int line = first; line < std::min(box.last_line + widest + 1, end); ++line) {
+        const std::size_t begin = first_bin_of(map, line, box);
         for (std::size_t k = 0; k < ranges.size(); ++k) {
             RangeLevels& range = ranges[k];
             const int width = range.width();
@@ -78,9 +85,29 @@ void BinBox::extend(int line, int bin) {
     last_bin = std::max(last_bin, bin);
 }
 
+BinBox over_seam(const LevelMap& map, std::span<const std::uint16_t> marks, std::uint16_t id,
+                 BinBox box) {
+    if (!map.full_turn || box.first_line > 0 || box.last_line + 1 < map.lines) return box;
+    // The widest gap between two marked lines is not the object's.
+    int before = 0;
+    int widest = 0;
+    for (int line = 1; line < map.lines; ++line) {
+        const auto bins = marks.subspan(static_cast<std::size_t>(line) * map.bins, map.bins);
+        if (std::ranges::find(bins, id) == bins.end()) continue;
+        if (line - before > widest) {
+            widest = line - before;
+            box.first_line = line - map.lines;
+            box.last_line = before;
+        }
+        before = line;
+    }
+    return box;
+}
+
 std::optional<double> contrast_db(const LevelMap& map, std::span<const std::uint16_t> marks,
-                                  std::uint16_t id, const BinBox& box,
+                                  std::uint16_t id, const BinBox& marked,
                                   std::span<const std::uint8_t> is_background) {
+    const BinBox box = over_seam(map, marks, id, marked);
     std::vector<RangeLevels> ranges = marked_levels(map, marks, id, box);
     add_surroundings(map, box, is_background, ranges);
     double own = 0.0;

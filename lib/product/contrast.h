@@ -23,7 +23,16 @@ struct LevelMap {
     std::span<const std::uint16_t>
         shadow;  ///< the object whose shadow it is; 0: none. Empty: no shadows
     std::span<const float> level;
+    bool full_turn = false;  ///< the last line is next to the first
+
+    /// The line that is counted as `line` on over the seam of a full turn.
+    int line_at(int line) const { return ((line % lines) + lines) % lines; }
 };
+
+/// The box of an id in `marks`. If it lies on both sides of the seam of a full turn, its lines are
+/// counted on over the seam, and the first is below 0.
+BinBox over_seam(const LevelMap& map, std::span<const std::uint16_t> marks, std::uint16_t id,
+                 BinBox box);
 
 /// The mean level of the bins with an id in `marks` (the objects or the shadows of a map, within
 /// `box`) over that of their surroundings, dB, limited to 100 dB either way; nothing without

@@ -17,10 +17,6 @@ struct BinTotals {
     double azimuth_rad = 0.0;
 };
 
-std::uint16_t object_at(const PingLabels& labels, int range_bin, int beam) {
-    return labels.object[static_cast<std::size_t>(beam) * labels.range_bins + range_bin];
-}
-
 /// Adds the bins [from, to) of beam j.
 void add_bins(ObjectInPing& seen, int from, int to, int j) {
     if (seen.bins == 0) {
@@ -69,20 +65,28 @@ std::vector<float> levels_by_beam(const Ping& ping) {
     return levels;
 }
 
+BinBox bins_of(const ObjectInPing& seen) {
+    return {seen.beam_first, seen.beam_last, seen.range_first, seen.range_last};
+}
+
 /// The mean level around an object; nothing if all bins there are its own.
-std::optional<double> level_around(const ObjectInPing& seen, const PingLabels& labels,
-                                   const std::vector<float>& levels) {
+std::optional<double> level_around(const ObjectInPing& seen, const LevelMap& map) {
+    const auto id = static_cast<std::uint16_t>(seen.id);
+    const BinBox box = over_seam(map, map.object, id, bins_of(seen));
     const auto margin_of = [](int first, int last) { return std::max(2, (last - first + 1) / 2); };
-    const int rows = margin_of(seen.range_first, seen.range_last);
-    const int columns = margin_of(seen.beam_first, seen.beam_last);
+    const int rows = margin_of(box.first_bin, box.last_bin);
+    const int columns = margin_of(box.first_line, box.last_line);
     double sum = 0.0;
     std::uint64_t bins = 0;
-    const int last_row = std::min(seen.range_last + rows, labels.range_bins - 1);
-    const int last_column = std::min(seen.beam_last + columns, labels.beams - 1);
-    for (int j = std::max(seen.beam_first - columns, 0); j <= last_column; ++j) {
-        for (int i = std::max(seen.range_first - rows, 0); i <= last_row; ++i) {
-            if (object_at(labels, i, j) == seen.id) continue;
-            sum += levels[static_cast<std::size_t>(j) * labels.range_bins + i];
+    const int last_row = std::min(box.last_bin + rows, map.bins - 1);
+    int first_column = box.first_line - columns;
+    if (!map.full_turn) first_column = std::max(first_column, 0);
+    const int end = map.full_turn ? first_column + map.lines : map.lines;
+    for (int j = first_column; j < std::min(box.last_line + columns + 1, end); ++j) {
+        const std::size_t begin = static_cast<std::size_t>(map.line_at(j)) * map.bins;
+        for (int i = std::max(box.first_bin - rows, 0); i <= last_row; ++i) {
+            if (map.object[begin + i] == id) continue;
+            sum += map.level[begin + i];
             ++bins;
         }
     }
@@ -151,9 +155,8 @@ void add_shadows(const PingLabels& labels, std::span<const PixelBox> fan_boxes,
 /// Compares objects and their shadows with their surroundings.
 class Contrasts {
   public:
-    Contrasts(const SceneObjects& objects, const PingLabels& labels, std::span<const float> levels)
-        : labels_(labels),
-          map_{labels.beams, labels.range_bins, labels.object, labels.object_shadow, levels} {
+    Contrasts(const SceneObjects& objects, const PingLabels& labels, const LevelMap& map)
+        : labels_(labels), map_(map) {
         is_background_.push_back(1);
         for (std::uint32_t k = 0; k < objects.objects.size(); ++k)
             is_background_.push_back(objects.is_background(k) ? 1 : 0);
@@ -162,8 +165,7 @@ class Contrasts {
     void add_to(ObjectInPing& seen) const {
         if (is_background_[seen.id] != 0) return;
         const auto id = static_cast<std::uint16_t>(seen.id);
-        const BinBox box{seen.beam_first, seen.beam_last, seen.range_first, seen.range_last};
-        seen.contrast_db = contrast_db(map_, map_.object, id, box, is_background_);
+        seen.contrast_db = contrast_db(map_, map_.object, id, bins_of(seen), is_background_);
         if (!seen.shadow.is_empty()) {
             seen.shadow_contrast_db =
                 contrast_db(map_, map_.shadow, id, seen.shadow, is_background_);
@@ -193,7 +195,7 @@ std::vector<ObjectInPing> seen_objects(const Sonar& sonar, const SceneObjects& o
     std::vector<BinTotals> totals(all.size());
     const std::vector<float> levels = levels_by_beam(ping);
     const bool fan = std::ssize(sonar.azimuth_edges_rad) == labels.beams + 1;
-    const bool full_turn = fan && sonar.settings.view.azimuth_rad >= 2.0 * pi;
+    const bool full_turn = fan && is_full_turn(sonar.settings.view);
     const auto middle = [](const std::vector<double>& edges, int k) {
         return 0.5 * (edges[k] + edges[k + 1]);
     };
@@ -219,7 +221,9 @@ std::vector<ObjectInPing> seen_objects(const Sonar& sonar, const SceneObjects& o
         });
     }
     add_shadows(labels, fan_boxes, all);
-    const Contrasts contrasts(objects, labels, levels);
+    const LevelMap map{labels.beams, labels.range_bins, labels.object, labels.object_shadow,
+                       levels,       full_turn};
+    const Contrasts contrasts(objects, labels, map);
     const std::vector<Eigen::AlignedBox3f> boxes = seen_boxes(objects, traced);
     std::vector<ObjectInPing> seen;
     for (std::size_t k = 0; k < all.size(); ++k) {
@@ -231,7 +235,7 @@ std::vector<ObjectInPing> seen_objects(const Sonar& sonar, const SceneObjects& o
         object.range_m = totals[k].range_m / bins;
         if (fan) object.azimuth_rad = totals[k].azimuth_rad / bins;
         if (full_turn) object.azimuth_rad = std::remainder(*object.azimuth_rad, 2.0 * pi);
-        object.surrounding_level = level_around(object, labels, levels);
+        object.surrounding_level = level_around(object, map);
         object.box_sensor_m = boxes[k];
         contrasts.add_to(object);
         seen.push_back(object);

@@ -3,8 +3,13 @@
 #include <cmath>
 
 #include "core/elementary.h"
+#include "core/units.h"
 
 namespace sonarsim {
+
+bool is_full_turn(const View& view) {
+    return view.shape == ViewShape::fan && view.azimuth_rad >= 2.0 * pi;
+}
 
 int beam_of(const View& view, const Eigen::Vector3f& point) {
     const double ground = std::sqrt(static_cast<double>(point.x()) * point.x() +

@@ -29,6 +29,9 @@ struct View {
     double bin_m() const { return (range_max_m - range_min_m) / range_bins; }
 };
 
+/// True for a fan of all azimuths, whose last beam is next to its first.
+bool is_full_turn(const View& view);
+
 /// The beam that contains a point of the sensor frame, or -1 outside the field of view. Intervals
 /// are half-open in azimuth and elevation.
 int beam_of(const View& view, const Eigen::Vector3f& point);

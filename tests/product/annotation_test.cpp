@@ -84,4 +84,40 @@ TEST_SUITE("product") {
         std::ranges::fill(object, std::uint16_t{2});
         CHECK_FALSE(contrast_db(map, map.object, 2, {0, 8, 0, 2}, is_background).has_value());
     }
+
+    TEST_CASE("contrast: in a full turn the surroundings go on over the seam") {
+        // 12 lines of a bin. The object has the lines 11 and 0 and the level 8. Next to it the
+        // background has 2, and 100 on the other side of the turn: 6.0 dB.
+        std::vector<std::uint16_t> object(12, 1);
+        std::vector<float> level(12, 100.0F);
+        for (const std::size_t line : {9, 10, 1, 2})
+            level[line] = 2.0F;
+        const auto contrast_of = [&](bool full_turn, const BinBox& box) {
+            const LevelMap map{12, 1, object, {}, level, full_turn};
+            const std::vector<std::uint8_t> is_background{1, 1, 0};
+            return contrast_db(map, map.object, 2, box, is_background).value();
+        };
+        object[11] = object[0] = 2;
+        level[11] = level[0] = 8.0F;
+        CHECK(contrast_of(true, {0, 11, 0, 0}) == test::approx(6.0206).epsilon(1e-4));
+        // Without a seam the object is as wide as the picture: 8 over (4 x 2 + 6 x 100) / 10.
+        CHECK(contrast_of(false, {0, 11, 0, 0}) == test::approx(-8.8081).epsilon(1e-4));
+        // An object of the line 0 alone: 11 is background as dark as 10.
+        object[11] = 1;
+        level[11] = 2.0F;
+        level[1] = level[2] = 6.0F;
+        CHECK(contrast_of(true, {0, 0, 0, 0}) == test::approx(3.0103).epsilon(1e-4));
+        CHECK(contrast_of(false, {0, 0, 0, 0}) == test::approx(1.2494).epsilon(1e-4));
+    }
+
+    TEST_CASE("contrast: the box of an object over the seam of a full turn") {
+        const std::vector<std::uint16_t> marks{5, 0, 5, 0, 0, 0, 0, 0, 5, 5};
+        const LevelMap map{10, 1, marks, {}, {}, true};
+        const BinBox box = over_seam(map, map.object, 5, {0, 9, 0, 0});
+        CHECK(box.first_line == -2);
+        CHECK(box.last_line == 2);
+        CHECK(over_seam(map, map.object, 5, {2, 9, 0, 0}).first_line == 2);
+        const LevelMap fan{10, 1, marks, {}, {}, false};
+        CHECK(over_seam(fan, fan.object, 5, {0, 9, 0, 0}).first_line == 0);
+    }
 }

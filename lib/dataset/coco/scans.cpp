@@ -50,6 +50,7 @@ void for_each_sweep(
     const auto steps = static_cast<std::size_t>(scan_steps(config));
     RecordValues display;
     display.resize(scan_steps(config), config.range_bins);
+    display.full_turn = config.sector_deg >= 360.0;
     for (std::size_t ping = 0; ping < records.pings(); ++ping) {
         const auto step = static_cast<std::size_t>(scan_step(config, ping));
         records.read(ping, 1, step, display);

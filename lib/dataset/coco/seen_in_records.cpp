@@ -79,7 +79,8 @@ SeenFacts seen_in_records(const RecordValues& values, std::uint16_t id, const Bi
     constexpr double whole = 65535.0;
     if (!values.visible_share.empty()) seen.visible_share = share / count / whole;
     if (values.level.empty()) return seen;
-    const LevelMap map{values.lines, values.bins, values.object, values.shadow, values.level};
+    const LevelMap map{values.lines,  values.bins,  values.object,
+                       values.shadow, values.level, values.full_turn};
     seen.contrast_db = contrast_db(map, map.object, id, box, is_background);
     if (!shadow.is_empty())
         seen.shadow_contrast_db = contrast_db(map, map.shadow, id, shadow, is_background);
