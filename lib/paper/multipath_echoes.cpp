@@ -53,6 +53,7 @@ Cut cut(const BouncePath& b, const Sample& sample, float bin_m, const ScattererL
 void add_pieces(const BouncePath& b, const Sample& sample, const View& view,
                 const ScattererLattice& lattice, const CellFrame& cells, std::vector<Piece>& out) {
     const auto beams = static_cast<float>(view.beams);
+    const bool full_turn = is_full_turn(view);
     const auto [n_u, n_v] = cut(b, sample, static_cast<float>(view.bin_m()), lattice);
     const float step_u = 1.0F / static_cast<float>(n_u);
     const float step_v = 1.0F / static_cast<float>(n_v);
@@ -73,7 +74,8 @@ void add_pieces(const BouncePath& b, const Sample& sample, const View& view,
         const Eigen::Vector3f row = centre + s * cell_u;
         for (int j = 0; j < n_v; ++j) {
             const float t = (2.0F * static_cast<float>(j) + 1.0F) * step_v - 1.0F;
-            const float beam = b.beam + s * b.beam_u + t * b.beam_v;
+            float beam = b.beam + s * b.beam_u + t * b.beam_v;
+            if (full_turn) beam = beam_in_turn(beam, beams);
             if (!(beam >= 0.0F && beam < beams)) continue;
             piece.beam = static_cast<std::uint32_t>(beam);
             piece.range_m = b.range_m + s * b.range_u + t * b.range_v;

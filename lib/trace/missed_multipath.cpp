@@ -31,6 +31,7 @@ class OccupiedBins {
   public:
     explicit OccupiedBins(const View& view)
         : beams_(static_cast<float>(view.beams)),
+          full_turn_(is_full_turn(view)),
           every_(std::max(1, view.beams / enough_beams)),
           bins_(view.range_bins),
           range_min_m_(static_cast<float>(view.range_min_m)),
@@ -51,7 +52,8 @@ class OccupiedBins {
             const float s = (2.0F * static_cast<float>(i) + 1.0F) * step_u - 1.0F;
             for (int j = 0; j < n_v; ++j) {
                 const float t = (2.0F * static_cast<float>(j) + 1.0F) * step_v - 1.0F;
-                const float beam = b.beam + s * b.beam_u + t * b.beam_v;
+                float beam = b.beam + s * b.beam_u + t * b.beam_v;
+                if (full_turn_) beam = beam_in_turn(beam, beams_);
                 if (!(beam >= 0.0F && beam < beams_)) continue;
                 const int row = static_cast<int>(beam);
                 if (row % every_ != 0) continue;
@@ -83,6 +85,7 @@ class OccupiedBins {
     }
 
     float beams_;
+    bool full_turn_;
     int every_;
     int bins_;
     float range_min_m_;

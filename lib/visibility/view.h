@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 
 namespace sonarsim {
 
@@ -31,6 +32,12 @@ struct View {
 
 /// True for a fan of all azimuths, whose last beam is next to its first.
 bool is_full_turn(const View& view);
+
+/// The place in [0, beams) of one that is whole turns away from it.
+inline float beam_in_turn(float beam, float beams) {
+    const float in_turn = beam - beams * std::floor(beam / beams);
+    return in_turn < beams ? in_turn : 0.0F;
+}
 
 /// The beam that contains a point of the sensor frame, or -1 outside the field of view. Intervals
 /// are half-open in azimuth and elevation.

@@ -287,4 +287,29 @@ TEST_CASE("a footprint wider than a beam lights every beam that it covers") {
     CHECK(weight == test::approx(2.0));
 }
 
+TEST_CASE("a footprint over the seam of a full turn goes on in the last beams") {
+    Samples samples;
+    Sample sample{};
+    sample.position = sample.normal = -Eigen::Vector3f::UnitX();
+    sample.edge_u = sample.edge_v = Eigen::Vector3f::Zero();
+    sample.area_m2 = 2.0F;
+    samples.items.push_back(sample);
+    const View view = fan(360.0, 12.0);
+    const BouncePath bounce{.sample = 0,
+                            .range_m = 5.0F,
+                            .range_u = 0.1F,
+                            .beam = 0.5F,
+                            .beam_u = 3.4F,
+                            .intensity = 0.7F};
+    const MultipathEchoes out = multipath_echoes({&bounce, 1}, samples, view, {});
+    float weight = 0.0F;
+    for (int j = 0; j < view.beams; ++j) {
+        // Its beams: 0.5 - 3.4 to 0.5 + 3.4.
+        CHECK((out.beam_begin[j + 1] > out.beam_begin[j]) == (j <= 3 || j >= view.beams - 3));
+        for (std::uint32_t k = out.beam_begin[j]; k < out.beam_begin[j + 1]; ++k)
+            weight += out.echoes.weight[k];
+    }
+    CHECK(weight == test::approx(2.0));
+}
+
 TEST_SUITE_END();
