@@ -30,12 +30,12 @@ Sounding sounding_of_beam(const Sonar& sonar, std::span<const double> beam) {
     return sounding;
 }
 
-/// Divides a beam by its background: the mean noise of the receiver, which the TVG raises with
-/// range, and what the median bin has above it, such as water or side lobes. Noise at long range,
-/// which may be stronger than the bottom, would else pass for it; and divided by the noise alone,
-/// water near the sonar would.
+/// Divides a beam by its background. This is the mean noise of the receiver, which the TVG raises
+/// with range, plus what the median bin has above it, such as water or side lobes. Undivided, noise
+/// at long range may be stronger than the bottom. Divided by the noise alone, water near the sonar
+/// may be.
 void divide_by_background(std::span<double> beam, std::span<const float> noise) {
-    constexpr double median_share = 0.693;  // of the mean of an exponential number, ln 2
+    constexpr double median_share = 0.693;  // ln 2: median / mean of an exponential number
     constexpr double least = 1e-30;
     std::vector<double> excess(beam.size());
     for (std::size_t i = 0; i < beam.size(); ++i)

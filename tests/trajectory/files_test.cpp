@@ -178,7 +178,7 @@ TEST_SUITE("trajectory") {
         poses.push_back({1.8e9, {Eigen::Quaterniond(-1, -0.0, 0, 0), {-0.0, 1e-300, 0.1}}});
         const std::string text = write_tum(poses);
         check_same(parse_tum(text, "p.tum"), poses);
-        check_same(parse_tum("\xEF\xBB\xBF" + text, "p.tum"), poses);  // of some editors
+        check_same(parse_tum("\xEF\xBB\xBF" + text, "p.tum"), poses);  // a byte order mark
         CHECK(write_tum(parse_tum(text, "p.tum")) == text);
         CHECK(write_tum({{0.5, Pose{}}}) == "# t_s x_m y_m z_m qx qy qz qw\n0.5 0 0 0 0 0 0 1\n");
     }

@@ -10,7 +10,7 @@ namespace sonarsim {
 
 namespace {
 
-constexpr double bytes_per_byte = 6.0;  // of a text in JSON, which may be escaped: \u0001
+constexpr double bytes_per_byte = 6.0;  // a byte of a text may become \u0001 in JSON
 
 double longest_drawn(const DrawnValues& drawn) {
     double bytes = 0.0;
