@@ -53,6 +53,19 @@ class Particles(Composed):
         self.assertLessEqual(max(pack.stat().st_size for pack in packs), 60_000)
         self.assertGreater(sum(pack.stat().st_size for pack in packs), 60_000)
 
+    def test_an_echosounder_annotates_them(self):
+        """Targets have no visible share: it is not known, and leaves none of them out."""
+        self.calibrated()
+        mission = (self.folder / "mission.yaml").read_text()
+        sensors = mission[mission.index("sensors:\n"):]
+        self.edit("mission.yaml", sensors, "sensors:\n  echo: {kind: echosounder, model: calibrated, range_max_m: 4}\n"
+                  "labels: {min_pixels: 1}\noutput: {folder: out, labels: [coco]}\n")
+        self.edit("mission.yaml", "position_m: [4, 0.5, 0.6], drift_m_s: [0, 0.5, 0]", "position_m: [-0.5, 0, 0.8]")
+        self.assert_renders()
+        coco = json.loads((self.out / "labels/coco_records.json").read_text())
+        self.assertEqual([one["visible_share"] for one in coco["annotations"]], [None])
+        self.assertAlmostEqual(coco["annotations"][0]["range_m"], 1.3, delta=0.05)
+
     def test_targets_that_no_ping_sees_warn(self):
         self.calibrated()
         result = self.run_sonarsim("validate", str(self.folder / "mission.yaml"))

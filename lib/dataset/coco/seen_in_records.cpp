@@ -65,19 +65,22 @@ SeenFacts seen_in_records(const RecordValues& values, std::uint16_t id, const Bi
     double range = 0.0;
     double share = 0.0;
     int count = 0;
+    int with_share = 0;  // point targets in the water have none
     for (int line = box.first_line; line <= box.last_line; ++line) {
         for (int bin = box.first_bin; bin <= box.last_bin; ++bin) {
             const std::size_t at = static_cast<std::size_t>(line) * values.bins + bin;
             if (values.object[at] != id) continue;
             range += range_m[static_cast<std::size_t>(bin)];
-            if (!values.visible_share.empty()) share += values.visible_share[at];
             ++count;
+            if (values.visible_share.empty() || values.visible_share[at] == 0) continue;
+            share += values.visible_share[at];
+            ++with_share;
         }
     }
     if (count == 0) return seen;
     seen.range_m = range / count;
     constexpr double whole = 65535.0;
-    if (!values.visible_share.empty()) seen.visible_share = share / count / whole;
+    if (with_share > 0) seen.visible_share = share / with_share / whole;
     if (values.level.empty()) return seen;
     const LevelMap map{values.lines,  values.bins,  values.object,
                        values.shadow, values.level, values.full_turn};

@@ -18,9 +18,10 @@ namespace sonarsim {
 struct RecordValues {
     int lines = 0, bins = 0;
     std::vector<std::uint16_t> object, shadow;
-    std::vector<std::uint16_t> visible_share;  ///< share of the bin's object; 65535 is all of it
-    std::vector<float> level;                  ///< empty: the sensor has no records of echoes
-    bool full_turn = false;                    ///< the last line is next to the first
+    /// Share of the bin's object; 65535 is all of it, 0: not known.
+    std::vector<std::uint16_t> visible_share;
+    std::vector<float> level;  ///< empty: the sensor has no records of echoes
+    bool full_turn = false;    ///< the last line is next to the first
 
     void resize(int new_lines, int new_bins);
 };

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -70,12 +71,14 @@ Ids shares(const PingLabels& labels) {
     return rounded;
 }
 
-/// The visible share of the object of each bin; 65535 is all of it.
+/// The visible share of the object of each bin; 65535 is all of it, and 0 means that it is not
+/// known.
 Ids visible_shares(const PingLabels& labels) {
     Ids rounded(labels.object.size());
     std::ranges::transform(labels.object, rounded.begin(), [&](std::uint16_t id) {
-        const float share = id == 0 ? 0.0F : labels.visible_share[id - 1U];
-        return static_cast<std::uint16_t>(share > 0.0F ? 65535.0F * share + 0.5F : 0.0F);
+        const float share = id == 0 ? std::nanf("") : labels.visible_share[id - 1U];
+        if (std::isnan(share)) return std::uint16_t{0};
+        return static_cast<std::uint16_t>(std::max(65535.0F * share + 0.5F, 1.0F));
     });
     return rounded;
 }
