@@ -27,6 +27,6 @@ void add_bounds(const Swath& swath, SoundingBounds& bounds);
 
 /// Adds a row of the waterfall to a map of echoes: a point at ground range g gets the echo at slant
 /// range sqrt(g^2 + altitude^2). `map` holds the echo in place of z.
-void rasterize(const Swath& swath, double bin_m, std::span<const float> row, Bathymetry& map);
+void rasterize(const Sonar& sonar, const Swath& swath, std::span<const float> row, Bathymetry& map);
 
 }  // namespace sonarsim

@@ -14,6 +14,10 @@ constexpr int port = 1;
 /// Strong targets on up to a tenth of a side do not change the level of its bottom.
 constexpr double brighter_share = 0.1;
 
+double width_of_bin_m(const SonarConfig& config) {
+    return (config.range_max_m - config.range_min_m) / config.range_bins;
+}
+
 std::optional<double> first_return_m(const Sonar& sonar, const Ping& ping, int beam) {
     std::vector<float> column(ping.range_bins);
     for (int i = 0; i < ping.range_bins; ++i)
@@ -26,8 +30,11 @@ std::optional<double> first_return_m(const Sonar& sonar, const Ping& ping, int b
 }  // namespace
 
 int blank_columns(const SonarConfig& config) {
-    const double bin_m = (config.range_max_m - config.range_min_m) / config.range_bins;
-    return static_cast<int>(std::lround(config.range_min_m / bin_m));
+    return static_cast<int>(std::lround(config.range_min_m / width_of_bin_m(config)));
+}
+
+double column_offset_m(const SonarConfig& config) {
+    return config.range_min_m - blank_columns(config) * width_of_bin_m(config);
 }
 
 int waterfall_columns(const SonarConfig& config) {

@@ -18,9 +18,10 @@ void describe_waterfall(const Sonar& sonar, nlohmann::ordered_json& sensor) {
     sensor["waterfall"] = {{"columns", waterfall_columns(sonar.config)},
                            {"blank_columns_a_side", blank_columns(sonar.config)},
                            {"column_m", sonar.settings.view.bin_m()},
+                           {"offset_m", column_offset_m(sonar.config)},
                            {"slant_range",
                             "of the middle of column k: |k + 0.5 - columns / 2| "
-                            "column_m; blank columns lie before range_min"}};
+                            "column_m + offset_m; blank columns lie before range_min"}};
 }
 
 }  // namespace

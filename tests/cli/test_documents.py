@@ -104,6 +104,13 @@ class Documents(Sandbox):
         for side in (slice(0, 65), slice(65, 130)):
             nearest = min(r for r, value in zip(ranges[side], rows[0][side]) if value > 0)
             self.assertAlmostEqual(nearest, 1.55, delta=0.101)
+        # Here range_min is 2.6 bins: the first column that the sonar hears is not 3.5 bins away.
+        self.edit("mission.yaml", "range_max_m: 6.5, range_bins: 60", "range_max_m: 6.5, range_bins: 31")
+        self.assert_renders("--overwrite")
+        printed = self.run_snippet(DATASET_PAGE, "print(json.dumps(ranges.tolist()))")
+        ranges = json.loads(printed.splitlines()[-1])
+        for column, expected in ((34 + 3, 0.5 + 3 / 31), (67, 6.5 - 3 / 31), (0, 6.5 - 3 / 31)):
+            self.assertAlmostEqual(ranges[column], expected)
 
 
 if __name__ == "__main__":

@@ -63,9 +63,11 @@ std::vector<double> ranges_of(const RecordPicture& picture, const Json& describe
     std::vector<double> range_m;
     if (picture.two_sides) {
         const double column_m = described.at("waterfall").at("column_m");
+        const double offset_m = described.at("waterfall").at("offset_m");
         const double nadir = 0.5 * static_cast<double>(picture.bins);
         for (std::size_t bin = 0; bin < picture.bins; ++bin)
-            range_m.push_back(std::fabs(static_cast<double>(bin) + 0.5 - nadir) * column_m);
+            range_m.push_back(std::fabs(static_cast<double>(bin) + 0.5 - nadir) * column_m +
+                              offset_m);
         return range_m;
     }
     const auto edges = described.at("range_edges_m").get<std::vector<double>>();

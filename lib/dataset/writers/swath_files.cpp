@@ -102,9 +102,8 @@ void write_mosaic(const WriterContext& context, const RecordFile& rows,
         row.swath ? add_bounds(*row.swath, bounds) : void(++dark);
     });
     Bathymetry map = make_bathymetry(bounds, asked_m > 0.0 ? asked_m : automatic_cell_m(context));
-    const double bin_m = context.sonar().settings.view.bin_m();
     for_each_row(context, rows, [&](const RecordedRow& row) {
-        if (row.swath) rasterize(*row.swath, bin_m, row.values, map);
+        if (row.swath) rasterize(context.sonar(), *row.swath, row.values, map);
     });
     // A TIFF has at least one pixel; where no ping shows the bottom it is NaN.
     std::vector<float> echoes = map.mean_z();
