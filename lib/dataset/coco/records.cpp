@@ -124,10 +124,33 @@ Passes passes_of(const RecordPicture& picture, const AnnotationRecords& records)
     return out;
 }
 
+/// What is known of all pings of a pass.
+struct WholePass {
+    ObjectMeans means;
+    BinBox shadow;  ///< lines are pings
+};
+
+WholePass whole_pass(const RecordPicture& picture, const AnnotationRecords& records,
+                     const Pass& pass, std::span<const double> range_m) {
+    RecordValues values;
+    values.resize(1, static_cast<int>(picture.bins));
+    const BinBox side = picture.side_of(pass.box.first_bin);
+    WholePass whole;
+    for (int ping = pass.box.first_line; ping <= pass.box.last_line; ++ping) {
+        records.read(static_cast<std::size_t>(ping), 1, 0, values);
+        whole.means.add(values, pass.instance, side, range_m);
+        const BinBox own = shadow_box(values, pass.instance, side);
+        if (own.is_empty()) continue;
+        whole.shadow.extend(ping, own.first_bin);
+        whole.shadow.extend(ping, own.last_bin);
+    }
+    return whole;
+}
+
 /// The facts of an object in one pass.
 SeenFacts facts_of(const RecordPicture& picture, const AnnotationRecords& records, const Pass& pass,
                    std::span<const double> range_m, std::span<const std::uint8_t> is_background) {
-    // The beginning of a longer pass represents the whole pass.
+    // For the contrasts the beginning of a longer pass represents the whole pass.
     constexpr int most_pings = 1024;
     const int pings = std::min(pass.box.last_line - pass.box.first_line + 1, most_pings);
     const int margin = std::max(pings, 2);
@@ -143,17 +166,21 @@ SeenFacts facts_of(const RecordPicture& picture, const AnnotationRecords& record
     BinBox within = picture.side_of(box.first_bin);
     within.first_line = box.first_line;
     within.last_line = box.last_line;
-    const BinBox shadow = shadow_box(values, pass.instance, within);
-    SeenFacts seen = seen_in_records(values, pass.instance, box, shadow, range_m, is_background);
+    SeenFacts seen =
+        seen_in_records(values, pass.instance, box, shadow_box(values, pass.instance, within),
+                        range_m, is_background);
     if (picture.two_sides) {
         const bool is_port = picture.is_port(static_cast<std::size_t>(box.first_bin));
         seen.side = is_port ? "port" : "starboard";
         seen.bearing_deg = is_port ? -90.0 : 90.0;
     }
+    const WholePass whole = whole_pass(picture, records, pass, range_m);
+    whole.means.give_to(seen);
+    const BinBox& shadow = whole.shadow;
     if (shadow.is_empty()) return seen;
     const auto each = static_cast<int>(pings_per_row(records.pings()));
-    const int top = (shadow.first_line + first) / each;
-    const int bottom = (shadow.last_line + first) / each + 1;
+    const int top = shadow.first_line / each;
+    const int bottom = shadow.last_line / each + 1;
     seen.shadow = picture.is_upright ? PixelBox{top, bottom, shadow.first_bin, shadow.last_bin + 1}
                                      : PixelBox{shadow.first_bin, shadow.last_bin + 1, top, bottom};
     return seen;

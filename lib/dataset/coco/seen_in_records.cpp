@@ -58,29 +58,35 @@ std::vector<std::uint8_t> background_ids(const nlohmann::ordered_json& labels,
     return ids;
 }
 
-SeenFacts seen_in_records(const RecordValues& values, std::uint16_t id, const BinBox& box,
-                          const BinBox& shadow, std::span<const double> range_m,
-                          std::span<const std::uint8_t> is_background) {
-    SeenFacts seen;
-    double range = 0.0;
-    double share = 0.0;
-    int count = 0;
-    int with_share = 0;  // point targets in the water have none
+void ObjectMeans::add(const RecordValues& values, std::uint16_t id, const BinBox& box,
+                      std::span<const double> range_m) {
     for (int line = box.first_line; line <= box.last_line; ++line) {
         for (int bin = box.first_bin; bin <= box.last_bin; ++bin) {
             const std::size_t at = static_cast<std::size_t>(line) * values.bins + bin;
             if (values.object[at] != id) continue;
-            range += range_m[static_cast<std::size_t>(bin)];
-            ++count;
+            range_m_ += range_m[static_cast<std::size_t>(bin)];
+            ++bins_;
             if (values.visible_share.empty() || values.visible_share[at] == 0) continue;
-            share += values.visible_share[at];
-            ++with_share;
+            share_ += values.visible_share[at];
+            ++bins_with_share_;
         }
     }
-    if (count == 0) return seen;
-    seen.range_m = range / count;
+}
+
+void ObjectMeans::give_to(SeenFacts& seen) const {
     constexpr double whole = 65535.0;
-    if (with_share > 0) seen.visible_share = share / with_share / whole;
+    if (bins_ > 0) seen.range_m = range_m_ / bins_;
+    if (bins_with_share_ > 0) seen.visible_share = share_ / bins_with_share_ / whole;
+}
+
+SeenFacts seen_in_records(const RecordValues& values, std::uint16_t id, const BinBox& box,
+                          const BinBox& shadow, std::span<const double> range_m,
+                          std::span<const std::uint8_t> is_background) {
+    SeenFacts seen;
+    ObjectMeans means;
+    means.add(values, id, box, range_m);
+    if (means.is_empty()) return seen;
+    means.give_to(seen);
     if (values.level.empty()) return seen;
     const LevelMap map{values.lines,  values.bins,  values.object,
                        values.shadow, values.level, values.full_turn};

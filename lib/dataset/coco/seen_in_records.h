@@ -49,6 +49,20 @@ class AnnotationRecords {
 std::vector<std::uint8_t> background_ids(const nlohmann::ordered_json& labels,
                                          const AnnotationRules& rules);
 
+/// The mean range and visible share of an object, of whose bins those with a known share count.
+class ObjectMeans {
+  public:
+    void add(const RecordValues& values, std::uint16_t id, const BinBox& box,
+             std::span<const double> range_m);
+    bool is_empty() const { return bins_ == 0; }
+    void give_to(SeenFacts& seen) const;
+
+  private:
+    double range_m_ = 0.0, share_ = 0.0;  ///< sums
+    int bins_ = 0;
+    int bins_with_share_ = 0;  ///< point targets in the water have none
+};
+
 /// The facts of an object from the values in `box`: its mean range, visible share and contrast, and
 /// the contrast of its shadow in `shadow`. `range_m` is the range of each bin.
 SeenFacts seen_in_records(const RecordValues& values, std::uint16_t id, const BinBox& box,
