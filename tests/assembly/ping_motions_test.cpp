@@ -107,7 +107,7 @@ TEST_SUITE("assembly") {
         config.range_bins = 1200;
         const auto motion = [&] {
             std::vector<Sonar> sonars{make_sonar(config, {})};
-            add_ping_motions({}, vehicle, {}, {}, sonars);
+            add_ping_motions({}, vehicle, sonars);
             return (*sonars[0].motions)[0];
         };
         const PingMotion of_bins = motion();
