@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "trace/arrivals.h"
+#include "trace/taper.h"
 
 namespace sonarsim {
 
@@ -168,17 +169,20 @@ void find_rows(const Surfaces& surfaces, CellFootprints& out) {
         const float sum = out.s_x[k] + out.s_y[k] + out.t_x[k] + out.t_y[k];
         const bool any_area = std::fabs(sum) <= std::numeric_limits<float>::max();
 
-        const float reach1 = std::fabs(u1) + std::fabs(v1);
-        const float reach2 = std::fabs(u2) + std::fabs(v2);
+        // The rows cover a parallelogram around the trapezoid.
+        const float widest_u = 1.0F + std::fabs(out.taper_v[k]);
+        const float widest_v = 1.0F + std::fabs(out.taper_u[k]);
+        const float reach1 = std::fabs(widest_u * u1) + std::fabs(widest_v * v1);
+        const float reach2 = std::fabs(widest_u * u2) + std::fabs(widest_v * v2);
         const bool by_first = reach1 >= reach2;
         const float outer = by_first ? out.first[k] : out.second[k];
         const float inner = by_first ? out.second[k] : out.first[k];
         const float outer_reach = by_first ? reach1 : reach2;
         const float inner_reach = by_first ? reach2 : reach1;
-        const float outer_u = by_first ? u1 : u2;
-        const float inner_u = by_first ? u2 : u1;
-        const float outer_v = by_first ? v1 : v2;
-        const float inner_v = by_first ? v2 : v1;
+        const float outer_u = widest_u * (by_first ? u1 : u2);
+        const float inner_u = widest_u * (by_first ? u2 : u1);
+        const float outer_v = widest_v * (by_first ? v1 : v2);
+        const float inner_v = widest_v * (by_first ? v2 : v1);
         out.rows_along_first[k] = by_first ? 1 : 0;
         const float begin = std::floor(0.5F * (outer - outer_reach));
         const float end = std::floor(0.5F * (outer + outer_reach)) + 1.0F;
@@ -200,10 +204,15 @@ void find_rows(const Surfaces& surfaces, CellFootprints& out) {
 
 }  // namespace
 
-void find_footprints(std::span<const Sample> samples, const ScattererCells& cells,
+void find_footprints(std::span<const Sample> samples, ViewShape shape, const ScattererCells& cells,
                      const SonarInScene& sonar, CellFootprints& out) {
     const Surfaces surfaces(samples, sonar.R_world_sensor);
     out.count = surfaces.count;
+    for (int k = 0; k < out.count; ++k) {
+        const Taper taper = taper_of(samples[k], shape);
+        out.taper_u[k] = taper.u;
+        out.taper_v[k] = taper.v;
+    }
     find_levels(surfaces, cells, out);
     find_parallelograms(surfaces, sonar.sensor, cells, out);
     find_rows(surfaces, out);

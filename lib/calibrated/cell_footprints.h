@@ -33,6 +33,7 @@ struct CellFootprints {
     Array<float> height;              ///< the sample's centre along the axis
     Array<float> height_u, height_v;  ///< rise of each half edge along the axis
     Array<float> s_x, s_y, t_x, t_y;  ///< matrix from an offset off the centre to half edges
+    Array<float> taper_u, taper_v;    ///< Taper: the footprint is a trapezoid
 
     // The rows of larger cells under the footprint, counted from the base; none if it has no area.
     // Rows lie side by side along the axis on which the footprint reaches further. Row n holds the
@@ -43,8 +44,8 @@ struct CellFootprints {
     Array<float> least, greatest;
 };
 
-/// Finds the footprints of up to `most` samples.
-void find_footprints(std::span<const Sample> samples, const ScattererCells& cells,
+/// Finds the footprints of up to `most` samples in a view of this shape.
+void find_footprints(std::span<const Sample> samples, ViewShape shape, const ScattererCells& cells,
                      const SonarInScene& sonar, CellFootprints& out);
 
 }  // namespace sonarsim

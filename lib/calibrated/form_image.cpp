@@ -144,7 +144,7 @@ class ImageFormer {
         EchoGrid energy(grid.rows(), grid.columns());
         EchoGrid lagged(grid.rows(), grid.columns());
         PatchBlock block;
-        subdivide(std::span<const Sample>(beds), model_.limits, block,
+        subdivide(std::span<const Sample>(beds), view_.shape, model_.limits, block,
                   [&](const PatchBlock& patches) {
                       apply_sonar_equation(patches, sediment.volume, model_.equation, echoes_);
                       find_columns(beams_, patches, echoes_);
@@ -189,18 +189,19 @@ class ImageFormer {
         if (speckle_ == SpeckleMode::scene) {
             Scatterers block;
             Amplitudes amplitudes;
-            find_scatterers(
-                surface, model_.cells, sonar_, scene_draws_, block, [&](const Scatterers& found) {
-                    find(found.pieces);
-                    draw_amplitudes(found, echoes_, model_.cells, sonar_, scene_draws_, amplitudes);
-                    add_amplitudes(beams_, found.pieces, echoes_, amplitudes, grid);
-                });
+            find_scatterers(surface, view_.shape, model_.cells, sonar_, scene_draws_, block,
+                            [&](const Scatterers& found) {
+                                find(found.pieces);
+                                draw_amplitudes(found, echoes_, model_.cells, sonar_, scene_draws_,
+                                                amplitudes);
+                                add_amplitudes(beams_, found.pieces, echoes_, amplitudes, grid);
+                            });
             return;
         }
         PatchBlock block;
         PointLimits limits = model_.limits;
         if (speckle_ == SpeckleMode::ping) limits.depth_m *= deeper_patches;
-        subdivide(surface, limits, block, [&](const PatchBlock& patches) {
+        subdivide(surface, view_.shape, limits, block, [&](const PatchBlock& patches) {
             find(patches);
             add_powers(beams_, patches, echoes_, grid);
         });

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "trace/arrivals.h"
+#include "trace/taper.h"
 #include "visibility/engine.h"
 
 namespace sonarsim {
@@ -52,10 +53,11 @@ inline int patches_along(const Eigen::Vector3f& half_edge, const Eigen::Vector3f
     return static_cast<int>(std::ceil(std::min(wanted, most)));
 }
 
-/// Cuts samples into pieces and hands these to `use`, a block at a time.
+/// Cuts samples into pieces and hands these to `use`, a block at a time. With the shape of the
+/// view, pieces have shares of the area by the widths of the footprint.
 template <class Use>
-void subdivide(std::span<const Sample> samples, const PointLimits& limits, PatchBlock& pieces,
-               Use use) {
+void subdivide(std::span<const Sample> samples, std::optional<ViewShape> shape,
+               const PointLimits& limits, PatchBlock& pieces, Use use) {
     pieces.count = 0;
     for (std::uint32_t number = 0; number < samples.size(); ++number) {
         const Sample& sample = samples[number];
@@ -69,11 +71,17 @@ void subdivide(std::span<const Sample> samples, const PointLimits& limits, Patch
         const Eigen::Vector3f& across = by_u > by_v ? sample.edge_v : sample.edge_u;
         const Eigen::Vector3f& along = by_u > by_v ? sample.edge_u : sample.edge_v;
         const float area = sample.area_m2 * sample.strength / static_cast<float>(rows * columns);
+        const Taper taper = taper_of(sample, shape);
+        const float taper_across = by_u > by_v ? taper.v : taper.u;
+        const float taper_along = by_u > by_v ? taper.u : taper.v;
+        const float area_step = area * taper_along * 2.0F / static_cast<float>(columns);
         const Eigen::Vector3f step_u = 2.0F / static_cast<float>(rows) * across;
         const Eigen::Vector3f step_v = 2.0F / static_cast<float>(columns) * along;
         for (int i = 0; i < rows; ++i) {
             const Eigen::Vector3f row =
                 sample.position + (static_cast<float>(i) + 0.5F) * step_u - across - along;
+            const float share = (2.0F * static_cast<float>(i) + 1.0F) / static_cast<float>(rows);
+            const float area_of_row = area * (1.0F + taper_across * (share - 1.0F) - taper_along);
             for (int first = 0; first < columns; first += PatchBlock::spare) {
                 if (pieces.count > PatchBlock::most - PatchBlock::spare) {
                     use(pieces);
@@ -89,7 +97,7 @@ void subdivide(std::span<const Sample> samples, const PointLimits& limits, Patch
                 along_row(pieces.x, row.x(), step_v.x());
                 along_row(pieces.y, row.y(), step_v.y());
                 along_row(pieces.z, row.z(), step_v.z());
-                std::fill_n(pieces.area_m2.data() + at, PatchBlock::spare, area);
+                along_row(pieces.area_m2, area_of_row, area_step);
                 std::fill_n(pieces.height_m.data() + at, PatchBlock::spare, sample.height_m);
                 std::fill_n(pieces.material.data() + at, PatchBlock::spare, sample.material);
                 std::fill_n(pieces.sample.data() + at, PatchBlock::spare, number);

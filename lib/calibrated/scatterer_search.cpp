@@ -102,10 +102,10 @@ class Search {
         block_.pieces.count = 0;
     }
 
-    void add(std::span<const Sample> samples, const ScattererCells& cells,
+    void add(std::span<const Sample> samples, ViewShape shape, const ScattererCells& cells,
              const SonarInScene& sonar) {
         samples_ = samples;
-        find_footprints(samples, cells, sonar, footprints_);
+        find_footprints(samples, shape, cells, sonar, footprints_);
         whole_.count = split_.count = 0;
         for (int k = 0; k < footprints_.count; ++k) {
             whole_.begin[k] = whole_.count;
@@ -221,7 +221,10 @@ int Search::keep(int k, Ints8 column, Ints8 row, Ints8 bits, unsigned mask, int 
     const Floats8 y = fms(edges, to_floats(row) + point_along_second(bits), p.second[k]);
     const Floats8 s = fma(x, p.s_x[k], y * p.s_y[k]);
     const Floats8 t = fma(x, p.t_x[k], y * p.t_y[k]);
-    const Mask8 inside = (s >= -1.0F) & (s < 1.0F) & ((t >= -1.0F) & (t < 1.0F));
+    const Floats8 half_u = fma(t, p.taper_v[k], 1.0F);
+    const Floats8 half_v = fma(s, p.taper_u[k], 1.0F);
+    const Mask8 inside =
+        (s >= 0.0F - half_u) & (s < half_u) & ((t >= 0.0F - half_v) & (t < half_v));
     const ToFront front(mask & inside.bits());
     front(s).store(s_.data() + to);
     front(t).store(t_.data() + to);
@@ -285,13 +288,14 @@ void Search::complete(const Run& run) {
 
 }  // namespace
 
-void find_scatterers(std::span<const Sample> samples, const ScattererCells& cells,
+void find_scatterers(std::span<const Sample> samples, ViewShape shape, const ScattererCells& cells,
                      const SonarInScene& sonar, PhiloxKey key, Scatterers& block,
                      const std::function<void(const Scatterers&)>& use) {
     constexpr std::size_t batch = CellFootprints::most;
     Search search(key, block, use);
     for (std::size_t first = 0; first < samples.size(); first += batch)
-        search.add(samples.subspan(first, std::min(batch, samples.size() - first)), cells, sonar);
+        search.add(samples.subspan(first, std::min(batch, samples.size() - first)), shape, cells,
+                   sonar);
     search.flush();
 }
 

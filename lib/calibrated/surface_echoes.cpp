@@ -56,10 +56,11 @@ std::vector<Sample> samples_of(const TargetSurface& targets) {
 template <class Beams>
 class SurfaceEchoFinder {
   public:
-    SurfaceEchoFinder(const CalibratedModel& model, const Beams& beams, const Scene& scene,
-                      bool patches)
+    SurfaceEchoFinder(const CalibratedModel& model, const Beams& beams, ViewShape shape,
+                      const Scene& scene, bool patches)
         : model_(model),
           beams_(beams),
+          shape_(shape),
           limits_(label_limits(model)),
           scattering_(model, scene),
           patches_(patches) {}
@@ -73,7 +74,7 @@ class SurfaceEchoFinder {
             return cut;
         };
         const auto half_sine = [&](int k) { return cut_at(k).half.sine; };
-        subdivide(surface, limits_, pieces_, [&](const PatchBlock& pieces) {
+        subdivide(surface, shape_, limits_, pieces_, [&](const PatchBlock& pieces) {
             last_piece_ = -1;
             apply_sonar_equation(pieces, *scattering_, model_.equation, echoes_);
             for_each_beam(pieces, echoes_, nullptr, half_sine, [&](int beam, int k, float power) {
@@ -149,7 +150,7 @@ class SurfaceEchoFinder {
     /// The labels of retraced echoes are those of their first reflectors.
     void add_retraced(const TracedPing& traced) {
         const std::span<const Sample> seen = traced.retraced.samples;
-        subdivide(seen, limits_, pieces_, [&](const PatchBlock& pieces) {
+        subdivide(seen, {}, limits_, pieces_, [&](const PatchBlock& pieces) {
             apply_sonar_equation(pieces, *scattering_, model_.equation, echoes_);
             const auto cut_at = [&](int k) { return cut_of(seen[pieces.sample[k]], limits_); };
             const auto half_sine = [&](int k) { return cut_at(k).half.sine; };
@@ -249,6 +250,7 @@ class SurfaceEchoFinder {
 
     const CalibratedModel& model_;
     const Beams& beams_;
+    ViewShape shape_;
     PointLimits limits_;  ///< for direct echoes
     ScatteringOfScene scattering_;
     bool patches_;
@@ -268,7 +270,7 @@ SurfaceEchoes CalibratedModel::surface_echoes(const TracedPing& traced, const Vi
                                               const Scene& scene, bool patches) const {
     return std::visit(
         [&]<class Beams>(const Beams& of_model) {
-            SurfaceEchoFinder<Beams> finder(*this, of_model, scene, patches);
+            SurfaceEchoFinder<Beams> finder(*this, of_model, view.shape, scene, patches);
             finder.add_surface(traced.samples.items, traced.targets);
             finder.add_surface(traced.outside_sector, traced.targets);
             finder.add_targets(traced.targets, slopes_of(scene.materials));

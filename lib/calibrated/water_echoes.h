@@ -56,7 +56,7 @@ void find_particles(const CalibratedModel& model, const Beams& beams,
     const Scattering unit = unit_scattering();
     PatchBlock block;
     PointEchoes echoes;
-    subdivide(particles, {}, block, [&](PatchBlock& points) {
+    subdivide(particles, {}, {}, block, [&](PatchBlock& points) {
         points.material.fill(0);
         counts.echoes += points.count;
         counts.out_of_range += apply_sonar_equation(points, unit, model.equation, echoes);
@@ -102,14 +102,14 @@ void add_particle_powers(const CalibratedModel& model, const Beams& beams,
                    });
 }
 
-/// Adds the powers of a surface to a grid.
+/// Adds the powers of a surface to a grid. Its footprints are taken for parallelograms.
 template <class Beams>
 void add_surface_powers(const CalibratedModel& model, const Beams& beams,
                         std::span<const Sample> surface, const Scattering& scattering,
                         PingCounts& counts, EchoGrid& grid) {
     PatchBlock block;
     PointEchoes echoes;
-    subdivide(surface, model.limits, block, [&](const PatchBlock& patches) {
+    subdivide(surface, {}, model.limits, block, [&](const PatchBlock& patches) {
         counts.echoes += patches.count;
         counts.out_of_range += apply_sonar_equation(patches, scattering, model.equation, echoes);
         counts.out_of_range += find_columns(beams, patches, echoes);

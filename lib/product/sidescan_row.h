@@ -16,8 +16,8 @@ namespace sonarsim {
 /// The number of columns between nadir and range_min on each side: range_min in bins, rounded.
 int blank_columns(const SonarConfig& config);
 
-/// What is added to the distance of a column from nadir to get its slant range, at most half a bin
-/// to either side of 0: range_min may be no multiple of a bin.
+/// The slant range of a column less its distance from nadir, at most half a bin to either side of
+/// 0: range_min may be no multiple of a bin.
 double column_offset_m(const SonarConfig& config);
 
 /// The number of columns of the whole row.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "trace/arrivals.h"
+#include "trace/taper.h"
 #include "trace/true_place.h"
 
 namespace sonarsim {
@@ -14,6 +15,7 @@ namespace {
 /// A part of a sample, in the sensor frame and on the map.
 struct MapPiece {
     Eigen::Vector3f position, u, v;  ///< centre and half edges
+    Taper taper;
     GroundFootprint ground;
     float area_m2;
 
@@ -21,15 +23,21 @@ struct MapPiece {
     MapPiece between(double low, double high) const {
         const double middle = 0.5 * (low + high);
         const double share = 0.5 * (high - low);
+        const float width = 1.0F + taper.u * static_cast<float>(middle);  // over the mean
         MapPiece out = *this;
         out.position += static_cast<float>(middle) * u;
         out.u *= static_cast<float>(share);
+        out.v *= width;
+        if (width > 0.0F)
+            out.taper = {taper.u * static_cast<float>(share) / width, taper.v / width};
         out.ground.centre += middle * ground.u;
         out.ground.u *= share;
-        out.area_m2 *= static_cast<float>(share);
+        out.ground.v *= static_cast<double>(width);
+        out.area_m2 *= static_cast<float>(share) * width;
         return out;
     }
     void swap_edges() {
+        std::swap(taper.u, taper.v);
         std::swap(u, v);
         std::swap(ground.u, ground.v);
     }
@@ -45,6 +53,7 @@ class MapLayer {
           pose_(T_world_sensor),
           R_(T_world_sensor.rotation.toRotationMatrix().topRows<2>()),
           sensor_(T_world_sensor.translation.head<2>()),
+          shape_(view.shape),
           range_min_m_(static_cast<float>(view.range_min_m)),
           bin_m_(static_cast<float>(view.bin_m())),
           depth_m_(static_cast<float>(size * depth_in_bins * view.bin_m())),
@@ -63,6 +72,7 @@ class MapLayer {
             sample.position,
             sample.edge_u,
             sample.edge_v,
+            taper_of(sample, shape_),
             {ground_of(sample.position), from_above(sample.edge_u), from_above(sample.edge_v)},
             sample.area_m2};
         if (maps_.are_by_uv()) find_ground(piece);
@@ -172,6 +182,7 @@ class MapLayer {
     const Pose& pose_;
     Eigen::Matrix<double, 2, 3> R_;  ///< from the sensor frame to the world's x and y
     Eigen::Vector2d sensor_;
+    ViewShape shape_;
     float range_min_m_, bin_m_;
     float depth_m_, sine_y_, sine_z_;  ///< the greatest extents of a piece
     const Sample* sample_ = nullptr;

@@ -177,10 +177,15 @@ class Reader(Sandbox):
             self.assert_renders("--overwrite", "--out", "other", "--set", f"output.fan={fan}", *more)
             sample = dict(self.open("other")["fls"][0])
             self.assertEqual(sample["fan"][:len(begins)], begins)
-            result = subprocess.run([sys.executable, "-B", SCRIPTS / "sonarsim_data.py", self.folder / "other"],
-                                    capture_output=True, text=True, check=False)
-            self.assertEqual(result.returncode, 0, result.stderr)
-            self.assertRegex(result.stdout, r"fan +bytes of a JPEG or WebP\n")
+            self.assertRegex(self.describe("other"), r"fan +bytes of a JPEG or WebP\n")
+
+    def describe(self, folder="out", **variables):
+        """What the command prints of the dataset."""
+        result = subprocess.run([sys.executable, "-B", SCRIPTS / "sonarsim_data.py", self.folder / folder],
+                                capture_output=True, text=True, check=False, encoding="utf-8",
+                                env={**os.environ, **variables})
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result.stdout
 
     def test_names_in_any_locale(self):
         gltf = self.folder / "box.gltf"

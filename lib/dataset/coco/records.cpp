@@ -124,7 +124,7 @@ Passes passes_of(const RecordPicture& picture, const AnnotationRecords& records)
     return out;
 }
 
-/// What is known of all pings of a pass.
+/// Facts of all pings of a pass.
 struct WholePass {
     ObjectMeans means;
     BinBox shadow;  ///< lines are pings
