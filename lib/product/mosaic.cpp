@@ -11,9 +11,6 @@ namespace sonarsim {
 
 namespace {
 
-/// The same as in first_returns().
-constexpr double level_brighter_share = 0.1;
-
 /// The echo at a slant range, 0 beyond the row. `side`: 1 is port, -1 starboard.
 float echo_at(const Sonar& sonar, std::span<const float> row, double slant_m, int side) {
     const auto half = static_cast<std::ptrdiff_t>(row.size() / 2);
@@ -35,7 +32,7 @@ std::optional<Swath> swath_of(const Sonar& sonar, const Pose& T_world_sensor,
         std::vector<float> column;
         for (std::size_t k = blank; k < half; ++k)
             column.push_back(row[side > 0 ? half - 1 - k : half + k]);
-        const std::optional<int> bin = first_return(column, level_brighter_share);
+        const std::optional<int> bin = first_return_of_swath(column);
         if (!bin) continue;
         const double range =
             (static_cast<double>(blank) + *bin + 0.5) * bin_m + column_offset_m(sonar.config);

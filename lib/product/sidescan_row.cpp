@@ -11,9 +11,6 @@ namespace {
 constexpr int starboard = 0;  // the beams of a side-scan ping
 constexpr int port = 1;
 
-/// Strong targets on up to a tenth of a side do not change the level of its bottom.
-constexpr double brighter_share = 0.1;
-
 double width_of_bin_m(const SonarConfig& config) {
     return (config.range_max_m - config.range_min_m) / config.range_bins;
 }
@@ -22,7 +19,7 @@ std::optional<double> first_return_m(const Sonar& sonar, const Ping& ping, int b
     std::vector<float> column(ping.range_bins);
     for (int i = 0; i < ping.range_bins; ++i)
         column[i] = ping.at(i, beam);
-    const std::optional<int> bin = first_return(column, brighter_share);
+    const std::optional<int> bin = first_return_of_swath(column);
     if (!bin) return std::nullopt;
     return 0.5 * (sonar.range_edges_m[*bin] + sonar.range_edges_m[*bin + 1]);
 }

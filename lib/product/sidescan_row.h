@@ -27,8 +27,8 @@ int waterfall_columns(const SonarConfig& config);
 /// where the sonar does not listen.
 std::vector<std::int32_t> waterfall_bins(const SonarConfig& config);
 
-/// Slant range of the first bottom return on each side, m: the middle of its bin (first_return() in
-/// product/bottom.h). Nothing if the side is dark.
+/// Slant range of the first bottom return on each side, m: the middle of its bin
+/// (first_return_of_swath()). Nothing if the side is dark.
 struct FirstReturns {
     std::optional<double> port_m;
     std::optional<double> starboard_m;

@@ -88,6 +88,35 @@ TEST_SUITE("product") {
         CHECK(worst <= 1);
     }
 
+    TEST_CASE("bottom: a swath that is faint at nadir has its first return there") {
+        // As a side-scan sonar whose beam points to the side: the bottom from bin 400 of 1,500 on,
+        // first 20 dB and then less below its level; the water 38 dB below. Speckle over all.
+        std::mt19937 random(7);
+        std::exponential_distribution<double> speckle;
+        for (int trial = 0; trial < 200; ++trial) {
+            std::vector<float> column(1500);
+            for (int i = 0; i < 1500; ++i) {
+                const double beam = std::clamp((i - 390) / 150.0, 0.0, 1.0);
+                const double mean = i < 400 ? 1.5e-4 : 0.01 + beam * beam;
+                column[i] = static_cast<float>(mean * speckle(random));
+            }
+            CAPTURE(trial);
+            CHECK(first_return(column, 0.1).value() > 440);
+            const int first = first_return_of_swath(column).value();
+            CHECK((400 <= first && first < 425));
+        }
+    }
+
+    TEST_CASE("bottom: the first return of a swath under noise is that at half of the level") {
+        CHECK_FALSE(first_return_of_swath({}));
+        CHECK_FALSE(first_return_of_swath(std::vector<float>(20, 0.0F)));
+        std::vector<float> column(100, 0.05F);
+        std::fill(column.begin() + 30, column.end(), 0.3F);
+        CHECK(first_return_of_swath(column) == 30);
+        column[20] = 0.12F;  // neither does a bin of noise change it
+        CHECK(first_return_of_swath(column) == 30);
+    }
+
     TEST_CASE("gain: one occupied value in a hundred is brighter") {
         Gain gain;
         CHECK(gain.white() == 1.0);
