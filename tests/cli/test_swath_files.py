@@ -115,6 +115,19 @@ class SwathFiles(Sandbox):
         self.assertAlmostEqual((brightest + 0.5) * 0.1, near, delta=1.0)
         self.assertGreater(max(beside[1].samples), 3 * max(beside[0].samples))
 
+    def test_xtf_of_a_turned_mount(self):
+        """The channels are port and starboard of the heading, that of the sonar: the block is to port of one that
+        faces astern. A mount that rolls by 10 degrees rolls the sonar."""
+        self.edit("mission.yaml", "kind: sidescan,", "kind: sidescan, mount: {rpy_deg: [10, 0, 180]},")
+        self.assert_renders("--overwrite")
+        _, pings = read_xtf((self.out / "sss/waterfall.xtf").read_bytes())
+        for ping in pings:
+            self.assertAlmostEqual(ping.heading, 270, delta=1e-4)
+            self.assertAlmostEqual(ping.pitch, 0, delta=1e-4)
+            self.assertAlmostEqual(ping.roll, 10, delta=1e-4)
+        port, starboard = pings[44].channels
+        self.assertGreater(max(port.samples), 3 * max(starboard.samples))
+
     @unittest.skipIf(shutil.which("gdalinfo") is None, "needs gdalinfo")
     def test_mosaic(self):
         path = self.out / "sss/mosaic.tif"

@@ -45,11 +45,16 @@ void for_each_row(const WriterContext& context, const RecordFile& rows,
     }
 }
 
+/// Heading, pitch and roll of the body of a sonar that looks down: those of the vehicle, turned by
+/// the mount. Its channels are port and starboard of this heading.
+Rpy body_attitude(const Pose& T_world_sensor) {
+    return rpy_from_rotation(T_world_sensor.rotation * rotation_from_rpy(0.0, -0.5 * pi, 0.0));
+}
+
 XtfPing xtf_ping(const WriterContext& context, const RecordedRow& row) {
     const SonarConfig& config = context.sonar().config;
     const Trajectory& trajectory = context.assembly.trajectory;
-    const Pose& T_world_vehicle = trajectory[row.pose].T_world_vehicle;
-    const Rpy attitude = rpy_from_rotation(T_world_vehicle.rotation);
+    const Rpy attitude = body_attitude(row.T_world_sensor);
     const std::size_t next = row.pose + static_cast<std::size_t>(config.every);
     const Eigen::Vector3d& position = row.T_world_sensor.translation;
     return {.number = static_cast<std::uint32_t>(row.pose),
