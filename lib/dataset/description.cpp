@@ -12,17 +12,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The properties of a build that the bytes of a dataset depend on.
-std::string bytes_of_build(const Json& description) {
-    const Json build = description.value("build", Json());
-    std::string text;
-    for (const char* key : {"arithmetic", "png_encoder"}) {
-        const bool known = build.is_object() && build.contains(key) && build[key].is_string();
-        text += (text.empty() ? "" : ", ") + (known ? build[key].get<std::string>() : "unknown");
-    }
-    return text;
-}
-
 /// Returns false if `visit` did.
 bool visit_pings(const DescribedSensor& sensor, const std::string& kind, const std::string& pattern,
                  const std::function<bool(const DescribedFile&)>& visit) {
@@ -64,6 +53,16 @@ std::string changed_inputs(const Json& found, const Json& expected) {
 }
 
 }  // namespace
+
+std::string bytes_of_build(const Json& description) {
+    const Json build = description.value("build", Json());
+    std::string text;
+    for (const char* key : {"arithmetic", "png_encoder"}) {
+        const bool known = build.is_object() && build.contains(key) && build[key].is_string();
+        text += (text.empty() ? "" : ", ") + (known ? build[key].get<std::string>() : "unknown");
+    }
+    return text;
+}
 
 std::string difference_between(const Json& found, const Json& expected) {
     const auto differs = [&](const char* key) {

@@ -16,6 +16,9 @@ inline constexpr const char* of_another_mission = "of another mission";
 std::string difference_between(const nlohmann::ordered_json& found,
                                const nlohmann::ordered_json& expected);
 
+/// The properties of a dataset's build that its bytes depend on, as text. Keys need not be checked.
+std::string bytes_of_build(const nlohmann::ordered_json& description);
+
 /// A file of a dataset.
 struct DescribedFile {
     std::string name;                         ///< relative to the folder of the dataset

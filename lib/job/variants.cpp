@@ -18,6 +18,7 @@
 #include "job/folder.h"
 #include "job/folder_lock.h"
 #include "job/joined_labels.h"
+#include "job/variant_inputs.h"
 #include "mission/resolved.h"
 #include "mission/variants.h"
 #include "scene/gltf/scene_files.h"
@@ -233,7 +234,9 @@ void begin_variants(const fs::path& folder, const Json& json, std::span<const Mi
 }
 
 void finish_variants(const fs::path& folder, const Json& json) {
-    write_label_files(folder, json, folders_of_variants(folder, json), common_sums(json));
+    const std::vector<fs::path> folders = folders_of_variants(folder, json);
+    require_same_inputs(folders);  // shards that began at the same time did not see each other
+    write_label_files(folder, json, folders, common_sums(json));
 }
 
 RenderSummary run_variants(const Mission& mission, std::span<const Mission> variants,
@@ -266,9 +269,12 @@ RenderSummary run_variants(const Mission& mission, std::span<const Mission> vari
         if (options.files && !lock) {
             // InputError before anything is written.
             const std::vector<Writers> writers = make_writers(variants[i], assembly);
-            protect_inputs(make_layout(variants[i], writers, assembly.trajectory.size()),
-                           variants[i]);
+            const Layout layout = make_layout(variants[i], writers, assembly.trajectory.size());
+            protect_inputs(layout, variants[i]);
             lock.emplace(enter(folder, json, variants, options));
+            // The variants of other shards: run_job() compares those of this one.
+            require_same_inputs(folders_of_variants(folder, json),
+                                describe_dataset(variants[i], assembly, layout, writers));
             all.unlocked = !lock->works();
         }
         const RenderSummary one = run_job(variants[i], assembly, one_by_one, nullptr, stop);

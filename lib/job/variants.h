@@ -56,7 +56,8 @@ std::optional<nlohmann::ordered_json> inspect_variants(const std::filesystem::pa
 void begin_variants(const std::filesystem::path& folder, const nlohmann::ordered_json& json,
                     std::span<const Mission> variants, bool overwrite);
 
-/// Writes the joined labels of variants that are all complete.
+/// Writes the joined labels of variants that are all complete. InputError if they were made from
+/// different files.
 void finish_variants(const std::filesystem::path& folder, const nlohmann::ordered_json& json);
 
 /// True if the folder holds a dataset that is complete.

@@ -11,6 +11,7 @@
 #include "job/checksums.h"
 #include "job/folder_lock.h"
 #include "job/joined_labels.h"
+#include "job/variant_inputs.h"
 #include "job/variants.h"
 
 namespace sonarsim {
@@ -151,6 +152,10 @@ MergeSummary merge_variants(const std::vector<fs::path>& parts, const fs::path& 
                          " is in none of the parts; render what is missing, or name its "
                          "folder, too");
     }
+    std::vector<fs::path> all_sources;
+    for (const std::vector<fs::path>& own : sources)
+        all_sources.insert(all_sources.end(), own.begin(), own.end());
+    require_same_inputs(all_sources);
     const FolderLock lock = lock_alone(out);
     begin_variants(out, json, {}, false);
     MergeSummary all{.unlocked = !lock.works()};

@@ -3,7 +3,7 @@ import json
 import shutil
 import unittest
 
-from sandbox import Sandbox, digest
+from sandbox import Sandbox, box_gltf, digest
 
 VARY = """
 variants: 6
@@ -128,6 +128,35 @@ class Variants(Sandbox):
         result = self.run_sonarsim("verify", "joined")
         self.assertEqual(result.returncode, 1)
         self.assertIn("variant_0003", result.stderr)
+
+    def test_shards_need_the_same_input_files(self):
+        materials = self.folder / "materials.csv"
+        changed = materials.read_text().replace("2400", "2500")
+        for k in (1, 2):
+            self.assert_renders("--shard", f"{k}/2", "--out", f"part{k}")
+            materials.write_text(changed)
+        self.assert_refused(self.run_sonarsim("merge", "part1", "part2", "joined"),
+                            "variant_0001", 'differs from', 'in "materials.csv"')
+        self.assertFalse((self.folder / "joined").exists())
+        self.assert_refused(self.render("--shard", "2/2", "--out", "part1"),
+                            "variant_0000", "differs from the files of this run", '"materials.csv"')
+        self.assertFalse((self.folder / "part1/variant_0001").exists())
+        # Shards that begin at the same time.
+        (self.folder / "part2/variant_0001").rename(self.folder / "part1/variant_0001")
+        for k in (3, 5):
+            shutil.move(self.folder / f"part2/variant_000{k}", self.folder / "part1")
+        self.assert_refused(self.render("--shard", "2/2", "--out", "part1"), '"materials.csv"')
+
+    def test_variants_with_files_of_their_own_are_rendered(self):
+        for name in ("one", "two"):
+            self.write(f"{name}/box.gltf", (self.folder / "box.gltf").read_text())
+        self.write("two/box.gltf", box_gltf((2.5, 1.5, 2.0)))
+        self.edit("mission.yaml", "vary:\n", "vary:\n"
+                  "  - {key: scene.file, choice: [one/box.gltf, two/box.gltf]}\n")
+        for k in (1, 2):
+            self.assert_renders("--shard", f"{k}/2")
+        self.assertEqual(len({one["drawn"]["scene.file"] for one in self.index()}), 2)
+        self.assertEqual(self.run_sonarsim("verify", "out").returncode, 0)
 
     def test_merge_into_variants_of_another_mission(self):
         self.assert_renders()
