@@ -167,8 +167,8 @@ void print_collection(std::size_t datasets, const LabelFindings& labels, bool as
 int status(const StatusArguments& arguments) {
     start_logging(arguments.log);
     const std::filesystem::path& first = arguments.folders.at(0);
-    if (arguments.folders.size() == 1 && read_variants(first)) {
-        const VariantsStatus variants = read_variants_status(first);
+    if (read_variants(first)) {
+        const VariantsStatus variants = read_variants_status(arguments.folders);
         LabelFindings labels;
         if (variants.complete == variants.variants) labels = read_findings(first);
         print_variants(variants, labels, arguments.log.json);

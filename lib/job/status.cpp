@@ -132,18 +132,31 @@ JobStatus read_status(const std::vector<fs::path>& folders) {
     return status;
 }
 
-VariantsStatus read_variants_status(const fs::path& folder) {
+VariantsStatus read_variants_status(const std::vector<fs::path>& folders) {
     VariantsStatus status;
-    const std::optional<Json> json = read_variants(folder);
-    if (!json) throw InputError({folder.string()}, "holds no variants of a sonarsim mission");
-    for (const fs::path& variant : folders_of_variants(folder, *json)) {
+    const std::optional<Json> json = read_variants(folders.at(0));
+    for (const fs::path& folder : folders) {
+        const std::optional<Json> own = read_variants(folder);
+        if (!own) throw InputError({folder.string()}, "holds no variants of a sonarsim mission");
+        if (*own == *json) continue;
+        throw InputError({folder.string()},
+                         "holds variants of another mission, seed or version of sonarsim than " +
+                             folders[0].string() + variants_difference(*own, *json));
+    }
+    for (const fs::path& name : folders_of_variants("", *json)) {
         ++status.variants;
-        if (!fs::exists(variant / description_name)) continue;
-        JobStatus one = read_status({variant});
+        std::vector<fs::path> begun;  // the folders of this variant
+        for (const fs::path& folder : folders) {
+            if (fs::exists(folder / name / description_name)) begun.push_back(folder / name);
+        }
+        if (begun.empty()) continue;
+        // A variant that is complete somewhere is complete.
+        std::ranges::stable_partition(begun, is_complete);
+        JobStatus one = read_status(begun);
         if (one.complete) {
             ++status.complete;
         } else {
-            status.under_way.emplace_back(variant.filename().string(), std::move(one));
+            status.under_way.emplace_back(name.string(), std::move(one));
         }
     }
     return status;

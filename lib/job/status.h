@@ -49,7 +49,8 @@ struct VariantsStatus {
     std::vector<std::pair<std::string, JobStatus>> under_way;  ///< begun, not complete, by folder
 };
 
-/// As read_status(), for a folder with a variants.json.
-VariantsStatus read_variants_status(const std::filesystem::path& folder);
+/// As read_status(), for folders with a variants.json. InputError when one of them has none, or
+/// that of another mission than the first.
+VariantsStatus read_variants_status(const std::vector<std::filesystem::path>& folders);
 
 }  // namespace sonarsim

@@ -60,6 +60,11 @@ class Status(Sandbox):
                    "  - {key: sensors.fls.noise.add_sigma, uniform: [0.01, 0.02]}\n")
         self.assert_renders("--shard", "1/2")
         self.assertEqual(self.status("out"), {"variants": 3, "complete": 2, "under_way": {}})
+        self.assert_renders("--shard", "2/2", "--out", "part2")
+        self.assertEqual(self.status("out", "part2"), {"variants": 3, "complete": 3, "under_way": {}})
+        self.assert_renders("--seed", "8", "--out", "other")
+        self.assert_refused(self.run_sonarsim("status", "out", "other"), "seed: 8 there, 7 here")
+        self.assert_refused(self.run_sonarsim("status", "out", "other/variant_0000"), "no variants")
 
     def test_what_is_no_dataset(self):
         self.assert_refused(self.run_sonarsim("status", "."), "is no dataset")
