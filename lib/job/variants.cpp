@@ -289,6 +289,8 @@ RenderSummary run_variants(const Mission& mission, std::span<const Mission> vari
         }
         if (progress) progress(++done, total);
     }
+    // A shard without a variant makes its folder, too: merge takes those of all shards.
+    if (options.files && !lock) lock.emplace(enter(folder, json, variants, options));
     for (std::size_t i = 0; i < variants.size(); ++i)
         all.complete = all.complete && (is_ours(i) || is_complete(variants[i].output.folder));
     if (all.complete) finish_variants(folder, json);

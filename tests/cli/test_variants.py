@@ -147,6 +147,15 @@ class Variants(Sandbox):
             shutil.move(self.folder / f"part2/variant_000{k}", self.folder / "part1")
         self.assert_refused(self.render("--shard", "2/2", "--out", "part1"), '"materials.csv"')
 
+    def test_more_shards_than_variants(self):
+        self.assert_renders("--set", "variants=2")
+        parts = [f"part{k}" for k in (1, 2, 3)]
+        for k, part in enumerate(parts, 1):
+            self.assert_renders("--set", "variants=2", "--shard", f"{k}/3", "--out", part)
+        result = self.run_sonarsim("merge", *parts, "joined")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(digest(self.folder / "joined"), digest(self.out))
+
     def test_variants_with_files_of_their_own_are_rendered(self):
         for name in ("one", "two"):
             self.write(f"{name}/box.gltf", (self.folder / "box.gltf").read_text())
