@@ -28,7 +28,7 @@ std::string drawn_texts(const Json& description) {
     return texts;
 }
 
-/// What of a variant must be the same in the others with its texts, by name.
+/// The properties, by name, that variants with the same texts must share.
 std::map<std::string, std::string> inputs_of(const Json& description) {
     std::map<std::string, std::string> inputs{{"the build", bytes_of_build(description)}};
     for (const Json& input : description.value("inputs", Json::array())) {
