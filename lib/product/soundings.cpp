@@ -47,6 +47,23 @@ void divide_by_background(std::span<double> beam, std::span<const float> noise) 
         beam[i] /= constant + noise[i];
 }
 
+/// The place that a beam measures at a range, in the frame at reception. The fan transmits at
+/// elevation 0 in the frame at transmission, which a fan that moves has left since.
+Eigen::Vector3d on_axis(const PingMotion& motion, ViewShape shape, double azimuth_rad,
+                        double range_m) {
+    const SinCos azimuth = sincos(azimuth_rad);
+    Eigen::Vector3d place = range_m * Eigen::Vector3d(azimuth.cos, azimuth.sin, 0.0);
+    if (motion.is_still()) return place;
+    double elevation_rad = 0.0;
+    for (int k = 0; k < 3; ++k) {  // each step reduces the error about a hundredfold
+        elevation_rad -= unmoved_place(motion, shape, place).z() / range_m;
+        const SinCos elevation = sincos(elevation_rad);
+        place = range_m * Eigen::Vector3d(elevation.cos * azimuth.cos, elevation.cos * azimuth.sin,
+                                          elevation.sin);
+    }
+    return place;
+}
+
 }  // namespace
 
 int beams_with_sounding(const Ping& ping) {
@@ -59,8 +76,14 @@ int beams_with_sounding(const Ping& ping) {
 }
 
 std::vector<Sounding> find_soundings(const Sonar& sonar, const Pose& T_world_vehicle,
-                                     const Ping& ping) {
+                                     const Ping& ping, const PingMotion& motion) {
     const Pose T_world_sensor = T_world_vehicle * sonar.T_vehicle_sensor;
+    const ViewShape shape = sonar.settings.view.shape;
+    // The instrument knows its poses in the ping, but not the shift of a pulse that sweeps.
+    PingMotion known = motion;
+    known.doppler_s = 0.0;
+    const TruePlaces reported{T_world_sensor, sonar.assumed_profile.get(), known, shape};
+    const TruePlaces true_places{T_world_sensor, sonar.true_profile.get(), motion, shape};
     const std::span<const float> growth = sonar.settings.model->noise_growth();
     const std::span<const float> noise = sonar.settings.model->mean_noise();
     std::vector<Sounding> soundings(ping.beams);
@@ -71,13 +94,11 @@ std::vector<Sounding> find_soundings(const Sonar& sonar, const Pose& T_world_veh
         if (!noise.empty()) divide_by_background(beam, noise);
         soundings[j] = sounding_of_beam(sonar, beam);
         if (std::isnan(soundings[j].range_m)) continue;
-        const SinCos azimuth = sincos(sonar.beam_azimuths_rad[j]);
-        const Eigen::Vector3d ray(azimuth.cos, azimuth.sin, 0.0);
-        const Eigen::Vector3d measured = soundings[j].range_m * ray;
-        soundings[j].position = true_place(sonar.assumed_profile.get(), T_world_sensor, measured);
+        const double azimuth = sonar.beam_azimuths_rad[j];
+        const double range = soundings[j].range_m;
+        soundings[j].position = reported.of(on_axis(known, shape, azimuth, range));
         if (sonar.true_profile) {
-            soundings[j].true_position =
-                true_place(sonar.true_profile.get(), T_world_sensor, measured);
+            soundings[j].true_position = true_places.of(on_axis(motion, shape, azimuth, range));
         }
     }
     return soundings;

@@ -57,4 +57,42 @@ TEST_SUITE("product") {
             CHECK(sag * (g > 0.0 ? 1.0 : -1.0) > 0.6);
         }
     }
+
+    TEST_CASE("soundings of a sonar that rolls and drives in a ping lie on the flat bottom") {
+        // In the 80 ms until the echo is back the sonar rolls by a degree, which moves a sounding
+        // 50 degrees off by 0.8 m in height, and drives by 0.3 m.
+        Scene scene = test::empty_scene();
+        const std::uint32_t material = test::add_material(scene, 0.5F);
+        test::add_quad(scene, {-20.0F, -200.0F, -40.0F}, {20.0F, -200.0F, -40.0F},
+                       {20.0F, 200.0F, -40.0F}, {-20.0F, 200.0F, -40.0F}, material);
+        SonarConfig config = default_sonar(SonarKind::profiling);
+        config.name = "mbes";
+        config.azimuth_deg = 100.0;
+        config.range_max_m = 90.0;
+        config.range_bins = 4500;
+        config.azimuth_bins = 100;
+        Sonar sonar = make_sonar(config, {0.02});
+        // In the sensor's frame, whose z axis points ahead.
+        const PingMotion motion{{0.0, 0.0, 4.0}, {0.0, 0.0, radians(12.0)}, 1500.0};
+        sonar.motions = std::make_shared<const std::vector<PingMotion>>(1, motion);
+        for (const bool bends : {false, true}) {
+            if (bends) {
+                scene.sound_profile = std::make_shared<const SoundProfile>(
+                    SoundProfile{{-100.0, 0.0}, {1550.0, 1500.0}, 1500.0});
+                sonar.true_profile = scene.sound_profile;
+            }
+            const auto engine = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
+            const Ping ping = render_ping(sonar, scene, *engine, {}, {}, {});
+            int found = 0;
+            for (const Sounding& sounding : find_soundings(sonar, {}, ping, motion)) {
+                // Surface that enters the sector in the ping is missing.
+                if (std::isnan(sounding.range_m)) continue;
+                ++found;
+                const Eigen::Vector3d& place = bends ? sounding.true_position : sounding.position;
+                CHECK(std::fabs(place.z() + 40.0) < 0.15);
+                CHECK(std::fabs(place.x()) < 0.01);
+            }
+            CHECK(found >= 98);
+        }
+    }
 }

@@ -180,7 +180,8 @@ class SoundingsWriter final : public Writer {
         std::vector<double> fields_of;
         const Pose& T_world_vehicle =
             context_.assembly.trajectory[finished.id.pose].T_world_vehicle;
-        for (const Sounding& s : find_soundings(finished.sonar, T_world_vehicle, finished.ping)) {
+        for (const Sounding& s : find_soundings(finished.sonar, T_world_vehicle, finished.ping,
+                                                finished.traced.motion)) {
             fields_of.insert(fields_of.end(), {s.range_m, s.position.x(), s.position.y(),
                                                s.position.z(), s.quality});
             if (fields() == straight_fields) continue;
