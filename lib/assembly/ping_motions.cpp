@@ -121,8 +121,10 @@ void add_ping_motions(const Mission& mission, const Trajectory& trajectory,
             motions.push_back(motion_at(
                 trajectory, pose, *SonarAtPose(mission, sonar, static_cast<std::uint32_t>(pose)),
                 sound_speed_m_s));
-        for (PingMotion& motion : motions)
+        for (PingMotion& motion : motions) {
             add_doppler(sonar.config, sound_speed_m_s, motion);
+            motion.measures_direction = sonar.head_angles_rad.empty();
+        }
         sonar.motions = std::make_shared<const std::vector<PingMotion>>(std::move(motions));
     }
 }

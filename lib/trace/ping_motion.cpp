@@ -11,8 +11,8 @@ namespace sonarsim {
 namespace {
 
 /// The moment whose frame measures directions, as a share of the two-way time.
-double reception_share(ViewShape shape) {
-    return shape == ViewShape::fan ? 1.0 : 0.5;
+double reception_share(const PingMotion& motion, ViewShape shape) {
+    return shape == ViewShape::fan && motion.measures_direction ? 1.0 : 0.5;
 }
 
 /// The time of sound to a place and back to the moving sonar: the greater root of |p - v t| = c t -
@@ -35,7 +35,7 @@ double range_shift(const PingMotion& motion, const Eigen::Vector3d& place) {
 Sample moved(const PingMotion& motion, ViewShape shape, const Sample& sample) {
     const Eigen::Vector3d place = sample.position.cast<double>();
     const double time = two_way_time(motion, place);
-    const double moving = reception_share(shape) * time;
+    const double moving = reception_share(motion, shape) * time;
     const Eigen::Matrix3d to_there =
         rotation_by(moving * motion.turn_rad_s).conjugate().toRotationMatrix();
     const Eigen::Vector3d from_there = to_there * (place - moving * motion.velocity_m_s);
@@ -82,7 +82,7 @@ Pose pose_after(const PingMotion& motion, const Pose& T_world_sensor, double lat
 Eigen::Vector3d measured_place(const PingMotion& motion, ViewShape shape,
                                const Eigen::Vector3d& place) {
     const double time = two_way_time(motion, place);
-    const double moving = reception_share(shape) * time;
+    const double moving = reception_share(motion, shape) * time;
     const Eigen::Vector3d from_there = rotation_by(moving * motion.turn_rad_s).conjugate() *
                                        (place - moving * motion.velocity_m_s);
     const double range = 0.5 * motion.sound_speed_m_s * time + range_shift(motion, place);
@@ -101,7 +101,7 @@ Eigen::Vector3d unmoved_place(const PingMotion& motion, ViewShape shape,
     for (int k = 0; k < 4; ++k) {
         const double range = measured.norm() - range_shift(motion, place);
         const double time = 2.0 * range / motion.sound_speed_m_s;
-        const double moving = reception_share(shape) * time;
+        const double moving = reception_share(motion, shape) * time;
         const Eigen::Vector3d d = rotation_by(moving * motion.turn_rad_s) * measured.normalized();
         const Eigen::Vector3d s = moving * motion.velocity_m_s;
         length += 0.5 * motion.sound_speed_m_s * (time - two_way_time(motion, s + length * d));
@@ -143,7 +143,7 @@ void move_in_ping(const PingMotion& motion, ViewShape shape, std::vector<TargetF
     for (TargetFacet& facet : facets) {
         const double time = two_way_time(motion, facet.corners[0].cast<double>());
         const Eigen::Matrix3f to_there =
-            rotation_by(reception_share(shape) * time * motion.turn_rad_s)
+            rotation_by(reception_share(motion, shape) * time * motion.turn_rad_s)
                 .conjugate()
                 .toRotationMatrix()
                 .cast<float>();

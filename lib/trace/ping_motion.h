@@ -21,6 +21,8 @@ struct PingMotion {
     double doppler_s = 0.0;
     /// The loss of the pulse's filter for a shifted echo.
     DopplerLoss loss = {};
+    /// False for a fan of one beam, as of a scanning sonar, which measures no direction.
+    bool measures_direction = true;
 
     bool is_still() const {
         return !(sound_speed_m_s > 0.0) || (velocity_m_s.isZero(0.0) && turn_rad_s.isZero(0.0));

@@ -10,6 +10,7 @@
 #include "sonar/kinds.h"
 #include "sonar/sonar.h"
 #include "support/approx.h"
+#include "trace/ping_motion.h"
 
 using namespace sonarsim;
 
@@ -118,5 +119,26 @@ TEST_SUITE("assembly") {
         CHECK(of_samples.doppler_s == test::approx(of_bins.doppler_s).epsilon(1e-12));
         CHECK(of_samples.loss.band_s_per_m ==
               test::approx(of_bins.loss.band_s_per_m).epsilon(1e-12));
+    }
+
+    TEST_CASE("ping motions: a scanning head has the pattern half way in time, a fan measures") {
+        // The vehicle yaws by 60 degrees a second; a place at 10 m is 13.3 ms away and back.
+        Trajectory vehicle;
+        for (int k = 0; k < 3; ++k)
+            vehicle.push_back(
+                {0.25 * k, {rotation_from_rpy(0.0, 0.0, radians(15.0 * k)), {0, 0, 0}}});
+        Mission mission;
+        mission.water.sound_speed_m_s = 1500.0;
+        const auto turned = [&](SonarKind kind) {
+            SonarConfig config = default_sonar(kind);
+            config.moves_in_ping = true;
+            std::vector<Sonar> sonars{make_sonar(config, {})};
+            add_ping_motions(mission, vehicle, {}, {}, sonars);
+            const Eigen::Vector3d measured =
+                measured_place((*sonars[0].motions)[1], sonars[0].settings.view.shape, {10, 0, 0});
+            return std::atan2(measured.y(), measured.x());
+        };
+        CHECK(turned(SonarKind::imaging) == test::approx(-radians(0.8)).epsilon(1e-6));
+        CHECK(turned(SonarKind::scanning) == test::approx(-radians(0.4)).epsilon(1e-6));
     }
 }
