@@ -92,6 +92,13 @@ double echo_through_bottom(const SedimentPath& sediment, const WayIntoBottom& wa
     return one_way * one_way * exponential(-sediment.loss_per_m * way.in_sediment_m);
 }
 
+double most_distance_by_range(std::span<const SedimentPath> sediments) {
+    double most = 1.0;
+    for (const SedimentPath& sediment : sediments)
+        most = std::max(most, sediment.speed_ratio);
+    return most;
+}
+
 std::optional<Sample> seen_buried(std::span<const SedimentPath> sediments, const Sample& point,
                                   const Intersection& hit) {
     const auto sight = sight_of(sediments, point.position.cast<double>(), hit.distance_m, hit);

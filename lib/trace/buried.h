@@ -48,6 +48,10 @@ WayIntoBottom way_into_bottom(const SedimentPath& sediment, double height_m, dou
 /// the cosines.
 double echo_through_bottom(const SedimentPath& sediment, const WayIntoBottom& way);
 
+/// The factor by which the distance of a buried place exceeds its apparent range at most; at least
+/// 1, and above 1 where sound is faster in the sediment than in the water.
+double most_distance_by_range(std::span<const SedimentPath> sediments);
+
 /// The apparent place of a buried point: in the direction of departure, at the range of its two-way
 /// time. Its area is scaled by echo_through_bottom(). `hit`: the first hit of the straight line to
 /// the point; it gives the plane of the bottom. `sediments`: by material. Nothing unless the point

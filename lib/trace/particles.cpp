@@ -44,6 +44,14 @@ SeenParticles seen_particles(const Particles& particles, double time_s, const Vi
                              const Pose& T_world_sensor, const PingMotion& motion) {
     const BeamLocator field(widened_view(view, guard_beams));
     const Eigen::Quaterniond to_sensor = T_world_sensor.rotation.conjugate();
+    const auto is_in_view = [&](const Eigen::Vector3f& place) {
+        const float range = place.norm();
+        if (range >= static_cast<float>(view.range_max_m) || field.beam(place, range) < 0.0F)
+            return false;
+        return guard_beams.count == 0 || is_reached(view, place);
+    };
+    // Whether a buried point is in view depends on its apparent place, which may be nearer.
+    const double farthest = view.range_max_m * most_distance_by_range(particles.sediments);
     SeenParticles found;
     std::vector<Ray> rays;
     for (std::uint32_t k = 0; k < particles.all.size(); ++k) {
@@ -51,9 +59,7 @@ SeenParticles seen_particles(const Particles& particles, double time_s, const Vi
         const Eigen::Vector3f place =
             (to_sensor * (place_at(particle, time_s) - T_world_sensor.translation)).cast<float>();
         const float range = place.norm();
-        if (!(range > 0.0F) || range >= static_cast<float>(view.range_max_m)) continue;
-        if (field.beam(place, range) < 0.0F) continue;
-        if (guard_beams.count > 0 && !is_reached(view, place)) continue;
+        if (!(range > 0.0F && (particle.buried ? range < farthest : is_in_view(place)))) continue;
         rays.push_back({Eigen::Vector3f::Zero(), place / range});
         found.numbers.push_back(k);
         found.samples.push_back({.position = place,
@@ -73,7 +79,7 @@ SeenParticles seen_particles(const Particles& particles, double time_s, const Vi
         const Particle& particle = particles.all[found.numbers[k]];
         if (particle.buried) {
             const std::optional<Sample> below = seen_buried(particles.sediments, sample, hits[k]);
-            if (!below) continue;
+            if (!below || !is_in_view(below->position)) continue;
             sample = *below;
         } else if (hits[k].distance_m < sample.height_m) {
             continue;

@@ -72,7 +72,11 @@ class TargetSampler {
         const Eigen::Vector3f centre = T_sensor_shape * shape.centre;
         const float radius = scale * shape.radius_m;
         const float range = arrival_range(centre);
-        if (range - radius > static_cast<float>(view_.range_max_m) ||
+        // Echoes through a sediment of fast sound are nearer than their places.
+        const double farthest =
+            view_.range_max_m *
+            (is_buried(placed.instance) ? most_distance_by_range(buried_->sediments) : 1.0);
+        if (range - radius > static_cast<float>(farthest) ||
             range < least_distance_by_radius * radius)
             return std::nullopt;
         const Containment contained =

@@ -115,4 +115,35 @@ TEST_SUITE("trace") {
         CHECK(sample.area_m2 ==
               test::approx(0.01 * echo_through_bottom(in_sand, way)).epsilon(1e-4));
     }
+
+    // Apparent places are nearer than true ones in sand, and farther in mud.
+    TEST_CASE("buried: the range window holds apparent places") {
+        Scene scene = empty_scene();
+        add_floor(scene, 30.0F, 0.0F, add_material(scene, 0.3F), 4);
+        const auto engine = make_rays_engine(scene);
+        View down{.azimuth_rad = radians(60.0),
+                  .elevation_rad = radians(60.0),
+                  .range_min_m = 0.5,
+                  .range_max_m = 20.0,
+                  .range_bins = 100,
+                  .beams = 1,
+                  .relative_l1 = 0.03,
+                  .shape = ViewShape::cone};
+        const Pose pose{rotation_from_rpy(0.0, 0.5 * pi, 0.0), {0.0, 0.0, 6.0}};
+        Particles particles;
+        Particle& mine = particles.all.emplace_back();
+        mine.start_m = {1.0, 0.0, -3.0};
+        mine.velocity_m_s = Eigen::Vector3d::Zero();
+        mine.section_m2 = 0.01F;
+        mine.buried = true;
+        for (const SedimentPath& sediment : {in_sand, in_mud}) {
+            particles.sediments.assign(scene.materials.size(), sediment);
+            const double range = way_into_bottom(sediment, 6.0, 3.0, 1.0).range_m(sediment);
+            for (const double more : {-0.02, 0.02}) {
+                down.range_max_m = range + more;
+                const auto seen = seen_particles(particles, 0.0, down, {}, *engine, pose, {});
+                CHECK(seen.samples.size() == (more > 0.0 ? 1 : 0));
+            }
+        }
+    }
 }
