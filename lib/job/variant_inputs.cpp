@@ -38,7 +38,7 @@ std::map<std::string, std::string> inputs_of(const Json& description) {
     return inputs;
 }
 
-/// Where an input was seen first.
+/// The first variant that has an input, and its bytes.
 struct Source {
     std::string bytes;
     std::string variant;
