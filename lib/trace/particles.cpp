@@ -50,7 +50,7 @@ SeenParticles seen_particles(const Particles& particles, double time_s, const Vi
             return false;
         return guard_beams.count == 0 || is_reached(view, place);
     };
-    // Whether a buried point is in view depends on its apparent place, which may be nearer.
+    // A buried point is in view if its apparent place is, which may be nearer.
     const double farthest = view.range_max_m * most_distance_by_range(particles.sediments);
     SeenParticles found;
     std::vector<Ray> rays;

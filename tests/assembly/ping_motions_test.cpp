@@ -133,7 +133,7 @@ TEST_SUITE("assembly") {
             SonarConfig config = default_sonar(kind);
             config.moves_in_ping = true;
             std::vector<Sonar> sonars{make_sonar(config, {})};
-            add_ping_motions(mission, vehicle, {}, {}, sonars);
+            add_ping_motions(mission, vehicle, sonars);
             const Eigen::Vector3d measured =
                 measured_place((*sonars[0].motions)[1], sonars[0].settings.view.shape, {10, 0, 0});
             return std::atan2(measured.y(), measured.x());
