@@ -63,7 +63,8 @@ class TestSeabed(Composed):
         self.assert_refused(self.run_sonarsim("validate", "mission.yaml"), "mission.yaml:",
                             "an object has the name of the ground")
         self.write("mission.yaml", MISSION.replace("name: crate", "name: plants"))
-        self.assertEqual(self.run_sonarsim("validate", "mission.yaml").returncode, 0)
+        result = self.run_sonarsim("validate", "mission.yaml", "--set", "output.folder=other")
+        self.assertEqual(result.returncode, 0, result.stderr)
 
     RICH = MISSION.replace("    material: Concrete\n", """\
     sediments: [{material: Concrete, share: 2}, {material: steel, share: 1}]
