@@ -151,7 +151,7 @@ VariantsStatus read_variants_status(const std::vector<fs::path>& folders) {
         }
         if (begun.empty()) continue;
         // A variant that is complete somewhere is complete.
-        std::ranges::stable_partition(begun, is_complete);
+        std::stable_partition(begun.begin(), begun.end(), is_complete);
         JobStatus one = read_status(begun);
         if (one.complete) {
             ++status.complete;
