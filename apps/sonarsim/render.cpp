@@ -249,7 +249,8 @@ void add_render(CLI::App& app, int& exit_code) {
             "Renders the I-th of N parts, counted from 1 (default: the task of a Slurm array)")
         ->type_name("I/N");
     command.add_flag("--overwrite", arguments->render.overwrite,
-                     "Replaces another dataset in the output folder");
+                     "Replaces another dataset in the output folder: removes the files that its dataset.json "
+                     "lists, and keeps all others");
     command
         .add_option("--checkpoint", arguments->render.checkpoint_s,
                     "Seconds between checkpoints, the most that a power cut costs (default: 5)")
