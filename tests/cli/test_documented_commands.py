@@ -41,7 +41,7 @@ NOT_RUN = {
     "./scripts/map_figures.py errors": HOURS,
     "./scripts/same_sums.sh PROGRAM": "takes minutes; test_clusters.py and test_merge.py compare the same sums",
     "sonarsim calibrate out/real --preset gemini_720is --out mine.yaml --report mine.json":
-        "needs pings of a real sonar; test_calibrate.py makes some",
+        "needs pings of a real sonar",
     "sonarsim calibrate out/real --preset START --out MINE": "the same",
     **{f"sonarsim calibrate out/{name} --out fit.yaml": "needs pings that belong to others"
        for name in ("oculus --preset oculus_m1200d_2100khz_10m --judge 0.34",
@@ -104,7 +104,7 @@ INSTEAD = {
         f"sonarsim render configs/tank_detection.yaml --set trajectory.rate_hz=8 {TINY} --out OUT",
     "sonarsim inspect crane.glb --materials crane.csv":
         "cp scenes/materials.csv crane.csv; sonarsim inspect crane.glb --materials crane.csv",
-    "sonarsim materials FILE.csv": "sonarsim materials scenes/materials.csv",
+    "sonarsim inspect FILE.csv": "sonarsim inspect scenes/materials.csv",
     "for n in 0 1 2 3; do scripts/make_scenes.py lifeboat --quarterings $n --out out/lifeboat_$n; done":
         "for n in 0 3; do "
         "scripts/make_scenes.py lifeboat --quarterings $((n / 3)) --out out/lifeboat_$n; done",
