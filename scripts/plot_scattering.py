@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Draws the backscattering strength of sea beds by the grazing angle at 30, 100 and 400 kHz, beside
 the published table of the model that they follow.
 

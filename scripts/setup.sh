@@ -21,10 +21,13 @@ install() {
         apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
 }
 
-# The tests need their framework; those of the Python package are left out under sanitizers.
+# The tests need their framework; the Python package is left out under sanitizers.
 [ "$preset" = program ] || set -- doctest-dev "$@"
 case $preset in
-    release | dev) set -- pybind11-dev python3-dev python3-numpy "$@" ;;
+    program) set -- pybind11-dev python3-dev python3-numpy python3-pil "$@" ;;
+    release | dev)
+        set -- pybind11-dev python3-dev python3-numpy python3-pil python3-scipy python3-matplotlib python3-yaml "$@"
+        ;;
 esac
 install g++ cmake ninja-build ccache make pkg-config python3 \
     libeigen3-dev libembree-dev libtbb-dev librandom123-dev libtinygltf-dev \

@@ -48,7 +48,6 @@ PARTS = {
             ["collection", "run_job", "merge", "verify", "ping_source"],
             ["variants"], ["status", "variants_check", "collection_check"]],
     "scene": [["*"], ["images/", "meshes/"], ["heightmap/", "maps/", "seabed/"], ["gltf/", "placing/"]],
-    "validation": [["*"], ["hard/"]],
     "visibility": [["*"], ["octree/", "rays/", "slices/"], ["dense_rays"], ["auto_engine"],
                    ["make_engine"]],
 }

@@ -1,8 +1,8 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "validation/hard/tools.h"
-#include "validation/shapes.h"
+#include "hard/tools.h"
+#include "support/shapes.h"
 
 namespace sonarsim {
 

@@ -2,8 +2,8 @@
 
 #include "core/units.h"
 #include "sonar/kinds.h"
-#include "validation/hard/tools.h"
-#include "validation/shapes.h"
+#include "hard/tools.h"
+#include "support/shapes.h"
 
 namespace sonarsim {
 

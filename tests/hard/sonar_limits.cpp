@@ -1,5 +1,5 @@
-#include "validation/hard/tools.h"
-#include "validation/shapes.h"
+#include "hard/tools.h"
+#include "support/shapes.h"
 
 namespace sonarsim {
 

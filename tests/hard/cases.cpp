@@ -1,4 +1,4 @@
-#include "validation/hard/cases.h"
+#include "hard/cases.h"
 
 #include <spdlog/fmt/fmt.h>
 

@@ -1,4 +1,4 @@
-#include "validation/shapes.h"
+#include "support/shapes.h"
 
 #include <cmath>
 

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "core/units.h"
-#include "validation/hard/tools.h"
-#include "validation/shapes.h"
+#include "hard/tools.h"
+#include "support/shapes.h"
 
 namespace sonarsim {
 

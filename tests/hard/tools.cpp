@@ -1,4 +1,4 @@
-#include "validation/hard/tools.h"
+#include "hard/tools.h"
 
 #include <memory>
 
@@ -6,7 +6,7 @@
 #include "sonar/engine_settings.h"
 #include "sonar/kinds.h"
 #include "validation/reference.h"
-#include "validation/shapes.h"
+#include "support/shapes.h"
 
 namespace sonarsim {
 

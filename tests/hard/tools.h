@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "validation/hard/cases.h"
+#include "hard/cases.h"
 #include "validation/reference.h"
 
 namespace sonarsim {

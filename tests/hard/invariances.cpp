@@ -2,8 +2,8 @@
 #include <array>
 #include <utility>
 
-#include "validation/hard/tools.h"
-#include "validation/shapes.h"
+#include "hard/tools.h"
+#include "support/shapes.h"
 
 namespace sonarsim {
 
