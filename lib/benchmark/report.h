@@ -71,7 +71,7 @@ struct LabelRow {
 struct ReferenceQuality {
     std::string sensor;
     double moved = 0.0;         ///< mean of Reference::moved over the poses
-    double most_moved = 0.0;    ///< that of the worst pose
+    double most_moved = 0.0;    ///< the largest of them
     double rays_per_bin = 0.0;  ///< rays that echoed, per occupied bin
 };
 

@@ -52,7 +52,7 @@ struct PingSet {
 struct PoseTimes {
     std::vector<double> ping_ms;
     std::vector<double> ping_thread_ms;  ///< CPU time of the same pings
-    std::vector<double> multipath_ms;    ///< of the stage of multipath
+    std::vector<double> multipath_ms;    ///< time of the stage of multipath
     std::vector<double> rays_thread_ms;  ///< CPU time of Embree on view_rays()
 };
 
