@@ -33,36 +33,6 @@ install(DIRECTORY scripts/slurm scripts/scenes DESTINATION ${CMAKE_INSTALL_DATAD
         USE_SOURCE_PERMISSIONS COMPONENT program PATTERN "__pycache__" EXCLUDE)
 install(DIRECTORY configs scenes trajectories DESTINATION ${CMAKE_INSTALL_DATADIR}/sonarsim COMPONENT program
         PATTERN "generated" EXCLUDE)
-# Where Debian's Python looks, so that `import sonarsim_data` reads datasets.
-install(FILES scripts/sonarsim_data.py DESTINATION lib/python3/dist-packages COMPONENT program)
-
-# What the program tells of itself: manual page, completions, schema. A sanitized program is slow to
-# start and is not installed.
-if(NOT SONARSIM_SANITIZE)
-    set(TEXTS ${PROJECT_BINARY_DIR}/texts)
-    foreach(text "man|sonarsim.1" "completion bash|sonarsim" "completion zsh|_sonarsim"
-                 "completion fish|sonarsim.fish" "schema|mission.schema.json")
-        string(REPLACE "|" ";" text ${text})
-        list(GET text 0 words)
-        list(GET text 1 name)
-        add_custom_command(OUTPUT ${TEXTS}/${name} DEPENDS sonarsim VERBATIM
-            COMMAND ${CMAKE_COMMAND} -E make_directory ${TEXTS}
-            COMMAND sh -c "\"$1\" $2 >\"$3\"" sh $<TARGET_FILE:sonarsim> ${words} ${TEXTS}/${name})
-        list(APPEND SONARSIM_TEXTS ${TEXTS}/${name})
-    endforeach()
-    add_custom_command(OUTPUT ${TEXTS}/sonarsim.1.gz DEPENDS ${TEXTS}/sonarsim.1 VERBATIM
-                       COMMAND gzip -9nkf ${TEXTS}/sonarsim.1)
-    add_custom_target(texts ALL DEPENDS ${SONARSIM_TEXTS} ${TEXTS}/sonarsim.1.gz)
-    install(FILES ${TEXTS}/sonarsim.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
-    install(FILES ${TEXTS}/sonarsim
-            DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
-    install(FILES ${TEXTS}/_sonarsim
-            DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT program)
-    install(FILES ${TEXTS}/sonarsim.fish
-            DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)
-    install(FILES ${TEXTS}/mission.schema.json
-            DESTINATION ${CMAKE_INSTALL_DATADIR}/sonarsim COMPONENT program)
-endif()
 
 set(SONARSIM_PACKAGE ${CMAKE_INSTALL_LIBDIR}/cmake/sonarsim)
 install(EXPORT sonarsim FILE sonarsimTargets.cmake NAMESPACE sonarsim:: DESTINATION ${SONARSIM_PACKAGE}

@@ -23,6 +23,18 @@ foreach(package ${SONARSIM_PACKAGES})
 endforeach()
 add_custom_target(changelogs ALL DEPENDS ${SONARSIM_CHANGELOGS})
 
+# The manual page, from --help.
+find_program(HELP2MAN help2man)
+if(HELP2MAN AND NOT SONARSIM_SANITIZE)
+    set(MANUAL ${PROJECT_BINARY_DIR}/sonarsim.1)
+    add_custom_command(OUTPUT ${MANUAL}.gz DEPENDS sonarsim VERBATIM
+        COMMAND ${HELP2MAN} --no-info --name "simulator of sonars that writes datasets" --output ${MANUAL}
+                $<TARGET_FILE:sonarsim>
+        COMMAND gzip -9nkf ${MANUAL})
+    add_custom_target(manual ALL DEPENDS ${MANUAL}.gz)
+    install(FILES ${MANUAL}.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+endif()
+
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_PACKAGE_CONTACT "the sonarsim authors <sonarsim@users.noreply.github.com>")
@@ -39,7 +51,8 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME sonarsim)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS python3)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "python3-numpy, fonts-dejavu-core")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS
+    "python3-numpy, python3-pil, python3-scipy, python3-matplotlib, python3-yaml, fonts-dejavu-core")
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "simulator of sonars that writes datasets
 Turns a mission (a glTF scene, a trajectory and sonars) into a dataset of
 imaging, profiling, side-scan, scanning and echosounder data that can be
@@ -61,13 +74,11 @@ if(SONARSIM_HAS_PYTHON)
     set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
     set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
     set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
-        "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${NEXT}), python3-numpy")
-    # Its presets and examples.
-    set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS sonarsim)
+        "sonarsim (= ${PROJECT_VERSION}), python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${NEXT}), python3-numpy")
     set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-torch)
     set(CPACK_DEBIAN_PYTHON_DESCRIPTION "simulator of sonars, for Python
-Renders the pings of a mission into numpy arrays and feeds them to PyTorch,
-with the numbers of the datasets that the program of the package sonarsim
-writes. A reader of such datasets is part of it.")
+The compiled module with which `import sonarsim` renders the pings of a
+mission into numpy arrays and feeds them to PyTorch. The rest of the Python
+package comes with the program, in the package sonarsim.")
 endif()
 include(CPack)

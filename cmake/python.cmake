@@ -1,22 +1,33 @@
-# The Python package of apps/python, in build/python: `PYTHONPATH=build/python python3 -c "import sonarsim"`.
+# The Python package of apps/python, in build/python: `PYTHONPATH=build/python /usr/bin/python3 -c "import sonarsim"`.
+# Its commands (`sonarsim export` and others) need no compiled module; `import sonarsim` for rendering does.
 set(SONARSIM_PYTHON AUTO CACHE STRING
-    "Build the Python package: AUTO (where pybind11 and Python's headers are found), ON or OFF")
+    "Build the module of the Python package: AUTO (where pybind11 and Python's headers are found), ON or OFF")
 set_property(CACHE SONARSIM_PYTHON PROPERTY STRINGS AUTO ON OFF)
+
+# Links, so that a change of a file needs no build.
+set(SONARSIM_PYTHON_FOLDER ${PROJECT_BINARY_DIR}/python/sonarsim)
+file(MAKE_DIRECTORY ${SONARSIM_PYTHON_FOLDER})
+file(GLOB SONARSIM_PYTHON_FILES CONFIGURE_DEPENDS apps/python/sonarsim/*)
+list(FILTER SONARSIM_PYTHON_FILES EXCLUDE REGEX "__pycache__|\\.so$")
+foreach(FILE ${SONARSIM_PYTHON_FILES})
+    get_filename_component(NAME ${FILE} NAME)
+    file(CREATE_LINK ${FILE} ${SONARSIM_PYTHON_FOLDER}/${NAME} SYMBOLIC)
+endforeach()
+file(CREATE_LINK ${PROJECT_SOURCE_DIR}/scripts/sonarsim_data.py ${SONARSIM_PYTHON_FOLDER}/data.py SYMBOLIC)
+
+# The package comes with the program, its compiled module in a package of its own (cmake/package.cmake).
+# Debian's Python finds it through a link.
+set(SONARSIM_PYTHON_INSTALL lib/sonarsim/python/sonarsim)
+install(DIRECTORY apps/python/sonarsim/ DESTINATION ${SONARSIM_PYTHON_INSTALL} COMPONENT program
+        PATTERN "__pycache__" EXCLUDE)
+install(FILES scripts/sonarsim_data.py DESTINATION ${SONARSIM_PYTHON_INSTALL} RENAME data.py COMPONENT program)
+install(CODE "set(FOLDER \$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/lib/python3/dist-packages)
+file(MAKE_DIRECTORY \${FOLDER})
+file(CREATE_LINK ../../sonarsim/python/sonarsim \${FOLDER}/sonarsim SYMBOLIC)" COMPONENT program)
 
 # Python would have to load the sanitizer's library before the module.
 set(SONARSIM_HAS_PYTHON OFF)
 if(SONARSIM_PYTHON AND NOT SONARSIM_SANITIZE)
-    # Debian's numpy belongs to Debian's Python, which need not be the first in the path.
-    foreach(CANDIDATE python3 /usr/bin/python3)
-        if(NOT Python3_EXECUTABLE)
-            execute_process(COMMAND ${CANDIDATE} -c "import numpy, sys; print(sys.executable, sys.prefix, sep=';')"
-                            OUTPUT_VARIABLE FOUND RESULT_VARIABLE FAILED ERROR_QUIET OUTPUT_STRIP_TRAILING_WHITESPACE)
-            if(NOT FAILED)
-                list(GET FOUND 0 Python3_EXECUTABLE)
-                list(GET FOUND 1 Python3_ROOT_DIR)
-            endif()
-        endif()
-    endforeach()
     find_package(Python3 QUIET COMPONENTS Interpreter Development.Module)
     if(Python3_Development.Module_FOUND)
         find_package(pybind11 2.10 QUIET CONFIG)
@@ -27,29 +38,17 @@ if(SONARSIM_PYTHON AND NOT SONARSIM_SANITIZE)
         message(FATAL_ERROR "SONARSIM_PYTHON=ON takes the packages pybind11-dev and python3-dev; "
                             "-DPython3_EXECUTABLE=/usr/bin/python3 chooses a Python")
     else()
-        message(STATUS "No Python package: pybind11-dev or python3-dev is missing")
+        message(STATUS "`import sonarsim` will not render: pybind11-dev or python3-dev is missing")
     endif()
 endif()
 if(NOT SONARSIM_HAS_PYTHON)
     return()
 endif()
 
-set(SONARSIM_PYTHON_FOLDER ${PROJECT_BINARY_DIR}/python/sonarsim)
 # NO_EXTRAS: the library is not compiled for link time optimisation.
 pybind11_add_module(sonarsim_python MODULE NO_EXTRAS apps/python/module.cpp)
 target_link_libraries(sonarsim_python PRIVATE sonarsim_lib)
 target_compile_options(sonarsim_python PRIVATE $<$<CONFIG:Release>:-O1>)
 set_target_properties(sonarsim_python PROPERTIES OUTPUT_NAME _sonarsim
                       LIBRARY_OUTPUT_DIRECTORY ${SONARSIM_PYTHON_FOLDER})
-set(SONARSIM_PYTHON_FILES __init__.py _sonarsim.pyi data.pyi py.typed torch.py)
-foreach(FILE ${SONARSIM_PYTHON_FILES})
-    configure_file(apps/python/sonarsim/${FILE} ${SONARSIM_PYTHON_FOLDER}/${FILE} COPYONLY)
-    list(APPEND SONARSIM_PYTHON_INSTALLED apps/python/sonarsim/${FILE})
-endforeach()
-configure_file(scripts/sonarsim_data.py ${SONARSIM_PYTHON_FOLDER}/data.py COPYONLY)
-
-# Where Debian's Python looks.
-set(SONARSIM_PYTHON_INSTALL lib/python3/dist-packages/sonarsim)
 install(TARGETS sonarsim_python LIBRARY DESTINATION ${SONARSIM_PYTHON_INSTALL} COMPONENT python)
-install(FILES ${SONARSIM_PYTHON_INSTALLED} DESTINATION ${SONARSIM_PYTHON_INSTALL} COMPONENT python)
-install(FILES scripts/sonarsim_data.py DESTINATION ${SONARSIM_PYTHON_INSTALL} RENAME data.py COMPONENT python)

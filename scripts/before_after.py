@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """./scripts/before_after.py PROGRAM FOLDER [mission ...]: makes docs/before_after_MISSION.jpg.
 
 Renders five missions, or the named ones, twice into the folder: with the echo of surfaces alone, and with all that

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Draws the labels of a dataset over its pictures:
 
     scripts/draw_labels.py OUT FOLDER [--every N]

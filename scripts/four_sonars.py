@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """./scripts/four_sonars.py [folder of datasets] [picture]: makes docs/four_sonars.png.
 
 The datasets (default: out/) are those of the missions tank_imaging, seafloor_sidescan,

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Measures the page of a large dataset: its size, the time to make it, to open it and to step.
 
     scripts/gallery_costs.py PROGRAM [--pings 10000]

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """insert_tables.py document.md name=table.md ...: puts each table between its marks
 <!-- report NAME --> (or <!-- begin NAME -->) and <!-- end NAME --> in the document."""
 import pathlib

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Writes the example scenes as .glb files, one as an .obj, one as a GeoTIFF:
     ./scripts/make_scenes.py [name ...] [--out DIR]
 

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Writes the pose files of the example missions: python3 scripts/make_trajectories.py [folder].
 
 World: z up, metres. Vehicle: x forward, y left, z up; positive pitch turns the bow down. Numbers

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Measures what docs/scenes.md says of maps and heightmaps: tables in Markdown.
 
     ./scripts/map_figures.py errors [--sonarsim PROGRAM]

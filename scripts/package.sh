@@ -6,9 +6,9 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 folder=${SONARSIM_FOLDER:-build-package}
-SONARSIM_BUILD=no ./scripts/setup.sh dpkg-dev file pybind11-dev python3-dev
+SONARSIM_BUILD=no ./scripts/setup.sh dpkg-dev file help2man pybind11-dev python3-dev
 cmake --preset "${SONARSIM_PRESET:-program}" -B "$folder" -DSONARSIM_TESTS=OFF -DCMAKE_INSTALL_PREFIX=/usr \
-    -DSONARSIM_PYTHON=ON -DPython3_EXECUTABLE=/usr/bin/python3 >&2
+    -DSONARSIM_PYTHON=ON >&2
 cmake --build "$folder" >&2
 rm -f "$folder"/*.deb
 # Directories and files as a package has them, whatever the umask of the checkout.

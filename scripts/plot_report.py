@@ -1,11 +1,9 @@
-#!/usr/bin/env python3
-"""Draws the plots of a report of `sonarsim report`, per sonar: error against time per ping, and
-time per ping against the size of the scene where the report was made with --scale.
+#!/usr/bin/python3
+"""Draws the plots of a report of `sonarsim report`, per sonar: error against time per ping.
 
     plot_report.py report.json FOLDER [--format svg|png]
 
-writes FOLDER/error_SENSOR.svg and FOLDER/growth_SENSOR.svg. The same report gives the same bytes
-with one version of matplotlib (Debian's python3-matplotlib). Exit code 2 when the report cannot be
+writes FOLDER/error_SENSOR.svg. The same report gives the same bytes with one version of matplotlib (Debian's python3-matplotlib). Exit code 2 when the report cannot be
 read."""
 import argparse
 import json
@@ -47,9 +45,8 @@ def label_ticks(axes):
 def error_plot(report, sensor):
     """Relative L1 against ms per ping: a dot per setting, a ring around the mission's own, a line
     through those that no other setting beats in both."""
-    # `stages` holds the same settings as `rows`, in the same order. A logarithmic axis cannot show an
-    # error of 0.
-    settings = [{**row, **stage} for row, stage in zip(report["rows"], report["stages"])
+    # A logarithmic axis cannot show an error of 0.
+    settings = [row for row in report["rows"]
                 if row["sensor"] == sensor and row["relative_l1"] > 0 and row["ms_per_ping"] > 0]
     figure, axes = new_plot(f"{report['mission']}, {sensor}",
                             "ms per ping, one thread, noise on", "relative L1")
@@ -68,21 +65,6 @@ def error_plot(report, sensor):
     current = [s for s in settings if s["current"]]
     axes.scatter([s["ms_per_ping"] for s in current], [s["relative_l1"] for s in current], s=170,
                  facecolors="none", edgecolors="#1e1e1e", label="the mission's own setting")
-    return figure, axes
-
-
-def growth_plot(report, sensor):
-    """ms per ping against the number of triangles; growth of the area is dashed."""
-    figure, axes = new_plot(f"{report['mission']}, {sensor}", "triangles", "ms per ping")
-    for growth in report["growth"]:
-        if growth["sensor"] != sensor:
-            continue
-        exponent = growth["exponent"]
-        law = "" if exponent is None else f": triangles^{exponent:.2f}"
-        axes.plot(growth["triangles"], growth["ms_per_ping"], marker="o",
-                  linestyle="--" if growth["along"] == "area" else "-",
-                  color=COLOURS.get(growth["engine"]),
-                  label=f"{growth['engine']}, more {growth['along']}{law}")
     return figure, axes
 
 
@@ -114,9 +96,6 @@ def main():
     arguments.folder.mkdir(parents=True, exist_ok=True)
     for sensor in sensors:
         save(error_plot(report, sensor), arguments.folder / f"error_{sensor}.{arguments.format}")
-        if report["growth"]:
-            save(growth_plot(report, sensor),
-                 arguments.folder / f"growth_{sensor}.{arguments.format}")
     return 0
 
 

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Draws the backscattering strength of sea beds by the grazing angle at 30, 100 and 400 kHz, beside
 the published table of the model that they follow.
 
@@ -29,7 +29,7 @@ PUBLISHED = {
 
 def strengths(program, materials, khz):
     """The grazing angles in degrees and the strengths in dB by material."""
-    done = subprocess.run([program, "materials", materials, "--frequency-khz", str(khz), "--json"],
+    done = subprocess.run([program, "inspect", materials, "--frequency-khz", str(khz), "--json"],
                           check=True, capture_output=True, text=True)
     reported = json.loads(done.stdout)
     return reported["grazing_deg"], reported["strength_db"]

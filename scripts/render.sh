@@ -14,7 +14,7 @@ fi
 # The first argument that is a file is the mission; the program says what is wrong with it.
 for argument in "$@"; do
     if [[ -f $argument ]]; then
-        python3 -B "$root/scripts/make_scenes.py" --for "$argument" "$@" >&2
+        /usr/bin/python3 -B "$root/scripts/make_scenes.py" --for "$argument" "$@" >&2
         break
     fi
 done

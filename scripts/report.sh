@@ -13,7 +13,6 @@ measure() { # scene, the name of its report, options of `sonarsim report`
     local scene=$1 name=$2 out=$root/out/report_$2
     shift 2
     "$root/build/sonarsim" report "$root/configs/${scene}_imaging.yaml" --out "$out" "$@"
-    # Debian's matplotlib belongs to Debian's Python, which need not be the first on the PATH.
     /usr/bin/python3 "$root/scripts/plot_report.py" "$out/report.json" "$out"
     if grep -q "<!-- report $name -->" "$root/docs/performance.md"; then
         cp "$out/error_fls.svg" "$root/docs/error_$name.svg"
@@ -30,16 +29,16 @@ for scene in ${SCENES:-tank seafloor}; do
             ;;
         lifeboat)
             for times in ${QUARTERINGS:-0}; do
-                python3 "$root/scripts/make_scenes.py" lifeboat --quarterings "$times"
+                /usr/bin/python3 "$root/scripts/make_scenes.py" lifeboat --quarterings "$times"
                 measure lifeboat "lifeboat_$times" "$@"
             done
             ;;
         *)
-            python3 "$root/scripts/make_scenes.py" "$scene"
+            /usr/bin/python3 "$root/scripts/make_scenes.py" "$scene"
             measure "$scene" "$scene" "$@"
             ;;
     esac
 done
 if ((${#tables[@]})); then
-    python3 "$root/scripts/insert_tables.py" "$root/docs/performance.md" "${tables[@]}"
+    /usr/bin/python3 "$root/scripts/insert_tables.py" "$root/docs/performance.md" "${tables[@]}"
 fi

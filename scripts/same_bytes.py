@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Renders missions with several builds of sonarsim and compares every byte of their datasets.
 
     ./scripts/same_bytes.py [--mission FILE[,KEY=VALUE...]]... PROGRAM PROGRAM...

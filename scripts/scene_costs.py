@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Measures the cost of composed scenes: tables in Markdown, for docs/performance.md.
 
     ./scripts/scene_costs.py copies [--counts 1000 100000] [--sonarsim PROGRAM]

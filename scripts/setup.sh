@@ -21,9 +21,10 @@ install() {
         apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
 }
 
-# The tests need their framework; those of the Python package are left out under sanitizers.
+# The tests need their framework; the Python package is left out under sanitizers.
 [ "$preset" = program ] || set -- doctest-dev "$@"
 case $preset in
+    program) set -- pybind11-dev python3-dev python3-numpy python3-pil "$@" ;;
     release | dev)
         set -- pybind11-dev python3-dev python3-numpy python3-pil python3-scipy python3-matplotlib python3-yaml "$@"
         ;;

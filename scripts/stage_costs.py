@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """scripts/stage_costs.py [--sonarsim PROGRAM] [--rounds N] [--mission NAME]
 
 The time of each stage of the calibrated model alone.

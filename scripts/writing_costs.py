@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Measures the cost of writing: tables in Markdown, for docs/performance.md.
 
     ./scripts/writing_costs.py [--sonarsim PROGRAM] [--out FOLDER]              per output, the tank

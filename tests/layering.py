@@ -35,7 +35,7 @@ ALLOWED = {
     "format": {"core"},
 }
 for upper in ("dataset", "checks", "job", "validation", "benchmark", "preview", "gallery",
-              "export", "recording", "compare", "calibrate"):
+              "export"):
     ALLOWED[upper] = set(ALLOWED)
 
 # The parts of the folders that have subfolders, from the bottom up; those in one row do not know
@@ -43,14 +43,11 @@ for upper in ("dataset", "checks", "job", "validation", "benchmark", "preview", 
 PARTS = {
     "dataset": [["*"], ["writers/"], ["writers"], ["layout"], ["metadata"], ["dataset_file"],
                 ["description", "ping_file_reader"], ["coco/"], ["encode_ping"], ["shared_files"]],
-    "compare": [["*"], ["figures/"], ["images"], ["measure_edges", "measure_patches", "measure_shadows"], ["measure_images", "measure_soundings"],
-                ["compare"], ["plot", "report"]],
     "job": [["*"], ["folder_lock"], ["journal"], ["checksums"], ["folder"], ["listed_files", "resume"],
             ["ping_files"], ["ping_cost"], ["completion", "joined_labels", "render_pings"],
             ["collection", "run_job", "merge", "verify", "ping_source"],
             ["variants"], ["status", "variants_check", "collection_check"]],
     "scene": [["*"], ["images/", "meshes/"], ["heightmap/", "maps/", "seabed/"], ["gltf/", "placing/"]],
-    "validation": [["*"], ["hard/"]],
     "visibility": [["*"], ["octree/", "rays/", "slices/"], ["dense_rays"], ["auto_engine"],
                    ["make_engine"]],
 }
@@ -58,8 +55,7 @@ PARTS = {
 AFTER_THE_TRACE = {"paper", "calibrated", "ping", "labels", "product", "sonar", "assembly", "dataset", "checks", "job"}
 RANGE_OF_POSITION = re.compile(r"\bposition\.norm\(\)|\bposition / range\b|arctan2\w*\([^)]*position")
 # These folders make values of files, which are the same on every processor.
-SAME_BYTES = ("water/", "trace/", "paper/", "calibrated/", "ping/", "labels/", "product/", "sonar/", "scene/seabed/",
-              "recording/", "compare/", "calibrate/")
+SAME_BYTES = ("water/", "trace/", "paper/", "calibrated/", "ping/", "labels/", "product/", "sonar/", "scene/seabed/")
 OF_THE_C_LIBRARY = re.compile(r"\bstd::(a?(sin|cos|tan)h?|atan2|exp[2m]?1?|log(2|10|1p)?|pow|cbrt|hypot|erfc?)\(")
 # A class in a header; two of one name would be one to the linker.
 CLASS = re.compile(r"(?:class|struct) (\w+)(?: final)?(?: :[^;{]*)? \{")

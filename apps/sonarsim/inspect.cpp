@@ -10,6 +10,7 @@
 #include "checks/find_warnings.h"
 #include "commands.h"
 #include "logging.h"
+#include "materials.h"
 #include "mission/scene_schema.h"
 #include "scene/gltf/load.h"
 #include "scene/gltf/surface_of.h"
@@ -32,6 +33,7 @@ struct InspectArguments {
     std::string up;                   ///< "": not given, y
     double pixel_m = 0.0;             ///< size of a pixel of a heightmap; 0: the file says it
     bool as_csv = false;
+    double frequency_khz = 400.0;  ///< for a CSV of materials
     LogOptions log;
 };
 
@@ -124,6 +126,10 @@ PlacedFile file_of(const InspectArguments& arguments) {
 
 int inspect(const InspectArguments& arguments) {
     start_logging(arguments.log);
+    if (arguments.scene.extension() == ".csv") {
+        print_materials(arguments.scene, arguments.frequency_khz, arguments.log.json);
+        return exit_done;
+    }
     const PlacedFile file = file_of(arguments);
     SceneFiles models;
     const Scene scene = load_scene_geometry(file, models);
@@ -157,14 +163,16 @@ int inspect(const InspectArguments& arguments) {
 
 void add_inspect(CLI::App& app, int& exit_code) {
     CLI::App& command = *app.add_subcommand(
-        "inspect", "Prints bounds, triangles, materials and instances of a scene");
+        "inspect", "Prints what is in a scene, or how the materials of a CSV scatter sound");
     add_examples(command,
                  {"sonarsim inspect hull.glb", "sonarsim inspect tyre.stl --units mm --up z",
-                  "sonarsim inspect bathymetry.tif"});
+                  "sonarsim inspect bathymetry.tif",
+                  "sonarsim inspect materials.csv --frequency-khz 900"});
     auto arguments = std::make_shared<InspectArguments>();
     command
         .add_option("scene", arguments->scene,
-                    "The scene, a .gltf, .glb, .obj, .stl or .ply file, or an image of heights")
+                    "The scene, a .gltf, .glb, .obj, .stl or .ply file, or an image of heights; or a "
+                    ".csv of materials")
         ->required();
     command
         .add_option("--units", arguments->units,
@@ -182,6 +190,10 @@ void add_inspect(CLI::App& app, int& exit_code) {
                        "A CSV of materials: shows their reflection coefficients in fresh water");
     command.add_flag("--materials-csv", arguments->as_csv,
                      "Prints a CSV of the scene's materials to fill in, and nothing else");
+    command
+        .add_option("--frequency-khz", arguments->frequency_khz,
+                    "For a CSV of materials: the frequency in fresh water (default: 400)")
+        ->check(CLI::Range(1.0, 10000.0));
     add_log_options(command, arguments->log);
     command.callback([arguments, &exit_code] { exit_code = inspect(*arguments); });
 }

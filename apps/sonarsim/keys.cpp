@@ -59,20 +59,10 @@ Json reference_json(const std::vector<SectionReference>& sections) {
 
 }  // namespace
 
-void add_schema(CLI::App& app, int& exit_code) {
-    CLI::App& command = *app.add_subcommand(
-        "schema", "Prints the JSON Schema of a mission, for editors that complete and check");
-    add_examples(command, {"sonarsim schema > sonarsim.schema.json"});
-    command.callback([&exit_code] {
-        fmt::print("{}\n", mission_json_schema(sonar_keys()).dump(1));
-        exit_code = exit_done;
-    });
-}
-
+/// For scripts/write_keys.sh, which puts the table into docs/warnings.md; --help does not list it.
 void add_warnings(CLI::App& app, int& exit_code) {
-    CLI::App& command = *app.add_subcommand(
-        "warnings", "Prints every warning with its number, its cure, its limit and the reason");
-    add_examples(command, {"sonarsim warnings"});
+    CLI::App& command = *app.add_subcommand("warnings", "Prints the table of docs/warnings.md");
+    command.group("");
     command.callback([&exit_code] {
         fmt::print("{}", warning_table_markdown());
         exit_code = exit_done;
@@ -82,13 +72,20 @@ void add_warnings(CLI::App& app, int& exit_code) {
 void add_keys(CLI::App& app, int& exit_code) {
     CLI::App& command = *app.add_subcommand(
         "keys", "Prints every key of a mission with its default, range and meaning");
-    add_examples(command, {"sonarsim keys --json"});
+    add_examples(command, {"sonarsim keys", "sonarsim keys --json > sonarsim.schema.json"});
     auto json = std::make_shared<bool>(false);
-    command.add_flag("--json", *json, "Prints JSON instead of Markdown");
+    command.add_flag("--json", *json,
+                     "Prints a JSON Schema, for editors that complete and check missions");
     command.callback([json, &exit_code] {
         const std::vector<SectionReference> sections = mission_reference(sonar_keys());
-        fmt::print("{}",
-                   *json ? json_line(reference_json(sections)) : reference_markdown(sections));
+        if (*json) {
+            Json schema = mission_json_schema(sonar_keys());
+            // Editors skip what a schema does not define.
+            schema["sections"] = reference_json(sections);
+            fmt::print("{}\n", schema.dump(1));
+        } else {
+            fmt::print("{}", reference_markdown(sections));
+        }
         exit_code = exit_done;
     });
 }

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "commands.h"
@@ -19,6 +20,7 @@
 #include "core/text.h"
 #include "format/png.h"
 #include "logging.h"
+#include "python_tools.h"
 
 namespace {
 
@@ -44,6 +46,15 @@ std::string version_text() {
            build.flags + "; arithmetic " + build.arithmetic + "; PNG files by " + png_encoder();
 }
 
+/// The commands that former versions had, and what stands in for each.
+constexpr std::pair<const char*, const char*> former_commands[] = {
+    {"completion", "completion of command lines is left out; --help lists the options"},
+    {"contact-sheet", "contact sheets are left out; montage of ImageMagick makes them"},
+    {"man", "use --help; Debian's package has a manual page"},
+    {"materials", "use: sonarsim inspect FILE.csv"},
+    {"schema", "use: sonarsim keys --json"},
+};
+
 /// The message for an unknown word on the command line, with the nearest known one.
 std::string unknown_word(const CLI::App& app, const std::string& word) {
     const std::vector<CLI::App*> chosen = app.get_subcommands();
@@ -60,6 +71,9 @@ std::string unknown_word(const CLI::App& app, const std::string& word) {
     if (!chosen.empty()) return "one argument too many: '" + word + "'";
     for (const CLI::App* command : app.get_subcommands({}))
         known.push_back(command->get_name());
+    for (const auto& [name, instead] : former_commands) {
+        if (word == name) return "there is no subcommand '" + word + "': " + instead;
+    }
     if (word.ends_with(".yaml") || word.ends_with(".yml"))
         return "a subcommand must come first, as in: sonarsim render " + word;
     return "unknown subcommand '" + word + "'" + did_you_mean(word, known);
@@ -85,22 +99,13 @@ int run(int argc, char** argv) {
     add_merge(app, exit_code);
     add_validate(app, exit_code);
     add_preview(app, exit_code);
-    add_gallery(app, exit_code);
-    add_contact_sheet(app, exit_code);
-    add_export(app, exit_code);
-    add_compare(app, exit_code);
     add_inspect(app, exit_code);
-    add_materials(app, exit_code);
     add_preset(app, exit_code);
     add_report(app, exit_code);
-    add_calibrate(app, exit_code);
     add_status(app, exit_code);
     add_keys(app, exit_code);
-    add_schema(app, exit_code);
     add_warnings(app, exit_code);
-    add_import_holoocean(app, exit_code);
-    add_completion(app, exit_code);
-    add_man(app, exit_code);
+    add_python_tools(app);
     add_examples(app, {"sonarsim render mission.yaml", "sonarsim render --help"});
     try {
         app.parse(argc, argv);
@@ -125,6 +130,7 @@ int main(int argc, char** argv) {
     keep_freed_memory();
     start_logging({});
     try {
+        become_python_tool(argc, argv);
         const int exit_code = run(argc, argv);
         finish_printing();
         return exit_code;

@@ -1,30 +1,23 @@
-#include "scene/materials.h"
+#include "materials.h"
 
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <array>
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "calibrated/bottom.h"
 #include "calibrated/decibel.h"
-#include "commands.h"
 #include "core/text.h"
 #include "core/units.h"
 #include "logging.h"
+#include "scene/materials.h"
 
 namespace sonarsim {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-struct MaterialsArguments {
-    std::filesystem::path materials;
-    double frequency_khz = 400.0;
-    LogOptions log;
-};
 
 /// The backscattering strength in dB.
 double strength_db(const Backscatter& material, double grazing_deg) {
@@ -64,36 +57,19 @@ void print_strengths(const MaterialTable& table, const Scattering& scattering,
     fmt::print("\n");
 }
 
-int list_materials(const MaterialsArguments& arguments) {
-    start_logging(arguments.log);
-    MaterialTable table = read_materials(arguments.materials);
+}  // namespace
+
+void print_materials(const std::filesystem::path& file, double frequency_khz, bool as_json) {
+    MaterialTable table = read_materials(file);
     const Water water;
     for (Material& material : table.materials)
         material.reflection = static_cast<float>(
             power_reflection(material.density_kg_m3, material.sound_speed_m_s, water));
-    const Scattering scattering =
-        scattering_of(table.materials, 1e3 * arguments.frequency_khz, water);
-    if (arguments.log.json)
-        fmt::print("{}", json_line(strengths_json(table, scattering, arguments.frequency_khz)));
+    const Scattering scattering = scattering_of(table.materials, 1e3 * frequency_khz, water);
+    if (as_json)
+        fmt::print("{}", json_line(strengths_json(table, scattering, frequency_khz)));
     else
-        print_strengths(table, scattering, arguments.frequency_khz);
-    return exit_done;
-}
-
-}  // namespace
-
-void add_materials(CLI::App& app, int& exit_code) {
-    CLI::App& command = *app.add_subcommand(
-        "materials", "Prints how materials scatter in the calibrated model, by the grazing angle");
-    add_examples(command, {"sonarsim materials scenes/materials.csv --frequency-khz 900"});
-    auto arguments = std::make_shared<MaterialsArguments>();
-    command.add_option("materials", arguments->materials, "A CSV of materials")->required();
-    command
-        .add_option("--frequency-khz", arguments->frequency_khz,
-                    "The frequency of the sonar in fresh water (default: 400)")
-        ->check(CLI::Range(1.0, 10000.0));
-    add_log_options(command, arguments->log);
-    command.callback([arguments, &exit_code] { exit_code = list_materials(*arguments); });
+        print_strengths(table, scattering, frequency_khz);
 }
 
 }  // namespace sonarsim

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "assembly/assemble.h"
-#include "benchmark/setting.h"
-#include "benchmark/summary.h"
+#include "benchmark/settings.h"
+#include "benchmark/timed_pings.h"
 #include "mission/mission.h"
 
 namespace sonarsim {
@@ -17,27 +17,16 @@ namespace sonarsim {
 // The report of speed against error: the time and the accuracy of each engine and setting for a
 // mission.
 
-/// The costs of a setting in its own process.
-struct ColdStart {
-    double build_s = 0.0;           ///< time to build the engine, before the first ping
-    double first_ping_s = 0.0;      ///< from the start of the program to the end of the first ping
-    double slowest_ms = 0.0;        ///< the slowest of the later pings, one per pose
-    double peak_memory_mb = 0.0;    ///< peak memory of the process: scene, engine and pings; MiB
-    double engine_memory_mb = 0.0;  ///< part of the peak for the octree's nodes; 0 for rays
-};
-
 /// One sonar with one setting.
 struct ReportRow {
     std::string sensor;
     Setting setting;
-    Summary ms_per_ping;                                      ///< noise on, one thread
-    double pings_per_s = 0.0;                                 ///< noise on, all threads
-    Summary relative_l1, relative_l2, miss_rate, false_rate;  ///< noise off
+    double ms_per_ping = 0.0;  ///< noise on, one thread; median over the poses
+    double pings_per_s = 0.0;  ///< noise on, all threads
+    /// Noise off; means over the poses, and the error of the worst pose.
+    double relative_l1 = 0.0, worst_relative_l1 = 0.0, miss_rate = 0.0, false_rate = 0.0;
+    double samples_per_ping = 0.0;
     bool warned = false;  ///< the engine warned at one of the poses
-    Summary samples_per_ping;
-    ColdStart cold;
-    PingSeconds stages;    ///< medians over the poses
-    double ms_bare = 0.0;  ///< median for Embree alone, one ray to every sample
     /// Embree alone, with view_rays_count rays over the view, and a ping as a multiple of it. Both
     /// are CPU times, measured in turns at each pose; medians over the poses.
     double ms_rays = 0.0;
@@ -49,7 +38,7 @@ struct ReportRow {
     /// promise.
     const char* promise() const {
         if (!setting.promises()) return "-";
-        if (relative_l1.max <= setting.relative_l1) return "met";
+        if (worst_relative_l1 <= setting.relative_l1) return "met";
         return warned ? "warned" : "missed";
     }
 };
@@ -63,40 +52,27 @@ struct MultipathRow {
     bool current = false;          ///< the mission's own setting
     std::uint64_t exact_bins = 0;  ///< bins that the exact method fills
     double relative_l1 = 0.0;
-    double recall = 1.0;      ///< share of the exact method's bins that this one fills, too
-    double precision = 1.0;   ///< share of this method's bins that the exact one fills, too
-    Summary ms_multipath;     ///< time of this stage over the poses; one thread
-    Summary ms_per_ping;      ///< noise on, one thread
-    double ms_without = 0.0;  ///< ping without multipath, median over the poses
-    double speed_up = 0.0;    ///< time of this stage by the exact method / by this one
-
-    double times_without() const { return ms_without > 0.0 ? ms_per_ping.centre / ms_without : 0; }
+    double recall = 1.0;     ///< share of the exact method's bins that this one fills, too
+    double precision = 1.0;  ///< share of this method's bins that the exact one fills, too
+    double ms_multipath = 0.0;   ///< time of this stage, one thread; median over the poses
+    double ms_per_ping = 0.0;    ///< noise on, one thread; median over the poses
+    double times_without = 0.0;  ///< a multiple of the time of a ping without multipath
 };
 
 /// One sonar with one kind of label.
 struct LabelRow {
     std::string sensor;
     std::string label;
-    Summary ms;          ///< CPU time of finding the label, over the poses
-    Summary times_ping;  ///< CPU time of a ping with the label / without it, over the poses
+    double ms = 0.0;          ///< CPU time of finding the label; median over the poses
+    double times_ping = 0.0;  ///< CPU time of a ping with the label / without it
 };
 
 /// The convergence of a sonar's reference images.
 struct ReferenceQuality {
     std::string sensor;
-    Summary moved;         ///< Reference::moved
-    Summary apart;         ///< Reference::apart
-    Summary rays_per_bin;  ///< rays that echoed, per occupied bin
-};
-
-/// The growth of the time per ping with the scene.
-struct Growth {
-    std::string sensor;
-    std::string engine;
-    std::string along;  ///< "detail": more triangles on the same shape; "area": the same density
-    std::vector<double> triangles;
-    std::vector<double> ms_per_ping;
-    double exponent = 0.0;  ///< exponent in ms per ping ~ triangles^exponent
+    double moved = 0.0;         ///< mean of Reference::moved over the poses
+    double most_moved = 0.0;    ///< the largest of them
+    double rays_per_bin = 0.0;  ///< rays that echoed, per occupied bin
 };
 
 struct ReportOptions {
@@ -112,14 +88,12 @@ struct Report {
     std::size_t triangles = 0;  ///< copies included
     int poses = 0;
     int threads = 0;
-    double goal = 0.0;   ///< accuracy.relative_l1 of the mission
     double load = 0.0;   ///< load average of the machine at the start
     Thinning heightmap;  ///< heights that are left out; errors are those over the heights kept
     std::vector<ReportRow> rows;
     std::vector<ReferenceQuality> references;  ///< one per sonar
-    std::vector<Growth> growth;
-    std::vector<MultipathRow> multipath;  ///< only for sonars that have it
-    std::vector<LabelRow> labels;         ///< only for missions that ask for labels
+    std::vector<MultipathRow> multipath;       ///< only for sonars that have it
+    std::vector<LabelRow> labels;              ///< only for missions that ask for labels
 };
 
 /// Reports progress.
@@ -127,13 +101,29 @@ using ReportProgress = std::function<void(const std::string&)>;
 
 /// Measures every sonar of a mission with every one of `settings`, on poses sampled along the
 /// trajectory. Settings take turns, so that a machine that slows down slows all of them. Errors are
-/// those of the direct echoes without noise against cast_reference(). `cold` has a ColdStart per
-/// setting and sonar (sonars within settings), or is empty for zeros.
+/// those of the direct echoes without noise against cast_reference().
 Report make_report(const Mission& mission, const Assembly& assembly,
-                   std::span<const Setting> settings, std::span<const ColdStart> cold,
-                   const ReportOptions& options, const ReportProgress& progress);
+                   std::span<const Setting> settings, const ReportOptions& options,
+                   const ReportProgress& progress);
 
-/// The sonar with a setting's error goal.
-Sonar with_setting(const Sonar& sonar, const Setting& setting);
+/// The multipath methods that a report compares: exact, and clusters for epsilon in {1, 3, 5, 9}
+/// bins and delta in {5, 15, 30} degrees; and `own`.
+std::vector<MultipathConfig> multipath_settings(const MultipathConfig& own);
+
+/// Measures every sonar that has multipath with each of its multipath_settings(), with the engine
+/// and the error goal of the mission. The methods take turns.
+std::vector<MultipathRow> measure_multipath(const Mission& mission, const Assembly& assembly,
+                                            const ReportOptions& options,
+                                            const ReportProgress& progress);
+
+/// Measures every sonar with each kind of label alone and with all of them, with the engine and the
+/// error goal of the mission. `height` is omitted for a mission without scene.bottom. The kinds take
+/// turns. Masks, boxes and files are not included. Empty for a mission without labels.
+std::vector<LabelRow> measure_labels(const Mission& mission, const Assembly& assembly,
+                                     const ReportOptions& options, const ReportProgress& progress);
+
+/// The report as JSON, and as Markdown tables.
+std::string report_json(const Report& report);
+std::string report_markdown(const Report& report);
 
 }  // namespace sonarsim

@@ -1,12 +1,10 @@
-#include "benchmark/report_files.h"
+#include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <utility>
-#include <vector>
 
-#include "benchmark/report_text.h"
-#include "core/text.h"
+#include "benchmark/report.h"
 
 namespace sonarsim {
 
@@ -14,176 +12,155 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The figures of a row with their least and greatest value over the poses.
-std::vector<std::pair<const char*, const Summary*>> summaries(const ReportRow& row) {
-    return {{"ms_per_ping", &row.ms_per_ping}, {"relative_l1", &row.relative_l1},
-            {"relative_l2", &row.relative_l2}, {"miss_rate", &row.miss_rate},
-            {"false_rate", &row.false_rate},   {"samples_per_ping", &row.samples_per_ping}};
-}
-
-/// The other figures of a row, in the order of the columns.
-std::vector<std::pair<const char*, double>> columns_of(const ReportRow& row) {
-    return {{"ms_per_ping", row.ms_per_ping.centre},
-            {"pings_per_s", row.pings_per_s},
-            {"times_131k_rays", row.times_rays},
-            {"relative_l1", row.relative_l1.centre},
-            {"worst_relative_l1", row.relative_l1.max},
-            {"relative_l2", row.relative_l2.centre},
-            {"miss_rate", row.miss_rate.centre},
-            {"false_rate", row.false_rate.centre},
-            {"samples_per_ping", row.samples_per_ping.centre},
-            {"build_s", row.cold.build_s},
-            {"first_ping_s", row.cold.first_ping_s},
-            {"peak_memory_mb", row.cold.peak_memory_mb}};
-}
-
 Json json_of(const ReportRow& row) {
-    Json json{{"sensor", row.sensor},
-              {"engine", row.setting.engine},
-              {"setting", row.setting.name},
-              {"promise", row.promise()}};
-    for (const auto& [name, value] : columns_of(row))
-        json[name] = value;
-    for (const auto& [name, spread] : summaries(row))
-        json["spread"][name] = {spread->min, spread->max};
-    return json;
-}
-
-Json stages_of(const ReportRow& row) {
-    Json json = {{"sensor", row.sensor},
-                 {"engine", row.setting.engine},
-                 {"setting", row.setting.name},
-                 {"on_front", row.on_front},
-                 {"current", row.setting.current}};
-    for (const auto& timer : ping_timers)
-        json["ms_" + std::string(timer.name)] = 1e3 * row.stages.*timer.member;
-    json["ms_bare_embree"] = row.ms_bare;
-    json["ms_131k_rays"] = row.ms_rays;
-    json["ms_slowest_ping"] = row.cold.slowest_ms;
-    json["engine_memory_mb"] = row.cold.engine_memory_mb;
-    return json;
-}
-
-Json reference_of(const Report& report, const ReferenceQuality& reference) {
-    return {{"sensor", reference.sensor},
-            {"poses", report.poses},
-            {"moved_mean", reference.moved.centre},
-            {"moved_max", reference.moved.max},
-            {"apart_mean", reference.apart.centre},
-            {"apart_max", reference.apart.max},
-            {"rays_per_bin_mean", reference.rays_per_bin.centre},
-            {"auto", explain_auto(report, reference.sensor)}};
-}
-
-Json growth_of(const Growth& growth) {
-    Json json{{"sensor", growth.sensor},
-              {"engine", growth.engine},
-              {"along", growth.along},
-              {"triangles", growth.triangles},
-              {"ms_per_ping", growth.ms_per_ping}};
-    // JSON has no NaN.
-    json["exponent"] = std::isfinite(growth.exponent) ? Json(growth.exponent) : Json();
-    return json;
-}
-
-/// The figures of a multipath row: epsilon and delta, then the measurements.
-std::vector<std::pair<const char*, double>> columns_of(const MultipathRow& row) {
-    return {{"epsilon_bins", row.setting.epsilon_bins},
-            {"delta_deg", row.setting.delta_deg},
+    return {{"sensor", row.sensor},
+            {"engine", row.setting.engine},
+            {"setting", row.setting.name},
+            {"current", row.setting.current},
+            {"on_front", row.on_front},
+            {"ms_per_ping", row.ms_per_ping},
+            {"times_131k_rays", row.times_rays},
+            {"pings_per_s", row.pings_per_s},
             {"relative_l1", row.relative_l1},
-            {"recall", row.recall},
-            {"precision", row.precision},
-            {"exact_bins", static_cast<double>(row.exact_bins)},
-            {"ms_multipath", row.ms_multipath.centre},
-            {"ms_multipath_min", row.ms_multipath.min},
-            {"ms_multipath_max", row.ms_multipath.max},
-            {"ms_per_ping", row.ms_per_ping.centre},
-            {"ms_per_ping_min", row.ms_per_ping.min},
-            {"ms_per_ping_max", row.ms_per_ping.max},
-            {"ms_without", row.ms_without},
-            {"times_without", row.times_without()},
-            {"speed_up", row.speed_up}};
-}
-
-const char* method_of(const MultipathRow& row) {
-    return row.setting.method == MultipathMethod::exact ? "exact" : "cluster";
+            {"worst_relative_l1", row.worst_relative_l1},
+            {"promise", row.promise()},
+            {"miss_rate", row.miss_rate},
+            {"false_rate", row.false_rate},
+            {"samples_per_ping", row.samples_per_ping},
+            {"ms_131k_rays", row.ms_rays}};
 }
 
 Json json_of(const MultipathRow& row) {
-    Json json{{"sensor", row.sensor}, {"method", method_of(row)}, {"current", row.current}};
-    for (const auto& [name, value] : columns_of(row))
-        json[name] = value;
-    return json;
+    return {{"sensor", row.sensor},
+            {"method", row.setting.method == MultipathMethod::exact ? "exact" : "cluster"},
+            {"epsilon_bins", row.setting.epsilon_bins},
+            {"delta_deg", row.setting.delta_deg},
+            {"current", row.current},
+            {"relative_l1", row.relative_l1},
+            {"recall", row.recall},
+            {"precision", row.precision},
+            {"exact_bins", row.exact_bins},
+            {"ms_multipath", row.ms_multipath},
+            {"ms_per_ping", row.ms_per_ping},
+            {"times_without", row.times_without}};
+}
+
+Json json_of(const ReferenceQuality& reference) {
+    return {{"sensor", reference.sensor},
+            {"moved_mean", reference.moved},
+            {"moved_max", reference.most_moved},
+            {"rays_per_bin_mean", reference.rays_per_bin}};
 }
 
 Json json_of(const LabelRow& row) {
     return {{"sensor", row.sensor},
             {"label", row.label},
-            {"ms", row.ms.centre},
-            {"times_ping", row.times_ping.centre},
-            {"times_ping_min", row.times_ping.min},
-            {"times_ping_max", row.times_ping.max}};
+            {"ms", row.ms},
+            {"times_ping", row.times_ping}};
+}
+
+template <class Row>
+Json list_of(const std::vector<Row>& rows) {
+    Json list = Json::array();
+    for (const Row& row : rows)
+        list.push_back(json_of(row));
+    return list;
+}
+
+Json json_of(const Report& report) {
+    Json json{{"mission", report.mission}, {"triangles", report.triangles}, {"poses", report.poses},
+              {"threads", report.threads}, {"load", report.load}};
+    if (report.heightmap.every > 1)
+        json["heightmap"] = {{"every", report.heightmap.every}, {"error", report.heightmap.error}};
+    json["rows"] = list_of(report.rows);
+    json["reference"] = list_of(report.references);
+    json["multipath_rows"] = list_of(report.multipath);
+    json["label_rows"] = list_of(report.labels);
+    return json;
+}
+
+/// Three significant digits, without an exponent.
+std::string short_number(double x) {
+    if (!(x >= 5e-5)) return "0";
+    const int digits = 2 - static_cast<int>(std::floor(std::log10(x)));
+    return fmt::format("{:.{}f}", x, std::clamp(digits, 0, 4));
+}
+
+/// A column of a table: a key of the rows and its title. Titles that end in % are for shares.
+struct Column {
+    const char* key;
+    std::string title;
+};
+
+std::string cell_of(const Json& row, const Column& column) {
+    const Json& value = row[column.key];
+    if (value.is_string()) return value;
+    const bool share = column.title.ends_with('%');
+    const std::string number = short_number((share ? 100.0 : 1.0) * value.get<double>());
+    const bool best = row.value("on_front", false) &&
+                      (column.title == "ms per ping" || column.title == "relative L1, %");
+    return best ? "**" + number + "**" : number;
+}
+
+/// The rows of a sonar as a Markdown table; empty for no rows.
+std::string table(const Json& rows, const Json& sensor, const std::vector<Column>& columns) {
+    std::string head = "\n|";
+    std::string line = "|";
+    for (const Column& column : columns) {
+        head += " " + column.title + " |";
+        line += "---|";
+    }
+    std::string text;
+    for (const Json& row : rows) {
+        if (row["sensor"] != sensor) continue;
+        text += "|";
+        for (const Column& column : columns)
+            text += " " + cell_of(row, column) + " |";
+        text += row.value("current", false) ? " the mission's own\n" : "\n";
+    }
+    return text.empty() ? "" : head + "\n" + line + "\n" + text;
 }
 
 }  // namespace
 
 std::string report_json(const Report& report) {
-    Json json{{"mission", report.mission},      {"version", SONARSIM_VERSION},
-              {"triangles", report.triangles},  {"poses", report.poses},
-              {"threads", report.threads},      {"load_average", report.load},
-              {"goal_relative_l1", report.goal}};
-    if (report.heightmap.every > 1) {
-        json["heightmap"] = {{"every", report.heightmap.every},
-                             {"relative_l1", report.heightmap.error}};
-    }
-    for (const char* const list :
-         {"rows", "stages", "reference", "growth", "multipath_rows", "label_rows"})
-        json[list] = Json::array();
-    for (const ReportRow& row : report.rows) {
-        json["rows"].push_back(json_of(row));
-        json["stages"].push_back(stages_of(row));
-    }
-    for (const ReferenceQuality& reference : report.references)
-        json["reference"].push_back(reference_of(report, reference));
-    for (const Growth& growth : report.growth)
-        json["growth"].push_back(growth_of(growth));
-    for (const MultipathRow& row : report.multipath)
-        json["multipath_rows"].push_back(json_of(row));
-    for (const LabelRow& row : report.labels)
-        json["label_rows"].push_back(json_of(row));
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_of(report).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string report_csv(const Report& report) {
-    std::string text = "sensor,engine,setting,promise";
-    const ReportRow any;
-    for (const auto& [name, value] : columns_of(any))
-        text += std::string(",") + name;
-    for (const auto& [name, spread] : summaries(any))
-        text += "," + std::string(name) + "_min," + name + "_max";
-    text += "\n";
-    for (const ReportRow& row : report.rows) {
-        text +=
-            row.sensor + "," + row.setting.engine + "," + row.setting.name + "," + row.promise();
-        for (const auto& [name, value] : columns_of(row))
-            text += "," + number_text(value);
-        for (const auto& [name, spread] : summaries(row))
-            text += "," + number_text(spread->min) + "," + number_text(spread->max);
-        text += "\n";
-    }
-    return text;
-}
-
-std::string multipath_csv(const Report& report) {
-    std::string text = "sensor,method,current";
-    for (const auto& [name, value] : columns_of(MultipathRow{}))
-        text += std::string(",") + name;
-    text += "\n";
-    for (const MultipathRow& row : report.multipath) {
-        text += row.sensor + "," + method_of(row) + "," + (row.current ? "true" : "false");
-        for (const auto& [name, value] : columns_of(row))
-            text += "," + number_text(value);
-        text += "\n";
+std::string report_markdown(const Report& report) {
+    const Json json = json_of(report);
+    std::string text = fmt::format("{}: {} triangles, {} poses, {} threads\n", report.mission,
+                                   report.triangles, report.poses, report.threads);
+    if (report.load > 0.5)
+        text += fmt::format("The machine was busy (load {:.1f}): times are too long.\n", report.load);
+    for (const ReferenceQuality& reference : report.references) {
+        text += fmt::format("\n{}: the reference settled to {} %, at most {} %.\n", reference.sensor,
+                            short_number(100.0 * reference.moved),
+                            short_number(100.0 * reference.most_moved));
+        text += table(json["rows"], reference.sensor,
+                      {{"engine", "engine"},
+                       {"setting", "setting"},
+                       {"ms_per_ping", "ms per ping"},
+                       {"times_131k_rays", "x 131k rays"},
+                       {"pings_per_s", "pings/s"},
+                       {"relative_l1", "relative L1, %"},
+                       {"worst_relative_l1", "worst pose, %"},
+                       {"promise", "goal"},
+                       {"miss_rate", "missed bins, %"},
+                       {"false_rate", "false bins, %"},
+                       {"samples_per_ping", "samples"}});
+        text += table(json["multipath_rows"], reference.sensor,
+                      {{"method", "multipath"},
+                       {"epsilon_bins", "epsilon"},
+                       {"delta_deg", "delta"},
+                       {"relative_l1", "its relative L1, %"},
+                       {"recall", "recall, %"},
+                       {"precision", "precision, %"},
+                       {"ms_multipath", "ms"},
+                       {"ms_per_ping", "ms per ping"},
+                       {"times_without", "times the ping without"}});
+        text += table(json["label_rows"], reference.sensor,
+                      {{"label", "label"}, {"ms", "ms"}, {"times_ping", "times the ping"}});
     }
     return text;
 }

@@ -11,23 +11,13 @@ namespace sonarsim {
 
 namespace {
 
-Setting rays_with(double goal) {
-    return {.engine = "rays",
+/// Rays, slices or auto by error goal.
+Setting with_goal(EngineKind kind, const char* engine, double goal) {
+    return {.engine = engine,
             .name = "relative_l1=" + number_text(goal),
-            .kind = EngineKind::rays,
+            .kind = kind,
             .octree = {},
             .relative_l1 = goal};
-}
-
-/// `per_beam` 0: the number of slices follows the goal.
-Setting slices_with(int per_beam, double goal) {
-    return {.engine = "slices",
-            .name = per_beam > 0 ? "per_beam=" + std::to_string(per_beam)
-                                 : "relative_l1=" + number_text(goal),
-            .kind = EngineKind::slices,
-            .octree = {},
-            .relative_l1 = goal,
-            .slices = {per_beam}};
 }
 
 /// `leaf_m` 0: automatic.
@@ -42,25 +32,18 @@ Setting octree_with(double leaf_m, bool literal, const Mission& mission) {
             .relative_l1 = mission.accuracy.relative_l1};
 }
 
-Setting automatic_with(double goal) {
-    return {.engine = "auto",
-            .name = "relative_l1=" + number_text(goal),
-            .kind = EngineKind::automatic,
-            .octree = {},
-            .relative_l1 = goal};
-}
-
 Setting own_setting(const Mission& mission) {
-    switch (mission.engine) {
-        case EngineKind::automatic:
-            return automatic_with(mission.accuracy.relative_l1);
-        case EngineKind::octree:
-            return octree_with(mission.octree.leaf_m, mission.octree.literal, mission);
-        case EngineKind::slices:
-            return slices_with(mission.slices.per_beam, mission.accuracy.relative_l1);
-        default:
-            return rays_with(mission.accuracy.relative_l1);
-    }
+    const double goal = mission.accuracy.relative_l1;
+    if (mission.engine == EngineKind::octree)
+        return octree_with(mission.octree.leaf_m, mission.octree.literal, mission);
+    if (mission.engine == EngineKind::rays) return with_goal(EngineKind::rays, "rays", goal);
+    if (mission.engine == EngineKind::automatic)
+        return with_goal(EngineKind::automatic, "auto", goal);
+    Setting slices = with_goal(EngineKind::slices, "slices", goal);
+    slices.slices = mission.slices;
+    if (mission.slices.per_beam > 0)
+        slices.name = "per_beam=" + std::to_string(mission.slices.per_beam);
+    return slices;
 }
 
 double finest_bin_m(const Mission& mission) {
@@ -79,11 +62,10 @@ std::vector<Setting> make_settings(const Mission& mission, bool quick) {
     const std::vector<double> leaves =
         quick ? std::vector{0.08, 0.04} : std::vector{0.08, 0.04, 0.02, 0.01};
     std::vector<Setting> settings;
-    settings.reserve(2 * leaves.size() + 2 * goals.size() + 4);
     for (const double goal : goals)
-        settings.push_back(rays_with(goal));
+        settings.push_back(with_goal(EngineKind::rays, "rays", goal));
     for (const double goal : goals)
-        settings.push_back(slices_with(0, goal));
+        settings.push_back(with_goal(EngineKind::slices, "slices", goal));
     for (const bool literal : {true, false}) {
         for (const double leaf : leaves) {
             if (leaf >= 0.25 * finest_bin_m(mission)) {
@@ -92,17 +74,13 @@ std::vector<Setting> make_settings(const Mission& mission, bool quick) {
         }
     }
     settings.push_back(octree_with(0.0, false, mission));
-    settings.push_back(automatic_with(mission.accuracy.relative_l1));
+    settings.push_back(with_goal(EngineKind::automatic, "auto", mission.accuracy.relative_l1));
     Setting own = own_setting(mission);
     own.current = true;
-    const auto same = std::ranges::find_if(settings, [&](const Setting& setting) {
+    std::erase_if(settings, [&](const Setting& setting) {
         return setting.engine == own.engine && setting.name == own.name;
     });
-    if (same == settings.end()) {
-        settings.push_back(own);
-    } else {
-        *same = own;
-    }
+    settings.push_back(own);
     return settings;
 }
 

@@ -1,21 +1,64 @@
 #include "benchmark/timed_pings.h"
 
-#include "benchmark/thread_clock.h"
+#include <time.h>
+
+#include <algorithm>
+#include <numeric>
+
 #include "core/clock.h"
+#include "visibility/angles.h"
 
 namespace sonarsim {
 
-Ping PingSet::render(const Sonar& sonar, const VisibilityEngine& engine, std::size_t p) const {
-    return render_ping(*at_pose(sonar, p), scene, engine, poses[p], key(p));
+double median_of(std::vector<double> values) {
+    if (values.empty()) return 0.0;
+    std::ranges::sort(values);
+    const std::size_t n = values.size();
+    return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
 }
 
-PingSet make_ping_set(const Mission& mission, const Assembly& assembly, int poses) {
-    PingSet pings{mission, assembly.scene, {}, {}};
-    for (const std::size_t pose : sample_poses(assembly.trajectory.size(), poses)) {
-        pings.poses.push_back(assembly.trajectory[pose].T_world_vehicle);
-        pings.indices.push_back(static_cast<std::uint32_t>(pose));
+double mean_of(const std::vector<double>& values) {
+    if (values.empty()) return 0.0;
+    return std::reduce(values.begin(), values.end()) / static_cast<double>(values.size());
+}
+
+std::vector<std::size_t> sample_poses(std::size_t poses, int count) {
+    const std::size_t n = std::min(poses, static_cast<std::size_t>(std::max(count, 1)));
+    std::vector<std::size_t> out(n);
+    for (std::size_t k = 0; k < n; ++k)
+        out[k] = n > 1 ? k * (poses - 1) / (n - 1) : 0;
+    return out;
+}
+
+double thread_seconds_now() {
+    timespec now{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+std::vector<Eigen::Vector3f> view_rays(const View& view) {
+    constexpr int columns = 512;
+    constexpr int count = view_rays_count / columns;
+    View cut = view;
+    if (view.shape == ViewShape::fan) cut.beams = columns;
+    std::vector<Eigen::Vector3f> out;
+    out.reserve(view_rays_count);
+    for (const ViewColumn& column : view_columns(cut, columns / cut.beams)) {
+        const double step = (column.along_max - column.along_min) / count;
+        const SinCosFloat across = sincos_float(column.across);
+        for (int i = 0; i < count; ++i)
+            out.push_back(direction(view.shape, across,
+                                    sincos_float(column.along_min + (i + 0.5) * step)));
     }
-    return pings;
+    return out;
+}
+
+PingSet::PingSet(const Mission& mission, const Assembly& assembly, int count)
+    : mission(mission), scene(assembly.scene) {
+    for (const std::size_t pose : sample_poses(assembly.trajectory.size(), count)) {
+        poses.push_back(assembly.trajectory[pose].T_world_vehicle);
+        indices.push_back(static_cast<std::uint32_t>(pose));
+    }
 }
 
 TracedPing visit_pose(const PingSet& pings, const Sonar& sonar, const VisibilityEngine& engine,
@@ -24,44 +67,30 @@ TracedPing visit_pose(const PingSet& pings, const Sonar& sonar, const Visibility
     constexpr int repeats = 3;
     const SonarAtPose then = pings.at_pose(sonar, p);
     TracedPing traced;
-    PingSeconds stages;
-    double thread_ms = 0.0;
-    const auto timed_ms = [&] {
+    const auto visit = [&] {
         const double thread_start = thread_seconds_now();
         Stopwatch watch;
         traced = trace(*then, pings.scene, engine, pings.poses[p], pings.indices[p]);
         const Ping ping = form_image(traced, then->settings, pings.scene, pings.key(p));
-        stages = ping.seconds;
-        thread_ms = 1e3 * (thread_seconds_now() - thread_start);
-        return 1e3 * watch.lap();
+        times.ping_thread_ms.push_back(1e3 * (thread_seconds_now() - thread_start));
+        times.multipath_ms.push_back(1e3 * ping.seconds.multipath);
+        times.ping_ms.push_back(1e3 * watch.lap());
+        return times.ping_ms.back();
     };
-    double ms = timed_ms();
-    const int count = ms > slow_ms ? 1 : repeats;
-    for (int k = 0; k < count; ++k) {
-        if (count > 1) ms = timed_ms();
-        times.ping_ms.push_back(ms);
-        times.ping_thread_ms.push_back(thread_ms);
-        times.stages.push_back(stages);
-    }
+    if (visit() > slow_ms) return traced;
+    times.ping_thread_ms.pop_back();  // the ping that warmed the caches
+    times.multipath_ms.pop_back();
+    times.ping_ms.pop_back();
+    for (int k = 0; k < repeats; ++k)
+        visit();
     return traced;
 }
 
-Summary over_poses(std::span<const PoseTimes> poses, std::vector<double> PoseTimes::*times_ms) {
+double over_poses(std::span<const PoseTimes> poses, std::vector<double> PoseTimes::*times_ms) {
     std::vector<double> medians;
     for (const PoseTimes& times : poses)
-        medians.push_back(median_summary(times.*times_ms).centre);
-    return median_summary(medians);
-}
-
-Summary over_poses(std::span<const PoseTimes> poses, double PingSeconds::*stage) {
-    std::vector<double> medians;
-    for (const PoseTimes& times : poses) {
-        std::vector<double> ms;
-        for (const PingSeconds& stages : times.stages)
-            ms.push_back(1e3 * stages.*stage);
-        medians.push_back(median_summary(ms).centre);
-    }
-    return median_summary(medians);
+        medians.push_back(median_of(times.*times_ms));
+    return median_of(medians);
 }
 
 }  // namespace sonarsim

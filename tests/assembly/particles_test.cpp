@@ -10,7 +10,7 @@
 #include "sonar/kinds.h"
 #include "sonar/sonar.h"
 #include "support/statistics.h"
-#include "validation/shapes.h"
+#include "support/shapes.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

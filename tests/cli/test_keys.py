@@ -28,7 +28,7 @@ class Keys(unittest.TestCase):
 
     def test_json(self):
         sections = {(s["path"], s["form"]): {k["name"]: k for k in s["keys"]}
-                    for s in json.loads(printed("keys", "--json"))}
+                    for s in json.loads(printed("keys", "--json"))["sections"]}
         bins = sections["sensors.NAME", ""]["range_bins"]
         self.assertEqual((bins["low"], bins["high"]), (1, 8192))
         self.assertEqual(bins["default_by_kind"]["echosounder"], 200)

@@ -51,7 +51,7 @@ class Inspect(Sandbox):
 
 
 class Scattering(Sandbox):
-    """`sonarsim materials`. At 20 degrees of grazing the model has -24.6 dB for medium sand at 400 kHz,
+    """`sonarsim inspect FILE.csv`. At 20 degrees of grazing the model has -24.6 dB for medium sand at 400 kHz,
     Lambert's rule -30 + 20 log sin 20 = -39.3 dB."""
 
     def setUp(self):
@@ -60,7 +60,7 @@ class Scattering(Sandbox):
                                "sand,1900,1650,1.5,,\nplain,1900,1650,,-30,0\n")
 
     def test_a_table(self):
-        result = self.run_sonarsim("materials", "beds.csv")
+        result = self.run_sonarsim("inspect", "beds.csv")
         self.assertEqual(result.returncode, 0, result.stderr)
         title, degrees, *rows = result.stdout.splitlines()
         self.assertIn("400 kHz", title)
@@ -70,7 +70,7 @@ class Scattering(Sandbox):
 
     def test_json(self):
         for khz, strength in ((400, -24.6), (100, -25.0)):
-            reported = json.loads(self.run_sonarsim("materials", "beds.csv", "--json", "--frequency-khz",
+            reported = json.loads(self.run_sonarsim("inspect", "beds.csv", "--json", "--frequency-khz",
                                                 str(khz)).stdout)
             self.assertEqual(reported["grazing_deg"], list(range(1, 91)))
             self.assertAlmostEqual(reported["strength_db"]["sand"][19], strength, delta=0.1)
@@ -83,7 +83,7 @@ class Scattering(Sandbox):
                 if line.startswith("|")]
         for khz in (100, 400):
             start = [row[0] for row in rows].index(f"{khz} kHz")
-            printed = self.run_sonarsim("materials", str(ROOT / "scenes" / "materials.csv"),
+            printed = self.run_sonarsim("inspect", str(ROOT / "scenes" / "materials.csv"),
                                         "--frequency-khz", str(khz)).stdout.splitlines()
             self.assertEqual(printed[1].split(), rows[start][1:])
             reported = {line.split()[0]: line.split()[1:] for line in printed[2:]}
@@ -104,9 +104,9 @@ class Scattering(Sandbox):
 
     def test_what_is_refused(self):
         self.write("beds.csv", "material,density_kg_m3,sound_speed_m_s,grain_phi\nsand,1900,1650,12\n")
-        self.assert_refused(self.run_sonarsim("materials", "beds.csv"),
+        self.assert_refused(self.run_sonarsim("inspect", "beds.csv"),
                             "beds.csv:2: grain_phi is 12; expected a number from -10 to 9")
-        self.assertEqual(self.run_sonarsim("materials", "beds.csv", "--frequency-khz", "0").returncode, 2)
+        self.assertEqual(self.run_sonarsim("inspect", "beds.csv", "--frequency-khz", "0").returncode, 2)
 
 
 if __name__ == "__main__":

@@ -17,18 +17,13 @@ PYTHON = python_with("matplotlib")
 
 
 def setting(name, ms, error, front=False, current=False, engine="rays", sensor="fls"):
-    row = {"sensor": sensor, "engine": engine, "setting": name, "ms_per_ping": ms,
-           "relative_l1": error}
-    stage = {"sensor": sensor, "engine": engine, "setting": name, "on_front": front,
-             "current": current}
-    return row, stage
+    return {"sensor": sensor, "engine": engine, "setting": name, "ms_per_ping": ms, "relative_l1": error,
+            "on_front": front, "current": current}
 
 
-def report(settings, growth=()):
-    return {"mission": "a < b & c", "rows": [row for row, _ in settings],
-            "stages": [stage for _, stage in settings],
-            "reference": [{"sensor": s} for s in dict.fromkeys(r["sensor"] for r, _ in settings)],
-            "growth": list(growth)}
+def report(settings):
+    return {"mission": "a < b & c", "rows": settings,
+            "reference": [{"sensor": s} for s in dict.fromkeys(row["sensor"] for row in settings)]}
 
 
 class PlotReport(unittest.TestCase):
@@ -64,19 +59,9 @@ class PlotReport(unittest.TestCase):
         self.assertNotIn("0.017", texts)
         self.assertNotIn("0.37", texts)
         self.assertIn("0.37", self.texts("error_sss.svg"))
-        self.assertFalse((self.folder / "growth_fls.svg").exists())
         first = (self.folder / "error_fls.svg").read_bytes()
         self.assert_plots(json.loads((self.folder / "report.json").read_text()))
         self.assertEqual((self.folder / "error_fls.svg").read_bytes(), first)
-
-    def test_growth(self):
-        growth = {"sensor": "fls", "engine": "rays", "along": "area", "triangles": [12, 108],
-                  "ms_per_ping": [1.0, 3.0], "exponent": 0.5}
-        flat = dict(growth, along="detail", exponent=None)
-        self.assert_plots(report([setting("relative_l1=0.1", 1.0, 0.08)], [growth, flat]))
-        texts = self.texts("growth_fls.svg")
-        self.assertIn("rays, more area: triangles^0.50", texts)
-        self.assertIn("rays, more detail", texts)
 
     def test_png(self):
         self.assert_plots(report([setting("relative_l1=0.1", 1.0, 0.08)]), "--format", "png")

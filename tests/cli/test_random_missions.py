@@ -338,7 +338,7 @@ def check(folder):
 
 def main():
     listed = subprocess.run([SONARSIM, "keys", "--json"], check=True, capture_output=True)
-    keys = {part["path"]: part["keys"] for part in json.loads(listed.stdout)}
+    keys = {part["path"]: part["keys"] for part in json.loads(listed.stdout)["sections"]}
     codes = {0: 0, 1: 0, 2: 0}
     slowest = (0.0, None)
     failed = []

@@ -1,4 +1,4 @@
-"""`sonarsim schema`: what the program takes, its schema takes, and what a schema can tell is wrong, both
+"""`sonarsim keys --json`: what the program takes, its schema takes, and what a schema can tell is wrong, both
 refuse."""
 import json
 import pathlib
@@ -17,7 +17,7 @@ except ImportError as lacking:
     sys.exit(77)
 
 ROOT = pathlib.Path(__file__).parents[2]
-SCHEMA = json.loads(subprocess.run([SONARSIM, "schema"], text=True, capture_output=True, timeout=60,
+SCHEMA = json.loads(subprocess.run([SONARSIM, "keys", "--json"], text=True, capture_output=True, timeout=60,
                                    check=True).stdout)
 VALIDATOR = jsonschema.Draft202012Validator(SCHEMA)
 

@@ -1,7 +1,8 @@
-"""Texts for shells, for man and for users of --help and --version: all of it from the same texts."""
+"""Texts of --help and --version, former commands, and the commands in Python that the program starts."""
 import json
+import os
+import pathlib
 import re
-import shutil
 import subprocess
 import unittest
 
@@ -9,72 +10,29 @@ from sandbox import SONARSIM, Sandbox
 
 
 def lines_of(*arguments):
-    return subprocess.run([SONARSIM, *arguments], text=True, capture_output=True, timeout=60,
-                          check=True).stdout
+    return subprocess.run([SONARSIM, *arguments], text=True, capture_output=True, timeout=60, check=True).stdout
 
 
-COMMANDS = re.findall(r"^  ([a-z-]+)  ", lines_of("--help").split("Subcommands:")[1], re.MULTILINE)
-
-COMPLETE = """
-complete_line() {
-    COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); COMPREPLY=(); _sonarsim; echo "${COMPREPLY[@]}"
-}
-complete_line sonarsim ''
-complete_line sonarsim rend
-complete_line sonarsim render --over
-complete_line sonarsim render --log-level w
-complete_line sonarsim completion ''
-complete_line sonarsim render mission
-"""
+HELP = lines_of("--help")
+COMMANDS, PYTHON_COMMANDS = (re.findall(r"^  ([a-z-]+)  ", HELP.split(f"\n{head}:\n")[1].split("\n\n")[0], re.MULTILINE)
+                             for head in ("Subcommands", "Subcommands in Python"))
 
 
 class Shell(Sandbox):
-    def need(self, program):
-        if shutil.which(program) is None:
-            self.skipTest(f"{program} is not installed")
+    def test_commands(self):
+        self.assertEqual(sorted(COMMANDS), ["inspect", "keys", "merge", "preset", "preview", "render", "report", "status",
+                                            "validate", "verify"])
+        self.assertEqual(PYTHON_COMMANDS, ["export", "gallery", "compare", "calibrate", "import-holoocean"])
 
-    def test_bash(self):
-        result = subprocess.run(["bash", "-c", lines_of("completion", "bash") + COMPLETE],
-                                cwd=self.folder, text=True, capture_output=True, check=False)
-        self.assertEqual(result.stderr, "")
-        first, *others = result.stdout.splitlines()
-        self.assertGreaterEqual(len(COMMANDS), 8)
-        self.assertEqual(set(COMMANDS) - set(first.split()), set())
-        self.assertEqual(others, ["render", "--overwrite", "warning", "bash fish zsh",
-                                  "mission.yaml"])
-
-    def test_zsh_and_fish(self):
-        for shell in ("zsh", "fish"):
-            with self.subTest(shell):
-                text = lines_of("completion", shell)
-                for command in COMMANDS:
-                    self.assertIn(command, text)
-                self.need(shell)
-                result = subprocess.run([shell, "-n", "/dev/stdin"], input=text, text=True,
-                                        capture_output=True, check=False)
-                self.assertEqual((result.returncode, result.stderr), (0, ""))
-
-    def test_fish_completes(self):
-        self.need("fish")
-        result = subprocess.run(["fish", "-c", lines_of("completion", "fish") +
-                                 "complete -C 'sonarsim rend'"],
-                                text=True, capture_output=True, check=False)
-        self.assertTrue(result.stdout.startswith("render\t"), result.stdout + result.stderr)
-
-    def test_man(self):
-        page = lines_of("man")
-        self.assertTrue(page.startswith(".TH SONARSIM 1"))
-        for command in COMMANDS:
-            self.assertIn(f"\n.SS \"sonarsim {command}".replace("-", "\\-"), page)
-        self.assertIn("\\fB\\-\\-overwrite\\fR", page)
-        self.need("man")
-        result = subprocess.run(["man", "--warnings", "-l", "-"], input=page, text=True,
-                                capture_output=True, check=False)
-        self.assertEqual(result.stderr, "")
-        self.assertIn("EXIT STATUS", result.stdout)
+    def test_former_commands_say_what_stands_in_for_them(self):
+        for command, instead in (("schema", "sonarsim keys --json"), ("materials", "sonarsim inspect FILE.csv"),
+                                 ("man", "--help"), ("completion", "--help"), ("contact-sheet", "montage")):
+            result = self.run_sonarsim(command)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn(instead, result.stderr)
 
     def test_examples_name_commands_and_options_that_there_are(self):
-        for line in re.findall(r"^  sonarsim (.*)$", lines_of("--help"), re.MULTILINE):
+        for line in re.findall(r"^  sonarsim (.*)$", HELP, re.MULTILINE):
             self.assertIn(line.split()[0], COMMANDS)
         for command in COMMANDS:
             page = lines_of(command, "--help")
@@ -94,6 +52,42 @@ class Shell(Sandbox):
         fault = json.loads(result.stderr.splitlines()[-1])
         self.assertEqual((fault["file"], fault["line"], fault["column"]), ("mission.yaml", 13, 5))
         self.assertTrue(fault["message"].startswith("mission.yaml:13:5: unknown key"))
+
+
+class Python(Sandbox):
+    """SONARSIM_PYTHON names a program that stands in for the interpreter."""
+
+    def run_tool(self, script, *arguments, **variables):
+        python = self.write("python", "#!/bin/sh\n" + script)
+        python.chmod(0o755)
+        return self.run_sonarsim(*arguments, env={**os.environ, "SONARSIM_PYTHON": str(python), **variables})
+
+    def test_options_and_exit_codes_pass_through(self):
+        result = self.run_tool('for word; do echo "<$word>"; done; echo "$PYTHONPATH"; exit 7\n', "import-holoocean",
+                               "--help", "two words", "--", "-q", PYTHONPATH="/elsewhere")
+        self.assertEqual(result.returncode, 7)
+        *words, folders = result.stdout.splitlines()
+        self.assertEqual(words, ["<-m>", "<sonarsim.import_holoocean>", "<--help>", "<two words>", "<-->", "<-q>"])
+        package, other = folders.split(":")
+        self.assertTrue((pathlib.Path(package) / "sonarsim/need.py").is_file())
+        self.assertEqual(other, "/elsewhere")
+        self.assertEqual(self.run_tool("kill -TERM $$\n", "export").returncode, -15)
+
+    def test_a_module_of_the_current_folder_is_not_taken(self):
+        self.write("json.py", "raise SystemExit('the wrong module')\n")
+        result = self.run_sonarsim("import-holoocean", "--help")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertIn("usage: sonarsim import-holoocean", result.stdout)
+
+    def test_what_is_missing_is_said_in_one_sentence(self):
+        result = self.run_sonarsim("export", env={**os.environ, "SONARSIM_PYTHON": "/nowhere/python3"})
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("cannot run /nowhere/python3: No such file or directory; install python3", result.stderr)
+        need = "import sys; sys.argv = ['sonarsim/export.py']; from sonarsim.need import need; need('json', 'PIL', 'nothing')"
+        result = self.run_tool(f'exec /usr/bin/python3 -SIc "import sys; sys.path.append(\'${{PYTHONPATH%%:*}}\'); {need}"\n',
+                               "export")
+        self.assertEqual(result.returncode, 2)
+        self.assertRegex(result.stderr, r"\Asonarsim export: install python3-pil nothing \(.*SONARSIM_PYTHON.*\)\n\Z")
 
 
 if __name__ == "__main__":

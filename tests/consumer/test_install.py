@@ -26,17 +26,18 @@ def main(build, compiler):
         if not packages:
             run("cmake", "--install", build, "--prefix", prefix)
         for name in ("bin/sonarsim", "share/doc/sonarsim/README.md", "share/doc/sonarsim/docs/model.md",
-                     "share/sonarsim/scenes/tank.glb", "share/man/man1/sonarsim.1.gz",
-                     "share/bash-completion/completions/sonarsim", "share/zsh/vendor-completions/_sonarsim",
-                     "share/fish/vendor_completions.d/sonarsim.fish", "share/sonarsim/mission.schema.json",
+                     "share/sonarsim/scenes/tank.glb", *(["share/man/man1/sonarsim.1.gz"] if packages else []),
                      "share/sonarsim/scripts/sonarsim_data.py",
                      "share/sonarsim/scripts/slurm/render.sh", "lib/sonarsim/libsonarsim_meshes.so"):
             assert (prefix / name).exists(), f"not installed: {name}"
         python = prefix / "lib/python3/dist-packages"
-        for name in ("__init__.py", "_sonarsim.pyi", "data.py", "data.pyi", "py.typed", "torch.py"):
+        for name in ("__init__.py", "_sonarsim.pyi", "data.py", "data.pyi", "mission.py", "py.typed", "torch.py"):
             assert (python / "sonarsim" / name).exists(), f"not installed: {name}"
-        assert folder in run(sys.executable, "-Bc", "import sonarsim, sonarsim_data; print(sonarsim._sonarsim)",
+        assert folder in run("/usr/bin/python3", "-Bc", "import sonarsim, sonarsim.data; print(sonarsim._sonarsim)",
                              env={**os.environ, "PYTHONPATH": python})
+        scenario = pathlib.Path(folder, "scenario.json")
+        scenario.write_text('{"agents": [{"sensors": [{"sensor_type": "ImagingSonar"}]}]}')
+        assert "kind: \"imaging\"" in run(prefix / "bin/sonarsim", "import-holoocean", scenario)
         share = prefix / "share/sonarsim"
         run(prefix / "bin/sonarsim", "render", share / "configs/tank_imaging.yaml", "--set",
             "trajectory.rate_hz=0.2", cwd=folder)

@@ -1,8 +1,8 @@
 #include <doctest/doctest.h>
 
 #include "support/sanitized.h"
-#include "validation/hard/cases.h"
-#include "validation/hard/tools.h"
+#include "hard/cases.h"
+#include "hard/tools.h"
 
 using namespace sonarsim;
 

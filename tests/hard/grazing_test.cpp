@@ -6,7 +6,7 @@
 
 #include "sonar/engine_settings.h"
 #include "support/approx.h"
-#include "validation/hard/tools.h"
+#include "hard/tools.h"
 #include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;

@@ -1,17 +1,17 @@
 #include <doctest/doctest.h>
 #include <spdlog/fmt/fmt.h>
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/units.h"
+#include "hard/tools.h"
 #include "sonar/engine_settings.h"
 #include "support/sanitized.h"
 #include "support/scenes.h"
-#include "validation/fit.h"
-#include "validation/hard/tools.h"
 #include "validation/image_error.h"
 #include "validation/reference.h"
 
@@ -20,6 +20,24 @@ using namespace sonarsim;
 TEST_SUITE_BEGIN("hard");
 
 namespace {
+
+/// The exponent b of y = a x^b, from least squares of log y on log x.
+double fit_exponent(const std::vector<double>& x, const std::vector<double>& y) {
+    const auto n = static_cast<double>(x.size());
+    double sx = 0.0;
+    double sy = 0.0;
+    double sxx = 0.0;
+    double sxy = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const double u = std::log(x[i] / x[0]);
+        const double v = std::log(y[i]);
+        sx += u;
+        sy += v;
+        sxx += u * u;
+        sxy += u * v;
+    }
+    return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
 
 /// The convergence of an engine's error with its resolution.
 struct ConvergenceOrder {

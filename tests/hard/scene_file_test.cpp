@@ -10,7 +10,7 @@
 #include "core/pose.h"
 #include "scene/gltf/builder.h"
 #include "support/sanitized.h"
-#include "validation/hard/tools.h"
+#include "hard/tools.h"
 
 using namespace sonarsim;
 using nlohmann::json;

@@ -5,8 +5,8 @@
 
 #include "sonar/engine_settings.h"
 #include "support/sanitized.h"
-#include "validation/hard/tools.h"
-#include "validation/shapes.h"
+#include "hard/tools.h"
+#include "support/shapes.h"
 
 using namespace sonarsim;
 

@@ -8,7 +8,7 @@
 #include "sonar/measured.h"
 #include "sonar/sonar.h"
 #include "support/approx.h"
-#include "validation/shapes.h"
+#include "support/shapes.h"
 #include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;

@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "scene/gltf/load.h"
-#include "validation/shapes.h"
+#include "support/shapes.h"
 
 namespace sonarsim::test {
 

@@ -12,7 +12,7 @@
 #include "trace/multipath.h"
 #include "trace/traced_ping.h"
 #include "validation/image_error.h"
-#include "validation/shapes.h"
+#include "support/shapes.h"
 #include "visibility/angles.h"
 #include "visibility/rays/rays_engine.h"
 

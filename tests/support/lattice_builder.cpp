@@ -5,7 +5,7 @@
 
 #include "core/elementary.h"
 #include "core/units.h"
-#include "validation/shapes.h"
+#include "support/shapes.h"
 
 namespace sonarsim::test {
 

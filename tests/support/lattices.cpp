@@ -13,7 +13,7 @@
 #include "support/draws.h"
 #include "support/lattice_builder.h"
 #include "support/lattices_kept_aside.h"
-#include "validation/shapes.h"
+#include "support/shapes.h"
 
 namespace sonarsim::test {
 

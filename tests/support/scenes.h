@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/elementary.h"
-#include "validation/shapes.h"
+#include "support/shapes.h"
 
 namespace sonarsim::test {
 

@@ -7,7 +7,7 @@
 
 #include "core/units.h"
 #include "support/approx.h"
-#include "validation/shapes.h"
+#include "support/shapes.h"
 
 using namespace sonarsim;
 

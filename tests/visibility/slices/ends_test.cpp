@@ -7,7 +7,7 @@
 #include "core/units.h"
 #include "support/approx.h"
 #include "support/draws.h"
-#include "validation/shapes.h"
+#include "support/shapes.h"
 #include "visibility/slices/fixtures.h"
 
 using namespace sonarsim;

@@ -1,0 +1,201 @@
+"""`sonarsim import-holoocean`: a mission from the sonars and the pose of the main agent of a HoloOcean scenario.
+
+Its frames and units are those of sonarsim. The source of its parameters is the documentation of HoloOcean 2, pages of
+its sensors and "Units and Coordinates"; docs/holoocean.md has the tables below for readers.
+"""
+import argparse
+import json
+import math
+import os
+import re
+import sys
+
+NUMBER, NOT_IN_NAMES = (int, float), r"[^A-Za-z0-9_-]"
+CALLED = {dict: "an object", list: "a list", str: "text", bool: "true or false", NUMBER: "a number"}
+# The kind of HoloOcean, that of sonarsim, and the keys that it lacks. HoloOcean 2.4 has three forms of each.
+KINDS = (("ImagingSonar", "imaging", {"opening_deg"}), ("ProfilingSonar", "profiling", {"opening_deg"}),
+         ("SidescanSonar", "sidescan", {"opening_deg", "azimuth_bins", "noise.range_lambda_m"}),
+         ("SinglebeamSonar", "echosounder", {"azimuth_deg", "elevation_deg", "azimuth_bins"}))
+SONARS = {form + name: kind for name, *kind in KINDS for form in ("", "Raycast", "GPU")}
+SONARS["SemanticRaycastSinglebeamSonar"] = SONARS["SinglebeamSonar"]
+REMARKS = {"SemanticRaycastSinglebeamSonar": "its labels: output.labels writes them"} | dict.fromkeys(
+    ("RaycastSidescanSonar", "GPUSidescanSonar"),
+    "it looks to one side: a pair of them is one side-scan sonar of twice the azimuth without their yaw")
+PARAMETERS = {       # form, key and limits; without them from 0 on
+    "Azimuth": ("number", "azimuth_deg", 1e-3, 360), "Elevation": ("number", "elevation_deg", 1e-3, 180),
+    "OpeningAngle": ("number", "opening_deg", 1e-3, 180), "RangeMin": ("number", "range_min_m"),
+    "RangeMax": ("number", "range_max_m"), "RangeBins": ("whole", "range_bins", 1, 8192),
+    "RangeRes": ("width", "range_bins", 1e-9), "AzimuthBins": ("whole", "azimuth_bins", 1, 8192),
+    "AzimuthRes": ("width", "azimuth_bins", 1e-9), "AddSigma": ("number", "noise.add_sigma"),
+    "AddCov": ("variance", "noise.add_sigma"), "MultSigma": ("number", "noise.mult_sigma"),
+    "MultCov": ("variance", "noise.mult_sigma"), "RangeSigma": ("number", "noise.range_lambda_m"),
+    "ScaleNoise": ("flag", "noise.scale_with_range"), "MultiPath": ("multipath", "multipath.method"),
+    "ClusterSize": ("whole", "multipath.epsilon_bins", 0, 8192), "AzimuthStreaks": ("streaks", "streaks.mode", -1, 1),
+    "WaterDensity": ("number", "water.density_kg_m3", 0.1, 1e5),
+    "WaterSpeedSound": ("number", "water.sound_speed_m_s", 0.1, 1e5)}
+NO_COUNTERPART = {name: why for names, why in (
+    ("ElevationBins ElevationRes OpeningAngleBins OpeningAngleRes CentralAngleBins CentralAngleRes AzimuthRayCount "
+     "AzimuthRayRes ElevationRayCount ElevationRayRes OpeningAngleRays CentralAngleRays CentralAngleEuclidian "
+     "ResolutionX", "sampling follows from accuracy.relative_l1"),
+    ("ViewRegion ViewOctree ViewRays ViewPoints ShowWarning", "it only shows something in the game engine"),
+    ("InitOctreeRange", "there is no octree to prepare"), ("ShadowEpsilon", "shadows are exact"),
+    ("UseApprox", "angles are exact"), ("UseTags", "output.labels writes labels"),
+    ("IgnorePlants", "leave the plants out of the scene")) for name in names.split()}
+
+
+def say(what):
+    print(f"sonarsim import-holoocean: {what}", file=sys.stderr)
+
+
+def wrong(what):
+    sys.exit(say(what) or 2)
+
+
+def take(where, items, key, kind, default=None):
+    """The value of a key of this kind. `where` is the path of the object in the scenario."""
+    value = items.get(key, default)
+    if value is not default and (not isinstance(value, kind) or kind is NUMBER and isinstance(value, bool)):
+        wrong(f"{where}{key} must be {CALLED[kind]}")
+    return value
+
+
+def number(where, items, key, low=0, high=1e8):
+    value = take(where, items, key, NUMBER, math.nan)
+    return value if low <= value <= high else wrong(f"{where}{key} must be from {low:g} to {high:g}, not {value}")
+
+
+def vector(where, items, key):
+    values = [number(where, {key: one}, key, -1e8) for one in take(where, items, key, list, [0, 0, 0])]
+    return values if len(values) == 3 else wrong(f"{where}{key} must be a list of 3 numbers")
+
+
+def value_of(where, items, name):
+    form, key, *limits = PARAMETERS[name]
+    is_flag = form in ("flag", "multipath")
+    value = take(where, items, name, bool, False) if is_flag else number(where, items, name, *limits)
+    if form in ("whole", "streaks") and value != math.floor(value):
+        wrong(f"{where}{name} must be a whole number, not {value}")
+    if form == "width":
+        ends = ("RangeMin", "RangeMax") if key == "range_bins" else ("Azimuth",)
+        if not items.keys() >= set(ends):
+            wrong(f"{where}{name} needs {' and '.join(ends)} beside it")
+        low, high = ([0] + [number(where, items, end) for end in ends])[-2:]
+        value = math.floor((high - low) / value + 0.5)
+        value = number(where, {f"bins by {name}": value}, f"bins by {name}", 1, 8192)
+    return {"streaks": ("none", "add", "reduce")[int(value) % 3], "multipath": "cluster" if value else "none",
+            "variance": math.sqrt(abs(value)), "whole": int(value)}.get(form, value)
+
+
+def sonar_of(where, sensor, kind, every):
+    """The section of a sonar, its keys of the water, and remarks on what has no counterpart."""
+    own, lacks = SONARS[kind]
+    mount = {"translation_m": vector(where, sensor, "location"), "rpy_deg": vector(where, sensor, "rotation")}
+    sonar = {"kind": own, "mount": mount, "every": every} | ({"azimuth_deg": 85} if kind == "GPUSidescanSonar" else {})
+    remarks = [f"{kind}: {REMARKS[kind]}"] if kind in REMARKS else []
+    given, inside = take(where, sensor, "configuration", dict, {}), where + "configuration."
+    for name in given:
+        key = PARAMETERS.get(name, ("", ""))[1]
+        if key and key not in lacks:
+            section, _, inner = key.rpartition(".")
+            (sonar.setdefault(section, {}) if section else sonar)[inner] = value_of(inside, given, name)
+        else:
+            why = f"a sonar of kind {own} has no {key}" if key else NO_COUNTERPART.get(name, "it is not known")
+            remarks.append(f"'{' '.join(name.split())[:60]}' has no counterpart: {why}")
+    if "add_sigma" in sonar.get("noise", {}):       # HoloOcean's noise grows with range only if ScaleNoise is set
+        sonar["noise"].setdefault("scale_with_range", False)
+    if sonar.get("range_min_m", 0) >= sonar.get("range_max_m", math.inf):
+        wrong(f"{inside}RangeMax must be above RangeMin")
+    remarks += ["where its socket sits on the agent is not in the scenario: check mount"] * ("socket" in sensor)
+    return sonar, sonar.pop("water", {}), remarks
+
+
+def sensors_of(where, agent, ticks):
+    """The sections of all sonars, their water and the rate of the fastest."""
+    sonars, sections, water = [], {}, {}
+    for k, sensor in enumerate(take(where, agent, "sensors", list, [])):
+        here = f"{where}sensors[{k}]."
+        kind = take(here, sensor, "sensor_type", str, "") if isinstance(sensor, dict) else ""
+        if kind in SONARS:
+            sonars.append((here, sensor, kind, number(here, {"Hz": ticks} | sensor, "Hz", 1e-6)))
+        else:
+            known = f"; it has {', '.join(SONARS)}" if "onar" in kind else ""
+            say(f"{here}sensor_type '{kind}' is left out: it is no sonar that sonarsim has{known}")
+    fastest = max((rate for *_, rate in sonars), default=0) or wrong(f"{where}sensors: no sonar of {', '.join(SONARS)}")
+    for here, sensor, kind, rate in sonars:
+        base = re.sub(NOT_IN_NAMES, "_", take(here, sensor, "sensor_name", str, kind))[:60] or "sonar"
+        name = next(one for one in (base, *(f"{base}_{k}" for k in range(2, 10**4))) if one not in sections)
+        every = math.floor(fastest / rate + 0.5)
+        sections[name], assumed, remarks = sonar_of(here, sensor, kind, every)
+        if abs(fastest / every - rate) > 0.01 * rate:
+            remarks.append(f"{rate:.4g} Hz become {fastest / every:.4g} Hz: a sonar pings at every n-th pose, of which "
+                           f"there are {fastest:.4g} in a second")
+        remarks += [f"another water than that of the sonars before; a mission has one: {key} stays {water[key]}"
+                    for key, value in assumed.items() if water.setdefault(key, value) != value]
+        sections[name]["#"] = remarks
+        for remark in remarks:
+            say(f"{here[:-1]}: {remark}")
+    return sections, water, fastest
+
+
+def mission_of(top, arguments):
+    agents = [one for one in take("", top, "agents", list, []) if isinstance(one, dict)]
+    wanted, names = take("", top, "main_agent", str), [one.get("agent_name") for one in agents]
+    if not agents or wanted and wanted not in names:
+        wrong(f"no agent is called '{wanted}'" if agents else "a scenario needs a list of agents")
+    agent, where = (agents[k := names.index(wanted) if wanted else 0], f"agents[{k}].")
+    sensors, water, rate = sensors_of(where, agent, number("", {"ticks_per_sec": 30} | top, "ticks_per_sec", 1e-6))
+    start, turn = vector(where, agent, "location"), vector(where, agent, "rotation")
+    pitch, yaw = math.radians(turn[1]), math.radians(turn[2])
+    bow = math.cos(yaw) * math.cos(pitch), math.sin(yaw) * math.cos(pitch), -math.sin(pitch)
+    end = [round(at + 10 * step, 6) for at, step in zip(start, bow)]
+    remarks = [f"'{' '.join(name.split())}' has no counterpart: there is no octree to prepare"
+               for name in top if name.startswith(("octree_", "env_"))]
+    remarks += ["other agents are left out: a mission has one vehicle"] * (len(agents) > 1)
+    remarks += ["a scenario says where the agent starts, not where it goes: the mission goes 10 m ahead; write a "
+                "trajectory of your own", "the world is a level of the game engine: export it, or name another scene"]
+    say("\nsonarsim import-holoocean: ".join(remarks))
+    named = {"name": re.sub(NOT_IN_NAMES, "_", take("", top, "name", str))[:60] or "sonar"} if "name" in top else {}
+    return named | {"#": remarks, "water": water,
+            "scene": {"file": arguments.scene, "materials": arguments.materials},
+            "trajectory": {"waypoints": [{"position_m": at, "rpy_deg": turn} for at in (start, end)], "rate_hz": rate},
+            "sensors": sensors}
+
+
+def yaml_lines(items, indent=""):
+    for key, value in items.items():
+        if key == "#":
+            yield from (f"{indent}# {remark}" for remark in value)
+        elif isinstance(value, dict) and value:
+            yield f"{indent}{key}:"
+            yield from yaml_lines(value, indent + "  ")
+        else:
+            yield f"{indent}{key}: {json.dumps(value)}"     # JSON is YAML
+
+
+def main():
+    parser = argparse.ArgumentParser("sonarsim import-holoocean", description=__doc__.splitlines()[0].split(": ")[1])
+    parser.add_argument("scenario", help="the scenario, a JSON file")
+    parser.add_argument("--out", metavar="FILE", help="the mission, a new file (default: standard output)")
+    parser.add_argument("--scene", metavar="FILE", default="scene.glb", help="the scene of the mission")
+    parser.add_argument("--materials", metavar="FILE", default="materials.csv", help="a CSV; HoloOcean's own is one")
+    arguments = parser.parse_args()
+    out, part = arguments.out, f"{arguments.out}.{os.getpid()}.tmp"
+    try:
+        with open(arguments.scenario, encoding="utf-8") as file:
+            top = json.load(file)
+        text = "\n".join([*yaml_lines(mission_of(top if isinstance(top, dict) else {}, arguments)), ""])
+        if out and os.path.exists(out):
+            wrong(f"{out} is there already: name another file, or remove it")
+        with open(part if out else os.dup(1), "w", encoding="utf-8") as file:
+            file.write(text)
+        if out:
+            os.rename(part, out)
+    except (OSError, ValueError, RecursionError) as error:
+        if os.path.exists(part):
+            os.unlink(part)
+        wrong(f"{error.filename or part}: {error.strerror}" if isinstance(error, OSError) else
+              f"{arguments.scenario} is not JSON: {error}")
+
+
+if __name__ == "__main__":
+    main()

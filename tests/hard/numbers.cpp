@@ -1,0 +1,114 @@
+#include <cmath>
+
+#include "core/units.h"
+#include "hard/tools.h"
+#include "support/shapes.h"
+
+namespace sonarsim {
+
+namespace {
+
+using namespace shapes;
+
+const Eigen::Vector3d utm(500000.0, 4800000.0, 0.0);
+
+/// The image of the original tank. If scene and sonar are moved or scaled together, it must not
+/// change.
+std::vector<float> at_home(const HardContext& context) {
+    return image_of(tank(), in_tank(context.kind), context.engine, context.model);
+}
+
+constexpr double grazing_height_m = 1.745e-3;
+
+/// A view along the floor: 0.01 degrees at 10 m.
+HardTrial grazing(SonarKind kind) {
+    HardTrial trial = over_floor(kind);
+    trial.T_world_vehicle = {rotation_from_rpy(0.0, 0.0, 0.1), {0.31, 0.17, grazing_height_m}};
+    return trial;
+}
+
+/// A sonar that looks forward has an echo of the floor in every bin. Sonars that look down have
+/// none in range: within 85 degrees of nadir the floor is nearer than 1.745 mm / cos 85 = 20 mm.
+std::vector<float> grazing_law(const HardContext& context) {
+    if (!looks_forward(context.kind)) return dark(context);
+    std::vector<float> truth(context.ping.intensity.size());
+    const std::vector<double>& edges = context.trial.sonar.range_edges_m;
+    for (std::size_t k = 0; k < truth.size(); ++k) {
+        const std::size_t i = k / static_cast<std::size_t>(context.ping.beams);
+        truth[k] = static_cast<float>(0.5 * grazing_height_m / (0.5 * (edges[i] + edges[i + 1])));
+    }
+    return truth;
+}
+
+Scene floor_of(float reflection) {
+    Scene scene = empty_scene();
+    add_floor(scene, 30.0F, 0.0F, add_material(scene, reflection));
+    return scene;
+}
+
+float reflection_of(double impedances) {
+    const Water water;
+    return static_cast<float>(
+        power_reflection(impedances * water.density_kg_m3, water.sound_speed_m_s, water));
+}
+
+}  // namespace
+
+// The leaves of a scene larger than 8 m do not grow with it: in 50 km the octree's error may be
+// twice as large.
+std::vector<HardCase> hard_numbers() {
+    return {{.name = "UTM, on the grid",
+             .stresses = "5e5, 4.8e6 m against the origin",
+             .expected = "the image at the origin",
+             .scene = [] { return moved_tank(utm); },
+             .trial = [](SonarKind k) { return in_moved_tank(k, utm); },
+             .truth = at_home,
+             .bounds = {1e-4, 1e-4},
+             .truth_of_any_model = true},
+            {.name = "UTM, off the grid",
+             .stresses = "512345.678, 4812345.678, -43.21 m",
+             .expected = "the image at the origin",
+             .scene = [] { return moved_tank(utm_odd); },
+             .trial = [](SonarKind k) { return in_moved_tank(k, utm_odd); },
+             .truth = at_home,
+             .bounds = {1e-4, 1e-4, 1e-3},
+             .truth_of_any_model = true},
+            {.name = "a tank of a millimetre",
+             .stresses = "8e-4 of its size, range 1 mm",
+             .expected = "the image in full size",
+             .scene = [] { return scaled_tank(1.25e-4); },
+             .trial = [](SonarKind k) { return in_scaled_tank(k, 1.25e-4); },
+             .truth = at_home,
+             .bounds = {1e-4, 1e-4}},
+            {.name = "a tank of 50 km",
+             .stresses = "6250 times its size, range 62 km",
+             .expected = "the image in full size",
+             .scene = [] { return scaled_tank(6250.0); },
+             .trial = [](SonarKind k) { return in_scaled_tank(k, 6250.0); },
+             .truth = at_home,
+             .bounds = {1e-4, 0.25}},
+            {.name = "grazing incidence",
+             .stresses = "down to 0.01 degrees",
+             .expected = "R H / r in every bin",
+             .scene = plain_floor,
+             .trial = grazing,
+             .truth = grazing_law,
+             .bounds = {0.01, 0.05}},
+            {.name = "impedance of water",
+             .stresses = "R = 0",
+             .expected = "dark",
+             .scene = [] { return floor_of(reflection_of(1.0)); },
+             .truth = dark,
+             .bounds = {0, 0}},
+            {.name = "1,000 times that of water",
+             .stresses = "R = 0.996",
+             .expected = "R H / r",
+             .scene = [] { return floor_of(reflection_of(1000.0)); },
+             .truth =
+                 [](const HardContext& context) {
+                     return plane_law(context, std::pow(999.0 / 1001.0, 2), 3.0);
+                 },
+             .bounds = {0.02, 0.02}}};
+}
+
+}  // namespace sonarsim

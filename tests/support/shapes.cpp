@@ -1,0 +1,122 @@
+#include "support/shapes.h"
+
+#include <cmath>
+
+#include "core/elementary.h"
+#include "core/units.h"
+#include "visibility/angles.h"
+
+namespace sonarsim::shapes {
+
+namespace {
+
+void add_triangle(Scene& scene, const Eigen::Vector3f& a, const Eigen::Vector3f& b,
+                  const Eigen::Vector3f& c, std::uint32_t material) {
+    const auto first = static_cast<std::uint32_t>(scene.vertices.size());
+    scene.vertices.insert(scene.vertices.end(), {a, b, c});
+    scene.triangles.push_back({first, first + 1, first + 2});
+    scene.triangle_material.push_back(material);
+    scene.triangle_instance.push_back(static_cast<std::uint32_t>(scene.instances.size() - 1));
+}
+
+Eigen::Vector3f polar(float radius, double azimuth, double elevation) {
+    return radius * direction_of(azimuth, elevation).cast<float>();
+}
+
+}  // namespace
+
+Scene empty_scene(const Eigen::Vector3d& origin) {
+    Scene scene;
+    scene.origin = origin;
+    scene.bounds_min = scene.bounds_max = origin;
+    return scene;
+}
+
+std::uint32_t add_material(Scene& scene, float reflection) {
+    scene.materials.push_back({std::to_string(reflection), 1.0, 1.0, reflection});
+    return static_cast<std::uint32_t>(scene.materials.size() - 1);
+}
+
+void add_quad(Scene& scene, const Eigen::Vector3f& a, const Eigen::Vector3f& b,
+              const Eigen::Vector3f& c, const Eigen::Vector3f& d, std::uint32_t material, int n) {
+    scene.instances.push_back("quad" + std::to_string(scene.instances.size()));
+    const auto at = [&](int i, int j) -> Eigen::Vector3f {
+        const float u = static_cast<float>(i) / static_cast<float>(n);
+        const float v = static_cast<float>(j) / static_cast<float>(n);
+        return (1 - u) * ((1 - v) * a + v * d) + u * ((1 - v) * b + v * c);
+    };
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n; ++j) {
+            add_triangle(scene, at(i, j), at(i + 1, j), at(i + 1, j + 1), material);
+            add_triangle(scene, at(i, j), at(i + 1, j + 1), at(i, j + 1), material);
+        }
+    }
+}
+
+void add_floor(Scene& scene, float half_size, float z, std::uint32_t material, int n) {
+    const float s = half_size;
+    add_quad(scene, {-s, -s, z}, {s, -s, z}, {s, s, z}, {-s, s, z}, material, n);
+}
+
+void add_box(Scene& scene, const Eigen::Vector3f& min, const Eigen::Vector3f& max,
+             std::uint32_t material) {
+    for (int axis = 0; axis < 3; ++axis) {
+        const int u = (axis + 1) % 3;
+        const int v = (axis + 2) % 3;
+        for (const Eigen::Vector3f& side : {min, max}) {
+            Eigen::Vector3f a = min;
+            Eigen::Vector3f c = max;
+            a[axis] = c[axis] = side[axis];
+            Eigen::Vector3f b = a;
+            b[u] = c[u];
+            Eigen::Vector3f d = a;
+            d[v] = c[v];
+            add_quad(scene, a, b, c, d, material);
+        }
+    }
+}
+
+void add_sphere(Scene& scene, const Eigen::Vector3f& centre, float radius, std::uint32_t material,
+                int n) {
+    scene.instances.push_back("sphere" + std::to_string(scene.instances.size()));
+    const int parallels = n / 2;
+    const auto at = [&](int i, int j) -> Eigen::Vector3f {
+        return centre + polar(radius, 2.0 * pi * i / n, -0.5 * pi + pi * j / parallels);
+    };
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < parallels; ++j) {
+            if (j > 0) add_triangle(scene, at(i, j), at(i + 1, j), at(i + 1, j + 1), material);
+            if (j + 1 < parallels)
+                add_triangle(scene, at(i, j), at(i + 1, j + 1), at(i, j + 1), material);
+        }
+    }
+}
+
+void add_pole(Scene& scene, const Eigen::Vector3f& foot, float radius, float height,
+              std::uint32_t material, int n) {
+    for (int i = 0; i < n; ++i) {
+        const Eigen::Vector3f a = foot + polar(radius, 2.0 * pi * i / n, 0.0);
+        const Eigen::Vector3f b = foot + polar(radius, 2.0 * pi * (i + 1) / n, 0.0);
+        const Eigen::Vector3f up = height * Eigen::Vector3f::UnitZ();
+        add_quad(scene, a, b, b + up, a + up, material);
+    }
+}
+
+Scene tank() {
+    Scene scene = empty_scene();
+    const std::uint32_t concrete = add_material(scene, 0.5F);
+    const std::uint32_t steel = add_material(scene, 0.88F);
+    const std::uint32_t wood = add_material(scene, 0.15F);
+    add_quad(scene, {-4, -3, 0}, {4, -3, 0}, {4, 3, 0}, {-4, 3, 0}, concrete);
+    add_quad(scene, {-4, -3, 0}, {4, -3, 0}, {4, -3, 3}, {-4, -3, 3}, concrete);
+    add_quad(scene, {-4, 3, 0}, {4, 3, 0}, {4, 3, 3}, {-4, 3, 3}, concrete);
+    add_quad(scene, {-4, -3, 0}, {-4, 3, 0}, {-4, 3, 3}, {-4, -3, 3}, concrete);
+    add_quad(scene, {4, -3, 0}, {4, 3, 0}, {4, 3, 3}, {4, -3, 3}, concrete);
+    add_pole(scene, {1.0F, 0.7F, 0.0F}, 0.06F, 3.0F, steel);
+    add_box(scene, {1.5F, -1.5F, 0.0F}, {2.0F, -1.0F, 0.5F}, steel);
+    add_box(scene, {2.5F, 0.2F, 0.0F}, {3.1F, 0.9F, 0.7F}, wood);
+    add_sphere(scene, {2.0F, -0.2F, 1.2F}, 0.15F, steel, 64);
+    return scene;
+}
+
+}  // namespace sonarsim::shapes
