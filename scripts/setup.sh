@@ -24,7 +24,7 @@ install() {
 # The tests need their framework; those of the Python package are left out under sanitizers.
 [ "$preset" = program ] || set -- doctest-dev "$@"
 case $preset in
-    release | dev) set -- pybind11-dev python3-dev python3-numpy "$@" ;;
+    release | dev) set -- pybind11-dev python3-dev python3-numpy python3-pil "$@" ;;
 esac
 install g++ cmake ninja-build ccache make pkg-config python3 \
     libeigen3-dev libembree-dev libtbb-dev librandom123-dev libtinygltf-dev \

@@ -1,0 +1,198 @@
+#!/usr/bin/env python3
+"""Renders the small missions of this folder and compares what they make with goldens.txt.
+
+    tests/golden/goldens.py PROGRAM [--write] [--keep FOLDER]
+
+Each mission is rendered with one and with two threads, one of them in three shards that are merged, too, and one that is
+killed and resumed. A line of goldens.txt is a dataset, a sensor (or `-`), a kind of file, the number of such files, and
+the hash of their contents: arrays, decoded pixels, parsed JSON without what names a build, a version or a sum. The
+variants of a mission are one dataset here. --write makes goldens.txt anew; say in the commit why its lines changed.
+"""
+import argparse
+import concurrent.futures
+import contextlib
+import hashlib
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+import numpy as np
+from PIL import Image
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+GOLDENS = HERE / "goldens.txt"
+SHARDED, KILLED = "records", "moving"
+# Files about the making of a dataset, and the keys of JSON files that name a build, a version or a sum of a file.
+NOT_HASHED = ("SHA256SUMS", "journal.txt", "mission.resolved.yaml")
+NOT_COMPARED = {"build", "program_version", "format_version", "mission_hash", "inputs_hash", "sha256"}
+
+
+def heights():
+    """A slope with a ridge along a diagonal: no map that is turned or mirrored is like it."""
+    row, column = np.mgrid[0:40, 0:60]
+    return np.rint(3000 + 12 * column - 5 * row + 150 * np.sin(0.31 * column + 0.17 * row)).astype(np.uint16)
+
+
+def make_scenes(folder):
+    """Missions, instruments and scenes as the missions name them."""
+    shutil.copytree(HERE / "missions", folder / "missions")
+    shutil.copytree(ROOT / "configs", folder / "configs")
+    (folder / "scenes").mkdir()
+    for file in (ROOT / "scenes/tank.glb", ROOT / "scenes/materials.csv", HERE / "crate.gltf"):
+        shutil.copy(file, folder / "scenes")
+    Image.fromarray(heights()).save(folder / "scenes/heights.png")
+
+
+def without_builds(value):
+    if isinstance(value, dict):
+        return {key: without_builds(one) for key, one in value.items() if key not in NOT_COMPARED}
+    return [without_builds(one) for one in value] if isinstance(value, list) else value
+
+
+def json_bytes(value):
+    return json.dumps(without_builds(value), sort_keys=True).encode()
+
+
+def array_bytes(array):
+    return f"{array.dtype.str} {array.shape} ".encode() + np.ascontiguousarray(array).tobytes()
+
+
+def pixel_bytes(path):
+    """The pixels, and the colours of a table. Versions of Pillow differ in the type of 16-bit grey pixels."""
+    with Image.open(path) as image:
+        pixels = np.asarray(image)
+        colours = np.asarray(image.convert("RGB")).tobytes() if image.mode == "P" else b""
+    return array_bytes(pixels.astype(np.int32) if pixels.dtype.kind in "iu" else pixels) + colours
+
+
+def contents(path):
+    """Pairs of a kind and bytes. A description of a dataset has one for each sensor."""
+    if path.name == "dataset.json":
+        description = json.loads(path.read_text())
+        sensors, labels = description.pop("sensors"), description.pop("labels", None)
+        yield "-", path.name, json_bytes(description)
+        yield "-", f"{path.name}#labels", json_bytes(labels)
+        for sensor in sensors:
+            yield sensor["name"], f"{path.name}#sensor", json_bytes(sensor)
+    elif path.suffix == ".json":
+        yield None, None, json_bytes(json.loads(path.read_text()))
+    elif path.suffix == ".npy":
+        yield None, None, array_bytes(np.load(path))
+    elif path.suffix in (".png", ".tif"):
+        yield None, None, pixel_bytes(path)
+    else:
+        yield None, None, path.read_bytes()
+
+
+def lines_of(name, folder):
+    """The lines of one dataset."""
+    found = {}
+    for path in sorted(folder.rglob("*")):
+        if path.is_dir() or path.name in NOT_HASHED:
+            continue
+        relative = re.sub(r"^variant_\d+/", "", path.relative_to(folder).as_posix())
+        sensor, _, rest = relative.rpartition("/") if "/" not in relative else relative.partition("/")
+        for own_sensor, own_kind, data in contents(path):
+            key = (own_sensor or sensor or "-", own_kind or re.sub(r"(^|/|_)\d{4,6}\.", r"\1*.", rest))
+            count, whole = found.setdefault(key, [0, hashlib.sha256()])
+            found[key][0] = count + 1
+            whole.update(hashlib.sha256(data).digest())
+    return [f"{name} {sensor} {kind} {count} {whole.hexdigest()[:32]}"
+            for (sensor, kind), (count, whole) in sorted(found.items())]
+
+
+class Renderer:
+    def __init__(self, program, folder):
+        self.program, self.folder = str(pathlib.Path(program).resolve()), folder
+
+    def command(self, name, out, *arguments):
+        return [self.program, "render", f"missions/{name}.yaml", "--quiet", "--out", out, *arguments]
+
+    def run(self, *command):
+        result = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, check=False)
+        if result.returncode:
+            raise SystemExit(f"{' '.join(map(str, command))}: exit code {result.returncode}\n{result.stderr}")
+
+    def lines(self, name, out):
+        if not (out / "SHA256SUMS").is_file():
+            raise SystemExit(f"{out}: the dataset is not complete")
+        return lines_of(name, out)
+
+    def with_threads(self, name, threads):
+        out = self.folder / f"out/{name}_{threads}"
+        self.run(*self.command(name, out, "--threads", str(threads)))
+        return self.lines(name, out)
+
+    def sharded(self, name):
+        out = self.folder / f"out/{name}_sharded"
+        parts = [self.folder / f"out/{name}_part{k}" for k in (1, 2, 3)]
+        for k, part in enumerate(parts):
+            self.run(*self.command(name, part, "--shard", f"{k + 1}/3"))
+        self.run(self.program, "merge", *parts, out)
+        return self.lines(name, out)
+
+    def killed(self, name):
+        """Killed once the first files of its pings are there, then run to its end."""
+        out = self.folder / f"out/{name}_killed"
+        command = self.command(name, out, "--threads", "1")
+        with subprocess.Popen(command, cwd=self.folder, stderr=subprocess.DEVNULL) as process:
+            while process.poll() is None and len(list(out.glob("*/meta/*.json"))) < 3:
+                time.sleep(0.002)
+            process.kill()
+        if (out / "SHA256SUMS").exists():
+            raise SystemExit(f"{name}: the run had ended before it was killed; let it have more pings")
+        self.run(*command)
+        return self.lines(name, out)
+
+
+def all_runs(renderer):
+    """Name, way of rendering, and lines of every run, two at a time."""
+    names = sorted(path.stem for path in (HERE / "missions").glob("*.yaml"))
+    jobs = [(name, f"{threads} threads", renderer.with_threads, (name, threads)) for threads in (1, 2) for name in names]
+    jobs += [(SHARDED, "three shards", renderer.sharded, (SHARDED,)), (KILLED, "killed", renderer.killed, (KILLED,))]
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        futures = [(name, way, pool.submit(run, *arguments)) for name, way, run, arguments in jobs]
+        return [(name, way, future.result()) for name, way, future in futures]
+
+
+def differences(expected, found):
+    """One line for each line that differs, by dataset, sensor and kind."""
+    def by_kind(lines):
+        return {tuple(line.split()[:3]): line for line in lines}
+    expected, found = by_kind(expected), by_kind(found)
+    for kind in sorted(expected.keys() | found.keys()):
+        if expected.get(kind) != found.get(kind):
+            state = "new" if kind not in expected else "gone" if kind not in found else "differs"
+            yield f"{' '.join(kind)}: {state}"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("program", metavar="PROGRAM")
+    parser.add_argument("--write", action="store_true", help="write goldens.txt instead of comparing with it")
+    parser.add_argument("--keep", type=pathlib.Path, metavar="FOLDER", help="render into this new folder and keep it")
+    options = parser.parse_args()
+    with contextlib.ExitStack() as stack:
+        folder = options.keep or stack.enter_context(tempfile.TemporaryDirectory(prefix="goldens-"))
+        make_scenes(pathlib.Path(folder).resolve())
+        runs = all_runs(Renderer(options.program, pathlib.Path(folder).resolve()))
+    whole = {name: lines for name, way, lines in runs if way == "1 threads"}
+    faults = [f"{line} ({way}, compared with 1 thread)" for name, way, lines in runs
+              for line in differences(whole[name], lines)]
+    lines = [line for name in sorted(whole) for line in whole[name]]
+    if options.write and not faults:
+        GOLDENS.write_text("\n".join(lines) + "\n")
+    else:
+        faults += differences(GOLDENS.read_text().splitlines() if GOLDENS.exists() else [], lines)
+    print("\n".join([*faults, f"{len(lines)} kinds of files in {len(whole)} datasets; {len(faults)} differences"]))
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
