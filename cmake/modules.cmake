@@ -17,8 +17,8 @@ find_library(OPENIMAGEIO_LIBRARY OpenImageIO)
 find_library(OPENIMAGEIO_UTIL_LIBRARY OpenImageIO_Util)
 find_path(OPENIMAGEIO_INCLUDE_DIR OpenImageIO/imageio.h)
 if(OPENIMAGEIO_LIBRARY AND OPENIMAGEIO_UTIL_LIBRARY AND OPENIMAGEIO_INCLUDE_DIR)
-    add_library(sonarsim_images MODULE apps/modules/images.cpp apps/modules/contact_sheet.cpp
-                apps/modules/encode_picture.cpp apps/modules/texts.cpp)
+    add_library(sonarsim_images MODULE apps/modules/images.cpp apps/modules/encode_picture.cpp
+                apps/modules/texts.cpp)
     target_include_directories(sonarsim_images PRIVATE lib)
     target_include_directories(sonarsim_images SYSTEM PRIVATE ${OPENIMAGEIO_INCLUDE_DIR})
     target_link_libraries(sonarsim_images PRIVATE ${OPENIMAGEIO_LIBRARY} ${OPENIMAGEIO_UTIL_LIBRARY})

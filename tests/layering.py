@@ -34,8 +34,8 @@ ALLOWED = {
                  "labels", "product", "sonar"},
     "format": {"core"},
 }
-for upper in ("dataset", "checks", "job", "validation", "benchmark", "preview", "gallery",
-              "export", "recording", "compare", "calibrate"):
+for upper in ("dataset", "checks", "job", "validation", "benchmark", "preview",
+              "recording", "compare", "calibrate"):
     ALLOWED[upper] = set(ALLOWED)
 
 # The parts of the folders that have subfolders, from the bottom up; those in one row do not know
@@ -47,8 +47,8 @@ PARTS = {
                 ["compare"], ["plot", "report"]],
     "job": [["*"], ["folder_lock"], ["journal"], ["checksums"], ["folder"], ["listed_files", "resume"],
             ["ping_files"], ["ping_cost"], ["completion", "joined_labels", "render_pings"],
-            ["collection", "run_job", "merge", "verify", "ping_source"],
-            ["variants"], ["status", "variants_check", "collection_check"]],
+            ["run_job", "merge", "verify", "ping_source"],
+            ["variants"], ["status", "variants_check"]],
     "scene": [["*"], ["images/", "meshes/"], ["heightmap/", "maps/", "seabed/"], ["gltf/", "placing/"]],
     "validation": [["*"], ["hard/"]],
     "visibility": [["*"], ["octree/", "rays/", "slices/"], ["dense_rays"], ["auto_engine"],

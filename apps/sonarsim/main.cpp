@@ -85,9 +85,6 @@ int run(int argc, char** argv) {
     add_merge(app, exit_code);
     add_validate(app, exit_code);
     add_preview(app, exit_code);
-    add_gallery(app, exit_code);
-    add_contact_sheet(app, exit_code);
-    add_export(app, exit_code);
     add_compare(app, exit_code);
     add_inspect(app, exit_code);
     add_materials(app, exit_code);

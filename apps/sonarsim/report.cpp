@@ -20,6 +20,7 @@
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/text.h"
 #include "logging.h"
 #include "mission_options.h"
 #include "validation/hard/cases.h"

@@ -11,7 +11,6 @@
 #include "checks/find_warnings.h"
 #include "commands.h"
 #include "dataset/coco/statistics.h"
-#include "job/collection.h"
 #include "job/variants.h"
 #include "logging.h"
 #include "progress.h"
@@ -153,17 +152,6 @@ void print_variants(const VariantsStatus& status, const LabelFindings& labels, b
     print_findings(labels);
 }
 
-void print_collection(std::size_t datasets, const LabelFindings& labels, bool as_json) {
-    if (as_json) {
-        Json json = {{"datasets", datasets}};
-        add_findings(labels, json);
-        fmt::print("{}", json_line(json));
-        return;
-    }
-    fmt::print("{}", result_line("datasets", std::to_string(datasets)));
-    print_findings(labels);
-}
-
 int status(const StatusArguments& arguments) {
     start_logging(arguments.log);
     const std::filesystem::path& first = arguments.folders.at(0);
@@ -172,11 +160,6 @@ int status(const StatusArguments& arguments) {
         LabelFindings labels;
         if (variants.complete == variants.variants) labels = read_findings(first);
         print_variants(variants, labels, arguments.log.json);
-        return exit_done;
-    }
-    const std::vector<std::filesystem::path> collected = collected_folders(first);
-    if (arguments.folders.size() == 1 && !collected.empty()) {
-        print_collection(collected.size(), read_findings(first), arguments.log.json);
         return exit_done;
     }
     const JobStatus found = read_status(arguments.folders);

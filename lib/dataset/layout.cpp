@@ -6,7 +6,6 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "dataset/file_names.h"
 #include "dataset/shared_products.h"
 #include "format/tar.h"
 
@@ -192,30 +191,8 @@ bool has_gallery(const std::filesystem::path& folder) {
     return head.find(gallery_mark) != std::string::npos;
 }
 
-void remove_gallery_pictures(const std::filesystem::path& folder) {
-    namespace fs = std::filesystem;
-    const fs::path pictures = folder / gallery_folder_name;
-    if (fs::symlink_status(pictures).type() != fs::file_type::directory) return;
-    std::vector<fs::path> folders{pictures};
-    std::vector<fs::path> files;
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(pictures)) {
-        const fs::file_type type = entry.symlink_status().type();
-        if (type == fs::file_type::directory) folders.push_back(entry.path());
-        if (type == fs::file_type::regular && is_picture_name(entry.path().filename().string()))
-            files.push_back(entry.path());
-    }
-    for (const fs::path& file : files)
-        fs::remove(file);
-    std::ranges::sort(folders, std::greater<>());  // a folder comes after those in it
-    for (const fs::path& inner : folders) {
-        if (fs::is_empty(inner)) fs::remove(inner);
-    }
-}
-
 void remove_gallery(const std::filesystem::path& folder) {
-    if (!has_gallery(folder)) return;
-    remove_gallery_pictures(folder);
-    std::filesystem::remove(folder / gallery_name);
+    if (has_gallery(folder)) std::filesystem::remove(folder / gallery_name);
 }
 
 }  // namespace sonarsim

@@ -105,10 +105,7 @@ inline constexpr std::string_view gallery_mark =
 /// True if the folder holds an index.html that is a gallery. No link is followed.
 bool has_gallery(const std::filesystem::path& folder);
 
-/// Removes the pictures that the page has copied; follows no links.
-void remove_gallery_pictures(const std::filesystem::path& folder);
-
-/// Removes the page and these pictures, if the folder has a page of sonarsim's.
+/// Removes the page, if the folder has a page of sonarsim's.
 void remove_gallery(const std::filesystem::path& folder);
 
 }  // namespace sonarsim

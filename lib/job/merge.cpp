@@ -68,9 +68,7 @@ void require_same(const fs::path& part, const CommonFiles& found, const fs::path
     }
     throw InputError({part.string()},
                      "holds a dataset " + difference + ", seen from " + first.string() +
-                         "; only parts of one mission become one dataset; whole datasets "
-                         "of different missions stand side by side with "
-                         "--different");
+                         "; only parts of one mission become one dataset");
 }
 
 /// The input of a dataset's products: all that the mission names except the scene.

@@ -86,7 +86,7 @@ void list_unknown_files(const fs::path& folder, const Json& json, std::set<std::
     expected.insert({checksums_name, split_folder_name, labels_folder_name});
     for (const std::string& name : all_joined_label_files())
         expected.insert(name);
-    if (has_gallery(folder)) expected.insert({gallery_name, gallery_folder_name});
+    if (has_gallery(folder)) expected.insert(gallery_name);
     for (const fs::path& variant : folders_of_variants(folder, json))
         expected.insert(variant.filename().string());
     for (const fs::path& here : {folder, folder / split_folder_name, folder / labels_folder_name}) {

@@ -230,11 +230,6 @@ DatasetCheck verify_dataset(const fs::path& folder, int threads, const ProgressC
         }
         if (has_gallery(folder)) expected.insert(gallery_name);
         check.unknown_files = unknown_files_in(folder, expected);
-        const std::string pictures = std::string(gallery_folder_name) + "/";
-        if (has_gallery(folder)) {
-            std::erase_if(check.unknown_files,
-                          [&](const std::string& name) { return name.starts_with(pictures); });
-        }
     }
     on_threads(threads,
                [&](int n) { check_files(folder, dataset, tasks, n, progress, stop, check); });

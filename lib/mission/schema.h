@@ -30,7 +30,7 @@ inline constexpr std::array engine_kinds{Choice<EngineKind>{"auto", EngineKind::
 /// True if a mission may have the name. It names a folder that holds nothing but this mission.
 inline bool is_folder_name(std::string_view name) {
     return !name.empty() && name != "." && name != ".." && name.size() <= 200 &&
-           name.find('/') == std::string_view::npos && !is_taken_by_collection(name);
+           name.find('/') == std::string_view::npos && name != checksums_name;
 }
 
 inline constexpr std::array water_contents{Choice<WaterContent>{"auto", WaterContent::automatic},
@@ -169,8 +169,7 @@ template <class Visitor>
 void describe(Visitor& v, Mission& c) {
     v.text("name", c.name, "name of the dataset; default: the name of the mission's file");
     v.require(is_folder_name(c.name), {"name"},
-              "'name' names a folder: at most 200 bytes, without '/', not SHA256SUMS or "
-              "collection.json");
+              "'name' names a folder: at most 200 bytes, without '/', not SHA256SUMS");
     v.integer("seed", c.seed, "seed of all random draws; 0 is a seed like any other");
     v.section("water", c.water, "the water");
     v.section("scene", c.scene, "what the sonars look at", required);

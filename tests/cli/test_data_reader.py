@@ -225,9 +225,6 @@ class Reader(Sandbox):
         self.assert_renders("--set", "variants=3", "--out", "many")
         found = sonarsim_data.open_datasets(self.folder / "many")
         self.assertEqual([str(one.folder) for one in found], variants)
-        self.assertEqual(self.run_sonarsim("merge", "--different", *variants[:2], "all").returncode, 0)
-        found = sonarsim_data.open_datasets(self.folder / "all")
-        self.assertEqual([one.folder.name for one in found], ["reader", "reader-2"])
         self.assertEqual(len(sonarsim_data.open_datasets(variants[0])), 1)
         self.write("many/variants.json", '{"variants": [{"folder": "../many/variant_0000"}]}')
         with self.assertRaisesRegex(ValueError, "does not lie in this one"):

@@ -238,8 +238,7 @@ class Disks(Sandbox):
         self.write("variants.yaml", (self.folder / "mission.yaml").read_text() + VARY)
         self.assert_renders("--out", "part")
         for arguments in (("render", "mission.yaml"), ("render", "mission.yaml", "--shard", "1/1"),
-                          ("render", "variants.yaml"), ("merge", "part", "out"),
-                          ("merge", "--different", "part", "out")):
+                          ("render", "variants.yaml"), ("merge", "part", "out")):
             with self.subTest(arguments=arguments):
                 shutil.rmtree(self.out, ignore_errors=True)
                 result = self.on_disk("nolock", *arguments)

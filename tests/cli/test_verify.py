@@ -244,12 +244,6 @@ class EveryFile(Sandbox):
         self.done("merge", "part1", "part2", "out")
         self.check_every_file()
 
-    def test_collected(self):
-        for name in ("packed", "other"):
-            self.done("render", "packed.yaml", "--set", f"name={name}", "--out", name)
-        self.done("merge", "--different", "packed", "other", "out")
-        self.check_every_file()
-
     def test_unknown_files_beside_variants(self):
         self.done("render", "variants.yaml")
         self.write("out/notes.txt", "mine")
