@@ -42,11 +42,11 @@ for upper in ("dataset", "checks", "job", "validation", "benchmark", "preview",
 # each other. "x/" is a subfolder, "x" the files x.h and x.cpp, "*" every other file of the folder.
 PARTS = {
     "dataset": [["*"], ["writers/"], ["writers"], ["layout"], ["metadata"], ["dataset_file"],
-                ["description", "ping_file_reader"], ["coco/"], ["encode_ping"], ["shared_files"]],
+                ["description"], ["encode_ping"], ["record_objects"]],
     "compare": [["*"], ["figures/"], ["images"], ["measure_edges", "measure_patches", "measure_shadows"], ["measure_images", "measure_soundings"],
                 ["compare"], ["plot", "report"]],
     "job": [["*"], ["folder_lock"], ["journal"], ["checksums"], ["folder"], ["listed_files", "resume"],
-            ["ping_files"], ["ping_cost"], ["completion", "joined_labels", "render_pings"],
+            ["ping_files"], ["ping_cost"], ["completion", "render_pings"],
             ["run_job", "merge", "verify", "ping_source"],
             ["variants"], ["status", "variants_check"]],
     "scene": [["*"], ["images/", "meshes/"], ["heightmap/", "maps/", "seabed/"], ["gltf/", "placing/"]],

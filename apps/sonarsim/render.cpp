@@ -14,7 +14,6 @@
 #include "checks/find_warnings.h"
 #include "commands.h"
 #include "core/error.h"
-#include "dataset/coco/statistics.h"
 #include "dataset/layout.h"
 #include "job/folder_lock.h"
 #include "job/run_job.h"
@@ -24,7 +23,6 @@
 #include "progress.h"
 #include "shard.h"
 #include "signals.h"
-#include "statistics_text.h"
 
 namespace sonarsim {
 
@@ -82,7 +80,7 @@ void print_table(const RenderSummary& summary) {
 }
 
 void print_json(const RenderSummary& summary, const Mission& mission,
-                const std::optional<DatasetStatistics>& labels, std::span<const Warning> warnings) {
+                std::span<const Warning> warnings) {
     Json thread_seconds = json_object<Json>(ping_timers, summary.stages);
     thread_seconds["encode"] = summary.encode_seconds;
     thread_seconds["write"] = summary.write_seconds;
@@ -102,7 +100,6 @@ void print_json(const RenderSummary& summary, const Mission& mission,
                                                     {"dark_pings", sensor.dark_pings},
                                                     {"brightest", sensor.brightest}};
     }
-    if (labels) json["labels"] = tally_json(labels->all);
     json["warnings"] = Json::array();
     for (const Warning& warning : warnings)
         json["warnings"].push_back(sentence(warning));
@@ -180,8 +177,6 @@ Outcome render_variants(const RenderArguments& arguments, const Mission& mission
                         const std::vector<Mission>& variants, const std::atomic<bool>& stop) {
     spdlog::info("{}: {} variants", mission.name, variants.size());
     Outcome out;
-    out.before = split_warnings(mission.output.split, variants.size());
-    log_warnings(out.before);
     ProgressLine line(arguments.log, "variants");
     // Warnings about the first scene hold for most others, so they are not repeated.
     bool first = true;
@@ -209,21 +204,14 @@ int render(RenderArguments arguments) {
                                           : render_variants(arguments, mission, variants, stop);
     if (summary.unlocked) after.insert(after.begin(), no_locks_warning(mission.output.folder));
     log_outcome(summary, mission, arguments.render.files);
-    std::optional<DatasetStatistics> labels;
-    if (arguments.render.files && summary.complete) labels = read_statistics(mission.output.folder);
-    if (labels) {
-        for (Warning& warning : class_warnings(labels->all))
-            after.push_back(std::move(warning));
-    }
     constexpr std::size_t most = 20;  // warnings of all variants that are printed
     log_warnings(std::span(after).first(std::min(most, after.size())));
     if (after.size() > most) spdlog::warn("and {} warnings more like these", after.size() - most);
     warnings.insert(warnings.end(), after.begin(), after.end());
     if (arguments.log.json) {
-        print_json(summary, mission, labels, warnings);
+        print_json(summary, mission, warnings);
     } else if (arguments.log.prints_result()) {
         print_table(summary);
-        if (labels) fmt::print("{}", statistics_text(labels->all));
     }
     if (!summary.stopped) return arguments.strict && !warnings.empty() ? exit_warned : exit_done;
     spdlog::warn("stopped after {} pings; {}", summary.pings, goes_on_from_there);

@@ -8,13 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "checks/find_warnings.h"
 #include "commands.h"
-#include "dataset/coco/statistics.h"
 #include "job/variants.h"
 #include "logging.h"
 #include "progress.h"
-#include "statistics_text.h"
 
 namespace sonarsim {
 
@@ -109,39 +106,13 @@ std::string text_of(const JobStatus& status) {
     return text;
 }
 
-/// The statistics of a folder's labels and the warnings about them.
-struct LabelFindings {
-    std::optional<DatasetStatistics> statistics;
-    std::vector<Warning> warnings;
-};
-
-LabelFindings read_findings(const std::filesystem::path& folder) {
-    LabelFindings labels{read_statistics(folder), {}};
-    if (labels.statistics) labels.warnings = class_warnings(labels.statistics->all);
-    return labels;
-}
-
-void add_findings(const LabelFindings& labels, Json& json) {
-    if (!labels.statistics) return;
-    json["labels"] = tally_json(labels.statistics->all);
-    json["warnings"] = Json::array();
-    for (const Warning& warning : labels.warnings)
-        json["warnings"].push_back(sentence(warning));
-}
-
-void print_findings(const LabelFindings& labels) {
-    if (labels.statistics) fmt::print("{}", statistics_text(labels.statistics->all));
-    log_warnings(labels.warnings);
-}
-
-void print_variants(const VariantsStatus& status, const LabelFindings& labels, bool as_json) {
+void print_variants(const VariantsStatus& status, bool as_json) {
     if (as_json) {
         Json json = {{"variants", status.variants},
                      {"complete", status.complete},
                      {"under_way", Json::object()}};
         for (const auto& [name, job] : status.under_way)
             json["under_way"][name] = json_of(job);
-        add_findings(labels, json);
         fmt::print("{}", json_line(json));
         return;
     }
@@ -149,30 +120,16 @@ void print_variants(const VariantsStatus& status, const LabelFindings& labels, b
                                                          status.variants)));
     for (const auto& [name, job] : status.under_way)
         fmt::print("{}{}", result_line("variant", name), text_of(job));
-    print_findings(labels);
 }
 
 int status(const StatusArguments& arguments) {
     start_logging(arguments.log);
-    const std::filesystem::path& first = arguments.folders.at(0);
-    if (read_variants(first)) {
-        const VariantsStatus variants = read_variants_status(arguments.folders);
-        LabelFindings labels;
-        if (variants.complete == variants.variants) labels = read_findings(first);
-        print_variants(variants, labels, arguments.log.json);
+    if (read_variants(arguments.folders.at(0))) {
+        print_variants(read_variants_status(arguments.folders), arguments.log.json);
         return exit_done;
     }
     const JobStatus found = read_status(arguments.folders);
-    LabelFindings labels;
-    if (found.complete) labels = read_findings(first);
-    if (arguments.log.json) {
-        Json json = json_of(found);
-        add_findings(labels, json);
-        fmt::print("{}", json_line(json));
-    } else {
-        fmt::print("{}", text_of(found));
-        print_findings(labels);
-    }
+    fmt::print("{}", arguments.log.json ? json_line(json_of(found)) : text_of(found));
     return exit_done;
 }
 
@@ -180,7 +137,7 @@ int status(const StatusArguments& arguments) {
 
 void add_status(CLI::App& app, int& exit_code) {
     CLI::App& command = *app.add_subcommand(
-        "status", "Prints the progress of a job and, once it is complete, what its labels show");
+        "status", "Prints the progress of a job and its shards");
     add_examples(command, {"sonarsim status out/part1 out/part2"});
     auto arguments = std::make_shared<StatusArguments>();
     command

@@ -105,11 +105,8 @@ std::vector<std::string> read_products(const CheckedJson& json, const std::strin
         }
         products.push_back(product.text());
         const std::string& path = products.back();
-        const bool in_folder = path.starts_with("labels/") || path.starts_with("split/") ||
-                               path.starts_with("seabed/");
-        if (path != navigation_name && (!in_folder || !is_inner_path(path)))
-            product.refuse(
-                "navigation.tum or the path of a file in 'labels/', 'split/' or 'seabed/'");
+        if (path != navigation_name && (!path.starts_with("seabed/") || !is_inner_path(path)))
+            product.refuse("navigation.tum or the path of a file in 'seabed/'");
     }
     return products;
 }

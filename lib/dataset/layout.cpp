@@ -156,8 +156,7 @@ Layout make_layout(const Mission& mission, const std::vector<Writers>& writers, 
         }
         layout.sensors.push_back(std::move(sensor));
     }
-    for (SharedProduct& product : shared_products(mission))
-        layout.products.push_back(std::move(product.file));
+    layout.products = shared_products(mission);
     layout.poses = poses;
     const std::size_t last = poses > 0 ? poses - 1 : 0;
     layout.digits = std::max(6, static_cast<int>(std::to_string(last).size()));

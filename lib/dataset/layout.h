@@ -25,7 +25,6 @@
 //                                     <sensor>-NNNNNN.<format>.*
 //     OUT/<sensor>/*                  files of records, one per ping, and products of them
 //     OUT/seabed/*                    the true heights and objects of a generated sea bed
-//     OUT/labels/*, OUT/split/*       products of the pings of all sensors
 //
 // The files in dataset/writers are the formats. A record that is not written yet is zero. NNNNNN is
 // the index of the pose on the trajectory, in six digits or as many as the last one needs.
@@ -58,7 +57,7 @@ struct SensorLayout {
 struct Layout {
     std::filesystem::path folder;
     std::vector<SensorLayout> sensors;
-    std::vector<std::string> products;  ///< made of the pings of all sensors
+    std::vector<std::string> products;  ///< of no single sensor
     std::size_t poses = 0;
     int digits = 6;  ///< digits of a ping number
 

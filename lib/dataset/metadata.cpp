@@ -153,7 +153,7 @@ Json describe_dataset(const Mission& mission, const Assembly& assembly, const La
     }
     if (!mission.output.labels.empty()) {
         json["labels"] = describe_label_ids(assembly);
-        json["labels"]["annotations"] = describe_annotations(mission.labels, assembly.objects);
+        json["labels"]["annotations"] = describe_annotations(assembly.objects);
     }
     json["sensors"] = describe_sensors(assembly, layout, writers);
     if (!layout.products.empty()) json["products"] = layout.products;

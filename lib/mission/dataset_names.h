@@ -17,8 +17,6 @@ inline constexpr const char* navigation_name = "navigation.tum";
 inline constexpr const char* checksums_name = "SHA256SUMS";
 inline constexpr const char* journal_name = "journal.txt";
 inline constexpr const char* journal_folder_name = "journal.d";
-inline constexpr const char* labels_folder_name = "labels";
-inline constexpr const char* split_folder_name = "split";
 inline constexpr const char* seabed_folder_name = "seabed";
 inline constexpr const char* gallery_name = "index.html";
 /// A file in the folder above the datasets of variants.
@@ -26,10 +24,10 @@ inline constexpr const char* variants_name = "variants.json";
 
 /// True if the dataset has a file or folder of this name, so that no sensor may have it.
 inline bool is_taken_by_dataset(std::string_view name) {
-    constexpr std::array<std::string_view, 11> taken{
+    constexpr std::array<std::string_view, 9> taken{
         description_name,   mission_name,        trajectory_name,     checksums_name,
-        journal_name,       journal_folder_name, labels_folder_name,  split_folder_name,
-        seabed_folder_name, gallery_name,        navigation_name};
+        journal_name,       journal_folder_name, seabed_folder_name, gallery_name,
+        navigation_name};
     return std::ranges::find(taken, name) != taken.end();
 }
 

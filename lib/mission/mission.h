@@ -178,23 +178,6 @@ enum class Label {
     multipath_only,
     objects,
     fan,
-    semantic,
-    coco,
-    yolo,
-    yolo_polygons,
-};
-
-/// Shares of the trajectory for training, validation and testing; all 0: no split.
-struct SplitConfig {
-    double train = 0.0;
-    double val = 0.0;
-    double test = 0.0;
-    int gap = 10;    ///< poses at each border of two parts that belong to neither
-    int rounds = 1;  ///< repetitions of train, val and test along the trajectory
-    MissionPlace place;
-
-    bool is_on() const { return train > 0.0 || val > 0.0 || test > 0.0; }
-    bool operator==(const SplitConfig&) const = default;
 };
 
 /// Archives for the files of pings.
@@ -229,7 +212,6 @@ struct OutputConfig {
     double full_scale = 0.0;         ///< intensity that becomes white; 0: automatic, by sonar
     std::vector<Label> labels = {};  ///< each at most once, in the order of the enumeration
     MissionPlace labels_place = {};
-    SplitConfig split = {};
     Pack pack = Pack::none;
     double pack_size_mb = 256.0;  ///< upper limit; a megabyte is a million bytes
     bool raw = true;              ///< the instrument's output with the calibrated model

@@ -22,11 +22,7 @@ inline constexpr std::array label_names{Choice<Label>{"instance", Label::instanc
                                         Choice<Label>{"direct_only", Label::direct_only},
                                         Choice<Label>{"multipath_only", Label::multipath_only},
                                         Choice<Label>{"objects", Label::objects},
-                                        Choice<Label>{"fan", Label::fan},
-                                        Choice<Label>{"semantic", Label::semantic},
-                                        Choice<Label>{"coco", Label::coco},
-                                        Choice<Label>{"yolo", Label::yolo},
-                                        Choice<Label>{"yolo_polygons", Label::yolo_polygons}};
+                                        Choice<Label>{"fan", Label::fan}};
 
 inline constexpr std::array fan_colours{
     Choice<FanColours>{"grey", FanColours::grey}, Choice<FanColours>{"copper", FanColours::copper},
@@ -41,21 +37,6 @@ inline constexpr std::array fan_formats{
     Choice<FanFormat>{"jpeg", FanFormat::jpeg}, Choice<FanFormat>{"webp", FanFormat::webp}};
 
 inline constexpr std::array packs{Choice<Pack>{"none", Pack::none}, Choice<Pack>{"tar", Pack::tar}};
-
-template <class Visitor>
-void describe(Visitor& v, SplitConfig& c) {
-    v.place(c.place);
-    v.number("train", c.train, between(0, 1), "share of the trajectory for training");
-    v.number("val", c.val, between(0, 1), "share for validation");
-    v.number("test", c.test, between(0, 1), "share for testing");
-    const double sum = c.train + c.val + c.test;
-    v.require(!c.is_on() || (sum > 1.0 - 1e-6 && sum < 1.0 + 1e-6), {"train", "val", "test"},
-              "train, val and test must add up to 1");
-    v.integer("gap", c.gap, between(0, 1e6),
-              "poses at each border of two parts that belong to neither of them");
-    v.integer("rounds", c.rounds, between(1, 1e6),
-              "number of times that train, val and test repeat along the trajectory");
-}
 
 template <class Visitor>
 void describe(Visitor& v, FanStyleConfig& c) {
@@ -95,9 +76,6 @@ void describe(Visitor& v, OutputConfig& c) {
     v.subset("labels", c.labels, label_names,
              "labels to write for every bin: `true` for all, or a list of them");
     v.place("labels", c.labels_place);
-    v.section(
-        "split", c.split,
-        "lists of poses for training, validation and testing, by stretches of the trajectory");
     v.choice("pack", c.pack, packs,
              "`tar` writes the files of pings into a few archives that WebDataset reads; `none` "
              "writes single files");

@@ -146,23 +146,11 @@ template <class Visitor>
 void describe(Visitor& v, LabelConfig& c) {
     v.place(c.place);
     v.texts("background", c.background,
-            "classes that are never annotated. `auto` stands for the classes of the nodes that "
-            "scene.bottom names and for the class of the largest surface; `none` for no class");
+            "classes that are no objects and have no contrast, shadow or visible share. `auto` stands "
+            "for the classes of the nodes that scene.bottom names and for the class of the largest "
+            "surface; `none` for no class");
     v.require(!c.background.empty(), {"background"},
-              "'background' names classes, auto or none; [none] annotates all classes");
-    v.integer("min_pixels", c.min_pixels, between(1, 1e9),
-              "least number of pixels of an annotated object in a picture");
-    v.number("min_visible_share", c.min_visible_share, between(0, 1),
-             "least share of an annotated object that nothing hides");
-    v.number("min_contrast_db", c.min_contrast_db, between(0, 200),
-             "least difference of an annotated object, or of its shadow, from its surroundings, "
-             "brighter or darker; 0 takes all");
-    v.choice("faint", c.faint, faint_objects,
-             "what becomes of objects below these limits: `omit` leaves them out, `crowd` keeps "
-             "them in COCO files with iscrowd: 1, which trainers ignore, and out of YOLO's");
-    v.choice("box", c.box, label_boxes,
-             "the box of an annotation: that of the object, of its shadow or of both; with "
-             "`shadow` an object without one has no annotation");
+              "'background' names classes, auto or none; with [none] all classes are objects");
 }
 
 template <class Visitor>
