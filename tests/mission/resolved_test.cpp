@@ -170,11 +170,6 @@ slices:
 classes: []
 labels:
   background: ["auto"]
-  min_pixels: 16
-  min_visible_share: 0.1
-  min_contrast_db: 1
-  faint: omit
-  box: object
 output:
   folder: "/o"
   polar: true
@@ -190,12 +185,6 @@ output:
     bearings: false
   full_scale: auto
   labels: false
-  split:
-    train: 0
-    val: 0
-    test: 0
-    gap: 10
-    rounds: 1
   pack: none
   pack_size_mb: 256
   waterfall: true
