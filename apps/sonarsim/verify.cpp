@@ -66,7 +66,7 @@ int verify(const VerifyArguments& arguments) {
 
 void add_verify(CLI::App& app, int& exit_code) {
     CLI::App& command = *app.add_subcommand(
-        "verify", "Checks that a dataset is whole: every file is there, opens and has its bytes");
+        "verify", "Checks that a dataset is whole: every file is there and has its bytes");
     add_examples(command, {"sonarsim verify out/hull"});
     auto arguments = std::make_shared<VerifyArguments>();
     command.add_option("folder", arguments->folder, "The folder of the dataset")->required();

@@ -18,7 +18,7 @@ struct LabelKind {
 };
 
 /// The kinds by the names that output.labels has for them. Labels that need the same computation
-/// share a row: `semantic` and `class`, `yolo` and `coco`.
+/// share a row.
 std::vector<LabelKind> label_kinds(const Bottom* bottom) {
     std::vector<LabelKind> kinds{{"instance", {.objects = true}},
                                  {"class", {.classes = true}},
@@ -27,7 +27,7 @@ std::vector<LabelKind> label_kinds(const Bottom* bottom) {
                                  {"share", {.objects = true, .shares = true}},
                                  {"elevation", {.elevation = true}},
                                  {"shadow", {.shadow = true}},
-                                 {"coco", {.objects = true, .annotations = true}}};
+                                 {"objects", {.objects = true, .annotations = true}}};
     if (bottom != nullptr) kinds.push_back({"height", {.height = true, .bottom = bottom}});
     kinds.push_back({"all",
                      {.objects = true,

@@ -26,7 +26,7 @@ void judge_engine(const Mission& mission, const Sonar& sonar, std::vector<Warnin
 }
 
 void judge_fan(const OutputConfig& output, const Sonar& sonar, std::vector<Warning>& out) {
-    if (!output.has_fan() || !kind_of(sonar.config.kind).has_images) return;
+    if (!output.fan || !kind_of(sonar.config.kind).has_images) return;
     const double pixel_m = fan_frame(sonar, output.fan_width_px).pixel_m;
     const double width_m = sonar.settings.view.azimuth_rad * sonar.config.range_max_m;
     if (width_m >= pixel_m) return;

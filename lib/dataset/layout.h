@@ -20,9 +20,7 @@
 //     OUT/trajectory.tum              the pose of every ping number
 //     OUT/journal.txt                 the size and hash of every file of a ping, see job/journal.h;
 //                                     while the mission runs, parts of it lie in OUT/journal.d/
-//     OUT/<sensor>/<format>/NNNNNN.*  a file per ping, or with output.pack
-//     OUT/<sensor>/pack/NNNNNN.tar    the files of as many pings as fit, one after the other, each
-//                                     <sensor>-NNNNNN.<format>.*
+//     OUT/<sensor>/<format>/NNNNNN.*  a file per ping
 //     OUT/<sensor>/*                  files of records, one per ping, and products of them
 //     OUT/seabed/*                    the true heights and objects of a generated sea bed
 //
@@ -30,9 +28,6 @@
 // the index of the pose on the trajectory, in six digits or as many as the last one needs.
 
 namespace sonarsim {
-
-/// In the folder of a sensor. No writer has this name.
-inline constexpr const char* pack_folder_name = "pack";
 
 /// "3-of-8.txt": the part of the journal that a shard, counted from 1, writes.
 std::string journal_part(int shard, int shards);
@@ -50,7 +45,6 @@ struct SensorLayout {
     std::vector<std::variant<PingFile, PingRecord>>
         per_ping;  ///< outputs of its writers, in their order
     std::vector<std::string> products;
-    std::size_t pings_per_pack = 0;  ///< 0: no packs
 };
 
 /// The files of a dataset.
@@ -68,30 +62,19 @@ struct Layout {
     /// last.
     std::filesystem::path product_file(std::size_t sensor, const std::string& name) const;
 
-    // For a sensor with packs. Every pack but the last holds the same number of pings, so that the
-    // pack of a ping does not depend on the sizes of others.
-    std::size_t packs(std::size_t sensor) const;
-    std::size_t pack_of(const PingId& ping) const;
-    bool is_last_in_pack(const PingId& ping) const;
-    std::filesystem::path pack_file(const PingId& ping) const;
-    /// The name of a ping's file in its pack.
-    std::string member(const PingId& ping, const PingFile& kind) const;
-
     /// The index of a ping among those of its sensor.
     std::size_t record_of(const PingId& ping) const;
     /// Every folder of the dataset but `folder` itself, parents first.
     std::vector<std::filesystem::path> folders() const;
 };
 
-/// InputError when the packs that the mission asks for are smaller than a ping.
 Layout make_layout(const Mission& mission, const std::vector<Writers>& writers, std::size_t poses);
 
 /// Every ping of a mission, in order.
 std::vector<PingId> list_pings(const Mission& mission, std::size_t poses);
 
-/// The shard, counted from 0, that renders a ping; `index` is that in list_pings(). The pings of a
-/// pack are in one shard.
-int shard_of(const Layout& layout, const PingId& ping, std::size_t index, int shards);
+/// The shard, counted from 0, that renders the ping with this index in list_pings().
+int shard_of(std::size_t index, int shards);
 
 // The page that `sonarsim gallery` puts next to the files of a dataset. It is no part of the
 // dataset: dataset.json and SHA256SUMS do not list it, and a run that replaces the dataset removes

@@ -9,10 +9,12 @@
 
 #include "core/atomic_file.h"
 #include "core/elementary.h"
+#include "core/error.h"
 #include "core/units.h"
 #include "dataset/folded_records.h"
 #include "dataset/record_file.h"
 #include "format/coco_counts.h"
+#include "mission/dataset_names.h"
 #include "product/contrast.h"
 #include "product/fan_bins.h"
 #include "product/object_masks.h"
@@ -59,6 +61,7 @@ struct Source {
         for (const Json& one : labels.at("instances"))
             is_background.push_back(
                 std::ranges::find(names, class_name(one)) != names.end() ? 1 : 0);
+        is_background.resize(std::size_t{1} << 16, 1);  // any id that a damaged record may hold
         const auto edges = described.at("range_edges_m").get<std::vector<double>>();
         for (std::size_t k = 0; k + 1 < edges.size(); ++k)
             range_m.push_back(0.5 * (edges[k] + edges[k + 1]));
@@ -341,7 +344,7 @@ class Strip {
     std::vector<std::uint16_t> of_pixel_;
 };
 
-/// Adds what the display of a sweep shows of an object.
+/// What the display of a sweep shows of an object.
 Seen seen_in_sweep(const Source& source, const Values& display, std::uint16_t id,
                    const Sonar& whole) {
     Seen seen{.id = id};
@@ -407,7 +410,8 @@ void write_sweeps(const Layout& layout, const Mission& mission, std::size_t sens
 
 }  // namespace
 
-void write_record_objects(const Layout& layout, const Mission& mission, const Json& description) {
+void write_record_objects(const Layout& layout, const Mission& mission,
+                          const Json& description) try {
     for (std::size_t i = 0; i < layout.sensors.size(); ++i) {
         const std::vector<std::string>& products = layout.sensors[i].products;
         const RecordShape& shape = kind_of(mission.sensors[i].kind).record;
@@ -420,6 +424,9 @@ void write_record_objects(const Layout& layout, const Mission& mission, const Js
             write_sweeps(layout, mission, i, description);
         }
     }
+} catch (const Json::exception&) {  // of a part that somebody else made
+    throw InputError({(layout.folder / description_name).string()},
+                     "has labels that do not fit the records; render the dataset anew");
 }
 
 }  // namespace sonarsim

@@ -43,7 +43,7 @@ constexpr MakeWriter formats[] = {
 void check_fan_label(const Mission& mission) {
     const bool all = mission.output.labels.size() == static_cast<std::size_t>(Label::fan) + 1;
     const bool has_fans =
-        mission.output.has_fan() && std::ranges::any_of(mission.sensors, [](const auto& sensor) {
+        mission.output.fan && std::ranges::any_of(mission.sensors, [](const auto& sensor) {
             return kind_of(sensor.kind).has_images;
         });
     if (all || has_fans || !is_asked(mission, Label::fan)) return;

@@ -107,15 +107,6 @@ MergeContext read_context(const fs::path& part, const CommonFiles& common, const
     return context;
 }
 
-/// The number of pings in a pack depends on the scene, which is not needed here: the description of
-/// the parts has it. Packs of a sensor that the mission does not pack are an error found later.
-void adopt_packs(Layout& layout, const DatasetFile& dataset) {
-    for (std::size_t i = 0; i < layout.sensors.size(); ++i) {
-        std::size_t& own = layout.sensors[i].pings_per_pack;
-        if (own > 0 && dataset.sensors[i].packs) own = dataset.sensors[i].packs->pings;
-    }
-}
-
 /// Compares dataset.json with the mission: a changed key would be copied into the result.
 void require_as_made(const Json& found, const fs::path& part, const MergeContext& context,
                      const Layout& layout, const std::vector<Writers>& writers) {
@@ -168,7 +159,7 @@ std::string missing_shards(const std::vector<PingId>& all,
     if (shards < 2) return {};
     std::set<int> which;
     for (const std::size_t ping : missing)
-        which.insert(1 + shard_of(parts[0]->layout, all[ping], ping, shards));
+        which.insert(1 + shard_of(ping, shards));
     std::string text;
     for (const int shard : which)
         text += (text.empty() ? "" : ", ") + std::to_string(shard) + "/" + std::to_string(shards);
@@ -197,16 +188,15 @@ std::vector<Copy> plan_copies(const std::vector<PingId>& all,
 /// The bytes of a ping. InputError unless they are those that the journal of its part lists.
 EncodedPing verified_ping(const Copy& copy) {
     const Part& from = *copy.from;
-    EncodedPing encoded = read_ping(from.layout, from.records, *from.finished, copy.id);
+    EncodedPing encoded = read_ping(from.layout, from.records, copy.id);
     const SensorLayout& sensor = from.layout.sensors[copy.id.sensor];
     const std::vector<std::string> found =
         journal_fields(std::array{PingToList{sensor, encoded}}).front();
     const auto differs = std::ranges::mismatch(found, from.finished->fields_of(copy.id)).in1;
     if (differs == found.end()) return encoded;
     const auto* file = std::get_if<PingFile>(&sensor.per_ping[differs - found.begin()]);
-    const fs::path path = !file                       ? from.layout.sensor_folder(copy.id.sensor)
-                          : sensor.pings_per_pack > 0 ? from.layout.pack_file(copy.id)
-                                                      : from.layout.file(copy.id, *file);
+    const fs::path path =
+        file ? from.layout.file(copy.id, *file) : from.layout.sensor_folder(copy.id.sensor);
     throw InputError({path.string()},
                      "differs from the journal of its part; copy the part again, or remove "
                      "the file and render that shard again");
@@ -229,17 +219,14 @@ void copy_pings(const std::vector<std::unique_ptr<Part>>& parts, const std::vect
     remove_leftovers(layout, todo, true);
     constexpr double checkpoint_s = 5.0;
     Journal journal(layout.folder, journal_part(1, 1), checkpoint_s);
-    PingFiles files(layout, records, there);
     ordered_pipeline(
         copies.size(), 2 * static_cast<std::size_t>(threads), stop,
         [&](std::size_t i) {
-            EncodedPing encoded = verified_ping(copies[i]);
-            files.write(copies[i].id, encoded);
-            return encoded;
+            write_ping(layout, records, copies[i].id, verified_ping(copies[i]));
+            return i;
         },
-        [&](const EncodedPing& encoded) {
-            const Copy& copy = copies[summary.pings];
-            files.pack(copy.id, encoded);
+        [&](std::size_t i) {
+            const Copy& copy = copies[i];
             journal.add(copy.id, copy.from->finished->fields_of(copy.id));
             ++summary.pings;
             if (progress) progress(summary.pings, copies.size());
@@ -271,8 +258,7 @@ MergeSummary merge_datasets(const std::vector<fs::path>& folders, const fs::path
     const MergeContext context = read_context(folders[0], common, out);
     const std::size_t poses = context.assembly.trajectory.size();
     const std::vector<Writers> writers = make_writers(context.mission, context.assembly);
-    Layout layout = make_layout(context.mission, writers, poses);
-    adopt_packs(layout, check_description(common.description, folders[0].string()));
+    const Layout layout = make_layout(context.mission, writers, poses);
     require_as_made(common.description, folders[0], context, layout, writers);
     std::vector<std::unique_ptr<Part>> parts;
     parts.reserve(folders.size());

@@ -117,6 +117,8 @@ void MissionReader::flag(const char* key, bool& value, const char* /*meaning*/) 
     read_key(key, Presence::optional, [&](const YamlNode& node) {
         const bool yes = is_plain(node) && node.text == "true";
         if (!yes && !(is_plain(node) && node.text == "false")) {
+            const std::string removed = instead_of_removed(key, node.text);
+            if (!removed.empty()) refuse(node, removed);
             refuse_type(node, key, "true or false");
         }
         value = yes;

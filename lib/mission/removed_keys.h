@@ -19,6 +19,13 @@ inline constexpr RemovedKey removed_keys[] = {
     {"labels", "faint", "give it to the export: sonarsim export --faint"},
     {"labels", "box", "give it to the export: sonarsim export --box"},
     {"output", "split", "give the shares to the export: sonarsim export --split"},
+    {"output", "pack", "write files, then run sonarsim export --format webdataset"},
+    {"output", "pack_size_mb", "write files, then run sonarsim export --format webdataset"},
+    {"output", "fan_style", "fans are grey; colour them where they are shown, or use sonarsim preview"},
+    {"polar", "exr", "write polar: true, which gives .npy files"},
+    {"polar", "tiff", "write polar: true, which gives .npy files"},
+    {"fan", "jpeg", "write fan: true, which gives PNG files"},
+    {"fan", "webp", "write fan: true, which gives PNG files"},
     {"labels", "coco", "write labels: [objects], then run sonarsim export --format coco"},
     {"labels", "yolo", "write labels: [objects], then run sonarsim export --format yolo"},
     {"labels", "yolo_polygons", "write labels: [objects], then run sonarsim export --format coco, "

@@ -97,7 +97,7 @@ void draw_objects(Drawing& tile, const PlaneFrame& frame, const std::vector<Obje
         draw_box(tile, one.first);
     std::vector<AlignedBox2d> taken;
     for (const auto& one : shown) {
-        const int width = estimated_width(one.second->name);
+        const int width = text_width(one.second->name);
         const auto is_free = [&](const AlignedBox2d& name, bool over_objects) {
             const auto overlaps = [&](const AlignedBox2d& other) { return name.intersects(other); };
             const auto hides = [&](const auto& other) { return name.intersects(other.first); };
@@ -111,7 +111,7 @@ void draw_objects(Drawing& tile, const PlaneFrame& frame, const std::vector<Obje
             taken.push_back(name);
             const Vector2d at = name.center();
             tile.texts.push_back({static_cast<int>(at.x()), static_cast<int>(at.y()),
-                                  one.second->name, Align::middle, ink, label_px - 1, true});
+                                  one.second->name, Align::middle, ink, true});
             break;
         }
     }

@@ -26,10 +26,10 @@ struct DatasetSource {
     std::size_t pings() const { return std::min<std::size_t>(sensor->pings, most_pings); }
 };
 
-/// The pattern of a kind's files, or of its members in packs; nothing if there is none.
+/// The pattern of a kind's files; nothing if there is none.
 std::optional<std::string> pattern_of(const NamedTexts& patterns, const std::string& kind);
 
-/// Visits the arrays of a kind, loose or packed: the number of the ping, the array and the file's
+/// Visits the arrays of a kind: the number of the ping, the array and the file's
 /// name. InputError for files that are missing or damaged.
 void for_each_ping_array(
     const DatasetSource& source, const std::string& pattern,

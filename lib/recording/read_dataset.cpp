@@ -172,8 +172,7 @@ Recording read_dataset_recording(const fs::path& folder, const RecordingOptions&
     const std::vector<double> ranges = middles(source.checked().at("range_edges_m"));
     recording.first_range_m = ranges.front();
     recording.range_step_m = ranges.size() > 1 ? ranges[1] - ranges[0] : 0.0;
-    const NamedTexts& patterns =
-        source.sensor->packs ? source.sensor->packs->members : source.sensor->files;
+    const NamedTexts& patterns = source.sensor->files;
     const auto raw_records = pattern_of(source.sensor->label_records, "raw");
     const auto raw = pattern_of(patterns, "raw");
     set_facts(source, raw || raw_records, recording);

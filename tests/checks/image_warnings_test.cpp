@@ -172,7 +172,7 @@ TEST_SUITE("checks") {
         CHECK(
             thin[0].starts_with("W32 sensor 'front': its fans show next to nothing: azimuth_deg of "
                                 "0.001 is 0.00017 m wide at range_max_m, and a pixel "));
-        run.mission.output.fan = FanFormat::none;
+        run.mission.output.fan = false;
         CHECK(before_pings(run.mission, run.assembly).empty());
     }
 

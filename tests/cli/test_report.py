@@ -93,7 +93,7 @@ class Report(Sandbox):
         report = json.loads((self.folder / "report.json").read_text())
         self.assertEqual([row["engine"] for row in report["rows"]], ["auto"])
         labels = {row["label"]: row["times_ping"] for row in report["label_rows"]}
-        self.assertLessEqual({"instance", "class", "all ids", "shadow", "coco", "all"}, set(labels))
+        self.assertLessEqual({"instance", "class", "all ids", "shadow", "objects", "all"}, set(labels))
         self.assertGreater(min(labels.values()), 1)
         self.assertGreater(labels["all"], labels["instance"])
         self.assertRegex(result.stdout, r"\n all ids +[0-9]")

@@ -131,7 +131,7 @@ TEST_SUITE("dataset") {
             {"/sensors/0/files/meta", "../x/%06d.json", "'sensors[0].files.meta'"},
             {"/sensors/0/files/meta", "left/meta/%06d.json", "a file in 'front/'"},
             {"/sensors/0/files/meta", "javascript:%06d", "with one number as '%06d'"},
-            {"/sensors/0/range_edges_m/1", -1, "'sensors[0].range_edges_m[1]'"},
+            {"/sensors/0/range_edges_m/1", "1", "'sensors[0].range_edges_m[1]'"},
             {"/products", {"../x"}, "'products[0]'"},
         };
         for (const Case& one : cases) {

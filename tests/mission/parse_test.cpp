@@ -98,7 +98,7 @@ output:
     CHECK(mission.octree == OctreeConfig{0.05, 100, true});
     CHECK(
         mission.output ==
-        OutputConfig{"/o", PolarFormat::none, false, FanFormat::none, false, false, 300, {}, 0.25});
+        OutputConfig{"/o", false, false, false, false, false, 300, 0.25});
 }
 
 TEST_CASE("waypoints") {

@@ -273,7 +273,7 @@ std::vector<std::unique_ptr<Writer>> make_label_writers(const WriterContext& con
     };
     const Mission& mission = context.mission;
     const bool has_images = context.kind().has_images;
-    const bool has_fan = has_images && mission.output.has_fan() && is_asked(mission, Label::fan);
+    const bool has_fan = has_images && mission.output.fan && is_asked(mission, Label::fan);
     for (const LabelFile& file : label_files) {
         const bool for_objects =
             !has_images && file.label == Label::instance && is_asked(mission, Label::objects);

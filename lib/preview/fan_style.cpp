@@ -1,4 +1,4 @@
-#include "product/fan_style.h"
+#include "preview/fan_style.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,6 @@ namespace sonarsim {
 namespace {
 
 constexpr float line_share = 0.45F;
-constexpr float halo_share = 0.6F;
 constexpr int least_px = 160;  // a smaller fan has no room for numbers
 
 /// The step between lines of equal azimuth, degrees, for at most ten lines.
@@ -47,10 +46,9 @@ float cover(double pixels) {
     return line_share * static_cast<float>(std::max(0.0, 1.0 - std::fabs(pixels)));
 }
 
-void mark_lines(FanStyle& style, const View& view, const FanStyleConfig& config) {
-    const std::vector<double> ranges = config.rings ? ring_ranges(view) : std::vector<double>{};
-    const std::vector<double> bearings =
-        config.bearings ? bearings_deg(view) : std::vector<double>{};
+void mark_lines(FanStyle& style, const View& view) {
+    const std::vector<double> ranges = ring_ranges(view);
+    const std::vector<double> bearings = bearings_deg(view);
     const FanFrame& frame = style.frame;
     for (int row = 0; row < frame.height; ++row) {
         for (int column = 0; column < frame.width; ++column) {
@@ -81,90 +79,51 @@ Pixel pixel_of(const FanFrame& frame, const View& view, double range_m, double a
             static_cast<int>(std::floor((view.range_max_m - range_m * at.cos) / frame.pixel_m))};
 }
 
-/// The text in the small letters of product/picture.h.
-std::string small_text(const FanNumber& number) {
-    return number.value + (number.is_bearing ? number.side : " m");
+PictureText number_at(const Pixel& at, const std::string& text) {
+    return {at.x, at.y, text, Align::middle, mark_colour, true};
 }
 
-FanNumber range_number(const FanFrame& frame, const View& view, double range_m) {
+PictureText range_number(const FanFrame& frame, const View& view, double range_m) {
     const bool wide = view.azimuth_rad > pi;
-    const Pixel at = pixel_of(frame, view, range_m, wide ? 0.0 : -0.5 * view.azimuth_rad);
-    FanNumber number{at.x + 5, wide ? at.y + 6 : at.y + 2, number_text(range_m), "", false};
-    number.x += text_width(small_text(number)) / 2;
-    return number;
+    const std::string text = number_text(range_m) + " m";
+    Pixel at = pixel_of(frame, view, range_m, wide ? 0.0 : -0.5 * view.azimuth_rad);
+    at.x += 5 + text_width(text) / 2;
+    at.y += wide ? 6 : 2;
+    return number_at(at, text);
 }
 
-FanNumber bearing_number(const FanFrame& frame, const View& view, double bearing_deg) {
+PictureText bearing_number(const FanFrame& frame, const View& view, double bearing_deg) {
     const double in_m = 14.0 * frame.pixel_m;
     const Pixel at = pixel_of(frame, view, view.range_max_m - in_m, radians(bearing_deg));
     const char* side = "";
     if (bearing_deg > 0.0 && bearing_deg < 180.0) side = "P";
     if (bearing_deg < 0.0) side = "S";
-    return {at.x, at.y, number_text(std::fabs(bearing_deg)), side, true};
-}
-
-/// Writes a number within the picture.
-void write_inside(Picture& text, const FanNumber& number) {
-    const std::string letters = small_text(number);
-    const int width = text_width(letters);
-    const int x = std::clamp(number.x - width / 2, 1, std::max(1, text.width - width - 1));
-    const int y = std::clamp(number.y - 3, 1, std::max(1, text.height - 8));
-    write(text, x, y, letters, Align::left, mark_colour);
-}
-
-/// Marks the text and a dark seam around it, so that it is legible on any picture.
-void mark_text(FanStyle& style, const Picture& text) {
-    const auto is_set = [&](int x, int y) {
-        return x >= 0 && y >= 0 && x < text.width && y < text.height &&
-               text.pixels[static_cast<std::size_t>(y) * text.width + x] == mark_colour;
-    };
-    for (int y = 0; y < text.height; ++y) {
-        for (int x = 0; x < text.width; ++x) {
-            bool near = false;
-            for (int j = -1; j <= 1; ++j) {
-                for (int i = -1; i <= 1; ++i)
-                    near = near || is_set(x + i, y + j);
-            }
-            if (!near) continue;
-            const int index = y * text.width + x;
-            is_set(x, y) ? style.marks.push_back({index, mark_colour, 1.0F})
-                         : style.marks.push_back({index, backdrop, halo_share});
-        }
-    }
+    return number_at(at, number_text(std::fabs(bearing_deg)) + side);
 }
 
 }  // namespace
 
-std::vector<FanNumber> fan_numbers(const Sonar& sonar, const FanFrame& frame,
-                                   const FanStyleConfig& config) {
-    std::vector<FanNumber> numbers;
+std::vector<PictureText> fan_numbers(const Sonar& sonar, const FanFrame& frame) {
+    std::vector<PictureText> numbers;
     const View& view = sonar.settings.view;
     if (std::min(frame.width, frame.height) < least_px) return numbers;
-    if (config.rings) {
-        for (const double range : ring_ranges(view)) {
-            // The outermost bearing has its number there.
-            const bool taken = config.bearings && range > 0.97 * view.range_max_m;
-            if (!taken) numbers.push_back(range_number(frame, view, range));
-        }
+    for (const double range : ring_ranges(view)) {
+        // The outermost bearing has its number there.
+        if (range <= 0.97 * view.range_max_m) numbers.push_back(range_number(frame, view, range));
     }
-    if (config.bearings) {
-        for (const double bearing : bearings_deg(view))
-            numbers.push_back(bearing_number(frame, view, bearing));
+    for (const double bearing : bearings_deg(view))
+        numbers.push_back(bearing_number(frame, view, bearing));
+    for (PictureText& one : numbers) {
+        const int half = text_width(one.text) / 2 + 1;
+        one.x = std::clamp(one.x, half, std::max(half, frame.width - half));
+        one.y = std::clamp(one.y, 5, std::max(5, frame.height - 5));
     }
     return numbers;
 }
 
-FanStyle make_fan_style(const Sonar& sonar, const FanFrame& frame, const FanStyleConfig& config,
-                        bool numbers) {
-    FanStyle style{frame, colour_table(config.colours), {}};
-    mark_lines(style, sonar.settings.view, config);
-    if (!numbers) return style;
-    const std::vector<FanNumber> all = fan_numbers(sonar, frame, config);
-    if (all.empty()) return style;
-    Picture text(frame.width, frame.height, backdrop);
-    for (const FanNumber& number : all)
-        write_inside(text, number);
-    mark_text(style, text);
+FanStyle make_fan_style(const Sonar& sonar, const FanFrame& frame) {
+    FanStyle style{frame, colour_table(FanColours::amber), {}};
+    mark_lines(style, sonar.settings.view);
     return style;
 }
 
