@@ -42,7 +42,7 @@ for upper in ("dataset", "checks", "job", "validation", "benchmark", "preview",
 # each other. "x/" is a subfolder, "x" the files x.h and x.cpp, "*" every other file of the folder.
 PARTS = {
     "dataset": [["*"], ["writers/"], ["writers"], ["layout"], ["metadata"], ["dataset_file"],
-                ["description"], ["encode_ping"], ["record_objects"]],
+                ["description", "object_records"], ["encode_ping", "record_objects"]],
     "compare": [["*"], ["figures/"], ["images"], ["measure_edges", "measure_patches", "measure_shadows"], ["measure_images", "measure_soundings"],
                 ["compare"], ["plot", "report"]],
     "job": [["*"], ["folder_lock"], ["journal"], ["checksums"], ["folder"], ["listed_files", "resume"],

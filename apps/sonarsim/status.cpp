@@ -136,8 +136,8 @@ int status(const StatusArguments& arguments) {
 }  // namespace
 
 void add_status(CLI::App& app, int& exit_code) {
-    CLI::App& command = *app.add_subcommand(
-        "status", "Prints the progress of a job and its shards");
+    CLI::App& command =
+        *app.add_subcommand("status", "Prints the progress of a job and its shards");
     add_examples(command, {"sonarsim status out/part1 out/part2"});
     auto arguments = std::make_shared<StatusArguments>();
     command

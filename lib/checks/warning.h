@@ -1,8 +1,8 @@
 #pragma once
 
-#include <algorithm>
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <string_view>

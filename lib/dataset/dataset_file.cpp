@@ -9,9 +9,9 @@
 #include "dataset/file_names.h"
 #include "dataset/layout.h"
 #include "dataset/metadata.h"
+#include "mission/dataset_names.h"
 #include "mission/schema.h"
 #include "trajectory/interpolate.h"
-#include "mission/dataset_names.h"
 
 namespace sonarsim {
 
@@ -91,7 +91,8 @@ DescribedSensor read_sensor(const CheckedJson& json, std::uint64_t poses) {
     if (const auto labels = json.find("label_records")) {
         for (const auto& [label, record] : labels->members()) {
             if (!is_plain_name(label)) record.refuse("under a name of letters, digits and '_'");
-            sensor.label_records.emplace_back(label, path_in(record.at("file"), sensor.name, false));
+            sensor.label_records.emplace_back(label,
+                                              path_in(record.at("file"), sensor.name, false));
         }
     }
     sensor.products = read_products(json, sensor.name);

@@ -30,7 +30,8 @@ LabelPlan plan_labels(const Mission& mission, const Assembly& assembly, const So
                     .bottom = assembly.bottom.get()};
     plan.polar_masks = has_images && objects;
     plan.fan_masks = has_images && objects && output.fan;
-    if (has_images && (asked(Label::fan) || (output.fan && objects))) plan.fan = make_fan_bins(sonar, output.fan_width_px);
+    if (has_images && (asked(Label::fan) || (output.fan && objects)))
+        plan.fan = make_fan_bins(sonar, output.fan_width_px);
     plan.seen = has_images && objects;
     if (objects || asked(Label::shadow)) plan.annotated = annotated_objects(assembly);
     const View& view = sonar.settings.view;

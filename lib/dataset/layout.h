@@ -51,7 +51,7 @@ struct SensorLayout {
 struct Layout {
     std::filesystem::path folder;
     std::vector<SensorLayout> sensors;
-    std::vector<std::string> products;  ///< of no single sensor
+    std::vector<std::string> products;  ///< files of no single sensor
     std::size_t poses = 0;
     int digits = 6;  ///< digits of a ping number
 

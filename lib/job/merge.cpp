@@ -66,9 +66,9 @@ void require_same(const fs::path& part, const CommonFiles& found, const fs::path
         if (!key) return;
         difference = "whose dataset.json differs in '" + printable(*key) + "'";
     }
-    throw InputError({part.string()},
-                     "holds a dataset " + difference + ", seen from " + first.string() +
-                         "; only parts of one mission become one dataset");
+    throw InputError({part.string()}, "holds a dataset " + difference + ", seen from " +
+                                          first.string() +
+                                          "; only parts of one mission become one dataset");
 }
 
 /// The input of a dataset's products: all that the mission names except the scene.
@@ -148,8 +148,7 @@ struct Copy {
 
 /// " (--shard 2/3, 3/3)" with the shards of the missing pings; empty if the journals have no
 /// shards.
-std::string missing_shards(const std::vector<PingId>& all,
-                           const std::vector<std::unique_ptr<Part>>& parts,
+std::string missing_shards(const std::vector<std::unique_ptr<Part>>& parts,
                            const std::vector<std::size_t>& missing) {
     int shards = 1;
     for (const auto& part : parts) {
@@ -179,7 +178,7 @@ std::vector<Copy> plan_copies(const std::vector<PingId>& all,
     }
     if (missing.empty()) return copies;
     throw InputError(std::to_string(missing.size()) + " of " + std::to_string(all.size()) +
-                     " pings are in none of the parts" + missing_shards(all, parts, missing) +
+                     " pings are in none of the parts" + missing_shards(parts, missing) +
                      ": the first is ping " + std::to_string(all[missing[0]].pose) +
                      " of sensor '" + parts[0]->layout.sensors[all[missing[0]].sensor].name +
                      "'; render what is missing, or name its folder, too");

@@ -42,8 +42,7 @@ void check_common_files(const fs::path& folder, DatasetCheck& check) {
     if (sum == sums.end() || sha256_of_file(folder / variants_name) != sum->second)
         add(std::string(variants_name) + ": differs from SHA256SUMS");
     for (const auto& [name, value] : sums) {
-        if (name != variants_name)
-            add(name + ": SHA256SUMS lists it, and variants.json does not");
+        if (name != variants_name) add(name + ": SHA256SUMS lists it, and variants.json does not");
     }
 }
 

@@ -121,8 +121,7 @@ DatasetCheck verify_dataset(const fs::path& folder, int threads, const ProgressC
         if (has_gallery(folder)) expected.insert(gallery_name);
         check.unknown_files = unknown_files_in(folder, expected);
     }
-    on_threads(threads,
-               [&](int n) { check_files(folder, tasks, n, progress, stop, check); });
+    on_threads(threads, [&](int n) { check_files(folder, tasks, n, progress, stop, check); });
     return check;
 }
 

@@ -25,9 +25,8 @@ inline constexpr const char* variants_name = "variants.json";
 /// True if the dataset has a file or folder of this name, so that no sensor may have it.
 inline bool is_taken_by_dataset(std::string_view name) {
     constexpr std::array<std::string_view, 9> taken{
-        description_name,   mission_name,        trajectory_name,     checksums_name,
-        journal_name,       journal_folder_name, seabed_folder_name, gallery_name,
-        navigation_name};
+        description_name,    mission_name,       trajectory_name, checksums_name, journal_name,
+        journal_folder_name, seabed_folder_name, gallery_name,    navigation_name};
     return std::ranges::find(taken, name) != taken.end();
 }
 

@@ -7,7 +7,7 @@
 
 namespace sonarsim {
 
-/// What is an object and what background: background has neither contrast, shadow nor visible share.
+/// The classes that are background: they have neither contrast, shadow nor visible share.
 struct LabelConfig {
     std::vector<std::string> background{"auto"};  ///< classes that are no objects
     MissionPlace place;

@@ -182,13 +182,13 @@ enum class Label {
 
 struct OutputConfig {
     std::filesystem::path folder;
-    bool polar = true;     ///< float32 in .npy
-    bool image = false;    ///< 16-bit polar PNG
-    bool fan = true;       ///< 8-bit PNG
-    bool meta = true;      ///< JSON per ping
-    bool stages = false;   ///< 8-bit PNG of five fans that add the model's terms one by one
-    int fan_width_px = 0;  ///< 0: one pixel per range bin, at most 1024
-    double full_scale = 0.0;         ///< intensity that becomes white; 0: automatic, by sonar
+    bool polar = true;        ///< float32 in .npy
+    bool image = false;       ///< 16-bit polar PNG
+    bool fan = true;          ///< 8-bit PNG
+    bool meta = true;         ///< JSON per ping
+    bool stages = false;      ///< 8-bit PNG of five fans that add the model's terms one by one
+    int fan_width_px = 0;     ///< 0: one pixel per range bin, at most 1024
+    double full_scale = 0.0;  ///< intensity that becomes white; 0: automatic, by sonar
     std::vector<Label> labels = {};  ///< each at most once, in the order of the enumeration
     MissionPlace labels_place = {};
     bool raw = true;  ///< the instrument's output with the calibrated model

@@ -34,9 +34,10 @@ void describe(Visitor& v, OutputConfig& c) {
     v.flag("raw", c.raw,
            "with the calibrated model, write every ping as the instrument delivers it: a PNG for "
            "imaging and profiling sonars, a record of raw.npy for others");
-    v.flag("fan", c.fan,
-           "write every ping of these sonars as an 8-bit fan in grey, as an operator sees it, in PNG "
-           "files");
+    v.flag(
+        "fan", c.fan,
+        "write every ping of these sonars as an 8-bit fan in grey, as an operator sees it, in PNG "
+        "files");
     v.flag("meta", c.meta, "write a JSON file per ping");
     v.flag("stages", c.stages,
            "write a fan for each stage of the echo model side by side: direct echoes, then with "

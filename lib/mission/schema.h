@@ -145,10 +145,11 @@ void describe(Visitor& v, ClassConfig& c) {
 template <class Visitor>
 void describe(Visitor& v, LabelConfig& c) {
     v.place(c.place);
-    v.texts("background", c.background,
-            "classes that are no objects and have no contrast, shadow or visible share. `auto` stands "
-            "for the classes of the nodes that scene.bottom names and for the class of the largest "
-            "surface; `none` for no class");
+    v.texts(
+        "background", c.background,
+        "classes that are no objects and have no contrast, shadow or visible share. `auto` stands "
+        "for the classes of the nodes that scene.bottom names and for the class of the largest "
+        "surface; `none` for no class");
     v.require(!c.background.empty(), {"background"},
               "'background' names classes, auto or none; with [none] all classes are objects");
 }

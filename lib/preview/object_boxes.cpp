@@ -41,7 +41,8 @@ AlignedBox2d box_in_plan(const PlaneFrame& frame, const AlignedBox3d& box) {
 
 /// The box of a name next to that of its object: on its right, on its left, above or below.
 AlignedBox2d box_of_name(const AlignedBox2d& object, int width, int side) {
-    const Vector2d size(width, label_px + 2.0);
+    constexpr double height = 11.0;  // seven pixels and a dark outline
+    const Vector2d size(width, height);
     const Vector2d middle = object.center() - 0.5 * size;
     Vector2d low = middle;
     if (side == 0) low.x() = object.max().x() + 4.0;

@@ -156,8 +156,7 @@ Drawing arrange(const std::string& head, const std::vector<Tile>& tiles,
         first += static_cast<std::size_t>(count);
     }
     Drawing all(gap + rows.front() * (tile_width + gap), height, backdrop);
-    all.texts.push_back(
-        {gap, head_height / 2, fitting_text(head, all.width), Align::left, ink});
+    all.texts.push_back({gap, head_height / 2, fitting_text(head, all.width), Align::left, ink});
     int y = head_height;
     std::size_t k = 0;
     for (std::size_t row = 0; row < rows.size(); ++row) {
@@ -165,8 +164,8 @@ Drawing arrange(const std::string& head, const std::vector<Tile>& tiles,
         for (int column = 0; column < rows[row]; ++column, ++k) {
             const Tile& tile = tiles[k];
             fill(all, x, y + 5, 9, 9, tile.colour);
-            all.texts.push_back({x + 16, y + 9, fitting_text(tile.title, widths[k] - 16),
-                                 Align::left, ink});
+            all.texts.push_back(
+                {x + 16, y + 9, fitting_text(tile.title, widths[k] - 16), Align::left, ink});
             paste(all, tile.drawing, x + (widths[k] - tile.drawing.width) / 2, y + title_height);
             x += widths[k] + gap;
         }

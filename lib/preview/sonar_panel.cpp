@@ -16,8 +16,8 @@ namespace sonarsim {
 namespace {
 
 constexpr std::size_t series_pings = 120;  // pings of a waterfall or an echogram
-constexpr int axis_px = 20;    // height of the axis below a waterfall
-constexpr int number_px = 52;  // width of the numbers next to an echogram
+constexpr int axis_px = 20;                // height of the axis below a waterfall
+constexpr int number_px = 52;              // width of the numbers next to an echogram
 
 /// The poses of `count` pings of a sonar up to `last`; fewer at the start of the trajectory.
 std::vector<std::uint32_t> poses_until(const Sonar& sonar, std::uint32_t last, std::size_t count) {
@@ -149,8 +149,7 @@ SonarPanel draw_rows(const Sonar& sonar, const RecordShape& shape, const Series&
                 mark_at(range, static_cast<int>(0.5 * width + side * range * px_per_m));
         }
         picture.texts.push_back({18, 10, "port", Align::left, mark_colour, true});
-        picture.texts.push_back(
-            {width - 18, 10, "starboard", Align::right, mark_colour, true});
+        picture.texts.push_back({width - 18, 10, "starboard", Align::right, mark_colour, true});
     } else {
         const double px_per_m = width / (config.range_max_m - config.range_min_m);
         for (const double range : axis_marks(config.range_min_m, config.range_max_m, 8.0))

@@ -23,11 +23,10 @@ namespace {
 
 constexpr int labelled_poses = 4;
 
-const std::vector<Label> all_labels = {Label::instance,   Label::share,       Label::second,
-                                       Label::class_name, Label::material,    Label::elevation,
-                                       Label::height,     Label::shadow,      Label::multipath,
-                                       Label::clean,      Label::direct_only, Label::multipath_only,
-                                       Label::objects,    Label::fan};
+const std::vector<Label> all_labels = {
+    Label::instance,    Label::share,          Label::second,  Label::class_name, Label::material,
+    Label::elevation,   Label::height,         Label::shadow,  Label::multipath,  Label::clean,
+    Label::direct_only, Label::multipath_only, Label::objects, Label::fan};
 
 Mission labelled_mission(const fs::path& folder) {
     Mission mission = survey_mission(folder);

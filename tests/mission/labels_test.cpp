@@ -29,9 +29,10 @@ TEST_CASE("keys and labels that are gone say what to do instead") {
     CHECK(refusal(smallest_mission + "labels: {min_pixels: 4}\n") ==
           "m.yaml:6:10: 'min_pixels' is no longer there; give it to the export: sonarsim export "
           "--min-pixels");
-    CHECK(refusal(smallest_mission + "output: {labels: [instance, coco]}\n") ==
-          "m.yaml:6:29: 'coco' is no longer there; write labels: [objects], then run sonarsim export "
-          "--format coco");
+    CHECK(
+        refusal(smallest_mission + "output: {labels: [instance, coco]}\n") ==
+        "m.yaml:6:29: 'coco' is no longer there; write labels: [objects], then run sonarsim export "
+        "--format coco");
 }
 
 TEST_CASE("classes: rules in the order of the file, and where they stand") {

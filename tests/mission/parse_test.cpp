@@ -96,9 +96,7 @@ output:
     CHECK(mission.accuracy == AccuracyConfig{0.1});
     CHECK(mission.engine == EngineKind::octree);
     CHECK(mission.octree == OctreeConfig{0.05, 100, true});
-    CHECK(
-        mission.output ==
-        OutputConfig{"/o", false, false, false, false, false, 300, 0.25});
+    CHECK(mission.output == OutputConfig{"/o", false, false, false, false, false, 300, 0.25});
 }
 
 TEST_CASE("waypoints") {

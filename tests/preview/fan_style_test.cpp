@@ -53,8 +53,8 @@ TEST_SUITE("preview") {
     }
 
     TEST_CASE("fan style: lines run where the range or the azimuth is theirs") {
-        // A pixel is 0.1 m. Axis marks from 0.5 to 10 m, about five of them, are 2, 4, 6, 8 and 10 m;
-        // every 10 degrees there is a bearing.
+        // A pixel is 0.1 m. Axis marks from 0.5 to 10 m, about five of them, are 2, 4, 6, 8 and 10
+        // m; every 10 degrees there is a bearing.
         const Sonar one = sonar();
         const FanFrame frame = fan_frame(one, 100);
         REQUIRE(frame.pixel_m == test::approx(0.1));
@@ -70,8 +70,7 @@ TEST_SUITE("preview") {
             const double aside = at.range_m * std::fabs(std::sin(at.azimuth_rad - line));
             // Near the apex the next line may be as near.
             if (at.range_m > 2.0)
-                CHECK(lines.contains(index) ==
-                      (std::fabs(at.range_m - ring) < 0.1 || aside < 0.1));
+                CHECK(lines.contains(index) == (std::fabs(at.range_m - ring) < 0.1 || aside < 0.1));
         }
     }
 

@@ -4,7 +4,6 @@
 
 #include <random>
 
-
 using namespace sonarsim;
 
 namespace {

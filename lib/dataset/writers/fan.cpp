@@ -1,6 +1,7 @@
+#include "product/fan.h"
+
 #include "dataset/writer.h"
 #include "format/png.h"
-#include "product/fan.h"
 
 namespace sonarsim {
 
