@@ -1,16 +1,13 @@
 #!/usr/bin/python3
-"""Draws the labels of a dataset over its pictures:
+"""Draws the objects of a dataset over its pictures:
 
     scripts/draw_labels.py OUT FOLDER [--every N]
 
-Every N-th picture that labels/coco.json and labels/coco_fan.json list, and the waterfalls and echograms
-of labels/coco_records.json, with masks, boxes and names; boxes of shadows are dark. The dataset needs
-the label `coco`, this script numpy and PIL."""
+Every N-th ping's fan (or image), and the waterfalls, echograms and sweeps, with masks, boxes and names; boxes of
+shadows are dark. The dataset needs the label `objects`, this script numpy and PIL."""
 import argparse
-import io
 import json
 import pathlib
-import tarfile
 
 import numpy as np
 from PIL import Image, ImageDraw
@@ -22,12 +19,11 @@ def colour_of(number):
     return tuple(int(255 * (0.55 + 0.45 * np.cos(2 * np.pi * (hue - k / 3)))) for k in range(3))
 
 
-def mask_of(segmentation):
+def mask_of(counts, height, width):
     """[height, width] of COCO's compressed runs."""
-    height, width = segmentation["size"]
     mask = np.zeros(height * width, bool)
     runs, value, shift = [], 0, 0
-    for code in segmentation["counts"].encode():
+    for code in counts.encode():
         code -= 48
         value |= (code & 31) << shift
         shift += 5
@@ -43,69 +39,84 @@ def mask_of(segmentation):
     return mask.reshape(width, height).T
 
 
-def grey(values):
+def grey(path):
     """Amplitudes for display; the brightest thousandth is white."""
+    values = np.load(path) if path.suffix == ".npy" else np.asarray(Image.open(path))
     values = np.sqrt(np.maximum(np.asarray(values, float), 0))
     white = np.quantile(values[values > 0], 0.999) if (values > 0).any() else 1.0
     picture = (255 * np.clip(values / white, 0, 1)).astype(np.uint8)
     return np.repeat(picture[:, :, None], 3, axis=2)
 
 
-def tinted(picture, mask, colour):
-    picture[mask] = (0.6 * picture[mask] + 0.4 * np.array(colour)).astype(np.uint8)
+def draw(picture, marks):
+    """`picture` with the marks (id, name, mask, box, box of the shadow or None) of its objects."""
+    for number, _, mask, _, _ in marks:
+        picture[mask] = (0.6 * picture[mask] + 0.4 * np.array(colour_of(number))).astype(np.uint8)
+    picture = Image.fromarray(picture)
+    drawing = ImageDraw.Draw(picture)
+    for number, name, _, box, shadow in marks:
+        colour = colour_of(number)
+        if shadow:
+            drawing.rectangle((shadow["x"][0], shadow["y"][0], shadow["x"][1] - 1, shadow["y"][1] - 1),
+                              outline=tuple(c // 2 for c in colour))
+        left, top = box["x"][0], box["y"][0]
+        drawing.rectangle((left, top, box["x"][1] - 1, box["y"][1] - 1), outline=colour)
+        drawing.text((left + 2, top + 1), f"{name} {number}", fill=colour)
+    return picture
 
 
-def picture_of(path):
-    """The picture of a file, also of one in a pack, as OUT/fls/pack/000000.tar/fls-000000.polar.npy."""
-    if path.parent.suffix == ".tar":
-        with tarfile.open(path.parent) as pack:
-            file = io.BytesIO(pack.extractfile(path.name).read())
-    else:
-        file = path
-    return grey(np.load(file) if path.suffix == ".npy" else Image.open(file))
+def of_ping(one, shape, fan):
+    """The mark of an object of a ping, in the fan or in the bins; None where it has no pixel."""
+    if fan and not one["fan"]:
+        return None
+    facts = one["fan"] if fan else one
+    box = facts["box_px"] if fan else {"x": one["box_bins"]["beam"], "y": one["box_bins"]["range"]}
+    shadow = one.get("shadow")
+    if shadow:
+        bins = shadow["box_bins"]
+        shadow = facts.get("shadow_box_px") if fan else {"x": bins["beam"], "y": bins["range"]}
+    return one["id"], one["name"], mask_of(facts["mask"], *shape), box, shadow
 
 
-def draw_coco(out, folder, file, every):
-    coco = json.loads((out / file).read_text())
-    names = {one["id"]: one["name"] for one in coco["categories"]}
-    of_image = {}
-    for one in coco["annotations"]:
-        of_image.setdefault(one["image_id"], []).append(one)
-    for image in coco["images"][::every]:
-        picture = picture_of(out / image["file_name"])
-        annotations = of_image.get(image["id"], [])
-        for one in annotations:
-            tinted(picture, mask_of(one["segmentation"]), colour_of(one["instance_id"]))
-        picture = Image.fromarray(picture)
-        draw = ImageDraw.Draw(picture)
-        for one in annotations:
-            left, top, width, height = one["bbox"]
-            colour = colour_of(one["instance_id"])
-            draw.rectangle((left, top, left + width - 1, top + height - 1), outline=colour)
-            if one.get("shadow_bbox"):
-                x, y, w, h = one["shadow_bbox"]
-                draw.rectangle((x, y, x + w - 1, y + h - 1), outline=tuple(c // 2 for c in colour))
-            draw.text((left + 2, top + 1), f"{names[one['category_id']]} {one['instance_id']}",
-                      fill=colour)
-        picture.save(folder / image["file_name"].replace("/", "_").replace(".npy", ".png"))
+def draw_sensor(out, sensor, background, folder, every):
+    """Draws what a sensor of the dataset shows; returns the number of pictures."""
+    pictures = {}
+    files = sensor["files"]
+    kind = next((kind for kind in ("fan", "image", "polar") if kind in files), None)
+    for ping in range(0, sensor["pings"] * sensor["every"] if kind and "objects" in files else 0,
+                      sensor["every"] * every):
+        picture = grey(out / (files[kind] % ping))
+        objects = json.loads((out / (files["objects"] % ping)).read_text())["objects"]
+        marks = [of_ping(one, picture.shape[:2], kind == "fan") for one in objects if one["class"] not in background]
+        pictures[f"{sensor['name']}_{kind}_{ping:06}.png"] = draw(picture, [one for one in marks if one])
+    for product in sensor.get("products", []):
+        name = pathlib.PurePosixPath(product).name
+        if not name.startswith("objects") or not name.endswith(".json"):
+            continue
+        found = json.loads((out / product).read_text())
+        shape = found["height"], found["width"]
+        marks = [(one["id"], one["name"], mask_of(one["mask"], *shape), one["box_px"], one.get("shadow_box_px"))
+                 for one in found["objects"] if one["class"] not in background]
+        pictures[f"{sensor['name']}_{found['picture']}"] = draw(grey(out / sensor["name"] / found["picture"]), marks)
+    for name, picture in pictures.items():
+        picture.save(folder / name)
+    return len(pictures)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
     parser.add_argument("dataset", type=pathlib.Path)
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--every", type=int, default=1)
-    arguments = parser.parse_args()
-    out, folder = arguments.dataset, arguments.folder
-    lists = [f"labels/{name}.json" for name in ("coco", "coco_fan", "coco_records", "coco_scans")]
-    lists = [file for file in lists if (out / file).exists()]
-    if not lists:
-        parser.error(f"{out}: nothing to draw: it has no labels/coco*.json; give the folder of a "
-                     "complete dataset that was rendered with output.labels: [coco]")
-    folder.mkdir(parents=True, exist_ok=True)
-    for file in lists:
-        of_pings = file in ("labels/coco.json", "labels/coco_fan.json")
-        draw_coco(out, folder, file, arguments.every if of_pings else 1)
+    options = parser.parse_args()
+    file = options.dataset / "dataset.json"
+    description = json.loads(file.read_text()) if file.exists() else {"sensors": []}
+    background = set(description.get("labels", {}).get("annotations", {}).get("background", []))
+    options.folder.mkdir(parents=True, exist_ok=True)
+    if not sum(draw_sensor(options.dataset, sensor, background, options.folder, options.every)
+               for sensor in description["sensors"]):
+        parser.error(f"{options.dataset}: nothing to draw: give the folder of a complete dataset that was rendered "
+                     "with output.labels: [objects]")
 
 
 if __name__ == "__main__":

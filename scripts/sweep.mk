@@ -4,8 +4,8 @@
 #   make -f scripts/sweep.mk -j2 MISSION=configs/tank_imaging.yaml OUT=out/sweep \
 #        sensors.fls.range_max_m="10 20" seed="1 2"
 #
-# writes OUT/sensors.fls.range_max_m=10,seed=1/ and so on, OUT/index.csv with the values of every
-# folder, and OUT/contact_sheet.png with a picture of each.
+# writes OUT/sensors.fls.range_max_m=10,seed=1/ and so on, and OUT/index.csv with the values of every
+# folder.
 # The parameters of the noise have short names; SENSOR names the sensors that they are for:
 #
 #        SENSOR=fls add_sigma="0 0.1 0.2" mult_sigma="0 0.2"
@@ -106,7 +106,6 @@ failed = $(foreach f,$(folders),$(if $(wildcard $(OUT)/failed/$(f).txt),$(f)))
 $(OUT)/index.csv: $(targets) again
 	@$(eval finished := $(are_done))$(file >$@.part,$(subst $(space),$(comma),$(strip $(axes))),folder)$(foreach p,$(points),$(if $(call whole,$(p)),$(file >>$@.part,$(call row,$(p)),"$(call folder,$(p))")))
 	@mv $@.part $@
-	@$(SONARSIM) contact-sheet '$(OUT)' --out '$(OUT)/contact_sheet.png' --quiet || :
 	@rmdir '$(OUT)/failed' 2>/dev/null || :
 	@[ -z '$(strip $(failed))' ] || { \
 	    echo '$(OUT): of $(words $(points)) points these failed, see $(OUT)/failed/:' >&2; \

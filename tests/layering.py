@@ -34,19 +34,18 @@ ALLOWED = {
                  "labels", "product", "sonar"},
     "format": {"core"},
 }
-for upper in ("dataset", "checks", "job", "validation", "benchmark", "preview", "gallery",
-              "export"):
+for upper in ("dataset", "checks", "job", "validation", "benchmark", "preview"):
     ALLOWED[upper] = set(ALLOWED)
 
 # The parts of the folders that have subfolders, from the bottom up; those in one row do not know
 # each other. "x/" is a subfolder, "x" the files x.h and x.cpp, "*" every other file of the folder.
 PARTS = {
     "dataset": [["*"], ["writers/"], ["writers"], ["layout"], ["metadata"], ["dataset_file"],
-                ["description", "ping_file_reader"], ["coco/"], ["encode_ping"], ["shared_files"]],
+                ["description", "object_records"], ["encode_ping", "record_objects"]],
     "job": [["*"], ["folder_lock"], ["journal"], ["checksums"], ["folder"], ["listed_files", "resume"],
-            ["ping_files"], ["ping_cost"], ["completion", "joined_labels", "render_pings"],
-            ["collection", "run_job", "merge", "verify", "ping_source"],
-            ["variants"], ["status", "variants_check", "collection_check"]],
+            ["ping_files"], ["ping_cost"], ["completion", "render_pings"],
+            ["run_job", "merge", "verify", "ping_source"],
+            ["variants"], ["status", "variants_check"]],
     "scene": [["*"], ["images/", "meshes/"], ["heightmap/", "maps/", "seabed/"], ["gltf/", "placing/"]],
     "visibility": [["*"], ["octree/", "rays/", "slices/"], ["dense_rays"], ["auto_engine"],
                    ["make_engine"]],

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "commands.h"
-#include "job/collection.h"
 #include "job/folder_lock.h"
 #include "job/variants.h"
 #include "logging.h"
@@ -24,7 +23,6 @@ constexpr const char* goes_on = "the same command run again goes on from there";
 
 struct MergeArguments {
     std::vector<std::filesystem::path> folders;  ///< the parts, then the output
-    bool different = false;
     int threads = 0;
     LogOptions log;
 
@@ -34,35 +32,10 @@ struct MergeArguments {
     }
 };
 
-int collect(const MergeArguments& arguments, const std::atomic<bool>& stop) {
-    CollectionSummary summary;
-    {
-        ProgressLine line(arguments.log, "files");
-        summary = collect_datasets(arguments.parts(), arguments.out(), arguments.threads,
-                                   line.callback(), stop);
-    }
-    for (const std::string& warning : summary.warnings)
-        spdlog::warn("{}", warning);
-    if (arguments.log.json) {
-        fmt::print("{}", json_line({{"files", summary.files},
-                                    {"skipped", summary.skipped},
-                                    {"complete", summary.complete},
-                                    {"warnings", summary.warnings}}));
-    }
-    if (!summary.complete) {
-        spdlog::warn("stopped after {} files; {}", summary.files, goes_on);
-        return exit_signal + signal_received();
-    }
-    spdlog::info("{}: complete; {} datasets side by side", arguments.out().string(),
-                 arguments.parts().size());
-    return exit_done;
-}
-
 int merge(const MergeArguments& arguments) {
     start_logging(arguments.log);
     const std::atomic<bool>& stop =
         stop_on_signal(warning_line(arguments.log, std::string("stopped at once; ") + goes_on));
-    if (arguments.different) return collect(arguments, stop);
     const bool variants = read_variants(arguments.folders.front()).has_value();
     MergeSummary summary;
     {
@@ -99,8 +72,6 @@ void add_merge(CLI::App& app, int& exit_code) {
         ->required()
         ->expected(2, 1'000'000)
         ->type_name("PART... OUT");
-    command.add_flag("--different", arguments->different,
-                     "Puts whole datasets of different missions side by side");
     add_threads_option(command, arguments->threads);
     add_log_options(command, arguments->log);
     command.callback([arguments, &exit_code] { exit_code = merge(*arguments); });

@@ -177,8 +177,6 @@ Outcome render_variants(const RenderArguments& arguments, const Mission& mission
                         const std::vector<Mission>& variants, const std::atomic<bool>& stop) {
     spdlog::info("{}: {} variants", mission.name, variants.size());
     Outcome out;
-    out.before = split_warnings(mission.output.split, variants.size());
-    log_warnings(out.before);
     ProgressLine line(arguments.log, "variants");
     // Warnings about the first scene hold for most others, so they are not repeated.
     bool first = true;

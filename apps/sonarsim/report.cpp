@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/text.h"
 #include "logging.h"
 #include "mission_options.h"
 

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "commands.h"
-#include "job/collection.h"
 #include "job/variants.h"
 #include "logging.h"
 #include "progress.h"
@@ -123,31 +122,14 @@ void print_variants(const VariantsStatus& status, bool as_json) {
         fmt::print("{}{}", result_line("variant", name), text_of(job));
 }
 
-void print_collection(std::size_t datasets, bool as_json) {
-    if (as_json) {
-        fmt::print("{}", json_line({{"datasets", datasets}}));
-        return;
-    }
-    fmt::print("{}", result_line("datasets", std::to_string(datasets)));
-}
-
 int status(const StatusArguments& arguments) {
     start_logging(arguments.log);
-    const std::filesystem::path& first = arguments.folders.at(0);
-    if (read_variants(first)) {
+    if (read_variants(arguments.folders.at(0))) {
         print_variants(read_variants_status(arguments.folders), arguments.log.json);
         return exit_done;
     }
-    const std::vector<std::filesystem::path> collected = collected_folders(first);
-    if (arguments.folders.size() == 1 && !collected.empty()) {
-        print_collection(collected.size(), arguments.log.json);
-        return exit_done;
-    }
     const JobStatus found = read_status(arguments.folders);
-    if (arguments.log.json)
-        fmt::print("{}", json_line(json_of(found)));
-    else
-        fmt::print("{}", text_of(found));
+    fmt::print("{}", arguments.log.json ? json_line(json_of(found)) : text_of(found));
     return exit_done;
 }
 

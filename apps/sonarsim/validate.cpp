@@ -271,8 +271,6 @@ int validate(const ValidateArguments& arguments) {
         inspect_variants(mission.output.folder, describe_variants(mission, variants), variants,
                          arguments.overwrite);
         VariantFindings all = check_variants(variants, arguments.overwrite);
-        for (Warning& warning : split_warnings(mission.output.split, variants.size()))
-            all.warnings.push_back(std::move(warning));
         for (Warning& warning :
              disk_warnings_at(mission.output.folder, all.is_new ? all.expected_bytes : 0.0))
             all.warnings.push_back(std::move(warning));

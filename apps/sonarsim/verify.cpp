@@ -2,13 +2,11 @@
 
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "job/collection.h"
 #include "job/variants.h"
 #include "logging.h"
 #include "mission_options.h"
@@ -37,8 +35,11 @@ void print_result(const DatasetCheck& check) {
     fmt::print("{}", json_line(json));
 }
 
-int verify(const VerifyArguments& arguments, const std::filesystem::path& folder,
-           const std::atomic<bool>& stop) {
+int verify(const VerifyArguments& arguments) {
+    start_logging(arguments.log);
+    const std::atomic<bool>& stop =
+        stop_on_signal(warning_line(arguments.log, "stopped at once; nothing was changed"));
+    const std::filesystem::path& folder = arguments.folder;
     const bool variants = read_variants(folder).has_value();
     DatasetCheck check;
     {
@@ -61,35 +62,17 @@ int verify(const VerifyArguments& arguments, const std::filesystem::path& folder
     return exit_done;
 }
 
-/// Checks a dataset, or all datasets of a collection. Returns the worst exit code.
-int verify_all(const VerifyArguments& arguments) {
-    start_logging(arguments.log);
-    const std::atomic<bool>& stop =
-        stop_on_signal(warning_line(arguments.log, "stopped at once; nothing was changed"));
-    const std::vector<std::filesystem::path> folders = collected_folders(arguments.folder);
-    if (folders.empty()) return verify(arguments, arguments.folder, stop);
-    int worst = exit_done;
-    for (const std::string& error : collection_errors(arguments.folder)) {
-        spdlog::error("{}", error);
-        worst = exit_failed;
-    }
-    for (const std::filesystem::path& folder : folders) {
-        if (!stop) worst = std::max(worst, verify(arguments, folder, stop));
-    }
-    return worst;
-}
-
 }  // namespace
 
 void add_verify(CLI::App& app, int& exit_code) {
     CLI::App& command = *app.add_subcommand(
-        "verify", "Checks that a dataset is whole: every file is there, opens and has its bytes");
+        "verify", "Checks that a dataset is whole: every file is there and has its bytes");
     add_examples(command, {"sonarsim verify out/hull"});
     auto arguments = std::make_shared<VerifyArguments>();
     command.add_option("folder", arguments->folder, "The folder of the dataset")->required();
     add_threads_option(command, arguments->threads);
     add_log_options(command, arguments->log);
-    command.callback([arguments, &exit_code] { exit_code = verify_all(*arguments); });
+    command.callback([arguments, &exit_code] { exit_code = verify(*arguments); });
 }
 
 }  // namespace sonarsim

@@ -4,7 +4,6 @@
 #include <string>
 #include <utility>
 
-#include "dataset/split.h"
 #include "product/fan.h"
 #include "sonar/engine_settings.h"
 #include "sonar/kinds.h"
@@ -27,7 +26,7 @@ void judge_engine(const Mission& mission, const Sonar& sonar, std::vector<Warnin
 }
 
 void judge_fan(const OutputConfig& output, const Sonar& sonar, std::vector<Warning>& out) {
-    if (!output.has_fan() || !kind_of(sonar.config.kind).has_images) return;
+    if (!output.fan || !kind_of(sonar.config.kind).has_images) return;
     const double pixel_m = fan_frame(sonar, output.fan_width_px).pixel_m;
     const double width_m = sonar.settings.view.azimuth_rad * sonar.config.range_max_m;
     if (width_m >= pixel_m) return;
@@ -62,19 +61,6 @@ std::vector<Warning> find_warnings(const Mission& mission, const Assembly& assem
     append(out, unseen_objects(mission, assembly, sonars, rays));
     append(out, unseen_particles(mission, assembly, rays));
     return out;
-}
-
-std::vector<Warning> split_warnings(const SplitConfig& config, std::size_t variants) {
-    if (!config.is_on()) return {};
-    const std::vector<SplitPart> part_of_variant = split_variants(config, variants);
-    std::string empty;
-    for (const SplitPart part : parts_of(config)) {
-        if (std::ranges::find(part_of_variant, part) != part_of_variant.end()) continue;
-        empty += (empty.empty() ? "'" : ", '") +
-                 std::string(split_part_names[static_cast<std::size_t>(part)]) + "'";
-    }
-    if (variants == 0 || empty.empty()) return {};
-    return {make_warning(WarningCode::few_variants, config.place.location.text(), variants, empty)};
 }
 
 }  // namespace sonarsim

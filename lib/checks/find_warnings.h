@@ -7,7 +7,6 @@
 #include "assembly/assemble.h"
 #include "checks/survey.h"
 #include "checks/warning.h"
-#include "dataset/coco/statistics.h"
 #include "dataset/sensor_summary.h"
 
 namespace sonarsim {
@@ -80,11 +79,5 @@ bool exceeds_memory(const std::vector<Sonar>& sonars, double available);
 
 /// W34 if a dataset of `bytes` does not fit into the `available` bytes.
 std::vector<Warning> disk_warnings(const std::string& folder, double bytes, double available);
-
-/// W27 for a split with a part that gets none of the variants.
-std::vector<Warning> split_warnings(const SplitConfig& config, std::size_t variants);
-
-/// W33 with the classes that very few pictures of a dataset show.
-std::vector<Warning> class_warnings(const PictureTally& tally);
 
 }  // namespace sonarsim

@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <string_view>
@@ -36,13 +37,11 @@ enum class WarningCode {
     engine = 24,
     doubled_triangles = 25,
     memory = 26,
-    few_variants = 27,
     no_locks = 28,
     goal_missed = 29,
     samples_dropped = 30,
     noise_beyond_range = 31,
     thin_fan = 32,
-    rare_class = 33,
     disk_full = 34,
     multipath_missed = 35,
     unseen_particles = 36,
@@ -57,7 +56,7 @@ struct WarningText {
     const char* reason;  ///< why the limit lies there
 };
 
-/// All warnings in the order of their numbers.
+/// All warnings in the order of their numbers. A number that is gone is not used again.
 std::span<const WarningText> warning_table();
 /// The table in Markdown, for docs/warnings.md.
 std::string warning_table_markdown();
@@ -73,7 +72,7 @@ struct Warning {
 /// `figures` fill both format strings of the table's row.
 template <class... Figures>
 Warning make_warning(WarningCode code, std::string about, const Figures&... figures) {
-    const WarningText& text = warning_table()[static_cast<std::size_t>(code) - 1];
+    const WarningText& text = *std::ranges::find(warning_table(), code, &WarningText::code);
     return {code, std::move(about), fmt::vformat(text.what, fmt::make_format_args(figures...)),
             fmt::vformat(text.cure, fmt::make_format_args(figures...))};
 }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 
 #include "checks/warning.h"
@@ -151,9 +152,6 @@ constexpr std::array table{
         "the process",
         "the memory of a ping is estimated with 4 samples a bin, as with surface in all of them. "
         "If not even one ping has room, validate makes none to measure its time"},
-    WarningText{WarningCode::few_variants, "none of {0} variants is left for {1:s}",
-                "render more, or leave the part out", "a part of the split gets no variant",
-                "nothing can be trained or tested with it"},
     WarningText{WarningCode::no_locks,
                 "the disk of this folder has no locks, so that a second run into it would not be "
                 "refused and would mix its files with these",
@@ -185,12 +183,6 @@ constexpr std::array table{
                 "look at the polar images, or raise output.fan_width_px",
                 "the sector is thinner than a pixel at its far end",
                 "most rows of the picture then have no pixel in the sector"},
-    WarningText{WarningCode::rare_class,
-                "hardly any of {0} pictures shows an object of these classes: {1:s}",
-                "place more of them, lead the trajectory past them or render more variants",
-                "at most ten pictures with a label of the class, and at most one picture in ten",
-                "a network that sees a class in ten pictures does not learn it; where there are "
-                "few pictures, one in ten is not few"},
     WarningText{
         WarningCode::disk_full,
         "the dataset takes about {0:.1f} GB, and its disk has {1:.1f} GB free",
@@ -217,13 +209,7 @@ constexpr std::array table{
                 "they cost time in each ping and have no label"},
 };
 
-constexpr bool is_in_order() {
-    for (std::size_t i = 0; i < table.size(); ++i) {
-        if (static_cast<std::size_t>(table[i].code) != i + 1) return false;
-    }
-    return true;
-}
-static_assert(is_in_order(), "a warning is found by its number");
+static_assert(std::ranges::is_sorted(table, {}, &WarningText::code));
 
 }  // namespace
 

@@ -13,20 +13,6 @@ namespace sonarsim {
 /// Texts by name, in the order of the file.
 using NamedTexts = std::vector<std::pair<std::string, std::string>>;
 
-/// Pings in tar archives.
-struct DescribedPacks {
-    std::string file;         ///< the pattern of the archives
-    std::uint64_t pings = 1;  ///< in each but the last
-    NamedTexts members;       ///< patterns of the names in an archive, by kind
-};
-
-/// The rows and columns of the files of a kind, and the list of labels whose ids they hold.
-struct DescribedArray {
-    std::string kind;                ///< as in `files`, or "label_records/LABEL"
-    std::vector<std::size_t> shape;  ///< [rows, columns]; empty: it is not described
-    std::string ids;                 ///< "instances", "classes" or "materials"; "": no ids
-};
-
 /// A sensor as dataset.json describes it. Every path is relative to the folder of the dataset and
 /// lies in the folder of the sensor.
 struct DescribedSensor {
@@ -35,21 +21,11 @@ struct DescribedSensor {
     std::uint64_t pings = 0;
     double full_scale = 0.0;
     NamedTexts files;  ///< patterns by kind: "polar", ...
-    std::optional<DescribedPacks> packs;
     std::optional<std::string> records;
     NamedTexts label_records;  ///< files by label
     std::vector<std::string> products;
     std::uint64_t range_bins = 0;
-    std::uint64_t azimuth_bins = 0;      ///< 0 where the kind has none
-    std::vector<DescribedArray> arrays;  ///< none in a dataset of an older program
-};
-
-/// The meaning of the ids of labels: id k is the entry k - 1. All are empty in a dataset without
-/// labels.
-struct DescribedLabels {
-    std::vector<std::string> instances;
-    std::vector<std::string> classes;
-    std::vector<std::string> materials;
+    std::uint64_t azimuth_bins = 0;  ///< 0 where the kind has none
 };
 
 /// A dataset.json whose keys were checked.
@@ -61,7 +37,6 @@ struct DatasetFile {              // NOLINT(bugprone-exception-escape): moving J
     std::string inputs_hash;
     std::uint64_t seed = 0;
     std::uint64_t poses = 0;
-    DescribedLabels labels;
     std::vector<DescribedSensor> sensors;
     std::vector<std::string> products;  ///< products of all sensors together
 };

@@ -26,12 +26,6 @@ bool visit_sensor(const DescribedSensor& sensor,
     for (const auto& [kind, pattern] : sensor.files) {
         if (!visit_pings(sensor, kind, pattern, visit)) return false;
     }
-    if (sensor.packs) {
-        const std::uint64_t each = sensor.packs->pings;
-        for (std::uint64_t pack = 0; pack * each < sensor.pings; ++pack) {
-            if (!visit({numbered(sensor.packs->file, pack), &sensor, "packs"})) return false;
-        }
-    }
     if (sensor.records && !visit({*sensor.records, &sensor, "records"})) return false;
     for (const auto& [label, file] : sensor.label_records) {
         if (!visit({file, &sensor, "label_records/" + label})) return false;

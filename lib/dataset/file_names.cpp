@@ -33,10 +33,6 @@ bool is_plain_name(std::string_view text) {
            text.find_first_not_of(allowed) == std::string_view::npos;
 }
 
-bool is_picture_name(std::string_view name) {
-    return name.ends_with(".png") || name.ends_with(".jpg") || name.ends_with(".webp");
-}
-
 bool is_inner_path(std::string_view text) {
     if (text.size() > longest_path) return false;
     for (;;) {

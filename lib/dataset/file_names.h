@@ -13,9 +13,6 @@ namespace sonarsim {
 /// ASCII, digits, '_', '-', '+' and '.', the first one no '.'.
 bool is_plain_name(std::string_view text);
 
-/// True for the name of a PNG, a JPEG or a WebP.
-bool is_picture_name(std::string_view name);
-
 /// True if the text is one or more plain names with '/' between them: "fls/waterfall.npy".
 bool is_inner_path(std::string_view text);
 

@@ -1,10 +1,6 @@
 #include "dataset/label_description.h"
 
-#include <algorithm>
-#include <array>
-
 #include "dataset/annotated_objects.h"
-#include "format/id_png.h"
 
 namespace sonarsim {
 
@@ -14,21 +10,6 @@ using Json = nlohmann::ordered_json;
 
 Json vector_json(const Eigen::Vector3d& v) {
     return {v.x(), v.y(), v.z()};
-}
-
-template <class T, std::size_t N>
-std::string name_of(T value, const std::array<Choice<T>, N>& choices) {
-    return std::ranges::find(choices, value, &Choice<T>::value)->name;
-}
-
-template <class T, std::size_t N>
-T value_of(const CheckedJson& json, const std::array<Choice<T>, N>& choices) {
-    std::string all;
-    for (const Choice<T>& one : choices) {
-        if (json.text() == one.name) return one.value;
-        all += (all.empty() ? "" : ", ") + std::string(one.name);
-    }
-    json.refuse("one of " + all);
 }
 
 Json box_json(const Eigen::AlignedBox3d& box) {
@@ -76,10 +57,7 @@ Json describe_label_ids(const Assembly& assembly) {
     }
     json["classes"] = Json::array();
     for (std::size_t k = 0; k < objects.classes.size(); ++k) {
-        const Rgb colour = colour_of(static_cast<std::uint32_t>(k + 1));
-        json["classes"].push_back({{"id", k + 1},
-                                   {"name", objects.classes[k]},
-                                   {"colour", {colour.r, colour.g, colour.b}}});
+        json["classes"].push_back({{"id", k + 1}, {"name", objects.classes[k]}});
     }
     json["materials"] = Json::array();
     for (std::size_t k = 0; k < assembly.scene.materials.size(); ++k) {
@@ -88,38 +66,12 @@ Json describe_label_ids(const Assembly& assembly) {
     return json;
 }
 
-Json describe_annotations(const LabelConfig& config, const SceneObjects& objects) {
+Json describe_annotations(const SceneObjects& objects) {
     Json background = Json::array();
     for (std::size_t k = 0; k < objects.background.size(); ++k) {
         if (objects.background[k] != 0) background.push_back(objects.classes[k]);
     }
-    return {{"background", std::move(background)},
-            {"min_pixels", static_cast<std::uint64_t>(config.min_pixels)},
-            {"min_visible_share", config.min_visible_share},
-            {"min_contrast_db", config.min_contrast_db},
-            {"faint", name_of(config.faint, faint_objects)},
-            {"box", name_of(config.box, label_boxes)}};
-}
-
-AnnotationRules annotation_rules(const CheckedJson& labels) {
-    AnnotationRules rules;
-    const std::vector<CheckedJson> classes = labels.at("classes").items();
-    rules.background.assign(classes.size(), 0);
-    const std::optional<CheckedJson> annotations = labels.find("annotations");
-    if (!annotations) return rules;
-    for (const CheckedJson& name : annotations->at("background").items()) {
-        const auto found = std::ranges::find_if(
-            classes, [&](const CheckedJson& one) { return one.at("name").text() == name.text(); });
-        if (found == classes.end()) name.refuse("the name of a class");
-        rules.background[static_cast<std::size_t>(found - classes.begin())] = 1;
-    }
-    constexpr std::uint64_t most_pixels = 1'000'000'000;
-    rules.config.min_pixels = static_cast<int>(annotations->at("min_pixels").whole(1, most_pixels));
-    rules.config.min_visible_share = annotations->at("min_visible_share").number();
-    rules.config.min_contrast_db = annotations->at("min_contrast_db").number();
-    rules.config.faint = value_of(annotations->at("faint"), faint_objects);
-    rules.config.box = value_of(annotations->at("box"), label_boxes);
-    return rules;
+    return {{"background", std::move(background)}};
 }
 
 }  // namespace sonarsim

@@ -7,8 +7,6 @@
 #include <vector>
 
 #include "assembly/assemble.h"
-#include "dataset/checked_json.h"
-#include "mission/label_config.h"
 
 namespace sonarsim {
 
@@ -28,22 +26,7 @@ std::vector<std::optional<MovingObject>> moving_objects(const Assembly& assembly
 /// in object_boxes().
 nlohmann::ordered_json describe_label_ids(const Assembly& assembly);
 
-/// The rules of a dataset's annotations.
-struct AnnotationRules {
-    LabelConfig config{
-        .min_pixels = 1, .min_visible_share = 0.0, .min_contrast_db = 0.0, .place = {}};
-    std::vector<std::uint8_t> background{};  ///< indexed by class: 1 if it is never annotated
-
-    /// True for the index of a class that is never annotated.
-    bool is_background(std::size_t class_index) const {
-        return class_index < background.size() && background[class_index] != 0;
-    }
-};
-
-/// `labels.annotations` of dataset.json.
-nlohmann::ordered_json describe_annotations(const LabelConfig& config, const SceneObjects& objects);
-/// Reads this back from `labels`; datasets of older versions annotate all objects. InputError for a
-/// wrong value.
-AnnotationRules annotation_rules(const CheckedJson& labels);
+/// `labels.annotations` of dataset.json: the names of the classes that are background.
+nlohmann::ordered_json describe_annotations(const SceneObjects& objects);
 
 }  // namespace sonarsim

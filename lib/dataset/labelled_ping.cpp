@@ -14,29 +14,26 @@ bool is_asked(const Mission& mission, Label label) {
 LabelPlan plan_labels(const Mission& mission, const Assembly& assembly, const Sonar& sonar) {
     const auto asked = [&](Label label) { return is_asked(mission, label); };
     const bool has_images = kind_of(sonar.config.kind).has_images;
-    const bool masks = asked(Label::coco) || asked(Label::yolo) || asked(Label::yolo_polygons);
-    const bool objects = masks || asked(Label::objects);
+    const bool objects = asked(Label::objects);
     const bool shares = asked(Label::share) || asked(Label::second) || asked(Label::multipath);
     const OutputConfig& output = mission.output;
     LabelPlan plan;
     plan.on = !output.labels.empty();
     plan.request = {.objects = objects || asked(Label::instance) || shares,
                     .shares = shares,
-                    .classes = asked(Label::class_name) || asked(Label::semantic),
+                    .classes = asked(Label::class_name),
                     .materials = asked(Label::material),
                     .elevation = asked(Label::elevation),
                     .shadow = asked(Label::shadow),
                     .height = asked(Label::height),
-                    .annotations = masks,
+                    .annotations = objects,
                     .bottom = assembly.bottom.get()};
     plan.polar_masks = has_images && objects;
-    plan.fan_masks = has_images && objects && output.has_fan();
-    const bool in_fan =
-        asked(Label::fan) || (output.has_fan() && (objects || asked(Label::semantic)));
-    if (has_images && in_fan) plan.fan = make_fan_bins(sonar, output.fan_width_px);
-    plan.seen = asked(Label::objects) || (masks && has_images);
-    if (masks || asked(Label::shadow)) plan.annotated = annotated_objects(assembly);
-    if (!masks) return plan;
+    plan.fan_masks = has_images && objects && output.fan;
+    if (has_images && (asked(Label::fan) || (output.fan && objects)))
+        plan.fan = make_fan_bins(sonar, output.fan_width_px);
+    plan.seen = has_images && objects;
+    if (objects || asked(Label::shadow)) plan.annotated = annotated_objects(assembly);
     const View& view = sonar.settings.view;
     if (plan.fan_masks)
         plan.fan_boxes =

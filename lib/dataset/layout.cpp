@@ -1,42 +1,12 @@
 #include "dataset/layout.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 
-#include "core/error.h"
 #include "core/text.h"
-#include "dataset/file_names.h"
 #include "dataset/shared_products.h"
-#include "format/tar.h"
 
 namespace sonarsim {
-
-namespace {
-
-/// The number of pings that always fit; 0 without packs.
-std::size_t pings_per_pack(const Mission& mission, std::size_t sensor, const Writers& writers) {
-    if (mission.output.pack == Pack::none) return 0;
-    double bytes = 0.0;  // upper limit for a ping
-    for (const auto& writer : writers) {
-        const WriterOutputs outputs = writer->outputs();
-        if (std::holds_alternative<PingFile>(outputs.per_ping))
-            bytes += static_cast<double>(
-                tar_bytes(static_cast<std::uint64_t>(std::ceil(outputs.bytes_per_ping))));
-    }
-    if (bytes == 0.0) return 0;
-    constexpr double bytes_of_mb = 1e6;
-    const double room = bytes_of_mb * mission.output.pack_size_mb - tar_end_bytes;
-    if (room < bytes) {
-        throw InputError("output.pack_size_mb is too small: a ping of sensor '" +
-                         mission.sensors[sensor].name + "' takes up to " +
-                         std::to_string((bytes + tar_end_bytes) / bytes_of_mb) +
-                         " MB; give more, the default is 256");
-    }
-    return static_cast<std::size_t>(room / bytes);
-}
-
-}  // namespace
 
 std::string journal_part(int shard, int shards) {
     return std::to_string(shard) + "-of-" + std::to_string(shards) + ".txt";
@@ -89,30 +59,6 @@ std::filesystem::path Layout::product_file(std::size_t sensor, const std::string
     return (sensor < sensors.size() ? sensor_folder(sensor) : folder) / name;
 }
 
-std::size_t Layout::packs(std::size_t sensor) const {
-    const std::size_t each = sensors[sensor].pings_per_pack;
-    return each > 0 ? (sensors[sensor].pings + each - 1) / each : 0;
-}
-
-std::size_t Layout::pack_of(const PingId& ping) const {
-    return record_of(ping) / sensors[ping.sensor].pings_per_pack;
-}
-
-bool Layout::is_last_in_pack(const PingId& ping) const {
-    const SensorLayout& sensor = sensors[ping.sensor];
-    const std::size_t next = record_of(ping) + 1;
-    return next == sensor.pings || next % sensor.pings_per_pack == 0;
-}
-
-std::filesystem::path Layout::pack_file(const PingId& ping) const {
-    return sensor_folder(ping.sensor) / pack_folder_name /
-           number(static_cast<std::uint32_t>(pack_of(ping))).append(".tar");
-}
-
-std::string Layout::member(const PingId& ping, const PingFile& kind) const {
-    return sensors[ping.sensor].name + "-" + number(ping.pose) + "." + kind.name + kind.extension;
-}
-
 std::size_t Layout::record_of(const PingId& ping) const {
     return ping.pose / sensors[ping.sensor].every;
 }
@@ -125,10 +71,6 @@ std::vector<std::filesystem::path> Layout::folders() const {
     }
     for (std::size_t i = 0; i < sensors.size(); ++i) {
         all.push_back(sensor_folder(i));
-        if (sensors[i].pings_per_pack > 0) {
-            all.push_back(sensor_folder(i) / pack_folder_name);
-            continue;
-        }
         for (const auto& part : sensors[i].per_ping) {
             if (const auto* file = std::get_if<PingFile>(&part))
                 all.push_back(sensor_folder(i) / file->name);
@@ -147,8 +89,7 @@ Layout make_layout(const Mission& mission, const std::vector<Writers>& writers, 
                             .every = static_cast<std::uint32_t>(config.every),
                             .pings = pings[i],
                             .per_ping = {},
-                            .products = {},
-                            .pings_per_pack = pings_per_pack(mission, i, writers[i])};
+                            .products = {}};
         for (const auto& writer : writers[i]) {
             WriterOutputs outputs = writer->outputs();
             sensor.per_ping.push_back(std::move(outputs.per_ping));
@@ -157,8 +98,7 @@ Layout make_layout(const Mission& mission, const std::vector<Writers>& writers, 
         }
         layout.sensors.push_back(std::move(sensor));
     }
-    for (SharedProduct& product : shared_products(mission))
-        layout.products.push_back(std::move(product.file));
+    layout.products = shared_products(mission);
     layout.poses = poses;
     const std::size_t last = poses > 0 ? poses - 1 : 0;
     layout.digits = std::max(6, static_cast<int>(std::to_string(last).size()));
@@ -175,10 +115,8 @@ std::vector<PingId> list_pings(const Mission& mission, std::size_t poses) {
     return pings;
 }
 
-int shard_of(const Layout& layout, const PingId& ping, std::size_t index, int shards) {
-    const bool packed = layout.sensors[ping.sensor].pings_per_pack > 0;
-    return static_cast<int>((packed ? layout.pack_of(ping) : index) %
-                            static_cast<std::size_t>(shards));
+int shard_of(std::size_t index, int shards) {
+    return static_cast<int>(index % static_cast<std::size_t>(shards));
 }
 
 bool has_gallery(const std::filesystem::path& folder) {
@@ -192,30 +130,8 @@ bool has_gallery(const std::filesystem::path& folder) {
     return head.find(gallery_mark) != std::string::npos;
 }
 
-void remove_gallery_pictures(const std::filesystem::path& folder) {
-    namespace fs = std::filesystem;
-    const fs::path pictures = folder / gallery_folder_name;
-    if (fs::symlink_status(pictures).type() != fs::file_type::directory) return;
-    std::vector<fs::path> folders{pictures};
-    std::vector<fs::path> files;
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(pictures)) {
-        const fs::file_type type = entry.symlink_status().type();
-        if (type == fs::file_type::directory) folders.push_back(entry.path());
-        if (type == fs::file_type::regular && is_picture_name(entry.path().filename().string()))
-            files.push_back(entry.path());
-    }
-    for (const fs::path& file : files)
-        fs::remove(file);
-    std::ranges::sort(folders, std::greater<>());  // a folder comes after those in it
-    for (const fs::path& inner : folders) {
-        if (fs::is_empty(inner)) fs::remove(inner);
-    }
-}
-
 void remove_gallery(const std::filesystem::path& folder) {
-    if (!has_gallery(folder)) return;
-    remove_gallery_pictures(folder);
-    std::filesystem::remove(folder / gallery_name);
+    if (has_gallery(folder)) std::filesystem::remove(folder / gallery_name);
 }
 
 }  // namespace sonarsim

@@ -20,20 +20,14 @@
 //     OUT/trajectory.tum              the pose of every ping number
 //     OUT/journal.txt                 the size and hash of every file of a ping, see job/journal.h;
 //                                     while the mission runs, parts of it lie in OUT/journal.d/
-//     OUT/<sensor>/<format>/NNNNNN.*  a file per ping, or with output.pack
-//     OUT/<sensor>/pack/NNNNNN.tar    the files of as many pings as fit, one after the other, each
-//                                     <sensor>-NNNNNN.<format>.*
+//     OUT/<sensor>/<format>/NNNNNN.*  a file per ping
 //     OUT/<sensor>/*                  files of records, one per ping, and products of them
 //     OUT/seabed/*                    the true heights and objects of a generated sea bed
-//     OUT/labels/*, OUT/split/*       products of the pings of all sensors
 //
 // The files in dataset/writers are the formats. A record that is not written yet is zero. NNNNNN is
 // the index of the pose on the trajectory, in six digits or as many as the last one needs.
 
 namespace sonarsim {
-
-/// In the folder of a sensor. No writer has this name.
-inline constexpr const char* pack_folder_name = "pack";
 
 /// "3-of-8.txt": the part of the journal that a shard, counted from 1, writes.
 std::string journal_part(int shard, int shards);
@@ -51,14 +45,13 @@ struct SensorLayout {
     std::vector<std::variant<PingFile, PingRecord>>
         per_ping;  ///< outputs of its writers, in their order
     std::vector<std::string> products;
-    std::size_t pings_per_pack = 0;  ///< 0: no packs
 };
 
 /// The files of a dataset.
 struct Layout {
     std::filesystem::path folder;
     std::vector<SensorLayout> sensors;
-    std::vector<std::string> products;  ///< made of the pings of all sensors
+    std::vector<std::string> products;  ///< files of no single sensor
     std::size_t poses = 0;
     int digits = 6;  ///< digits of a ping number
 
@@ -69,30 +62,19 @@ struct Layout {
     /// last.
     std::filesystem::path product_file(std::size_t sensor, const std::string& name) const;
 
-    // For a sensor with packs. Every pack but the last holds the same number of pings, so that the
-    // pack of a ping does not depend on the sizes of others.
-    std::size_t packs(std::size_t sensor) const;
-    std::size_t pack_of(const PingId& ping) const;
-    bool is_last_in_pack(const PingId& ping) const;
-    std::filesystem::path pack_file(const PingId& ping) const;
-    /// The name of a ping's file in its pack.
-    std::string member(const PingId& ping, const PingFile& kind) const;
-
     /// The index of a ping among those of its sensor.
     std::size_t record_of(const PingId& ping) const;
     /// Every folder of the dataset but `folder` itself, parents first.
     std::vector<std::filesystem::path> folders() const;
 };
 
-/// InputError when the packs that the mission asks for are smaller than a ping.
 Layout make_layout(const Mission& mission, const std::vector<Writers>& writers, std::size_t poses);
 
 /// Every ping of a mission, in order.
 std::vector<PingId> list_pings(const Mission& mission, std::size_t poses);
 
-/// The shard, counted from 0, that renders a ping; `index` is that in list_pings(). The pings of a
-/// pack are in one shard.
-int shard_of(const Layout& layout, const PingId& ping, std::size_t index, int shards);
+/// The shard, counted from 0, that renders the ping with this index in list_pings().
+int shard_of(std::size_t index, int shards);
 
 // The page that `sonarsim gallery` puts next to the files of a dataset. It is no part of the
 // dataset: dataset.json and SHA256SUMS do not list it, and a run that replaces the dataset removes
@@ -105,10 +87,7 @@ inline constexpr std::string_view gallery_mark =
 /// True if the folder holds an index.html that is a gallery. No link is followed.
 bool has_gallery(const std::filesystem::path& folder);
 
-/// Removes the pictures that the page has copied; follows no links.
-void remove_gallery_pictures(const std::filesystem::path& folder);
-
-/// Removes the page and these pictures, if the folder has a page of sonarsim's.
+/// Removes the page, if the folder has a page of sonarsim's.
 void remove_gallery(const std::filesystem::path& folder);
 
 }  // namespace sonarsim

@@ -62,12 +62,7 @@ Json describe_picture(const PingFile& file, const Json& pattern) {
 /// Describes a file of every ping: its place, its rows and columns, and the picture it may be.
 void describe_ping_file(const PingFile& file, const SensorLayout& own, const std::string& number,
                         Json& json) {
-    if (own.pings_per_pack > 0) {
-        json["packs"]["members"][file.name] =
-            own.name + "-" + number + "." + file.name + file.extension;
-    } else {
-        json["files"][file.name] = own.name + "/" + file.name + "/" + number + file.extension;
-    }
+    json["files"][file.name] = own.name + "/" + file.name + "/" + number + file.extension;
     if (file.array == PingArray::none) return;
     const bool is_fan = file.array == PingArray::fan;
     Json& array = json["arrays"][file.name];
@@ -96,11 +91,6 @@ Json describe_sensor(const Sonar& sonar, double full_scale, const Layout& layout
     sonar.settings.model->describe(json);
     json["files"] = Json::object();
     const std::string number = "%0" + std::to_string(layout.digits) + "d";
-    if (own.pings_per_pack > 0) {
-        json["packs"] = {{"file", config.name + "/" + pack_folder_name + "/" + number + ".tar"},
-                         {"pings", own.pings_per_pack},
-                         {"members", Json::object()}};
-    }
     Json fans = Json::array();  // first among the pictures, since operators expect them
     Json pictures = Json::array();
     for (const auto& part : own.per_ping) {
@@ -153,7 +143,7 @@ Json describe_dataset(const Mission& mission, const Assembly& assembly, const La
     }
     if (!mission.output.labels.empty()) {
         json["labels"] = describe_label_ids(assembly);
-        json["labels"]["annotations"] = describe_annotations(mission.labels, assembly.objects);
+        json["labels"]["annotations"] = describe_annotations(assembly.objects);
     }
     json["sensors"] = describe_sensors(assembly, layout, writers);
     if (!layout.products.empty()) json["products"] = layout.products;

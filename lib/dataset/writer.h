@@ -76,10 +76,12 @@ struct PingRecord {  // NOLINT(bugprone-exception-escape): moving JSON throws no
     std::string ids = {};         ///< as in PingFile
 };
 
-// Labels of records that only annotations need: the shadow of the objects that are not background,
+// Labels of records that only objects need: the shadow of the objects that are not background,
 // and the visible share of the object of a bin, where 65535 means all of the object.
 inline constexpr const char* object_shadow_record = "object_shadow";
 inline constexpr const char* visible_share_record = "visible_share";
+/// The objects in the picture of all pings of a sensor.
+inline constexpr const char* record_objects_name = "objects.json";
 
 /// A file that is made of the records of all pings.
 struct Product {

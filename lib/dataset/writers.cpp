@@ -1,7 +1,8 @@
 #include "dataset/writers.h"
 
+#include <algorithm>
+
 #include "core/error.h"
-#include "dataset/shared_products.h"
 #include "dataset/writers/label_writers.h"
 
 namespace sonarsim {
@@ -37,6 +38,19 @@ constexpr MakeWriter formats[] = {
     make_meta_writer,         //
 };
 
+/// InputError when the mission lists the label `fan` and writes no fan. `true` asks only for the
+/// labels that there can be.
+void check_fan_label(const Mission& mission) {
+    const bool all = mission.output.labels.size() == static_cast<std::size_t>(Label::fan) + 1;
+    const bool has_fans =
+        mission.output.fan && std::ranges::any_of(mission.sensors, [](const auto& sensor) {
+            return kind_of(sensor.kind).has_images;
+        });
+    if (all || has_fans || !is_asked(mission, Label::fan)) return;
+    throw InputError(mission.output.labels_place.location,
+                     "the label 'fan' needs output.fan: true and an imaging or profiling sonar");
+}
+
 }  // namespace
 
 std::vector<std::size_t> count_pings(const Mission& mission, std::size_t poses) {
@@ -59,7 +73,7 @@ Writers make_array_writers(const WriterContext& context) {
 }
 
 std::vector<Writers> make_writers(const Mission& mission, const Assembly& assembly) {
-    check_shared_products(mission, assembly.trajectory.size());
+    check_fan_label(mission);
     const std::vector<std::size_t> pings = count_pings(mission, assembly.trajectory.size());
     std::vector<Writers> all(mission.sensors.size());
     for (std::size_t i = 0; i < all.size(); ++i) {

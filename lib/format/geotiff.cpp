@@ -59,7 +59,6 @@ class TiffHeader {
     std::string values_;
 };
 
-constexpr std::uint16_t tags_of_image = 10;
 constexpr std::uint16_t tags_of_map = 13;
 
 void add_place(const MapPlace& place, TiffHeader& out) {
@@ -71,11 +70,11 @@ void add_place(const MapPlace& place, TiffHeader& out) {
     out.add(42113, TagType::ascii, 4, bytes_of("nan"));      // GDAL_NODATA
 }
 
-/// The header of an image whose pixels begin at byte `pixels_at`; that of a map has a place.
-std::string header(std::uint32_t columns, std::uint32_t rows, const MapPlace* place,
+/// The header of a map whose cells begin at byte `pixels_at`.
+std::string header(std::uint32_t columns, std::uint32_t rows, const MapPlace& place,
                    std::uint32_t pixels_at) {
     constexpr std::uint16_t one = 1;
-    TiffHeader out(place ? tags_of_map : tags_of_image);
+    TiffHeader out(tags_of_map);
     out.add(256, columns);             // ImageWidth
     out.add(257, rows);                // ImageLength
     out.add(258, std::uint16_t{32});   // BitsPerSample
@@ -86,12 +85,12 @@ std::string header(std::uint32_t columns, std::uint32_t rows, const MapPlace* pl
     out.add(278, rows);                // RowsPerStrip: one strip
     out.add(279, 4 * columns * rows);  // StripByteCounts
     out.add(339, std::uint16_t{3});    // SampleFormat: floating point
-    if (place) add_place(*place, out);
+    add_place(place, out);
     return out.bytes();
 }
 
 /// The header of a file of these values.
-std::string header_of(std::span<const float> values, int columns, const MapPlace* place) {
+std::string header_of(std::span<const float> values, int columns, const MapPlace& place) {
     const auto width = static_cast<std::uint32_t>(columns);
     const auto height = static_cast<std::uint32_t>(values.size() / width);
     const auto size = static_cast<std::uint32_t>(header(width, height, place, 0).size());
@@ -101,13 +100,7 @@ std::string header_of(std::span<const float> values, int columns, const MapPlace
 }  // namespace
 
 std::string geotiff_bytes(std::span<const float> values, int columns, const MapPlace& place) {
-    std::string out = header_of(values, columns, &place);
-    out.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
-    return out;
-}
-
-std::string tiff_bytes(std::span<const float> values, int columns) {
-    std::string out = header_of(values, columns, nullptr);
+    std::string out = header_of(values, columns, place);
     out.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
     return out;
 }
@@ -115,31 +108,9 @@ std::string tiff_bytes(std::span<const float> values, int columns) {
 void write_geotiff(const std::filesystem::path& path, std::span<const float> values, int columns,
                    const MapPlace& place) {
     StreamedFile file(path);
-    file.append(header_of(values, columns, &place));
+    file.append(header_of(values, columns, place));
     file.append({reinterpret_cast<const char*>(values.data()), values.size_bytes()});
     file.finish();
-}
-
-GeotiffShape geotiff_shape(std::string_view start) {
-    // Width and height are the first two tags, each a number after 8 bytes of tag, type and count.
-    constexpr std::size_t width_at = 10 + 8;
-    constexpr std::size_t height_at = width_at + 12;
-    std::uint32_t width = 0;
-    std::uint32_t height = 0;
-    if (start.size() > height_at + sizeof height) {
-        std::memcpy(&width, &start[width_at], sizeof width);
-        std::memcpy(&height, &start[height_at], sizeof height);
-    }
-    // Headers of such files differ only in the numbers in the tags.
-    const MapPlace any_place;
-    for (const MapPlace* place : {&any_place, static_cast<const MapPlace*>(nullptr)}) {
-        const std::size_t size = header(width, height, place, 0).size();
-        const std::string own = header(width, height, place, static_cast<std::uint32_t>(size));
-        const std::size_t tags = 10 + 12 * std::size_t{place ? tags_of_map : tags_of_image};
-        if (width > 0 && height > 0 && start.substr(0, tags) == own.substr(0, tags))
-            return {height, width, size + std::uint64_t{4} * width * height};
-    }
-    throw std::runtime_error("is no TIFF of sonarsim");
 }
 
 }  // namespace sonarsim

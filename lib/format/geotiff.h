@@ -1,11 +1,8 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
-#include <string_view>
 
 namespace sonarsim {
 
@@ -27,18 +24,5 @@ void write_geotiff(const std::filesystem::path& path, std::span<const float> val
 
 /// The same file in memory.
 std::string geotiff_bytes(std::span<const float> values, int columns, const MapPlace& place);
-
-/// An image without a place in the world, in memory.
-std::string tiff_bytes(std::span<const float> values, int columns);
-
-struct GeotiffShape {
-    std::size_t rows = 0;
-    std::size_t columns = 0;
-    std::uint64_t file_bytes = 0;  ///< size of such a file
-};
-
-/// Reads the shape of a file of write_geotiff() or tiff_bytes(). `start` holds at least the header.
-/// Throws std::runtime_error when it is no such file.
-GeotiffShape geotiff_shape(std::string_view start);
 
 }  // namespace sonarsim

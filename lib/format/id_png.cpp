@@ -45,28 +45,4 @@ std::string id_png_bytes(std::span<const std::uint16_t> ids, int width, int heig
                     pack_pixels(ids, width, height, big_endian));
 }
 
-std::string palette_png_bytes(std::span<const std::uint8_t> indices, int width, int height,
-                              std::span<const Rgb> table) {
-    std::string colours;
-    for (const Rgb& colour : table)
-        colours +=
-            {static_cast<char>(colour.r), static_cast<char>(colour.g), static_cast<char>(colour.b)};
-    const auto copy = [](const std::uint8_t* from, std::size_t count, std::uint8_t* to) {
-        std::memcpy(to, from, count);
-    };
-    return png_file({width, height, 8, PngColours::table},
-                    pack_pixels(indices, width, height, copy), colours);
-}
-
-Rgb colour_of(std::uint32_t id) {
-    Rgb colour;
-    for (int bit = 7; bit >= 0; --bit) {
-        for (std::uint8_t* const channel : {&colour.r, &colour.g, &colour.b}) {
-            *channel = static_cast<std::uint8_t>(*channel | (id & 1U) << bit);
-            id >>= 1;
-        }
-    }
-    return colour;
-}
-
 }  // namespace sonarsim

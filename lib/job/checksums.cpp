@@ -7,7 +7,6 @@
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/file.h"
-#include "core/in_parallel.h"
 #include "core/sha256.h"
 
 namespace sonarsim {
@@ -18,9 +17,9 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t digits_of_sum = 64;
 
-/// Adds the sums of the pings' loose files, in the order of the writers.
-void add_loose(StreamedFile& sums, const Layout& layout, std::uint32_t sensor,
-               const JournalEntries& entries) {
+/// Adds the sums of the pings' files, in the order of the writers.
+void add_ping_files(StreamedFile& sums, const Layout& layout, std::uint32_t sensor,
+                    const JournalEntries& entries) {
     const SensorLayout& own = layout.sensors[sensor];
     for (std::size_t k = 0; k < own.per_ping.size(); ++k) {
         const auto* file = std::get_if<PingFile>(&own.per_ping[k]);
@@ -36,19 +35,6 @@ void add_loose(StreamedFile& sums, const Layout& layout, std::uint32_t sensor,
                 checksum_line(entry->sha256, path.lexically_relative(layout.folder).string()));
         }
     }
-}
-
-/// Adds the sums of the packs; reads several packs at a time.
-void add_packs(StreamedFile& file, const Layout& layout, std::uint32_t sensor) {
-    const SensorLayout& own = layout.sensors[sensor];
-    std::vector<std::string> sums(layout.packs(sensor));
-    const auto pack = [&](std::size_t k) {
-        return layout.pack_file(
-            {static_cast<std::uint32_t>(k * own.pings_per_pack) * own.every, sensor});
-    };
-    in_parallel(sums.size(), [&](std::size_t k) { sums[k] = sha256_of_file(pack(k)); });
-    for (std::size_t k = 0; k < sums.size(); ++k)
-        file.append(checksum_line(sums[k], pack(k).lexically_relative(layout.folder).string()));
 }
 
 bool stays_below(const fs::path& name) {
@@ -69,8 +55,7 @@ void write_checksums(const Layout& layout, const JournalEntries& entries,
         add_file(name);
     for (std::uint32_t i = 0; i < layout.sensors.size(); ++i) {
         const SensorLayout& sensor = layout.sensors[i];
-        sensor.pings_per_pack > 0 ? add_packs(sums, layout, i)
-                                  : add_loose(sums, layout, i, entries);
+        add_ping_files(sums, layout, i, entries);
         for (const auto& part : sensor.per_ping) {
             if (const auto* record = std::get_if<PingRecord>(&part))
                 add_file(sensor.name + "/" + record->file);

@@ -10,7 +10,7 @@
 namespace sonarsim {
 
 /// Writes OUT/SHA256SUMS for `sha256sum -c` in OUT: every file of the dataset but this one. Sums of
-/// the pings' loose files come from the journal. The sum of dataset.json is that of `description`,
+/// the pings' files come from the journal. The sum of dataset.json is that of `description`,
 /// which is written to it afterwards. All other files are read. std::runtime_error when the journal
 /// lacks a ping; std::system_error when a file cannot be read.
 void write_checksums(const Layout& layout, const JournalEntries& entries,

@@ -2,7 +2,7 @@
 
 #include "core/file.h"
 #include "dataset/ping_metadata.h"
-#include "dataset/shared_files.h"
+#include "dataset/record_objects.h"
 #include "job/checksums.h"
 
 namespace sonarsim {
@@ -22,7 +22,7 @@ void complete_dataset(const Layout& layout, const Mission& mission,
     });
     require_records(records);
     for_each_record([&](std::size_t i, std::size_t k) { records[i][k]->close(); });
-    write_shared_products(layout, mission, common.description);
+    write_record_objects(layout, mission, common.description);
     JournalEntries entries = read_journal(layout.folder);
     entries.products = require_products(layout);
     write_journal(layout.folder / journal_name, entries);

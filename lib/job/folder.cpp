@@ -188,7 +188,6 @@ void remove_leftovers(const Layout& layout, const std::vector<PingId>& todo, boo
     }
     for (std::uint32_t sensor = 0; sensor < layout.sensors.size(); ++sensor) {
         if (alone) remove_temporary_files(layout.sensor_folder(sensor));
-        if (layout.sensors[sensor].pings_per_pack > 0) continue;  // packs have no temporary names
         for (const auto& part : layout.sensors[sensor].per_ping) {
             const auto* kind = std::get_if<PingFile>(&part);
             if (!kind) continue;

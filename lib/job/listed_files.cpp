@@ -62,12 +62,6 @@ void list_sensor(const Json& sensor, ListedFiles& files) {
     const auto every = std::max(std::uint64_t{1}, sensor.value("every", std::uint64_t{1}));
     for (const Json& pattern : sensor.value("files", Json::object()))
         files.patterns.push_back({pattern.get<std::string>(), pings, every});
-    if (sensor.contains("packs")) {
-        const Json& packs = sensor["packs"];
-        const auto each = std::max(std::uint64_t{1}, packs.value("pings", std::uint64_t{1}));
-        const std::uint64_t count = pings / each + (pings % each != 0 ? 1 : 0);
-        files.patterns.push_back({packs.at("file").get<std::string>(), count, 1});
-    }
     const Json records = sensor.value("records", Json::object());
     if (records.contains("file")) files.names.insert(records["file"].get<std::string>());
     for (const Json& label : sensor.value("label_records", Json::object()))

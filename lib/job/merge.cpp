@@ -66,11 +66,9 @@ void require_same(const fs::path& part, const CommonFiles& found, const fs::path
         if (!key) return;
         difference = "whose dataset.json differs in '" + printable(*key) + "'";
     }
-    throw InputError({part.string()},
-                     "holds a dataset " + difference + ", seen from " + first.string() +
-                         "; only parts of one mission become one dataset; whole datasets "
-                         "of different missions stand side by side with "
-                         "--different");
+    throw InputError({part.string()}, "holds a dataset " + difference + ", seen from " +
+                                          first.string() +
+                                          "; only parts of one mission become one dataset");
 }
 
 /// The input of a dataset's products: all that the mission names except the scene.
@@ -107,15 +105,6 @@ MergeContext read_context(const fs::path& part, const CommonFiles& common, const
     if (context.assembly.full_scales.size() != context.assembly.sonars.size())
         throw InputError({(part / description_name).string()}, "lists other sensors");
     return context;
-}
-
-/// The number of pings in a pack depends on the scene, which is not needed here: the description of
-/// the parts has it. Packs of a sensor that the mission does not pack are an error found later.
-void adopt_packs(Layout& layout, const DatasetFile& dataset) {
-    for (std::size_t i = 0; i < layout.sensors.size(); ++i) {
-        std::size_t& own = layout.sensors[i].pings_per_pack;
-        if (own > 0 && dataset.sensors[i].packs) own = dataset.sensors[i].packs->pings;
-    }
 }
 
 /// Compares dataset.json with the mission: a changed key would be copied into the result.
@@ -159,8 +148,7 @@ struct Copy {
 
 /// " (--shard 2/3, 3/3)" with the shards of the missing pings; empty if the journals have no
 /// shards.
-std::string missing_shards(const std::vector<PingId>& all,
-                           const std::vector<std::unique_ptr<Part>>& parts,
+std::string missing_shards(const std::vector<std::unique_ptr<Part>>& parts,
                            const std::vector<std::size_t>& missing) {
     int shards = 1;
     for (const auto& part : parts) {
@@ -170,7 +158,7 @@ std::string missing_shards(const std::vector<PingId>& all,
     if (shards < 2) return {};
     std::set<int> which;
     for (const std::size_t ping : missing)
-        which.insert(1 + shard_of(parts[0]->layout, all[ping], ping, shards));
+        which.insert(1 + shard_of(ping, shards));
     std::string text;
     for (const int shard : which)
         text += (text.empty() ? "" : ", ") + std::to_string(shard) + "/" + std::to_string(shards);
@@ -190,7 +178,7 @@ std::vector<Copy> plan_copies(const std::vector<PingId>& all,
     }
     if (missing.empty()) return copies;
     throw InputError(std::to_string(missing.size()) + " of " + std::to_string(all.size()) +
-                     " pings are in none of the parts" + missing_shards(all, parts, missing) +
+                     " pings are in none of the parts" + missing_shards(parts, missing) +
                      ": the first is ping " + std::to_string(all[missing[0]].pose) +
                      " of sensor '" + parts[0]->layout.sensors[all[missing[0]].sensor].name +
                      "'; render what is missing, or name its folder, too");
@@ -199,16 +187,15 @@ std::vector<Copy> plan_copies(const std::vector<PingId>& all,
 /// The bytes of a ping. InputError unless they are those that the journal of its part lists.
 EncodedPing verified_ping(const Copy& copy) {
     const Part& from = *copy.from;
-    EncodedPing encoded = read_ping(from.layout, from.records, *from.finished, copy.id);
+    EncodedPing encoded = read_ping(from.layout, from.records, copy.id);
     const SensorLayout& sensor = from.layout.sensors[copy.id.sensor];
     const std::vector<std::string> found =
         journal_fields(std::array{PingToList{sensor, encoded}}).front();
     const auto differs = std::ranges::mismatch(found, from.finished->fields_of(copy.id)).in1;
     if (differs == found.end()) return encoded;
     const auto* file = std::get_if<PingFile>(&sensor.per_ping[differs - found.begin()]);
-    const fs::path path = !file                       ? from.layout.sensor_folder(copy.id.sensor)
-                          : sensor.pings_per_pack > 0 ? from.layout.pack_file(copy.id)
-                                                      : from.layout.file(copy.id, *file);
+    const fs::path path =
+        file ? from.layout.file(copy.id, *file) : from.layout.sensor_folder(copy.id.sensor);
     throw InputError({path.string()},
                      "differs from the journal of its part; copy the part again, or remove "
                      "the file and render that shard again");
@@ -231,17 +218,14 @@ void copy_pings(const std::vector<std::unique_ptr<Part>>& parts, const std::vect
     remove_leftovers(layout, todo, true);
     constexpr double checkpoint_s = 5.0;
     Journal journal(layout.folder, journal_part(1, 1), checkpoint_s);
-    PingFiles files(layout, records, there);
     ordered_pipeline(
         copies.size(), 2 * static_cast<std::size_t>(threads), stop,
         [&](std::size_t i) {
-            EncodedPing encoded = verified_ping(copies[i]);
-            files.write(copies[i].id, encoded);
-            return encoded;
+            write_ping(layout, records, copies[i].id, verified_ping(copies[i]));
+            return i;
         },
-        [&](const EncodedPing& encoded) {
-            const Copy& copy = copies[summary.pings];
-            files.pack(copy.id, encoded);
+        [&](std::size_t i) {
+            const Copy& copy = copies[i];
             journal.add(copy.id, copy.from->finished->fields_of(copy.id));
             ++summary.pings;
             if (progress) progress(summary.pings, copies.size());
@@ -273,8 +257,7 @@ MergeSummary merge_datasets(const std::vector<fs::path>& folders, const fs::path
     const MergeContext context = read_context(folders[0], common, out);
     const std::size_t poses = context.assembly.trajectory.size();
     const std::vector<Writers> writers = make_writers(context.mission, context.assembly);
-    Layout layout = make_layout(context.mission, writers, poses);
-    adopt_packs(layout, check_description(common.description, folders[0].string()));
+    const Layout layout = make_layout(context.mission, writers, poses);
     require_as_made(common.description, folders[0], context, layout, writers);
     std::vector<std::unique_ptr<Part>> parts;
     parts.reserve(folders.size());

@@ -20,7 +20,7 @@ namespace {
 /// The result of one ping besides its files.
 struct PingReport {
     PingId id;
-    EncodedPing encoded;              ///< until it is summed; in a pack, until it is written
+    EncodedPing encoded;              ///< until it is summed
     std::vector<std::string> fields;  ///< for the journal
     SensorSummary summary;            ///< this ping alone
     PingSeconds seconds;
@@ -53,14 +53,14 @@ void add(RenderSummary& summary, const PingReport& report) {
 }
 
 /// Hands a ping to the writers of its sensor, and their output to the disk.
-void write_ping(const Assembly& assembly, const Destination& to, const LabelPlan& labels,
-                const RenderedPing& rendered, PingReport& report) {
+void write_encoded(const Assembly& assembly, const Destination& to, const LabelPlan& labels,
+                   const RenderedPing& rendered, PingReport& report) {
     const PingId& id = report.id;
     Stopwatch watch;
     WrittenPing written = encode_ping(assembly, to.writers[id.sensor], labels, rendered);
     report.summary.clipped_pixels = written.clipped_pixels;
     report.encode_seconds = watch.lap();
-    to.files.write(id, written.parts);
+    write_ping(to.layout, to.records, id, written.parts);
     report.encoded = std::move(written.parts);
     report.write_seconds = watch.lap();
 }
@@ -76,7 +76,7 @@ void sum_pings(const Layout& layout, std::span<PingReport> reports) {
     std::vector<std::vector<std::string>> fields = journal_fields(pings);
     for (std::size_t k = 0; k < reports.size(); ++k) {
         reports[k].fields = std::move(fields[k]);
-        if (layout.sensors[reports[k].id.sensor].pings_per_pack == 0) reports[k].encoded.clear();
+        reports[k].encoded.clear();
     }
     reports.back().write_seconds += watch.lap();
 }
@@ -88,12 +88,8 @@ std::size_t bytes_of(const EncodedPing& encoded) {
     return bytes;
 }
 
-/// The number of pings that a thread renders before it sums their files. More pings would not fit
-/// into the caches, and pings that wait for a pack take memory.
-std::size_t pings_of_turn(const Destination* to) {
-    const auto packs = [](const SensorLayout& sensor) { return sensor.pings_per_pack > 0; };
-    return to && std::ranges::none_of(to->layout.sensors, packs) ? 2 : 1;
-}
+/// The pings that a thread renders before it sums their files. More would not fit into the caches.
+constexpr std::size_t pings_of_turn = 2;
 
 /// Renders pings one at a time.
 class PingRenderer {
@@ -134,7 +130,7 @@ class PingRenderer {
         PingReport report = report_of(rendered);
         const LabelPlan& plan = labels_[report.id.sensor];
         if (to_) {
-            write_ping(assembly, *to_, plan, rendered, report);
+            write_encoded(assembly, *to_, plan, rendered, report);
         } else if (plan.on) {
             Stopwatch labelling;
             label_bins(plan, assembly, *rendered.sonar, *rendered.engine, rendered.traced,
@@ -157,7 +153,7 @@ void render_pings(const RenderRun& run, const std::vector<PingId>& todo, const D
     RenderSummary& summary = run.summary;
     const PingRenderer renderer(run, to);
     const auto threads = static_cast<std::size_t>(run.threads);
-    const Turns turns(todo.size(), pings_of_turn(to), threads);
+    const Turns turns(todo.size(), to ? pings_of_turn : 1, threads);
     Stopwatch watch;
     // At most twice as many turns as threads are in memory.
     ordered_pipeline(
@@ -169,12 +165,7 @@ void render_pings(const RenderRun& run, const std::vector<PingId>& todo, const D
         [&](const std::vector<PingReport>& reports) {
             for (const PingReport& report : reports) {
                 add(summary, report);
-                if (to) {
-                    Stopwatch packing;
-                    to->files.pack(report.id, report.encoded);
-                    summary.write_seconds += packing.lap();
-                    to->journal.add(report.id, report.fields);
-                }
+                if (to) to->journal.add(report.id, report.fields);
                 if (run.progress) run.progress(summary, todo.size());
             }
         });

@@ -24,7 +24,7 @@ struct RenderRun {
 struct Destination {
     const Layout& layout;
     const std::vector<Writers>& writers;
-    PingFiles& files;
+    const RecordFiles& records;
     Journal& journal;
 };
 

@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <variant>
 
-#include "format/tar.h"
 #include "job/folder.h"
 
 namespace sonarsim {
@@ -58,68 +57,21 @@ RecordFiles open_records(const Layout& layout, RecordAccess access, std::size_t 
 }
 
 FinishedPings::FinishedPings(const Layout& layout, const RecordFiles& records)
-    : layout_(layout),
-      records_(records),
-      entries_(read_journal(layout.folder)),
-      ends_(layout.sensors.size()) {
-    for (std::uint32_t sensor = 0; sensor < layout.sensors.size(); ++sensor) {
-        if (layout.sensors[sensor].pings_per_pack > 0) find_packed(sensor);
-    }
-}
-
-void FinishedPings::find_packed(std::uint32_t sensor) {
-    const SensorLayout& own = layout_.sensors[sensor];
-    ends_[sensor].assign(own.pings, 0);
-    std::uint64_t size = 0;  // bytes of the pack
-    for (std::uint32_t i = 0; i < own.pings; ++i) {
-        const PingId ping{i * own.every, sensor};
-        const bool first = i % own.pings_per_pack == 0;
-        if (first) size = size_of(layout_.pack_file(ping)).value_or(0);
-        if (!first && ends_[sensor][i - 1] == 0) continue;
-        if (size == 0 || !is_listed(ping)) continue;
-        std::uint64_t end = begin_in_pack(ping);
-        for (std::size_t k = 0; k < own.per_ping.size(); ++k) {
-            if (std::holds_alternative<PingFile>(own.per_ping[k]))
-                end += tar_bytes(bytes_of(ping, k));
-        }
-        // A pack that was cut off may be longer than the pings that the journal lists.
-        const bool whole =
-            layout_.is_last_in_pack(ping) ? size == end + tar_end_bytes : size >= end;
-        if (whole) ends_[sensor][i] = end;
-    }
-}
-
-std::uint64_t FinishedPings::begin_in_pack(const PingId& ping) const {
-    const std::size_t record = layout_.record_of(ping);
-    const bool first = record % layout_.sensors[ping.sensor].pings_per_pack == 0;
-    return first ? 0 : ends_[ping.sensor][record - 1];
-}
-
-std::uint64_t FinishedPings::bytes_of(const PingId& ping, std::size_t k) const {
-    return parse_entry(fields_of(ping).at(k)).value_or(FileEntry{}).bytes;
-}
+    : layout_(layout), records_(records), entries_(read_journal(layout.folder)) {}
 
 std::vector<std::string> FinishedPings::fields_of(const PingId& ping) const {
     return entries_.pings.find(ping).value();
 }
 
 bool FinishedPings::operator()(const PingId& ping) const {
-    const bool packed = layout_.sensors[ping.sensor].pings_per_pack > 0;
-    return packed ? ends_[ping.sensor][layout_.record_of(ping)] > 0 : is_listed(ping);
-}
-
-bool FinishedPings::is_listed(const PingId& ping) const {
     const auto fields = entries_.pings.find(ping);
-    const SensorLayout& sensor = layout_.sensors[ping.sensor];
-    const auto& parts = sensor.per_ping;
+    const auto& parts = layout_.sensors[ping.sensor].per_ping;
     if (!fields || fields->size() != parts.size()) return false;
     for (std::size_t k = 0; k < parts.size(); ++k) {
         const std::string& expected = (*fields)[k];
         if (const auto* file = std::get_if<PingFile>(&parts[k])) {
             const auto entry = parse_entry(expected);
-            if (!entry) return false;
-            const bool loose = sensor.pings_per_pack == 0;
-            if (loose && size_of(layout_.file(ping, *file)) != entry->bytes) return false;
+            if (!entry || size_of(layout_.file(ping, *file)) != entry->bytes) return false;
         } else if (records_[ping.sensor][k]->hash(layout_.record_of(ping)) != expected) {
             return false;
         }

@@ -18,30 +18,20 @@ RecordFiles open_records(const Layout& layout, RecordAccess access = RecordAcces
                          std::size_t datasets = 1);
 
 /// True for the pings that need not be rendered: the journal lists them, and their files and
-/// records are as listed. In a pack, no ping before them may be missing. The references must
-/// outlive it.
+/// records are as listed. The references must outlive it.
 class FinishedPings {
   public:
     FinishedPings(const Layout& layout, const RecordFiles& records);
 
     bool operator()(const PingId& ping) const;
 
-    /// The begin of a ping's files in its pack. The pings before it in the pack must be finished.
-    std::uint64_t begin_in_pack(const PingId& ping) const;
-    /// The size of the k-th file of a finished ping.
-    std::uint64_t bytes_of(const PingId& ping, std::size_t k) const;
     /// The fields of a finished ping in the journal.
     std::vector<std::string> fields_of(const PingId& ping) const;
 
   private:
-    bool is_listed(const PingId& ping) const;
-    void find_packed(std::uint32_t sensor);
-
     const Layout& layout_;
     const RecordFiles& records_;
     JournalEntries entries_;
-    /// For sensors with packs: the end of each ping's files in its pack; 0: not finished.
-    std::vector<std::vector<std::uint64_t>> ends_;
 };
 
 /// std::runtime_error when a file of records was removed or replaced after it was opened.

@@ -98,7 +98,7 @@ void run_in_folder(const RenderRun& run, const RenderOptions& options,
     if (!lock) return;
     summary.unlocked = !lock->works();
     const FolderState state = set_up(layout, common, mission, options, *lock);
-    const auto shard = [&](std::size_t i) { return shard_of(layout, all[i], i, options.shards); };
+    const auto shard = [&](std::size_t i) { return shard_of(i, options.shards); };
     if (state == FolderState::complete) {
         const std::vector<PingId> own = make_plan(all, options, shard, is_never_there).todo;
         summary.complete = has_all(layout, own);
@@ -120,8 +120,7 @@ void run_in_folder(const RenderRun& run, const RenderOptions& options,
     // file.
     remove_leftovers(layout, plan.todo, options.shards == 1);
     {
-        PingFiles files(layout, records, *there);
-        const Destination to{layout, writers, files, journal};
+        const Destination to{layout, writers, records, journal};
         render_pings(run, plan.todo, &to);
     }
     journal.finish();

@@ -31,7 +31,6 @@ Layout layout_of(const fs::path& folder, const DatasetFile& dataset) {
         own.name = sensor.name;
         own.every = static_cast<std::uint32_t>(sensor.every);
         own.pings = sensor.pings;
-        if (sensor.packs) own.pings_per_pack = sensor.packs->pings;
         layout.sensors.push_back(std::move(own));
     }
     return layout;
@@ -124,7 +123,7 @@ JobStatus read_status(const std::vector<fs::path>& folders) {
         status.pings.done += is_done;
         status.sensors[ping.sensor].second.done += is_done;
         for (ShardStatus& shard : status.shards) {
-            if (shard_of(layout, ping, index, shard.shards) + 1 != shard.shard) continue;
+            if (shard_of(index, shard.shards) + 1 != shard.shard) continue;
             ++shard.pings.all;
             shard.pings.done += is_done;
         }

@@ -13,11 +13,9 @@
 #include "dataset/layout.h"
 #include "dataset/metadata.h"
 #include "dataset/ping_metadata.h"
-#include "dataset/split.h"
 #include "job/checksums.h"
 #include "job/folder.h"
 #include "job/folder_lock.h"
-#include "job/joined_labels.h"
 #include "job/variant_inputs.h"
 #include "mission/resolved.h"
 #include "mission/variants.h"
@@ -53,11 +51,6 @@ void remove_variant(const fs::path& folder, const Mission& mission) {
 void remove_common_files(const fs::path& folder) {
     fs::remove(folder / checksums_name);
     remove_gallery(folder);  // it shows files that are gone
-    for (const std::string_view part : split_part_names)
-        fs::remove(folder / split_file_of(part));
-    std::error_code not_empty;
-    fs::remove(folder / split_folder_name, not_empty);
-    remove_label_files(folder);
 }
 
 /// Writes a file only if it differs: the disk of a complete dataset may be read-only.
@@ -67,32 +60,11 @@ void keep_or_write(const fs::path& file, const std::string& text) {
     write_file_durably(file, text);
 }
 
-/// The texts of variants.json and of the lists of its parts by file, in the order of SHA256SUMS.
-std::vector<std::pair<std::string, std::string>> common_files(const Json& json) {
-    std::vector<std::pair<std::string, std::string>> files{{variants_name, json_text(json)}};
-    for (const auto& [name, lines] : split_lists(json))
-        files.emplace_back(name, lines);
-    return files;
-}
-
-/// The lines of SHA256SUMS for these files.
-std::string common_sums(const Json& json) {
-    std::string sums;
-    for (const auto& [name, text] : common_files(json))
-        sums += checksum_line(sha256(text), name);
-    return sums;
-}
-
-/// Writes variants.json, the lists of its parts and the sums of both. SHA256SUMS keeps the lines of
-/// the joined labels.
+/// Writes variants.json and its sum.
 void write_common_files(const fs::path& folder, const Json& json) {
-    for (const auto& [name, text] : common_files(json))
-        keep_or_write(folder / name, text);
-    const fs::path file = folder / checksums_name;
-    const std::string sums = common_sums(json);
-    const bool is_begun =
-        fs::is_regular_file(file) && read_file(file, largest_index).starts_with(sums);
-    if (!is_begun) write_file_durably(file, sums);
+    const std::string text = json_text(json);
+    keep_or_write(folder / variants_name, text);
+    keep_or_write(folder / checksums_name, checksum_line(sha256(text), variants_name));
 }
 
 /// Locks the folder of all variants for a run and prepares it. Shards share the lock; the others
@@ -135,19 +107,12 @@ void check_variants(const Json& json, const std::string& file) {
     for (const CheckedJson& variant : CheckedJson(json, file).at("variants").items()) {
         const std::string name = variant_folder(index++);
         if (variant.at("folder").text() != name) variant.at("folder").refuse("\"" + name + '"');
-        const std::optional<CheckedJson> split = variant.find("split");
-        const bool known =
-            !split || std::ranges::find(split_part_names, split->text()) != split_part_names.end();
-        if (!known && split->text() != "none") split->refuse("train, val or test");
     }
 }
 
 /// Refuses links: nothing outside the folder is written or removed.
 void require_no_links(const fs::path& folder, const Json& json) {
-    std::vector<fs::path> folders = folders_of_variants(folder, json);
-    folders.push_back(folder / split_folder_name);
-    folders.push_back(folder / labels_folder_name);
-    for (const fs::path& one : folders)
+    for (const fs::path& one : folders_of_variants(folder, json))
         require_no_link(one, "a variant");
 }
 
@@ -165,11 +130,6 @@ Json describe_variants(const Mission& mission, std::span<const Mission> variants
         json["variants"].push_back({{"folder", variant_folder(variant.variant.index)},
                                     {"seed", variant.seed},
                                     {"drawn", describe_drawn(variant.variant.drawn)}});
-    }
-    if (mission.output.split.is_on()) {
-        const std::vector<SplitPart> parts = split_variants(mission.output.split, variants.size());
-        for (std::size_t i = 0; i < parts.size(); ++i)
-            json["variants"][i]["split"] = split_part_names[static_cast<std::size_t>(parts[i])];
     }
     return json;
 }
@@ -234,9 +194,8 @@ void begin_variants(const fs::path& folder, const Json& json, std::span<const Mi
 }
 
 void finish_variants(const fs::path& folder, const Json& json) {
-    const std::vector<fs::path> folders = folders_of_variants(folder, json);
-    require_same_inputs(folders);  // shards that began at the same time did not see each other
-    write_label_files(folder, json, folders, common_sums(json));
+    // Shards that began at the same time did not see each other.
+    require_same_inputs(folders_of_variants(folder, json));
 }
 
 RenderSummary run_variants(const Mission& mission, std::span<const Mission> variants,

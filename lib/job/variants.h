@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
@@ -16,10 +15,7 @@
 // The variants of a mission lie below one folder:
 //
 //     OUT/variants.json         what was drawn for each of them
-//     OUT/split/train.txt       with output.split: the variants of a part; also val.txt, test.txt
-//     OUT/labels/coco.json      with the label coco: COCO files of all variants, once all of them
-//                               are complete, see job/joined_labels.h
-//     OUT/SHA256SUMS            of the files above
+//     OUT/SHA256SUMS            of variants.json
 //     OUT/variant_0000/         a dataset like any other
 //
 // A shard renders whole variants: those whose index i has i % shards == shard.
@@ -41,9 +37,6 @@ std::string variants_difference(const nlohmann::ordered_json& there,
 std::vector<std::filesystem::path> folders_of_variants(const std::filesystem::path& folder,
                                                        const nlohmann::ordered_json& json);
 
-/// The text of the lists of the split by file, "split/train.txt".
-std::map<std::string, std::string> split_lists(const nlohmann::ordered_json& json);
-
 /// The variants.json of the output folder; nothing if it has none. InputError when the folder holds
 /// other files, a link or, unless with `overwrite`, other variants than those of `json`.
 std::optional<nlohmann::ordered_json> inspect_variants(const std::filesystem::path& folder,
@@ -56,8 +49,7 @@ std::optional<nlohmann::ordered_json> inspect_variants(const std::filesystem::pa
 void begin_variants(const std::filesystem::path& folder, const nlohmann::ordered_json& json,
                     std::span<const Mission> variants, bool overwrite);
 
-/// Writes the joined labels of variants that are all complete. InputError if they were made from
-/// different files.
+/// Called once all variants are complete. InputError if they were made from different files.
 void finish_variants(const std::filesystem::path& folder, const nlohmann::ordered_json& json);
 
 /// True if the folder holds a dataset that is complete.
@@ -78,7 +70,7 @@ MergeSummary merge_variants(const std::vector<std::filesystem::path>& parts,
                             const std::filesystem::path& out, int threads,
                             const ProgressCallback& progress, const std::atomic<bool>& stop);
 
-/// Checks each variant as verify_dataset does, that none is missing, and the files that they share.
+/// Checks each variant as verify_dataset does, that none is missing, and variants.json.
 DatasetCheck verify_variants(const std::filesystem::path& folder, int threads,
                              const ProgressCallback& progress, const std::atomic<bool>& stop);
 

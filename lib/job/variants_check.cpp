@@ -4,13 +4,10 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/sha256.h"
-#include "dataset/coco/join.h"
 #include "dataset/layout.h"
 #include "dataset/ping_metadata.h"
-#include "dataset/split.h"
 #include "job/checksums.h"
 #include "job/folder_lock.h"
-#include "job/joined_labels.h"
 #include "job/variant_inputs.h"
 #include "job/variants.h"
 
@@ -31,70 +28,33 @@ Json require_variants(const fs::path& folder) {
                      "has no variants.json; give output folders of one mission with variants");
 }
 
-/// The files that all variants share, without SHA256SUMS. The joined labels are there once all
-/// variants are.
-std::set<std::string> common_names(const fs::path& folder, const Json& json) {
-    std::set<std::string> names{variants_name};
-    for (const auto& [name, lines] : split_lists(json))
-        names.insert(name);
-    const std::vector<fs::path> folders = folders_of_variants(folder, json);
-    if (std::ranges::all_of(folders, is_complete)) {
-        for (const std::string& name : label_files_of(json, folders))
-            names.insert(name);
-    }
-    return names;
-}
-
-bool is_label_file(const std::string& name) {
-    return name.starts_with(std::string(labels_folder_name) + "/");
-}
-
-/// Compares the files that all variants share with their sums.
-void check_common_files(const fs::path& folder, const std::set<std::string>& expected,
-                        DatasetCheck& check) {
-    const fs::path sums_file = folder / checksums_name;
-    if (!fs::is_regular_file(sums_file)) {
-        check.errors.push_back(std::string(checksums_name) + ": is missing; " +
-                               render_variants_again);
-        return;
-    }
-    const auto sums = read_checksums(sums_file);
-    for (const std::string& name : expected) {
-        const auto sum = sums.find(name);
-        if (!is_own_file(folder, name)) {
-            check.errors.push_back(name + ": is missing, or lies behind a link; " +
-                                   render_variants_again);
-            continue;
-        }
-        ++check.files;
-        check.bytes += fs::file_size(folder / name);
-        if (sum == sums.end() || sha256_of_file(folder / name) != sum->second)
-            check.errors.push_back(name + ": differs from SHA256SUMS; " + render_variants_again);
-    }
-    const bool has_labels = std::ranges::any_of(expected, is_label_file);
-    for (const auto& [name, sum] : sums) {
-        const bool waits = is_label_file(name) && !has_labels;  // for a variant that is missing
-        if (!expected.contains(name) && !waits)
-            check.errors.push_back(name + ": SHA256SUMS lists it, and variants.json does not; " +
-                                   render_variants_again);
+/// Compares variants.json with its sum.
+void check_common_files(const fs::path& folder, DatasetCheck& check) {
+    const auto add = [&](const std::string& fault) {
+        check.errors.push_back(fault + "; " + render_variants_again);
+    };
+    if (!fs::is_regular_file(folder / checksums_name))
+        return add(std::string(checksums_name) + ": is missing");
+    ++check.files;
+    check.bytes += fs::file_size(folder / variants_name);
+    const auto sums = read_checksums(folder / checksums_name);
+    const auto sum = sums.find(variants_name);
+    if (sum == sums.end() || sha256_of_file(folder / variants_name) != sum->second)
+        add(std::string(variants_name) + ": differs from SHA256SUMS");
+    for (const auto& [name, value] : sums) {
+        if (name != variants_name) add(name + ": SHA256SUMS lists it, and variants.json does not");
     }
 }
 
 /// Lists the files in the folder of the variants that do not belong to them.
-void list_unknown_files(const fs::path& folder, const Json& json, std::set<std::string> expected,
-                        DatasetCheck& check) {
-    expected.insert({checksums_name, split_folder_name, labels_folder_name});
-    for (const std::string& name : all_joined_label_files())
-        expected.insert(name);
-    if (has_gallery(folder)) expected.insert({gallery_name, gallery_folder_name});
+void list_unknown_files(const fs::path& folder, const Json& json, DatasetCheck& check) {
+    std::set<std::string> expected{variants_name, checksums_name};
+    if (has_gallery(folder)) expected.insert(gallery_name);
     for (const fs::path& variant : folders_of_variants(folder, json))
         expected.insert(variant.filename().string());
-    for (const fs::path& here : {folder, folder / split_folder_name, folder / labels_folder_name}) {
-        if (!fs::is_directory(here)) continue;
-        for (const fs::directory_entry& entry : fs::directory_iterator(here)) {
-            const std::string name = entry.path().lexically_relative(folder).string();
-            if (!expected.contains(name)) check.unknown_files.push_back(name);
-        }
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+        const std::string name = entry.path().filename().string();
+        if (!expected.contains(name)) check.unknown_files.push_back(name);
     }
     std::ranges::sort(check.unknown_files);
 }
@@ -112,16 +72,6 @@ std::string variants_difference(const Json& there, const Json& here) {
         add(key, there.value(key, Json()), here.value(key, Json()));
     add("variants", there.at("variants").size(), here.at("variants").size());
     return text.empty() ? "" : text + ")";
-}
-
-std::map<std::string, std::string> split_lists(const Json& json) {
-    std::map<std::string, std::string> lists;
-    for (const Json& variant : json.at("variants")) {
-        const std::string part = variant.value("split", "");
-        if (std::ranges::find(split_part_names, part) != split_part_names.end())
-            lists[split_file_of(part)] += variant.at("folder").get<std::string>() + '\n';
-    }
-    return lists;
 }
 
 MergeSummary merge_variants(const std::vector<fs::path>& parts, const fs::path& out, int threads,
@@ -177,9 +127,8 @@ DatasetCheck verify_variants(const fs::path& folder, int threads, const Progress
     const Json json = require_variants(folder);
     const std::vector<fs::path> folders = folders_of_variants(folder, json);
     DatasetCheck all;
-    const std::set<std::string> names = common_names(folder, json);
-    check_common_files(folder, names, all);
-    list_unknown_files(folder, json, names, all);
+    check_common_files(folder, all);
+    list_unknown_files(folder, json, all);
     for (std::size_t i = 0; i < folders.size() && !all.stopped; ++i) {
         const std::string name = folders[i].filename().string();
         if (!fs::exists(folders[i] / description_name)) {

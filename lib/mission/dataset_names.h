@@ -17,29 +17,17 @@ inline constexpr const char* navigation_name = "navigation.tum";
 inline constexpr const char* checksums_name = "SHA256SUMS";
 inline constexpr const char* journal_name = "journal.txt";
 inline constexpr const char* journal_folder_name = "journal.d";
-inline constexpr const char* labels_folder_name = "labels";
-inline constexpr const char* split_folder_name = "split";
 inline constexpr const char* seabed_folder_name = "seabed";
 inline constexpr const char* gallery_name = "index.html";
-/// A folder next to the page with the pictures that the page shows and the dataset has in archives.
-inline constexpr const char* gallery_folder_name = "index_files";
 /// A file in the folder above the datasets of variants.
 inline constexpr const char* variants_name = "variants.json";
-/// A file in the folder above datasets of different missions, each with its mission's name.
-inline constexpr const char* collection_name = "collection.json";
 
 /// True if the dataset has a file or folder of this name, so that no sensor may have it.
 inline bool is_taken_by_dataset(std::string_view name) {
-    constexpr std::array<std::string_view, 12> taken{
-        description_name,   mission_name,        trajectory_name,     checksums_name,
-        journal_name,       journal_folder_name, labels_folder_name,  split_folder_name,
-        seabed_folder_name, gallery_name,        gallery_folder_name, navigation_name};
+    constexpr std::array<std::string_view, 9> taken{
+        description_name,    mission_name,       trajectory_name, checksums_name, journal_name,
+        journal_folder_name, seabed_folder_name, gallery_name,    navigation_name};
     return std::ranges::find(taken, name) != taken.end();
-}
-
-/// True if no mission may have the name.
-inline bool is_taken_by_collection(std::string_view name) {
-    return name == collection_name || name == checksums_name || name == variants_name;
 }
 
 }  // namespace sonarsim

@@ -178,61 +178,20 @@ enum class Label {
     multipath_only,
     objects,
     fan,
-    semantic,
-    coco,
-    yolo,
-    yolo_polygons,
 };
-
-/// Shares of the trajectory for training, validation and testing; all 0: no split.
-struct SplitConfig {
-    double train = 0.0;
-    double val = 0.0;
-    double test = 0.0;
-    int gap = 10;    ///< poses at each border of two parts that belong to neither
-    int rounds = 1;  ///< repetitions of train, val and test along the trajectory
-    MissionPlace place;
-
-    bool is_on() const { return train > 0.0 || val > 0.0 || test > 0.0; }
-    bool operator==(const SplitConfig&) const = default;
-};
-
-/// Archives for the files of pings.
-enum class Pack { none, tar };
-
-enum class FanColours { grey, copper, amber, sea };
-
-/// Style of fans; by default they are grey, without lines.
-struct FanStyleConfig {
-    FanColours colours = FanColours::grey;
-    bool rings = false;     ///< lines of equal range, with numbers
-    bool bearings = false;  ///< lines of equal azimuth, with numbers
-
-    bool operator==(const FanStyleConfig&) const = default;
-};
-
-/// File of the intensities of a ping.
-enum class PolarFormat { none, npy, exr, tiff };
-
-/// File of the fan of a ping.
-enum class FanFormat { none, png, jpeg, webp };
 
 struct OutputConfig {
     std::filesystem::path folder;
-    PolarFormat polar = PolarFormat::npy;
-    bool image = false;  ///< 16-bit polar PNG
-    FanFormat fan = FanFormat::png;
-    bool meta = true;      ///< JSON per ping
-    bool stages = false;   ///< 8-bit PNG of five fans that add the model's terms one by one
-    int fan_width_px = 0;  ///< 0: one pixel per range bin, at most 1024
-    FanStyleConfig fan_style = {};
-    double full_scale = 0.0;         ///< intensity that becomes white; 0: automatic, by sonar
+    bool polar = true;        ///< float32 in .npy
+    bool image = false;       ///< 16-bit polar PNG
+    bool fan = true;          ///< 8-bit PNG
+    bool meta = true;         ///< JSON per ping
+    bool stages = false;      ///< 8-bit PNG of five fans that add the model's terms one by one
+    int fan_width_px = 0;     ///< 0: one pixel per range bin, at most 1024
+    double full_scale = 0.0;  ///< intensity that becomes white; 0: automatic, by sonar
     std::vector<Label> labels = {};  ///< each at most once, in the order of the enumeration
     MissionPlace labels_place = {};
-    SplitConfig split = {};
-    Pack pack = Pack::none;
-    double pack_size_mb = 256.0;  ///< upper limit; a megabyte is a million bytes
-    bool raw = true;              ///< the instrument's output with the calibrated model
+    bool raw = true;  ///< the instrument's output with the calibrated model
 
     // Products of all pings of a sonar.
     bool waterfall = true;           ///< side-scan sonars
@@ -244,8 +203,6 @@ struct OutputConfig {
     bool mosaic = false;             ///< side-scan sonars: the waterfall georeferenced
     double mosaic_cell_m = 0.0;      ///< 0: from the distance between pings
 
-    bool has_polar() const { return polar != PolarFormat::none; }
-    bool has_fan() const { return fan != FanFormat::none; }
     bool operator==(const OutputConfig&) const = default;
 };
 

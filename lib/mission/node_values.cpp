@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "mission/removed_keys.h"
 
 namespace sonarsim {
 
@@ -119,6 +120,8 @@ std::vector<bool> chosen_of(const YamlNode& node, const char* key,
         refuse_type(node, key, "true, false or a list of: " + listed(names));
     }
     for (const YamlNode& item : node.items) {
+        const std::string removed = instead_of_removed(key, item.text);
+        if (!removed.empty()) refuse(item, removed);
         const std::size_t index = index_of(item, key, names);
         if (chosen[index]) refuse(item, in_quotes(item.text) + " stands twice in '" + key + "'");
         chosen[index] = true;

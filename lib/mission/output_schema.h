@@ -22,87 +22,34 @@ inline constexpr std::array label_names{Choice<Label>{"instance", Label::instanc
                                         Choice<Label>{"direct_only", Label::direct_only},
                                         Choice<Label>{"multipath_only", Label::multipath_only},
                                         Choice<Label>{"objects", Label::objects},
-                                        Choice<Label>{"fan", Label::fan},
-                                        Choice<Label>{"semantic", Label::semantic},
-                                        Choice<Label>{"coco", Label::coco},
-                                        Choice<Label>{"yolo", Label::yolo},
-                                        Choice<Label>{"yolo_polygons", Label::yolo_polygons}};
-
-inline constexpr std::array fan_colours{
-    Choice<FanColours>{"grey", FanColours::grey}, Choice<FanColours>{"copper", FanColours::copper},
-    Choice<FanColours>{"amber", FanColours::amber}, Choice<FanColours>{"sea", FanColours::sea}};
-
-inline constexpr std::array polar_formats{
-    Choice<PolarFormat>{"true", PolarFormat::npy}, Choice<PolarFormat>{"false", PolarFormat::none},
-    Choice<PolarFormat>{"exr", PolarFormat::exr}, Choice<PolarFormat>{"tiff", PolarFormat::tiff}};
-
-inline constexpr std::array fan_formats{
-    Choice<FanFormat>{"true", FanFormat::png}, Choice<FanFormat>{"false", FanFormat::none},
-    Choice<FanFormat>{"jpeg", FanFormat::jpeg}, Choice<FanFormat>{"webp", FanFormat::webp}};
-
-inline constexpr std::array packs{Choice<Pack>{"none", Pack::none}, Choice<Pack>{"tar", Pack::tar}};
-
-template <class Visitor>
-void describe(Visitor& v, SplitConfig& c) {
-    v.place(c.place);
-    v.number("train", c.train, between(0, 1), "share of the trajectory for training");
-    v.number("val", c.val, between(0, 1), "share for validation");
-    v.number("test", c.test, between(0, 1), "share for testing");
-    const double sum = c.train + c.val + c.test;
-    v.require(!c.is_on() || (sum > 1.0 - 1e-6 && sum < 1.0 + 1e-6), {"train", "val", "test"},
-              "train, val and test must add up to 1");
-    v.integer("gap", c.gap, between(0, 1e6),
-              "poses at each border of two parts that belong to neither of them");
-    v.integer("rounds", c.rounds, between(1, 1e6),
-              "number of times that train, val and test repeat along the trajectory");
-}
-
-template <class Visitor>
-void describe(Visitor& v, FanStyleConfig& c) {
-    v.choice("colours", c.colours, fan_colours,
-             "colour map from dark to bright; `sea` goes from violet over green to yellow");
-    v.flag("rings", c.rings, "draw rings of equal range, with their numbers");
-    v.flag("bearings", c.bearings,
-           "draw lines of equal azimuth, with their degrees to port (P) and starboard (S)");
-}
+                                        Choice<Label>{"fan", Label::fan}};
 
 template <class Visitor>
 void describe(Visitor& v, OutputConfig& c) {
     v.path("folder", c.folder, "folder of the dataset; default: out/NAME in the current directory");
-    v.choice("polar", c.polar, polar_formats,
-             "write every ping of imaging and profiling sonars as float32: `true` as .npy, `tiff` "
-             "as TIFF, `exr` as OpenEXR with a layer for each label and for `raw`");
+    v.flag("polar", c.polar,
+           "write every ping of imaging and profiling sonars as float32, in .npy files");
     v.flag("image", c.image,
            "write every ping of these sonars as a 16-bit PNG, which holds no more than `polar`");
     v.flag("raw", c.raw,
            "with the calibrated model, write every ping as the instrument delivers it: a PNG for "
            "imaging and profiling sonars, a record of raw.npy for others");
-    v.choice("fan", c.fan, fan_formats,
-             "write every ping of these sonars as an 8-bit fan, as an operator sees it: `true` as "
-             "PNG; `jpeg` and `webp` lose a little and take less space");
+    v.flag(
+        "fan", c.fan,
+        "write every ping of these sonars as an 8-bit fan in grey, as an operator sees it, in PNG "
+        "files");
     v.flag("meta", c.meta, "write a JSON file per ping");
     v.flag("stages", c.stages,
            "write a fan for each stage of the echo model side by side: direct echoes, then with "
            "multipath, then with one random term after the other");
     v.integer("fan_width_px", c.fan_width_px, between(0, 8192),
               "width of the fan; 0 means one pixel per range bin, at most 1024");
-    v.section("fan_style", c.fan_style,
-              "style of the fans and scans in PNG files: one grey channel by default, RGB if any "
-              "key is set");
     v.number_or_auto("full_scale", c.full_scale, above(0),
                      "intensity that becomes white in pictures; `auto` finds it for each sonar "
                      "from a few pings and writes it to dataset.json");
     v.subset("labels", c.labels, label_names,
              "labels to write for every bin: `true` for all, or a list of them");
     v.place("labels", c.labels_place);
-    v.section(
-        "split", c.split,
-        "lists of poses for training, validation and testing, by stretches of the trajectory");
-    v.choice("pack", c.pack, packs,
-             "`tar` writes the files of pings into a few archives that WebDataset reads; `none` "
-             "writes single files");
-    v.number("pack_size_mb", c.pack_size_mb, between(1e-3, 1e6),
-             "largest size of an archive; it holds as many pings as surely fit");
     v.flag("waterfall", c.waterfall, "write the waterfalls of side-scan sonars");
     v.flag("echogram", c.echogram, "write the echograms of echosounders");
     v.flag("soundings", c.soundings,

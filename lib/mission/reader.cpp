@@ -5,6 +5,7 @@
 
 #include "core/text.h"
 #include "mission/dataset_names.h"
+#include "mission/removed_keys.h"
 
 namespace sonarsim {
 
@@ -116,6 +117,8 @@ void MissionReader::flag(const char* key, bool& value, const char* /*meaning*/) 
     read_key(key, Presence::optional, [&](const YamlNode& node) {
         const bool yes = is_plain(node) && node.text == "true";
         if (!yes && !(is_plain(node) && node.text == "false")) {
+            const std::string removed = instead_of_removed(key, node.text);
+            if (!removed.empty()) refuse(node, removed);
             refuse_type(node, key, "true or false");
         }
         value = yes;
@@ -289,6 +292,11 @@ void MissionReader::require(bool holds, std::initializer_list<const char*> keys,
 void MissionReader::finish() {
     for (const YamlNode& item : node_.items) {
         if (std::ranges::find(known_, item.key) != known_.end()) continue;
+        const std::string removed = instead_of_removed(name_, item.key);
+        if (!removed.empty()) {
+            errors_.add(InputError(item.key_place.location(), removed));
+            continue;
+        }
         const std::string hint = did_you_mean(item.key, known_);
         errors_.add(InputError(item.key_place.location(),
                                "unknown key " + in_quotes(item.key) +

@@ -30,7 +30,7 @@ inline constexpr std::array engine_kinds{Choice<EngineKind>{"auto", EngineKind::
 /// True if a mission may have the name. It names a folder that holds nothing but this mission.
 inline bool is_folder_name(std::string_view name) {
     return !name.empty() && name != "." && name != ".." && name.size() <= 200 &&
-           name.find('/') == std::string_view::npos && !is_taken_by_collection(name);
+           name.find('/') == std::string_view::npos && name != checksums_name;
 }
 
 inline constexpr std::array water_contents{Choice<WaterContent>{"auto", WaterContent::automatic},
@@ -145,32 +145,20 @@ void describe(Visitor& v, ClassConfig& c) {
 template <class Visitor>
 void describe(Visitor& v, LabelConfig& c) {
     v.place(c.place);
-    v.texts("background", c.background,
-            "classes that are never annotated. `auto` stands for the classes of the nodes that "
-            "scene.bottom names and for the class of the largest surface; `none` for no class");
+    v.texts(
+        "background", c.background,
+        "classes that are no objects and have no contrast, shadow or visible share. `auto` stands "
+        "for the classes of the nodes that scene.bottom names and for the class of the largest "
+        "surface; `none` for no class");
     v.require(!c.background.empty(), {"background"},
-              "'background' names classes, auto or none; [none] annotates all classes");
-    v.integer("min_pixels", c.min_pixels, between(1, 1e9),
-              "least number of pixels of an annotated object in a picture");
-    v.number("min_visible_share", c.min_visible_share, between(0, 1),
-             "least share of an annotated object that nothing hides");
-    v.number("min_contrast_db", c.min_contrast_db, between(0, 200),
-             "least difference of an annotated object, or of its shadow, from its surroundings, "
-             "brighter or darker; 0 takes all");
-    v.choice("faint", c.faint, faint_objects,
-             "what becomes of objects below these limits: `omit` leaves them out, `crowd` keeps "
-             "them in COCO files with iscrowd: 1, which trainers ignore, and out of YOLO's");
-    v.choice("box", c.box, label_boxes,
-             "the box of an annotation: that of the object, of its shadow or of both; with "
-             "`shadow` an object without one has no annotation");
+              "'background' names classes, auto or none; with [none] all classes are objects");
 }
 
 template <class Visitor>
 void describe(Visitor& v, Mission& c) {
     v.text("name", c.name, "name of the dataset; default: the name of the mission's file");
     v.require(is_folder_name(c.name), {"name"},
-              "'name' names a folder: at most 200 bytes, without '/', not SHA256SUMS or "
-              "collection.json");
+              "'name' names a folder: at most 200 bytes, without '/', not SHA256SUMS");
     v.integer("seed", c.seed, "seed of all random draws; 0 is a seed like any other");
     v.section("water", c.water, "the water");
     v.section("scene", c.scene, "what the sonars look at", required);

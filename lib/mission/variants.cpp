@@ -62,7 +62,6 @@ std::vector<Mission> draw_variants(const Mission& mission, const MissionSource& 
         Mission& drawn = variants.emplace_back(
             parse_mission(root, source.file.string(), source.base_folder, sonars));
         drawn.output.folder = mission.output.folder / variant_folder(i);
-        drawn.output.split = {};  // a split applies to whole variants
         drawn.variant = std::move(variant);
     }
     return variants;

@@ -96,7 +96,7 @@ namespace {
 int left_margin(const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
     const double furthest = std::max(std::fabs(low.y()), std::fabs(high.y()));
     const std::string longest = "-" + std::to_string(std::llround(furthest)) + ".5 m";
-    return std::max(least_left_margin, estimated_width(longest) + 12);
+    return std::max(least_left_margin, text_width(longest) + 12);
 }
 
 }  // namespace
@@ -139,7 +139,7 @@ void draw_axes(Drawing& tile, const PlaneFrame& frame) {
         const int at = static_cast<int>(frame.pixel({x, frame.low.y()}).x());
         fill(tile, at, bottom, 1, 4, ink);
         const std::string number = number_text(x) + " m";
-        const int half = estimated_width(number) / 2;
+        const int half = text_width(number) / 2;
         constexpr int blank_px = 6;
         if (at - half <= last || at + half >= tile.width) continue;
         tile.texts.push_back({at, bottom + 12, number, Align::middle});

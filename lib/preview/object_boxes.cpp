@@ -41,7 +41,8 @@ AlignedBox2d box_in_plan(const PlaneFrame& frame, const AlignedBox3d& box) {
 
 /// The box of a name next to that of its object: on its right, on its left, above or below.
 AlignedBox2d box_of_name(const AlignedBox2d& object, int width, int side) {
-    const Vector2d size(width, label_px + 2.0);
+    constexpr double height = 11.0;  // seven pixels and a dark outline
+    const Vector2d size(width, height);
     const Vector2d middle = object.center() - 0.5 * size;
     Vector2d low = middle;
     if (side == 0) low.x() = object.max().x() + 4.0;
@@ -97,7 +98,7 @@ void draw_objects(Drawing& tile, const PlaneFrame& frame, const std::vector<Obje
         draw_box(tile, one.first);
     std::vector<AlignedBox2d> taken;
     for (const auto& one : shown) {
-        const int width = estimated_width(one.second->name);
+        const int width = text_width(one.second->name);
         const auto is_free = [&](const AlignedBox2d& name, bool over_objects) {
             const auto overlaps = [&](const AlignedBox2d& other) { return name.intersects(other); };
             const auto hides = [&](const auto& other) { return name.intersects(other.first); };
@@ -111,7 +112,7 @@ void draw_objects(Drawing& tile, const PlaneFrame& frame, const std::vector<Obje
             taken.push_back(name);
             const Vector2d at = name.center();
             tile.texts.push_back({static_cast<int>(at.x()), static_cast<int>(at.y()),
-                                  one.second->name, Align::middle, ink, label_px - 1, true});
+                                  one.second->name, Align::middle, ink, true});
             break;
         }
     }

@@ -28,7 +28,6 @@ constexpr int tile_height = 420;
 constexpr int gap = 12;
 constexpr int head_height = 30;
 constexpr int title_height = 20;
-constexpr int text_px = 12;
 constexpr int margin_px = 60;  // for the numbers of a plan
 
 constexpr std::array<Rgb, 6> sonar_colours{{{255, 196, 84},
@@ -50,7 +49,7 @@ std::string head_text(const Mission& mission, const Trajectory& trajectory, std:
     const Eigen::Vector3d bow = now.T_world_vehicle.rotation * Eigen::Vector3d::UnitX();
     return fmt::format(
         "{}   ping {} of 0 to {}   t = {:.2f} s   x = {:.2f} m   y = {:.2f} m   z = {:.2f} m   "
-        "yaw = {:.1f}\u00b0",
+        "yaw = {:.1f} deg",
         mission.name, pose, trajectory.size() - 1, now.t_s, at.x(), at.y(), at.z(),
         degrees(std::atan2(bow.y(), bow.x())));
 }
@@ -138,7 +137,7 @@ std::vector<int> tile_widths(const std::vector<int>& rows, std::span<const doubl
 /// The text, cut off where the width ends.
 std::string fitting_text(const std::string& text, int width) {
     std::string fits = text;
-    while (estimated_width(fits, text_px) > width && fits.size() > 4)
+    while (text_width(fits) > width && fits.size() > 4)
         fits.replace(fits.size() - 4, 4, "...");
     return fits;
 }
@@ -157,8 +156,7 @@ Drawing arrange(const std::string& head, const std::vector<Tile>& tiles,
         first += static_cast<std::size_t>(count);
     }
     Drawing all(gap + rows.front() * (tile_width + gap), height, backdrop);
-    all.texts.push_back(
-        {gap, head_height / 2, fitting_text(head, all.width), Align::left, ink, text_px + 1});
+    all.texts.push_back({gap, head_height / 2, fitting_text(head, all.width), Align::left, ink});
     int y = head_height;
     std::size_t k = 0;
     for (std::size_t row = 0; row < rows.size(); ++row) {
@@ -166,8 +164,8 @@ Drawing arrange(const std::string& head, const std::vector<Tile>& tiles,
         for (int column = 0; column < rows[row]; ++column, ++k) {
             const Tile& tile = tiles[k];
             fill(all, x, y + 5, 9, 9, tile.colour);
-            all.texts.push_back({x + 16, y + 9, fitting_text(tile.title, widths[k] - 16),
-                                 Align::left, ink, text_px});
+            all.texts.push_back(
+                {x + 16, y + 9, fitting_text(tile.title, widths[k] - 16), Align::left, ink});
             paste(all, tile.drawing, x + (widths[k] - tile.drawing.width) / 2, y + title_height);
             x += widths[k] + gap;
         }

@@ -5,8 +5,8 @@
 
 #include "core/in_parallel.h"
 #include "core/text.h"
+#include "preview/fan_style.h"
 #include "product/colour_map.h"
-#include "product/fan_style.h"
 #include "product/gain.h"
 #include "product/scan.h"
 #include "sonar/kinds.h"
@@ -16,9 +16,8 @@ namespace sonarsim {
 namespace {
 
 constexpr std::size_t series_pings = 120;  // pings of a waterfall or an echogram
-constexpr FanStyleConfig fan_style{FanColours::amber, true, true};
-constexpr int axis_px = 20;    // height of the axis below a waterfall
-constexpr int number_px = 52;  // width of the numbers next to an echogram
+constexpr int axis_px = 20;                // height of the axis below a waterfall
+constexpr int number_px = 52;              // width of the numbers next to an echogram
 
 /// The poses of `count` pings of a sonar up to `last`; fewer at the start of the trajectory.
 std::vector<std::uint32_t> poses_until(const Sonar& sonar, std::uint32_t last, std::size_t count) {
@@ -49,18 +48,11 @@ SonarPanel draw_fan(const Sonar& sonar, const Ping& ping, int width, int height)
     const FanMap map = make_fan_map(sonar, fits);
     Gain gain;
     gain.add(ping.intensity);
-    const FanStyle style = make_fan_style(sonar, map.frame, fan_style, false);
+    const FanStyle style = make_fan_style(sonar, map.frame);
     const Picture fan = styled_fan(style, render_fan(map, ping, gain.white()));
     Drawing drawing(fan.width, fan.height, backdrop);
     drawing.pixels = fan.pixels;
-    for (const FanNumber& number : fan_numbers(sonar, map.frame, fan_style)) {
-        std::string text = number.value + (number.is_bearing ? "\u00b0" : " m");
-        if (!number.side.empty()) text += " " + number.side;
-        const int half = estimated_width(text) / 2;
-        drawing.texts.push_back({std::clamp(number.x, half, std::max(half, fan.width - half)),
-                                 std::clamp(number.y, 7, std::max(7, fan.height - 7)), text,
-                                 Align::middle, mark_colour, label_px, true});
-    }
+    drawing.texts = fan_numbers(sonar, map.frame);
     return {std::move(drawing), gain.white()};
 }
 
@@ -144,7 +136,7 @@ SonarPanel draw_rows(const Sonar& sonar, const RecordShape& shape, const Series&
     const auto mark_at = [&](double range, int x) {
         fill(picture, x, bottom, 1, 4, ink);
         const std::string text = number_text(range) + " m";
-        const int half = estimated_width(text) / 2 + 1;
+        const int half = text_width(text) / 2 + 1;
         if (x >= half && x + half < width)
             picture.texts.push_back({x, bottom + 12, text, Align::middle});
     };
@@ -156,9 +148,8 @@ SonarPanel draw_rows(const Sonar& sonar, const RecordShape& shape, const Series&
             for (const double side : {-1.0, 1.0})
                 mark_at(range, static_cast<int>(0.5 * width + side * range * px_per_m));
         }
-        picture.texts.push_back({18, 10, "port", Align::left, mark_colour, label_px, true});
-        picture.texts.push_back(
-            {width - 18, 10, "starboard", Align::right, mark_colour, label_px, true});
+        picture.texts.push_back({18, 10, "port", Align::left, mark_colour, true});
+        picture.texts.push_back({width - 18, 10, "starboard", Align::right, mark_colour, true});
     } else {
         const double px_per_m = width / (config.range_max_m - config.range_min_m);
         for (const double range : axis_marks(config.range_min_m, config.range_max_m, 8.0))

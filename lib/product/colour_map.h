@@ -3,10 +3,11 @@
 #include <array>
 #include <span>
 
-#include "mission/mission.h"
 #include "product/picture.h"
 
 namespace sonarsim {
+
+enum class FanColours { grey, copper, amber, sea };
 
 /// The equally spaced stops of a colour map, for blend(). Brightness grows from stop to stop.
 std::span<const Rgb> stops_of(FanColours colours);

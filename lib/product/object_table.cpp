@@ -183,11 +183,6 @@ class Contrasts {
 
 }  // namespace
 
-ObjectFacts facts_of(const ObjectInPing& seen, const SceneObjects& objects, std::uint64_t pixels) {
-    return {objects.is_background(seen.id - 1), pixels, seen.visible_share, seen.contrast_db,
-            seen.shadow_contrast_db};
-}
-
 std::vector<ObjectInPing> seen_objects(const Sonar& sonar, const SceneObjects& objects,
                                        const TracedPing& traced, const PingLabels& labels,
                                        const Ping& ping, std::span<const PixelBox> fan_boxes) {

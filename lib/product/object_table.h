@@ -35,9 +35,6 @@ struct ObjectInPing {
     PixelBox shadow_in_fan;                    ///< empty: no fan, or no pixel in it
 };
 
-/// The facts for is_annotated() of an object with `pixels` pixels in a picture.
-ObjectFacts facts_of(const ObjectInPing& seen, const SceneObjects& objects, std::uint64_t pixels);
-
 /// The objects in a ping, sorted by id. `labels` gives the object of each bin, `ping` the levels.
 /// `fan_boxes` are bin_boxes() of the fan; empty: no fan.
 /// The surroundings of an object are the box of its bins, enlarged on each side by half its size

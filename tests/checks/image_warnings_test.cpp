@@ -172,24 +172,8 @@ TEST_SUITE("checks") {
         CHECK(
             thin[0].starts_with("W32 sensor 'front': its fans show next to nothing: azimuth_deg of "
                                 "0.001 is 0.00017 m wide at range_max_m, and a pixel "));
-        run.mission.output.fan = FanFormat::none;
+        run.mission.output.fan = false;
         CHECK(before_pings(run.mission, run.assembly).empty());
-    }
-
-    TEST_CASE("split warnings: a part without a variant") {
-        SplitConfig config;
-        config.train = 0.0;
-        config.val = config.test = 0.5;
-        const std::vector<Warning> few = split_warnings(config, 1);
-        REQUIRE(few.size() == 1);
-        CHECK(few[0].what == "none of 1 variants is left for 'test'");
-        CHECK(split_warnings(config, 2).empty());
-        config.train = 0.8;
-        config.val = config.test = 0.1;
-        REQUIRE(split_warnings(config, 2).size() == 1);
-        CHECK(split_warnings(config, 2)[0].what == "none of 2 variants is left for 'val', 'test'");
-        CHECK(split_warnings(config, 4)[0].what == "none of 4 variants is left for 'test'");
-        CHECK(split_warnings(config, 0).empty());
     }
 
     TEST_CASE("warnings: every row of the table has its number, a limit and a reason") {

@@ -23,7 +23,7 @@ output:
   fan_width_px: 64
   labels: true
   image: true
-labels: {background: [none], min_pixels: 1, min_visible_share: 0, min_contrast_db: 0}
+labels: {background: [none]}
 """
 
 

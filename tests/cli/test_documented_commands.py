@@ -112,9 +112,6 @@ INSTEAD = {
     "--out out/report":
         "sonarsim report configs/lifeboat_imaging.yaml --set scene.file=$PWD/out/lifeboat_3/lifeboat.glb "
         f"--out out/report --engines slices {QUICK}",
-    "sonarsim export out/hull DEST --format yolo":
-        f"sonarsim render hull.yaml {FEW} --set output.labels=[coco] --out out/labelled && "
-        "sonarsim export out/labelled DEST --format yolo",
     "sonarsim compare out/real out/hull": "sonarsim compare out/hull out/hull",
     **{f"sonarsim render configs/tank_calibrated.yaml --set seed={seed} --out out/{name}":
        f"sonarsim render configs/tank_calibrated.yaml --set seed={seed} --out out/{name} --set trajectory.rate_hz=1 "
@@ -127,7 +124,6 @@ INSTEAD = {
 SHARDS = "for i in $(seq {0}); do sonarsim render mission.yaml -q --shard $i/{0} --out {1}$i; done"
 MINEFIELD = ("scripts/make_scenes.py --for configs/minefield_variants.yaml",
              "sonarsim render configs/minefield_variants.yaml -q --set variants=2 "
-             "--set 'output.split={train: 0.5, test: 0.5}' "
              f"--set trajectory.rate_hz=4 --set sensors.sss.range_bins=64 {TINY}")
 BEFORE = {
     "README.md": (INSTEAD["build/sonarsim validate hull.yaml && build/sonarsim render hull.yaml"],
@@ -138,7 +134,6 @@ BEFORE = {
     "docs/running.md": (SHARDS.format(4, "part"),),
     "docs/pictures.md": ("sonarsim render mission.yaml -q --out OUT",),
     "docs/scenes.md": MINEFIELD,
-    "docs/export.md": MINEFIELD,
 }
 
 SCENARIO = '{"agents": [{"sensors": [{"sensor_type": "ImagingSonar", "configuration": {"RangeMax": 6}}]}]}'

@@ -141,12 +141,6 @@ class FaultyDisk(Faults):
                 self.assertIn("No space left on device", result.stderr)
 
 
-class PackedFaultyDisk(FaultyDisk):
-    """The same with packs."""
-    MISSION = MISSION.replace("{folder: out,", "{folder: out, pack: tar, pack_size_mb: 0.05,")
-    FEWEST_CALLS = 80
-
-
 class RandomSignals(Faults):
     POSES = 120
 

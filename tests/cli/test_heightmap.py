@@ -191,7 +191,7 @@ class Heightmap(Composed):
         """Labels and maps find the ground by its name: a node of the scene's file gets another."""
         self.write("crate.gltf", gltf([{"name": "heightmap", "mesh": 0}], [box_mesh()]))
         self.mission("  file: crate.gltf\n" + self.OWN)
-        self.edit("mission.yaml", "labels: true", "labels: [coco]")
+        self.edit("mission.yaml", "labels: true", "labels: [objects]")
         self.assert_renders()
         labels = self.dataset()["labels"]
         self.assertEqual([one["name"] for one in labels["instances"]], ["heightmap_2", "heightmap"])

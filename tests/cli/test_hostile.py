@@ -10,8 +10,7 @@ import unittest
 
 from sandbox import SONARSIM, Sandbox, digest, path_csv, png_file
 
-COMMANDS = (("verify", "out"), ("status", "out"), ("gallery", "out"), ("merge", "out", "merged"),
-            ("merge", "--different", "out", "merged"), ("export", "out", "merged", "--format", "yolo"))
+COMMANDS = (("verify", "out"), ("status", "out"), ("merge", "out", "merged"))
 
 
 class Hostile(Sandbox):
@@ -65,25 +64,6 @@ class Hostile(Sandbox):
         for command in COMMANDS:
             self.assert_refused(self.run_sonarsim(*command), "not sonarsim's, or damaged")
 
-    def test_a_merge_touches_no_other_folder(self):
-        self.write("victim/kept.txt", "years of work")
-        self.change("mission", to="../victim")
-        self.assert_refused(self.run_sonarsim("merge", "--different", "out", "all"), "'mission'")
-        self.assertEqual(os.listdir(self.folder / "victim"), ["kept.txt"])
-        # Neither through a link that an unfinished merge is said to have left.
-        self.write("out/dataset.json", json.dumps(self.sound))
-        shutil.rmtree(self.out)
-        self.assert_renders()
-        self.assertEqual(self.run_sonarsim("merge", "--different", "out", "all").returncode, 0)
-        shutil.rmtree(self.folder / "all/box")
-        self.assertEqual(json.loads((self.folder / "all/collection.json").read_text())["complete"], True)
-        text = (self.folder / "all/collection.json").read_text()
-        self.write("all/collection.json", text.replace('"complete": true', '"complete": false'))
-        (self.folder / "all/box").symlink_to(self.folder / "victim")
-        result = self.run_sonarsim("merge", "--different", "out", "all")
-        self.assert_refused(result, "all/box", "is a symbolic link")
-        self.assertEqual(os.listdir(self.folder / "victim"), ["kept.txt"])
-
     def test_a_merge_finds_damaged_keys(self):
         """What the mission gives again is compared; the rest must be the same in all parts."""
         for keys, value, words in ((("seed",), 8, "'seed'"),
@@ -99,16 +79,7 @@ class Hostile(Sandbox):
         self.change("inputs", to=[], name="other")
         self.assert_refused(self.run_sonarsim("merge", "out", "other", "merged"), "other", "'inputs'")
 
-    def test_collections_and_variants(self):
-        self.assertEqual(self.run_sonarsim("merge", "--different", "out", "all").returncode, 0)
-        for old, new in (('"folder": "box"', '"folder": "../out"'), ('"datasets": [', '"datasets": [7,'),
-                         ('"complete": true', '"complete": 1')):
-            text = (self.folder / "all/collection.json").read_text()
-            self.assertIn(old, text)
-            self.write("all/collection.json", text.replace(old, new))
-            result = self.run_sonarsim("verify", "all")
-            self.assert_refused(result, "all/collection.json", "and must be")
-            self.write("all/collection.json", text)
+    def test_variants(self):
         for text in ('{"format": "sonarsim variants", "variants": 5}',
                      '{"format": "sonarsim variants", "variants": [{"folder": 5}]}',
                      '{"format": "sonarsim variants", "variants": [{"folder": "../out"}]}'):
@@ -145,23 +116,9 @@ class Hostile(Sandbox):
                                       capture_output=True, text=True, timeout=60,
                                       preexec_fn=None if sanitized else limit)
                 self.assertEqual(done.returncode, 1, done.stderr)
-                self.assertIn(f"{name}: its bytes differ from SHA256SUMS, and it does not "
-                              "open: ", done.stderr)
+                self.assertIn(f"{name}: its bytes differ from SHA256SUMS; remove it", done.stderr)
                 path.write_bytes(whole)
         self.assertEqual((self.out / "SHA256SUMS").read_text(), sums)
-
-    def test_the_gallery_tells_which_file(self):
-        for text in ("[", '{"measured": {"a": ' * 100, "7"):
-            self.write("out/fls/meta/000001.json", text)
-            result = self.run_sonarsim("gallery", "out")
-            self.assert_refused(result, "out/fls/meta/000001.json")
-            self.assertNotIn("json.exception", result.stderr)
-
-    def test_the_gallery_believes_no_count(self):
-        reported = json.loads(json.dumps(self.sound))
-        reported["poses"] = reported["sensors"][0]["pings"] = 10_000_000
-        self.write("out/dataset.json", json.dumps(reported))
-        self.assert_refused(self.run_sonarsim("gallery", "out"), "trajectory.tum", "has 2 poses")
 
     def test_variants_behind_a_link(self):
         self.write("victim/dataset.json", json.dumps(self.sound))

@@ -100,7 +100,7 @@ class Merge(Sandbox):
                 shutil.rmtree(self.folder / "all")
 
     def test_times_far_from_zero(self):
-        """What is written as trajectory.tum is read again by merge and gallery."""
+        """What is written as trajectory.tum is read again by merge."""
         for start in (1.7e9, 1e10 + 1, 9e11, -9e11):
             with self.subTest(start=start):
                 rows = path_csv(3).splitlines()
@@ -109,8 +109,6 @@ class Merge(Sandbox):
                 self.assert_renders("--out", "single")
                 self.assertEqual(self.merge("single", "all").returncode, 0)
                 self.assertEqual(digest(self.folder / "all"), digest(self.folder / "single"))
-                result = self.run_sonarsim("gallery", "single")
-                self.assertEqual(result.returncode, 0, result.stderr)
                 for name in ("single", "all"):
                     shutil.rmtree(self.folder / name)
         # A survey so slow that it would end beyond what is read is refused before it is rendered.

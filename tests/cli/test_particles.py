@@ -43,28 +43,19 @@ class Particles(Composed):
             y = 0.5 + 0.1 * k
             self.assertAlmostEqual(fish[0]["range_m"], (16 + y * y + 1.96) ** 0.5, delta=0.1)
 
-    def test_packs_have_room_for_all_targets(self):
-        self.calibrated()
-        self.edit("mission.yaml", "count: 1,", "count: 80, size_m: [0.5, 0.5, 0.5],")
-        files = [f"output.{kind}=false" for kind in ("labels", "image", "polar", "fan", "raw")]
-        settings = [word for one in files + ["output.pack=tar", "output.pack_size_mb=0.06"] for word in ("--set", one)]
-        self.assert_renders(*settings)
-        packs = list(self.out.rglob("*.tar"))
-        self.assertLessEqual(max(pack.stat().st_size for pack in packs), 60_000)
-        self.assertGreater(sum(pack.stat().st_size for pack in packs), 60_000)
-
     def test_an_echosounder_annotates_them(self):
-        """Targets have no visible share: it is not known, and leaves none of them out."""
+        """Targets have no visible share: it is not known."""
         self.calibrated()
         mission = (self.folder / "mission.yaml").read_text()
         sensors = mission[mission.index("sensors:\n"):]
         self.edit("mission.yaml", sensors, "sensors:\n  echo: {kind: echosounder, model: calibrated, range_max_m: 4}\n"
-                  "labels: {min_pixels: 1}\noutput: {folder: out, labels: [coco]}\n")
+                  "output: {folder: out, labels: [objects]}\n")
         self.edit("mission.yaml", "position_m: [4, 0.5, 0.6], drift_m_s: [0, 0.5, 0]", "position_m: [-0.5, 0, 0.8]")
         self.assert_renders()
-        coco = json.loads((self.out / "labels/coco_records.json").read_text())
-        self.assertEqual([one["visible_share"] for one in coco["annotations"]], [None])
-        self.assertAlmostEqual(coco["annotations"][0]["range_m"], 1.3, delta=0.05)
+        found = json.loads((self.out / "echo/objects.json").read_text())["objects"]
+        targets = [one for one in found if one["class"] == "fish"]
+        self.assertEqual([one["visible_share"] for one in targets], [None])
+        self.assertAlmostEqual(targets[0]["range_m"], 1.3, delta=0.05)
 
     def test_targets_that_no_ping_sees_warn(self):
         self.calibrated()

@@ -1,8 +1,8 @@
-"""sonarsim preview, and the style of fans."""
+"""sonarsim preview."""
 import struct
 import unittest
 
-from sandbox import Sandbox, digest
+from sandbox import Sandbox
 
 
 def png_header(data):
@@ -52,33 +52,6 @@ class Preview(Sandbox):
         self.assert_refused(self.run_sonarsim("preview", "mission.yaml", "--ping", 6),
                             "--ping 6: the mission has the pings 0 to 5")
         self.assertEqual(list(self.folder.glob("*.png")), [])
-
-
-class FanStyle(Sandbox):
-    def test_colours_rings_and_bearings(self):
-        """A style changes the fans to RGB, and nothing else; verify opens them."""
-        self.assert_renders("--out", "plain", "--set", "output.fan_width_px=200")
-        self.assert_renders("--out", "styled", "--set", "output.fan_width_px=200", "--set",
-                    "output.fan_style={colours: copper, rings: true, bearings: true}")
-        plain, styled = digest(self.folder / "plain"), digest(self.folder / "styled")
-        self.assertEqual(plain.keys(), styled.keys())
-        differ = {name for name in plain if plain[name] != styled[name]}
-        reported = {"dataset.json", "mission.resolved.yaml", "journal.txt", "SHA256SUMS"}
-        self.assertEqual(differ - reported, {f"fls/fan/{k:06d}.png" for k in range(6)})
-        first = "fls/fan/000000.png"
-        headers = [png_header((self.folder / d / first).read_bytes()) for d in ("plain", "styled")]
-        self.assertEqual([h[2] for h in headers], [0, 2])
-        self.assertEqual(headers[0][:2], headers[1][:2])
-        self.assertEqual(self.run_sonarsim("verify", "styled").returncode, 0)
-
-    def test_what_a_style_may_not_be(self):
-        for value, message in (
-                ("{colours: gray}", "unknown colours 'gray' (did you mean 'grey'?)"),
-                ("{colour: grey}", "unknown key 'colour' (did you mean 'colours'?)"),
-                ("{rings: 5}", "'rings' must be true or false")):
-            with self.subTest(value):
-                self.assert_refused(self.run_sonarsim("validate", "mission.yaml", "--set",
-                                                      f"output.fan_style={value}"), message)
 
 
 if __name__ == "__main__":

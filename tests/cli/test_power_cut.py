@@ -104,11 +104,5 @@ class PowerCut(Sandbox):
         self.assertGreater(lost, 4)
 
 
-class PackedPowerCut(PowerCut):
-    """The same with packs, which bear their final names while they are filled."""
-    MISSION = MISSION.replace("{folder: out,", "{folder: out, pack: tar, pack_size_mb: 0.05,")
-    FEWEST_CALLS = 100
-
-
 if __name__ == "__main__":
     unittest.main()

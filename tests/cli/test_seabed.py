@@ -73,7 +73,7 @@ class TestSeabed(Composed):
     scars: {density_per_m2: 0.02, length_m: [4, 8], width_m: [0.5, 1], depth_m: [0.1, 0.2]}
     rocks: {density_per_m2: 0.3, diameter_m: [0.3, 1.5], exponent: 2, material: steel}
     plants: {density_per_m2: 1, height_m: [0.2, 0.4], share: 0.5}
-""").replace("  labels: true\n", "  labels: [instance, class, material, coco]\n")
+""").replace("  labels: true\n", "  labels: [instance, class, material, objects]\n")
 
     def test_truth(self):
         """The files of the truth are that of what is rendered: the same heights as a heightmap, the same
@@ -107,9 +107,9 @@ class TestSeabed(Composed):
                          {"rock"})
         self.assertIn("plants", instances)
         self.assertGreater(len(reported["pockmarks"]) + len(reported["scars"]), 0)
-        annotated = json.loads((self.out / "labels/coco.json").read_text())
-        classes = {one["id"]: one["name"] for one in annotated["categories"]}
-        self.assertEqual({classes[one["category_id"]] for one in annotated["annotations"]} - {"crate"}, {"rock"})
+        background = self.dataset()["labels"]["annotations"]["background"]
+        seen = [one for file in self.out.glob("*/objects/*.json") for one in json.loads(file.read_text())["objects"]]
+        self.assertEqual({one["class"] for one in seen} - {"crate", *background}, {"rock"})
         # A dataset like any other: verified, and resumed where a file of the truth is gone.
         before = digest(self.out)
         self.assertEqual(self.run_sonarsim("verify", "out").returncode, 0)

@@ -238,8 +238,7 @@ class Disks(Sandbox):
         self.write("variants.yaml", (self.folder / "mission.yaml").read_text() + VARY)
         self.assert_renders("--out", "part")
         for arguments in (("render", "mission.yaml"), ("render", "mission.yaml", "--shard", "1/1"),
-                          ("render", "variants.yaml"), ("merge", "part", "out"),
-                          ("merge", "--different", "part", "out")):
+                          ("render", "variants.yaml"), ("merge", "part", "out")):
             with self.subTest(arguments=arguments):
                 shutil.rmtree(self.out, ignore_errors=True)
                 result = self.on_disk("nolock", *arguments)
@@ -272,12 +271,12 @@ class Disks(Sandbox):
 @unittest.skipIf(os.environ["SANITIZED"] == "1", "takes minutes under a sanitizer")
 class ManySensors(Sandbox):
     def test_files_that_are_open_at_the_same_time(self):
-        """1,500 sensors with a file of records and a pack each, and 256 files at most."""
+        """1,500 sensors with a file of records each, and 256 files at most."""
         sensors = "".join(
             f"  s{k}: {{kind: echosounder, range_max_m: 6, range_bins: 4}}\n" for k in range(1500))
         self.write("mission.yaml", "seed: 7\nscene: {file: box.gltf, materials: materials.csv}\n"
                    "trajectory: {file: path.csv}\nsensors:\n" + sensors +
-                   "output: {folder: out, full_scale: 1, pack: tar, pack_size_mb: 1}\n")
+                   "output: {folder: out, full_scale: 1}\n")
         self.write("path.csv", path_csv(2))
 
         def few_files():

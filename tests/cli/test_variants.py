@@ -73,46 +73,6 @@ class Variants(Sandbox):
         self.assert_renders()
         self.assertEqual(digest(self.out), whole)
 
-    def test_whole_variants_are_parted(self):
-        self.edit("mission.yaml", "output:\n",
-                  "output:\n  split: {train: 0.5, val: 0.25, test: 0.25}\n")
-        self.assert_renders()
-        parts = {part: (self.out / f"split/{part}.txt").read_text().split()
-                 for part in ("train", "val", "test")}
-        # They meet at 3 and at 4.5, which is rounded up.
-        self.assertEqual(parts, {"train": ["variant_0000", "variant_0001", "variant_0002"],
-                                 "val": ["variant_0003", "variant_0004"],
-                                 "test": ["variant_0005"]})
-        for one in self.index():
-            self.assertIn(one["folder"], parts[one["split"]])
-            self.assertFalse((self.out / one["folder"] / "split").exists())
-        self.edit("mission.yaml", "  split: {train: 0.5, val: 0.25, test: 0.25}\n",
-                  "  split: {train: 0.9, test: 0.1}\n")
-        result = self.assert_renders("--overwrite", "--set", "variants=3")
-        self.assertRegex(result.stderr, r"mission.yaml:\d+.*none of 3 variants is left for 'test'")
-        self.assertEqual([p.name for p in self.out.glob("split/*")], ["train.txt"])
-        self.edit("mission.yaml", "  split: {train: 0.9, test: 0.1}\n", "")
-        self.assert_renders("--overwrite")
-        self.assertFalse((self.out / "split").exists())
-
-    def test_what_is_refused_leaves_nothing(self):
-        """What the first variant is refused for."""
-        self.refused("output.pack_size_mb is too small", arguments=(
-            "--set", "output.pack=tar", "--set", "output.pack_size_mb=0.001"))
-
-    def test_fewer_variants_than_parts(self):
-        self.edit("mission.yaml", "output:\n",
-                  "output:\n  split: {train: 0.5, val: 0.25, test: 0.25}\n")
-        for command in ("validate", "render"):
-            result = self.run_sonarsim(command, "mission.yaml", "--set", "variants=2", "--strict")
-            self.assertEqual(result.returncode, 3, result.stderr)
-            self.assertRegex(result.stderr, r"mission.yaml:\d+.*none of 2 variants is left for 'val', "
-                             r"'test'")
-        self.assertEqual([p.name for p in self.out.glob("split/*")], ["train.txt"])
-        self.assertEqual((self.out / "split/train.txt").read_text().split(),
-                         ["variant_0000", "variant_0001"])
-        self.assertEqual(self.run_sonarsim("verify", "out").returncode, 0)
-
     def test_merge_and_verify(self):
         self.assert_renders()
         whole = digest(self.out)

@@ -51,16 +51,6 @@ class Verify(Sandbox):
         self.assertEqual((verdict["errors"], verdict["unknown_files"]), ([], []))
         self.assertEqual(self.verify("--quiet", "-j1").stderr, "")
 
-    def test_an_older_dataset_does_not_describe_its_arrays(self):
-        """It is whole; its files are compared with each other."""
-        description = json.loads((self.out / "dataset.json").read_text())
-        for sensor in description["sensors"]:
-            sensor.pop("arrays", None)
-            del sensor["pictures"]
-        self.write("out/dataset.json", json.dumps(description))
-        self.resum("dataset.json")
-        self.assertEqual(self.verify().returncode, 0, self.verify().stderr)
-
     def test_coreutils_take_the_sums(self):
         check = ["sha256sum", "--check", "--strict", "--quiet", "SHA256SUMS"]
         self.assertEqual(subprocess.run(check, cwd=self.out, check=False).returncode, 0)
@@ -102,39 +92,6 @@ class Verify(Sandbox):
                 self.assertEqual(self.verify().returncode, 1)
                 self.assert_renders()
                 self.assertEqual(digest(self.out), whole)
-
-    def test_truncated(self):
-        """Also where the sum is that of the truncated file: it does not open."""
-        for name, words in (("fls/image/000001.png", "does not open"),
-                            ("sss/waterfall.png", "does not open"),
-                            ("fls/polar/000001.npy", "bytes long instead of"),
-                            ("sounder/echogram.npy", "bytes long instead of"),
-                            ("mbes/bathymetry.tif", "does not open"),
-                            ("fls/meta/000000.json", "is no JSON")):
-            path = self.out / name
-            whole = path.read_bytes()
-            sums = (self.out / "SHA256SUMS").read_bytes()
-            with self.subTest(name=name):
-                path.write_bytes(whole[:len(whole) // 2])
-                self.resum(name)
-                self.assert_fault(f"{name}: ", words)
-            path.write_bytes(whole)
-            (self.out / "SHA256SUMS").write_bytes(sums)
-
-    def test_another_size(self):
-        """A file that opens and has its sum, and is not what dataset.json tells."""
-        for name, other in (("fls/polar/000001.npy", "sss/waterfall.npy"),
-                            ("fls/image/000001.png", "fls/fan/000001.png"),
-                            ("fls/fan/000001.png", "fls/image/000001.png")):
-            path = self.out / name
-            whole = path.read_bytes()
-            sums = (self.out / "SHA256SUMS").read_bytes()
-            with self.subTest(name=name):
-                shutil.copy(self.out / other, path)
-                self.resum(name)
-                self.assert_fault(f"{name}: ", "dataset.json says")
-            path.write_bytes(whole)
-            (self.out / "SHA256SUMS").write_bytes(sums)
 
     def test_a_stranger_does_no_harm(self):
         self.write("out/notes.txt", "mine")
@@ -193,12 +150,10 @@ class EveryFile(Sandbox):
         self.draw = random.Random(7)
         # The other two sonars write files of the same sorts.
         kept = [line for line in MISSION.splitlines() if not line.startswith(("  mbes", "  sounder"))]
-        mission = "\n".join(kept).replace("fan_width_px: 32", "fan_width_px: 32, "
-                                          "split: {train: 0.5, test: 0.5, gap: 0}") + "\n"
-        labels = mission.replace("fan_width_px: 32", "fan_width_px: 32, labels: [instance, coco, yolo]")
-        labels += "labels: {background: [none], min_pixels: 1}\n"
+        mission = "\n".join(kept).replace("fan_width_px: 32", "fan_width_px: 32") + "\n"
+        labels = mission.replace("fan_width_px: 32", "fan_width_px: 32, labels: [instance, objects]")
+        labels += "labels: {background: [none]}\n"
         self.write("mission.yaml", labels)
-        self.write("packed.yaml", labels.replace("{folder: out,", "{folder: out, pack: tar,"))
         self.write("variants.yaml", mission + "variants: 2\n"
                    "vary: [{key: water.sound_speed_m_s, uniform: [1470, 1490]}]\n")
 
@@ -229,39 +184,27 @@ class EveryFile(Sandbox):
         self.done("render", "mission.yaml")
         self.assertGreater(self.check_every_file(), 20)
 
-    def test_packed(self):
-        self.done("render", "packed.yaml")
-        self.assertGreater(self.check_every_file(), 10)
-
     def test_variants(self):
         self.done("render", "variants.yaml")
-        self.assertTrue((self.out / "split/test.txt").exists())
         self.assertGreater(self.check_every_file(), 30)
 
     def test_merged(self):
         for k in (1, 2):
-            self.done("render", "packed.yaml", "--shard", f"{k}/2", "--out", f"part{k}")
+            self.done("render", "mission.yaml", "--shard", f"{k}/2", "--out", f"part{k}")
         self.done("merge", "part1", "part2", "out")
-        self.check_every_file()
-
-    def test_collected(self):
-        for name in ("packed", "other"):
-            self.done("render", "packed.yaml", "--set", f"name={name}", "--out", name)
-        self.done("merge", "--different", "packed", "other", "out")
         self.check_every_file()
 
     def test_unknown_files_beside_variants(self):
         self.done("render", "variants.yaml")
         self.write("out/notes.txt", "mine")
-        self.write("out/split/more.txt", "mine")
         result = self.run_sonarsim("verify", "out", "--json")
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(json.loads(result.stdout)["unknown_files"], ["notes.txt", "split/more.txt"])
+        self.assertEqual(json.loads(result.stdout)["unknown_files"], ["notes.txt"])
 
     def test_the_cure_cures_variants(self):
         self.done("render", "variants.yaml")
         whole = digest(self.out)
-        for name in ("SHA256SUMS", "split/train.txt"):
+        for name in ("SHA256SUMS", "variants.json"):
             for spoil in (lambda path: path.unlink(), lambda path: path.write_text("")):
                 spoil(self.out / name)
                 self.assertEqual(self.run_sonarsim("verify", "out").returncode, 1)

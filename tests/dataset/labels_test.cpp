@@ -23,12 +23,10 @@ namespace {
 
 constexpr int labelled_poses = 4;
 
-const std::vector<Label> all_labels = {Label::instance,   Label::share,       Label::second,
-                                       Label::class_name, Label::material,    Label::elevation,
-                                       Label::height,     Label::shadow,      Label::multipath,
-                                       Label::clean,      Label::direct_only, Label::multipath_only,
-                                       Label::objects,    Label::fan,         Label::semantic,
-                                       Label::coco,       Label::yolo,        Label::yolo_polygons};
+const std::vector<Label> all_labels = {
+    Label::instance,    Label::share,          Label::second,  Label::class_name, Label::material,
+    Label::elevation,   Label::height,         Label::shadow,  Label::multipath,  Label::clean,
+    Label::direct_only, Label::multipath_only, Label::objects, Label::fan};
 
 Mission labelled_mission(const fs::path& folder) {
     Mission mission = survey_mission(folder);
@@ -124,6 +122,19 @@ TEST_SUITE("dataset") {
         for (const auto& object : seen["objects"])
             area += object["area_bins"].get<std::uint64_t>();
         CHECK(area == occupied);
+        const auto in_strip = nlohmann::json::parse(read_file(out / "sss/objects.json", 1 << 20));
+        CHECK(in_strip["picture"] == "waterfall.png");
+        CHECK(in_strip["width"] == 192);
+        CHECK(in_strip["height"] == labelled_poses);
+        std::uint64_t in_port = 0;
+        for (const auto& object : in_strip["objects"])
+            in_port += object["side"] == "port" ? object["area_px"].get<std::uint64_t>() : 0;
+        std::uint64_t expected = 0;
+        for (std::size_t k = 0; k < 4U * 192U; ++k)
+            expected += row[k] > 0 && k % 192 < 96;
+        CHECK(in_port == expected);
+        CHECK(fs::exists(out / "scan/objects_0000.json"));
+        CHECK_FALSE(fs::exists(out / "sss/objects"));
     }
 
     TEST_CASE("labels: the same bytes for any number of threads, after a resume and overwritten") {

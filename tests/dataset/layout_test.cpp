@@ -43,42 +43,14 @@ TEST_SUITE("dataset") {
 
     TEST_CASE("layout: output chooses the files, and there must be some") {
         Mission mission = small_mission("out");
-        mission.output.polar = PolarFormat::none;
-        mission.output.fan = FanFormat::none;
+        mission.output.polar = false;
+        mission.output.fan = false;
         CHECK(per_ping(layout_of(mission, 1).sensors[1]) == Names{"image", "meta"});
         mission.output.image = mission.output.meta = false;
         CHECK_THROWS_WITH_AS(layout_of(mission, 1),
                              "mission 'small' writes nothing of sensor 'front': set output.meta, "
                              "or another output of its kind, to true",
                              InputError);
-    }
-
-    TEST_CASE("layout: packs of as many pings as fit, each in one shard") {
-        Mission mission = survey_mission("out");
-        mission.output.pack = Pack::tar;
-        mission.output.pack_size_mb = 0.1;
-        const Layout layout = layout_of(mission, 100);
-        for (std::uint32_t sensor = 0; sensor < layout.sensors.size(); ++sensor) {
-            const SensorLayout& own = layout.sensors[sensor];
-            REQUIRE(own.pings_per_pack > 1);
-            CHECK(layout.packs(sensor) ==
-                  (own.pings + own.pings_per_pack - 1) / own.pings_per_pack);
-            const auto each = static_cast<std::uint32_t>(own.pings_per_pack);
-            const PingId last_of_first{(each - 1) * own.every, sensor};
-            CHECK(layout.pack_of(last_of_first) == 0);
-            CHECK(layout.is_last_in_pack(last_of_first));
-            const PingId first_of_second{each * own.every, sensor};
-            CHECK(layout.pack_of(first_of_second) == 1);
-            CHECK(layout.pack_file(first_of_second).filename() == "000001.tar");
-            CHECK(shard_of(layout, last_of_first, 17, 2) == 0);
-            CHECK(shard_of(layout, first_of_second, 17, 2) == 1);
-            const auto last = static_cast<std::uint32_t>(own.pings - 1) * own.every;
-            CHECK(layout.is_last_in_pack({last, sensor}));
-        }
-        CHECK(layout.member({7, 0}, {"polar", ".npy"}) ==
-              layout.sensors[0].name + "-000007.polar.npy");
-        mission.output.pack_size_mb = 0.001;
-        CHECK_THROWS_AS(layout_of(mission, 100), InputError);
     }
 
     TEST_CASE("layout: side-scan and echosounders have records and no image per ping") {

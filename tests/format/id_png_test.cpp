@@ -51,22 +51,4 @@ TEST_SUITE("dataset") {
         const std::vector<std::uint16_t> blank(512 * 256, 0);
         CHECK(id_png_bytes(blank, 256, 512).size() < 4000);
     }
-
-    TEST_CASE("PNG with a colour table") {
-        const std::vector<Rgb> table{colour_of(0), colour_of(1), colour_of(2), colour_of(3)};
-        CHECK(table[0] == Rgb{0, 0, 0});
-        CHECK(table[1] == Rgb{128, 0, 0});  // the first of PASCAL VOC's
-        CHECK(table[2] == Rgb{0, 128, 0});
-        CHECK(table[3] == Rgb{128, 128, 0});
-        CHECK(colour_of(8) == Rgb{64, 0, 0});
-        const std::vector<std::uint8_t> indices{0, 1, 2, 3, 3, 2};
-        const auto rgb =
-            decoded<std::uint8_t>(palette_png_bytes(indices, 3, 2, table), OIIO::TypeDesc::UINT8);
-        REQUIRE(rgb.size() == 18);
-        for (std::size_t k = 0; k < indices.size(); ++k) {
-            for (std::size_t c = 0; c < 3; ++c)
-                CHECK(rgb[3 * k + c] ==
-                      std::array{table[indices[k]].r, table[indices[k]].g, table[indices[k]].b}[c]);
-        }
-    }
 }

@@ -3,8 +3,8 @@
 
     tests/golden/goldens.py PROGRAM [--write] [--keep FOLDER]
 
-Each mission is rendered with one and with two threads, one of them in three shards that are merged, too, and one that is
-killed and resumed. A line of goldens.txt is a dataset, a sensor (or `-`), a kind of file, the number of such files, and
+Each mission is rendered with one and with two threads, one also in three shards that are merged, and one
+that is killed and resumed. A line of goldens.txt is a dataset, a sensor (or `-`), a kind of file, the number of such files, and
 the hash of their contents: arrays, decoded pixels, parsed JSON without what names a build, a version or a sum. The
 variants of a mission are one dataset here. --write makes goldens.txt anew; say in the commit why its lines changed.
 """
@@ -154,7 +154,8 @@ class Renderer:
 def all_runs(renderer):
     """Name, way of rendering, and lines of every run, two at a time."""
     names = sorted(path.stem for path in (HERE / "missions").glob("*.yaml"))
-    jobs = [(name, f"{threads} threads", renderer.with_threads, (name, threads)) for threads in (1, 2) for name in names]
+    jobs = [(name, f"{threads} threads", renderer.with_threads, (name, threads))
+            for threads in (1, 2) for name in names]
     jobs += [(SHARDED, "three shards", renderer.sharded, (SHARDED,)), (KILLED, "killed", renderer.killed, (KILLED,))]
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         futures = [(name, way, pool.submit(run, *arguments)) for name, way, run, arguments in jobs]

@@ -217,31 +217,6 @@ TEST_SUITE("job") {
         CHECK(contents(out) == whole_dataset());
     }
 
-    TEST_CASE("job: sizes of a made up journal do not wrap") {
-        const TemporaryFolder temporary;
-        const fs::path out = temporary.path / "out";
-        Mission mission = small_mission(out);
-        mission.output.pack = Pack::tar;
-        run(mission);
-        const auto whole = contents(out);
-        // Two files of 2^63 bytes more give the same sum of 64 bits.
-        JournalEntries entries = read_journal(out);
-        const PingId ping{0, 0};
-        std::vector<std::string> fields = entries.pings.find(ping).value();
-        for (std::size_t k = 0; k < 2; ++k) {
-            FileEntry entry = parse_entry(fields[k]).value();
-            entry.bytes += std::uint64_t{1} << 63;
-            fields[k] = entry_text(entry);
-        }
-        entries.pings.add(ping, fields);
-        entries.pings.sort();
-        fs::remove(out / "journal.txt");
-        fs::create_directory(out / "journal.d");
-        write_journal(out / "journal.d/1-of-1.txt", entries);
-        CHECK(run(mission).pings > 0);
-        CHECK(contents(out) == whole);
-    }
-
     TEST_CASE("job: options that make no sense are refused") {
         const TemporaryFolder temporary;
         const Mission mission = small_mission(temporary.path / "out");

@@ -100,7 +100,7 @@ TEST_SUITE("job") {
     TEST_CASE("job: output chooses what is written") {
         const TemporaryFolder temporary;
         Mission mission = small_mission(temporary.path / "out");
-        mission.output.polar = PolarFormat::none;
+        mission.output.polar = false;
         mission.output.image = mission.output.meta = false;
         run(mission);
         CHECK(contents(temporary.path / "out").size() == 5 + pings);

@@ -196,9 +196,9 @@ TEST_SUITE("job") {
         const fs::path out = temporary.path / "out";
         Mission mission = survey_mission(out);
         mission.output.waterfall = mission.output.soundings = false;
-        mission.output.polar = PolarFormat::none;
+        mission.output.polar = false;
         mission.output.image = false;
-        mission.output.fan = FanFormat::none;
+        mission.output.fan = false;
         CHECK(run(mission).complete);
         CHECK_FALSE(fs::exists(out / "sss/waterfall.npy"));
         CHECK_FALSE(fs::exists(out / "mbes/soundings.csv"));

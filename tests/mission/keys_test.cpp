@@ -132,7 +132,7 @@ TEST_CASE("sensor names are folder names") {
     }
     CHECK(refusal(before + "'': {kind: imaging}}\n") ==
           "m.yaml:3:11: the name '' must be 1 to 64 letters, digits, '_' or '-'");
-    for (const std::string name : {"SHA256SUMS", "labels", "split"}) {
+    for (const std::string name : {"SHA256SUMS", "seabed"}) {
         CHECK(refusal(before + name + ": {kind: imaging}}\n") ==
               "m.yaml:3:11: the name '" + name +
                   "' is that of a file or folder of the dataset; take another");

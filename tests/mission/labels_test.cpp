@@ -9,7 +9,7 @@ TEST_SUITE_BEGIN("mission");
 TEST_CASE("labels: all, none or a list, in one order") {
     CHECK(parse(smallest_mission).output.labels.empty());
     CHECK(parse(smallest_mission + "output: {labels: false}\n").output.labels.empty());
-    CHECK(parse(smallest_mission + "output: {labels: true}\n").output.labels.size() == 18);
+    CHECK(parse(smallest_mission + "output: {labels: true}\n").output.labels.size() == 14);
     const Mission mission = parse(smallest_mission + "output: {labels: [shadow, instance]}\n");
     CHECK(mission.output.labels == std::vector<Label>{Label::instance, Label::shadow});
     CHECK(parse(resolved_yaml(mission, sonar_keys())) == mission);
@@ -22,17 +22,17 @@ TEST_CASE("labels: all, none or a list, in one order") {
           "m.yaml:6:26: 'clean' stands twice in 'labels'");
 }
 
-TEST_CASE("split: shares that add up to 1, or none") {
-    CHECK_FALSE(parse(smallest_mission).output.split.is_on());
-    const Mission mission =
-        parse(smallest_mission + "output: {split: {train: 0.8, val: 0.1, test: 0.1, gap: 4}}\n");
-    CHECK(mission.output.split.is_on());
-    CHECK(mission.output.split.gap == 4);
-    CHECK(mission.output.split.place.location.text() == "m.yaml:6:17");
-    CHECK(parse(resolved_yaml(mission, sonar_keys())) == mission);
+TEST_CASE("keys and labels that are gone say what to do instead") {
+    CHECK(refusal(smallest_mission + "output: {split: {train: 0.8, val: 0.2}}\n") ==
+          "m.yaml:6:10: 'split' is no longer there; give the shares to the export: sonarsim export "
+          "--split");
+    CHECK(refusal(smallest_mission + "labels: {min_pixels: 4}\n") ==
+          "m.yaml:6:10: 'min_pixels' is no longer there; give it to the export: sonarsim export "
+          "--min-pixels");
     CHECK(
-        refusal(smallest_mission + "output: {split: {train: 0.8, val: 0.1}}\n") ==
-        "m.yaml:6:35: train, val and test must add up to 1 (train is 0.8, val is 0.1, test is 0)");
+        refusal(smallest_mission + "output: {labels: [instance, coco]}\n") ==
+        "m.yaml:6:29: 'coco' is no longer there; write labels: [objects], then run sonarsim export "
+        "--format coco");
 }
 
 TEST_CASE("classes: rules in the order of the file, and where they stand") {

@@ -38,16 +38,13 @@ Mission unusual_mission() {
     mission.engine = EngineKind::octree;
     mission.octree = {0.0234, 77, true};
     mission.output = {.folder = "/o",
-                      .polar = PolarFormat::exr,
+                      .polar = false,
                       .image = true,
-                      .fan = FanFormat::webp,
+                      .fan = false,
                       .meta = false,
                       .stages = true,
                       .fan_width_px = 99,
-                      .fan_style = {FanColours::sea, true, true},
                       .full_scale = 0.125,
-                      .pack = Pack::tar,
-                      .pack_size_mb = 3.5,
                       .waterfall = false,
                       .echogram = false,
                       .soundings = false,
@@ -170,11 +167,6 @@ slices:
 classes: []
 labels:
   background: ["auto"]
-  min_pixels: 16
-  min_visible_share: 0.1
-  min_contrast_db: 1
-  faint: omit
-  box: object
 output:
   folder: "/o"
   polar: true
@@ -184,20 +176,8 @@ output:
   meta: true
   stages: false
   fan_width_px: 0
-  fan_style:
-    colours: grey
-    rings: false
-    bearings: false
   full_scale: auto
   labels: false
-  split:
-    train: 0
-    val: 0
-    test: 0
-    gap: 10
-    rounds: 1
-  pack: none
-  pack_size_mb: 256
   waterfall: true
   echogram: true
   soundings: true

@@ -76,12 +76,12 @@ TEST_SUITE("preview") {
         for (std::size_t k = 0; k < tile.texts.size(); ++k) {
             const PictureText& text = tile.texts[k];
             CHECK(text.text != "floor");
-            const int half = estimated_width(text.text) / 2;
+            const int half = text_width(text.text) / 2;
             CHECK(text.x - half >= frame.left - 1);
             CHECK(text.x + half <= frame.left + frame.plot_width + 1);
             for (std::size_t other = 0; other < k; ++other) {
                 const PictureText& next = tile.texts[other];
-                const int apart = estimated_width(next.text) / 2 + half;
+                const int apart = text_width(next.text) / 2 + half;
                 CHECK((std::abs(text.y - next.y) >= label_px ||
                        std::abs(text.x - next.x) >= apart - 2));
             }

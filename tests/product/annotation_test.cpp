@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "product/contrast.h"
@@ -13,44 +12,11 @@
 using namespace sonarsim;
 
 TEST_SUITE("product") {
-    TEST_CASE("annotations: each rule alone leaves an object out or makes it a crowd") {
-        const LabelConfig rules{
-            .min_pixels = 10, .min_visible_share = 0.25, .min_contrast_db = 2.0, .place = {}};
-        const ObjectFacts good{false, 10, 0.25, 2.0, std::nullopt};
-        CHECK(is_annotated(good, rules) == Annotated::yes);
-        ObjectFacts few = good;
-        few.pixels = 9;
-        ObjectFacts hidden = good;
-        hidden.visible_share = 0.24;
-        ObjectFacts faint = good;
-        faint.contrast_db = 1.9;
-        for (const ObjectFacts& facts : {few, hidden, faint}) {
-            CHECK(is_annotated(facts, rules) == Annotated::no);
-            LabelConfig crowds = rules;
-            crowds.faint = FaintObjects::crowd;
-            CHECK(is_annotated(facts, crowds) == Annotated::as_crowd);
-        }
-        // Dark objects are seen, too, and so are those whose shadow is.
-        faint.contrast_db = -2.1;
-        CHECK(is_annotated(faint, rules) == Annotated::yes);
-        faint.contrast_db = 0.0;
-        faint.shadow_contrast_db = -9.0;
-        CHECK(is_annotated(faint, rules) == Annotated::yes);
-        // Facts that are not known leave nothing out; background is never annotated.
-        CHECK(is_annotated({false, 10, {}, {}, {}}, rules) == Annotated::yes);
-        ObjectFacts floor = good;
-        floor.is_background = true;
-        CHECK(is_annotated(floor, rules) == Annotated::no);
-    }
-
-    TEST_CASE("annotations: boxes of object, shadow and both") {
-        const PixelBox object{4, 8, 10, 14};
-        const PixelBox shadow{5, 9, 2, 10};
-        CHECK(annotation_box(object, shadow, LabelBox::object) == object);
-        CHECK(annotation_box(object, shadow, LabelBox::shadow) == shadow);
-        CHECK(annotation_box(object, shadow, LabelBox::both) == PixelBox{4, 9, 2, 14});
-        CHECK(annotation_box(object, {}, LabelBox::both) == object);
-        CHECK_FALSE(annotation_box(object, {}, LabelBox::shadow).has_value());
+    TEST_CASE("boxes of pixels: an empty one adds nothing") {
+        const PixelBox box{4, 8, 10, 14};
+        CHECK(joined(box, {5, 9, 2, 10}) == PixelBox{4, 9, 2, 14});
+        CHECK(joined({}, box) == box);
+        CHECK(joined(box, {}) == box);
     }
 
     TEST_CASE("contrast: the level of an object over that next to it at the same range") {

@@ -4,8 +4,6 @@
 
 #include <random>
 
-#include "product/mask_outline.h"
-
 using namespace sonarsim;
 
 namespace {
@@ -80,22 +78,5 @@ TEST_SUITE("product") {
                 CHECK(mask.area == area);
             }
         }
-    }
-
-    TEST_CASE("outlines: a ring has one around it, pixels at a corner have two") {
-        // 3 x 3 pixels without the one in the middle, and one more that touches at a corner:
-        //     # # # .
-        //     # . # .
-        //     # # # .
-        //     . . . #
-        const Ids ids{1, 1, 1, 0, 1, 0, 1, 0, 1, 1, 1, 0, 0, 0, 0, 1};
-        const auto outlines = mask_outlines(object_masks(ids, 4).at(0), 4);
-        REQUIRE(outlines.size() == 2);
-        CHECK(outlines[0] == std::vector<Corner>{{0, 0}, {3, 0}, {3, 3}, {0, 3}});
-        CHECK(outlines[1] == std::vector<Corner>{{3, 3}, {4, 3}, {4, 4}, {3, 4}});
-        const auto joined = joined_outline(outlines);
-        CHECK(joined ==
-              std::vector<Corner>{
-                  {0, 0}, {3, 0}, {3, 3}, {0, 3}, {0, 0}, {3, 3}, {4, 3}, {4, 4}, {3, 4}, {3, 3}});
     }
 }

@@ -6,6 +6,7 @@
 #include "dataset/writers/label_writers.h"
 #include "format/id_png.h"
 #include "format/png.h"
+#include "product/scan.h"
 
 namespace sonarsim {
 
@@ -125,11 +126,11 @@ constexpr LabelFile label_files[] = {
     {Label::multipath_only, "multipath_only", {}, {}, &multipath_alone},
 };
 
-/// Records of sonars without images. Their COCO files are made from these records and from the
-/// records of instances.
+/// Records of sonars without images. Their files of objects are made of these and of the records of
+/// instances.
 constexpr LabelFile annotation_records[] = {
-    {Label::coco, object_shadow_record, ids<&PingLabels::object_shadow>, {}, {}, "instances"},
-    {Label::coco, visible_share_record, visible_shares},
+    {Label::objects, object_shadow_record, ids<&PingLabels::object_shadow>, {}, {}, "instances"},
+    {Label::objects, visible_share_record, visible_shares},
 };
 
 /// A file per ping with the rows and columns of the sonar's image.
@@ -205,6 +206,23 @@ class LabelFanWriter final : public Writer {
     const LabelFile& file_;
 };
 
+/// The files of objects in the pictures of the records; dataset/record_objects.h writes them.
+std::vector<Product> record_objects(const WriterContext& context) {
+    constexpr double longest_object = 1000.0;
+    const RecordShape& shape = context.kind().record;
+    const SonarConfig& config = context.sonar().config;
+    if (!shape.is_written(context.mission.output)) return {};
+    const auto objects = static_cast<double>(context.assembly.objects.objects.size());
+    // A mask takes at most a byte for a pixel, where ids are as ragged as noise.
+    const double bytes = static_cast<double>(shape.values(config) * context.pings) +
+                         longest_object * (1.0 + 2.0 * objects);
+    if (shape.pictures == RecordPictures::strip) return {{record_objects_name, bytes}};
+    std::vector<Product> products;
+    for (std::size_t k = 0; k < scan_sweeps(config, context.pings); ++k)
+        products.push_back({scan_file_name("objects", k, ".json"), bytes});
+    return products;
+}
+
 /// A file of records, one to a ping.
 class LabelRecordWriter final : public Writer {
   public:
@@ -216,6 +234,9 @@ class LabelRecordWriter final : public Writer {
                                     ? record_outputs(context_, file_.name, "<u2", 2, file_.name)
                                     : record_outputs(context_, file_.name, "<f4", 4, file_.name);
         std::get<PingRecord>(outputs.per_ping).ids = file_.ids;
+        const bool has_objects =
+            file_.label == Label::instance && is_asked(context_.mission, Label::objects);
+        if (has_objects) outputs.products = record_objects(context_);
         return outputs;
     }
 
@@ -252,25 +273,20 @@ std::vector<std::unique_ptr<Writer>> make_label_writers(const WriterContext& con
     };
     const Mission& mission = context.mission;
     const bool has_images = context.kind().has_images;
-    const bool has_fan = has_images && mission.output.has_fan() && is_asked(mission, Label::fan);
+    const bool has_fan = has_images && mission.output.fan && is_asked(mission, Label::fan);
     for (const LabelFile& file : label_files) {
-        // COCO files of waterfalls and echograms are made of the records.
-        const bool for_coco =
-            !has_images && file.label == Label::instance && is_asked(mission, Label::coco);
-        if (!is_asked(mission, file.label) && !for_coco) continue;
+        const bool for_objects =
+            !has_images && file.label == Label::instance && is_asked(mission, Label::objects);
+        if (!is_asked(mission, file.label) && !for_objects) continue;
         if (has_images) add(std::make_unique<LabelImageWriter>(context, file));
         if (!has_images) add(std::make_unique<LabelRecordWriter>(context, file));
         if (has_fan && file.ids_of) add(std::make_unique<LabelFanWriter>(context, file));
     }
     for (const LabelFile& file : annotation_records) {
-        if (!has_images && is_asked(mission, Label::coco))
+        if (!has_images && is_asked(mission, Label::objects))
             add(std::make_unique<LabelRecordWriter>(context, file));
     }
     add(make_objects_writer(context));
-    for (auto& writer : make_semantic_writers(context))
-        add(std::move(writer));
-    for (auto& writer : make_yolo_writers(context))
-        add(std::move(writer));
     return writers;
 }
 

@@ -64,7 +64,6 @@ class ObjectsWriter final : public Writer {
     explicit ObjectsWriter(const WriterContext& context)
         : context_(context),
           view_(context.sonar().settings.view),
-          with_masks_(is_asked(context.mission, Label::coco)),
           buried_(buried_objects(context)),
           boxes_(object_boxes(context.assembly)),
           moving_(moving_objects(context.assembly)) {}
@@ -75,10 +74,8 @@ class ObjectsWriter final : public Writer {
         const double bins = static_cast<double>(view_.range_bins) * view_.beams;
         const auto objects = static_cast<double>(context_.assembly.objects.objects.size());
         double bytes = 100.0 + longest_object * std::min(objects, bins);
-        if (with_masks_) {
-            const FanFrame fan = fan_frame(context_.sonar(), context_.mission.output.fan_width_px);
-            bytes += masks_per_pixel * (bins + static_cast<double>(fan.width) * fan.height);
-        }
+        const FanFrame fan = fan_frame(context_.sonar(), context_.mission.output.fan_width_px);
+        bytes += masks_per_pixel * (bins + static_cast<double>(fan.width) * fan.height);
         return {PingFile{"objects", ".json"}, bytes, {}};
     }
 
@@ -125,12 +122,20 @@ class ObjectsWriter final : public Writer {
             json["visible_share"] = finished.labels->bins.visible_share[seen.id - 1];
         json["contrast_db"] = number_or_null(seen.contrast_db);
         if (!seen.shadow.is_empty()) json["shadow"] = shadow_json(seen);
+        json["clipped"] = is_clipped(seen);
         const ObjectMask* const polar = mask_of(finished.labels->polar, seen.id);
-        if (with_masks_ && polar) json["mask"] = coco_counts(polar->runs);
+        if (polar) json["mask"] = coco_counts(polar->runs);
         if (!finished.labels->fan_bins->by_row.empty()) {
             json["fan"] = fan_json(seen, mask_of(finished.labels->fan, seen.id));
         }
         return json;
+    }
+
+    /// True if its bins touch the first or last range bin or an edge beam: the view cuts it off.
+    bool is_clipped(const ObjectInPing& seen) const {
+        const bool at_side = seen.beam_first == 0 || seen.beam_last + 1 == view_.beams;
+        return seen.range_first == 0 || seen.range_last + 1 == view_.range_bins ||
+               (at_side && !is_full_turn(view_));
     }
 
     static Json shadow_json(const ObjectInPing& seen) {
@@ -153,13 +158,12 @@ class ObjectsWriter final : public Writer {
             json["shadow_box_px"] = {{"x", {shadow.left, shadow.right}},
                                      {"y", {shadow.top, shadow.bottom}}};
         }
-        if (with_masks_) json["mask"] = coco_counts(mask->runs);
+        json["mask"] = coco_counts(mask->runs);
         return json;
     }
 
     WriterContext context_;
     const View& view_;
-    bool with_masks_;
     std::vector<bool> buried_;                         ///< indexed by object
     std::vector<Eigen::AlignedBox3d> boxes_;           ///< indexed by object, world frame
     std::vector<std::optional<MovingObject>> moving_;  ///< indexed by object
@@ -168,9 +172,8 @@ class ObjectsWriter final : public Writer {
 }  // namespace
 
 std::unique_ptr<Writer> make_objects_writer(const WriterContext& context) {
-    const Mission& mission = context.mission;
-    const bool for_coco = is_asked(mission, Label::coco) && context.kind().has_images;
-    if (!for_coco && !is_asked(mission, Label::objects)) return nullptr;
+    const bool asked = is_asked(context.mission, Label::objects);
+    if (!asked || !context.kind().has_images) return nullptr;
     return std::make_unique<ObjectsWriter>(context);
 }
 

@@ -1,9 +1,10 @@
 #include "product/scan.h"
 
 #include "core/atomic_file.h"
-#include "dataset/fan_png.h"
 #include "dataset/writer.h"
 #include "format/npy.h"
+#include "format/png.h"
+#include "product/fan.h"
 
 namespace sonarsim {
 
@@ -11,7 +12,7 @@ namespace {
 
 /// scan.npy: float32 [ping, range], one column of the display per ping. The display after each
 /// sweep of the head, and after the unfinished one at the end: scan_NNNN.npy, float32 [range,
-/// step], and scan_NNNN.png, 8 bits per channel, round, boresight up.
+/// step], and scan_NNNN.png, grey, 8 bits, round, boresight up.
 class ScanWriter final : public Writer {
   public:
     explicit ScanWriter(const WriterContext& context)
@@ -19,7 +20,7 @@ class ScanWriter final : public Writer {
           sonar_(context.sonar()),
           name_(context.kind().record.name),
           steps_(scan_steps(sonar_.config)),
-          png_(make_fan_png(whole_scan(sonar_), context.mission.output)) {}
+          map_(make_fan_map(whole_scan(sonar_), context.mission.output.fan_width_px)) {}
 
     WriterOutputs outputs() const override {
         WriterOutputs outputs = record_outputs(context_, name_, "<f4", 4);
@@ -27,7 +28,8 @@ class ScanWriter final : public Writer {
             static_cast<double>(sonar_.config.range_bins) * static_cast<double>(steps_);
         for (std::size_t sweep = 0; sweep < scan_sweeps(sonar_.config, context_.pings); ++sweep) {
             outputs.products.push_back({name(sweep, ".npy"), 128.0 + 4.0 * values});
-            outputs.products.push_back({name(sweep, ".png"), fan_png_bytes_at_most(png_)});
+            outputs.products.push_back(
+                {name(sweep, ".png"), png_bytes_at_most(map_.frame.width, map_.frame.height, 1)});
         }
         return outputs;
     }
@@ -52,7 +54,7 @@ class ScanWriter final : public Writer {
         const RecordShape& shape = context_.kind().record;
         if (shape.describe) shape.describe(sonar_, sensor);
         const std::string file = sonar_.config.name + "/" + name_ + "_%04d.png";
-        const FanFrame& frame = png_.map.frame;
+        const FanFrame& frame = map_.frame;
         sensor["pictures"].push_back({{"title", name_},
                                       {"file", file},
                                       {"per", "sweep"},
@@ -73,7 +75,8 @@ class ScanWriter final : public Writer {
         array.append(npy_bytes(image.intensity, image.range_bins, image.beams));
         array.finish();
         StreamedFile picture(folder / name(sweep, ".png"));
-        picture.append(fan_png_bytes(png_, image, context_.full_scale()));
+        picture.append(png_bytes(render_fan(map_, image, context_.full_scale()), map_.frame.width,
+                                 map_.frame.height));
         picture.finish();
     }
 
@@ -81,7 +84,7 @@ class ScanWriter final : public Writer {
     const Sonar& sonar_;
     std::string name_;
     std::size_t steps_;
-    FanPng png_;
+    FanMap map_;
 };
 
 }  // namespace

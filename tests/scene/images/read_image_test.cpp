@@ -174,10 +174,12 @@ TEST_CASE("a mask of unknown pixels is refused, unless a value marks them, too")
         write_file(path, bytes + mask);
         return error_of_image(path);
     };
-    const std::string plain = tiff_bytes(numbers(), columns);
+    std::string plain = geotiff_bytes(numbers(), columns, {});
+    plain[8] = 12;  // without the last tag, which is the mark of unknown pixels
+    std::memset(&plain[10 + 12 * 12], 0, 12);
     write_file(path, plain);
     CHECK(error_of_image(path).empty());
-    CHECK(tells(with_mask(plain, 10), "marks unknown pixels by a mask"));
+    CHECK(tells(with_mask(plain, 12), "marks unknown pixels by a mask"));
     CHECK(with_mask(geotiff_bytes(numbers(), columns, {}), 13).empty());  // NaN is its mark
 }
 

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace sonarsim {
+
+/// A key of a section, or a value of a key, that missions had once.
+struct RemovedKey {
+    std::string_view section;  ///< name of the section, or of the key
+    std::string_view name;     ///< the key, or the value
+    std::string_view instead;  ///< the way to do it now
+};
+
+inline constexpr RemovedKey removed_keys[] = {
+    {"labels", "min_pixels", "give it to the export: sonarsim export --min-pixels"},
+    {"labels", "min_visible_share", "give it to the export: sonarsim export --min-visible-share"},
+    {"labels", "min_contrast_db", "give it to the export: sonarsim export --min-contrast-db"},
+    {"labels", "faint", "give it to the export: sonarsim export --faint"},
+    {"labels", "box", "give it to the export: sonarsim export --box"},
+    {"output", "split", "give the shares to the export: sonarsim export --split"},
+    {"output", "pack", "write files, then run sonarsim export --format webdataset"},
+    {"output", "pack_size_mb", "write files, then run sonarsim export --format webdataset"},
+    {"output", "fan_style",
+     "fans are grey; colour them where they are shown, or use sonarsim preview"},
+    {"polar", "exr", "write polar: true, which gives .npy files"},
+    {"polar", "tiff", "write polar: true, which gives .npy files"},
+    {"fan", "jpeg", "write fan: true, which gives PNG files"},
+    {"fan", "webp", "write fan: true, which gives PNG files"},
+    {"labels", "coco", "write labels: [objects], then run sonarsim export --format coco"},
+    {"labels", "yolo", "write labels: [objects], then run sonarsim export --format yolo"},
+    {"labels", "yolo_polygons",
+     "write labels: [objects], then run sonarsim export --format coco, "
+     "which has masks"},
+    {"labels", "semantic", "write labels: [class], whose files hold the same ids"},
+};
+
+/// The message for a removed key or value; empty for others.
+inline std::string instead_of_removed(std::string_view section, std::string_view name) {
+    for (const RemovedKey& one : removed_keys) {
+        if (one.section == section && one.name == name)
+            return "'" + std::string(name) + "' is no longer there; " + std::string(one.instead);
+    }
+    return {};
+}
+
+}  // namespace sonarsim
