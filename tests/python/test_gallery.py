@@ -14,7 +14,7 @@ from gallery_dataset import MASKS, PINGS, SEEN, write_dataset
 from PIL import Image
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-READY = "return data && shown_image().done && (!sensor().chunks.length || 'objects' in known_of(state.ping))"
+READY = "return data && shown_image().complete && (!sensor().chunks.length || 'objects' in known_of(state.ping))"
 # A name that would run, or end its element, if the page took it for more than text.
 HOSTILE = "</script><img src=x onerror=\"document.title='hit'\">\u2028'\\"
 # Which pixels of the picture a mask covers, by the canvas that lies over it.
@@ -119,7 +119,7 @@ class InBrowser(Gallery):
             window.press("right")
             self.assertEqual(window.run("return state.ping"), PINGS - 1)
             window.press("left")
-            window.wait_for("return shown_image().done && $('seen').textContent.includes('not rendered yet')")
+            window.wait_for("return shown_image().complete && $('seen').textContent.includes('not rendered yet')")
             # A colour map changes the picture, and grey stays grey without one.
             window.press("home", "escape", "b", "m")
             window.wait_for(READY)

@@ -4,15 +4,13 @@
 const maps = {
   'as in the file': [],
   copper: ['0 .31 .62 .94 1', '0 .2 .39 .59 .78', '0 .12 .25 .37 .5'],
-  amber: ['0 .45 .9 1 1', '0 .2 .5 .8 1', '0 0 .05 .3 .85'],
   sea: ['0 0 .05 .4 .95', '0 .2 .45 .75 1', '0 .3 .6 .85 1'],
   viridis: ['.27 .23 .13 .37 .99', '0 .32 .57 .79 .91', '.33 .55 .55 .38 .14'],
   inverted: ['1 0', '1 0', '1 0'],
 };
 
 function show() {
-  $('slider').value = state.ping;
-  $('number').value = pose();
+  [$('slider').value, $('number').value] = [state.ping, pose()];
   show_picture();
   show_chosen();
   show_facts();
@@ -50,19 +48,18 @@ function choose_sensor(k) {
 }
 
 function choose_dataset(k) {
-  if (k < 0 || k >= page.datasets.length) return;
-  [data, state.dataset, state.selected] = [null, k, -1];
-  $('datasets').value = k;
+  if (!page.datasets[k]) return;
+  $('datasets').selectedIndex = k;
   if (load(`${k}`)) show_dataset();
 }
 
 // Once its data are there. Sensor and ping stay as they are if the dataset has them; background is off.
 function show_dataset() {
+  [state.dataset, state.selected] = [$('datasets').selectedIndex, -1];
   data = load(`${state.dataset}`);
-  for (const number of data.background) {
-    if (!state.known.has(number)) state.hidden.add(number);
-    state.known.add(number);
-  }
+  data.background.filter(number => !state.known.has(number)).forEach(number => state.hidden.add(number));
+  data.background.forEach(number => state.known.add(number));
+  document.body.hidden = false;
   $('about').textContent = `${data.poses} poses, seed ${data.seed}, sonarsim ${data.program_version}` +
     (data.complete ? '' : ', not complete when this page was made') +
     (page.missing ? `; ${page.missing} variants were not begun when this page was made` : '');
@@ -95,8 +92,7 @@ function choose_map() {
 
 function toggle_statistics() {
   const are_shown = $('statistics').hidden;
-  $('statistics').hidden = !are_shown;
-  $('pings').hidden = are_shown;
+  [$('statistics').hidden, $('pings').hidden] = [!are_shown, are_shown];
   $('switch').className = are_shown ? 'on' : '';
   show();
 }
@@ -120,11 +116,11 @@ const keys = {
 
 document.addEventListener('keydown', event => {
   const is_typing = event.target.type === 'number' || event.target.tagName === 'SELECT';
-  const act = Object.hasOwn(steps, event.key) ? () => go(state.ping + steps[event.key] * (event.shiftKey ? 10 : 1)) :
-    Object.hasOwn(keys, event.key) && keys[event.key];
-  if (!data || !act || is_typing || event.ctrlKey || event.altKey || event.metaKey) return;
+  const is_known = event.key in steps || event.key in keys;
+  if (!data || !is_known || is_typing || event.ctrlKey || event.altKey || event.metaKey) return;
   event.preventDefault();
-  act();
+  if (event.key in keys) keys[event.key]();
+  else go(state.ping + steps[event.key] * (event.shiftKey ? 10 : 1));
 });
 $('slider').oninput = () => go(Number($('slider').value));
 $('number').onchange = () => go(Number($('number').value) / sensor().every);
@@ -136,8 +132,7 @@ $('datasets').onchange = () => { $('datasets').blur(); choose_dataset($('dataset
 window.onresize = () => data && show();
 make_movable($('frame'));
 $('map').append(...Object.keys(maps).map(name => element('option', name)));
-$('datasets').append(...page.datasets.map(([folder], k) => Object.assign(element('option', folder), {value: k})));
+$('datasets').append(...page.datasets.map(([folder]) => element('option', folder)));
 $('datasets').hidden = page.datasets.length < 2;
-$('name').textContent = page.name;
-document.title = `${page.name} - sonarsim`;
+[$('name').textContent, document.title] = [page.name, `${page.name} - sonarsim`];
 choose_dataset(0);

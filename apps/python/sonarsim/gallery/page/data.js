@@ -6,7 +6,8 @@ const $ = id => document.getElementById(id);
 const page = JSON.parse($('page').textContent);
 const colours = ['#ffc454', '#78cdeb', '#f278a0', '#a0e26e', '#c4a0fa', '#fa965a', '#e8e080', '#70e0c0'];
 
-// `hidden` has the numbers of the classes that are off; `selected` is the number of an object, or -1.
+// `hidden` has the numbers of the classes that are off, `known` of those that were switched off as background;
+// `selected` is the number of an object, or -1.
 const state = {dataset: 0, sensor: 0, ping: 0, view: 0, playing: 0, hidden: new Set(), known: new Set(), selected: -1};
 const chunks = new Map();  // by the names of their files, those loaded last at the end
 const most_chunks = 60;
@@ -18,7 +19,10 @@ function load(key) {
   if (chunks.size > most_chunks) chunks.delete(chunks.keys().next().value);
   const script = element('script', '');
   script.src = `index_files/${key}.js`;
-  script.onerror = () => { $('note').textContent = `${script.src} is not there: write the page again`; };
+  script.onerror = () => {
+    $('note').textContent = `${script.src} is not there: write the page again`;
+    document.body.hidden = false;
+  };
   document.head.append(script);
   return null;
 }
@@ -26,8 +30,8 @@ function load(key) {
 // Called by the files.
 function take(key, text) {
   chunks.set(key, JSON.parse(text));
-  if (data) show();
-  else if (key === `${state.dataset}`) show_dataset();
+  if (key === `${$('datasets').selectedIndex}`) show_dataset();
+  else if (data) show();
 }
 
 const sensor = () => data.sensors[state.sensor];
@@ -35,10 +39,8 @@ const view = () => sensor().views[state.view];
 const pose = () => state.ping * sensor().every;
 const class_of = label => data.labels[label][1];
 const colour_of = label => colours[class_of(label) % colours.length];
-function label_text(label) {
-  const [name, number] = data.labels[label];
-  return name === page.classes[number] ? name : `${name} (${page.classes[number]})`;
-}
+const label_text = (label, [name, number] = data.labels[label]) =>
+  name === page.classes[number] ? name : `${name} (${page.classes[number]})`;
 
 // What is known of a ping, once its chunk is there: its facts and its objects.
 function known_of(ping) {
@@ -75,12 +77,8 @@ function url_of(pattern, number) {
   return (folder ? `${folder}/${file}` : file).split('/').map(encodeURIComponent).join('/');
 }
 
-function element(kind, text, name) {
-  const made = document.createElement(kind);
-  made.textContent = text;
-  if (name) made.className = name;
-  return made;
-}
+const element = (kind, text, name = '') =>
+  Object.assign(document.createElement(kind), {textContent: text, className: name});
 
 function swatch(colour, name = 'swatch') {
   const made = element('span', '', name);

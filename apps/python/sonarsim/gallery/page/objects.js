@@ -6,9 +6,7 @@ const sightings = count => count ? `${count} ${count === 1 ? 'sighting' : 'sight
 function show_legend() {
   const of_class = page.classes.map((_, k) => data.labels.filter(label => label[1] === k).length);
   $('legend').replaceChildren(...page.classes.map((name, k) => {
-    const box = document.createElement('input');
-    box.type = 'checkbox';
-    box.checked = !state.hidden.has(k);
+    const box = Object.assign(element('input', ''), {type: 'checkbox', checked: !state.hidden.has(k)});
     box.onchange = () => {
       state.hidden[box.checked ? 'delete' : 'add'](k);
       box.blur();
@@ -28,8 +26,7 @@ function show_objects() {
   rows.sort((a, b) => counts[b] - counts[a] || a - b);
   $('objects').replaceChildren(...rows.slice(0, most_rows).map(label => {
     const row = element('button', '', label === state.selected ? 'on' : '');
-    row.append(swatch(colour_of(label)), `${label_text(label)} `,
-               element('small', sightings(counts[label])));
+    row.append(swatch(colour_of(label)), `${label_text(label)} `, element('small', sightings(counts[label])));
     row.onclick = () => { row.blur(); select(label === state.selected ? -1 : label); };
     return row;
   }));
@@ -41,6 +38,7 @@ function select(label) {
   state.selected = label;
   const shows = one => label >= 0 && one.seen[label];
   if (!shows(sensor()) && data.sensors.some(shows)) choose_sensor(data.sensors.findIndex(shows));
+  if (shows(sensor()) && view() && !view().width) choose_view(sensor().views.findIndex(one => one.width));
   const seen = shows(sensor()) ? pings_of(label) : [];
   if (seen.length && !entries_of(view(), state.ping).some(entry => entry[0] === label))
     state.ping = seen.reduce((a, b) => Math.abs(b - state.ping) < Math.abs(a - state.ping) ? b : a);
@@ -58,11 +56,10 @@ function step_object(by) {
 function show_chosen() {
   $('chosen').hidden = state.selected < 0;
   if (state.selected < 0) return;
-  const seen = pings_of(state.selected);
-  const at = seen.findIndex(ping => view().per === 'sweep' ?
-    number_of(view(), ping) === number_of(view(), state.ping) : ping === state.ping);
-  $('which').textContent = `${label_text(state.selected)}: ` + (at < 0 ? sightings(seen.length) :
-    `sighting ${at + 1} of ${seen.length}`);
+  const [seen, pings] = [pings_of(state.selected), view() && view().per === 'sweep' ? view().pings : 1];
+  const at = seen.findIndex(ping => Math.floor(ping / pings) === Math.floor(state.ping / pings));
+  $('which').textContent = `${label_text(state.selected)}: ${at < 0 ? sightings(seen.length) :
+    `sighting ${at + 1} of ${seen.length}`}`;
 }
 
 // What is known of the selected object at this ping, of the ping and of the variant.

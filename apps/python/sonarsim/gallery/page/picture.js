@@ -3,19 +3,13 @@
 const images = new Map();  // the pictures loaded last, the oldest first
 const most_images = 48;
 const whole = {zoom: 1, x: 0.5, y: 0.5};  // x, y: what lies in the middle of the frame, as shares
-const area = {...whole, boxes: []};
+const area = {...whole, boxes: [], share: [1, 1]};
 
 function image_of(url) {
-  const image = images.get(url) || new Image();
+  const image = images.get(url) || Object.assign(new Image(), {src: url});
+  image.onload = image.onerror = () => image === shown_image() && show_picture();
   images.delete(url);
   images.set(url, image);
-  if (!image.src) {
-    image.onload = image.onerror = () => {
-      image.done = true;
-      if (data && view() && url === url_of(view().file, number_of(view(), state.ping))) show_picture();
-    };
-    image.src = url;
-  }
   if (images.size > most_images) images.delete(images.keys().next().value);
   return image;
 }
@@ -27,12 +21,11 @@ const shown_image = () => view() && image_of(url_of(view().file, number_of(view(
 function strips_of(text, {width, height}) {
   const [runs, strips] = [[], []];
   for (let at = 0; at < text.length;) {
-    let value = 0, shift = 0, code;
-    do {
+    let [value, shift, code] = [0, 0, 32];
+    for (; code & 32 && at < text.length; shift += 5) {
       code = text.charCodeAt(at++) - 48;
       value |= (code & 31) << shift;
-      shift += 5;
-    } while (code & 32 && at < text.length);
+    }
     if (code & 16) value |= -1 << shift;
     runs.push(value + (runs.length > 2 ? runs[runs.length - 2] : 0));
   }
@@ -70,13 +63,12 @@ function draw_entry(context, shown, entry, line) {
   if (!$('boxes').checked) return;
   context.lineWidth = (entry[0] === state.selected ? 3 : 1.5) * line;
   context.strokeRect(...placed(shown, shape));
-  if (!shape[5]) return;
-  context.setLineDash([4 * line, 4 * line]);  // a shadow
-  context.strokeRect(...placed(shown, shape[5]));
+  context.setLineDash([4 * line, 4 * line]);  // the box of a shadow
+  if (shape[5]) context.strokeRect(...placed(shown, shape[5]));
   context.setLineDash([]);
 }
 
-// Names in the first free place around or in their boxes, small boxes first; the list has those that find none.
+// Names in the first free place around their boxes, small boxes first; the list has those that find none.
 function write_names(context, areas, size) {
   const [taken, {width, height}] = [[], context.canvas];
   Object.assign(context, {font: `${size}px system-ui, sans-serif`, strokeStyle: '#000c', lineWidth: 3});
@@ -106,8 +98,8 @@ function draw_mark(context, shown, image) {
     context.lineTo(x - y * Math.sin(angle), y - y * Math.cos(angle));
   } else if ('along' in shown) {
     const way = shown.origin_px[shown.along] + (state.ping + 0.5) / shown.pings_per_pixel * shown.pixel_px[shown.along];
-    context.moveTo(...(shown.along ? [0, way] : [way, 0]));
-    context.lineTo(...(shown.along ? [image.naturalWidth, way] : [way, image.naturalHeight]));
+    context.moveTo(shown.along ? 0 : way, shown.along ? way : 0);
+    context.lineTo(shown.along ? image.naturalWidth : way, shown.along ? way : image.naturalHeight);
   }
   context.stroke();
 }
@@ -127,19 +119,16 @@ function place_picture(image, shown, frame) {
 
 function show_picture() {
   const [shown, image, frame, canvas] = [view(), shown_image(), $('frame'), $('overlay')];
-  if (image && !image.done) return;  // until then the last picture stays
-  const ratio = window.devicePixelRatio || 1;
+  if (image && !image.complete) return;  // until then the last picture stays
+  const ratio = window.devicePixelRatio;
   [canvas.width, canvas.height] = [frame.clientWidth * ratio, frame.clientHeight * ratio];
   const context = canvas.getContext('2d');
   const entries = entries_of(shown, state.ping);
   area.boxes = [];
-  $('seen').textContent = entries.map(entry => label_text(entry[0])).join(', ');
-  if (!image || !image.naturalWidth) {
-    $('picture').replaceChildren();
-    $('seen').textContent = image ? `${image.src} is not there: not rendered yet, or removed` : '';
-    return;
-  }
-  $('picture').replaceChildren(image);
+  $('seen').textContent = !image || image.naturalWidth ? entries.map(entry => label_text(entry[0])).join(', ') :
+    `${image.src} is not there: not rendered yet, or removed`;
+  $('picture').replaceChildren(...image && image.naturalWidth ? [image] : []);
+  if (!$('picture').firstChild) return;
   $('picture').style.filter = `brightness(${$('bright').value})${$('map').selectedIndex ? ' url(#colours)' : ''}`;
   place_picture(image, shown, frame);
   context.setTransform(new DOMMatrix().scale(ratio).multiply(area.matrix));
@@ -160,37 +149,33 @@ function show_picture() {
 function make_movable(frame) {
   let way = 0;  // that the pointer has moved since it went down, px
   const move = (x, y) => { area.x += x * area.share[0]; area.y += y * area.share[1]; show_picture(); };
-  frame.addEventListener('wheel', event => {
+  frame.onwheel = event => {
     event.preventDefault();
     const zoom = Math.min(80, Math.max(1, area.zoom * Math.exp(-event.deltaY * 0.0015)));
-    const [box, grown] = [frame.getBoundingClientRect(), 1 / area.zoom - 1 / zoom];
+    const grown = 1 / area.zoom - 1 / zoom;
     area.zoom = zoom;
-    move(((event.clientX - box.left) / box.width - 0.5) * grown, ((event.clientY - box.top) / box.height - 0.5) * grown);
-  }, {passive: false});
-  frame.addEventListener('pointerdown', () => { way = 0; });
-  frame.addEventListener('pointermove', event => {
+    move((event.offsetX / frame.clientWidth - 0.5) * grown, (event.offsetY / frame.clientHeight - 0.5) * grown);
+  };
+  frame.onpointerdown = () => { way = 0; };
+  frame.onpointermove = event => {
     if (!event.buttons) return;
     way += Math.abs(event.movementX) + Math.abs(event.movementY);
     if (way > 4) move(-event.movementX / frame.clientWidth / area.zoom, -event.movementY / frame.clientHeight / area.zoom);
-  });
-  frame.addEventListener('click', event => {
+  };
+  frame.onclick = event => {
     if (way > 4) return;
-    const [box, ratio] = [frame.getBoundingClientRect(), window.devicePixelRatio || 1];
-    const [x, y] = [(event.clientX - box.left) * ratio, (event.clientY - box.top) * ratio];
+    const [x, y] = [event.offsetX, event.offsetY].map(px => px * window.devicePixelRatio);
     const found = area.boxes.find(([left, top, right, bottom]) =>
       x >= left - 4 && x <= right + 4 && y >= top - 4 && y <= bottom + 4);
     select(found ? found[4] : -1);
-  });
-  frame.addEventListener('dblclick', () => { Object.assign(area, whole); show_picture(); });
+  };
+  frame.ondblclick = () => { Object.assign(area, whole); show_picture(); };
 }
 
 // Neighbouring pictures, once the steps pause: who drags the slider over a thousand pings wants none of them.
 let preloading = 0;
 function load_neighbours() {
   if (!view() || view().per !== 'ping') return;
-  for (const ping of [1, -1, 2, 3, 4, 5, -2].map(step => state.ping + step)) {
-    if (ping < 0 || ping >= sensor().pings) continue;
-    image_of(url_of(view().file, number_of(view(), ping)));
-    known_of(ping);
-  }
+  for (const ping of [1, -1, 2, 3, 4, 5, -2].map(step => state.ping + step))
+    if (ping >= 0 && ping < sensor().pings && known_of(ping)) image_of(url_of(view().file, number_of(view(), ping)));
 }

@@ -4,7 +4,7 @@ let of_all = page.datasets.length > 1;
 const class_colour = name => colours[Math.max(0, page.classes.indexOf(name)) % colours.length];
 
 function table_of(heads, rows) {
-  const table = document.createElement('table');
+  const table = element('table', '');
   for (const [k, cells] of [heads, ...rows].entries()) {
     const made = cells.map(() => element(k ? 'td' : 'th', ''));
     cells.forEach((cell, column) => made[column].append(...[cell].flat()));
@@ -20,14 +20,11 @@ function histogram_of(classes, [title, edges], axis) {
   if (!most) return [];
   return [table_of([title, '', 'labels'], sums.map((sum, k) => {
     const bar = element('span', '', 'bar');
-    for (const one of classes) {
-      const part = swatch(class_colour(one[0]), 'part');
-      part.style.width = `${100 * one[4][axis][k] / most}%`;
-      part.title = `${one[0]}: ${one[4][axis][k]}`;
-      bar.append(part);
+    for (const [name, , , , bars] of classes) {
+      bar.append(Object.assign(swatch(class_colour(name), 'part'), {title: `${name}: ${bars[axis][k]}`}));
+      bar.lastChild.style.width = `${100 * bars[axis][k] / most}%`;
     }
-    const interval = k === 0 ? `below ${edges[0]}` : k === edges.length ? `from ${edges[k - 1]}` : `${edges[k - 1]} to ${edges[k]}`;
-    return [interval, [bar], `${sum}`];
+    return [k ? `${edges[k - 1]} to ${edges[k] ?? '...'}` : `below ${edges[0]}`, bar, `${sum}`];
   }))];
 }
 
@@ -36,9 +33,8 @@ function show_statistics() {
   const scopes = page.datasets.length > 1 ? ['all datasets', page.datasets[state.dataset][0]] : [];
   buttons($('scopes'), scopes, of_all ? 0 : 1, k => { of_all = k === 0; show_statistics(); });
   $('tallies').replaceChildren();
-  if (!tally || !tally.pictures)
-    return $('tallies').append(element('p', 'No objects: render with output.labels: [objects].'));
-  $('tallies').append(
+  if (!tally || !tally.pictures) $('tallies').append('No objects: render with output.labels: [objects].');
+  else $('tallies').append(
     element('p', `${sensor().name}: ${tally.pictures} pictures, ${tally.empty} without an object`),
     table_of(['class', 'objects', 'pictures', 'labels'], tally.classes.map(one =>
       [[swatch(class_colour(one[0])), one[0]], `${one[1]}`, `${one[2]}`, `${one[3]}`])),
