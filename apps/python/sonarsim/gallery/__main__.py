@@ -21,6 +21,11 @@ OWN_FILE = re.compile(r"index\.html|\d+(_\d+_\d+)?\.js")
 BAD_DATA = (KeyError, IndexError, TypeError, ValueError, AttributeError, ArithmeticError, RecursionError)
 
 
+def damaged(file, error):
+    what = f"{error} is missing" if isinstance(error, KeyError) else str(error)
+    return DataError(f"{file}: is not as sonarsim writes it ({what})")
+
+
 def source_of(text):
     """What a content security policy calls a script or a style of the page."""
     return "'sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode() + "'"
@@ -63,8 +68,7 @@ def write_dataset(files, k, folder, classes, totals):
                   "background": [number for name, number in classes.items() if name in dataset.background]}
         return sum(sensor["pings"] for sensor in sensors), size + write_chunk(files, k, about)
     except BAD_DATA as error:
-        file = dataset.file if dataset else folder / "dataset.json"
-        raise DataError(f"{file}: is not as sonarsim writes it ({error!r})") from error
+        raise damaged(dataset.file if dataset else folder / "dataset.json", error) from error
 
 
 def members_of(out):
@@ -82,7 +86,7 @@ def members_of(out):
             drawn = {one["folder"]: {str(key): str(short(value)) for key, value in one.get("drawn", {}).items()}
                      for one in json.loads((out / "variants.json").read_text("utf-8"))["variants"]}
         except BAD_DATA as error:
-            raise DataError(f"{out / 'variants.json'}: is not as sonarsim writes it ({error!r})") from error
+            raise damaged(out / "variants.json", error) from error
     return {name: drawn.get(name, {}) for name in found}, len(drawn.keys() - set(found))
 
 
@@ -134,7 +138,7 @@ def main():
         print(f"sonarsim gallery: {error}", file=sys.stderr)
         return 2
     except OSError as error:
-        print(f"sonarsim gallery: {error.filename}: {error.strerror}", file=sys.stderr)
+        print(f"sonarsim gallery: {error.filename or arguments.folder}: {error.strerror}", file=sys.stderr)
         return 1
     if not arguments.quiet:
         print(f"{arguments.folder / 'index.html'}: {datasets} datasets, {pings} pings, {size / 1e6:.1f} MB; "

@@ -83,7 +83,9 @@ class Dataset:
         self.file = path
         with open(path, encoding="utf-8") as file:
             value = json.loads(file.read(LARGEST_JSON), parse_constant=refuse_constant)
-        return value | {}  # an object, or a TypeError
+        if not isinstance(value, dict):
+            raise ValueError("no JSON object")
+        return value
 
     def numbered(self, pattern):
         """(number, path) of the files of a pattern such as fls/objects/%06d.json that are there, in order."""

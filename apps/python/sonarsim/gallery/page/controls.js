@@ -1,5 +1,3 @@
-// What the buttons and keys do.
-
 // Red, green and blue along the scale of grey.
 const maps = {
   'as in the file': [],
@@ -53,7 +51,7 @@ function choose_dataset(k) {
   if (load(`${k}`)) show_dataset();
 }
 
-// Once its data are there. Sensor and ping stay as they are if the dataset has them; background is off.
+// The data of the dataset are there. Sensor and ping stay as they are if the dataset has them; background is off.
 function show_dataset() {
   [state.dataset, state.selected] = [$('datasets').selectedIndex, -1];
   data = load(`${state.dataset}`);

@@ -1,6 +1,6 @@
 'use strict';
-// The data of the page: the element #page, and the files index_files/K.js of dataset K and K_S_C.js of the
-// C-th part of its sensor S, which are loaded when they are needed; see dataset.py.
+// The data: the element #page, and files that are loaded when they are needed, index_files/K.js of dataset K and
+// K_S_C.js of the C-th part of its sensor S; see dataset.py.
 
 const $ = id => document.getElementById(id);
 const page = JSON.parse($('page').textContent);
@@ -42,7 +42,7 @@ const colour_of = label => colours[class_of(label) % colours.length];
 const label_text = (label, [name, number] = data.labels[label]) =>
   name === page.classes[number] ? name : `${name} (${page.classes[number]})`;
 
-// What is known of a ping, once its chunk is there: its facts and its objects.
+// The facts and the objects of a ping, once its chunk is there.
 function known_of(ping) {
   const number = Math.floor(ping / page.chunk);
   if (!sensor().chunks.includes(number)) return {};

@@ -36,17 +36,17 @@ function show_objects() {
 // Selects an object, or nothing with -1, and goes to the nearest ping that shows it, of another sensor if need be.
 function select(label) {
   state.selected = label;
-  const shows = one => label >= 0 && one.seen[label];
+  const shows = one => one.seen[label];
   if (!shows(sensor()) && data.sensors.some(shows)) choose_sensor(data.sensors.findIndex(shows));
   if (shows(sensor()) && view() && !view().width) choose_view(sensor().views.findIndex(one => one.width));
-  const seen = shows(sensor()) ? pings_of(label) : [];
-  if (seen.length && !entries_of(view(), state.ping).some(entry => entry[0] === label))
-    state.ping = seen.reduce((a, b) => Math.abs(b - state.ping) < Math.abs(a - state.ping) ? b : a);
+  const is_here = !(view() && 'along' in view()) && entries_of(view(), state.ping).some(entry => entry[0] === label);
+  if (shows(sensor()) && !is_here)
+    state.ping = pings_of(label).reduce((a, b) => Math.abs(b - state.ping) < Math.abs(a - state.ping) ? b : a);
   show_objects();
   show();
 }
 
-// To the next ping that shows the selected object, or back; after the last the first follows.
+// Goes to the next ping that shows the selected object, or back; after the last the first follows.
 function step_object(by) {
   const seen = pings_of(state.selected);
   const next = by > 0 ? seen.find(ping => ping > state.ping) : seen.findLast(ping => ping < state.ping);
@@ -62,7 +62,7 @@ function show_chosen() {
     `sighting ${at + 1} of ${seen.length}`}`;
 }
 
-// What is known of the selected object at this ping, of the ping and of the variant.
+// Writes the facts of the selected object at this ping, of the ping and of the variant.
 function show_facts() {
   const own = entries_of(view(), state.ping).filter(entry => entry[0] === state.selected);
   const rows = [...own.map(entry => entry[1]), {ping: pose()}, known_of(state.ping).meta || {},

@@ -41,11 +41,9 @@ function strips_of(text, {width, height}) {
   return strips;
 }
 
-// From pixels of the labelled picture to those of the one that is shown.
-const placed = (shown, [left, top, right, bottom]) => {
-  const [[x, y], [w, h]] = [shown.origin_px || [0, 0], shown.pixel_px || [1, 1]];
-  return [x + left * w, y + top * h, (right - left) * w, (bottom - top) * h];
-};
+// Takes a box in pixels of the labelled picture to [x, y, width, height] in the one that is shown.
+const placed = ({origin_px: [x, y] = [0, 0], pixel_px: [w, h] = [1, 1]}, [left, top, right, bottom]) =>
+  [x + left * w, y + top * h, (right - left) * w, (bottom - top) * h];
 
 const line_colour = label => label === state.selected ? '#fff' : colour_of(label);
 
@@ -86,7 +84,7 @@ function write_names(context, areas, size) {
   }
 }
 
-// Where the ping is in a picture of many.
+// Marks the ping in a picture of many.
 function draw_mark(context, shown, image) {
   context.strokeStyle = '#78cdeb';
   context.beginPath();
@@ -104,7 +102,7 @@ function draw_mark(context, shown, image) {
   context.stroke();
 }
 
-// From the picture to the frame. A picture whose first row is nearest is turned, as fans lie.
+// Places the picture in the frame. A picture whose first row is nearest is turned, as fans lie.
 function place_picture(image, shown, frame) {
   const [width, height] = [image.naturalWidth, image.naturalHeight];
   const fit = Math.min(frame.clientWidth / width, frame.clientHeight / height);
