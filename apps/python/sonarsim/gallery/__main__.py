@@ -22,7 +22,8 @@ BAD_DATA = (KeyError, IndexError, TypeError, ValueError, AttributeError, Arithme
 
 
 def damaged(file, error):
-    what = f"{error} is missing" if isinstance(error, KeyError) else str(error)
+    what = f"{error} is missing" if isinstance(error, KeyError) else \
+        "a value has the wrong type" if isinstance(error, (TypeError, AttributeError)) else str(error)
     return DataError(f"{file}: is not as sonarsim writes it ({what})")
 
 

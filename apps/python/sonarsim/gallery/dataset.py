@@ -8,6 +8,7 @@ from .statistics import Tally
 
 PINGS_PER_CHUNK = 250
 LARGEST_JSON = 1 << 28  # characters
+MOST_PINGS = 10**9
 FACTS = ("side", "range_m", "azimuth_rad", "bearing_deg", "area_bins", "area_px", "level", "level_around",
          "contrast_db", "visible_share", "shadow_contrast_db", "clipped", "buried")
 
@@ -130,7 +131,7 @@ class Dataset:
             elif "boxes_of" in picture:
                 view |= {"width": len(sensor["azimuth_edges_rad"]) - 1, "height": len(sensor["range_edges_m"]) - 1}
         elif view["per"] == "sweep":
-            view |= {"pings": max(1, picture["pings"]), "radius": picture["radius_px"] / picture["width_px"]}
+            view |= {"pings": max(1, int(picture["pings"])), "radius": picture["radius_px"] / picture["width_px"]}
         elif "pings_along" in picture:
             view["along"] = "xy".index(picture["pings_along"])
             view |= {key: picture[key] for key in ("origin_px", "pixel_px", "pings_per_pixel")}
@@ -145,7 +146,7 @@ class Dataset:
                 [(0, path)] if path.is_file() else []
             for number, path in files:
                 content = self.read(path)
-                view |= {"width": content["width"], "height": content["height"]}
+                view |= {"width": int(content["width"]), "height": int(content["height"])}
                 pictures[number] = self.picture(name, content)
                 for label, _, box, _ in pictures[number]:
                     ping = number * view["pings"] if view["per"] == "sweep" else \
@@ -155,7 +156,10 @@ class Dataset:
 
     def sensor(self, sensor):
         """A sensor for the page, and its chunks: {number: {ping: {"objects": entries, "meta": facts}}}."""
-        name, files, every = sensor["name"], sensor["files"], max(1, sensor["every"])
+        self.file = self.folder / "dataset.json"
+        name, files, every = sensor["name"], sensor["files"], max(1, int(sensor["every"]))
+        if not 0 < sensor["pings"] <= MOST_PINGS:
+            raise ValueError(f"{sensor['pings']} pings of sensor '{name}'")
         if "pictures" not in sensor:
             raise DataError(f"{self.file}: lists no pictures of sensor '{name}', since an older sonarsim wrote it; "
                             "render the dataset again")
@@ -170,7 +174,7 @@ class Dataset:
                 seen += [(ping, entry[0]) for entry in found] if kind == "objects" else []
         pings = {}
         for ping, label in seen:
-            pings.setdefault(label, set()).add(ping)
-        return {"name": name, "kind": sensor["kind"], "every": every, "pings": sensor["pings"], "views": views,
+            pings.setdefault(label, set()).add(max(0, min(ping, int(sensor["pings"]) - 1)))
+        return {"name": name, "kind": sensor["kind"], "every": every, "pings": int(sensor["pings"]), "views": views,
                 "meta": files.get("meta", ""), "pictures": pictures, "chunks": sorted(chunks),
                 "statistics": self.tallies[name].json(), "seen": {label: ranges_of(own) for label, own in pings.items()}}, chunks

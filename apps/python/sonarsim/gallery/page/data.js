@@ -66,7 +66,7 @@ function entries_of(shown, ping) {
 function pings_of(label, one = sensor()) {
   const [ranges, pings] = [one.seen[label] || [], []];
   for (let k = 0; k < ranges.length; k += 2)
-    for (let ping = ranges[k]; ping < ranges[k + 1]; ++ping) pings.push(Math.min(ping, one.pings - 1));
+    for (let ping = ranges[k]; ping < ranges[k + 1]; ++ping) pings.push(ping);
   return pings;
 }
 
