@@ -27,8 +27,8 @@ COVERED = """
       return shown[4 * (Math.floor(at.y) * canvas.width + Math.floor(at.x)) + 3] > 50;
     }));"""
 CENTRES = """
-    const frame = $('frame').getBoundingClientRect();
-    return [...Array(shown_image().naturalHeight).keys()].map(y => [...Array(shown_image().naturalWidth).keys()].map(x => {
+    const image = shown_image();
+    return [...Array(image.naturalHeight).keys()].map(y => [...Array(image.naturalWidth).keys()].map(x => {
       const at = area.matrix.transformPoint({x: x + 0.5, y: y + 0.5});
       return [at.x, at.y];
     }));"""
@@ -157,7 +157,8 @@ class InBrowser(Gallery):
             for attack in ("const a = element('a', ''); a.href = \"javascript:document.title='hit'\";"
                            "document.body.append(a); a.click();",
                            "document.body.append(element('script', \"document.title='hit'\"))",
-                           "const s = element('script', ''); s.src = 'http://127.0.0.1:9/x.js'; document.body.append(s)",
+                           "const s = element('script', ''); s.src = 'http://127.0.0.1:9/x.js';"
+                           "document.body.append(s)",
                            "new Image().src = 'http://127.0.0.1:9/x.png';"):
                 window.run(attack)
                 self.assertIn("Content Security Policy", window.wait_for_complaint())
@@ -204,7 +205,8 @@ class Rendered(Gallery):
                     for origin, pixel, length, whole in placed:
                         self.assertLessEqual(origin + pixel * length, whole)
                 self.assertTrue(told)
-        verified = subprocess.run([os.environ["SONARSIM"], "verify", self.out], capture_output=True, text=True, check=False)
+        verified = subprocess.run([os.environ["SONARSIM"], "verify", self.out], capture_output=True, text=True,
+                                  check=False)
         self.assertEqual((verified.returncode, "index" in verified.stderr), (0, False), verified.stderr)
 
 

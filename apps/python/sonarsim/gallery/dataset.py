@@ -22,10 +22,10 @@ def refuse_constant(text):
 
 
 def short(value):
-    """A number with five digits, a whole one without a point; anything else as it is."""
+    """A number with six digits, a whole one without a point; anything else as it is."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return value
-    value = float(f"{value:.5g}")
+    value = float(f"{value:.6g}")
     return int(value) if value == int(value) else value
 
 
@@ -43,7 +43,7 @@ def ranges_of(numbers):
 def shape_of(box, x, y, mask, shadow):
     """[left, top, right, bottom, mask, box of the shadow or 0]."""
     (left, right), (top, bottom) = box[x], box[y]
-    edges = [short(edge + 0) for edge in (left, top, right, bottom)]
+    edges = [edge + 0 for edge in (left, top, right, bottom)]  # numbers, or a TypeError
     return [*edges, str(mask or ""), shape_of(shadow, x, y, "", None)[:4] if shadow else 0]
 
 
@@ -172,9 +172,10 @@ class Dataset:
                 found = self.picture(name, content) if kind == "objects" else facts_of_ping(content)
                 chunks.setdefault(ping // PINGS_PER_CHUNK, {}).setdefault(ping, {})[kind] = found
                 seen += [(ping, entry[0]) for entry in found] if kind == "objects" else []
-        pings = {}
+        pings, of_label = int(sensor["pings"]), {}
         for ping, label in seen:
-            pings.setdefault(label, set()).add(max(0, min(ping, int(sensor["pings"]) - 1)))
-        return {"name": name, "kind": sensor["kind"], "every": every, "pings": int(sensor["pings"]), "views": views,
+            of_label.setdefault(label, set()).add(max(0, min(ping, pings - 1)))
+        return {"name": name, "kind": sensor["kind"], "every": every, "pings": pings, "views": views,
                 "meta": files.get("meta", ""), "pictures": pictures, "chunks": sorted(chunks),
-                "statistics": self.tallies[name].json(), "seen": {label: ranges_of(own) for label, own in pings.items()}}, chunks
+                "statistics": self.tallies[name].json(),
+                "seen": {label: ranges_of(own) for label, own in of_label.items()}}, chunks

@@ -158,7 +158,8 @@ function make_movable(frame) {
   frame.onpointermove = event => {
     if (!event.buttons) return;
     way += Math.abs(event.movementX) + Math.abs(event.movementY);
-    if (way > 4) move(-event.movementX / frame.clientWidth / area.zoom, -event.movementY / frame.clientHeight / area.zoom);
+    const [x, y] = [event.movementX / frame.clientWidth, event.movementY / frame.clientHeight];
+    if (way > 4) move(-x / area.zoom, -y / area.zoom);
   };
   frame.onclick = event => {
     if (way > 4) return;
@@ -170,8 +171,7 @@ function make_movable(frame) {
   frame.ondblclick = () => { Object.assign(area, whole); show_picture(); };
 }
 
-// Neighbouring pictures, once the steps pause: who drags the slider over a thousand pings wants none of them.
-let preloading = 0;
+let preloading = 0;  // the neighbours load once the steps pause: who drags the slider wants none of them
 function load_neighbours() {
   if (!view() || view().per !== 'ping') return;
   for (const ping of [1, -1, 2, 3, 4, 5, -2].map(step => state.ping + step))
