@@ -1,0 +1,1 @@
+"""The page index.html that shows a dataset in a browser; `python3 -m sonarsim.gallery OUT` writes it."""

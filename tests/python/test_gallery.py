@@ -1,0 +1,263 @@
+"""sonarsim.gallery: the page of a dataset, looked at by a headless Chromium."""
+import io
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import browser
+import numpy as np
+from gallery_dataset import MASKS, PINGS, SEEN, write_dataset
+from PIL import Image
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+READY = "return data && shown_image().complete && (!sensor().chunks.length || 'objects' in known_of(state.ping))"
+# A name that would run, or end its element, if the page took it for more than text.
+HOSTILE = "</script><img src=x onerror=\"document.title='hit'\">\u2028'\\"
+# Which pixels of the picture a mask covers, by the canvas that lies over it.
+COVERED = """
+    const [image, canvas] = [shown_image(), $('overlay')];
+    const shown = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
+    const matrix = new DOMMatrix().scale(window.devicePixelRatio).multiply(area.matrix);
+    return [...Array(image.naturalHeight).keys()].map(y => [...Array(image.naturalWidth).keys()].map(x => {
+      const at = matrix.transformPoint({x: x + 0.5, y: y + 0.5});
+      return shown[4 * (Math.floor(at.y) * canvas.width + Math.floor(at.x)) + 3] > 50;
+    }));"""
+CENTRES = """
+    const image = shown_image();
+    return [...Array(image.naturalHeight).keys()].map(y => [...Array(image.naturalWidth).keys()].map(x => {
+      const at = area.matrix.transformPoint({x: x + 0.5, y: y + 0.5});
+      return [at.x, at.y];
+    }));"""
+
+
+class Gallery(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory(prefix="sonarsim-gallery-")
+        self.addCleanup(temporary.cleanup)
+        self.out = pathlib.Path(temporary.name) / "out"
+
+    def gallery(self, folder=None):
+        return subprocess.run(
+            [sys.executable, "-B", "-m", "sonarsim.gallery", folder or self.out], capture_output=True, text=True,
+            env=os.environ | {"PYTHONPATH": str(ROOT / "apps/python")}, check=False)
+
+    def write_page(self):
+        done = self.gallery()
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def open(self, window):
+        self.write_page()
+        window.open(self.out / "index.html")
+        window.wait_for(READY)
+
+    def complaints(self, window):
+        """Those of the page. Most pictures of the dataset are not there, and the test itself reads the canvas."""
+        return [line for line in window.complaints()
+                if ".png - Failed to load resource" not in line and "Multiple readback" not in line]
+
+    def pixels(self, window):
+        """The colours on the screen of the pixels of the picture, [row, column]."""
+        screen = np.asarray(Image.open(io.BytesIO(window.screenshot("#frame"))).convert("RGB")).astype(int)
+        at = np.floor(np.array(window.run(CENTRES))).astype(int) + 1  # the frame has a border
+        return screen[at[..., 1], at[..., 0]]
+
+
+@unittest.skipUnless(browser.available(), "Debian's chromium and chromium-driver are not here")
+class InBrowser(Gallery):
+    def test_masks_lie_where_the_objects_are(self):
+        """In a fan, in bins, in a waterfall below its axis and in a scan."""
+        write_dataset(self.out)
+        with browser.Browser() as window:
+            self.open(window)
+            window.press("b")  # without boxes
+            for name, keys in (("fan", ""), ("bins", "v"), ("sss", "down"), ("head", "down")):
+                with self.subTest(picture=name):
+                    window.press(*([keys] if keys else []))
+                    window.wait_for(READY)
+                    margin = 9 if name == "sss" else 0
+                    window.press("end")
+                    window.wait_for(READY)
+                    expected = np.pad(MASKS[name], ((margin, 0), (0, 0)))
+                    rows = slice(0, -1 if name == "sss" else None)  # the mark lies on the last one
+                    np.testing.assert_array_equal(np.array(window.run(COVERED))[rows], expected[rows])
+                    window.press("m")
+                    np.testing.assert_array_equal(self.pixels(window)[..., 0] > 150, expected)
+                    window.press("m")
+                    is_turned = window.run("return area.matrix.a < 0 && area.matrix.d < 0")
+                    self.assertEqual(is_turned, name == "bins")
+            self.assertEqual(self.complaints(window), [])
+
+    def test_classes_objects_colours_and_statistics(self):
+        write_dataset(self.out)
+        seen = "return $('seen').textContent"
+        with browser.Browser() as window:
+            self.open(window)
+            self.assertIn("seed 9007199254740993", window.run("return $('about').textContent"))
+            # Background is off at first; a box of the legend switches a class.
+            self.assertEqual(window.run(seen), "mine_1 (mine)")
+            for k, names in ((1, ""), (1, "mine_1 (mine)")):
+                window.run(f"document.querySelectorAll('#legend input')[{k}].click()")
+                self.assertEqual(window.run(seen), names)
+            # A click selects the object; n and p go through its pings, whose data are loaded when needed.
+            window.run("""
+                const [left, top, right, bottom] = area.boxes[0];
+                const box = $('frame').getBoundingClientRect();
+                $('frame').dispatchEvent(new MouseEvent('click', {
+                  clientX: box.left + (left + right) / 2 / window.devicePixelRatio,
+                  clientY: box.top + (top + bottom) / 2 / window.devicePixelRatio}));""")
+            self.assertEqual(window.run("return $('which').textContent"), "mine_1 (mine): sighting 1 of 3")
+            self.assertFalse(window.run("return chunks.has('0_0_2')"))
+            for key, ping in (("n", SEEN[1]), ("n", SEEN[2]), ("n", SEEN[0]), ("p", SEEN[2])):
+                window.press(key)
+                self.assertEqual(window.run("return state.ping"), ping)
+                window.wait_for("return $('seen').textContent === 'mine_1 (mine)'")
+            self.assertIn("contrast_db8", window.run("return $('facts').textContent"))
+            window.press("right")
+            self.assertEqual(window.run("return state.ping"), PINGS - 1)
+            window.press("left")
+            window.wait_for("return shown_image().complete && $('seen').textContent.includes('not rendered yet')")
+            # A colour map changes the picture, and grey stays grey without one.
+            window.press("home", "escape", "b", "m")
+            window.wait_for(READY)
+            self.assertEqual(np.ptp(self.pixels(window), axis=-1).max(), 0)
+            window.press("c")  # copper
+            white, dark = (self.pixels(window)[MASKS["fan"] == value].mean(0) for value in (True, False))
+            np.testing.assert_allclose(white, [255, 199, 128], atol=3)
+            self.assertGreater(dark[0], dark[2] + 20)
+            # Statistics count no background.
+            window.press("s")
+            self.assertIn(f"fls: {PINGS} pictures, {PINGS - 3} without an object",
+                          window.run("return $('tallies').textContent"))
+            self.assertEqual(window.run("return [...document.querySelectorAll('#tallies table')[0].rows[1].cells]"
+                                        ".map(cell => cell.textContent)"), ["mine", "1", "3", "3"])
+            self.assertEqual(self.complaints(window), [])
+
+    def test_hostile_names_are_text_and_nothing_foreign_runs(self):
+        description = write_dataset(self.out / "one")
+        description["labels"]["instances"][1]["name"] = description["labels"]["classes"][1]["name"] = HOSTILE
+        description["labels"]["instances"][0]["name"] = "__proto__"
+        description["sensors"][0]["name"] = description["sensors"][0]["kind"] = HOSTILE.replace("/", "")
+        description["seed"] = HOSTILE
+        (self.out / "one/dataset.json").write_text(json.dumps(description))
+        (self.out / "variants.json").write_text(json.dumps({"variants": [
+            {"folder": "one", "drawn": {HOSTILE: HOSTILE, "__proto__": 1}}, {"folder": "two"}]}))
+        with browser.Browser() as window:
+            self.open(window)
+            window.run("select(1)")
+            window.press("s", "s")
+            for element in ("legend", "objects", "which", "facts", "about"):
+                self.assertIn(HOSTILE, window.run(f"return $('{element}').textContent"), element)
+            self.assertIn("1 variants were not begun", window.run("return $('about').textContent"))
+            self.assertEqual(window.run("return document.querySelectorAll('img').length"), 1)  # the picture
+            self.assertEqual(window.complaints(), [])
+            for attack in ("const a = element('a', ''); a.href = \"javascript:document.title='hit'\";"
+                           "document.body.append(a); a.click();",
+                           "document.body.append(element('script', \"document.title='hit'\"))",
+                           "const s = element('script', ''); s.src = 'http://127.0.0.1:9/x.js';"
+                           "document.body.append(s)",
+                           "new Image().src = 'http://127.0.0.1:9/x.png';"):
+                window.run(attack)
+                self.assertIn("Content Security Policy", window.wait_for_complaint())
+            self.assertEqual(window.run("return document.title"), "out - sonarsim")
+
+
+MISSION = """\
+name: tank
+scene: {file: ROOT/scenes/tank.glb, materials: ROOT/scenes/materials.csv}
+trajectory: {file: ROOT/trajectories/tank_loop.csv, rate_hz: 3}
+sensors:
+  fls: {kind: imaging, azimuth_deg: 60, elevation_deg: 12, range_max_m: 8, range_bins: 128, azimuth_bins: 64, every: 2}
+  sss: {kind: sidescan, range_max_m: 8, range_bins: 128}
+  sounder: {kind: echosounder, range_max_m: 6, range_bins: 96}
+  head: {kind: scanning, range_max_m: 8, range_bins: 128, step_deg: 24}
+classes: [{nodes: "wall_*", class: wall, instance: walls}, {nodes: floor, class: bottom}, {nodes: "*", class: object}]
+output: {folder: out, labels: [objects]}
+labels: {background: [none]}
+"""
+
+
+@unittest.skipUnless("SONARSIM" in os.environ, "no program to render with")
+class Rendered(Gallery):
+    def test_every_sonar_of_a_rendered_dataset_has_its_objects(self):
+        mission = self.out.parent / "mission.yaml"
+        mission.write_text(MISSION.replace("ROOT", str(ROOT)))
+        subprocess.run([os.environ["SONARSIM"], "render", mission, "-q"], cwd=self.out.parent, check=True)
+        self.write_page()
+        about = json.loads(json.loads((self.out / "index_files/0.js").read_text()[len('take("0",'):-2]))
+        self.assertEqual([sensor["name"] for sensor in about["sensors"]], ["fls", "sss", "sounder", "head"])
+        for sensor in about["sensors"]:
+            with self.subTest(sensor=sensor["name"]):
+                files = sorted(self.out.glob(f"{sensor['name']}/**/objects*.json")) or \
+                    sorted((self.out / sensor["name"] / "objects").glob("*.json"))
+                told = {seen["id"] - 1 for file in files for seen in json.loads(file.read_text())["objects"]}
+                self.assertEqual({int(label) for label in sensor["seen"]}, told)
+                self.assertEqual(sensor["statistics"]["pictures"], len(files))
+                for view in sensor["views"]:
+                    # The labelled picture lies within the one that is shown.
+                    with Image.open(self.out / (view["file"] % 0 if "%" in view["file"] else view["file"])) as picture:
+                        size = picture.size
+                    placed = zip(view.get("origin_px", [0, 0]), view.get("pixel_px", [1, 1]),
+                                 (view["width"], view["height"]), size, strict=True)
+                    for origin, pixel, length, whole in placed:
+                        self.assertLessEqual(origin + pixel * length, whole)
+                self.assertTrue(told)
+        verified = subprocess.run([os.environ["SONARSIM"], "verify", self.out], capture_output=True, text=True,
+                                  check=False)
+        self.assertEqual((verified.returncode, "index" in verified.stderr), (0, False), verified.stderr)
+
+
+class Files(Gallery):
+    def refused(self, *fragments):
+        before = {path: path.read_bytes() for path in self.out.glob("*") if path.is_file()}
+        done = self.gallery()
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        for fragment in ("sonarsim gallery: ", *fragments):
+            self.assertIn(fragment, done.stderr)
+        self.assertEqual({path: path.read_bytes() for path in self.out.glob("*") if path.is_file()}, before)
+        self.assertFalse((self.out / "index_files.tmp").exists())
+
+    def test_bad_datasets_are_refused_in_one_sentence(self):
+        self.refused("is no folder")
+        description = write_dataset(self.out)
+        file = self.out / "dataset.json"
+        (self.out / "fls/link").symlink_to("/etc")
+        for key, value in (("file", "../other/%06d.png"), ("file", "/etc/%06d.png"), ("file", "fls/link/%06d.png"),
+                           ("file", 7), ("per", None), ("boxes_of", [])):
+            changed = json.loads(json.dumps(description))
+            changed["sensors"][0]["pictures"][0][key] = value
+            file.write_text(json.dumps(changed))
+            if key == "file":
+                self.refused("dataset.json")
+        for text in ("", "[]", "{", '{"sensors": 1}', '{"sensors": [{}]}', "[" * 100000, '{"seed": NaN}'):
+            file.write_text(text)
+            self.refused("dataset.json", "is not as sonarsim writes it")
+        file.write_text(json.dumps(description))
+        damaged = self.out / "fls/objects/000003.json"
+        for text in ('{"objects": [{"id": 9}]}', '{"objects": [{"id": 2, "box_px": {}}]}', "\0", '{"objects": 1e999}'):
+            damaged.write_text(text)
+            self.refused("000003.json", "is not as sonarsim writes it")
+        file.unlink()
+        self.refused("is no dataset and holds none")
+
+    def test_only_its_own_files_are_replaced(self):
+        write_dataset(self.out)
+        self.write_page()
+        page = (self.out / "index.html").read_bytes()
+        names = sorted(path.name for path in (self.out / "index_files").iterdir())
+        self.assertEqual(names, ["0.js", "0_0_0.js", "0_0_1.js", "0_0_2.js"])
+        self.write_page()
+        self.assertEqual((self.out / "index.html").read_bytes(), page)
+        (self.out / "index_files/mine.txt").write_text("mine")
+        self.refused("index_files: is not of sonarsim's making")
+        (self.out / "index_files/mine.txt").unlink()
+        (self.out / "index.html").write_text("<p>mine</p>")
+        self.refused("index.html: is not of sonarsim's making")
+
+
+if __name__ == "__main__":
+    unittest.main()
