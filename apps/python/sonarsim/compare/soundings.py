@@ -1,0 +1,58 @@
+"""Figures of soundings, in bands of 10 degrees from the vertical."""
+import numpy as np
+
+from .figure import Figure
+
+BAND = np.pi / 18.0
+PINGS_IN_GROUP = 8
+FEWEST_IN_BAND = 6
+
+
+def common_angles(a, b):
+    """The angles between which 98 % of the soundings of either recording lie."""
+    ends = []
+    for recording in (a, b):
+        angles = np.sort(recording.soundings.angle_rad[np.isfinite(recording.soundings.angle_rad)])
+        cut = angles.size // 100
+        ends.append((angles[cut], angles[angles.size - 1 - cut]) if angles.size else (0.0, 0.0))
+    return max(ends[0][0], ends[1][0]), min(ends[0][1], ends[1][1])
+
+
+def measure_soundings(recording, angles, is_relative):
+    """The figures in the bands between two angles. Places are groups of eight pings."""
+    power = recording.law.powers(recording.soundings.intensity).astype(float)
+    is_found = np.isfinite(recording.soundings.range_m)
+    if is_relative and power[is_found].sum() > 0.0:
+        power = power / power[is_found].mean()
+    figures = []
+    for band in range(int(np.ceil(angles[0] / BAND - 0.5)), int(np.floor(angles[1] / BAND + 0.5))):
+        figures += band_figures(recording.soundings, power, is_found, band)
+    return [figure for figure in figures if figure.values.size]
+
+
+def band_figures(soundings, power, is_found, band):
+    offset = soundings.angle_rad.astype(float) - band * BAND
+    with np.errstate(invalid="ignore"):
+        is_in = is_found & (offset >= 0.0) & (offset < BAND)
+    cells = []
+    for ping in np.flatnonzero(is_in.sum(axis=1) >= FEWEST_IN_BAND):
+        own = is_in[ping]
+        values = power[ping, own]
+        mean = values.mean()
+        cells.append((ping // PINGS_IN_GROUP, mean, own.sum(), values.std(ddof=1) / mean if mean > 0.0 else np.nan,
+                      100.0 * spread_of(soundings.range_m[ping, own].astype(float), offset[ping, own] / BAND - 0.5)))
+    groups, levels, counts, variations, spreads = np.array(cells).T if cells else np.zeros((5, 0))
+    name = f"{10 * band} to {10 * (band + 1)} degrees"
+    return [Figure.of(f"{name}: level, dB", "level", "decibel", groups, 0, levels, counts),
+            Figure.of(f"{name}: variation of power", "mean", "tenth", groups, 0, variations),
+            Figure.of(f"{name}: spread of ranges, %", "mean", "tenth", groups, 0, spreads)]
+
+
+def spread_of(ranges, offset):
+    """The root mean square distance of ranges from their parabola over the angle, over the mean range. The sum of n squares
+    is divided by n - 3, since the fit has three parameters."""
+    basis, sizes, _ = np.linalg.svd(np.stack([np.ones_like(offset), offset, offset ** 2], axis=1), full_matrices=False)
+    if sizes[2] < 1e-6:
+        return np.nan
+    off = ranges - basis @ (basis.T @ ranges)
+    return np.sqrt(np.sum(off ** 2) / (len(ranges) - 3)) / ranges.mean()
