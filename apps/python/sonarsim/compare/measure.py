@@ -74,7 +74,8 @@ def zone_figures(images, grid, name, zone):
         amplitude, trend, is_even = speckle.detrended(power, basis)
         clipped = ((power >= images.full_power) | (power <= images.least_power)).mean(axis=(1, 2))
         counts = is_even & (trend <= MOST_TREND[name]) & (clipped <= MOST_CLIPPED)
-        own[:-1, counts] = patch_values(amplitude[counts])
+        if counts.any():
+            own[:-1, counts] = patch_values(amplitude[counts])
         if before is not None and not images.columns_are_pings:
             both = counts & before[1]
             own[-1, both] = speckle.correlation_of(amplitude[both], before[0][both])
