@@ -24,8 +24,7 @@ def frames(data, at, length, most_pings):
         raise ValueError("is cut off within a frame")
     if not whole:
         raise ValueError("has no frames")
-    view = memoryview(data)
-    return [view[at + k * length:at + (k + 1) * length] for k in range(min(whole, most_pings))]
+    return [memoryview(data)[at + k * length:at + (k + 1) * length] for k in range(min(whole, most_pings))]
 
 
 def stacked(pings):
@@ -38,13 +37,12 @@ def stacked(pings):
 
 
 def timed_recording(kind, pings, own, ranges_s, speed_m_s=0.0, **more):
-    """The Recording of pings [range, beam] whose first sample and step are two-way travel times, a tuple for each ping."""
+    """The Recording of pings whose first sample and step are two-way travel times, a tuple for each ping."""
     if len(set(ranges_s)) > 1:
         raise ValueError("changes its range; split the file there")
-    first_s, step_s = ranges_s[0]
+    (first_s, step_s), speed = ranges_s[0], own.sound_speed_m_s or speed_m_s
     if not step_s > 0.0:
         raise ValueError("has a ping without a step of range")
-    speed = own.sound_speed_m_s or speed_m_s
     if not speed:
         raise ValueError("has no speed of sound; add `sound_speed_m_s` to recording.yaml")
     return Recording(kind, sound_speed_m_s=speed, first_range_m=0.5 * speed * first_s, range_step_m=0.5 * speed * step_s,
@@ -55,7 +53,8 @@ def law_of(own, full_value=0.0):
     """The law of recording.yaml; `full_value` is the largest value that samples can hold, 0 for floats."""
     if own.law is None:
         raise ValueError("has a format that does not say what a value means; add `law` to recording.yaml")
-    return dataclasses.replace(own.law, full_value=full_value if own.full_value_is_auto and full_value else own.law.full_value)
+    is_known = own.full_value_is_auto and full_value
+    return dataclasses.replace(own.law, full_value=full_value if is_known else own.law.full_value)
 
 
 def decibel_law(own, range_db, full_value):

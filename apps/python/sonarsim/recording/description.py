@@ -12,12 +12,13 @@ LARGEST_FILE = 1 << 24
 # The keys that name the files of the pings, and the kinds that each can have.
 SOURCES = {"files": KINDS[:4], "xtf": ("sidescan", "soundings"), "oculus": ("imaging",),
            "logs": ("imaging", "scanning", "echosounder"), "soundings": ("soundings",)}
+ANGLE = (-360.0, 360.0)
 NUMBERS = {     # key: least, greatest, default
-    "sound_speed_m_s": (300.0, 1e4, None), "first_range_m": (0.0, 1e6, None), "range_step_m": (0.0, 1e4, None),
-    "bearing_first_deg": (-360.0, 360.0, 0.0), "bearing_last_deg": (-360.0, 360.0, 0.0),
-    "head_first_deg": (-360.0, 360.0, 0.0), "head_step_deg": (-360.0, 360.0, 0.0), "frequency_hz": (1e3, 1e8, None),
-    "altitude_m": (0.0, 1e5, None), "pitch_deg": (-180.0, 180.0, None), "rate_hz": (0.0, 1e6, None)}
-LISTS = {"bearings_deg": (-360.0, 360.0), "times_s": (-1e12, 1e12)}
+    "sound_speed_m_s": (300.0, 1e4), "first_range_m": (0.0, 1e6), "range_step_m": (0.0, 1e4),
+    "bearing_first_deg": (*ANGLE, 0.0), "bearing_last_deg": (*ANGLE, 0.0), "head_first_deg": (*ANGLE, 0.0),
+    "head_step_deg": (*ANGLE, 0.0), "frequency_hz": (1e3, 1e8), "altitude_m": (0.0, 1e5), "pitch_deg": (-180.0, 180.0),
+    "rate_hz": (0.0, 1e6)}
+LISTS = {"bearings_deg": ANGLE, "times_s": (-1e12, 1e12)}
 LAW_NUMBERS = {"exponent": (0.1, 2.0, 0.5), "range_db": (0.0, 300.0, 0.0), "full_value": (0.0, 1e30, 255.0),
                "offset": (0.0, 0.9, 0.0)}
 SOUNDING_FILES = ("range_m", "angle_rad", "intensity")
@@ -47,22 +48,17 @@ class Section:
 
     def number(self, key, least, greatest, default=None):
         value = self.keys.get(key)
-        return default if value in (None, "auto") else self.checked(key, value, least, greatest)
+        return default if value in (None, "auto") else self.numbers(key, least, greatest, [value])[0]
 
-    def checked(self, key, value, least, greatest):
+    def numbers(self, key, least, greatest, values=None):
+        values = (self.keys.get(key) or []) if values is None else values
         try:
-            value = math.nan if isinstance(value, bool) else float(value)      # PyYAML takes 1e3 as a text
+            numbers = [math.nan if isinstance(one, bool) else float(one) for one in values]    # 1e3 is a text in PyYAML
         except (TypeError, ValueError, OverflowError):
-            value = math.nan
-        if not least <= value <= greatest:
-            self.refuse(f"'{key}' must be a number from {least:g} to {greatest:g}")
-        return value
-
-    def numbers(self, key, least, greatest):
-        values = self.keys.get(key) or []
-        if not isinstance(values, list):
-            self.refuse(f"'{key}' must be a list of numbers")
-        return [self.checked(key, value, least, greatest) for value in values]
+            numbers = [math.nan]
+        if not all(least <= one <= greatest for one in numbers):
+            self.refuse(f"'{key}' must be a number from {least:g} to {greatest:g}, or a list of them where a list belongs")
+        return numbers
 
     def files(self, key):
         """The paths that a key names, from the folder of the file on."""
@@ -80,8 +76,7 @@ def read_yaml(path, largest):
     try:
         if path.stat().st_size > largest:
             raise RecordingError(f"{path}: is larger than {largest >> 20} MB")
-        loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)      # a safe loader, the quick one where it is built
-        return yaml.load(path.read_bytes(), loader)
+        return yaml.load(path.read_bytes(), getattr(yaml, "CSafeLoader", yaml.SafeLoader))     # the quick one if built
     except OSError as fault:
         raise RecordingError(f"{path}: cannot be read: {fault.strerror}") from fault
     except (yaml.YAMLError, UnicodeError, RecursionError) as fault:
@@ -90,21 +85,23 @@ def read_yaml(path, largest):
 
 def read_description(path):
     """The recording.yaml at a path as a namespace: a name for each key, None where it is missing and has no default; and
-    `source`, the key that names the files, `files`, `full_value_is_auto`, `path` and `refuse`."""
+    `source`, the key that names the files, `files`, `full_value_is_auto` and `refuse`."""
     section = Section(path, read_yaml(path, LARGEST_FILE), ["kind", *SOURCES, "law", "spread", *NUMBERS, *LISTS])
-    kind = section.choice("kind", KINDS)
-    named = [key for key in SOURCES if section.keys.get(key)]
-    if len(named) != 1:
-        section.refuse(f"needs one of the keys {', '.join(SOURCES)}, and has {' and '.join(named) or 'none'}")
-    if kind not in SOURCES[named[0]]:
-        section.refuse(f"has '{named[0]}', which has pings of the kind {' or '.join(SOURCES[named[0]])}, not {kind}")
+    kind, named = section.choice("kind", KINDS), [key for key in SOURCES if section.keys.get(key)]
+    if len(named) != 1 or kind not in SOURCES[named[0]]:
+        section.refuse(f"of the kind {kind} needs one of the keys {', '.join(k for k in SOURCES if kind in SOURCES[k])}, "
+                       f"and has {' and '.join(named) or 'none'}")
     own = types.SimpleNamespace(
-        path=path, refuse=section.refuse, kind=kind, source=named[0], files=section.files(named[0]), law=None,
-        full_value_is_auto=False, spread=section.choice("spread", ("angle", "sine"), "angle"),
+        refuse=section.refuse, kind=kind, source=named[0], files=section.files(named[0]), law=None,
+        spread=section.choice("spread", ("angle", "sine"), "angle"), full_value_is_auto=False,
         **{key: section.number(key, *limits) for key, limits in NUMBERS.items()},
         **{key: section.numbers(key, *limits) for key, limits in LISTS.items()})
     if section.keys.get("law") is not None:
-        read_law(Section(path, section.keys["law"], ["kind", *LAW_NUMBERS]), own)
+        law = Section(path, section.keys["law"], ["kind", *LAW_NUMBERS])
+        own.full_value_is_auto = law.keys.get("full_value") in (None, "auto")
+        own.law = Law(law.choice("kind", LAWS), **{key: law.number(key, *limits) for key, limits in LAW_NUMBERS.items()})
+        if own.law.kind == "decibel" and not own.law.range_db * own.law.full_value > 0.0:
+            own.refuse("has the law decibel, which needs range_db and full_value above 0")
     elif own.source != "logs":
         own.refuse("lacks the key 'law', the meaning of the values")
     for key in NEEDED.get(own.source, ()):
@@ -113,10 +110,3 @@ def read_description(path):
     if own.spread == "sine" and max(abs(own.bearing_first_deg), abs(own.bearing_last_deg)) > 90.0:
         own.refuse("has bearings beyond -90 and 90 degrees, which 'spread: sine' cannot have")
     return own
-
-
-def read_law(section, own):
-    own.law = Law(section.choice("kind", LAWS), **{key: section.number(key, *limits) for key, limits in LAW_NUMBERS.items()})
-    own.full_value_is_auto = section.keys.get("full_value") in (None, "auto")
-    if own.law.kind == "decibel" and not (own.law.range_db > 0.0 and own.law.full_value > 0.0):
-        own.refuse("has the law decibel, which needs range_db and full_value above 0")
