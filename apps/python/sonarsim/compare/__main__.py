@@ -7,14 +7,12 @@ import sys
 import tempfile
 
 DESCRIPTION = "Compares simulated pings with real ones, figure by figure"
-EXAMPLES = """examples:
-  sonarsim compare real_pings out/tank_calibrated --out compared
-  sonarsim compare real_pings out/survey --sensor fls --pings 100"""
+EXAMPLE = "example: sonarsim compare real_pings out/survey --sensor fls --pings 100 --out compared"
+PACKAGES = "python3-numpy python3-scipy python3-matplotlib python3-yaml python3-pil"
 
 
 def arguments():
-    parser = argparse.ArgumentParser("sonarsim compare", description=DESCRIPTION, epilog=EXAMPLES,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser("sonarsim compare", description=DESCRIPTION, epilog=EXAMPLE)
     parser.add_argument("real", help="the real pings: a folder with recording.yaml, or a dataset")
     parser.add_argument("simulated", help="the simulated pings: the same")
     parser.add_argument("--out", metavar="FOLDER", type=pathlib.Path, help="a folder for compare.json and compare.svg")
@@ -28,7 +26,7 @@ def arguments():
 
 
 def number_of_pings(text):
-    if not text.isdecimal() or not 1 <= int(text) <= 1 << 20:
+    if not text.isdecimal() or not 0 < int(text) <= 1 << 20:
         raise argparse.ArgumentTypeError(f"{text!r} is no number from 1 to {1 << 20}")
     return int(text)
 
@@ -38,37 +36,27 @@ def run(options):
     from ..recording import RecordingError, open_recording
     from . import report
     from .comparison import compare_recordings
-    if options.out and (options.out / "compare.json").exists():
-        raise RecordingError(f"{options.out}: holds a comparison already: name another folder, or remove it")
-    real = open_recording(options.real, options.real_sensor, options.pings)
-    comparison = compare_recordings(real, open_recording(options.simulated, options.sensor, options.pings))
+    try:
+        if options.out and (options.out / "compare.json").exists():
+            raise RecordingError(f"{options.out}: holds a comparison already: name another folder, or remove it")
+        comparison = compare_recordings(open_recording(options.real, options.real_sensor, options.pings),
+                                        open_recording(options.simulated, options.sensor, options.pings))
+    except RecordingError as fault:
+        sys.exit(fail(fault))
     content = report.comparison_json(comparison)
     if options.out:
         options.out.mkdir(parents=True, exist_ok=True)
-        write(options.out / "compare.svg", lambda path: report.plot(comparison, path))
-        write(options.out / "compare.json", lambda path: path.write_text(json.dumps(content, indent=2) + "\n"))
+        # Made beside it and renamed, so that no half of a file is left.
+        with tempfile.TemporaryDirectory(dir=options.out, prefix=".compare") as folder:
+            made = pathlib.Path(folder)
+            report.plot(comparison, made / "compare.svg")
+            (made / "compare.json").write_text(json.dumps(content, indent=2) + "\n")
+            for name in ("compare.svg", "compare.json"):
+                os.replace(made / name, options.out / name)
     if options.json:
         print(json.dumps(content))
     elif not options.quiet:
         print(report.comparison_text(comparison), end="")
-
-
-def write(path, make):
-    """Makes a file under a temporary name, so that no half of it is left."""
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    os.close(handle)
-    try:
-        make(pathlib.Path(name))
-        os.chmod(name, 0o666 & ~current_umask())
-        os.replace(name, path)
-    finally:
-        pathlib.Path(name).unlink(missing_ok=True)
-
-
-def current_umask():
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
 
 
 def main():
@@ -76,10 +64,7 @@ def main():
     try:
         run(options)
     except ImportError as fault:
-        return fail(f"needs the package {fault.name}: apt install python3-numpy python3-scipy python3-matplotlib "
-                    "python3-yaml python3-pil")
-    except ValueError as fault:
-        return fail(fault)
+        return fail(f"needs the Python package {fault.name}: apt install {PACKAGES}")
     except OSError as fault:
         return fail(f"{fault.filename or options.out}: {fault.strerror or fault}")
     except MemoryError:

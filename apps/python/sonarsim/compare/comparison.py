@@ -4,57 +4,12 @@ import dataclasses
 import numpy as np
 
 from ..recording import Recording, RecordingError
-from .bootstrap import Estimate, estimate, exchange_p
+from .bootstrap import adjust, compared, exchange_p
 from .images import decibels, have_one_grid, images_of, patch_size_of, zones_of
 from .measure import Bands, measure_images
 from .soundings import common_angles, measure_soundings
 
-SIGNIFICANCE = 0.05
 HISTOGRAM_DRAWS = 200
-
-
-@dataclasses.dataclass
-class ComparedFigure:
-    """A figure of both recordings and what its difference means."""
-
-    name: str
-    estimate: Estimate
-    tolerance: float            # in the figure's unit
-    adjusted_p: float = 1.0     # for all figures together
-
-    @property
-    def difference(self):
-        return self.estimate.simulated - self.estimate.real
-
-    @property
-    def half(self):
-        """Half of the 95 % interval of the difference."""
-        return self.estimate.factor * self.estimate.difference_error
-
-    @property
-    def standardised(self):
-        """The difference over its standard error; 0 without one."""
-        return self.difference / self.estimate.difference_error if self.estimate.difference_error > 0.0 else 0.0
-
-    @property
-    def agrees(self):
-        return abs(self.difference) <= max(self.tolerance, self.half)
-
-    @property
-    def differs(self):
-        return self.adjusted_p < SIGNIFICANCE
-
-
-@dataclasses.dataclass
-class ComparedHistogram:
-    """Distances of two histograms."""
-
-    name: str
-    unit: str
-    jensen_shannon: float       # bits
-    usual: float                # 95 % of draws that exchange places lie below
-    kullback_leibler: float     # nats
-    earth_movers: float         # in the unit
 
 
 @dataclasses.dataclass
@@ -63,8 +18,8 @@ class Comparison:
     simulated: Recording
     has_one_grid: bool
     is_relative: bool           # powers are relative to the mean of each recording
-    figures: list
-    histograms: list
+    figures: list               # of ComparedFigure
+    histograms: list            # a dict of distances each
     levels: list                # (ranges in m, levels in dB) of both, for the plot
 
     @property
@@ -93,46 +48,41 @@ def compare_recordings(real, simulated, seed=1):
                              "compare recordings of one kind")
     # A recording without a known largest value has no absolute level.
     is_relative = real.law.full_value == 0.0 or simulated.law.full_value == 0.0
-    same_places, same_pings, measured, levels = measure_both(real, simulated, is_relative)
+    measure = measure_soundings_of_both if real.kind == "soundings" else measure_images_of_both
+    same_places, same_pings, measured, levels = measure((real, simulated), is_relative)
     others = {figure.name: figure for figure in measured[1][0]}
-    pairs, figures = [], []
-    for figure in measured[0][0]:
-        other = others.get(figure.name)
-        own = other and estimate(figure, other, same_places, same_pings, seed)
-        if own and own.degrees > 0.0:       # else it was found at fewer than eight places
-            pairs.append((figure, other))
-            figures.append(ComparedFigure(figure.name, own, tolerance_of(figure.tolerance, own.real)))
+    pairs = [(figure, others[figure.name]) for figure in measured[0][0] if figure.name in others]
+    figures = [compared(*pair, same_places, same_pings, seed) for pair in pairs]
+    # Others were found at fewer than eight places.
+    known = [k for k, figure in enumerate(figures) if figure.degrees > 0.0]
+    pairs, figures = [pairs[k] for k in known], [figures[k] for k in known]
     if not figures:
-        raise RecordingError("the recordings have no figure in common: too few ranges, beams or pings")
+        raise RecordingError(f"{real.name} and {simulated.name} have no figure in common: too few ranges, beams or pings")
     adjust(figures)
     if same_places:
-        adjust_by_exchange(figures, pairs, seed)
+        # A figure must also differ by exchange, since a few bright places cause other tails than Student's. A figure
+        # without variance has no such tails.
+        for figure, p in zip(figures, exchange_p(pairs, [figure.error for figure in figures], seed)):
+            figure.adjusted_p = max(figure.adjusted_p, float(p)) if figure.error > 0.0 else figure.adjusted_p
     histograms = [compared_histograms(*both, same_places, seed) for both in zip(measured[0][1], measured[1][1])]
     return Comparison(real, simulated, same_places, is_relative, figures, histograms, levels)
 
 
-def tolerance_of(kind, real):
-    tenth = 0.1 * abs(real)
-    return {"tenth": tenth, "decibel": 1.0, "correlation": 0.05, "share": max(0.001, tenth)}[kind]
+def measure_soundings_of_both(recordings, is_relative):
+    angles = common_angles(*recordings)
+    return False, False, [(measure_soundings(one, angles, is_relative), []) for one in recordings], []
 
 
-def measure_both(real, simulated, is_relative):
+def measure_images_of_both(recordings, is_relative):
     """(same places, same pings, [(figures, histograms)] of both, levels by range of both)."""
-    if real.kind == "soundings":
-        angles = common_angles(real, simulated)
-        return False, False, [(measure_soundings(one, angles, is_relative), []) for one in (real, simulated)], []
-    images = [images_of(one) for one in (real, simulated)]
-    if is_relative:
-        images = [one.relative() for one in images]
+    images = [images_of(one, is_relative) for one in recordings]
     a, b = images
-    is_one = have_one_grid(a, b)
+    is_one, size, bands = have_one_grid(a, b), patch_size_of(a, b), common_bands(a, b)
     means = [one.mean_powers() for one in images]
     # With a common grid both have the zones of their mean, so that chance does not shift one's against the other's.
     zones = [zones_of(mean) for mean in ([0.5 * (means[0] + means[1])] * 2 if is_one else means)]
-    size, bands = patch_size_of(a, b), common_bands(a, b)
     measured = [measure_images(one, size, own, bands) for one, own in zip(images, zones)]
-    levels = [(one.first_range_m + one.range_step_m * np.arange(len(mean)), decibels(mean))
-              for one, mean in zip(images, means)]
+    levels = [(one.ranges_m, decibels(mean)) for one, mean in zip(images, means)]
     return is_one, is_one and len(a.powers) == len(b.powers), measured, levels
 
 
@@ -141,48 +91,33 @@ def common_bands(a, b):
     end = min(one.first_range_m + one.shape[0] * one.range_step_m for one in (a, b))
     if end <= begin:
         raise RecordingError("the recordings have no ranges in common")
-    bearings = None
-    if a.bearing_rad is not None and b.bearing_rad is not None:
-        low, high = max(a.bearing_rad.min(), b.bearing_rad.min()), min(a.bearing_rad.max(), b.bearing_rad.max())
-        bearings = (low, high) if high > low else None
-    return Bands((begin, end), bearings)
-
-
-def adjust(figures):
-    """Holm's step-down correction: the k-th smallest p of m is multiplied by m - k."""
-    largest = 0.0
-    for k, figure in enumerate(sorted(figures, key=lambda one: one.estimate.p)):
-        largest = max(largest, min(1.0, figure.estimate.p * (len(figures) - k)))
-        figure.adjusted_p = largest
-
-
-def adjust_by_exchange(figures, pairs, seed):
-    """A figure of common places must also differ in the test by exchange, since a few bright places cause other tails than
-    Student's. A figure without variance has no such tails."""
-    of_exchange = exchange_p(pairs, [figure.estimate.difference_error for figure in figures], seed)
-    for figure, p in zip(figures, of_exchange):
-        if figure.estimate.difference_error > 0.0:
-            figure.adjusted_p = max(figure.adjusted_p, float(p))
+    if a.bearing_rad is None or b.bearing_rad is None:
+        return Bands((begin, end), None)
+    low, high = max(a.bearing_rad.min(), b.bearing_rad.min()), min(a.bearing_rad.max(), b.bearing_rad.max())
+    return Bands((begin, end), (low, high) if high > low else None)
 
 
 def compared_histograms(real, simulated, is_paired, seed):
+    """The distances of two histograms. Below `usual` lie 95 % of the draws that exchange places."""
     a, b = real.counts.sum(axis=0), simulated.counts.sum(axis=0)
-    random = np.random.default_rng([seed, 4])
+    random, drawn = np.random.default_rng([seed, 4]), []
     share = 0.5 if is_paired else len(real.counts) / (len(real.counts) + len(simulated.counts))
-    drawn = []
     for _ in range(HISTOGRAM_DRAWS):
-        # Redistributes the places of both; common places are exchanged one by one.
+        # Common places are exchanged one by one; else all are dealt out again.
         of_real = random.random(len(real.counts)) < share
         of_simulated = ~of_real if is_paired else random.random(len(simulated.counts)) < share
         one = of_real @ real.counts + of_simulated @ simulated.counts
-        other = a + b - one
-        drawn.append(jensen_shannon(one, other) if one.sum() > 0.0 and other.sum() > 0.0 else 1.0)
-    return ComparedHistogram(real.name, real.unit, jensen_shannon(a, b), float(np.quantile(drawn, 0.95)),
-                             kullback_leibler(a, b), real.bin_width * earth_movers(a, b))
+        drawn.append(jensen_shannon(one, a + b - one))
+    return {"name": real.name, "jensen_shannon_bits": jensen_shannon(a, b),
+            "usual_jensen_shannon_bits": float(np.quantile(drawn, 0.95)),
+            "kullback_leibler_nats": kullback_leibler(a, b), "earth_movers": real.bin_width * earth_movers(a, b),
+            "earth_movers_unit": real.unit}
 
 
 def jensen_shannon(one, other):
     """The Jensen-Shannon divergence of two histograms, bits: 0 for equal shares, 1 for those that share no bin."""
+    if not one.sum() > 0.0 < other.sum():
+        return 1.0
     p, q = one / one.sum(), other / other.sum()
     middle = 0.5 * (p + q)
     return float(0.5 * sum(np.sum(x[x > 0.0] * np.log2(x[x > 0.0] / middle[x > 0.0])) for x in (p, q)))

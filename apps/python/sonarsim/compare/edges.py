@@ -23,22 +23,18 @@ MOST_CHANGE = np.array([np.inf, np.inf, 1.5, 0.3, 0.7])
 
 def edge_figures(images, grid, zones):
     """The widths from 10 to 90 % of the rise, along range in metres and along bearing in degrees."""
-    begin = (zones.water if zones.water[1] > zones.water[0] else zones.bottom)[0]
-    every = -(-len(images.powers) // MOST_IMAGES)
-    beam_step = np.degrees(np.abs(np.gradient(images.bearing_rad)))
     figures = []
     for name, along in (("edges: width, m", 0), ("edges: width, degrees", 1)):
         cells, windows = [], []
-        for ping in range(0, len(images.powers), every):
-            image = images.powers[ping].astype(float)
-            for ranges, beams, window in windows_of(image, begin, grid.size, along):
-                if (window >= images.full_power).mean() > MOST_FULL:
-                    continue
-                unit = beam_step[beams] if along else images.range_step_m
-                cells.append((grid.place_of(ranges, beams), ping, unit))
-                windows.append(window)
-        places, pings, units = np.array(cells).T if cells else np.zeros((3, 0))
-        widths = units * widths_of_steps(np.array(windows)) if windows else units
+        for ping in range(0, len(images.powers), -(-len(images.powers) // MOST_IMAGES)):
+            for ranges, beams, window in windows_of(images.powers[ping].astype(float), zones.nearest[0], grid.size, along):
+                if (window >= images.full_power).mean() <= MOST_FULL:
+                    cells.append((grid.place_of(ranges, beams), ping, beams))
+                    windows.append(window)
+        places, pings, beams = np.array(cells, int).reshape(-1, 3).T
+        widths = widths_of_steps(np.array(windows)) if windows else np.zeros(0)
+        if windows:
+            widths *= np.degrees(np.abs(np.gradient(images.bearing_rad)))[beams] if along else images.range_step_m
         figures.append(Figure.of(name, "quantile", "tenth", places, pings, widths))
     return figures
 

@@ -22,61 +22,46 @@ class Figure:
     share: float = 0.5      # of quantile
 
     @classmethod
-    def of(cls, name, reduce, tolerance, places, pings, values, weights=None, share=0.5):
-        """A figure of the cells whose values are finite; all arguments of one shape, or broadcast to it."""
+    def of(cls, name, reduce, tolerance, places, pings, values, weights=1.0, share=0.5):
+        """A figure of the cells with finite values and weight; arrays are broadcast to the shape of the values."""
         values = np.asarray(values, float)
-        places, pings, weights = (np.broadcast_to(array, values.shape)[np.isfinite(values)] for array in (
-            places, pings, 1.0 if weights is None else weights))
-        kept = weights > 0.0
-        return cls(name, reduce, tolerance, places[kept].astype(int), pings[kept].astype(int),
-                   values[np.isfinite(values)][kept], weights[kept].astype(float), share)
-
-    def value(self):
-        """The value of the figure; NaN without cells."""
-        if not self.values.size:
-            return np.nan
-        return float(self.drawn(np.zeros(self.values.size, int), np.ones((1, 1)))[0])
-
-    def drawn(self, units, draws):
-        """The values in draws: draws[d, u] multiplies the weights of the cells of unit u."""
-        return joined([(self, units, draws)])
+        places, pings, weights = (np.broadcast_to(array, values.shape) for array in (places, pings, weights))
+        kept = np.isfinite(values) & (weights > 0.0)
+        return cls(name, reduce, tolerance, places[kept].astype(int), pings[kept].astype(int), values[kept],
+                   weights[kept].astype(float), share)
 
 
-def joined(parts):
-    """The values of the cells of all parts together in draws; each part is (figure, units of its cells, draws)."""
-    first = parts[0][0]
+def value_of(figure):
+    """The value of a figure; NaN without cells."""
+    return float(joined((figure, 0 * figure.places, np.ones((1, 1))))[0]) if figure.values.size else np.nan
+
+
+def joined(*parts):
+    """The values of the cells of all parts together in draws. A part is a figure, the units of its cells, and draws[d, u],
+    which multiply the weights of the cells of unit u."""
+    first, _, draws = parts[0]
     if first.reduce != "quantile":
-        sums = weights = 0.0
-        for figure, units, draws in parts:
-            count = draws.shape[1]
-            sums = sums + draws @ np.bincount(units, figure.weights * figure.values, count)
-            weights = weights + draws @ np.bincount(units, figure.weights, count)
         with np.errstate(invalid="ignore", divide="ignore"):
-            mean = sums / weights
+            mean = np.divide(*(sum(own @ np.bincount(units, figure.weights * factor(figure), own.shape[1])
+                                   for figure, units, own in parts) for factor in (lambda f: f.values, lambda f: 1.0)))
         return 10.0 * np.log10(np.maximum(mean, LEAST_POWER)) if first.reduce == "level" else mean
     values, at = np.unique(np.concatenate([figure.values for figure, *_ in parts]), return_inverse=True)
-    cells, done = [], 0
-    for figure, units, draws in parts:
-        own = at[done:done + figure.values.size]
-        done += figure.values.size
-        cells.append(sparse.csr_matrix((figure.weights, (own, units)), (len(values), draws.shape[1])))
-    count = len(parts[0][2])
+    ends = np.cumsum([figure.values.size for figure, *_ in parts])
+    cells = [sparse.csr_matrix((figure.weights, (own, units)), (len(values), drawn.shape[1]))
+             for (figure, units, drawn), own in zip(parts, np.split(at, ends))]
     step = max(1, MOST_WEIGHTS // len(values))
     return np.concatenate([
-        quantile_of(values, sum(own @ draws[k:k + step].T for own, (*_, draws) in zip(cells, parts)), first.share)
-        for k in range(0, count, step)])
+        quantile_of(values, sum(own @ drawn[k:k + step].T for own, (*_, drawn) in zip(cells, parts)), first.share)
+        for k in range(0, len(draws), step)])
 
 
 def quantile_of(values, weights, share):
     """The mid-distribution quantile (Parzen 2004) of sorted values for each column of weights, interpolated between
     values, so that it moves smoothly where a value occurs often."""
     ends = np.cumsum(weights, axis=0)
-    middles = ends - 0.5 * weights
-    wanted = share * ends[-1]
-    above = (middles < wanted).sum(axis=0)
-    high = np.minimum(above, len(values) - 1)
+    middles, wanted, columns = ends - 0.5 * weights, share * ends[-1], np.arange(weights.shape[1])
+    high = np.minimum((middles < wanted).sum(axis=0), len(values) - 1)
     low = np.maximum(high - 1, 0)
-    columns = np.arange(weights.shape[1])
     step = middles[high, columns] - middles[low, columns]
     part = np.divide(wanted - middles[low, columns], step, out=np.ones_like(step), where=step > 0.0)
     out = values[low] + (values[high] - values[low]) * np.clip(part, 0.0, 1.0)

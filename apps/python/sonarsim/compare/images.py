@@ -11,6 +11,10 @@ BOTTOM_DB, STANDS_OUT_DB = 10.0, 15.0
 RING_SHARE, SMOOTHED_SHARE = 28, 44
 
 
+def decibels(powers):
+    return 10.0 * np.log10(np.maximum(powers, LEAST_POWER))
+
+
 @dataclasses.dataclass
 class Images:
     """Images of powers [image, range, column], one for each ping. Sonars with one or two beams have images of up to
@@ -32,19 +36,17 @@ class Images:
     def shape(self):
         return self.powers.shape[1:]
 
+    @property
+    def ranges_m(self):
+        return self.first_range_m + self.range_step_m * np.arange(self.shape[0])
+
     def mean_powers(self):
         """The mean power of each range."""
         return self.powers.mean(axis=(0, 2), dtype=np.float64)
 
-    def relative(self):
-        """The images with powers divided by their mean."""
-        mean = self.powers.mean(dtype=np.float64)
-        factor = np.float32(1.0 / mean if mean > 0.0 else 1.0)
-        return dataclasses.replace(self, powers=self.powers * factor, full_power=self.full_power * factor,
-                                   least_power=self.least_power * factor)
 
-
-def images_of(recording):
+def images_of(recording, is_relative):
+    """The Images of a recording; their powers are divided by their mean if levels are relative."""
     law, powers = recording.law, recording.powers()
     is_imaging = recording.kind == "imaging"
     if not is_imaging:
@@ -52,10 +54,12 @@ def images_of(recording):
         width = min(MOST_STRIP_PINGS, pings)
         strips = powers[:pings // width * width].reshape(-1, width, ranges, beams)
         powers = strips.transpose(3, 0, 2, 1).reshape(-1, ranges, width)
-    full = float(law.powers(CLIPPED_SHARE * law.largest_value)) if law.full_value else np.inf
-    return Images(powers, recording.first_range_m, recording.range_step_m,
+    mean = powers.mean(dtype=np.float64) if is_relative else 1.0
+    factor = np.float32(1.0 / mean if mean > 0.0 else 1.0)
+    full = float(factor * law.powers(CLIPPED_SHARE * law.largest_value)) if law.full_value else np.inf
+    return Images(factor * powers, recording.first_range_m, recording.range_step_m,
                   recording.bearing_rad if is_imaging else None, recording.kind == "sidescan", full,
-                  float(law.powers(0.0)))
+                  float(factor * law.powers(0.0)))
 
 
 def have_one_grid(a, b):
@@ -105,17 +109,16 @@ class Zones:
     def is_one(self):
         return self.water[0] == self.water[1] and self.tail[0] == self.tail[1]
 
-
-def decibels(powers):
-    return 10.0 * np.log10(np.maximum(powers, LEAST_POWER))
+    @property
+    def nearest(self):
+        return self.water if self.water[1] > self.water[0] else self.bottom
 
 
 def zones_of(mean_powers):
     """The zones of the mean powers of ranges (docs/compare.md)."""
-    count = len(mean_powers)
+    count, at = len(mean_powers), np.arange(len(mean_powers))
     half = count // SMOOTHED_SHARE // 2
-    ends = np.arange(count)
-    low, high = np.maximum(ends - half, 0), np.minimum(ends + half + 1, count)
+    low, high = np.maximum(at - half, 0), np.minimum(at + half + 1, count)
     sums = np.concatenate([[0.0], np.cumsum(mean_powers)])
     level = decibels((sums[high] - sums[low]) / (high - low))
     first = count // RING_SHARE
@@ -123,17 +126,14 @@ def zones_of(mean_powers):
     edge = level[peak] - BOTTOM_DB
     if not level[first:].min() < level[peak] - STANDS_OUT_DB:
         return Zones(bottom=(0, count))
-    begin, end = peak, peak + 1
-    while begin > first and level[begin - 1] >= edge:
-        begin -= 1
-    while end < count and level[end] >= edge:
-        end += 1
+    weak = np.concatenate([[first - 1], np.flatnonzero((level < edge) & (at >= first)), [count]])
+    begin, end = int(weak[weak < peak].max()) + 1, int(weak[weak > peak].min())
     zones = Zones(bottom=(begin, end))
     if begin > first:
-        low = level[first:begin].min()
-        is_strong = level[first:begin] > low + (edge - low) / 3.0
-        zones.water = (first, first + int(np.argmax(is_strong)) if is_strong.any() else begin)
+        lowest = level[first:begin].min()
+        is_strong = np.append(level[first:begin] > lowest + (edge - lowest) / 3.0, True)
+        zones.water = (first, first + int(np.argmax(is_strong)))
     if end < count:
-        low = level[end:].min()
-        zones.tail = (end + int(np.argmax(level[end:] <= low + (edge - low) / 2.0)), count)
+        lowest = level[end:].min()
+        zones.tail = (end + int(np.argmax(level[end:] <= lowest + (edge - lowest) / 2.0)), count)
     return zones

@@ -5,17 +5,15 @@ from scipy import ndimage
 from .figure import Figure
 from .images import decibels
 
-RANGE_REACH, BEAM_REACH = 4, 12
+REACH = (9, 25)         # a point is the largest within 4 ranges and 12 beams
 STANDS_OUT = 150.0      # 22 dB over the median of the 7 ranges about it
 LOBES = np.array([-8, -7, -6, -5, 5, 6, 7, 8])
 
 
 def point_figures(images, grid, zones):
-    """Figures of the bins that are the largest within 4 ranges and 12 beams."""
-    zone = zones.water if zones.water[1] > zones.water[0] else zones.bottom
     cells = []
     for ping, image in enumerate(images.powers):
-        for i, j in points_of(image, *zone):
+        for i, j in points_of(image, *zones.nearest):
             lobes = image[i, np.clip(j + LOBES, 0, image.shape[1] - 1)].mean() / image[i, j]
             cells.append((grid.place_of(i, j), ping, width_of(image[i], j), width_of(image[:, j], i),
                           max(-120.0, float(decibels(lobes)))))
@@ -29,14 +27,11 @@ def points_of(image, begin, end):
     """The (range, beam) of points, at least 20 beams, or an eighth of the fan, away from its edges."""
     ranges, beams = image.shape
     margin = min(20, beams // 8)
-    begin, end = max(begin, 1), min(end, ranges - 1)
-    if beams < 2 * BEAM_REACH or end <= begin:
-        return []
-    largest = ndimage.maximum_filter(image, (2 * RANGE_REACH + 1, 2 * BEAM_REACH + 1), mode="nearest")
-    is_point = (image > 0.0) & (image >= largest)
+    is_point = (image > 0.0) & (image >= ndimage.maximum_filter(image, REACH, mode="nearest"))
+    is_point[:max(begin, 1)] = is_point[min(end, ranges - 1):] = False
     is_point[:, :margin] = is_point[:, beams - margin:] = False
     found = []
-    for i in np.flatnonzero(is_point[begin:end].any(axis=1)) + begin:
+    for i in np.flatnonzero(is_point.any(axis=1)) if beams >= REACH[1] - 1 else ():
         rows = image[max(0, i - 3):i + 4].ravel()
         median = np.partition(rows, rows.size // 2)[rows.size // 2]
         found += [(i, j) for j in np.flatnonzero(is_point[i] & (image[i] >= STANDS_OUT * median))]
@@ -45,14 +40,8 @@ def points_of(image, begin, end):
 
 def width_of(line, peak):
     """The width at half of the power, between bins linearly."""
-    half = 0.5 * line[peak]
-    width = 0.0
-    for side in (line[peak::-1], line[peak:]):
-        side = side.astype(float)
-        below = np.flatnonzero(side <= half)
-        if not below.size:
-            width += len(side) - 1
-            continue
-        k = below[0]
-        width += k - 1 + (side[k - 1] - half) / (side[k - 1] - side[k])
+    half, width = 0.5 * line[peak], 0.0
+    for side in (line[peak::-1].astype(float), line[peak:].astype(float)):
+        k = int(np.argmax(side <= half)) or len(side)
+        width += k - 1 + ((side[k - 1] - half) / (side[k - 1] - side[k]) if k < len(side) else 0.0)
     return width

@@ -1,6 +1,4 @@
 """A comparison as text, as JSON and as a plot."""
-import math
-
 COLOURS = {"real": "#1b6ca8", "simulated": "#c8553d"}
 MOST_STANDARDISED = 10.0
 NOISE = "instrument.receiver.noise_db, common_mode_db, tvg_log, tvg_from_m, full_scale_db"
@@ -44,8 +42,7 @@ def keys_behind(name):
 
 
 def interval(value, half):
-    text = f"{value:.4g}" if math.isfinite(value) else "-"
-    return f"{text} +- {half:.2g}" if half > 0.0 else text
+    return f"{value:.4g} +- {half:.2g}" if half > 0.0 else f"{value:.4g}"
 
 
 def word_of(figure):
@@ -58,12 +55,12 @@ def comparison_text(c):
     width = max(6, *(len(figure.name) for figure in c.figures))
     lines = [f"{'figure':{width}}  {'real':>19}  {'simulated':>19}  {'difference':>19}"]
     for figure in c.figures:
-        e = figure.estimate
-        lines.append(f"{figure.name:{width}}  {interval(e.real, e.factor * e.real_error):>19}  "
-                     f"{interval(e.simulated, e.factor * e.simulated_error):>19}  "
-                     f"{interval(figure.difference, figure.half):>19}  {word_of(figure)}")
-    lines += [f"{h.name}: Jensen-Shannon {h.jensen_shannon:.4g} bits (by chance up to {h.usual:.4g}), Kullback-Leibler "
-              f"{h.kullback_leibler:.4g} nats, earth mover's {h.earth_movers:.4g} {h.unit}" for h in c.histograms]
+        values = zip((figure.real, figure.simulated, figure.difference), figure.halves)
+        columns = "  ".join(f"{interval(*one):>19}" for one in values)
+        lines.append(f"{figure.name:{width}}  {columns}  {word_of(figure)}")
+    lines += ["{name}: Jensen-Shannon {jensen_shannon_bits:.4g} bits (by chance up to {usual_jensen_shannon_bits:.4g}), "
+              "Kullback-Leibler {kullback_leibler_nats:.4g} nats, earth mover's {earth_movers:.4g} {earth_movers_unit}".format(
+                  **one) for one in c.histograms]
     if c.is_relative:
         lines.append("Levels are relative to the mean of each recording: one has no full_value.")
     lines.append(f"{c.agreeing} of {len(c.figures)} figures agree ({100.0 * c.agreeing / len(c.figures):.0f} %): their "
@@ -80,30 +77,20 @@ def comparison_json(c):
     """The comparison as a dict for JSON."""
     first = c.first_change
     return {
-        "format": "sonarsim comparison", "format_version": 1,
-        "real": {"name": c.real.name, "pings": len(c.real)},
-        "simulated": {"name": c.simulated.name, "pings": len(c.simulated)},
-        "one_grid": c.has_one_grid, "relative_levels": c.is_relative, "figures_agreeing": c.agreeing,
-        "figures_differing": c.differing, "agreement": c.agreeing / len(c.figures), "same": c.is_same,
-        "change_first": first and {"figure": first.name, "standardised": first.standardised,
-                                   "keys": keys_behind(first.name)},
-        "figures": [figure_json(figure) for figure in c.figures],
-        "histograms": [{"name": h.name, "jensen_shannon_bits": h.jensen_shannon, "usual_jensen_shannon_bits": h.usual,
-                        "kullback_leibler_nats": h.kullback_leibler, "earth_movers": h.earth_movers,
-                        "earth_movers_unit": h.unit} for h in c.histograms]}
-
-
-def figure_json(figure):
-    e = figure.estimate
-    return {"name": figure.name, "real": e.real, "real_half_interval": e.factor * e.real_error,
-            "simulated": e.simulated, "simulated_half_interval": e.factor * e.simulated_error,
-            "difference": figure.difference, "difference_half_interval": figure.half, "tolerance": figure.tolerance,
-            "standardised": figure.standardised, "p": e.p, "adjusted_p": figure.adjusted_p, "agrees": figure.agrees,
-            "differs": figure.differs}
+        "format": "sonarsim comparison", "format_version": 1, "real": {"name": c.real.name, "pings": len(c.real)},
+        "simulated": {"name": c.simulated.name, "pings": len(c.simulated)}, "one_grid": c.has_one_grid,
+        "relative_levels": c.is_relative, "figures_agreeing": c.agreeing, "figures_differing": c.differing,
+        "agreement": c.agreeing / len(c.figures), "same": c.is_same,
+        "change_first": first and {"figure": first.name, "standardised": first.standardised, "keys": keys_behind(first.name)},
+        "figures": [{"name": f.name, "real": f.real, "real_half_interval": f.halves[0], "simulated": f.simulated,
+                     "simulated_half_interval": f.halves[1], "difference": f.difference,
+                     "difference_half_interval": f.halves[2], "tolerance": f.tolerance, "standardised": f.standardised,
+                     "p": f.p, "adjusted_p": f.adjusted_p, "agrees": f.agrees, "differs": f.differs} for f in c.figures],
+        "histograms": c.histograms}
 
 
 def plot(c, path):
-    """Draws levels by range and the difference of each figure into a file."""
+    """Draws levels by range and the difference of each figure into an SVG."""
     import matplotlib       # pylint: disable=import-outside-toplevel
     matplotlib.use("Agg")
     matplotlib.rcParams["svg.hashsalt"] = "sonarsim"
@@ -112,8 +99,8 @@ def plot(c, path):
     heights = [3.0] * bool(c.levels) + [0.18 * rows + 0.5]
     drawing, panels = pyplot.subplots(len(heights), 1, figsize=(10.0, sum(heights) + 1.0), squeeze=False,
                                       gridspec_kw={"height_ratios": heights}, layout="constrained")
-    for (name, colour), (ranges, levels) in zip(COLOURS.items(), c.levels):
-        panels[0, 0].plot(ranges, levels, color=colour, label=name, linewidth=1.0)
+    for name, (ranges, levels) in zip(COLOURS, c.levels):
+        panels[0, 0].plot(ranges, levels, color=COLOURS[name], label=name, linewidth=1.0)
     if c.levels:
         panels[0, 0].set(xlabel="range, m", ylabel="level, dB")
         panels[0, 0].legend()
@@ -121,7 +108,7 @@ def plot(c, path):
     panel.axvspan(-1.96, 1.96, color="#eeeeee")
     panel.scatter([max(-MOST_STANDARDISED, min(MOST_STANDARDISED, figure.standardised)) for figure in c.figures],
                   range(rows), c=[COLOURS["real" if figure.agrees else "simulated"] for figure in c.figures], zorder=2)
-    panel.set_yticks(range(rows), [figure.name for figure in c.figures], fontsize=7, parse_math=False)
+    panel.set_yticks(range(rows), [figure.name for figure in c.figures], fontsize=7)
     panel.set(xlim=(-MOST_STANDARDISED - 0.5, MOST_STANDARDISED + 0.5), ylim=(rows, -1),
               xlabel="difference in standard errors, cut at 10; grey: 1.96 of them; blue: agrees")
     drawing.savefig(path, format="svg", metadata={"Date": None})

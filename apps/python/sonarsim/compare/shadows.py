@@ -11,47 +11,40 @@ DARK = 0.25     # 6 dB below; speckle alone makes such a run in fewer than one o
 
 
 def shadow_figures(images, grid, zones):
-    begin = zones.bottom[0]
-    depths, edges, shares = [], [], []
-    rows = np.arange(begin, zones.bottom[0] + (images.shape[0] - begin) // grid.size[0] * grid.size[0], grid.size[0])
-    tested = np.unique(grid.place_of(rows[:, None], grid.size[1] * np.arange(max(1, grid.columns))))
+    begin, (height, width) = zones.bottom[0], grid.size
+    rows = np.arange(begin, images.shape[0] - height + 1, height)
+    tested = np.unique(grid.place_of(rows[:, None], width * np.arange(max(1, grid.columns))))
+    shadows, shares = [], []
     for ping, image in enumerate(images.powers):
-        dark = np.zeros(grid.place_of(images.shape[0], images.shape[1]) + 1)
+        dark = np.zeros(grid.place_of(*images.shape) + 1)
         for column, first, end, depth, edge in shadows_of(image.astype(float), begin):
-            place = grid.place_of(first, column)
-            depths.append((place, ping, depth))
-            edges.append((place, ping, edge))
-            np.add.at(dark, grid.place_of(np.arange(first, end), column), 1.0)
-        shares += [(place, ping, dark[place] / (grid.size[0] * grid.size[1])) for place in tested]
-    return [Figure.of(name, reduce, tolerance, *(np.array(cells).T if cells else np.zeros((3, 0))))
-            for name, reduce, tolerance, cells in (
-                ("shadows: share of the bottom", "mean", "share", shares),
-                ("shadows: depth, dB", "quantile", "decibel", depths),
-                ("shadows: far edge, ranges", "quantile", "tenth", edges))]
+            shadows.append((grid.place_of(first, column), ping, depth, edge))
+            np.add.at(dark, grid.place_of(np.arange(first, end), column), 1.0 / (height * width))
+        shares += [(place, ping, dark[place]) for place in tested]
+    places, pings, depths, edges = np.array(shadows).T if shadows else np.zeros((4, 0))
+    return [Figure.of("shadows: share of the bottom", "mean", "share", *np.array(shares).reshape(-1, 3).T),
+            Figure.of("shadows: depth, dB", "quantile", "decibel", places, pings, depths),
+            Figure.of("shadows: far edge, ranges", "quantile", "tenth", places, pings, edges)]
 
 
 def window_mean(image, size):
     """The mean of a window that ends at the image's borders."""
-    def sums(values):
-        return ndimage.uniform_filter(values, size, mode="constant")
-    return sums(image) / sums(np.ones_like(image))
+    inside, all_ones = (ndimage.uniform_filter(one, size, mode="constant") for one in (image, np.ones_like(image)))
+    return inside / all_ones
 
 
 def shadows_of(image, begin):
     """(column, first range, end, depth in dB, width of the far edge) of the shadows from range `begin` on."""
-    smooth = window_mean(image, (WINDOW, WINDOW))[begin:]
-    across = window_mean(image, (1, WINDOW))[begin:]
+    smooth, across = (window_mean(image, size)[begin:] for size in ((WINDOW, WINDOW), (1, WINDOW)))
     middle = image.shape[1] // 2
     median = np.partition(smooth, middle, axis=1)[:, middle]
     is_dark = np.zeros((len(smooth) + 2, image.shape[1]), int)
     is_dark[1:-1] = smooth < DARK * median[:, None]
     found = []
-    for column in range(image.shape[1]):
-        steps = np.diff(is_dark[:, column])
-        for first, end in zip(np.flatnonzero(steps == 1), np.flatnonzero(steps == -1)):
-            if end - first >= LEAST_LENGTH:
-                found.append((column, begin + first, begin + end,
-                              *measured_shadow(across[:, column], median, first, end)))
+    for column, steps in enumerate(np.diff(is_dark, axis=0).T):
+        found += [(column, begin + first, begin + end, *measured_shadow(across[:, column], median, first, end))
+                  for first, end in zip(np.flatnonzero(steps == 1), np.flatnonzero(steps == -1))
+                  if end - first >= LEAST_LENGTH]
     return found
 
 
@@ -67,8 +60,5 @@ def measured_shadow(line, median, first, end):
 
 def reached_at(line, power):
     """The place, interpolated linearly, at which a line first reaches a power behind its first value; NaN if nowhere."""
-    above = np.flatnonzero(line[1:] >= power)
-    if not above.size:
-        return np.nan
-    k = above[0] + 1
-    return k - (line[k] - power) / max(line[k] - line[k - 1], 1e-30)
+    k = int(np.argmax(np.append(False, line[1:] >= power)))
+    return k - (line[k] - power) / max(line[k] - line[k - 1], 1e-30) if k else np.nan
