@@ -1,0 +1,121 @@
+"""The pings of a dataset of sonarsim."""
+import numpy as np
+
+from .. import data
+from .arrays import FAULTS, two_sides
+from .description import Section, read_yaml
+from .recording import MOST_VALUES, Law, Recording, RecordingError, Soundings
+
+LARGEST_MISSION = 1 << 26
+LEAST_QUALITY = 0.5
+KINDS = {"sidescan": "sidescan", "echosounder": "echosounder", "scanning": "scanning", "profiling": "soundings"}
+
+
+def read_dataset(folder, name, most_pings):
+    """The recording of a sensor of a dataset."""
+    try:
+        dataset = data.open_dataset(folder)
+        names = list(dataset.sensors)
+        if not dataset.complete:
+            raise RecordingError(f"{folder}: is not complete; run the render command again")
+        if name not in names and (name or len(names) > 1):
+            wrong = f"no sensor {name!r}" if name else "several sensors; choose one with --sensor"
+            raise RecordingError(f"{folder}: has {wrong}; there are {', '.join(names)}")
+        return recording_of(folder, dataset[name or names[0]], most_pings)
+    except RecordingError:
+        raise
+    except OSError as fault:
+        raise RecordingError(f"{fault.filename or folder}: cannot be read: {fault.strerror or fault}") from fault
+    except (*FAULTS, LookupError, AttributeError) as fault:
+        text = str(fault) if isinstance(fault, ValueError) else f"{folder}: is damaged: {fault!r}"
+        raise RecordingError(f"{text}; sonarsim verify says more") from fault
+
+
+def recording_of(folder, sensor, most_pings):
+    pings, middles = min(len(sensor), most_pings), data.middles(sensor.range_edges_m)
+    recording = Recording(KINDS.get(sensor.kind, "imaging"), first_range_m=float(middles[0]),
+                          range_step_m=float(middles[1] - middles[0]) if len(middles) > 1 else 0.0)
+    name = "raw" if "raw" in sensor.keys else "polar"
+    set_facts(folder, sensor, name == "raw", recording)
+    if recording.kind in ("imaging", "soundings"):
+        recording.values = read_images(folder, sensor, name, pings)
+        recording.bearing_rad = data.middles(sensor.azimuth_edges_rad)
+    else:
+        recording.values = read_records(folder, sensor, recording.kind, pings)
+    if recording.kind == "soundings":
+        recording.soundings = soundings_of(folder, sensor, recording)
+        recording.values = recording.bearing_rad = None
+    # Times stand in the metadata of each ping; figures need only the order.
+    recording.times_s, recording.head_rad = np.arange(pings, dtype=float), np.zeros(pings)
+    return recording
+
+
+def require(folder, sensor, is_right, values=0):
+    """ValueError or RecordingError unless an array has the right shape, and values are few."""
+    if not is_right:
+        raise ValueError(f"{folder}: an array of {sensor.name} has another shape than dataset.json says")
+    if values > MOST_VALUES:
+        raise RecordingError(f"{folder}: has more than {MOST_VALUES} values; take fewer pings with --pings")
+
+
+def read_images(folder, sensor, name, pings):
+    """The arrays of the first pings, float32 [ping, range, azimuth]."""
+    if name not in sensor.keys or (name == "polar" and not sensor.description["files"][name].endswith(".npy")):
+        raise RecordingError(f"{folder}: has neither raw/ nor polar/*.npy of {sensor.name}; set output.polar: true")
+    shape, images = (len(sensor.range_edges_m) - 1, len(sensor.azimuth_edges_rad) - 1), []
+    require(folder, sensor, min(shape) > 0, pings * shape[0] * shape[1])
+    for k in range(pings):
+        try:
+            images.append(np.asarray(sensor.read(k, name), np.float32))
+        except ValueError as fault:
+            raise ValueError(f"{folder}/{sensor.name}/{name}: ping {k} {fault}") from fault
+        require(folder, sensor, images[-1].shape == shape)
+    return np.array(images)
+
+
+def read_records(folder, sensor, kind, pings):
+    """Records [ping, range] or [range, ping] as float32 [ping, range, beam]."""
+    name = next((name for name in ("raw", "waterfall", "echogram", "scan") if name in sensor.keys), None)
+    if name is None:
+        raise RecordingError(f"{folder}: has no records of {sensor.name}")
+    records, beams = sensor.records(name), 2 if kind == "sidescan" else 1
+    rows = records.T if sensor.axes(name)[-1] == "ping" else records
+    require(folder, sensor, rows.ndim == 2 and len(rows) == len(sensor) and rows.shape[1] % beams == 0
+            and rows.shape[1] // beams >= len(sensor.range_edges_m) - 1, pings * rows.shape[-1])
+    rows = np.asarray(rows[:pings], np.float32)
+    return two_sides(rows) if beams == 2 else rows[:, :, None]
+
+
+def soundings_of(folder, sensor, recording):
+    """The bottom that a profiling sonar detected, with the values of its images there."""
+    records = sensor.records("soundings")       # range, x, y, z, quality, and x, y, z where sound bends
+    pings, ranges, beams = recording.values.shape
+    require(folder, sensor, records.ndim == 3 and records.shape[:2] == (len(sensor), beams) and records.shape[2] in (5, 8))
+    range_m, quality = records[:pings, :, 0], records[:pings, :, 4]
+    bins = (range_m - recording.first_range_m) / recording.range_step_m + 0.5
+    found = (quality >= LEAST_QUALITY) & (bins >= 0.0) & (bins < ranges)
+    bins = np.where(found, bins, 0.0).astype(int)
+    intensity = np.take_along_axis(recording.values, bins[:, None, :], axis=1)[:, 0]
+    angle = np.broadcast_to(-recording.bearing_rad, range_m.shape)
+    return Soundings(*(np.where(found, array, np.nan).astype(np.float32) for array in (range_m, angle, intensity)))
+
+
+def set_facts(folder, sensor, is_raw, recording):
+    """The law, the speed of sound and the frequency."""
+    path = folder / "mission.resolved.yaml"
+    mission = read_yaml(path, LARGEST_MISSION)
+    def section(keys):
+        return Section(path, keys, keys)
+    instrument = section(mission["sensors"][sensor.name].get("instrument") or {})
+    recording.law = Law("amplitude", full_value=float(sensor.description["full_scale"]))
+    if "instrument" in sensor.description:      # the calibrated model
+        recording.law = Law("power", full_value=1.0)
+        recording.frequency_hz = instrument.number("frequency_hz", 1.0, 1e9)
+    if is_raw:
+        receiver = section(instrument.keys["receiver"])
+        kind = {"gamma": "gamma", "log": "decibel"}.get(receiver.keys.get("companding", "gamma"), "amplitude")
+        recording.law = Law(kind, receiver.number("gamma", 0.1, 2.0, 0.5), receiver.number("dynamic_range_db", 10.0, 200.0, 60.0),
+                            2.0 ** int(receiver.number("bits", 4, 16, 8)) - 1.0, receiver.number("offset", 0.0, 0.9, 0.0))
+    water = section(mission["water"])
+    if not isinstance(water.keys.get("sound_speed_m_s"), dict):     # a section where it changes with depth
+        recording.sound_speed_m_s = water.number("sound_speed_m_s", 1.0, 1e5, recording.sound_speed_m_s)

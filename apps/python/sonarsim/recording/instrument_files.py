@@ -1,0 +1,94 @@
+"""Recordings in the files of instruments: joins files, and takes from recording.yaml what the format lacks."""
+import struct
+
+import numpy as np
+
+from . import aris, didson, ek60, oculus, ping360, xtf
+from .arrays import bearings_of, set_times
+from .recording import MOST_VALUES, RecordingError, Soundings
+
+LARGEST_FILE = 1 << 31
+READERS = {b"CON0": ek60.read, b"XML0": "an EK80", b"#": "a .kmall", b"\x02I": "an .all"}   # by the bytes from the fourth on
+
+
+def read_files(own, most_pings):
+    """The recording in the files of `xtf`, `oculus` or `logs`."""
+    parts, values = [], 0
+    for path in own.files:
+        if sum(map(len, parts)) == most_pings:
+            break
+        part = read_file(path, own, most_pings - sum(map(len, parts)))
+        if part.kind != own.kind:
+            raise RecordingError(f"{path}: has pings of the kind {part.kind}, and recording.yaml says {own.kind}")
+        values += (part.soundings.range_m if part.soundings else part.values).size
+        if values > MOST_VALUES:
+            raise RecordingError(f"{path}: makes more than {MOST_VALUES} values in all; take fewer pings")
+        parts.append(part)
+        if not part.soundings:
+            require_alike(path, part, parts[0])
+    return complete(own, joined(parts))
+
+
+def read_file(path, own, most_pings):
+    try:
+        if path.stat().st_size > LARGEST_FILE:
+            raise ValueError("is larger than 2 GB; split it")
+        content = path.read_bytes()
+        read = {"xtf": xtf.read, "oculus": oculus.read}.get(own.source) or reader_of(content)
+        return read(content, most_pings, own)
+    except OSError as fault:
+        raise RecordingError(f"{path}: cannot be read: {fault.strerror}") from fault
+    except struct.error as fault:
+        raise RecordingError(f"{path}: is cut off") from fault
+    except ValueError as fault:
+        raise RecordingError(f"{path}: {fault}") from fault
+
+
+def reader_of(content):
+    """The reader of the format that the first bytes show."""
+    if content[:3] == b"DDF":
+        return aris.read if content[:4] == aris.MARK else didson.read
+    reader = next((reader for mark, reader in READERS.items() if content[4:].startswith(mark)), ping360.read)
+    if isinstance(reader, str):
+        raise ValueError(f"is {reader} file, which is not read; write its pings as arrays (docs/compare.md)")
+    return reader
+
+
+def require_alike(path, part, first):
+    """RecordingError if a file has other ranges, beams or levels than the first."""
+    share = 1e-2 if part.kind == "sidescan" else 1e-4       # side-scans round their ranges
+    hertz, of_first = part.frequency_hz or 0.0, first.frequency_hz or 0.0
+    for is_other, what in (
+            (part.law != first.law, "another scale of levels"),
+            (part.values.shape[1:] != first.values.shape[1:], "another number of ranges or beams"),
+            (abs(part.range_step_m - first.range_step_m) > share * first.range_step_m, "another step of range"),
+            (abs(part.first_range_m - first.first_range_m) > 0.5 * first.range_step_m, "another first range"),
+            (abs(hertz - of_first) > 0.01 * of_first, "another frequency")):     # sonars round it; chosen
+        if is_other:
+            raise RecordingError(f"{path}: has {what} than the first file; split the recording there")
+
+
+def joined(parts):
+    """The recordings of several files as one."""
+    first = parts[0]
+    if first.soundings:
+        first.soundings = Soundings.of([ping for part in parts for ping in part.soundings.pings()])
+    for name in ("values", "times_s", "head_rad"):
+        if getattr(first, name) is not None:
+            setattr(first, name, np.concatenate([getattr(part, name) for part in parts]))
+    return first
+
+
+def complete(own, recording):
+    """Takes from recording.yaml what the format lacks."""
+    recording.frequency_hz = own.frequency_hz or recording.frequency_hz
+    recording.altitude_m = own.altitude_m or recording.altitude_m
+    if own.kind == "imaging" and recording.bearing_rad is None:
+        if not own.bearings_deg and own.bearing_first_deg == own.bearing_last_deg:
+            own.refuse("lacks 'bearing_first_deg' and 'bearing_last_deg', or 'bearings_deg': this format has no bearings")
+        recording.bearing_rad = bearings_of(own, recording.values.shape[2])
+    heads = np.zeros(len(recording)) if recording.head_rad is None else recording.head_rad
+    if recording.times_s is None:
+        set_times(own, recording, own.kind == "imaging")
+    recording.head_rad = np.radians(own.head_first_deg) + heads
+    return recording

@@ -1,0 +1,115 @@
+"""What a recording holds: the pings of one instrument, the law of its values, its ranges and bearings."""
+import dataclasses
+
+import numpy as np
+
+KINDS = ("imaging", "sidescan", "scanning", "echosounder", "soundings")
+LAWS = ("amplitude", "power", "gamma", "decibel")
+MOST_VALUES = 1 << 28       # of one file, and of all pings of a recording
+MOST_RANGES = 1 << 20
+
+
+class RecordingError(ValueError):
+    """One sentence: the file, what is wrong with it and what would be right."""
+
+
+@dataclasses.dataclass
+class Law:
+    """The law from the amplitude A of an echo to a value."""
+
+    kind: str = "amplitude"     # amplitude: value ~ A; power: A^2; gamma: A^exponent; decibel: 20 log A
+    exponent: float = 0.5       # of gamma
+    range_db: float = 0.0       # of decibel: from the value 0 to full_value
+    full_value: float = 255.0   # the largest value of the instrument, 0 if there is none
+    offset: float = 0.0         # share of full_value that the instrument subtracts
+
+    @property
+    def largest_value(self):
+        """The largest value that the instrument delivers; 0 if it is not known."""
+        return self.full_value * (1.0 - self.offset)
+
+    def powers(self, values):
+        """The powers A^2 of values as float32, 1 for largest_value (for the value 1 without full_value). The
+        value 0 has the power 0; under the law decibel it has that of the lowest level."""
+        values = np.asarray(values, np.float64)
+        share = values / (self.full_value or 1.0) + self.offset
+        if self.kind == "decibel":
+            return (10.0 ** ((share - 1.0) * self.range_db / 10.0)).astype(np.float32)
+        power = {"power": 1.0, "amplitude": 2.0, "gamma": 2.0 / self.exponent}[self.kind]
+        return np.where(values > 0.0, np.maximum(share, 0.0) ** power, 0.0).astype(np.float32)
+
+
+@dataclasses.dataclass
+class Soundings:
+    """The detected bottom, each array float32 [ping, beam]; all three are NaN where a beam found none."""
+
+    range_m: np.ndarray
+    angle_rad: np.ndarray       # from the vertical, negative to port
+    intensity: np.ndarray       # in values of the recording's law
+
+    @classmethod
+    def of(cls, pings):
+        """The soundings of pings, each a tuple (ranges, angles, intensities)."""
+        arrays = np.full((3, len(pings), max((len(ping[0]) for ping in pings), default=0)), np.nan, np.float32)
+        for k, ping in enumerate(pings):
+            arrays[:, k, :len(ping[0])] = ping
+        arrays[:, ~np.isfinite(arrays).all(axis=0)] = np.nan
+        return cls(*arrays)
+
+    def pings(self):
+        return list(zip(self.range_m, self.angle_rad, self.intensity))
+
+
+@dataclasses.dataclass
+class Recording:
+    """Pings of one instrument in the order of time, from a real sonar or from a dataset."""
+
+    kind: str = "imaging"
+    law: Law = dataclasses.field(default_factory=Law)
+    name: str = ""                          # the path, for messages and tables
+    sound_speed_m_s: float = 1500.0
+    first_range_m: float = 0.0              # slant range of the middle of the first sample
+    range_step_m: float = 0.0
+    bearing_rad: np.ndarray | None = None   # of each beam of the kind imaging, positive to port
+    frequency_hz: float | None = None
+    altitude_m: float | None = None
+    pitch_rad: float | None = None          # of the mount; positive turns the axis down
+    # float32 [ping, range, beam] as delivered, the law not undone; side-scan: 2 beams, port first;
+    # scanning and echosounder: 1 beam; soundings: None.
+    values: np.ndarray | None = None
+    soundings: Soundings | None = None      # of the kind soundings alone
+    times_s: np.ndarray | None = None       # of each ping; of a dataset the number of the ping
+    head_rad: np.ndarray | None = None      # direction of the head of a scanning sonar in each ping
+
+    def __len__(self):
+        """The number of pings."""
+        return len(self.soundings.range_m if self.kind == "soundings" else self.values)
+
+    @property
+    def ranges_m(self):
+        """The slant ranges of the middles of the samples."""
+        return self.first_range_m + self.range_step_m * np.arange(self.values.shape[1])
+
+    def powers(self):
+        """The powers of all values by the law, float32 [ping, range, beam]."""
+        return np.stack([self.law.powers(ping) for ping in self.values])
+
+    def part(self, pings):
+        """The recording of some of the pings: a slice, or an array of their numbers or of booleans."""
+        def of(array):
+            return None if array is None else array[pings]
+        soundings = self.soundings and Soundings(*map(of, vars(self.soundings).values()))
+        return dataclasses.replace(self, values=of(self.values), soundings=soundings, times_s=of(self.times_s),
+                                   head_rad=of(self.head_rad))
+
+    def check(self, source):
+        """RecordingError unless there are pings, and each value can be one of the law."""
+        if not len(self) or (self.values is not None and not self.values.size):
+            raise RecordingError(f"{source}: has no pings, or pings without values")
+        least = -np.inf if self.law.kind == "decibel" else 0.0
+        for k, ping in enumerate(() if self.values is None else self.values):
+            if not (np.isfinite(ping) & (ping >= least)).all():
+                raise RecordingError(f"{source}: ping {k} has values that are negative or not finite; give the law of "
+                                     "what the instrument delivers, and 0 where nothing was received")
+        if self.kind == "imaging" and len(self.bearing_rad) != self.values.shape[2]:
+            raise RecordingError(f"{source}: has {len(self.bearing_rad)} bearings for {self.values.shape[2]} beams")
