@@ -1,0 +1,8 @@
+"""Fits a preset to one part of the pings of a recording, and judges it by the other.
+
+    from sonarsim.calibrate import calibrate
+"""
+from .command import calibrate, main
+from .statistics import CalibrationError
+
+__all__ = ["CalibrationError", "calibrate", "main"]
