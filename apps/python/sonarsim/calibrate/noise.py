@@ -80,7 +80,9 @@ def spread_of_groups(sums, group):
     if outer.sum() < 3:
         return np.zeros(len(sums))
     means = sums[:, outer] / counts[outer]
-    return 1.48 * np.median(np.abs(means - np.median(means, axis=1, keepdims=True)), axis=1)
+    middle = outer.sum() // 2
+    sizes = np.abs(means - np.sort(means, axis=1)[:, middle:middle + 1])
+    return 1.48 * np.sort(sizes, axis=1)[:, middle]
 
 
 @dataclasses.dataclass
