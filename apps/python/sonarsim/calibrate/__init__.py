@@ -1,7 +1,4 @@
-"""Fits a preset to one part of the pings of a recording, and judges it by the other.
-
-    from sonarsim.calibrate import calibrate
-"""
+"""Fits a preset to one part of the pings of a recording, and judges it by the other."""
 from .command import calibrate, main
 from .statistics import CalibrationError
 

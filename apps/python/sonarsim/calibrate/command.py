@@ -1,6 +1,7 @@
 """The command `sonarsim calibrate`."""
 import argparse
 import json
+import math
 import os
 import pathlib
 import sys
@@ -9,9 +10,9 @@ from ..recording import RecordingError, open_recording
 from .image import fit_image
 from .judge import figures_of
 from .law import full_value_of
-from .preset import new_keys, read_start, set_shape, with_keys
+from .preset import new_keys, read_start, set_shape, with_key
 from .report import Calibration
-from .soundings import calibrate_soundings
+from .soundings import NOTES, soundings_figures
 from .statistics import CalibrationError
 
 MOST_FULL, MOST_ZEROS = 0.1, 0.9
@@ -20,8 +21,8 @@ MOST_FULL, MOST_ZEROS = 0.1, 0.9
 def check_usable(recording, kind):
     """CalibrationError with the reason if a recording cannot be calibrated."""
     if recording.kind != kind:
-        raise CalibrationError(f"the preset is of a sonar of another kind ({kind}) than the recording "
-                               f"({recording.kind}): choose a preset of its kind (soundings: a profiling sonar)")
+        raise CalibrationError(f"the preset is of another kind ({kind}) than the recording ({recording.kind}): choose a "
+                               "preset of its kind (soundings: a profiling sonar)")
     if len(recording) < 2:
         raise CalibrationError(f"{len(recording)} ping: one part of the pings is fitted and the other judged, so it "
                                "takes two or more")
@@ -44,42 +45,43 @@ def check_usable(recording, kind):
 def split(recording, judged_share, is_reversed):
     """(fitted, judged) parts: the last pings are judged, at least one; `is_reversed`: the first."""
     judged = min(max(int(judged_share * len(recording)), 1), len(recording) - 1)
-    if is_reversed:
-        return recording.part(slice(judged, None)), recording.part(slice(0, judged))
-    cut = len(recording) - judged
-    return recording.part(slice(0, cut)), recording.part(slice(cut, None))
+    cut = judged if is_reversed else len(recording) - judged
+    parts = recording.part(slice(0, cut)), recording.part(slice(cut, None))
+    return parts[::-1] if is_reversed else parts
 
 
 def calibrate(recording, preset, judged_share=0.5, is_reversed=False, slope_rad=0.0, settings=()):
-    """(Calibration, text of the new preset) of a recording and the name or file of a preset."""
-    file, start = read_start(preset, settings)
+    """(Calibration, text of the new preset) of a recording and the name or file of a preset. `settings` are those of
+    the water, as "temperature_c=12" with "water." before it."""
+    start = read_start(preset)
+    for setting in settings:
+        if not setting.startswith("water."):
+            raise CalibrationError(f"--set {setting}: sets only keys of the water; write others into the preset")
     try:
         check_usable(recording, start.kind)
-        fitted, judged = parts = split(recording, judged_share, is_reversed)
-        keys = {}
+        parts = split(recording, judged_share, is_reversed)
+        pings, keys = [len(part) for part in parts], {}
         if recording.kind == "soundings":
-            result = Calibration(recording.name, len(fitted), len(judged), *calibrate_soundings(parts, start, slope_rad))
+            result = Calibration(recording.name, *pings, soundings_figures(parts, slope_rad), NOTES)
         else:
-            set_shape(file, start, fitted, settings)
-            fit = fit_image(fitted, start)
+            set_shape(start, parts[0], settings)
+            fit = fit_image(parts[0], start)
             keys = new_keys(start, fit)
-            result = Calibration(recording.name, len(fitted), len(judged), judged_figures(parts, start, fit), fit.notes,
-                                 fit.estimates)
+            result = Calibration(recording.name, *pings, judged_figures(parts, start, fit), fit.notes, fit.estimates)
     except CalibrationError as fault:
         raise CalibrationError(f"{recording.name}: {fault}") from fault
-    result.note_change()
-    head = (f"# Fitted by sonarsim calibrate to {len(fitted)} pings of {recording.name}, from {preset}.\n"
-            "# A number with `fit` was estimated, with its interval of 95 %; `file` is the shape of the pings.\n"
-            "# All others are those of the start, whose own head follows.\n#\n")
-    return result, head + with_keys(start.text, keys, file)
+    text = start.text
+    for key, (value, comment) in keys.items():
+        text = with_key(text, key, value, comment, start.file)
+    return result, (f"# Fitted by sonarsim calibrate to {pings[0]} pings of {recording.name}, from {preset}.\n"
+                    "# A number with `fit` was estimated, with its interval of 95 %; `file` is the shape of the pings.\n"
+                    "# All others are those of the start, whose own head follows.\n#\n" + text)
 
 
 def judged_figures(parts, start, fit):
     """The figures that the start and the fit both predict: (start, fitted pings, judged pings)."""
-    fitted, judged = parts
-    absorption = start.absorption_db_per_m
-    before = figures_of(judged, start.instrument, start.noise_db - start.full_scale_db, absorption, fit.noise)
-    inside, outside = (figures_of(part, fit.instrument, fit.level_db, absorption, fit.noise) for part in parts)
+    before = figures_of(parts[1], start.instrument, start.noise_db - start.full_scale_db, start, fit)
+    inside, outside = (figures_of(part, fit.instrument, fit.level_db, start, fit) for part in parts)
     named = [{figure.name: figure for figure in figures} for figures in (before, inside)]
     return [(named[0][f.name], named[1][f.name], f) for f in outside if all(f.name in of for of in named)]
 
@@ -97,30 +99,29 @@ def write(path, text):
 
 
 def share(text):
-    value = float(text)
-    if not 0.01 <= value <= 0.99:
-        raise argparse.ArgumentTypeError("must lie between 0.01 and 0.99")
-    return value
+    if not 0.01 <= float(text) <= 0.99:
+        raise ValueError(text)
+    return float(text)
 
 
 def parsed(arguments):
     parser = argparse.ArgumentParser("sonarsim calibrate", description=(
         "Fits a preset to pings of a real sonar and judges it by other pings"))
-    parser.add_argument("recording", help="the pings: a folder with recording.yaml, or a dataset")
-    parser.add_argument("--preset", required=True, metavar="START",
-                        help="the preset to start with: a file, or the name of one of configs/sensors")
-    parser.add_argument("--out", required=True, metavar="PRESET", help="the preset to write")
-    parser.add_argument("--report", metavar="FILE", help="writes all numbers as JSON")
-    parser.add_argument("--judge", type=share, default=0.5, metavar="SHARE",
-                        help="the share of the pings that is judged and not fitted, the last ones (default: 0.5)")
-    parser.add_argument("--reverse", action="store_true", help="judges the first pings and fits the last ones")
-    parser.add_argument("--slope-deg", type=float, default=0.0, metavar="DEG",
-                        help="slope of the bottom across the track, positive down to port; for soundings")
-    parser.add_argument("--sensor", metavar="NAME", help="the sensor of a dataset with several")
-    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", dest="settings",
-                        help="sets a key, as water.temperature_c=20 or sensors.sonar.instrument.beam.width_deg=1")
-    parser.add_argument("--json", action="store_true", help="prints JSON instead of text")
-    parser.add_argument("-q", "--quiet", action="store_true", help="prints no table")
+    add = parser.add_argument
+    add("recording", help="the pings: a folder with recording.yaml, or a dataset")
+    add("--preset", required=True, metavar="START", help="the start: a file, or the name of one of configs/sensors")
+    add("--out", required=True, metavar="PRESET", help="the preset to write")
+    add("--report", metavar="FILE", help="writes all numbers as JSON")
+    add("--judge", type=share, default=0.5, metavar="SHARE",
+        help="the share of the pings that is judged and not fitted, the last ones: 0.01 to 0.99 (default: 0.5)")
+    add("--reverse", action="store_true", help="judges the first pings and fits the last ones")
+    add("--slope-deg", type=float, default=0.0, metavar="DEG",
+        help="slope of the bottom across the track, positive down to port; for soundings")
+    add("--sensor", metavar="NAME", help="the sensor of a dataset with several")
+    add("--set", action="append", default=[], metavar="KEY=VALUE", dest="settings",
+        help="sets a key of the water, as water.temperature_c=20")
+    add("--json", action="store_true", help="prints JSON instead of text")
+    add("-q", "--quiet", action="store_true", help="prints no table")
     return parser.parse_args(arguments)
 
 
@@ -130,16 +131,13 @@ def main(arguments=None):
     try:
         recording = open_recording(options.recording, sensor=options.sensor)
         result, text = calibrate(recording, options.preset, options.judge, options.reverse,
-                                 options.slope_deg * 3.141592653589793 / 180.0, options.settings)
+                                 math.radians(options.slope_deg), options.settings)
         write(options.out, text)
-        numbers = json.dumps(result.json())
         if options.report:
-            write(options.report, numbers + "\n")
+            write(options.report, json.dumps(result.json()) + "\n")
     except (RecordingError, CalibrationError) as fault:
         print(f"sonarsim calibrate: {fault}", file=sys.stderr)
         return 2
-    if options.json:
-        print(numbers)
-    elif not options.quiet:
-        print(result.text())
+    if options.json or not options.quiet:
+        print(json.dumps(result.json()) if options.json else result.text())
     return 0

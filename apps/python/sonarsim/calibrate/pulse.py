@@ -3,19 +3,18 @@ import dataclasses
 import functools
 
 import numpy as np
-from scipy import linalg, special
+from scipy import interpolate, linalg, optimize, special
 
-from .array import line_pattern, line_array
+from .array import line_array, line_pattern
 from .statistics import LAGS, bootstrap, sampled_correlations, sampled_statistics
 
 LEAST_CORRELATION = 0.04
+LEAST_SHARE_OF_WIDTH = {False: 0.01, True: 0.025}   # the least error of a pulse; True: of drawn correlations
 MOST_LEFT = 0.05            # a texture that leaves more of a correlation unexplained is rejected
-LEAST_ECHO_PATCHES = 24
-EDGES = 24
-HALF_PATCH = 12.0           # bins
+EDGES, HALF_PATCH = 24, 12.0    # tried edges of its squares, from 1 to 12 bins
 
 
-@dataclasses.dataclass
+@dataclasses.dataclass(eq=False)
 class Pulse:
     """The effect of a pulse on values. `kind`: "noise" after the matched filter has the spectrum |S|^2, an "echo" of
     many scatterers |S|^4. With speckle of the scene an echo is shared between two bins before the pulse; with speckle
@@ -36,7 +35,7 @@ class Pulse:
         """The correlation of complex amplitudes as a function of the lag in samples."""
         in_samples = bins * self.receiver["samples"]
         if self.kind == "noise":
-            # Noise lags apart is correlated as the compressed pulse is high there.
+            # It is as high as the compressed pulse at that distance from its peak.
             array = line_array(1e-3, self.side_lobe_db)
             return lambda lag: line_pattern(array, np.asarray(lag) / in_samples * 1e-3)
         taps = echo_taps(in_samples, self.side_lobe_db, self.kind == "echo")
@@ -45,10 +44,11 @@ class Pulse:
 
     @functools.cached_property
     def table(self):
-        """Widths in bins, and the correlations that they predict."""
-        # Drawn rows take longer, so their steps are coarser.
-        bins = np.linspace(0.6, 8.0, 75 if self.receiver["samples"] > 1 else 149)
-        return bins, np.array([self.correlations(b) for b in bins])
+        """Widths in bins, and the correlations that they predict, [width, lag]."""
+        bins = np.linspace(0.6, 8.0, 75)
+        rows = interpolate.CubicSpline(bins, [self.correlations(b) for b in bins])
+        fine = np.linspace(0.6, 8.0, 741)
+        return fine, rows(fine)
 
 
 def pulse_of(instrument, kind):
@@ -66,12 +66,10 @@ def echo_taps(bins, side_lobe_db, shared):
     that is shared between two bins in proportion to its closeness has on average the products 1/6, 2/3, 1/6, as
     fixed shares with the sum 1 and the product 1/6 have."""
     reach = int(np.clip(np.ceil(3.0 * bins), 2, 64))
-    array = line_array(1e-3, side_lobe_db)
-    x = np.arange(-63, 64) / 64.0
-    m = np.arange(-reach, reach + 1)
-    products = (1.0 - np.abs(x)) * line_pattern(array, (m[:, None] + x) / bins * 1e-3) / 64.0
+    x, m = np.arange(-63, 64) / 64.0, np.arange(-reach, reach + 1)
+    pulse = line_pattern(line_array(1e-3, side_lobe_db), (m[:, None] + x) / bins * 1e-3)
     band = np.tile([[1.0 / 6.0], [2.0 / 3.0], [1.0 / 6.0]], len(m))
-    taps = linalg.solve_banded((1, 1), band, products.sum(axis=1))
+    taps = linalg.solve_banded((1, 1), band, pulse @ (1.0 - np.abs(x)) / 64.0)
     share = 0.5 + 0.5 / np.sqrt(3.0)
     return np.convolve(taps, [share, 1.0 - share]) if shared else taps
 
@@ -79,22 +77,17 @@ def echo_taps(bins, side_lobe_db, shared):
 def fit_pulse(patches, chosen, pulse):
     """The half-power width in bins; None if neighbouring bins are not correlated: the pulse is shorter than a bin."""
     correlations = patches.correlations(chosen)
-    if correlations(np.ones((1, patches.places)))[0, 0, 0] < LEAST_CORRELATION:
+    seen = correlations(np.ones((1, patches.places)))[0, 0]
+    if seen[0] < LEAST_CORRELATION:
         return None
     bins, rows = pulse.table
+    rows = rows[:, np.isfinite(seen)]
 
     def width(weights):
-        seen = correlations(weights)[:, 0]
-        known = np.isfinite(seen[0])
-        errors = ((rows[None][:, :, known] - seen[:, None, known]) ** 2).sum(axis=2)
-        at = errors.argmin(axis=1)
-        inner, draw = np.clip(at, 1, len(bins) - 2), np.arange(len(at))
-        before, here, after = (errors[draw, inner + k] for k in (-1, 0, 1))
-        # A parabola through the least error and its neighbours.
-        part = 0.5 * (before - after) / np.maximum(before - 2.0 * here + after, 1e-30)
-        return bins[at] + np.where(at == inner, part, 0.0) * (bins[1] - bins[0])
+        seen = correlations(weights)[:, 0, :rows.shape[1]]
+        return bins[((rows**2).sum(axis=1) - 2.0 * seen @ rows.T).argmin(axis=1)]
     found = bootstrap(patches.places, width)[0]
-    return found.widened((0.025 if pulse.receiver["samples"] > 1 else 0.01) * found.value)
+    return found.widened(LEAST_SHARE_OF_WIDTH[pulse.receiver["samples"] > 1] * found.value)
 
 
 # A texture as speckle.clutter_shape and clutter_m make it: gamma distributed strengths in squares of the scene. ln P
@@ -108,11 +101,10 @@ def texture_share(speckle, statistics):
 
 
 def shape_of_share(share, statistics):
-    """The shape whose trigamma function gives this share of the variance."""
-    part = np.clip(share, 0.001, 0.95)
-    shapes = np.exp(np.linspace(-7.0, 7.0, 4001))
-    return float(np.interp(-np.log(part / (1.0 - part) * statistics.variance),
-                           -np.log(special.polygamma(1, shapes)), shapes))
+    """The shape that gives a texture this share."""
+    share = min(max(share, 0.001), 0.95)
+    return np.exp(optimize.brentq(
+        lambda x: texture_share({"clutter_shape": np.exp(x)}, statistics) - share, -7.0, 9.0))
 
 
 def with_texture(of_speckle, distance_m, share, edge_m):
@@ -124,43 +116,33 @@ def steps_on_ground(recording, patches, echoes):
     if not len(echoes):
         return recording.range_step_m, 0.0
     at = recording.first_range_m + (patches.row[echoes] + 0.5 * patches.shape[0]) * recording.range_step_m
-    down = (recording.altitude_m or 0.0) / at
     # Straight below no length of the ground belongs to a bin.
-    stretch = np.mean(1.0 / np.sqrt(np.maximum(1.0 - down**2, 0.1)))
-    sines = np.sin(recording.bearing_rad) if recording.bearing_rad is not None else np.zeros(1)
-    across = at.mean() * abs(sines[-1] - sines[0]) / max(len(sines) - 1, 1)
-    return recording.range_step_m * stretch, across
+    stretch = np.mean(np.maximum(1.0 - ((recording.altitude_m or 0.0) / at) ** 2, 0.1) ** -0.5)
+    sines = np.zeros(1) if recording.bearing_rad is None else np.sin(recording.bearing_rad)
+    return recording.range_step_m * stretch, at.mean() * np.ptp(sines) / max(len(sines) - 1, 1)
 
 
 def fit_texture(patches, echoes, pulse, steps_m, of_beams):
     """(share, edge in m, pulse in bins) by least squares over a grid of edges and pulses; None where the share lies
     less than 3.3 standard errors off 0, or where the correlations are not those of a texture."""
-    if len(echoes) < LEAST_ECHO_PATCHES:
-        return None
-    bins, rows = pulse.table
-    lags = np.arange(1, LAGS + 1)
+    bins, rows = (of[::5] for of in pulse.table)
     edges = steps_m[0] * np.linspace(1.0, HALF_PATCH, EDGES)
     axes = 2 if steps_m[1] > 0.0 else 1
-    squares = np.maximum(1.0 - np.array(steps_m)[:axes, None] * lags / edges[:, None, None], 0.0)
-    own = np.stack([np.broadcast_to(of, rows.shape) for of in (rows, of_beams)[:axes]], axis=1)
-    own = own.reshape(len(bins), -1)
+    squares = np.maximum(1.0 - np.outer(steps_m[:axes], np.arange(1, LAGS + 1)) / edges[:, None, None], 0.0)
+    own = np.hstack([rows, np.broadcast_to(of_beams, rows.shape)][:axes])
     t = (squares.reshape(EDGES, 1, -1) - own).reshape(-1, axes * LAGS)       # [edge and pulse, lag]
+    own, norm = np.tile(own, (EDGES, 1)), (t**2).sum(axis=1, keepdims=True)
     correlations = patches.correlations(echoes)
 
     def estimate(weights):
-        seen = correlations(weights)[:, :axes].reshape(len(weights), -1)
-        usable = np.isfinite(seen[0])
-        tu, ou, su = t[:, usable], own[:, usable], seen[:, usable]
-        r0 = np.tile(ou, (EDGES, 1))
-        ty = tu @ su.T - (tu * r0).sum(axis=1, keepdims=True)
-        yy = (su**2).sum(axis=1) - 2.0 * r0 @ su.T + (r0**2).sum(axis=1, keepdims=True)
-        share = np.maximum(ty / (tu**2).sum(axis=1, keepdims=True), 0.0)
-        error = yy - share * ty
-        best = error.argmin(axis=0)
-        draw = np.arange(len(weights))
+        # Least squares of seen - own = share (squares - own), with own the speckle's correlation.
+        seen = correlations(weights)[:, :axes].reshape(len(weights), -1).T
+        ty = t @ seen - (t * own).sum(axis=1, keepdims=True)
+        share = np.maximum(ty / norm, 0.0)
+        error = (seen**2).sum(axis=0) - 2.0 * own @ seen + (own**2).sum(axis=1, keepdims=True) - share * ty
+        best, draw = error.argmin(axis=0), np.arange(len(weights))
         left = np.sqrt(np.maximum(error[best, draw], 0.0) / (axes * LAGS))
         return np.stack([share[best, draw], edges[best // len(bins)], bins[best % len(bins)], left], axis=1)
-    share, edge, width, left = bootstrap(patches.places, estimate, [0.0, edges[1] - edges[0], 0.05, 0.0])
-    if share.value < 3.3 * share.half_width / 1.96 or left.value > MOST_LEFT:
-        return None
-    return share, edge, width
+    found = bootstrap(patches.places, estimate, [0.0, edges[1] - edges[0], bins[1] - bins[0], 0.0])
+    share, left = found[0], found[3]
+    return None if share.value < 3.3 * share.half_width / 1.96 or left.value > MOST_LEFT else found[:3]

@@ -11,30 +11,29 @@ class Calibration:
     judged: int
     figures: list       # (start, fitted pings, judged pings), each a Figure
     notes: list
-    estimates: dict = dataclasses.field(default_factory=dict)
+    estimates: dict = dataclasses.field(default_factory=dict)   # key -> Bounded or a word
+
+    def __post_init__(self):
+        pairs = [(fitted.measured, judged.measured) for _, fitted, judged in self.figures]
+        changed = sum(a.low > b.high or a.high < b.low for a, b in pairs)
+        if 5 * changed > len(pairs):
+            self.notes = [*self.notes, f"{changed} of {len(pairs)} figures of the judged pings lie outside the intervals "
+                          "of the fitted ones: the scene or the sonar changed between them"]
 
     def agreements(self):
         """The number of figures that agree: of the start, of the fit with the fitted and with the judged pings."""
         return [sum(row[k].agrees for row in self.figures) for k in range(3)]
 
-    def note_change(self):
-        """Adds a note if the judged pings have other figures than the fitted ones."""
-        pairs = [(fitted.measured, judged.measured) for _, fitted, judged in self.figures]
-        changed = sum(a.low > b.high or a.high < b.low for a, b in pairs)
-        if 5 * changed > len(pairs):
-            self.notes.append(f"{changed} of {len(pairs)} figures of the judged pings lie outside the intervals of the "
-                              "fitted ones: the scene or the sonar changed between them")
-
     def text(self):
-        lines = [f"{self.name}: {self.fitted} pings fitted, {self.judged} judged", ""]
-        lines += [f"  {key:28} {value}" for key, value in self.estimates.items()]
-        lines += ["", f"{'figure':46} {'start':>9} {'':5} {'fit':>9} {'fitted pings':>28} {'':5} {'judged pings':>28}"]
+        lines = [f"{self.name}: {self.fitted} pings fitted, {self.judged} judged", "",
+                 *(f"  {key:28} {value}" for key, value in self.estimates.items()), "",
+                 f"{'figure':46} {'start':>15} {'fit':>9} {'fitted pings':>28} {'':5} {'judged pings':>28}"]
         for start, fitted, judged in self.figures:
             lines.append(f"{judged.name:46} {number(start)} {verdict(start)} {number(judged)} "
                          f"{str(fitted.measured):>28} {verdict(fitted)} {str(judged.measured):>28} {verdict(judged)}")
-        agree = self.agreements()
-        lines.append(f"{len(self.figures)} figures agree: {agree[0]} of the start, {agree[1]} of the fit with the "
-                     f"fitted pings, {agree[2]} with the judged ones")
+        start, inside, outside = self.agreements()
+        lines.append(f"{len(self.figures)} figures agree: {start} of the start, {inside} of the fit with the fitted "
+                     f"pings, {outside} with the judged ones")
         return "\n".join([*lines, *(f"- {note}" for note in self.notes)])
 
     def json(self):

@@ -1,44 +1,26 @@
-"""The level of the bottom and the spread of the ranges, by the angle of incidence."""
+"""The level of soundings and the spread of their ranges, by the angle of incidence, port and starboard together."""
 import numpy as np
 
-from .array import LineArray, line_array
 from .judge import Figure
 from .statistics import CalibrationError, bootstrap
 
 ANGLE_STEP_DEG = 4.0
-LEAST_SOUNDINGS = 100
-LEAST_ANGLES = 6
+LEAST_SOUNDINGS, LEAST_ANGLES = 100, 6
 STRETCHES = 20      # of pings, the units of the bootstrap: neighbours see the same bottom
-
-
-def taper_loss(array):
-    """The mean of the squared weights over the square of their mean."""
-    p, q = array.pedestal, 1.0 - array.pedestal
-    return (p * p + p * q + 0.375 * q * q) / (p + 0.5 * q) ** 2
-
-
-def geometry_db(angle, range_m, instrument, sample_m):
-    """The parts of a level besides the strength of the bottom: the insonified area, which the beam or the pulse
-    limits, and the spreading that the gain leaves, (40 - tvg_log) log10 r."""
-    pulse = instrument["pulse"]
-    band: LineArray = line_array(1e-3, pulse["side_lobe_db"])
-    pulse_m = taper_loss(band) * (pulse["resolution_m"] or sample_m) / (band.wavelengths * 1e-3)
-    width = np.radians(instrument["beam"]["width_deg"])
-    across = np.minimum(width * range_m / np.cos(angle), pulse_m / np.maximum(np.sin(angle), 1e-6))
-    return 10.0 * np.log10(across * range_m) - (40.0 - instrument["receiver"]["tvg_log"]) * np.log10(range_m)
+NOTES = ["transmit level, gain and strength of the bottom cannot be separated: the levels have their sum",
+         "no key of the preset changes: the spread depends on how the sonar detects the bottom, which has no key"]
 
 
 def bends_of(soundings):
-    """The second differences of the depth between neighbouring beams, as ranges with the deviation of one range;
-    NaN where there is none. Neither heave nor roll nor a plane slope changes them."""
+    """The second differences of the depth between neighbouring beams, as ranges with the deviation of one range; NaN
+    where there is none. Neither heave nor roll nor a plane slope changes them."""
     angle, range_m = soundings.angle_rad.astype(float), soundings.range_m.astype(float)
     out = np.full(angle.shape, np.nan)
     for k in range(len(angle)):
-        # Beams that found no bottom are left out, so the next ones are the neighbours.
-        j = np.flatnonzero(np.isfinite(range_m[k]))
-        depth, across = range_m[k, j] * np.cos(angle[k, j]), range_m[k, j] * np.sin(angle[k, j])
+        j = np.flatnonzero(np.isfinite(range_m[k]))     # the neighbours are the next beams that found the bottom
         if len(j) < 3:
             continue
+        depth, across = range_m[k, j] * np.cos(angle[k, j]), range_m[k, j] * np.sin(angle[k, j])
         with np.errstate(all="ignore"):
             part = (across[1:-1] - across[:-2]) / (across[2:] - across[:-2])
         line = (1.0 - part) * depth[:-2] + part * depth[2:]
@@ -47,61 +29,47 @@ def bends_of(soundings):
     return out
 
 
-def fit_soundings(recording, slope_rad, instrument, sample_m):
-    """Mean angles, and Bounded strengths in dB and spreads in m at each, port and starboard together. The strength
-    has the level of the sonar in it. `slope_rad` turns the bottom about the track, positive down to port."""
+def fit_soundings(recording, slope_rad):
+    """Mean angles, and a list of Bounded levels in dB and one of spreads in m at these. `slope_rad` turns the bottom
+    about the track, positive down to port."""
     soundings = recording.soundings
     found = np.isfinite(soundings.range_m)
     angle = np.abs(soundings.angle_rad.astype(float) - slope_rad)
     step = np.where(found, np.degrees(angle) / ANGLE_STEP_DEG, 0.0).astype(int)
-    ping = np.broadcast_to(np.arange(len(recording))[:, None] * STRETCHES // len(recording), found.shape)
+    stretch = np.broadcast_to(np.arange(len(recording))[:, None] * STRETCHES // len(recording), found.shape)
     power = np.asarray(recording.law.powers(np.where(found, soundings.intensity, 0.0)), float)
-    bend = bends_of(soundings)
-    rows = []
+    bend, ones, rows = bends_of(soundings), np.ones_like(angle), []
     for number in range(int(step.max(initial=0)) + 1):
         here = found & (step == number)
         sizes = np.abs(np.where(here, bend, np.nan))
-        if here.sum() < LEAST_SOUNDINGS or np.isfinite(sizes).sum() < 10:
+        if here.sum() < LEAST_SOUNDINGS or np.isfinite(sizes).sum() < 10 or not np.nanmax(sizes) > 0.0:
             continue
-        # Second differences far beyond their median size are outliers.
-        usable = here & (sizes <= 6.0 * 1.4826 * np.nanmedian(sizes))
-        columns = [(here, np.ones_like(angle)), (here, angle), (here, soundings.range_m), (here, power),
-                   (usable, np.ones_like(angle)), (usable, bend**2)]
-        sums = np.stack([np.bincount(ping[of], x[of], STRETCHES) for of, x in columns], axis=1)
-        if sums[:, 5].sum() > 0.0:
-            rows.append(sums)
+        usable = sizes <= 6.0 * 1.4826 * np.nanmedian(sizes)    # others are outliers
+        columns = (here, ones), (here, angle), (here, power), (usable, ones), (usable, bend**2)
+        rows.append(np.stack([np.bincount(stretch[of], x[of], STRETCHES) for of, x in columns], axis=1))
     if len(rows) < LEAST_ANGLES:
         raise CalibrationError("fewer than six angles, 4 degrees apart, have 100 soundings: record more pings")
     rows = np.array(rows)
 
     def estimate(weights):
-        count, at, range_m, level, bends, squares = np.einsum("du,kuc->cdk", weights, rows)
-        strength = 10.0 * np.log10(level / count) - geometry_db(at / count, range_m / count, instrument, sample_m)
-        return np.concatenate([strength, np.sqrt(squares / bends)], axis=1)
+        count, _, level, bends, squares = np.einsum("du,kuc->cdk", weights, rows)
+        return np.concatenate([10.0 * np.log10(level / count), np.sqrt(squares / bends)], axis=1)
     bounded = bootstrap(STRETCHES, estimate, draws=40)
     total = rows.sum(axis=1)
     return total[:, 1] / total[:, 0], bounded[:len(rows)], bounded[len(rows):]
 
 
-def calibrate_soundings(parts, start, slope_rad):
-    """The figures of the judged pings with what the fitted ones predict, by a line between the nearest two angles."""
-    instrument = start.instrument
-    sample_m = start.range_bin_m / instrument["receiver"]["samples"]
-    fit, judged = (fit_soundings(part, slope_rad, instrument, sample_m) for part in parts)
+def soundings_figures(parts, slope_rad):
+    """(start, fitted pings, judged pings) of each figure. The fitted pings predict by a line between two angles; the
+    start predicts neither the bottom nor its spread."""
+    fit, judged = (fit_soundings(part, slope_rad) for part in parts)
     figures = []
     for j, angle in enumerate(judged[0]):
         near = int(np.argmin(np.abs(fit[0] - angle)))
-        for name, unit, tolerance, k in (("strength with the level of the sonar", "dB", "dB", 1),
-                                         ("spread of ranges", "m", 0.15, 2)):
+        for name, unit, tolerance, k in (("level", "dB", "dB", 1), ("spread of ranges", "m", 0.15, 2)):
             text = f"{name}, {np.degrees(angle):.0f} degrees, {unit}"
             predicted = float(np.interp(angle, fit[0], [b.value for b in fit[k]]))
-            # The start predicts neither the bottom nor its spread.
             figures.append((Figure(text, tolerance, None, judged[k][j]),
                             Figure(text, tolerance, fit[k][near].value, fit[k][near]),
                             Figure(text, tolerance, predicted, judged[k][j])))
-    return figures, [
-        "transmit level, gain and strength of the bottom cannot be separated here: the levels have their sum",
-        "on a flat bottom range and angle go together: the gain by range and the strength by angle cannot be "
-        "separated, so tvg_log is that of the start",
-        "the spread of the ranges is a table by angle: it depends on how the sonar detects the bottom, which has no "
-        "key. No key of the preset changes"]
+    return figures
