@@ -1,5 +1,6 @@
 """The command `sonarsim calibrate`."""
 import argparse
+import dataclasses
 import json
 import math
 import os
@@ -11,11 +12,54 @@ from .image import fit_image
 from .judge import figures_of
 from .law import full_value_of
 from .preset import new_keys, read_start, set_shape, with_key
-from .report import Calibration
 from .soundings import NOTES, soundings_figures
-from .statistics import CalibrationError
+from .statistics import Bounded, CalibrationError
 
 MOST_FULL, MOST_ZEROS = 0.1, 0.9
+
+
+@dataclasses.dataclass
+class Calibration:
+    name: str
+    fitted: int         # pings
+    judged: int
+    figures: list       # (start, fitted pings, judged pings), each a Figure
+    notes: list
+    estimates: dict = dataclasses.field(default_factory=dict)   # key -> Bounded or a word
+
+    def agreements(self):
+        return [sum(bool(row[k].agrees) for row in self.figures) for k in range(3)]
+
+    def all_notes(self):
+        pairs = [(fitted.measured, judged.measured) for _, fitted, judged in self.figures]
+        changed = sum(a.low > b.high or a.high < b.low for a, b in pairs)
+        return self.notes + [f"{changed} of {len(pairs)} figures of the judged pings lie outside the intervals of the "
+                             "fitted ones: the scene or the sonar changed between them"] * (5 * changed > len(pairs))
+
+    def text(self):
+        lines = [f"{self.name}: {self.fitted} pings fitted, {self.judged} judged", "",
+                 *(f"  {key:28} {value}" for key, value in self.estimates.items()), "",
+                 f"{'figure':46} {'start':>15} {'fit':>9} {'fitted pings':>28} {'':5} {'judged pings':>28}"]
+        for row in self.figures:
+            start, fit = ("-" if f.predicted is None else f"{f.predicted:.4g}" for f in (row[0], row[2]))
+            verdicts = [f"{'-' if f.predicted is None else 'yes' if f.agrees else 'NO':>5}" for f in row]
+            lines.append(f"{row[2].name:46} {start:>9} {verdicts[0]} {fit:>9} {str(row[1].measured):>28} {verdicts[1]} "
+                         f"{str(row[2].measured):>28} {verdicts[2]}")
+        start, inside, outside = self.agreements()
+        lines.append(f"{len(self.figures)} figures agree: {start} of the start, {inside} of the fit with the fitted "
+                     f"pings, {outside} with the judged ones")
+        return "\n".join([*lines, *(f"- {note}" for note in self.all_notes())])
+
+    def json(self):
+        def column(figure):
+            return None if figure.predicted is None else {
+                "predicted": figure.predicted, "measured": figure.measured._asdict(), "agrees": bool(figure.agrees)}
+        return {"recording": self.name, "pings_fitted": self.fitted, "pings_judged": self.judged,
+                "estimates": {key: value._asdict() if isinstance(value, Bounded) else value
+                              for key, value in self.estimates.items()},
+                "figures": [{"figure": judged.name, "start": column(start), "in_sample": column(fitted),
+                             "held_out": column(judged)} for start, fitted, judged in self.figures],
+                "agree": dict(zip(("start", "in_sample", "held_out"), self.agreements())), "notes": self.all_notes()}
 
 
 def check_usable(recording, kind):
@@ -24,22 +68,19 @@ def check_usable(recording, kind):
         raise CalibrationError(f"the preset is of another kind ({kind}) than the recording ({recording.kind}): choose a "
                                "preset of its kind (soundings: a profiling sonar)")
     if len(recording) < 2:
-        raise CalibrationError(f"{len(recording)} ping: one part of the pings is fitted and the other judged, so it "
-                               "takes two or more")
+        raise CalibrationError(f"{len(recording)} ping: one part is fitted and the other judged, so it takes two or more")
     if recording.kind == "soundings":
         return
-    values = recording.values
-    largest = full_value_of(recording) * (1.0 - recording.law.offset)
     # Values are rounded to whole numbers, unless all lie below 15.
+    values, largest = recording.values, full_value_of(recording) * (1.0 - recording.law.offset)
     full = (values >= (largest - 0.5 if largest > 15.0 else largest)).mean()
     zeros = (values <= 0.0).mean()
     if values.min() == values.max():
         raise CalibrationError("every value is the same: it is empty")
     if zeros > MOST_ZEROS:
-        raise CalibrationError(f"{100 * zeros:.0f} % of the values are 0: record with more gain")
+        raise CalibrationError(f"{zeros:.0%} of the values are 0: record with more gain")
     if full > MOST_FULL:
-        raise CalibrationError(f"{100 * full:.0f} % of the values are the largest one: it is saturated; record with "
-                               "less gain")
+        raise CalibrationError(f"{full:.0%} of the values are the largest one, it is saturated: record with less gain")
 
 
 def split(recording, judged_share, is_reversed):
@@ -74,16 +115,16 @@ def calibrate(recording, preset, judged_share=0.5, is_reversed=False, slope_rad=
     for key, (value, comment) in keys.items():
         text = with_key(text, key, value, comment, start.file)
     return result, (f"# Fitted by sonarsim calibrate to {pings[0]} pings of {recording.name}, from {preset}.\n"
-                    "# A number with `fit` was estimated, with its interval of 95 %; `file` is the shape of the pings.\n"
+                    "# `fit`: a number that was estimated, with its interval of 95 %; `file`: the shape of the pings.\n"
                     "# All others are those of the start, whose own head follows.\n#\n" + text)
 
 
 def judged_figures(parts, start, fit):
     """The figures that the start and the fit both predict: (start, fitted pings, judged pings)."""
     before = figures_of(parts[1], start.instrument, start.noise_db - start.full_scale_db, start, fit)
-    inside, outside = (figures_of(part, fit.instrument, fit.level_db, start, fit) for part in parts)
-    named = [{figure.name: figure for figure in figures} for figures in (before, inside)]
-    return [(named[0][f.name], named[1][f.name], f) for f in outside if all(f.name in of for of in named)]
+    rows = [before, *(figures_of(part, fit.instrument, fit.level_db, start, fit) for part in parts)]
+    named = [{figure.name: figure for figure in figures} for figures in rows]
+    return [tuple(of[name] for of in named) for name in named[2] if name in named[0] and name in named[1]]
 
 
 def write(path, text):
@@ -112,11 +153,9 @@ def parsed(arguments):
     add("--preset", required=True, metavar="START", help="the start: a file, or the name of one of configs/sensors")
     add("--out", required=True, metavar="PRESET", help="the preset to write")
     add("--report", metavar="FILE", help="writes all numbers as JSON")
-    add("--judge", type=share, default=0.5, metavar="SHARE",
-        help="the share of the pings that is judged and not fitted, the last ones: 0.01 to 0.99 (default: 0.5)")
+    add("--judge", type=share, default=0.5, metavar="SHARE", help="the share of the pings that is judged (default: 0.5)")
     add("--reverse", action="store_true", help="judges the first pings and fits the last ones")
-    add("--slope-deg", type=float, default=0.0, metavar="DEG",
-        help="slope of the bottom across the track, positive down to port; for soundings")
+    add("--slope-deg", type=float, default=0.0, metavar="DEG", help="slope of the bottom under soundings, down to port")
     add("--sensor", metavar="NAME", help="the sensor of a dataset with several")
     add("--set", action="append", default=[], metavar="KEY=VALUE", dest="settings",
         help="sets a key of the water, as water.temperature_c=20")

@@ -4,11 +4,11 @@ import dataclasses
 
 import numpy as np
 
-from .array import fit_array, predicted_correlations
+from .correlations import (bins_of, fit_array, fit_pulse, fit_texture, predicted_correlations, pulse_of, shape_of_share,
+                           steps_on_ground)
 from .judge import classified
-from .law import Law, bits_of, fit_law, full_value_of
+from .law import Law, fit_law, full_value_of
 from .noise import Noise, find_noise
-from .pulse import bins_of, fit_pulse, fit_texture, pulse_of, shape_of_share, steps_on_ground
 from .statistics import LAGS, Bounded
 
 LEAST_PATCHES = 24
@@ -44,9 +44,9 @@ def fit_image(recording, start):
         scale = fit.law.scale.scaled(1.0 / factor if fit.law.is_log else factor)
         fit.law.scale = scale.widened(0.5 * texture[0].half_width / factor**2 * scale.value)
         find()
-    bits = bits_of(recording.values, fit.law.full_value) if recording.law.full_value else None
-    if bits and 8 <= bits <= 16:
-        fit.set("receiver.bits", bits)
+    bits = np.log2(recording.law.full_value + 1.0)
+    if bits in range(8, 17):
+        fit.set("receiver.bits", int(bits))
     fit.set("receiver.companding", "log" if fit.law.is_log else "gamma")
     fit.set("receiver.dynamic_range_db" if fit.law.is_log else "receiver.gamma", fit.law.scale)
     set_levels(start, fit)
@@ -62,11 +62,8 @@ def fit_laws(recording, fit, find):
     fit.law = fit_law(values, full, statistics, None, offset)
     find()
     patches, noise, echoes = classified(recording, fit.law, fit.noise)
-    of_echoes, places = len(noise) < LEAST_PATCHES, None
-    if not of_echoes:
-        places = np.bincount(patches.place[noise], minlength=patches.places) > 0
-    elif fit.noise is None:
-        places = whole_places(patches, fit.law)
+    of_echoes = len(noise) < LEAST_PATCHES
+    places = None if of_echoes else np.bincount(patches.place[noise], minlength=patches.places) > 0
     if receiver["samples"] > 1:
         # The statistics depend on the pulse; no law changes the correlations to which it is fitted.
         chosen, pulse = echoes if of_echoes else noise, pulse_of(fit.instrument, "echo" if of_echoes else "noise")
@@ -75,13 +72,6 @@ def fit_laws(recording, fit, find):
     fit.law = fit_law(values, full, statistics, places, offset, fit.law.is_log)
     find()
     return of_echoes
-
-
-def whole_places(patches, law):
-    """The places with hardly any values of 0, or None for all. A patch must not be chosen by its own zeros."""
-    count, mean = patches.sums(np.arange(len(patches.place)), np.ones(len(patches.place)), patches.mean).T
-    whole = ~law.cuts_off(np.exp(mean / count - law.statistics.mean))
-    return whole if count[whole].sum() >= 2 * LEAST_PATCHES else None
 
 
 def fit_pulse_and_beams(recording, fit):
@@ -95,49 +85,33 @@ def fit_pulse_and_beams(recording, fit):
     pulse = pulse_of(fit.instrument, "echo" if of_echoes else "noise")
     width = fit_pulse(patches, chosen, pulse)
     if width is None:
-        fit.notes.append("pulse.resolution_m: neighbouring bins are not correlated, so the pulse is shorter than a bin; "
-                         "that of the start is kept")
+        fit.notes.append("pulse.resolution_m: the pulse is shorter than a bin; that of the start is kept")
     elif fit.noise is None:
         other = fit_pulse(patches, chosen, pulse_of(fit.instrument, "noise"))
         width = Bounded(width.value, min(width.low, other.low), max(width.high, other.high))
-        fit.notes.append("pulse.resolution_m: noise and echoes cannot be told apart, so the interval holds the pulses "
-                         "of both")
-    sines = np.zeros(0) if recording.bearing_rad is None else np.sin(recording.bearing_rad)
-    if len(sines) > LAGS:
-        fit_beams(patches.beam_covariance(chosen, not of_echoes), sines, fit)
-    # If pulse and law are fitted to noise, the texture does not affect them.
+        fit.notes.append("pulse.resolution_m: no rows show noise alone, so the interval holds pulses of both")
+    beams = fit.instrument["beam"] if recording.bearing_rad is not None and len(recording.bearing_rad) > LAGS else None
+    statistics, of_beams = fit.law.statistics, np.zeros(LAGS)
+    if beams:
+        found = fit_array(*patches.beam_covariance(chosen, not of_echoes), np.sin(recording.bearing_rad), statistics)
+        if found is None:
+            fit.notes.append("beams: too few places of even echoes; width and taper are those of the start")
+        else:
+            fit.set("beam.width_deg", found[0])
+            fit.set("beam.side_lobe_db", found[1])
+            if found[1].high - found[1].low > 8.0:
+                fit.notes.append("beam.width_deg and beam.side_lobe_db can hardly be separated: the two belong together")
+        of_beams = predicted_correlations(beams, np.sin(recording.bearing_rad), statistics)
+    # If pulse and law are fitted to noise, the texture of the bottom does not affect them.
     if width and fit.noise and of_echoes:
-        texture = texture_of(recording, patches, echoes, sines, pulse, fit)
+        texture = fit_texture(patches, echoes, pulse, steps_on_ground(recording, patches, echoes), of_beams)
+    if texture:
+        shapes = (shape_of_share(texture[0][k], statistics) for k in (0, 2, 1))
+        fit.set("speckle.clutter_shape", Bounded(*shapes))
+        fit.set("speckle.clutter_m", texture[1])
+        fit.notes.append("speckle.clutter_shape and clutter_m are those of this bottom, not of the sonar")
     if width:
         fit.set("pulse.resolution_m", (texture[2] if texture else width).scaled(recording.range_step_m))
-    return texture
-
-
-def fit_beams(seen, sines, fit):
-    found = fit_array(*seen, sines, fit.law.statistics)
-    if found is None:
-        fit.notes.append("beams: too few places of even echoes; width and taper are those of the start")
-        return
-    fit.set("beam.width_deg", found[0])
-    fit.set("beam.side_lobe_db", found[1])
-    if found[1].high - found[1].low > 8.0:
-        fit.notes.append("beam.width_deg and beam.side_lobe_db can hardly be separated: the two belong together")
-
-
-def texture_of(recording, patches, echoes, sines, pulse, fit):
-    """Fits the texture of echoes, with their pulse without the texture."""
-    statistics = fit.law.statistics
-    of_beams = predicted_correlations(fit.instrument["beam"], sines, statistics) if len(sines) > LAGS else np.zeros(LAGS)
-    texture = fit_texture(patches, echoes, pulse, steps_on_ground(recording, patches, echoes), of_beams)
-    if texture is None:
-        return None
-    share, edge_m, _ = texture
-    fit.set("speckle.clutter_shape", Bounded(*(float(shape_of_share(s, statistics))
-                                               for s in (share.value, share.high, share.low))))
-    fit.set("speckle.clutter_m", edge_m)
-    fit.notes.append("speckle.clutter_shape and clutter_m are those of this bottom, not of the sonar")
-    if recording.altitude_m is None:
-        fit.notes.append("speckle.clutter_m: the recording has no altitude_m, so lengths on the ground are slant ranges")
     return texture
 
 
@@ -145,8 +119,7 @@ def set_levels(start, fit):
     """Sets gain and levels by the noise. Pings show only differences of levels, so full_scale_db is fitted."""
     noise, law = fit.noise, fit.law
     if noise is None:
-        fit.notes.append("noise and gain: no rows show noise alone (without zeros, even over the beams, on one law of "
-                         "range); noise_db, full_scale_db and tvg_log are those of the start")
+        fit.notes.append("full_scale_db and tvg_log: no rows show noise alone; those of the start are kept")
         return
     # An error of the law scales all levels below full scale, and the gain with them.
     share = law.scale.half_width / law.scale.value

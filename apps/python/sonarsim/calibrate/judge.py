@@ -3,11 +3,10 @@ import typing
 
 import numpy as np
 
-from .array import predicted_correlations
+from .correlations import bins_of, predicted_correlations, pulse_of, steps_on_ground, texture_share
 from .law import full_value_of, stated_law
 from .noise import ROWS, Noise, noise_blocks
 from .patches import Patches
-from .pulse import bins_of, pulse_of, steps_on_ground, texture_share, with_texture
 from .statistics import DB_OF_E, LAGS, Bounded, amplitude_variation, bootstrap
 
 LEAST_PATCHES = 12
@@ -36,7 +35,7 @@ def classified(recording, law, noise):
     level = (noise.at(recording.ranges_m) if noise else np.zeros(recording.values.shape[1]))[:, None] / DB_OF_E
     patches = Patches(recording.values, law.full_value, lambda ping: law.log_power(ping) - level)
     is_noise = np.zeros(len(patches.place), bool)
-    if noise and noise.used:
+    if noise and noise.used is not None:
         rows = noise.used.row[noise.used.without_echo & noise.used.without_zeros]
         is_noise = np.all([np.isin(patches.row + k, rows) for k in range(0, patches.shape[0], ROWS)], axis=0)
         if noise.ahead is not None:
@@ -97,7 +96,8 @@ def figures_of_class(where, patches, chosen, speckle, statistics, predicted, ste
     measured = bootstrap(patches.places, patches.correlations(chosen), draws=DRAWS)
     for axis, of_speckle in enumerate(predicted):
         for lag in (1, 2, 4):
-            expected = with_texture(of_speckle[lag - 1], lag * steps_m[axis], share, speckle["clutter_m"])
+            square = max(1.0 - lag * steps_m[axis] / speckle["clutter_m"], 0.0)
+            expected = (1.0 - share) * of_speckle[lag - 1] + share * square
             out.append(Figure(f"{where}: correlation {lag} {('bins', 'beams')[axis]} apart", "correlation",
                               float(expected), measured[axis * LAGS + lag - 1]))
     return out

@@ -31,16 +31,13 @@ class Law:
 
     def cuts_off(self, mean_power):
         """True where values of this mean power become 0 so often that the variance of their logarithm suffers."""
-        return np.exp(self.log_power(0.5 * step_of(self.full_value))) > MOST_CUT_OFF * mean_power
+        return np.exp(self.log_power(floored(0.0, self.full_value))) > MOST_CUT_OFF * mean_power
 
 
-def step_of(full_value):
-    return 1.0 if full_value > 15.0 else full_value / 65535.0
-
-
-def floored(values, full_value, offset):
+def floored(values, full_value, offset=0.0):
     """Values with the offset; those below half a step count as half a step."""
-    return np.maximum(np.asarray(values, float) + offset * full_value, 0.5 * step_of(full_value))
+    return np.maximum(np.asarray(values, float) + offset * full_value,
+                      0.5 if full_value > 15.0 else full_value / 131070.0)
 
 
 def full_value_of(recording):
@@ -101,14 +98,5 @@ def check_speckle(logs, even, skewness, of_start):
         raise CalibrationError(f"values 8 bins apart have the correlation {lasting:.2f}, speckle of a sonar much less: "
                                "is this a photograph, a picture that was smoothed, or a pulse of many bins?")
     if not any(s.high > -2.0 and s.low < max(-0.3, of_start + 0.3) for s in skewness):
-        raise CalibrationError(f"the logarithms of neighbouring values have a skewness of {skewness[0].value:.2f}, that "
-                               "of speckle is -1.14: is this a photograph, or were the values changed after the sonar?")
-
-
-def bits_of(values, full_value):
-    """The number of bits, log2(full_value / step + 1) with the greatest common divisor of all values as the step.
-    None if a value or the number is not whole."""
-    if not np.all((values >= 0.0) & (values < 1e9) & (values == np.floor(values))):
-        return None
-    bits = np.log2(full_value / max(int(np.gcd.reduce(np.unique(values).astype(np.int64))), 1) + 1.0)
-    return round(bits) if abs(bits - round(bits)) < 1e-6 else None
+        raise CalibrationError(f"the logarithms of values have a skewness of {skewness[0].value:.2f}, that of speckle "
+                               "is -1.14: is this a photograph, or were the values changed after the sonar?")

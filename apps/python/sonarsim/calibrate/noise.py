@@ -14,25 +14,12 @@ LEAST_LEVEL_DB, LEAST_TVG = 0.1, 0.2    # errors that the trend within a block a
 DEVIATIONS_AHEAD, LEAST_OVER_DB = 4.0, 0.4
 
 
-@dataclasses.dataclass
-class Blocks:
-    """The level of the noise in blocks of 8 bins, all beams and pings together."""
-
-    row: np.ndarray
-    range_m: np.ndarray
-    level_db: np.ndarray        # re full scale
-    homogeneous: np.ndarray     # beams and pings have one level, and no value is 0
-    without_echo: np.ndarray    # no part is constant from ping to ping
-    without_zeros: np.ndarray   # hardly a value is 0
-
-    def part(self, chosen):
-        return Blocks(*(getattr(self, field.name)[chosen] for field in dataclasses.fields(self)))
-
-
 def noise_blocks(recording, law, ahead=None):
-    """The level of the part that changes from ping to ping, by range, without the beams `ahead`. Noise N is new in
-    every ping, an echo of a scene at rest is constant: with M the mean of the powers A and B of a place in two pings,
-    the mean of (A - B)^2 is 2 (2 M N - N^2), for one look at one sample."""
+    """The level in dB re full scale of the part that changes from ping to ping, in blocks of 8 bins, without the beams
+    `ahead`: rows of an array. Noise N is new in every ping, an echo of a scene at rest is constant: with M the mean of
+    the powers A and B of a place in two pings, the mean of (A - B)^2 is 2 (2 M N - N^2), for one look at one sample.
+    `homogeneous`: beams and pings have one level, and no value is 0; `without_echo`: no part is constant;
+    `without_zeros`: hardly a value is 0."""
     pings, ranges, beams = recording.values.shape
     used = np.ones(beams, bool) if ahead is None else ~ahead
     group, count = np.arange(beams)[used] * GROUPS // beams, ranges // ROWS
@@ -62,9 +49,9 @@ def noise_blocks(recording, law, ahead=None):
     single = law.statistics.looks == 1 and not law.statistics.excess.any()
     row = ROWS * np.arange(count)
     range_m = recording.first_range_m + (row + 0.5 * (ROWS - 1)) * recording.range_step_m
-    blocks = Blocks(row, range_m, level_db, (zeros < 0.003) & np.where(echo, single, even) & np.isfinite(level_db),
-                    ~echo, ~law.cuts_off(np.exp(level_db / DB_OF_E)))
-    return blocks.part(range_m > 0.0)
+    homogeneous = (zeros < 0.003) & np.where(echo, single, even) & np.isfinite(level_db)
+    columns = row, range_m, level_db, homogeneous, ~echo, ~law.cuts_off(np.exp(level_db / DB_OF_E))
+    return np.rec.fromarrays(columns, names="row,range_m,level_db,homogeneous,without_echo,without_zeros")[range_m > 0.0]
 
 
 def spread_of_groups(sums, group):
@@ -87,7 +74,7 @@ class Noise:
     tvg_log: Bounded
     from_m: float
     absorption_db_per_m: float
-    used: Blocks | None = None  # the blocks that lie on it
+    used: np.recarray | None = None     # the blocks that lie on it
     ahead: np.ndarray | None = None     # the beams that hold noise which all elements share
 
     def at(self, range_m):
@@ -119,7 +106,7 @@ def fit_noise(blocks, absorption, from_m=0.0):
         if used.sum() < LEAST_BLOCKS:
             return None
     found = bootstrap(used.sum(), lambda w: best_line(x[used], y[used], w), [LEAST_LEVEL_DB, LEAST_TVG])
-    return Noise(*found, from_m, absorption, blocks.part(used))
+    return Noise(*found, from_m, absorption, blocks[used])
 
 
 def best_line(x, y, weights):
@@ -137,7 +124,7 @@ def find_noise(recording, law, absorption, from_m):
     beams = recording.bearing_rad
     if noise is None or beams is None or len(beams) < 3 or not noise.used.without_echo.any():
         return noise
-    blocks = noise.used.part(noise.used.without_echo)
+    blocks = noise.used[noise.used.without_echo]
     rows = (blocks.row[:, None] + np.arange(ROWS)).ravel()
     of_row = np.repeat(noise.at(blocks.range_m), ROWS)[:, None]
     over = np.mean([(DB_OF_E * law.log_power(ping[rows]) - of_row).mean(axis=0) for ping in recording.values], axis=0)

@@ -38,11 +38,7 @@ class Start:
 
 def program():
     """The program sonarsim: the one that runs this command, else the one on the path."""
-    found = os.environ.get("SONARSIM") or shutil.which("sonarsim")
-    if not found:
-        raise CalibrationError("the program sonarsim, which computes the levels of a preset, is not on the PATH; set "
-                               "SONARSIM to its path")
-    return found
+    return os.environ.get("SONARSIM") or shutil.which("sonarsim") or "sonarsim"
 
 
 def preset_file(name):
@@ -62,9 +58,8 @@ def read_start(name):
     """The preset to start with."""
     file = preset_file(name)
     try:
-        if file.stat().st_size > LARGEST_PRESET:
-            raise CalibrationError(f"{file}: is larger than 1 MiB, so it is no preset")
-        text = file.read_text(encoding="utf-8")
+        with open(file, encoding="utf-8") as stream:
+            text = stream.read(LARGEST_PRESET)
         given = yaml.safe_load(text)
         instrument = given.get("instrument") or {}
         sections = {section: {**keys, **{key: number(value) for key, value in (instrument.get(section) or {}).items()}}
@@ -93,7 +88,8 @@ def set_shape(start, recording, settings):
                    "range_max_m": recording.first_range_m + (bins - 0.5) * step, "range_bins": bins}
     if recording.kind == "imaging" and len(recording.bearing_rad) > 1:
         beams, bearing = len(recording.bearing_rad), recording.bearing_rad
-        is_sine = unevenness(np.sin(bearing)) < unevenness(bearing)
+        uneven = [np.std(np.diff(row)) / abs(np.mean(np.diff(row))) for row in (np.sin(bearing), bearing)]
+        is_sine = uneven[0] < uneven[1]
         extent = np.ptp(np.sin(bearing) if is_sine else bearing) * beams / (beams - 1)
         extent = 2.0 * np.arcsin(min(0.5 * extent, 1.0)) if is_sine else extent
         start.shape.update({"azimuth_deg": float(np.degrees(extent)), "azimuth_bins": beams,
@@ -104,16 +100,13 @@ def set_shape(start, recording, settings):
     try:
         run = subprocess.run(command, capture_output=True, text=True, check=False)
         if run.returncode:
-            raise CalibrationError(re.sub("^error: ", "", (run.stderr.strip() or "the program failed").splitlines()[-1]))
+            raise CalibrationError((run.stderr.strip().splitlines() or ["it failed"])[-1].removeprefix("error: "))
         found = json.loads(run.stdout)
         start.noise_db, start.full_scale_db = found["noise_db"], found["full_scale_db"]
         start.absorption_db_per_m = found["absorption_db_per_m"]
     except (OSError, json.JSONDecodeError, KeyError) as fault:
-        raise CalibrationError(f"{program()}: does not give the levels of {start.file}: {fault}") from fault
-
-
-def unevenness(row):
-    return np.var(np.diff(row)) / np.mean(np.diff(row)) ** 2
+        raise CalibrationError(f"{program()}: does not give the levels of {start.file} ({fault}); set SONARSIM to the "
+                               "path of the program") from fault
 
 
 def new_keys(start, fit):
@@ -142,8 +135,7 @@ def with_key(text, path, value, comment, name):
             break
         at, node = pair[0].start_mark.line, pair[1]
         if depth + 1 < len(parts) and (not isinstance(node, yaml.MappingNode) or node.flow_style):
-            raise CalibrationError(f"{name}:{at + 1}: write each key of '{part}' in a line of its own, so that it can be "
-                                   "replaced")
+            raise CalibrationError(f"{name}:{at + 1}: write each key of '{part}' in a line of its own")
     new = [f"{' ' * (indent + 2 * k)}{part}:" for k, part in enumerate(parts[depth:])]
     lines[at:at + (pair is not None)] = [*new[:-1], f"{new[-1]} {value}  # {comment}"]
     return "\n".join(lines)

@@ -15,18 +15,12 @@ def bends_of(soundings):
     """The second differences of the depth between neighbouring beams, as ranges with the deviation of one range; NaN
     where there is none. Neither heave nor roll nor a plane slope changes them."""
     angle, range_m = soundings.angle_rad.astype(float), soundings.range_m.astype(float)
-    out = np.full(angle.shape, np.nan)
-    for k in range(len(angle)):
-        j = np.flatnonzero(np.isfinite(range_m[k]))     # the neighbours are the next beams that found the bottom
-        if len(j) < 3:
-            continue
-        depth, across = range_m[k, j] * np.cos(angle[k, j]), range_m[k, j] * np.sin(angle[k, j])
-        with np.errstate(all="ignore"):
-            part = (across[1:-1] - across[:-2]) / (across[2:] - across[:-2])
-        line = (1.0 - part) * depth[:-2] + part * depth[2:]
-        bend = (depth[1:-1] - line) / np.sqrt(1.0 + part**2 + (1.0 - part) ** 2) / np.cos(angle[k, j[1:-1]])
-        out[k, j[1:-1]] = np.where((part > 0.1) & (part < 0.9), bend, np.nan)
-    return out
+    depth, across = range_m * np.cos(angle), range_m * np.sin(angle)
+    with np.errstate(all="ignore"):
+        part = (across[:, 1:-1] - across[:, :-2]) / (across[:, 2:] - across[:, :-2])
+    off = depth[:, 1:-1] - (1.0 - part) * depth[:, :-2] - part * depth[:, 2:]
+    bend = off / np.sqrt(1.0 + part**2 + (1.0 - part) ** 2) / np.cos(angle[:, 1:-1])
+    return np.pad(np.where((part > 0.1) & (part < 0.9), bend, np.nan), ((0, 0), (1, 1)), constant_values=np.nan)
 
 
 def fit_soundings(recording, slope_rad):

@@ -81,35 +81,26 @@ def amplitude_variation(shape):
     return np.sqrt(shape * np.exp(2.0 * (special.gammaln(shape) - special.gammaln(shape + 0.5))) - 1.0)
 
 
-# Several correlated samples that become one value have no closed form, so sequences are drawn. A result is the closed
-# form of single samples plus the drawn difference between combined and single ones. `amplitude(lag)` is the
-# correlation of complex amplitudes, lags in samples.
-
-def sampled_statistics(receiver, amplitude, bins=80000):
-    """The statistics of the values of a receiver."""
-    out = LogStatistics(receiver["looks"])
+def sampled(receiver, amplitude, bins=80000, across_beams=True):
+    """The statistics of the values of a receiver, and the correlations of ln P 1 to LAGS bins apart. `amplitude(lag)`
+    is the correlation of complex amplitudes, lags in samples. Several correlated samples that become one value have
+    no closed form, so sequences are drawn: a result is the closed form of single samples plus the drawn difference
+    between combined and single ones."""
+    out, lags = LogStatistics(receiver["looks"]), np.arange(1, LAGS + 1)
+    along = out.correlation(amplitude(receiver["samples"] * lags) ** 2)
     if receiver["samples"] == 1:
-        return out
+        return out, along
     one, other = (drawn(receiver, amplitude, bins, seed) for seed in (1, 2))
-    whole, single = combined(receiver, one)
+    pair = whole, single = combined(receiver, one)
     out.mean += whole.mean() - single.mean()
     out.variance += whole.var() - single.var()
-    out.skewness += np.subtract(*(((x - x.mean()) ** 3).mean() / x.std() ** 3 for x in (whole, single)))
-    out.variation += np.subtract(*(np.exp(0.5 * x).std() / np.exp(0.5 * x).mean() for x in (whole, single)))
-    mixed = [combined(receiver, np.sqrt(k2) * one + np.sqrt(1.0 - k2) * other) for k2 in np.linspace(0.0, 1.0, 17)]
-    out.excess = np.array([np.corrcoef(whole, m)[0, 1] - np.corrcoef(single, s)[0, 1] for m, s in mixed])
-    return out
-
-
-def sampled_correlations(receiver, amplitude, bins=20000):
-    """The correlations of ln P 1 to LAGS bins apart."""
-    lags = np.arange(1, LAGS + 1)
-    along = LogStatistics(receiver["looks"]).correlation(amplitude(receiver["samples"] * lags) ** 2)
-    if receiver["samples"] == 1:
-        return along
-    whole, single = (x - x.mean() for x in combined(receiver, drawn(receiver, amplitude, bins, 1)))
-    return along + [(whole[:-k] * whole[k:]).mean() / whole.var() - (single[:-k] * single[k:]).mean() / single.var()
-                    for k in lags]
+    out.skewness += np.subtract(*(((x - x.mean()) ** 3).mean() / x.std() ** 3 for x in pair))
+    out.variation += np.subtract(*(np.exp(0.5 * x).std() / np.exp(0.5 * x).mean() for x in pair))
+    along = along + [np.subtract(*(np.corrcoef(x[:-k], x[k:])[0, 1] for x in pair)) for k in lags]
+    if across_beams:
+        mixed = [combined(receiver, np.sqrt(k2) * one + np.sqrt(1.0 - k2) * other) for k2 in np.linspace(0.0, 1.0, 17)]
+        out.excess = np.array([np.corrcoef(whole, m)[0, 1] - np.corrcoef(single, s)[0, 1] for m, s in mixed])
+    return out, along
 
 
 def drawn(receiver, amplitude, bins, seed):
