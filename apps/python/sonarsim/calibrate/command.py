@@ -65,10 +65,10 @@ class Calibration:
 def check_usable(recording, kind):
     """CalibrationError with the reason if a recording cannot be calibrated."""
     if recording.kind != kind:
-        raise CalibrationError(f"the preset is of another kind ({kind}) than the recording ({recording.kind}): choose a "
-                               "preset of its kind (soundings: a profiling sonar)")
+        raise CalibrationError(f"the preset is of another kind ({kind}) than the recording ({recording.kind}): choose "
+                               "a preset of its kind (soundings: a profiling sonar)")
     if len(recording) < 2:
-        raise CalibrationError(f"{len(recording)} ping: one part is fitted and the other judged, so it takes two or more")
+        raise CalibrationError(f"{len(recording)} ping: a part is fitted and the other judged, so it takes two or more")
     if recording.kind == "soundings":
         return
     # Values are rounded to whole numbers, unless all lie below 15.
@@ -95,9 +95,10 @@ def calibrate(recording, preset, judged_share=0.5, is_reversed=False, slope_rad=
     """(Calibration, text of the new preset) of a recording and the name or file of a preset. `settings` are those of
     the water, as "temperature_c=12" with "water." before it."""
     start = read_start(preset)
-    for setting in settings:
-        if not setting.startswith("water."):
-            raise CalibrationError(f"--set {setting}: sets only keys of the water; write others into the preset")
+    if not 0.01 <= judged_share <= 0.99:
+        raise CalibrationError("--judge: the share must lie between 0.01 and 0.99")
+    if not all(setting.startswith("water.") for setting in settings):
+        raise CalibrationError("--set: sets only keys of the water; write others into the preset")
     try:
         check_usable(recording, start.kind)
         parts = split(recording, judged_share, is_reversed)
@@ -139,12 +140,6 @@ def write(path, text):
         raise CalibrationError(f"{path}: cannot be written: {fault.strerror}") from fault
 
 
-def share(text):
-    if not 0.01 <= float(text) <= 0.99:
-        raise ValueError(text)
-    return float(text)
-
-
 def parsed(arguments):
     parser = argparse.ArgumentParser("sonarsim calibrate", description=(
         "Fits a preset to pings of a real sonar and judges it by other pings"))
@@ -153,7 +148,7 @@ def parsed(arguments):
     add("--preset", required=True, metavar="START", help="the start: a file, or the name of one of configs/sensors")
     add("--out", required=True, metavar="PRESET", help="the preset to write")
     add("--report", metavar="FILE", help="writes all numbers as JSON")
-    add("--judge", type=share, default=0.5, metavar="SHARE", help="the share of the pings that is judged (default: 0.5)")
+    add("--judge", type=float, default=0.5, metavar="SHARE", help="the share of pings to judge (default: 0.5)")
     add("--reverse", action="store_true", help="judges the first pings and fits the last ones")
     add("--slope-deg", type=float, default=0.0, metavar="DEG", help="slope of the bottom under soundings, down to port")
     add("--sensor", metavar="NAME", help="the sensor of a dataset with several")

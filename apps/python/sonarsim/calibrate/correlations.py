@@ -15,7 +15,7 @@ LEAST_UNITS, MOST_PAIRS = 24, 16
 MODEL_ERROR = 0.002     # of a correlation, by the model's interpolation between the columns of its grid
 CHI2_95 = 3.84          # chi^2 of one degree of freedom stays below it in 95 of 100 cases
 LEAST_CORRELATION = 0.04
-MOST_LEFT = 0.05            # a texture that leaves more of a correlation unexplained is rejected
+MOST_LEFT = 0.05        # a texture that leaves more of a correlation unexplained is rejected
 EDGES, HALF_PATCH = 24, 12.0    # tried edges of its squares, from 1 to 12 bins
 
 
@@ -62,17 +62,14 @@ class Pulse:
     def amplitude(self, bins):
         """The correlation of complex amplitudes as a function of the lag in samples."""
         in_samples = bins * self.receiver["samples"]
-        if self.kind == "noise":
-            # It is as high as the compressed pulse at that distance from its peak.
-            return lambda lag: pulse_at(np.asarray(lag) / in_samples, self.side_lobe_db)
-        taps = echo_taps(in_samples, self.side_lobe_db, self.kind == "echo")
+        taps = taps_of(in_samples, self.side_lobe_db, self.kind)
         whole = np.append(np.correlate(taps, taps, "full")[len(taps) - 1:] / (taps @ taps), 0.0)
         return lambda lag: whole[np.minimum(lag, len(whole) - 1)]
 
     @functools.cached_property
     def table(self):
         """Widths in bins, and the correlations that they predict, [width, lag]."""
-        bins = np.linspace(0.6, 8.0, 75)
+        bins = np.linspace(0.6, 8.0, 75 if self.receiver["samples"] == 1 else 38)
         rows = interpolate.CubicSpline(bins, [self.correlations(b) for b in bins])
         fine = np.linspace(0.6, 8.0, 741)
         return fine, rows(fine)
@@ -94,17 +91,26 @@ def pulse_at(widths, side_lobe_db):
     return pattern(pedestal, 2.0 * half_power * widths)
 
 
-def echo_taps(bins, side_lobe_db, shared):
-    """The amplitudes at whole bins whose linear spline is nearest to the pulse, as the model spreads echoes. An echo
-    that is shared between two bins in proportion to its closeness has on average the products 1/6, 2/3, 1/6, as
-    fixed shares with the sum 1 and the product 1/6 have."""
+def taps_of(bins, side_lobe_db, kind):
+    """The amplitudes at whole bins with which the model filters white noise, or spreads echoes."""
     reach = int(np.clip(np.ceil(3.0 * bins), 2, 64))
+    if kind == "noise":
+        # Noise is correlated as high as the compressed pulse is. A thousandth of the energy at the ends is left out.
+        lags = np.minimum(np.arange(2048), 2048 - np.arange(2048))
+        spectrum = np.fft.fft(pulse_at(lags / max(bins, 0.1), side_lobe_db)).real
+        taps = np.roll(np.fft.ifft(np.sqrt(np.maximum(spectrum, 0.0))).real, reach)[:2 * reach + 1]
+        left_out = 2.0 * np.cumsum(taps[:reach] ** 2)
+        cut = int((left_out <= 1e-3 * (taps @ taps)).sum())
+        return taps[cut:len(taps) - cut]
+    # The linear spline that is nearest to the pulse.
     x, m = np.arange(-63, 64) / 64.0, np.arange(-reach, reach + 1)
-    pulse = pulse_at((m[:, None] + x) / bins, side_lobe_db)
     band = np.tile([[1.0 / 6.0], [2.0 / 3.0], [1.0 / 6.0]], len(m))
+    pulse = pulse_at((m[:, None] + x) / bins, side_lobe_db)
     taps = linalg.solve_banded((1, 1), band, pulse @ (1.0 - np.abs(x)) / 64.0)
+    # An echo that is shared between two bins in proportion to its closeness has on average the products 1/6, 2/3, 1/6,
+    # as fixed shares with the sum 1 and the product 1/6 have.
     share = 0.5 + 0.5 / np.sqrt(3.0)
-    return np.convolve(taps, [share, 1.0 - share]) if shared else taps
+    return np.convolve(taps, [share, 1.0 - share]) if kind == "echo" else taps
 
 
 def fit_pulse(patches, chosen, pulse):

@@ -59,6 +59,7 @@ def fit_laws(recording, fit, find):
     values, full, receiver = recording.values, full_value_of(recording), fit.instrument["receiver"]
     bins, offset = bins_of(fit.instrument, recording.range_step_m), receiver["offset"]
     statistics = pulse_of(fit.instrument, "noise").statistics(bins)
+    of_noise = statistics.variance
     fit.law = fit_law(values, full, statistics, None, offset)
     find()
     patches, noise, echoes = classified(recording, fit.law, fit.noise)
@@ -69,7 +70,12 @@ def fit_laws(recording, fit, find):
         chosen, pulse = echoes if of_echoes else noise, pulse_of(fit.instrument, "echo" if of_echoes else "noise")
         width = fit_pulse(patches, chosen, pulse) if len(chosen) >= LEAST_PATCHES else None
         statistics = pulse.statistics(width.value if width else bins)
+    share = 0.0
+    if of_echoes and receiver["samples"] > 1:
+        # Even patches may be noise as well as echoes, whose variances differ.
+        share = abs(np.sqrt(of_noise / statistics.variance) - 1.0)
     fit.law = fit_law(values, full, statistics, places, offset, fit.law.is_log)
+    fit.law.scale = fit.law.scale.widened(share * fit.law.scale.value)
     find()
     return of_echoes
 
@@ -100,7 +106,7 @@ def fit_pulse_and_beams(recording, fit):
             fit.set("beam.width_deg", found[0])
             fit.set("beam.side_lobe_db", found[1])
             if found[1].high - found[1].low > 8.0:
-                fit.notes.append("beam.width_deg and beam.side_lobe_db can hardly be separated: the two belong together")
+                fit.notes.append("beam.width_deg and side_lobe_db can hardly be separated: the two belong together")
         of_beams = predicted_correlations(beams, np.sin(recording.bearing_rad), statistics)
     # If pulse and law are fitted to noise, the texture of the bottom does not affect them.
     if width and fit.noise and of_echoes:

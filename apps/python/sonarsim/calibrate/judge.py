@@ -58,57 +58,49 @@ def figures_of(recording, instrument, level_db, start, fit):
                   start.absorption_db_per_m if receiver["tvg_absorption"] else 0.0,
                   fit.noise and fit.noise.used, fit.noise and fit.noise.ahead)
     patches, of_noise, echoes = classified(recording, law, noise)
-    steps_m = steps_on_ground(recording, patches, echoes)
+    steps_m, to_shape, out = steps_on_ground(recording, patches, echoes), 2.0 * np.pi / np.sqrt(6.0), []
     of = Patches(recording.values, law.full_value, lambda ping: np.exp(
         0.5 * (law.log_power(ping) - noise.at(recording.ranges_m)[:, None] / DB_OF_E)))
-    patches.variation = np.sqrt(of.variance) / of.mean
-    out = []
-    for kind, where, chosen in (("noise", "noise", of_noise), ("echo", "echoes", echoes)):
+    columns = np.ones(len(patches.place)), np.sqrt(of.variance) / of.mean, patches.variance
+    for where, kind, chosen in (("noise", "noise", of_noise), ("echoes", "echo", echoes)):
         if len(chosen) < LEAST_PATCHES:
             continue
-        pulse = pulse_of(instrument, kind)
-        speckle = dict(instrument["speckle"], **({"clutter_shape": 0.0} if kind == "noise" else {}))
-        statistics = pulse.statistics(bins)
+        pulse, sums = pulse_of(instrument, kind), patches.sums(chosen, *columns)
+        statistics, speckle = pulse.statistics(bins), instrument["speckle"]
+        share = texture_share(speckle, statistics) if kind == "echo" else 0.0
+        variation = statistics.variation
+        if share > 0.0:     # the mean squares of independent factors multiply
+            of_texture = amplitude_variation(speckle["clutter_shape"])
+            variation = np.sqrt((1.0 + variation**2) * (1.0 + of_texture**2) - 1.0)
+
+        def distribution(weights, sums=sums):
+            count, coefficient, variance = (weights @ sums).T
+            return np.stack([coefficient / count, to_shape / np.sqrt(variance / count)], axis=1)
+        measured = bootstrap(patches.places, distribution, draws=DRAWS)
+        shape = to_shape / np.sqrt(statistics.variance / (1.0 - share))
+        out += [Figure(f"{where}: variation of the amplitude", 0.1, float(variation), measured[0]),
+                Figure(f"{where}: Weibull shape of the amplitude", 0.1, float(shape), measured[1])]
+        measured = bootstrap(patches.places, patches.correlations(chosen), draws=DRAWS)
         predicted = [pulse.correlations(bins)]
         if recording.bearing_rad is not None and len(recording.bearing_rad) > LAGS:
             predicted.append(predicted_correlations(instrument["beam"], np.sin(recording.bearing_rad), statistics))
-        out += figures_of_class(where, patches, chosen, speckle, statistics, predicted, steps_m)
+        for axis, of_speckle in enumerate(predicted):
+            for lag in (1, 2, 4):
+                square = max(1.0 - lag * steps_m[axis] / speckle["clutter_m"], 0.0)
+                out.append(Figure(f"{where}: correlation {lag} {('bins', 'beams')[axis]} apart", "correlation",
+                                  float((1.0 - share) * of_speckle[lag - 1] + share * square),
+                                  measured[axis * LAGS + lag - 1]))
         if kind == "noise":
             out += noise_levels(recording, law, noise)
     return [figure for figure in out if np.isfinite(figure.measured.value)]
 
 
-def figures_of_class(where, patches, chosen, speckle, statistics, predicted, steps_m):
-    """The distribution of amplitudes and the correlations of one class of patches."""
-    share, variation = texture_share(speckle, statistics), statistics.variation
-    if share > 0.0:     # the mean squares of independent factors multiply
-        variation = np.sqrt((1.0 + variation**2) * (1.0 + amplitude_variation(speckle["clutter_shape"]) ** 2) - 1.0)
-    sums = patches.sums(chosen, np.ones(len(patches.place)), patches.variation, patches.variance)
-    to_shape = 2.0 * np.pi / np.sqrt(6.0)
-
-    def distribution(weights):
-        count, coefficient, variance = (weights @ sums).T
-        return np.stack([coefficient / count, to_shape / np.sqrt(variance / count)], axis=1)
-    measured = bootstrap(patches.places, distribution, draws=DRAWS)
-    shape = to_shape / np.sqrt(statistics.variance / (1.0 - share))
-    out = [Figure(f"{where}: variation of the amplitude", 0.1, float(variation), measured[0]),
-           Figure(f"{where}: Weibull shape of the amplitude", 0.1, float(shape), measured[1])]
-    measured = bootstrap(patches.places, patches.correlations(chosen), draws=DRAWS)
-    for axis, of_speckle in enumerate(predicted):
-        for lag in (1, 2, 4):
-            square = max(1.0 - lag * steps_m[axis] / speckle["clutter_m"], 0.0)
-            expected = (1.0 - share) * of_speckle[lag - 1] + share * square
-            out.append(Figure(f"{where}: correlation {lag} {('bins', 'beams')[axis]} apart", "correlation",
-                              float(expected), measured[axis * LAGS + lag - 1]))
-    return out
-
-
 def noise_levels(recording, law, noise):
     """The level of the noise in the nearest, middle and farthest third of its blocks."""
-    blocks, out = noise_blocks(recording, law, noise.ahead), []
-    for name, third in zip(("near", "middle", "far"), np.array_split(np.arange(len(noise.used.row)), 3)):
-        # A single ping does not show the noise below a constant echo.
-        here = np.isin(blocks.row, noise.used.row[third[noise.used.without_echo[third]]])
+    blocks, count, out = noise_blocks(recording, law, noise.ahead), len(noise.used), []
+    for k, name in enumerate(("near", "middle", "far")):
+        third = noise.used[k * count // 3:(k + 1) * count // 3]
+        here = np.isin(blocks.row, third.row[third.without_echo])   # one ping does not show noise below an echo
         if here.any():
             level = blocks.level_db[here]
             measured = bootstrap(len(level), lambda w: w @ level / w.sum(axis=1))[0]

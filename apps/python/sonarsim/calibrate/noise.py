@@ -51,7 +51,8 @@ def noise_blocks(recording, law, ahead=None):
     range_m = recording.first_range_m + (row + 0.5 * (ROWS - 1)) * recording.range_step_m
     homogeneous = (zeros < 0.003) & np.where(echo, single, even) & np.isfinite(level_db)
     columns = row, range_m, level_db, homogeneous, ~echo, ~law.cuts_off(np.exp(level_db / DB_OF_E))
-    return np.rec.fromarrays(columns, names="row,range_m,level_db,homogeneous,without_echo,without_zeros")[range_m > 0.0]
+    names = "row,range_m,level_db,homogeneous,without_echo,without_zeros"
+    return np.rec.fromarrays(columns, names=names)[range_m > 0.0]
 
 
 def spread_of_groups(sums, group):

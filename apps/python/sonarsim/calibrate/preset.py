@@ -13,6 +13,8 @@ import yaml
 from .statistics import Bounded, CalibrationError
 
 LARGEST_PRESET = 1 << 20
+# The one that runs this command, else the one on the path.
+PROGRAM = os.environ.get("SONARSIM") or shutil.which("sonarsim") or "sonarsim"
 # The defaults of the program, for the keys that a fit reads.
 DEFAULTS = {
     "beam": {"width_deg": 1.0, "side_lobe_db": -13.3},
@@ -36,16 +38,11 @@ class Start:
     absorption_db_per_m: float = 0.0
 
 
-def program():
-    """The program sonarsim: the one that runs this command, else the one on the path."""
-    return os.environ.get("SONARSIM") or shutil.which("sonarsim") or "sonarsim"
-
-
 def preset_file(name):
     """A file, or that of a preset of configs/sensors by its name."""
     if pathlib.Path(name).is_file():
         return pathlib.Path(name)
-    roots = [*pathlib.Path(__file__).resolve().parents, *pathlib.Path(program()).resolve().parents]
+    roots = [*pathlib.Path(__file__).resolve().parents, *pathlib.Path(PROGRAM).resolve().parents]
     folders = [root / part for root in roots for part in ("configs/sensors", "share/sonarsim/configs/sensors")]
     shipped = {path.stem: path for folder in folders for path in folder.glob("*.yaml")}
     if name not in shipped:
@@ -96,7 +93,7 @@ def set_shape(start, recording, settings):
                             "instrument.beam.spread": "sine" if is_sine else "angle"})
     settings = [*(f"sensors.sonar.{key}={value}" for key, value in start.shape.items()), *settings,
                 f"water.sound_speed_m_s={recording.sound_speed_m_s}"]
-    command = [program(), "preset", str(start.file), "--json", *(f"--set={setting}" for setting in settings)]
+    command = [PROGRAM, "preset", str(start.file), "--json", *(f"--set={setting}" for setting in settings)]
     try:
         run = subprocess.run(command, capture_output=True, text=True, check=False)
         if run.returncode:
@@ -105,7 +102,7 @@ def set_shape(start, recording, settings):
         start.noise_db, start.full_scale_db = found["noise_db"], found["full_scale_db"]
         start.absorption_db_per_m = found["absorption_db_per_m"]
     except (OSError, json.JSONDecodeError, KeyError) as fault:
-        raise CalibrationError(f"{program()}: does not give the levels of {start.file} ({fault}); set SONARSIM to the "
+        raise CalibrationError(f"{PROGRAM}: does not give the levels of {start.file} ({fault}); set SONARSIM to the "
                                "path of the program") from fault
 
 

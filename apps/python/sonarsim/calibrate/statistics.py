@@ -90,7 +90,7 @@ def sampled(receiver, amplitude, bins=80000, across_beams=True):
     along = out.correlation(amplitude(receiver["samples"] * lags) ** 2)
     if receiver["samples"] == 1:
         return out, along
-    one, other = (drawn(receiver, amplitude, bins, seed) for seed in (1, 2))
+    one = drawn(receiver, amplitude, bins, 1)
     pair = whole, single = combined(receiver, one)
     out.mean += whole.mean() - single.mean()
     out.variance += whole.var() - single.var()
@@ -98,6 +98,7 @@ def sampled(receiver, amplitude, bins=80000, across_beams=True):
     out.variation += np.subtract(*(np.exp(0.5 * x).std() / np.exp(0.5 * x).mean() for x in pair))
     along = along + [np.subtract(*(np.corrcoef(x[:-k], x[k:])[0, 1] for x in pair)) for k in lags]
     if across_beams:
+        other = drawn(receiver, amplitude, bins, 2)
         mixed = [combined(receiver, np.sqrt(k2) * one + np.sqrt(1.0 - k2) * other) for k2 in np.linspace(0.0, 1.0, 17)]
         out.excess = np.array([np.corrcoef(whole, m)[0, 1] - np.corrcoef(single, s)[0, 1] for m, s in mixed])
     return out, along
@@ -115,7 +116,7 @@ def drawn(receiver, amplitude, bins, seed):
 
 def combined(receiver, looks):
     """ln P of the values of bins, and of the first sample of each bin."""
-    powers = (np.abs(looks) ** 2).mean(axis=0).reshape(-1, receiver["samples"])
-    rule = {"max": lambda p: p.max(axis=1), "mean": lambda p: np.sqrt(p).mean(axis=1) ** 2,
-            "rms": lambda p: p.mean(axis=1)}[receiver["combine"]]
-    return np.log(rule(powers) + 1e-12), np.log(powers[:, 0] + 1e-12)
+    powers = (looks.real**2 + looks.imag**2).mean(axis=0).reshape(-1, receiver["samples"]).T.copy() + 1e-12
+    rule = {"max": lambda: powers.max(axis=0), "mean": lambda: np.sqrt(powers).mean(axis=0) ** 2,
+            "rms": lambda: powers.mean(axis=0)}[receiver["combine"]]
+    return np.log(rule()), np.log(powers[0])
