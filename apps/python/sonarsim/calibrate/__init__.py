@@ -1,0 +1,3 @@
+"""Fits a preset to one part of the pings of a recording, and judges it by the other."""
+from .command import calibrate, main
+from .statistics import CalibrationError

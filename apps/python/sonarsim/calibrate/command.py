@@ -1,0 +1,177 @@
+"""The command `sonarsim calibrate`."""
+import argparse
+import dataclasses
+import json
+import math
+import os
+import pathlib
+import sys
+
+from ..recording import RecordingError, open_recording
+from .image import fit_image
+from .judge import figures_of
+from .law import full_value_of
+from .preset import new_keys, read_start, set_shape, with_key
+from .soundings import NOTES, soundings_figures
+from .statistics import Bounded, CalibrationError
+
+MOST_FULL, MOST_ZEROS = 0.1, 0.9
+
+
+@dataclasses.dataclass
+class Calibration:
+    name: str
+    fitted: int         # pings
+    judged: int
+    figures: list       # (start, fitted pings, judged pings), each a Figure
+    notes: list
+    estimates: dict = dataclasses.field(default_factory=dict)   # key -> Bounded or a word
+
+    def agreements(self):
+        return [sum(bool(row[k].agrees) for row in self.figures) for k in range(3)]
+
+    def all_notes(self):
+        pairs = [(fitted.measured, judged.measured) for _, fitted, judged in self.figures]
+        changed = sum(a.low > b.high or a.high < b.low for a, b in pairs)
+        return self.notes + [f"{changed} of {len(pairs)} figures of the judged pings lie outside the intervals of the "
+                             "fitted ones: the scene or the sonar changed between them"] * (5 * changed > len(pairs))
+
+    def text(self):
+        lines = [f"{self.name}: {self.fitted} pings fitted, {self.judged} judged", "",
+                 *(f"  {key:28} {value}" for key, value in self.estimates.items()), "",
+                 f"{'figure':46} {'start':>15} {'fit':>9} {'fitted pings':>28} {'':5} {'judged pings':>28}"]
+        for row in self.figures:
+            start, fit = ("-" if f.predicted is None else f"{f.predicted:.4g}" for f in (row[0], row[2]))
+            verdicts = [f"{'-' if f.predicted is None else 'yes' if f.agrees else 'NO':>5}" for f in row]
+            lines.append(f"{row[2].name:46} {start:>9} {verdicts[0]} {fit:>9} {str(row[1].measured):>28} {verdicts[1]} "
+                         f"{str(row[2].measured):>28} {verdicts[2]}")
+        start, inside, outside = self.agreements()
+        lines.append(f"{len(self.figures)} figures agree: {start} of the start, {inside} of the fit with the fitted "
+                     f"pings, {outside} with the judged ones")
+        return "\n".join([*lines, *(f"- {note}" for note in self.all_notes())])
+
+    def json(self):
+        def column(figure):
+            return None if figure.predicted is None else {
+                "predicted": figure.predicted, "measured": figure.measured._asdict(), "agrees": bool(figure.agrees)}
+        return {"recording": self.name, "pings_fitted": self.fitted, "pings_judged": self.judged,
+                "estimates": {key: value._asdict() if isinstance(value, Bounded) else value
+                              for key, value in self.estimates.items()},
+                "figures": [{"figure": judged.name, "start": column(start), "in_sample": column(fitted),
+                             "held_out": column(judged)} for start, fitted, judged in self.figures],
+                "agree": dict(zip(("start", "in_sample", "held_out"), self.agreements())), "notes": self.all_notes()}
+
+
+def check_usable(recording, kind):
+    """CalibrationError with the reason if a recording cannot be calibrated."""
+    if recording.kind != kind:
+        raise CalibrationError(f"the preset is of another kind ({kind}) than the recording ({recording.kind}): choose "
+                               "a preset of its kind (soundings: a profiling sonar)")
+    if len(recording) < 2:
+        raise CalibrationError(f"{len(recording)} ping: a part is fitted and the other judged, so it takes two or more")
+    if recording.kind == "soundings":
+        return
+    # Values are rounded to whole numbers, unless all lie below 15.
+    values, largest = recording.values, full_value_of(recording) * (1.0 - recording.law.offset)
+    full = (values >= (largest - 0.5 if largest > 15.0 else largest)).mean()
+    zeros = (values <= 0.0).mean()
+    if values.min() == values.max():
+        raise CalibrationError("every value is the same: it is empty")
+    if zeros > MOST_ZEROS:
+        raise CalibrationError(f"{zeros:.0%} of the values are 0: record with more gain")
+    if full > MOST_FULL:
+        raise CalibrationError(f"{full:.0%} of the values are the largest one, it is saturated: record with less gain")
+
+
+def split(recording, judged_share, is_reversed):
+    """(fitted, judged) parts: the last pings are judged, at least one; `is_reversed`: the first."""
+    judged = min(max(int(judged_share * len(recording)), 1), len(recording) - 1)
+    cut = judged if is_reversed else len(recording) - judged
+    parts = recording.part(slice(0, cut)), recording.part(slice(cut, None))
+    return parts[::-1] if is_reversed else parts
+
+
+def calibrate(recording, preset, judged_share=0.5, is_reversed=False, slope_rad=0.0, settings=()):
+    """(Calibration, text of the new preset) of a recording and the name or file of a preset. `settings` are those of
+    the water, as "temperature_c=12" with "water." before it."""
+    start = read_start(preset)
+    if not 0.01 <= judged_share <= 0.99:
+        raise CalibrationError("--judge: the share must lie between 0.01 and 0.99")
+    if not all(setting.startswith("water.") for setting in settings):
+        raise CalibrationError("--set: sets only keys of the water; write others into the preset")
+    try:
+        check_usable(recording, start.kind)
+        parts = split(recording, judged_share, is_reversed)
+        pings, keys = [len(part) for part in parts], {}
+        if recording.kind == "soundings":
+            result = Calibration(recording.name, *pings, soundings_figures(parts, slope_rad), NOTES)
+        else:
+            set_shape(start, parts[0], settings)
+            fit = fit_image(parts[0], start)
+            keys = new_keys(start, fit)
+            result = Calibration(recording.name, *pings, judged_figures(parts, start, fit), fit.notes, fit.estimates)
+    except CalibrationError as fault:
+        raise CalibrationError(f"{recording.name}: {fault}") from fault
+    text = start.text
+    for key, (value, comment) in keys.items():
+        text = with_key(text, key, value, comment, start.file)
+    return result, (f"# Fitted by sonarsim calibrate to {pings[0]} pings of {recording.name}, from {preset}.\n"
+                    "# `fit`: a number that was estimated, with its interval of 95 %; `file`: the shape of the pings.\n"
+                    "# All others are those of the start, whose own head follows.\n#\n" + text)
+
+
+def judged_figures(parts, start, fit):
+    """The figures that the start and the fit both predict: (start, fitted pings, judged pings)."""
+    before = figures_of(parts[1], start.instrument, start.noise_db - start.full_scale_db, start, fit)
+    rows = [before, *(figures_of(part, fit.instrument, fit.level_db, start, fit) for part in parts)]
+    named = [{figure.name: figure for figure in figures} for figures in rows]
+    return [tuple(of[name] for of in named) for name in named[2] if name in named[0] and name in named[1]]
+
+
+def write(path, text):
+    """Writes a file under a temporary name first, so that nothing half-written is left."""
+    path = pathlib.Path(path)
+    temporary = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        temporary.write_text(text, encoding="utf-8")
+        temporary.replace(path)
+    except OSError as fault:
+        temporary.unlink(missing_ok=True)
+        raise CalibrationError(f"{path}: cannot be written: {fault.strerror}") from fault
+
+
+def parsed(arguments):
+    parser = argparse.ArgumentParser("sonarsim calibrate", description=(
+        "Fits a preset to pings of a real sonar and judges it by other pings"))
+    add = parser.add_argument
+    add("recording", help="the pings: a folder with recording.yaml, or a dataset")
+    add("--preset", required=True, metavar="START", help="the start: a file, or the name of one of configs/sensors")
+    add("--out", required=True, metavar="PRESET", help="the preset to write")
+    add("--report", metavar="FILE", help="writes all numbers as JSON")
+    add("--judge", type=float, default=0.5, metavar="SHARE", help="the share of pings to judge (default: 0.5)")
+    add("--reverse", action="store_true", help="judges the first pings and fits the last ones")
+    add("--slope-deg", type=float, default=0.0, metavar="DEG", help="slope of the bottom under soundings, down to port")
+    add("--sensor", metavar="NAME", help="the sensor of a dataset with several")
+    add("--set", action="append", default=[], metavar="KEY=VALUE", dest="settings",
+        help="sets a key of the water, as water.temperature_c=20")
+    add("--json", action="store_true", help="prints JSON instead of text")
+    add("-q", "--quiet", action="store_true", help="prints no table")
+    return parser.parse_args(arguments)
+
+
+def main(arguments=None):
+    """The exit code: 0, or 2 for a bad input."""
+    options = parsed(arguments)
+    try:
+        recording = open_recording(options.recording, sensor=options.sensor)
+        result, text = calibrate(recording, options.preset, options.judge, options.reverse,
+                                 math.radians(options.slope_deg), options.settings)
+        write(options.out, text)
+        if options.report:
+            write(options.report, json.dumps(result.json()) + "\n")
+    except (RecordingError, CalibrationError) as fault:
+        print(f"sonarsim calibrate: {fault}", file=sys.stderr)
+        return 2
+    if options.json or not options.quiet:
+        print(json.dumps(result.json()) if options.json else result.text())
+    return 0

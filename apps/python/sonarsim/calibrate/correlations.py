@@ -1,0 +1,236 @@
+"""Pulse, array and texture of the bottom by the correlations of log powers along range and beams.
+
+An array, or the band of a pulse, is weighted along x = position / length in [-1/2, 1/2] by p + (1 - p) cos^2(pi x):
+p = 1 is uniform (side lobes at -13.3 dB), p = 0.08 is Hamming's (-42 dB)."""
+import dataclasses
+import functools
+
+import numpy as np
+from scipy import interpolate, linalg, optimize, special
+
+from .statistics import LAGS, Bounded, bootstrap, sampled
+
+TAPERS_DB = np.arange(-13.3, -41.0, -0.5)
+LEAST_UNITS, MOST_PAIRS = 24, 16
+MODEL_ERROR = 0.002     # of a correlation, by the model's interpolation between the columns of its grid
+CHI2_95 = 3.84          # chi^2 of one degree of freedom stays below it in 95 of 100 cases
+LEAST_CORRELATION = 0.04
+MOST_LEFT = 0.05        # a texture that leaves more of a correlation unexplained is rejected
+EDGES, HALF_PATCH = 24, 12.0    # tried edges of its squares, from 1 to 12 bins
+
+
+def pattern(pedestal, t):
+    """The amplitude at t = sine of the angle x length / wavelength: the Fourier transform of the weights. A pulse
+    whose band is weighted so has this shape along range."""
+    cosine = 0.5 * (np.sinc(t) + 0.5 * (np.sinc(t + 1.0) + np.sinc(t - 1.0)))
+    return (pedestal * np.sinc(t) + (1.0 - pedestal) * cosine) / (0.5 * (1.0 + pedestal))
+
+
+def highest_side_lobe_db(pedestal):
+    value = pattern(pedestal, np.arange(1.0, 5.0, 0.005))
+    null = np.flatnonzero(value[1:] * value[:-1] <= 0.0)[0]
+    return 10.0 * np.log10(np.max(value[null + 1:] ** 2))
+
+
+@functools.lru_cache(256)
+def taper(side_lobe_db):
+    """The pedestal of the highest side lobe, and the t at which the power is halved."""
+    limits = highest_side_lobe_db(0.08), -13.27
+    pedestal = 0.08 if side_lobe_db <= limits[0] else 1.0
+    if limits[0] < side_lobe_db < limits[1]:
+        pedestal = optimize.brentq(lambda p: highest_side_lobe_db(p) - side_lobe_db, 0.08, 1.0)
+    return pedestal, optimize.brentq(lambda t: pattern(pedestal, t) ** 2 - 0.5, 0.0, 1.0)
+
+
+@dataclasses.dataclass(eq=False)
+class Pulse:
+    """The effect of a pulse on values. `kind`: "noise" after the matched filter has the spectrum |S|^2, an "echo" of
+    many scatterers |S|^4. With speckle of the scene an echo is shared between two bins before the pulse; with speckle
+    of the ping ("echo of bins") amplitudes are drawn for whole bins."""
+
+    receiver: dict
+    side_lobe_db: float
+    kind: str
+
+    def statistics(self, bins):
+        return sampled(self.receiver, self.amplitude(bins))[0]
+
+    def correlations(self, bins):
+        """The correlations of log powers 1 to LAGS bins apart."""
+        return sampled(self.receiver, self.amplitude(bins), 20000, across_beams=False)[1]
+
+    def amplitude(self, bins):
+        """The correlation of complex amplitudes as a function of the lag in samples."""
+        in_samples = bins * self.receiver["samples"]
+        taps = taps_of(in_samples, self.side_lobe_db, self.kind)
+        whole = np.append(np.correlate(taps, taps, "full")[len(taps) - 1:] / (taps @ taps), 0.0)
+        return lambda lag: whole[np.minimum(lag, len(whole) - 1)]
+
+    @functools.cached_property
+    def table(self):
+        """Widths in bins, and the correlations that they predict, [width, lag]."""
+        bins = np.linspace(0.6, 8.0, 75 if self.receiver["samples"] == 1 else 38)
+        rows = interpolate.CubicSpline(bins, [self.correlations(b) for b in bins])
+        fine = np.linspace(0.6, 8.0, 741)
+        return fine, rows(fine)
+
+
+def pulse_of(instrument, kind):
+    if kind == "echo" and instrument["speckle"]["mode"] != "scene":
+        kind = "echo of bins"
+    return Pulse(instrument["receiver"], instrument["pulse"]["side_lobe_db"], kind)
+
+
+def bins_of(instrument, range_step_m):
+    return instrument["pulse"]["resolution_m"] / range_step_m or 1.0
+
+
+def pulse_at(widths, side_lobe_db):
+    """The amplitude of the compressed pulse some half-power widths off its peak."""
+    pedestal, half_power = taper(side_lobe_db)
+    return pattern(pedestal, 2.0 * half_power * widths)
+
+
+def taps_of(bins, side_lobe_db, kind):
+    """The amplitudes at whole bins with which the model filters white noise, or spreads echoes."""
+    reach = int(np.clip(np.ceil(3.0 * bins), 2, 64))
+    if kind == "noise":
+        # Noise is correlated as high as the compressed pulse is. A thousandth of the energy at the ends is left out.
+        lags = np.minimum(np.arange(2048), 2048 - np.arange(2048))
+        spectrum = np.fft.fft(pulse_at(lags / max(bins, 0.1), side_lobe_db)).real
+        taps = np.roll(np.fft.ifft(np.sqrt(np.maximum(spectrum, 0.0))).real, reach)[:2 * reach + 1]
+        left_out = 2.0 * np.cumsum(taps[:reach] ** 2)
+        cut = int((left_out <= 1e-3 * (taps @ taps)).sum())
+        return taps[cut:len(taps) - cut]
+    # The linear spline that is nearest to the pulse.
+    x, m = np.arange(-63, 64) / 64.0, np.arange(-reach, reach + 1)
+    band = np.tile([[1.0 / 6.0], [2.0 / 3.0], [1.0 / 6.0]], len(m))
+    pulse = pulse_at((m[:, None] + x) / bins, side_lobe_db)
+    taps = linalg.solve_banded((1, 1), band, pulse @ (1.0 - np.abs(x)) / 64.0)
+    # An echo that is shared between two bins in proportion to its closeness has on average the products 1/6, 2/3, 1/6,
+    # as fixed shares with the sum 1 and the product 1/6 have.
+    share = 0.5 + 0.5 / np.sqrt(3.0)
+    return np.convolve(taps, [share, 1.0 - share]) if kind == "echo" else taps
+
+
+def fit_pulse(patches, chosen, pulse):
+    """The half-power width in bins; None if neighbouring bins are not correlated: the pulse is shorter than a bin."""
+    correlations = patches.correlations(chosen)
+    seen = correlations(np.ones((1, patches.places)))[0, 0]
+    if seen[0] < LEAST_CORRELATION:
+        return None
+    bins, rows = pulse.table
+    rows = rows[:, np.isfinite(seen)]
+
+    def width(weights):
+        seen = correlations(weights)[:, 0, :rows.shape[1]]
+        return bins[((rows**2).sum(axis=1) - 2.0 * seen @ rows.T).argmin(axis=1)]
+    found = bootstrap(patches.places, width)[0]
+    return found.widened((0.01 if pulse.receiver["samples"] == 1 else 0.025) * found.value)
+
+
+# A texture as speckle.clutter_shape and clutter_m make it: gamma distributed strengths in squares of the scene. ln P
+# is the sum of the logarithms of speckle and strength; the texture has the share trigamma(shape) / (trigamma(shape) +
+# the variance of speckle) of its variance, and places a distance d apart lie in one square of the edge e in a share
+# 1 - d / e of all cases.
+
+def texture_share(speckle, statistics):
+    own = special.polygamma(1, speckle["clutter_shape"]) if speckle["clutter_shape"] > 0.0 else 0.0
+    return own / (own + statistics.variance)
+
+
+def shape_of_share(share, statistics):
+    """The shape that gives a texture this share."""
+    share = min(max(share, 0.001), 0.95)
+    return float(np.exp(optimize.brentq(
+        lambda x: texture_share({"clutter_shape": np.exp(x)}, statistics) - share, -7.0, 9.0)))
+
+
+def steps_on_ground(recording, patches, echoes):
+    """The mean distances of bins and of beams on a flat bottom at the recording's altitude."""
+    if not len(echoes):
+        return recording.range_step_m, 0.0
+    at = recording.first_range_m + (patches.row[echoes] + 0.5 * patches.shape[0]) * recording.range_step_m
+    # Straight below no length of the ground belongs to a bin.
+    stretch = np.mean(np.maximum(1.0 - ((recording.altitude_m or 0.0) / at) ** 2, 0.1) ** -0.5)
+    sines = np.zeros(1) if recording.bearing_rad is None else np.sin(recording.bearing_rad)
+    return recording.range_step_m * stretch, at.mean() * np.ptp(sines) / max(len(sines) - 1, 1)
+
+
+def fit_texture(patches, echoes, pulse, steps_m, of_beams):
+    """(share, edge in m, pulse in bins) by least squares over a grid of edges and pulses; None where the share lies
+    less than 3.3 standard errors off 0, or where the correlations are not those of a texture."""
+    bins, rows = (of[::5] for of in pulse.table)
+    edges = steps_m[0] * np.linspace(1.0, HALF_PATCH, EDGES)
+    axes = 2 if steps_m[1] > 0.0 else 1
+    squares = np.maximum(1.0 - np.outer(steps_m[:axes], np.arange(1, LAGS + 1)) / edges[:, None, None], 0.0)
+    own = np.hstack([rows, np.broadcast_to(of_beams, rows.shape)][:axes])
+    t = (squares.reshape(EDGES, 1, -1) - own).reshape(-1, axes * LAGS)       # [edge and pulse, lag]
+    own, norm = np.tile(own, (EDGES, 1)), (t**2).sum(axis=1, keepdims=True)
+    correlations = patches.correlations(echoes)
+
+    def estimate(weights):
+        # Least squares of seen - own = share (squares - own), with own the speckle's correlation.
+        seen = correlations(weights)[:, :axes].reshape(len(weights), -1).T
+        ty = t @ seen - (t * own).sum(axis=1, keepdims=True)
+        share = np.maximum(ty / norm, 0.0)
+        error = (seen**2).sum(axis=0) - 2.0 * own @ seen + (own**2).sum(axis=1, keepdims=True) - share * ty
+        best, draw = error.argmin(axis=0), np.arange(len(weights))
+        left = np.sqrt(np.maximum(error[best, draw], 0.0) / (axes * LAGS))
+        return np.stack([share[best, draw], edges[best // len(bins)], bins[best % len(bins)], left], axis=1)
+    found = bootstrap(patches.places, estimate, [0.0, edges[1] - edges[0], bins[1] - bins[0], 0.0])
+    share, left = found[0], found[3]
+    return None if share.value < 3.3 * share.half_width / 1.96 or left.value > MOST_LEFT else found[:3]
+
+
+def beam_correlation(pedestal, t):
+    """The squared correlation of the amplitudes of two beams t apart: elements have independent noise, so it is the
+    Fourier transform of the squared weights. Phase errors cancel, and speckle has the same correlation."""
+    a, b = 0.5 * (1.0 + pedestal), 0.5 * (1.0 - pedestal)
+    total = ((a * a + 0.5 * b * b) * np.sinc(t) + a * b * (np.sinc(t + 1.0) + np.sinc(t - 1.0))
+             + 0.25 * b * b * (np.sinc(t + 2.0) + np.sinc(t - 2.0)))
+    return (total / (a * a + 0.5 * b * b)) ** 2
+
+
+def differences(sines):
+    """The differences of sines of beams 1 to LAGS apart, some evenly over the fan."""
+    return [np.abs(sines[lag:] - sines[:-lag])[::max(len(sines) // MOST_PAIRS, 1)] for lag in range(1, LAGS + 1)]
+
+
+def predicted_correlations(beam, sines, statistics):
+    """The mean correlations of log powers 1 to LAGS beams apart, by the keys of a beam."""
+    pedestal, half_power = taper(beam["side_lobe_db"])
+    wavelengths = half_power / np.sin(0.5 * np.radians(beam["width_deg"]))
+    return np.array([statistics.correlation(beam_correlation(pedestal, u * wavelengths)).mean()
+                     for u in differences(sines)])
+
+
+def fit_array(seen, covariance, units, sines, statistics):
+    """(width in degrees, side lobe in dB) of the array with the least chi^2 on a grid of tapers and lengths. An
+    interval covers all arrays whose chi^2 is within 3.84 of the least (profile likelihood; Wilks 1938). None for
+    fewer than 24 units."""
+    if units < LEAST_UNITS:
+        return None
+    # The inverse of a covariance from n units is (n - 1) / (n - p - 2) too large (Hartlap 2007).
+    inverse = np.linalg.inv(covariance + MODEL_ERROR**2 * np.eye(LAGS)) * (units - LAGS - 2.0) / (units - 1.0)
+    designs = [taper(db) for db in TAPERS_DB]
+    t = 0.02 * np.arange(801)
+    tables = [statistics.correlation(beam_correlation(pedestal, t)) for pedestal, _ in designs]
+    apart = differences(sines)
+
+    def chi2(log_lengths):
+        out = []
+        for table in tables:
+            model = [np.interp(np.exp(log_lengths)[:, None] * u, t, table, right=0.0).mean(axis=1) for u in apart]
+            off = seen - np.array(model).T
+            out.append(np.einsum("ki,ij,kj->k", off, inverse, off))
+        return np.array(out)
+    coarse = np.arange(np.log(0.5), np.log(5000.0), 0.05)
+    fine = coarse[chi2(coarse).min(axis=0).argmin()] + np.arange(-0.6, 0.6, 0.004)
+    found = chi2(fine)
+    best = np.unravel_index(np.argmin(found), found.shape)
+    near = np.nonzero(found <= found[best] + CHI2_95)
+    half_power = np.array([design[1] for design in designs])
+    width = np.degrees(2.0 * np.arcsin(np.minimum(half_power[:, None] / np.exp(fine), 1.0)))
+    return (Bounded(width[best], width[near].min(), width[near].max()),
+            Bounded(TAPERS_DB[best[0]], TAPERS_DB[near[0]].min(), TAPERS_DB[near[0]].max()))

@@ -1,0 +1,140 @@
+"""What images or records tell of the instrument that made them: law, noise, pulse, beams and texture, in this order."""
+import copy
+import dataclasses
+
+import numpy as np
+
+from .correlations import (bins_of, fit_array, fit_pulse, fit_texture, predicted_correlations, pulse_of, shape_of_share,
+                           steps_on_ground)
+from .judge import classified
+from .law import Law, fit_law, full_value_of
+from .noise import Noise, find_noise
+from .statistics import LAGS, Bounded
+
+LEAST_PATCHES = 24
+
+
+@dataclasses.dataclass
+class Fit:
+    instrument: dict            # that of the start with the fitted values
+    level_db: float             # of the noise, re full scale
+    law: Law | None = None
+    noise: Noise | None = None
+    estimates: dict = dataclasses.field(default_factory=dict)   # key -> Bounded or a word
+    notes: list = dataclasses.field(default_factory=list)
+
+    def set(self, key, value):
+        """Notes an estimate, and puts it into the instrument."""
+        section, name = key.split(".")
+        self.instrument[section][name] = value.value if isinstance(value, Bounded) else value
+        self.estimates[key] = value
+
+
+def fit_image(recording, start):
+    """Fits pings. CalibrationError for values that are not from a sonar."""
+    fit = Fit(copy.deepcopy(start.instrument), start.noise_db - start.full_scale_db)
+
+    def find():
+        fit.noise = find_noise(recording, fit.law, start.absorption_db_per_m, fit.instrument["receiver"]["tvg_from_m"])
+    of_echoes = fit_laws(recording, fit, find)
+    texture = fit_pulse_and_beams(recording, fit)
+    if texture and of_echoes:
+        # The law took the variance of the texture for speckle.
+        factor = np.sqrt(1.0 - min(texture[0].value, 0.9))
+        scale = fit.law.scale.scaled(1.0 / factor if fit.law.is_log else factor)
+        fit.law.scale = scale.widened(0.5 * texture[0].half_width / factor**2 * scale.value)
+        find()
+    bits = np.log2(recording.law.full_value + 1.0)
+    if bits in range(8, 17):
+        fit.set("receiver.bits", int(bits))
+    fit.set("receiver.companding", "log" if fit.law.is_log else "gamma")
+    fit.set("receiver.dynamic_range_db" if fit.law.is_log else "receiver.gamma", fit.law.scale)
+    set_levels(start, fit)
+    return fit
+
+
+def fit_laws(recording, fit, find):
+    """Fits the law to all patches, finds the noise, and fits the law again to the patches of noise: these are surely
+    Rayleigh distributed, an even patch of echoes may hold a texture. True if there is too little noise."""
+    values, full, receiver = recording.values, full_value_of(recording), fit.instrument["receiver"]
+    bins, offset = bins_of(fit.instrument, recording.range_step_m), receiver["offset"]
+    statistics = pulse_of(fit.instrument, "noise").statistics(bins)
+    of_noise = statistics.variance
+    fit.law = fit_law(values, full, statistics, None, offset)
+    find()
+    patches, noise, echoes = classified(recording, fit.law, fit.noise)
+    of_echoes = len(noise) < LEAST_PATCHES
+    places = None if of_echoes else np.bincount(patches.place[noise], minlength=patches.places) > 0
+    if receiver["samples"] > 1:
+        # The statistics depend on the pulse; no law changes the correlations to which it is fitted.
+        chosen, pulse = echoes if of_echoes else noise, pulse_of(fit.instrument, "echo" if of_echoes else "noise")
+        width = fit_pulse(patches, chosen, pulse) if len(chosen) >= LEAST_PATCHES else None
+        statistics = pulse.statistics(width.value if width else bins)
+    share = 0.0
+    if of_echoes and receiver["samples"] > 1:
+        # Even patches may be noise as well as echoes, whose variances differ.
+        share = abs(np.sqrt(of_noise / statistics.variance) - 1.0)
+    fit.law = fit_law(values, full, statistics, places, offset, fit.law.is_log)
+    fit.law.scale = fit.law.scale.widened(share * fit.law.scale.value)
+    find()
+    return of_echoes
+
+
+def fit_pulse_and_beams(recording, fit):
+    """Sets pulse, beams and texture, and returns the texture or None."""
+    patches, noise, echoes = classified(recording, fit.law, fit.noise)
+    of_echoes, texture = len(noise) < LEAST_PATCHES, None
+    chosen = echoes if of_echoes else noise
+    if len(chosen) < LEAST_PATCHES:
+        fit.notes.append("pulse and beams: too few patches of noise or of even echoes; those of the start are kept")
+        return None
+    pulse = pulse_of(fit.instrument, "echo" if of_echoes else "noise")
+    width = fit_pulse(patches, chosen, pulse)
+    if width is None:
+        fit.notes.append("pulse.resolution_m: the pulse is shorter than a bin; that of the start is kept")
+    elif fit.noise is None:
+        other = fit_pulse(patches, chosen, pulse_of(fit.instrument, "noise"))
+        width = Bounded(width.value, min(width.low, other.low), max(width.high, other.high))
+        fit.notes.append("pulse.resolution_m: no rows show noise alone, so the interval holds pulses of both")
+    beams = fit.instrument["beam"] if recording.bearing_rad is not None and len(recording.bearing_rad) > LAGS else None
+    statistics, of_beams = fit.law.statistics, np.zeros(LAGS)
+    if beams:
+        found = fit_array(*patches.beam_covariance(chosen, not of_echoes), np.sin(recording.bearing_rad), statistics)
+        if found is None:
+            fit.notes.append("beams: too few places of even echoes; width and taper are those of the start")
+        else:
+            fit.set("beam.width_deg", found[0])
+            fit.set("beam.side_lobe_db", found[1])
+            if found[1].high - found[1].low > 8.0:
+                fit.notes.append("beam.width_deg and side_lobe_db can hardly be separated: the two belong together")
+        of_beams = predicted_correlations(beams, np.sin(recording.bearing_rad), statistics)
+    # If pulse and law are fitted to noise, the texture of the bottom does not affect them.
+    if width and fit.noise and of_echoes:
+        texture = fit_texture(patches, echoes, pulse, steps_on_ground(recording, patches, echoes), of_beams)
+    if texture:
+        shapes = (shape_of_share(texture[0][k], statistics) for k in (0, 2, 1))
+        fit.set("speckle.clutter_shape", Bounded(*shapes))
+        fit.set("speckle.clutter_m", texture[1])
+        fit.notes.append("speckle.clutter_shape and clutter_m are those of this bottom, not of the sonar")
+    if width:
+        fit.set("pulse.resolution_m", (texture[2] if texture else width).scaled(recording.range_step_m))
+    return texture
+
+
+def set_levels(start, fit):
+    """Sets gain and levels by the noise. Pings show only differences of levels, so full_scale_db is fitted."""
+    noise, law = fit.noise, fit.law
+    if noise is None:
+        fit.notes.append("full_scale_db and tvg_log: no rows show noise alone; those of the start are kept")
+        return
+    # An error of the law scales all levels below full scale, and the gain with them.
+    share = law.scale.half_width / law.scale.value
+    near, far = noise.used.range_m[[0, -1]]
+    level = noise.level_db.widened(share * noise.level_db.value)
+    growth = (noise.at(far) - noise.at(near)) / np.log10(far / near)
+    fit.set("receiver.tvg_log", noise.tvg_log.widened(share * growth))
+    fit.instrument["receiver"]["tvg_absorption"] = True
+    fit.level_db = level.value
+    fit.set("receiver.full_scale_db", Bounded(*(start.noise_db - x for x in (level.value, level.high, level.low))))
+    fit.notes.append("full_scale_db is fitted to noise_db and source_level_db of the start, tvg_log to the absorption "
+                     "of its water: pings show only differences")

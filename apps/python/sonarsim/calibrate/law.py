@@ -1,0 +1,102 @@
+"""The law of companding by the values of homogeneous speckle, whose amplitude A is Rayleigh distributed at every
+level. With v = M A^g the logarithm of v has the variance (g / 2)^2 of ln P at every level, and v a standard deviation
+proportional to its mean. With v = M (1 + 20 log10(A) / range) v itself has one variance at every level."""
+import dataclasses
+
+import numpy as np
+
+from .patches import Patches
+from .statistics import DB_OF_E, Bounded, CalibrationError, LogStatistics, bootstrap
+
+LEAST_PATCHES = 8
+LEAST_SPREAD_OF_LEVELS = 0.1    # patches of about one level do not determine the slope
+LEAST_ERROR = 0.01              # that finite patches, their trend and the steps of the values leave
+# If a share p of the powers becomes 0, the variance of the logarithm lacks p (0.8 - 2 ln p): half a per cent here.
+MOST_CUT_OFF = 5e-4
+
+
+@dataclasses.dataclass
+class Law:
+    full_value: float
+    is_log: bool
+    scale: Bounded                  # gamma, or the dynamic range in dB of a logarithm
+    offset: float                   # added to the values, as a share of full_value
+    statistics: LogStatistics
+
+    def log_power(self, values):
+        """ln P of values, P the power over full scale."""
+        if self.is_log:
+            return (np.asarray(values, float) / self.full_value + self.offset - 1.0) * self.scale.value / DB_OF_E
+        return 2.0 / self.scale.value * np.log(floored(values, self.full_value, self.offset) / self.full_value)
+
+    def cuts_off(self, mean_power):
+        """True where values of this mean power become 0 so often that the variance of their logarithm suffers."""
+        return np.exp(self.log_power(floored(0.0, self.full_value))) > MOST_CUT_OFF * mean_power
+
+
+def floored(values, full_value, offset=0.0):
+    """Values with the offset; those below half a step count as half a step."""
+    return np.maximum(np.asarray(values, float) + offset * full_value,
+                      0.5 if full_value > 15.0 else full_value / 131070.0)
+
+
+def full_value_of(recording):
+    """The largest value that pings can have: the recording's, else the largest one that they have."""
+    return float(recording.law.full_value or recording.values.max())
+
+
+def stated_law(receiver, full_value, statistics):
+    """The law of an instrument's keys."""
+    is_log = receiver["companding"] == "log"
+    scale = receiver["dynamic_range_db"] if is_log else 1.0 if receiver["companding"] == "linear" else receiver["gamma"]
+    return Law(full_value, is_log, Bounded(scale, scale, scale), receiver["offset"], statistics)
+
+
+def fit_law(values, full_value, statistics, places=None, offset=0.0, is_log=None):
+    """The law of pings whose speckle has these statistics, by the even half of the patches at some places.
+    CalibrationError if the values are not speckle. A known kind of law is not fitted."""
+    plain = Patches(values, full_value, lambda ping: ping)
+    logs = Patches(values, full_value, lambda ping: np.log(floored(ping, full_value, offset)))
+    even = logs.even(places)    # in logarithms no law makes strong patches uneven
+    if len(even) < LEAST_PATCHES:
+        raise CalibrationError("fewer than 8 even patches of speckle, of 24 bins and 24 beams (96 bins of a sonar with "
+                               "few beams), between the ends of the scale: record longer pings, or with another gain")
+    skewness = [bootstrap(of.places, skewness_of(of, even))[0] for of in (logs, plain)]
+    check_speckle(logs, even, skewness, statistics.skewness)
+    level = np.log(plain.mean_value[even])
+    if is_log is None and level.std() > LEAST_SPREAD_OF_LEVELS:
+        # The slope of log standard deviation against log mean is 1 for a power, 0 for a logarithm.
+        is_log = np.polyfit(level, 0.5 * np.log(plain.variance[even]), 1)[0] <= 0.5
+    elif is_log is None:
+        off = [abs(s.value - statistics.skewness) for s in skewness]
+        is_log = off[1] <= off[0]
+    used = plain if is_log else logs
+    sums = used.sums(even, np.ones(len(used.place)), used.variance)
+
+    def scale(weights):
+        count, variance = (weights @ sums).T
+        ratio = np.sqrt(variance / count / statistics.variance)
+        return full_value * DB_OF_E / ratio if is_log else 2.0 * ratio
+    found = bootstrap(used.places, scale)[0]
+    return Law(full_value, bool(is_log), found.widened(LEAST_ERROR * found.value), offset, statistics)
+
+
+def skewness_of(patches, even):
+    sums = patches.sums(even, np.ones(len(patches.place)), patches.variance, patches.third)
+
+    def estimate(weights):
+        count, variance, third = (weights @ sums).T
+        return third / count / (variance / count) ** 1.5
+    return estimate
+
+
+def check_speckle(logs, even, skewness, of_start):
+    """CalibrationError if values a third of a patch apart are correlated, or if neither skewness can, within its
+    errors, lie between -2 and -0.3: one look has -1.14, eight looks have about -0.4."""
+    lasting = logs.correlations(even)(np.ones((1, logs.places)))[0, 0, -1]
+    if lasting > 0.6:
+        raise CalibrationError(f"values 8 bins apart have the correlation {lasting:.2f}, speckle of a sonar much less: "
+                               "is this a photograph, a picture that was smoothed, or a pulse of many bins?")
+    if not any(s.high > -2.0 and s.low < max(-0.3, of_start + 0.3) for s in skewness):
+        raise CalibrationError(f"the logarithms of values have a skewness of {skewness[0].value:.2f}, that of speckle "
+                               "is -1.14: is this a photograph, or were the values changed after the sonar?")

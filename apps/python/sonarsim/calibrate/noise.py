@@ -1,0 +1,137 @@
+"""The level of the noise and its growth with range: the lowest law of range on which many blocks of bins lie, since
+echoes only add to noise."""
+import dataclasses
+
+import numpy as np
+
+from .statistics import DB_OF_E, Bounded, bootstrap
+
+ROWS, GROUPS = 8, 8         # bins of a block, groups of beams
+NEAR_DB = 0.8               # a block is on the law if it is within this of it
+LEAST_BLOCKS, LEAST_SHARE = 6, 0.12
+LEAST_LEVEL_DB, LEAST_TVG = 0.1, 0.2    # errors that the trend within a block and the law leave
+# Beams stand out by this many times the spread of the others, and by at least 0.4 dB.
+DEVIATIONS_AHEAD, LEAST_OVER_DB = 4.0, 0.4
+
+
+def noise_blocks(recording, law, ahead=None):
+    """The level in dB re full scale of the part that changes from ping to ping, in blocks of 8 bins, without the beams
+    `ahead`: rows of an array. Noise N is new in every ping, an echo of a scene at rest is constant: with M the mean of
+    the powers A and B of a place in two pings, the mean of (A - B)^2 is 2 (2 M N - N^2), for one look at one sample.
+    `homogeneous`: beams and pings have one level, and no value is 0; `without_echo`: no part is constant;
+    `without_zeros`: hardly a value is 0."""
+    pings, ranges, beams = recording.values.shape
+    used = np.ones(beams, bool) if ahead is None else ~ahead
+    group, count = np.arange(beams)[used] * GROUPS // beams, ranges // ROWS
+    sums, groups, before = np.zeros((5, count)), np.zeros((count, GROUPS)), None
+
+    def by_block(x):
+        return x.reshape(count, -1).mean(axis=1)
+    for values in recording.values:
+        values = values[:count * ROWS, used]
+        logs = law.log_power(values)
+        sums[:2] += by_block(values <= 0.0), by_block(logs)
+        groups += [np.bincount(group, row, GROUPS) for row in logs.reshape(count, ROWS, -1).mean(axis=1)]
+        if before is not None:
+            a, b = np.exp(before), np.exp(logs)
+            sums[2:] += by_block((before - logs) ** 2), by_block(0.5 * (a + b)), by_block(0.5 * (a - b) ** 2)
+        before = logs
+    zeros, mean = sums[:2] / pings
+    difference, power, half = sums[2:] / max(pings - 1, 1)
+    expected = law.statistics.variance
+    # The difference of independent log powers has twice their variance.
+    echo = (difference < 1.5 * expected) & (half < 0.75 * power**2) & (pings > 1)
+    with np.errstate(all="ignore"):
+        fresh = np.log(power - np.sqrt(power**2 - half))
+    level_db = DB_OF_E * np.where(echo, fresh, mean - law.statistics.mean)
+    independent = max(pings * ROWS * used.sum() / GROUPS / 6.0, 1.0)
+    even = spread_of_groups(groups / pings, group) < 0.3 + 3.0 * np.sqrt(expected / independent)
+    single = law.statistics.looks == 1 and not law.statistics.excess.any()
+    row = ROWS * np.arange(count)
+    range_m = recording.first_range_m + (row + 0.5 * (ROWS - 1)) * recording.range_step_m
+    homogeneous = (zeros < 0.003) & np.where(echo, single, even) & np.isfinite(level_db)
+    columns = row, range_m, level_db, homogeneous, ~echo, ~law.cuts_off(np.exp(level_db / DB_OF_E))
+    names = "row,range_m,level_db,homogeneous,without_echo,without_zeros"
+    return np.rec.fromarrays(columns, names=names)[range_m > 0.0]
+
+
+def spread_of_groups(sums, group):
+    """The spread of the mean log powers of groups of beams: 1.48 times the (upper) median distance from their median,
+    so that a bright point does not count. Without the two middle groups, which hold noise that all elements share."""
+    counts = np.bincount(group, minlength=GROUPS)
+    outer = (counts > 0) & ~np.isin(np.arange(GROUPS), (GROUPS // 2, GROUPS // 2 - 1))
+    if outer.sum() < 3:
+        return np.zeros(len(sums))
+    means, middle = sums[:, outer] / counts[outer], outer.sum() // 2
+    sizes = np.abs(means - np.sort(means, axis=1)[:, middle:middle + 1])
+    return 1.48 * np.sort(sizes, axis=1)[:, middle]
+
+
+@dataclasses.dataclass
+class Noise:
+    """The noise after the gain, re full scale: level_db + tvg_log log10(r) + 2 absorption r, r at least from_m."""
+
+    level_db: Bounded           # extrapolated to 1 m without absorption
+    tvg_log: Bounded
+    from_m: float
+    absorption_db_per_m: float
+    used: np.recarray | None = None     # the blocks that lie on it
+    ahead: np.ndarray | None = None     # the beams that hold noise which all elements share
+
+    def at(self, range_m):
+        r = np.maximum(range_m, self.from_m)
+        return self.level_db.value + self.tvg_log.value * np.log10(r) + 2.0 * self.absorption_db_per_m * r
+
+
+def fit_noise(blocks, absorption, from_m=0.0):
+    """The lowest law on which many blocks lie; None if it holds fewer than 6 blocks or an eighth of all."""
+    if not blocks.homogeneous.any():
+        return None
+    r = np.maximum(blocks.range_m, from_m)
+    x, y = np.log10(r), blocks.level_db - 2.0 * absorption * r
+    best, line = -np.inf, None
+    for factor in range(61):
+        # The level with the most blocks near the law less the number of those below it.
+        off = np.sort((y - factor * x)[blocks.homogeneous])
+        end = np.searchsorted(off, off + 2.0 * NEAR_DB, "right")
+        score = end - 2 * np.arange(len(off))
+        at = int(np.argmax(score))
+        if score[at] > best:
+            best, line = score[at], (0.5 * (off[at] + off[end[at] - 1]), factor)
+    used = blocks.homogeneous & (np.abs(y - line[0] - line[1] * x) <= NEAR_DB)
+    if used.sum() < max(LEAST_BLOCKS, LEAST_SHARE * len(x)):
+        return None
+    for _ in range(5):
+        line = best_line(x[used], y[used], np.ones((1, used.sum())))[0]
+        used = blocks.homogeneous & (np.abs(y - line[0] - line[1] * x) <= 1.2 * NEAR_DB)
+        if used.sum() < LEAST_BLOCKS:
+            return None
+    found = bootstrap(used.sum(), lambda w: best_line(x[used], y[used], w), [LEAST_LEVEL_DB, LEAST_TVG])
+    return Noise(*found, from_m, absorption, blocks[used])
+
+
+def best_line(x, y, weights):
+    """Least squares of (level, log factor) for weights [draw, block]."""
+    w = weights.sum(axis=1)
+    sx, sy, sxx, sxy = (weights @ np.stack([x, y, x * x, x * y], axis=1)).T
+    factor = (sxy - sx * sy / w) / (sxx - sx * sx / w)
+    return np.stack([(sy - factor * sx) / w, factor], axis=1)
+
+
+def find_noise(recording, law, absorption, from_m):
+    """The noise, first of all beams, then without those that stand out straight ahead: noise that all elements share
+    acts like a wave from there."""
+    noise = fit_noise(noise_blocks(recording, law), absorption, from_m)
+    beams = recording.bearing_rad
+    if noise is None or beams is None or len(beams) < 3 or not noise.used.without_echo.any():
+        return noise
+    blocks = noise.used[noise.used.without_echo]
+    rows = (blocks.row[:, None] + np.arange(ROWS)).ravel()
+    of_row = np.repeat(noise.at(blocks.range_m), ROWS)[:, None]
+    over = np.mean([(DB_OF_E * law.log_power(ping[rows]) - of_row).mean(axis=0) for ping in recording.values], axis=0)
+    over -= np.median(over)
+    ahead = over > max(DEVIATIONS_AHEAD * 1.48 * np.median(np.abs(over)), LEAST_OVER_DB)
+    if not ahead[np.argmin(np.abs(np.sin(beams)))]:
+        return noise
+    noise = fit_noise(noise_blocks(recording, law, ahead), absorption, from_m)
+    return noise and dataclasses.replace(noise, ahead=ahead)

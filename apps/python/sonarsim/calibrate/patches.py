@@ -1,0 +1,100 @@
+"""The moments of patches of pings, from differences of their values."""
+import numpy as np
+
+from .statistics import LAGS
+
+MOST_AT_AN_END = 0.003      # share of a patch's values at an end of the scale, which bias its moments
+LEAST_MEAN_VALUE = 6.0      # smaller values are too coarse for the logarithm
+
+
+class Patches:
+    """The moments of all patches of some pings [ping, range, beam], an array of each. `scaled` takes the values of a
+    ping and gives those whose moments are wanted. Moments of differences need no mean of the patch, and correlated
+    values do not make the variance too small."""
+
+    def __init__(self, values, full_value, scaled):
+        pings, ranges, beams = values.shape
+        self.full_value = full_value
+        self.shape = rows, columns = min(96 if beams < 8 else 24, ranges), min(24, beams)
+        self.grid = ranges // rows, beams // columns
+        self.places = self.grid[0] * self.grid[1]
+        self.place = np.tile(np.arange(self.places), pings)
+        self.row, self.beam = self.place // self.grid[1] * rows, self.place % self.grid[1] * columns
+        parts = [self.moments(ping, scaled(ping)) for ping in values]
+        for name in parts[0]:
+            setattr(self, name, np.concatenate([part[name] for part in parts]))
+
+    def cut(self, image):
+        """The patches [place, row, beam] of an image."""
+        (down, across), (rows, columns) = self.grid, self.shape
+        whole = np.asarray(image, float)[:down * rows, :across * columns].reshape(down, rows, across, columns)
+        return whole.transpose(0, 2, 1, 3).reshape(-1, rows, columns)
+
+    def moments(self, ping, scaled):
+        (rows, columns), values, x = self.shape, self.cut(ping), self.cut(scaled)
+        middle, half = (rows + 1) // 2, max(columns // 2, 1)
+        quarters = [x[:, a, b].mean(axis=(1, 2)) for a in (slice(middle), slice(middle, None))
+                    for b in (slice(half), slice(half, None)) if x[:, a, b].size]
+        variance = structure(x, rows // 2, columns // 2)
+        at_end = np.maximum((values <= 0.0).mean(axis=(1, 2)), (values >= self.full_value).mean(axis=(1, 2)))
+        return {"mean_value": values.mean(axis=(1, 2)), "at_end": at_end, "mean": x.mean(axis=(1, 2)),
+                "variance": variance, "third": third_moment(x),
+                "along_range": np.stack([structure(x, lag, 0) for lag in range(1, LAGS + 1)], axis=1),
+                "along_beams": np.stack([structure(x, 0, lag) for lag in range(1, LAGS + 1)], axis=1),
+                "unevenness": np.var(quarters, axis=0) / np.maximum(variance, 1e-30)}
+
+    def even(self, places=None):
+        """The numbers of the more even half of the patches without clipped and missing values, at some places."""
+        good = (self.at_end <= MOST_AT_AN_END) & (self.variance > 0.0)
+        if self.full_value > 15.0:
+            good &= self.mean_value >= LEAST_MEAN_VALUE
+        if places is not None:
+            good &= places[self.place]
+        chosen = np.flatnonzero(good)
+        order = np.argsort(self.unevenness[chosen], kind="stable")
+        return np.sort(chosen[order[:(len(chosen) + 1) // 2]])
+
+    def sums(self, chosen, *columns):
+        """The sums of columns over the chosen patches of each place, [place, column]."""
+        return np.stack([np.bincount(self.place[chosen], column[chosen], self.places) for column in columns], axis=1)
+
+    def correlations(self, chosen):
+        """A function of weights [draw, place] that gives correlations [draw, 2, lag] along range and beams:
+        1 - structure function / variance. The variance is that of values half a patch apart."""
+        sums = self.sums(chosen, self.variance, *self.along_range.T, *self.along_beams.T)
+
+        def estimate(weights):
+            weighted = weights @ sums
+            return (1.0 - weighted[:, 1:] / weighted[:, :1]).reshape(len(weights), 2, LAGS)
+        return estimate
+
+    def beam_covariance(self, chosen, new_in_each_ping):
+        """The correlations along the beams, their covariance and the number of independent units. A unit with the
+        structure S and the variance V changes r = 1 - sum S / sum V by ((1 - r) V - S) / sum V. Noise is new in
+        every ping, so each patch is a unit; echoes may be constant, so each place is."""
+        sums = np.column_stack([self.variance[chosen], self.along_beams[chosen]])
+        if not new_in_each_ping:
+            sums = self.sums(chosen, self.variance, *self.along_beams.T)[np.unique(self.place[chosen])]
+        variance, structures = sums[:, 0], sums[:, 1:]
+        left = structures.sum(axis=0) / variance.sum()
+        moved = (left * variance[:, None] - structures) / variance.sum()
+        return 1.0 - left, moved.T @ moved, len(sums)
+
+
+def structure(x, rows, columns):
+    """Half the mean square difference of values `rows` and `columns` apart; NaN where patches are too small."""
+    down, across = x.shape[1] - rows, x.shape[2] - columns
+    if down <= 0 or across <= 0:
+        return np.full(len(x), np.nan)
+    off = x[:, rows:, columns:] - x[:, :down, :across]
+    other = x[:, rows:, :across] - x[:, :down, columns:]
+    return 0.25 * ((off**2).mean(axis=(1, 2)) + (other**2).mean(axis=(1, 2)))
+
+
+def third_moment(x):
+    """The third central moment k of independent values: (a + c - 2 b)^3 has the mean -6 k, whatever their mean and
+    its slope."""
+    rows, columns = min(8, (x.shape[1] - 1) // 2), x.shape[2] // 3
+    down, across = x.shape[1] - 2 * rows, x.shape[2] - 2 * columns
+    y = x[:, :down, :across] + x[:, 2 * rows:, 2 * columns:] - 2.0 * x[:, rows:rows + down, columns:columns + across]
+    return -(y**3).mean(axis=(1, 2)) / 6.0

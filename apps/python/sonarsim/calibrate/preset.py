@@ -1,0 +1,138 @@
+"""The preset that a calibration starts from, and the text of the one that it writes."""
+import dataclasses
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+
+import numpy as np
+import yaml
+
+from .statistics import Bounded, CalibrationError
+
+LARGEST_PRESET = 1 << 20
+# The one that runs this command, else the one on the path.
+PROGRAM = os.environ.get("SONARSIM") or shutil.which("sonarsim") or "sonarsim"
+# The defaults of the program, for the keys that a fit reads.
+DEFAULTS = {
+    "beam": {"width_deg": 1.0, "side_lobe_db": -13.3},
+    "pulse": {"resolution_m": 0.0, "side_lobe_db": -30.0},
+    "speckle": {"mode": "scene", "clutter_shape": 0.0, "clutter_m": 0.1},
+    "receiver": {"tvg_log": 40.0, "tvg_absorption": True, "tvg_from_m": 0.0, "companding": "gamma", "gamma": 0.5,
+                 "dynamic_range_db": 60.0, "samples": 1, "combine": "max", "looks": 1, "offset": 0.0},
+}
+
+
+@dataclasses.dataclass
+class Start:
+    file: pathlib.Path
+    text: str
+    kind: str                   # as that of a recording
+    instrument: dict            # the sections of DEFAULTS with the keys of the file
+    has_noise: bool             # a noise_db is given
+    shape: dict = dataclasses.field(default_factory=dict)   # keys that the pings set
+    noise_db: float = 0.0
+    full_scale_db: float = 0.0
+    absorption_db_per_m: float = 0.0
+
+
+def preset_file(name):
+    """A file, or that of a preset of configs/sensors by its name."""
+    if pathlib.Path(name).is_file():
+        return pathlib.Path(name)
+    roots = [*pathlib.Path(__file__).resolve().parents, *pathlib.Path(PROGRAM).resolve().parents]
+    folders = [root / part for root in roots for part in ("configs/sensors", "share/sonarsim/configs/sensors")]
+    shipped = {path.stem: path for folder in folders for path in folder.glob("*.yaml")}
+    if name not in shipped:
+        raise CalibrationError(f"{name}: is no file, and no preset of this name came with the program; there are: "
+                               + ", ".join(sorted(shipped)))
+    return shipped[name]
+
+
+def read_start(name):
+    """The preset to start with."""
+    file = preset_file(name)
+    try:
+        with open(file, encoding="utf-8") as stream:
+            text = stream.read(LARGEST_PRESET)
+        given = yaml.safe_load(text)
+        instrument = given.get("instrument") or {}
+        sections = {section: {**keys, **{key: number(value) for key, value in (instrument.get(section) or {}).items()}}
+                    for section, keys in DEFAULTS.items()}
+    except OSError as fault:
+        raise CalibrationError(f"{file}: cannot be read: {fault.strerror}") from fault
+    except (yaml.YAMLError, UnicodeDecodeError, RecursionError, AttributeError) as fault:
+        raise CalibrationError(f"{file}: is no preset, a YAML file of a sensor's keys with the section instrument: "
+                               + " ".join(str(fault).split())) from fault
+    if given.get("model") != "calibrated":
+        raise CalibrationError(f"{file}: has nothing to calibrate: only model: calibrated has an instrument")
+    kind = given.get("kind", "imaging")
+    has_noise = sections["receiver"].get("noise_db", "auto") != "auto"
+    return Start(file, text, "soundings" if kind == "profiling" else kind, sections, has_noise)
+
+
+def number(value):
+    """PyYAML takes 2e6 for a text."""
+    return float(value) if isinstance(value, str) and re.fullmatch(r"[-+.\d]+[eE][-+]?\d+", value) else value
+
+
+def set_shape(start, recording, settings):
+    """Gives the start the shape of the pings, and the levels that the program computes for it."""
+    bins, step = recording.values.shape[1], recording.range_step_m
+    start.shape = {"range_min_m": max(recording.first_range_m - 0.5 * step, 0.0),
+                   "range_max_m": recording.first_range_m + (bins - 0.5) * step, "range_bins": bins}
+    if recording.kind == "imaging" and len(recording.bearing_rad) > 1:
+        beams, bearing = len(recording.bearing_rad), recording.bearing_rad
+        uneven = [np.std(np.diff(row)) / abs(np.mean(np.diff(row))) for row in (np.sin(bearing), bearing)]
+        is_sine = uneven[0] < uneven[1]
+        extent = np.ptp(np.sin(bearing) if is_sine else bearing) * beams / (beams - 1)
+        extent = 2.0 * np.arcsin(min(0.5 * extent, 1.0)) if is_sine else extent
+        start.shape.update({"azimuth_deg": float(np.degrees(extent)), "azimuth_bins": beams,
+                            "instrument.beam.spread": "sine" if is_sine else "angle"})
+    settings = [*(f"sensors.sonar.{key}={value}" for key, value in start.shape.items()), *settings,
+                f"water.sound_speed_m_s={recording.sound_speed_m_s}"]
+    command = [PROGRAM, "preset", str(start.file), "--json", *(f"--set={setting}" for setting in settings)]
+    try:
+        run = subprocess.run(command, capture_output=True, text=True, check=False)
+        if run.returncode:
+            raise CalibrationError((run.stderr.strip().splitlines() or ["it failed"])[-1].removeprefix("error: "))
+        found = json.loads(run.stdout)
+        start.noise_db, start.full_scale_db = found["noise_db"], found["full_scale_db"]
+        start.absorption_db_per_m = found["absorption_db_per_m"]
+    except (OSError, json.JSONDecodeError, KeyError) as fault:
+        raise CalibrationError(f"{PROGRAM}: does not give the levels of {start.file} ({fault}); set SONARSIM to the "
+                               "path of the program") from fault
+
+
+def new_keys(start, fit):
+    """key -> (value, comment) of all keys that differ from the start."""
+    out = {key: (value, "file: of the pings") for key, value in start.shape.items()}
+    for key, value in fit.estimates.items():
+        out[f"instrument.{key}"] = ((f"{value.value:.4g}", f"fit: {value.low:.4g} to {value.high:.4g}")
+                                    if isinstance(value, Bounded) else (value, "fit"))
+    receiver = start.instrument["receiver"]
+    if fit.noise and not receiver["tvg_absorption"]:
+        out["instrument.receiver.tvg_absorption"] = "true", "rule: tvg_log is fitted beside the absorption of the water"
+    if fit.noise and not start.has_noise:
+        out["instrument.receiver.noise_db"] = (f"{start.noise_db:.4g}",
+                                               "rule: that of the start; full_scale_db is fitted to it")
+    return out
+
+
+def with_key(text, path, value, comment, name):
+    """The text of a preset with another value. Other lines keep their comments; a key that it lacks is added at the
+    head of its section."""
+    lines, node, parts = text.split("\n"), yaml.compose(text), path.split(".")
+    for depth, part in enumerate(parts):
+        at, indent = node.start_mark.line, node.start_mark.column
+        pair = next((pair for pair in node.value if pair[0].value == part), None)
+        if pair is None:
+            break
+        at, node = pair[0].start_mark.line, pair[1]
+        if depth + 1 < len(parts) and (not isinstance(node, yaml.MappingNode) or node.flow_style):
+            raise CalibrationError(f"{name}:{at + 1}: write each key of '{part}' in a line of its own")
+    new = [f"{' ' * (indent + 2 * k)}{part}:" for k, part in enumerate(parts[depth:])]
+    lines[at:at + (pair is not None)] = [*new[:-1], f"{new[-1]} {value}  # {comment}"]
+    return "\n".join(lines)

@@ -1,0 +1,122 @@
+"""Intervals by the bootstrap, and the logarithm of the power of speckle and noise in closed form."""
+import typing
+
+import numpy as np
+from scipy import special
+
+DB_OF_E = 10.0 / np.log(10.0)   # a ratio e of powers in dB
+LAGS = 8                        # the greatest lag of correlations, in bins and beams
+
+
+class CalibrationError(ValueError):
+    """One sentence: what is wrong and what would be right."""
+
+
+class Bounded(typing.NamedTuple):
+    """A number with the interval that holds the true one in 95 of 100 cases."""
+
+    value: float
+    low: float
+    high: float
+
+    @property
+    def half_width(self):
+        return 0.5 * (self.high - self.low)
+
+    def widened(self, by):
+        """The interval with an independent error added to both sides."""
+        more = np.hypot(self.half_width, by) - self.half_width
+        return Bounded(self.value, self.low - more, self.high + more)
+
+    def scaled(self, factor):
+        return Bounded(*(factor * number for number in self))
+
+    def __str__(self):
+        return f"{self.value:.4g} ({self.low:.4g} to {self.high:.4g})"
+
+
+def bootstrap(count, estimate, least=0.0, draws=80):
+    """The estimates with all weights 1, as a list of Bounded: 1.96 standard deviations over drawn samples of the
+    `count` units to either side, with an independent error of `least`. `estimate` takes weights [draw, unit] and
+    returns numbers [draw] or [draw, ...]. Draws whose number is not finite do not count."""
+    weights = np.ones((draws + 1, count))
+    weights[1:] = np.random.default_rng(1).multinomial(count, np.full(count, 1.0 / count), draws)
+    with np.errstate(all="ignore"):
+        found = np.asarray(estimate(weights), float).reshape(draws + 1, -1)
+        off = np.where(np.isfinite(found), found - found[0], np.nan)
+        number = np.maximum(np.isfinite(off).sum(axis=0), 1)
+        variance = np.nansum(off**2, axis=0) / number - (np.nansum(off, axis=0) / number) ** 2
+    half = np.hypot(1.96 * np.sqrt(np.maximum(variance, 0.0)), least)
+    return [Bounded(float(v), float(v - h), float(v + h)) for v, h in zip(found[0], half)]
+
+
+class LogStatistics:
+    """ln P of the mean power P of n independent looks, which is gamma distributed with shape n. A law P^(g / 2) or
+    a + b ln P scales and shifts ln P, so its skewness and its correlations do not depend on the law."""
+
+    def __init__(self, looks=1):
+        self.looks = looks
+        self.mean = special.digamma(looks) - np.log(looks)
+        self.variance = special.polygamma(1, looks)
+        self.skewness = special.polygamma(2, looks) / self.variance**1.5
+        self.variation = amplitude_variation(looks)
+        self.excess = np.zeros(2)   # of the correlation at even steps of k2, where samples are combined
+
+    def correlation(self, k2):
+        """The correlation of ln P where complex amplitudes have the squared correlation k2. Laguerre polynomials
+        diagonalise the joint density of both powers (Kibble's bivariate gamma) with the factors k2^j; ln P has the
+        coefficients -1 / j, so the covariance is sum k2^j / (j^2 h_j), h_j = binomial(n + j - 1, j)."""
+        k2 = np.clip(np.asarray(k2, float), 0.0, 1.0)
+        if self.looks == 1:
+            covariance = special.spence(1.0 - k2)   # the dilogarithm of k2
+        else:
+            j = np.arange(1, 400)
+            covariance = (k2[..., None] ** j / (j**2 * special.binom(self.looks + j - 1, j))).sum(axis=-1)
+        excess = np.interp(k2, np.linspace(0.0, 1.0, len(self.excess)), self.excess)
+        return covariance / special.polygamma(1, self.looks) + excess
+
+
+def amplitude_variation(shape):
+    """The coefficient of variation of the root of a gamma distributed power: 0.5227 for shape 1."""
+    return np.sqrt(shape * np.exp(2.0 * (special.gammaln(shape) - special.gammaln(shape + 0.5))) - 1.0)
+
+
+def sampled(receiver, amplitude, bins=80000, across_beams=True):
+    """The statistics of the values of a receiver, and the correlations of ln P 1 to LAGS bins apart. `amplitude(lag)`
+    is the correlation of complex amplitudes, lags in samples. Several correlated samples that become one value have
+    no closed form, so sequences are drawn: a result is the closed form of single samples plus the drawn difference
+    between combined and single ones."""
+    out, lags = LogStatistics(receiver["looks"]), np.arange(1, LAGS + 1)
+    along = out.correlation(amplitude(receiver["samples"] * lags) ** 2)
+    if receiver["samples"] == 1:
+        return out, along
+    one = drawn(receiver, amplitude, bins, 1)
+    pair = whole, single = combined(receiver, one)
+    out.mean += whole.mean() - single.mean()
+    out.variance += whole.var() - single.var()
+    out.skewness += np.subtract(*(((x - x.mean()) ** 3).mean() / x.std() ** 3 for x in pair))
+    out.variation += np.subtract(*(np.exp(0.5 * x).std() / np.exp(0.5 * x).mean() for x in pair))
+    along = along + [np.subtract(*(np.corrcoef(x[:-k], x[k:])[0, 1] for x in pair)) for k in lags]
+    if across_beams:
+        other = drawn(receiver, amplitude, bins, 2)
+        mixed = [combined(receiver, np.sqrt(k2) * one + np.sqrt(1.0 - k2) * other) for k2 in np.linspace(0.0, 1.0, 17)]
+        out.excess = np.array([np.corrcoef(whole, m)[0, 1] - np.corrcoef(single, s)[0, 1] for m, s in mixed])
+    return out, along
+
+
+def drawn(receiver, amplitude, bins, seed):
+    """Complex normal sequences [look, sample] of mean power 1."""
+    count = bins * receiver["samples"]
+    lags = np.minimum(np.arange(count), count - np.arange(count))
+    rho = np.where(lags < 512, amplitude(np.minimum(lags, 512)), 0.0)
+    draws = np.random.default_rng(seed).standard_normal((2, receiver["looks"], count))
+    spectrum = np.sqrt(np.maximum(np.fft.fft(rho).real, 0.0) * count / 2.0)
+    return np.fft.ifft(spectrum * (draws[0] + 1j * draws[1]), axis=1)
+
+
+def combined(receiver, looks):
+    """ln P of the values of bins, and of the first sample of each bin."""
+    powers = (looks.real**2 + looks.imag**2).mean(axis=0).reshape(-1, receiver["samples"]).T.copy() + 1e-12
+    rule = {"max": lambda: powers.max(axis=0), "mean": lambda: np.sqrt(powers).mean(axis=0) ** 2,
+            "rms": lambda: powers.mean(axis=0)}[receiver["combine"]]
+    return np.log(rule()), np.log(powers[0])

@@ -1,0 +1,307 @@
+"""sonarsim.calibrate: fits of synthetic pings with drawn numbers, a small dataset, and what is refused."""
+import contextlib
+import io
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "apps" / "python"))
+from sonarsim.calibrate import command, correlations, law, main, noise, preset, soundings  # noqa: E402
+from sonarsim.calibrate.patches import Patches  # noqa: E402
+from sonarsim.calibrate.statistics import LogStatistics, bootstrap, sampled  # noqa: E402
+from sonarsim.recording import Law, Recording, Soundings  # noqa: E402
+
+RANGES, BEAMS = 240, 96
+STEP_M, FIRST_M = 0.02, 1.01
+SINES = np.sin(np.radians(24.0)) * (2.0 * (np.arange(BEAMS) + 0.5) / BEAMS - 1.0)
+SINGLE = {"samples": 1, "looks": 1, "combine": "max"}
+RECORDING = """\
+kind: imaging
+files: pings.npy
+law: {kind: gamma, exponent: 0.5, full_value: 255}
+sound_speed_m_s: 1500
+first_range_m: 1.01
+range_step_m: 0.02
+bearing_first_deg: -24
+bearing_last_deg: 24
+spread: sine
+rate_hz: 10
+"""
+# A start that is wrong in all that the pings tell.
+START = """\
+kind: imaging
+model: calibrated
+azimuth_deg: 40  # sheet
+elevation_deg: 60
+instrument:
+  frequency_hz: 1e6  # sheet
+  source_level_db: 0
+  beam:
+    width_deg: 1.4  # sheet
+  speckle:
+    mode: ping
+  receiver:
+    noise_db: -105
+    gamma: 0.8  # rule
+"""
+MISSION = """\
+scene: {file: plate.obj, materials: materials.csv, material_default: sand}
+trajectory: {file: track.csv}
+water: {sound_speed_m_s: 1500}
+output: {polar: false}
+sensors:
+  made:
+    kind: imaging
+    model: calibrated
+    azimuth_deg: 48
+    elevation_deg: 60
+    range_min_m: 1
+    range_max_m: 5.8
+    range_bins: 240
+    azimuth_bins: 96
+    instrument:
+      frequency_hz: 1e6
+      source_level_db: 0
+      beam: {width_deg: 0.9, side_lobe_db: -22, spread: sine}
+      pulse: {resolution_m: 0.04}
+      speckle: {mode: ping}
+      receiver: {noise_db: -105, full_scale_db: -62, tvg_log: 30, gamma: 0.6}
+"""
+TRUTH = {"beam.width_deg": 0.9, "pulse.resolution_m": 0.04, "receiver.full_scale_db": -62.0, "receiver.tvg_log": 30.0,
+         "receiver.gamma": 0.6}
+
+
+def speckle(draws, pings=4, width_bins=1.8, width_deg=1.0, side_lobe_db=-20.0):
+    """Complex normal numbers [ping, range, beam] of power 1 with the correlations of a pulse and of an array."""
+    count = RANGES + 80
+    x = draws.standard_normal((pings, count, BEAMS)) + 1j * draws.standard_normal((pings, count, BEAMS))
+    lags = np.minimum(np.arange(count), count - np.arange(count))
+    power = np.fft.fft(correlations.pulse_at(lags / width_bins, -30.0)).real
+    x = np.fft.ifft(np.fft.fft(x, axis=1) * np.sqrt(np.maximum(power, 0.0))[:, None], axis=1)[:, :RANGES]
+    # Elements of noise, weighted as the array and turned into the direction of each beam.
+    pedestal, half_power = correlations.taper(side_lobe_db)
+    place = (np.arange(400) + 0.5) / 400 - 0.5
+    turns = np.outer(place, SINES) * half_power / np.sin(0.5 * np.radians(width_deg))
+    beams = ((pedestal + (1.0 - pedestal) * np.cos(np.pi * place) ** 2)[:, None] * np.exp(2j * np.pi * turns)).T
+    values, vectors = np.linalg.eigh(beams @ beams.conj().T)
+    x = x @ (vectors * np.sqrt(np.maximum(values, 0.0))).T
+    return x / np.sqrt((np.abs(x) ** 2).mean())
+
+
+def recording_of(amplitude, gamma=0.5, range_db=None, full=255):
+    """Pings whose values are whole steps of a law."""
+    share = 1.0 + 20.0 * np.log10(amplitude) / range_db if range_db else amplitude**gamma
+    values = np.clip(np.floor(full * share + 0.5), 0.0, full).astype(np.float32)
+    return Recording(kind="imaging", law=Law("gamma", full_value=full), name="made", values=values, range_step_m=STEP_M,
+                     first_range_m=FIRST_M, bearing_rad=np.arcsin(SINES), times_s=np.arange(float(len(values))))
+
+
+def noise_of(draws, tvg=20.0, level_db=-32.0, **shape):
+    """Amplitudes of noise after a gain, level_db + tvg log r re full scale."""
+    level = level_db + tvg * np.log10(FIRST_M + STEP_M * np.arange(RANGES))
+    return np.abs(speckle(draws, **shape)) * 10.0 ** (0.05 * level[:, None])
+
+
+class Fits(unittest.TestCase):
+    def assert_within(self, found, truth):
+        """An interval is 1.96 standard errors to either side; 3.3 of them hold in 999 of 1,000 draws."""
+        self.assertLess(abs(found.value - truth), 3.3 / 1.96 * found.half_width, (found, truth))
+
+    def test_closed_forms_of_log_powers(self):
+        one, two = LogStatistics(1), LogStatistics(2)
+        for found, known in ((one.variance, np.pi**2 / 6), (one.mean, -0.577216), (one.skewness, -1.139547),
+                             (one.variation, 0.522723), (one.correlation(1.0), 1.0), (two.variance, np.pi**2 / 6 - 1),
+                             (two.skewness, -0.780245), (two.correlation(0.0), 0.0)):
+            self.assertAlmostEqual(found, known, 5)
+        # The larger of two independent samples: the mean of ln P is ln 2 higher, its variance 2 ln(2)^2 lower.
+        white = np.vectorize(lambda lag: float(lag == 0))
+        larger, along = sampled({"samples": 2, "looks": 1, "combine": "max"}, white)
+        self.assertAlmostEqual(larger.mean, one.mean + np.log(2.0), delta=0.02)
+        self.assertAlmostEqual(larger.variance, one.variance - 2.0 * np.log(2.0) ** 2, delta=0.03)
+        self.assertLess(np.abs(along).max(), 0.03)
+
+    def test_bootstrap_of_a_mean(self):
+        x = np.random.default_rng(1).standard_normal(400)
+        found = bootstrap(len(x), lambda w: w @ x / w.sum(axis=1), draws=400)[0]
+        self.assertAlmostEqual(found.half_width, 1.96 * x.std() / 20.0, delta=0.02)
+
+    def test_law(self):
+        for seed in range(6):
+            draws = np.random.default_rng(seed)
+            gamma, range_db = draws.uniform(0.35, 0.7), draws.uniform(50.0, 80.0)
+            amplitude = noise_of(draws, tvg=draws.uniform(15.0, 30.0))
+            power = law.fit_law(recording_of(amplitude, gamma, full=4095).values, 4095.0, LogStatistics(1))
+            self.assertFalse(power.is_log)
+            self.assert_within(power.scale, gamma)
+            logarithm = law.fit_law(recording_of(amplitude, range_db=range_db).values, 255.0, LogStatistics(1))
+            self.assertTrue(logarithm.is_log)
+            self.assert_within(logarithm.scale, range_db)
+
+    def test_noise_and_its_growth(self):
+        for seed in range(6):
+            draws = np.random.default_rng(10 + seed)
+            tvg, level = draws.uniform(10.0, 40.0), draws.uniform(-50.0, -35.0)
+            amplitude = noise_of(draws, tvg, level)
+            # Echoes only add to noise: they must not lift the law.
+            amplitude[:, 100:150, 20:70] += 0.3
+            recording = recording_of(amplitude, full=65535)
+            known = law.Law(65535.0, False, law.Bounded(0.5, 0.5, 0.5), 0.0, LogStatistics(1))
+            found = noise.find_noise(recording, known, 0.0, 0.0)
+            self.assert_within(found.level_db, level)
+            self.assert_within(found.tvg_log, tvg)
+
+    def test_pulse_and_array(self):
+        for seed in range(6):
+            draws = np.random.default_rng(20 + seed)
+            bins, width, side_lobe = draws.uniform(1.2, 3.0), draws.uniform(0.7, 1.6), draws.uniform(-30.0, -15.0)
+            logs = 2.0 * np.log(np.abs(speckle(draws, 4, bins, width, side_lobe)))
+            patches = Patches(logs, np.inf, lambda ping: ping)
+            chosen = np.arange(len(patches.place))
+            self.assert_within(correlations.fit_pulse(patches, chosen, correlations.Pulse(SINGLE, -30.0, "noise")), bins)
+            found = correlations.fit_array(*patches.beam_covariance(chosen, True), SINES, LogStatistics(1))
+            self.assert_within(found[0], width)
+            self.assertTrue(found[1].low - 2.0 < side_lobe < found[1].high + 2.0, (found[1], side_lobe))
+
+    def test_texture(self):
+        draws = np.random.default_rng(30)
+        shape, edge = 4.0, 6
+        cells = draws.gamma(shape, 1.0 / shape, (8, RANGES // edge + 2, BEAMS // edge + 2))
+        texture = np.kron(cells, np.ones((edge, edge)))[:, 3:3 + RANGES, 2:2 + BEAMS]
+        logs = np.log(texture) + 2.0 * np.log(np.abs(speckle(draws, 8)))
+        patches, one = Patches(logs, np.inf, lambda ping: ping), LogStatistics(1)
+        of_beams = correlations.predicted_correlations({"width_deg": 1.0, "side_lobe_db": -20.0}, SINES, one)
+        share, edge_m, bins = correlations.fit_texture(
+            patches, np.arange(len(patches.place)), correlations.Pulse(SINGLE, -30.0, "noise"), (1.0, 1.0), of_beams)
+        self.assert_within(share, correlations.texture_share({"clutter_shape": shape}, one))
+        self.assert_within(edge_m, edge)
+        self.assert_within(bins, 1.8)
+        self.assertAlmostEqual(correlations.shape_of_share(
+            correlations.texture_share({"clutter_shape": shape}, one), one), shape, 6)
+
+    def test_soundings(self):
+        draws = np.random.default_rng(40)
+        angle = np.tile(np.radians(np.linspace(-60.0, 60.0, 241)), (200, 1))
+        spread_m, level_db = 0.01 + 0.02 * np.abs(angle), 60.0 - 10.0 * np.abs(angle)
+        range_m = (10.0 + draws.uniform(-0.5, 0.5, (200, 1))) / np.cos(angle) + spread_m * draws.standard_normal(angle.shape)
+        power = 10.0 ** (0.1 * level_db) * draws.exponential(size=angle.shape)
+        range_m[draws.uniform(size=angle.shape) < 0.002] *= 1.1       # outliers
+        of = Soundings(range_m, angle, np.sqrt(power))
+        recording = Recording(kind="soundings", law=Law("amplitude", full_value=0), soundings=of)
+        at, level, spread = soundings.fit_soundings(recording, 0.0)
+        self.assertEqual(len(at), 15)
+        for a, found_db, found_m in zip(at, level, spread):
+            self.assertAlmostEqual(found_db.value, 60.0 - 10.0 * a, delta=0.4)
+            self.assertAlmostEqual(found_m.value, 0.01 + 0.02 * a, delta=0.1 * found_m.value)
+
+    def test_split(self):
+        pings = recording_of(np.ones((7, 24, BEAMS)))
+        sizes = [[len(part) for part in command.split(pings, share, back)]
+                 for share, back in ((0.5, False), (0.3, True), (0.01, False), (0.99, False))]
+        self.assertEqual(sizes, [[4, 3], [5, 2], [6, 1], [1, 6]])
+        self.assertEqual(command.split(pings, 0.3, True)[1].times_s[0], 0.0)
+
+    def test_text_of_a_preset(self):
+        text = preset.with_key(START, "instrument.receiver.gamma", "0.5", "fit", "x")
+        self.assertIn("\n    gamma: 0.5  # fit\n", text)
+        self.assertIn("azimuth_deg: 40  # sheet\n", text)
+        text = preset.with_key(text, "instrument.pulse.resolution_m", "0.02", "fit", "x")
+        self.assertIn("\ninstrument:\n  pulse:\n    resolution_m: 0.02  # fit\n  frequency_hz", text)
+        with self.assertRaisesRegex(ValueError, "a line of its own"):
+            preset.with_key("instrument: {receiver: {}}", "instrument.receiver.gamma", "1", "fit", "x")
+
+
+class Command(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = pathlib.Path(scratch.name)
+        (self.folder / "start.yaml").write_text(START)
+
+    def calibrate(self, recording, start="start.yaml", *options):
+        start = str(self.folder / start) if start.endswith(".yaml") else start
+        out = io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(out):
+            code = main([str(self.folder / recording), "--preset", start, "--out", str(self.folder / "mine.yaml"), *options])
+        return code, out.getvalue()
+
+    def refused(self, sentence, values, start="start.yaml", *options):
+        np.save(self.folder / "pings.npy", np.asarray(values))
+        (self.folder / "recording.yaml").write_text(RECORDING)
+        code, out = self.calibrate("recording.yaml", start, *options)
+        self.assertEqual(code, 2, out)
+        self.assertRegex(out, "^sonarsim calibrate: [^\n]*" + sentence + "[^\n]*\n$")
+        self.assertFalse((self.folder / "mine.yaml").exists())
+
+    def test_what_is_refused(self):
+        pings = recording_of(noise_of(np.random.default_rng(1))).values.astype(np.uint8)
+        self.refused("1 ping: a part is fitted", pings[:1])
+        self.refused("it is empty", 0 * pings)
+        self.refused("96% of the values are 0: record with more gain", pings * (np.arange(BEAMS) < 4))
+        self.refused("saturated", np.maximum(pings, 255 * (np.arange(BEAMS) < 24)).astype(np.uint8))
+        row, beam = np.meshgrid(np.arange(RANGES), np.arange(BEAMS), indexing="ij")
+        light = 120.0 + 60.0 * np.sin(0.05 * row) * np.cos(0.08 * beam)
+        light = light + np.random.default_rng(2).uniform(-2.0, 2.0, (2, RANGES, BEAMS))
+        self.refused("photograph", light.astype(np.uint8))
+        self.refused("no preset of this name came with the program; there are: aris_3000", pings, "nobody")
+        self.refused("of another kind", pings, "sidescan_400khz")
+        self.refused("--judge", pings, "start.yaml", "--judge", "1")
+        self.refused("only keys of the water", pings, "start.yaml", "--set", "name=x")
+        for name, text, why in (("paper.yaml", "kind: imaging\n", "nothing to calibrate"), ("list.yaml", "[1]", "no preset"),
+                                ("bad.yaml", "a: [", "no preset"), ("unknown.yaml", START + "    lustre: 1\n", "lustre"),
+                                ("flow.yaml", START.replace("\n    mode: ping", " {mode: ping}") + "  pulse: {}\n", "own")):
+            (self.folder / name).write_text(text)
+            self.refused(why, pings, name)
+
+    def test_soundings_change_no_key(self):
+        draws = np.random.default_rng(3)
+        angle = np.tile(np.radians(np.linspace(-60.0, 60.0, 121)), (60, 1))
+        np.save(self.folder / "a.npy", angle.astype(np.float32))
+        np.save(self.folder / "r.npy", (10.0 / np.cos(angle) + 0.01 * draws.standard_normal(angle.shape)).astype(np.float32))
+        np.save(self.folder / "i.npy", draws.rayleigh(100.0, angle.shape).astype(np.float32))
+        (self.folder / "recording.yaml").write_text(
+            "kind: soundings\nsoundings: {range_m: r.npy, angle_rad: a.npy, intensity: i.npy}\n"
+            "law: {kind: amplitude, full_value: 0}\nsound_speed_m_s: 1500\nrate_hz: 10\n")
+        code, out = self.calibrate("recording.yaml", "bathymetric_400khz")
+        self.assertEqual(code, 0, out)
+        self.assertIn("30 figures agree: 0 of the start, 30 of the fit", out)
+        start = (ROOT / "configs" / "sensors" / "bathymetric_400khz.yaml").read_text()
+        self.assertTrue((self.folder / "mine.yaml").read_text().endswith(start))
+
+    def test_a_dataset_gives_its_instrument_back(self):
+        (self.folder / "plate.obj").write_text("v 3 -3 -1\nv 4 -3 -1\nv 4 3 -1\nv 3 3 -1\nf 1 2 3\nf 1 3 4\n")
+        (self.folder / "materials.csv").write_bytes((ROOT / "scenes" / "materials.csv").read_bytes())
+        (self.folder / "track.csv").write_text("t_s,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n"
+                                               + "".join(f"{0.1 * k},0,0,0,0,0,0\n" for k in range(8)))
+        (self.folder / "mission.yaml").write_text(MISSION)
+        self.sonarsim("render", "mission.yaml", "--out", "out", "-q")
+        code, out = self.calibrate("out", "start.yaml", "--report", str(self.folder / "mine.json"))
+        self.assertEqual(code, 0, out)
+        found = json.loads((self.folder / "mine.json").read_text())
+        for key, truth in TRUTH.items():
+            number = found["estimates"][key]
+            half = 0.5 * (number["high"] - number["low"])
+            self.assertLess(abs(number["value"] - truth), 3.3 / 1.96 * half, key)
+        self.assertGreaterEqual(found["agree"]["held_out"], 0.9 * len(found["figures"]))
+        self.assertGreater(found["agree"]["held_out"], found["agree"]["start"])
+        # The program renders the preset.
+        written = (self.folder / "mine.yaml").read_text()
+        self.assertIn("frequency_hz: 1e6  # sheet", written)
+        head = MISSION.split("sensors:")[0]
+        (self.folder / "again.yaml").write_text(head + "sensors: {made: {preset: mine.yaml}}\n")
+        self.sonarsim("render", "again.yaml", "--out", "again", "-q")
+
+    def sonarsim(self, *arguments):
+        run = subprocess.run([os.environ["SONARSIM"], *arguments], cwd=self.folder, capture_output=True, text=True,
+                             check=False)
+        self.assertEqual(run.returncode, 0, run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
