@@ -27,14 +27,12 @@ install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(PROGRAMS scripts/make_scenes.py
         DESTINATION ${CMAKE_INSTALL_DATADIR}/sonarsim/scripts COMPONENT program)
-install(FILES scripts/sonarsim_data.py scripts/sweep.mk
+install(FILES scripts/sweep.mk
         DESTINATION ${CMAKE_INSTALL_DATADIR}/sonarsim/scripts COMPONENT program)
 install(DIRECTORY scripts/slurm scripts/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/sonarsim/scripts
         USE_SOURCE_PERMISSIONS COMPONENT program PATTERN "__pycache__" EXCLUDE)
 install(DIRECTORY configs scenes trajectories DESTINATION ${CMAKE_INSTALL_DATADIR}/sonarsim COMPONENT program
         PATTERN "generated" EXCLUDE)
-# Where Debian's Python looks, so that `import sonarsim_data` reads datasets.
-install(FILES scripts/sonarsim_data.py DESTINATION lib/python3/dist-packages COMPONENT program)
 
 # What the program tells of itself: manual page, completions, schema. A sanitized program is slow to
 # start and is not installed.

@@ -61,9 +61,7 @@ if(SONARSIM_HAS_PYTHON)
     set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
     set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
     set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
-        "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${NEXT}), python3-numpy")
-    # Its presets and examples.
-    set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS sonarsim)
+        "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${NEXT}), python3-numpy, sonarsim (= ${CPACK_PACKAGE_VERSION})")
     set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-torch)
     set(CPACK_DEBIAN_PYTHON_DESCRIPTION "simulator of sonars, for Python
 Renders the pings of a mission into numpy arrays and feeds them to PyTorch,

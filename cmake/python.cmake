@@ -1,4 +1,16 @@
 # The Python package of apps/python, in build/python: `PYTHONPATH=build/python python3 -c "import sonarsim"`.
+# The tools in it run without the compiled module.
+set(SONARSIM_PYTHON_FOLDER ${PROJECT_BINARY_DIR}/python/sonarsim)
+file(GLOB_RECURSE SONARSIM_PYTHON_FILES CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/apps/python/sonarsim
+     apps/python/sonarsim/*)
+list(FILTER SONARSIM_PYTHON_FILES EXCLUDE REGEX __pycache__)
+foreach(FILE ${SONARSIM_PYTHON_FILES})
+    configure_file(apps/python/sonarsim/${FILE} ${SONARSIM_PYTHON_FOLDER}/${FILE} COPYONLY)
+endforeach()
+# Where Debian's Python looks.
+install(DIRECTORY apps/python/sonarsim DESTINATION lib/python3/dist-packages COMPONENT program
+        PATTERN "__pycache__" EXCLUDE)
+
 set(SONARSIM_PYTHON AUTO CACHE STRING
     "Build the Python package: AUTO (where pybind11 and Python's headers are found), ON or OFF")
 set_property(CACHE SONARSIM_PYTHON PROPERTY STRINGS AUTO ON OFF)
@@ -34,22 +46,10 @@ if(NOT SONARSIM_HAS_PYTHON)
     return()
 endif()
 
-set(SONARSIM_PYTHON_FOLDER ${PROJECT_BINARY_DIR}/python/sonarsim)
 # NO_EXTRAS: the library is not compiled for link time optimisation.
 pybind11_add_module(sonarsim_python MODULE NO_EXTRAS apps/python/module.cpp)
 target_link_libraries(sonarsim_python PRIVATE sonarsim_lib)
 target_compile_options(sonarsim_python PRIVATE $<$<CONFIG:Release>:-O1>)
 set_target_properties(sonarsim_python PROPERTIES OUTPUT_NAME _sonarsim
                       LIBRARY_OUTPUT_DIRECTORY ${SONARSIM_PYTHON_FOLDER})
-set(SONARSIM_PYTHON_FILES __init__.py _sonarsim.pyi data.pyi py.typed torch.py)
-foreach(FILE ${SONARSIM_PYTHON_FILES})
-    configure_file(apps/python/sonarsim/${FILE} ${SONARSIM_PYTHON_FOLDER}/${FILE} COPYONLY)
-    list(APPEND SONARSIM_PYTHON_INSTALLED apps/python/sonarsim/${FILE})
-endforeach()
-configure_file(scripts/sonarsim_data.py ${SONARSIM_PYTHON_FOLDER}/data.py COPYONLY)
-
-# Where Debian's Python looks.
-set(SONARSIM_PYTHON_INSTALL lib/python3/dist-packages/sonarsim)
-install(TARGETS sonarsim_python LIBRARY DESTINATION ${SONARSIM_PYTHON_INSTALL} COMPONENT python)
-install(FILES ${SONARSIM_PYTHON_INSTALLED} DESTINATION ${SONARSIM_PYTHON_INSTALL} COMPONENT python)
-install(FILES scripts/sonarsim_data.py DESTINATION ${SONARSIM_PYTHON_INSTALL} RENAME data.py COMPONENT python)
+install(TARGETS sonarsim_python LIBRARY DESTINATION lib/python3/dist-packages/sonarsim COMPONENT python)

@@ -1,4 +1,4 @@
-"""scripts/sonarsim_data.py: opens what sonarsim writes, loose or packed, with numpy alone."""
+"""sonarsim.data: opens what sonarsim writes, with numpy alone and without the compiled module."""
 import json
 import os
 import pathlib
@@ -9,12 +9,12 @@ import unittest
 
 from sandbox import SONARSIM, Sandbox, path_csv, python_with
 
-SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
-sys.path.insert(0, str(SCRIPTS))
+PACKAGES = pathlib.Path(__file__).resolve().parents[2] / "apps/python"
+sys.path.insert(0, str(PACKAGES))
 
 try:
     import numpy as np
-    import sonarsim_data
+    from sonarsim import data as sonarsim_data
 except ImportError:
     # Debian's numpy belongs to Debian's Python.
     python = python_with("numpy")
@@ -181,7 +181,7 @@ class Reader(Sandbox):
 
     def describe(self, folder="out", **variables):
         """What the command prints of the dataset."""
-        result = subprocess.run([sys.executable, "-B", SCRIPTS / "sonarsim_data.py", self.folder / folder],
+        result = subprocess.run([sys.executable, "-B", PACKAGES / "sonarsim/data.py", self.folder / folder],
                                 capture_output=True, text=True, check=False, encoding="utf-8",
                                 env={**os.environ, **variables})
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -249,25 +249,25 @@ class Reader(Sandbox):
                 sonarsim_data.read_png(data)
 
     def test_the_command(self):
-        result = subprocess.run([sys.executable, "-B", SCRIPTS / "sonarsim_data.py", self.out],
+        result = subprocess.run([sys.executable, "-B", PACKAGES / "sonarsim/data.py", self.out],
                                 capture_output=True, text=True, check=False)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("mbes: profiling, 4 pings", result.stdout)
         self.assertIn("instances: 1 walls", result.stdout)
-        result = subprocess.run([sys.executable, "-B", SCRIPTS / "sonarsim_data.py", self.folder],
+        result = subprocess.run([sys.executable, "-B", PACKAGES / "sonarsim/data.py", self.folder],
                                 capture_output=True, text=True, check=False)
         self.assertEqual(result.returncode, 1)
         self.assertIn("no dataset.json", result.stderr)
 
     @unittest.skipIf(python_with("torch") is None, "needs torch")
     def test_torch(self):
-        program = ("import sys; sys.path.insert(0, sys.argv[1]); import sonarsim_data, torch\n"
+        program = ("import sys; sys.path.insert(0, sys.argv[1]); import torch; from sonarsim import data as sonarsim_data\n"
                    "data = sonarsim_data.torch_dataset(sonarsim_data.open_dataset(sys.argv[2])['fls'],"
                    " ('polar', 'instance'))\n"
                    "assert isinstance(data, torch.utils.data.Dataset)\n"
                    "loader = torch.utils.data.DataLoader(data, batch_size=2, num_workers=2)\n"
                    "print([(tuple(x.shape), str(y.dtype)) for x, y in loader])\n")
-        result = subprocess.run([python_with("torch"), "-B", "-c", program, SCRIPTS, self.out],
+        result = subprocess.run([python_with("torch"), "-B", "-c", program, PACKAGES, self.out],
                                 capture_output=True, text=True, check=False)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(result.stdout.count("(2, 40, 24)"), 3)

@@ -29,13 +29,12 @@ def main(build, compiler):
                      "share/sonarsim/scenes/tank.glb", "share/man/man1/sonarsim.1.gz",
                      "share/bash-completion/completions/sonarsim", "share/zsh/vendor-completions/_sonarsim",
                      "share/fish/vendor_completions.d/sonarsim.fish", "share/sonarsim/mission.schema.json",
-                     "share/sonarsim/scripts/sonarsim_data.py",
                      "share/sonarsim/scripts/slurm/render.sh", "lib/sonarsim/libsonarsim_meshes.so"):
             assert (prefix / name).exists(), f"not installed: {name}"
         python = prefix / "lib/python3/dist-packages"
-        for name in ("__init__.py", "_sonarsim.pyi", "data.py", "data.pyi", "py.typed", "torch.py"):
+        for name in ("__init__.py", "mission.py", "_sonarsim.pyi", "data.py", "data.pyi", "py.typed", "torch.py"):
             assert (python / "sonarsim" / name).exists(), f"not installed: {name}"
-        assert folder in run(sys.executable, "-Bc", "import sonarsim, sonarsim_data; print(sonarsim._sonarsim)",
+        assert folder in run(sys.executable, "-Bc", "import sonarsim._sonarsim, sonarsim.data; print(sonarsim._sonarsim)",
                              env={**os.environ, "PYTHONPATH": python})
         share = prefix / "share/sonarsim"
         run(prefix / "bin/sonarsim", "render", share / "configs/tank_imaging.yaml", "--set",
