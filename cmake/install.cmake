@@ -27,7 +27,7 @@ install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(PROGRAMS scripts/make_scenes.py
         DESTINATION ${CMAKE_INSTALL_DATADIR}/sonarsim/scripts COMPONENT program)
-install(FILES scripts/sonarsim_data.py scripts/sweep.mk
+install(FILES scripts/sweep.mk
         DESTINATION ${CMAKE_INSTALL_DATADIR}/sonarsim/scripts COMPONENT program)
 install(DIRECTORY scripts/slurm scripts/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/sonarsim/scripts
         USE_SOURCE_PERMISSIONS COMPONENT program PATTERN "__pycache__" EXCLUDE)

@@ -13,14 +13,12 @@ foreach(FILE ${SONARSIM_PYTHON_FILES})
     get_filename_component(NAME ${FILE} NAME)
     file(CREATE_LINK ${FILE} ${SONARSIM_PYTHON_FOLDER}/${NAME} SYMBOLIC)
 endforeach()
-file(CREATE_LINK ${PROJECT_SOURCE_DIR}/scripts/sonarsim_data.py ${SONARSIM_PYTHON_FOLDER}/data.py SYMBOLIC)
 
 # The package comes with the program, its compiled module in a package of its own (cmake/package.cmake).
 # Debian's Python finds it through a link.
 set(SONARSIM_PYTHON_INSTALL lib/sonarsim/python/sonarsim)
 install(DIRECTORY apps/python/sonarsim/ DESTINATION ${SONARSIM_PYTHON_INSTALL} COMPONENT program
         PATTERN "__pycache__" EXCLUDE)
-install(FILES scripts/sonarsim_data.py DESTINATION ${SONARSIM_PYTHON_INSTALL} RENAME data.py COMPONENT program)
 install(CODE "set(FOLDER \$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/lib/python3/dist-packages)
 file(MAKE_DIRECTORY \${FOLDER})
 file(CREATE_LINK ../../sonarsim/python/sonarsim \${FOLDER}/sonarsim SYMBOLIC)" COMPONENT program)

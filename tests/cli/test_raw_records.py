@@ -8,8 +8,8 @@ from sandbox import Sandbox, digest, path_csv, python_with
 
 try:
     import numpy as np
-    sys.path.insert(0, os.path.join(os.path.dirname(__file__), "../../scripts"))
-    import sonarsim_data
+    sys.path.insert(0, os.path.join(os.path.dirname(__file__), "../../apps/python"))
+    from sonarsim import data as sonarsim_data
 except ImportError:
     # Debian's numpy belongs to Debian's Python.
     python = python_with("numpy")

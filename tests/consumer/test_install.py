@@ -27,7 +27,6 @@ def main(build, compiler):
             run("cmake", "--install", build, "--prefix", prefix)
         for name in ("bin/sonarsim", "share/doc/sonarsim/README.md", "share/doc/sonarsim/docs/model.md",
                      "share/sonarsim/scenes/tank.glb", *(["share/man/man1/sonarsim.1.gz"] if packages else []),
-                     "share/sonarsim/scripts/sonarsim_data.py",
                      "share/sonarsim/scripts/slurm/render.sh", "lib/sonarsim/libsonarsim_meshes.so"):
             assert (prefix / name).exists(), f"not installed: {name}"
         python = prefix / "lib/python3/dist-packages"

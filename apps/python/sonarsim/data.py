@@ -1,7 +1,7 @@
-"""Opens the datasets of sonarsim, loose or packed, of any kind of sonar. Needs numpy alone.
+"""Opens the datasets of sonarsim, of any kind of sonar. Needs numpy alone.
 
-    import sonarsim_data
-    dataset = sonarsim_data.open_dataset("out/tank_labels")
+    import sonarsim.data
+    dataset = sonarsim.data.open_dataset("out/tank_labels")
     fls = dataset["fls"]                       # a sensor, by its name
     for sample in fls:                         # a ping; its arrays are read when asked for
         image = sample["polar"]                # float32 [range, azimuth]
@@ -9,18 +9,18 @@
         names = dataset.instances              # id -> name
     fan = fls.to_fan(image, width=512)         # [row, column], boresight up, port on the left
     image = fls.from_fan(fan)                  # back again
-    data = sonarsim_data.torch_dataset(fls, ("polar", "class"))      # where torch is installed
+    data = sonarsim.data.torch_dataset(fls, ("polar", "class"))      # where torch is installed
 
-    python3 sonarsim_data.py OUT               # says what is in a dataset
+    python3 -m sonarsim.data OUT               # says what is in a dataset
 
 A sample has the names of docs/dataset.md and docs/labels.md: 'polar', 'image', 'fan', 'meta' and labels; sonars that are
 written as records have their rows: 'waterfall', 'echogram', 'scan', 'soundings'.
 """
-import collections
 import collections.abc
 import io
 import json
 import math
+import os
 import pathlib
 import re
 import struct
@@ -30,7 +30,6 @@ import zlib
 import numpy as np
 
 FORMAT_VERSION = 3
-TAR_BLOCK = 512
 # The permitted letters in names of a dataset's files, since a dataset may come from anybody.
 NAME = r"[A-Za-z0-9_+-][A-Za-z0-9_+.-]*"
 INNER_PATH = re.compile(f"{NAME}(/{NAME})*", re.ASCII)
@@ -38,8 +37,6 @@ INNER_PATH = re.compile(f"{NAME}(/{NAME})*", re.ASCII)
 PATTERN = re.compile(rf"(?:{NAME}/)*(?:{NAME})?%0[1-9]d[A-Za-z0-9_+.-]*", re.ASCII)
 # A byte of a PNG file unpacks to at most this many bytes.
 MOST_INFLATED = 1032
-# Number of packs whose lists of members are kept.
-OPEN_PACKS = 8
 # Bits and colour type of the PNG files of pings: 0 is grey, 2 RGB, 3 a colour table.
 PNG_KINDS = ((8, 0), (16, 0), (8, 2), (16, 2), (8, 3))
 
@@ -50,21 +47,18 @@ def open_dataset(folder):
 
 
 def open_datasets(folder):
-    """The datasets in a folder: its own, the variants of a mission in order, or those of a
-    collection. ValueError as open_dataset()."""
+    """The datasets in a folder: its own, or the variants of a mission in order. ValueError as open_dataset()."""
     folder = pathlib.Path(folder)
-    for file, key in (("variants.json", "variants"), ("collection.json", "datasets")):
-        if not (folder / file).is_file():
-            continue
-        try:
-            names = [one["folder"] for one in json.loads((folder / file).read_bytes())[key]]
-            sound = all(name not in ("", ".", "..") and "/" not in name for name in names)
-        except (ValueError, RecursionError, KeyError, TypeError) as fault:
-            raise ValueError(f"{folder / file}: is damaged: {fault!r}") from fault
-        if not sound:
-            raise ValueError(f"{folder / file}: names a folder that does not lie in this one")
-        return [open_dataset(folder / name) for name in names]
-    return [open_dataset(folder)]
+    file = folder / "variants.json"
+    if not file.is_file():
+        return [open_dataset(folder)]
+    try:
+        names = [one["folder"] for one in read_json(file.read_bytes())["variants"]]
+        for name in names:
+            checked(name, re.compile(NAME, re.ASCII), "folder")
+    except (ValueError, KeyError, TypeError) as fault:
+        raise ValueError(f"{file}: is damaged: {fault}") from fault
+    return [open_dataset(own_file(folder, name, is_folder=True)) for name in names]
 
 
 class Dataset:
@@ -139,23 +133,15 @@ class Sensor:
         self.azimuth_edges_rad = None if azimuth is None else np.array(azimuth)
         every, pings = (whole(description[key], low, key) for key, low in (("every", 1), ("pings", 0)))
         self.pings = range(0, every * pings, every)
-        self._packs = description.get("packs")
-        self._members = collections.OrderedDict()
-        self._files = (self._packs["members"] if self._packs else description["files"])
+        self._files = description["files"]
         self._records = dict(description.get("label_records", {}))
         if "records" in description:
             record = description["records"]
             # In a dataset of an older sonarsim only the name of the file gives the name of the record.
             name = record.get("name", pathlib.PurePath(record["file"]).stem)
             self._records[checked(name, re.compile(NAME, re.ASCII), "records.name")] = record
-        if self._packs:
-            whole(self._packs["pings"], 1, "packs.pings")
-            self._path(self._packs["file"], PATTERN)
         for pattern in self._files.values():
-            if self._packs:
-                checked(pattern, PATTERN, "packs.members")
-            else:
-                self._path(pattern, PATTERN)
+            self._path(pattern, PATTERN)
         for record in self._records.values():
             self._path(record["file"], INNER_PATH)
         self._arrays = {}
@@ -179,7 +165,7 @@ class Sensor:
     def records(self, name):
         """All records of a name, as an array that is mapped, not read; its axes are given by axes()."""
         if name not in self._arrays:
-            path = self.folder / self._records[name]["file"]
+            path = own_file(self.folder, self._records[name]["file"])
             self._arrays[name] = np.load(path, mmap_mode="r")
         return self._arrays[name]
 
@@ -187,40 +173,34 @@ class Sensor:
         """The axes of records(name), as in ['range', 'ping']."""
         return self._records[name]["axes"]
 
+    def file(self, index, name):
+        """The path of a ping's file. ValueError where it is missing or lies behind a link."""
+        if name not in self._files:
+            raise KeyError(f"sensor {self.name!r} has no {name!r}, but {', '.join(self.keys)}")
+        return own_file(self.folder, self._files[name] % self.pings[index])
+
+    def picture(self, per):
+        """The picture of dataset.json whose objects are labelled, per "sensor" or "sweep"; None for none."""
+        for one in self.description.get("pictures", ()):
+            if one["per"] == per and "boxes_of" in one:
+                self._path(one["boxes_of"], INNER_PATH if per == "sensor" else PATTERN)
+                return one
+        return None
+
     def raw(self, index, name):
         """The bytes of a ping's file."""
-        number = self.pings[index]
-        index %= len(self.pings)
-        if not self._packs:
-            return (self.folder / (self._files[name] % number)).read_bytes()
-        pack = index // self._packs["pings"]
-        path = self.folder / (self._packs["file"] % pack)
-        members = self._members_of(path)
-        offset, size = members[self._files[name] % number]
-        with open(path, "rb") as file:
-            file.seek(offset)
-            return file.read(size)      # tar_members() has checked that the file holds as many bytes
+        return self.file(index, name).read_bytes()
 
     def read(self, index, name):
-        """The content of a ping's file or record of this name: an array, a dict for JSON, a str for text, the
-        bytes of the file for a fan that is a JPEG or WebP."""
+        """The content of a ping's file or record of this name: an array, or a dict for JSON."""
         if name in self._records:
             records = self.records(name)
             return records[:, index] if self.axes(name)[-1] == "ping" else records[index]
-        if name not in self._files:
-            raise KeyError(f"sensor {self.name!r} has no {name!r}, but {', '.join(self.keys)}")
         data = self.raw(index, name)
         suffix = pathlib.PurePath(self._files[name]).suffix
         if suffix not in DECODERS:
             raise ValueError(f"sensor {self.name!r} has {self._files[name]!r}, which this cannot read")
         return DECODERS[suffix](data)
-
-    def _members_of(self, path):
-        if path not in self._members:
-            self._members[path] = dict(tar_members(path))
-            while len(self._members) > OPEN_PACKS:
-                self._members.popitem(last=False)
-        return self._members[path]
 
     def fan_shape(self, width):
         """(height, width, metres per pixel) of a fan, as output.fan_width_px makes it."""
@@ -330,27 +310,13 @@ def whole(number, low, key):
     raise ValueError(f"{key!r} is {number!r} and must be a whole number from {low} on")
 
 
-def tar_members(path):
-    """Yields (name, (offset, bytes)) of each file in an archive; an archive that is still being
-    written ends where it is cut off. ValueError for a damaged header."""
-    with open(path, "rb") as file:
-        end = file.seek(0, io.SEEK_END)
-        at = 0
-        while True:
-            file.seek(at)
-            header = file.read(TAR_BLOCK)
-            if len(header) < TAR_BLOCK or not header[0]:
-                return
-            digits = header[124:136].rstrip(b"\0 ")
-            # int() would take a sign, blanks and '_', too.
-            if not re.fullmatch(rb"[0-7]{1,11}", digits):
-                raise ValueError(f"{path}: a member has the size {digits!r}, which is no octal number")
-            size = int(digits, 8)
-            at += TAR_BLOCK
-            if at + size > end:
-                return
-            yield header[:100].rstrip(b"\0").decode(), (at, size)
-            at += -(-size // TAR_BLOCK) * TAR_BLOCK
+def own_file(folder, inner, is_folder=False):
+    """The path of a file, or folder, in a folder. ValueError where it is missing or lies behind a link."""
+    path = folder / inner
+    there = path.is_dir() if is_folder else path.is_file()
+    if not there or os.path.realpath(path) != os.path.join(os.path.realpath(folder), inner):
+        raise ValueError(f"{path}: is missing, or lies behind a link")
+    return path
 
 
 def read_png(data):
@@ -422,57 +388,6 @@ def read_npy(data):
     return np.load(io.BytesIO(data))
 
 
-def read_exr(data):
-    """The intensities in an OpenEXR file of sonarsim; exr_channels() gives all of its channels."""
-    return exr_channels(data)["Y"]
-
-
-def exr_channels(data):
-    """The channels of an OpenEXR file as {name: [row, column]}: "Y", "instance.Y", ... ValueError
-    unless it has one part in rows that are not compressed."""
-    if data[:8] != struct.pack("<II", 20000630, 2):
-        raise ValueError("is no OpenEXR file of one part in rows")
-    try:
-        at, header = 8, {}
-        while data[at]:
-            name_end = data.index(b"\0", at)
-            type_end = data.index(b"\0", name_end + 1)
-            size, = struct.unpack_from("<I", data, type_end + 1)
-            header[data[at:name_end]] = data[type_end + 5:type_end + 5 + size]
-            at = type_end + 5 + size
-        left, top, right, bottom = struct.unpack("<4i", header[b"dataWindow"])
-        rows, columns = bottom - top + 1, right - left + 1
-        names, types, listed = [], [], header[b"channels"]
-        while listed[0]:
-            end = listed.index(b"\0")
-            names.append(listed[:end].decode())
-            types.append(("<u4", "<f2", "<f4")[struct.unpack_from("<I", listed, end + 1)[0]])
-            listed = listed[end + 17:]
-        # After a table of offsets each row has its number, its size and one channel after the other.
-        row = np.dtype([("head", "<i4", 2), *((n, t, columns) for n, t in zip(names, types))])
-        if header[b"compression"] != b"\0" or len(data) != at + 1 + rows * (8 + row.itemsize):
-            raise ValueError("is compressed or not as long as its header says")
-        pixels = np.frombuffer(data, row, rows, at + 1 + 8 * rows)
-    except (KeyError, IndexError, struct.error) as fault:
-        raise ValueError(f"is a damaged OpenEXR file: {fault!r}") from fault
-    return {name: pixels[name].copy() for name in names}
-
-
-def read_tiff(data):
-    """The float32 array in a TIFF of sonarsim; ValueError if it is another TIFF."""
-    tags = {}
-    if data[:8] == b"II*\0\x08\0\0\0" and len(data) > 10:
-        count, = struct.unpack_from("<H", data, 8)
-        for at in range(10, min(10 + 12 * count, len(data) - 11), 12):
-            tag, kind, _ = struct.unpack_from("<HHI", data, at)
-            tags[tag], = struct.unpack_from("<H" if kind == 3 else "<I", data, at + 8)
-    columns, rows, at = tags.get(256, 0), tags.get(257, 0), tags.get(273, 0)
-    if tags.get(258) != 32 or tags.get(259) != 1 or tags.get(278) != rows or (
-            len(data) != at + 4 * rows * columns):
-        raise ValueError("is no TIFF of sonarsim, or damaged")
-    return np.frombuffer(data, "<f4", rows * columns, at).reshape(rows, columns).copy()
-
-
 def read_json(data):
     try:
         return json.loads(data)
@@ -480,20 +395,17 @@ def read_json(data):
         raise ValueError("is JSON that is nested too deep") from fault
 
 
-DECODERS = {".npy": read_npy, ".png": read_png, ".exr": read_exr, ".tif": read_tiff,
-            ".json": read_json, ".txt": bytes.decode, ".jpg": bytes, ".webp": bytes}
+DECODERS = {".npy": read_npy, ".png": read_png, ".json": read_json}
 
 
 def main(folder):
     dataset = open_dataset(folder)
     print(f"{folder}: {'complete' if dataset.complete else 'not complete'}")
     for sensor in dataset.sensors.values():
-        print(f"{sensor.name}: {sensor.kind}, {len(sensor)} pings"
-              f"{', packed' if sensor.description.get('packs') else ''}")
+        print(f"{sensor.name}: {sensor.kind}, {len(sensor)} pings")
         for name, value in (sensor[0].items() if len(sensor) else ()):
             is_array = isinstance(value, np.ndarray)
-            other = {str: "text", bytes: "bytes of a JPEG or WebP"}.get(type(value), "JSON")
-            print(f"    {name:<16}", f"{value.dtype} {list(value.shape)}" if is_array else other)
+            print(f"    {name:<16}", f"{value.dtype} {list(value.shape)}" if is_array else "JSON")
     for what in ("instances", "classes"):
         if getattr(dataset, what):
             print(f"{what}:", ", ".join(f"{k} {v}" for k, v in getattr(dataset, what).items()))
