@@ -156,8 +156,7 @@ void describe(Visitor& v, WaterSurfaceConfig& c) {
 inline bool names_ground(const SceneConfig& c) {
     return std::ranges::any_of(c.objects, [&](const ObjectConfig& object) {
         return (c.heightmap && object.name == heightmap_instance) ||
-               (c.seabed && object.name == seabed_instance) ||
-               (c.seabed && c.seabed->plants && object.name == plants_instance);
+               (c.seabed && object.name == seabed_instance);
     });
 }
 
