@@ -222,7 +222,6 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
     assembly.motions = std::move(parts.motions);
     assembly.bottom = std::move(parts.bottom);
     assembly.seabed = std::move(parts.seabed);
-    assembly.heightmap = parts.heightmap;
     add_water_surface(mission, assembly);
     add_particles(mission, assembly.trajectory, assembly.scene, assembly.sonars);
     add_sound_profiles(mission, assembly.scene, assembly.sonars);

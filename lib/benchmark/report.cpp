@@ -272,7 +272,6 @@ Report make_report(const Mission& mission, const Assembly& assembly,
     report.triangles = all_triangles(assembly.scene);
     report.threads = threads;
     report.goal = mission.accuracy.relative_l1;
-    report.heightmap = assembly.heightmap;
     ::getloadavg(&report.load, 1);
     arena.execute([&] {
         const Caster caster(assembly.scene);

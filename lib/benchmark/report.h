@@ -114,7 +114,6 @@ struct Report {
     int threads = 0;
     double goal = 0.0;   ///< accuracy.relative_l1 of the mission
     double load = 0.0;   ///< load average of the machine at the start
-    Thinning heightmap;  ///< heights that are left out; errors are those over the heights kept
     std::vector<ReportRow> rows;
     std::vector<ReferenceQuality> references;  ///< one per sonar
     std::vector<Growth> growth;

@@ -132,10 +132,6 @@ std::string report_json(const Report& report) {
               {"triangles", report.triangles},  {"poses", report.poses},
               {"threads", report.threads},      {"load_average", report.load},
               {"goal_relative_l1", report.goal}};
-    if (report.heightmap.every > 1) {
-        json["heightmap"] = {{"every", report.heightmap.every},
-                             {"relative_l1", report.heightmap.error}};
-    }
     for (const char* const list :
          {"rows", "stages", "reference", "growth", "multipath_rows", "label_rows"})
         json[list] = Json::array();

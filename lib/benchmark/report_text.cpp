@@ -221,12 +221,6 @@ std::string explain_auto(const Report& report, const std::string& sensor) {
 std::string report_text(const Report& report) {
     std::string text = fmt::format("{}: {} triangles, {} poses, {} threads\n", report.mission,
                                    report.triangles, report.poses, report.threads);
-    if (report.heightmap.every > 1) {
-        text += fmt::format(
-            "heightmap: 1 of {} rows and columns is kept, which changes images by {:.2g} %; errors "
-            "are those over the kept ones\n",
-            report.heightmap.every, 100.0 * report.heightmap.error);
-    }
     if (report.load > 0.5) {
         text += fmt::format(
             "The machine was busy (load {:.1f}) before this began: times are too "

@@ -26,8 +26,6 @@ inline constexpr std::array repeated_files{Choice<RepeatedFiles>{"auto", Repeate
                                            Choice<RepeatedFiles>{"copied", RepeatedFiles::copied},
                                            Choice<RepeatedFiles>{"shared", RepeatedFiles::shared}};
 
-inline constexpr std::array kept_heights{Choice<KeptHeights>{"auto", KeptHeights::resolved},
-                                         Choice<KeptHeights>{"all", KeptHeights::all}};
 
 /// The largest factor by which an object is enlarged or made smaller.
 inline constexpr double largest_scale = 1e6;
@@ -134,9 +132,6 @@ void describe(Visitor& v, HeightmapConfig& c) {
                      "file's, and NaN always is one");
     v.text("material", c.material, "material of the bottom; default: scene.material_default");
     v.text("class", c.class_name, "class of the bottom, for labels");
-    v.choice("keep", c.keep, kept_heights,
-             "`auto` leaves out rows and columns of large maps as long as the images change by no "
-             "more than a quarter of accuracy.relative_l1; `all` keeps every height");
     v.require(c.pixel_m == 0.0 || !c.size_m, {"pixel_m", "size_m"},
               "pixel_m and size_m say the same; give one of them");
     v.require(c.height_scale != 0.0, {"height_scale"}, "height_scale of 0 makes all flat");

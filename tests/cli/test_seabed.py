@@ -144,7 +144,7 @@ class TestSeabed(Composed):
         listed = json.loads((self.out / "seabed/seabed.json").read_text())["materials"]
         names = ", ".join(f"{one['value']}: {one['material']}" for one in listed)
         start, end = text.index("  seabed:"), text.index("  objects:")
-        self.write("again.yaml", text[:start] + "  heightmap: {file: out/seabed/heights.tif, material: sand, keep: all}\n"
+        self.write("again.yaml", text[:start] + "  heightmap: {file: out/seabed/heights.tif, material: sand}\n"
                    f"  sediment_map: {{file: out/seabed/materials.png, materials: {{{names}}}}}\n" + text[end:])
         result = self.run_sonarsim("render", "again.yaml", "--out", "again")
         self.assertEqual(result.returncode, 0, result.stderr)
