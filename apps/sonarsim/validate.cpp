@@ -108,20 +108,7 @@ nlohmann::ordered_json json_of(const Findings& f) {
                                 {"bytes", f.cost(&PingCost::bytes)},
                                 {"bytes_at_most", f.bytes},
                                 {"warnings", warnings_json(f.warnings)}};
-    if (f.mission.scene.heightmap) {
-        json["heightmap"] = {{"every", f.assembly.heightmap.every},
-                             {"relative_l1", f.assembly.heightmap.error}};
-    }
     return json;
-}
-
-/// The line about the rows that thinning leaves of the heightmap.
-std::string heightmap_text(const Thinning& heightmap) {
-    if (heightmap.every == 1)
-        return result_line("heightmap", "all rows and columns of the part in range are kept");
-    return result_line("heightmap", fmt::format("1 of {} rows and columns is kept, which changes "
-                                                "images by {:.2g} %",
-                                                heightmap.every, 100.0 * heightmap.error));
 }
 
 /// The lines about the scene, the trajectory and the sonars.
@@ -134,7 +121,6 @@ std::string text_of_parts(const Findings& f) {
                              "{:.1f} x {:.1f} x {:.1f} m",
                              scene.triangles.size(), scene.materials.size(), scene.instances.size(),
                              extent.x(), extent.y(), extent.z()));
-    if (f.mission.scene.heightmap) text += heightmap_text(f.assembly.heightmap);
     text += result_line("trajectory", fmt::format("{} poses, {:.1f} s", trajectory.size(),
                                                   trajectory.back().t_s - trajectory.front().t_s));
     if (!scene.copies.empty()) {

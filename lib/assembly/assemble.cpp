@@ -214,15 +214,14 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
                                 sharing_threshold(mission.scene.repeats, settings.type));
     place_moving_scene(assembly.trajectory, parts.motions, assembly.scene);
     lay_ground_maps(mission.scene, materials,
-                    {mission.water.density_kg_m3, mission.water.sound_speed_m_s}, parts.files,
-                    models, assembly.scene);
+                    {mission.water.density_kg_m3, mission.water.sound_speed_m_s}, models.images(),
+                    assembly.scene);
     models.images().end();
     for (std::string& warning : parts.orientation_warnings)
         assembly.scene.warnings.push_back(std::move(warning));
     assembly.motions = std::move(parts.motions);
     assembly.bottom = std::move(parts.bottom);
     assembly.seabed = std::move(parts.seabed);
-    assembly.heightmap = parts.heightmap;
     add_water_surface(mission, assembly);
     add_particles(mission, assembly.trajectory, assembly.scene, assembly.sonars);
     add_sound_profiles(mission, assembly.scene, assembly.sonars);

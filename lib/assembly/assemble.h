@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "assembly/thin_heights.h"
 #include "mission/mission.h"
 #include "scene/gltf/scene_files.h"
 #include "scene/objects.h"
@@ -32,7 +31,6 @@ struct Assembly {
     std::vector<Trajectory> motions;       ///< motions of Scene::bodies, over all of `trajectory`
     std::shared_ptr<const Bottom> bottom;  ///< reference of the label `height`; null: none
     std::shared_ptr<const Seabed> seabed;  ///< the part of scene.seabed that was made; null: none
-    Thinning heightmap;                    ///< rows that were left out
     std::vector<Sonar> sonars;             ///< in the order of Mission::sensors
     std::vector<InputFile> inputs;         ///< the files that the mission names, each once
     std::vector<double> full_scales;       ///< intensity that becomes white in pictures, by sonar

@@ -5,7 +5,6 @@
 #include "assembly/heightmap_part.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "scene/seabed/seabed.h"
 
 namespace sonarsim {
 
@@ -42,9 +41,7 @@ std::vector<double> surfaces_of(const Scene& scene, const SceneObjects& objects)
 
 void add_automatic(const Mission& mission, const Scene& scene, const SceneObjects& objects,
                    std::vector<std::uint8_t>& background) {
-    std::vector<std::string> bottom = bottom_patterns(mission.scene);
-    // Plants are clutter all over the bed.
-    if (mission.scene.seabed && mission.scene.bottom.empty()) bottom.emplace_back(plants_node);
+    const std::vector<std::string> bottom = bottom_patterns(mission.scene);
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         for (const std::string& pattern : bottom) {
             if (fits_pattern(pattern, scene.instances[i]))
@@ -61,7 +58,6 @@ void add_automatic(const Mission& mission, const Scene& scene, const SceneObject
 bool may_be_scattered(const Mission& mission, const std::string& name) {
     const auto& seabed = mission.scene.seabed;
     if (seabed && seabed->rocks && seabed->rocks->class_name == name) return true;
-    if (seabed && seabed->plants && seabed->plants->class_name == name) return true;
     return std::ranges::any_of(mission.scene.scatter, [&](const ScatterConfig& scatter) {
         return name == (scatter.class_name.empty() ? scatter.name : scatter.class_name);
     });

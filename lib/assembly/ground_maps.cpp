@@ -11,8 +11,6 @@
 #include "core/error.h"
 #include "core/named_at.h"
 #include "core/text.h"
-#include "scene/gltf/texture.h"
-#include "scene/gltf/uv_triangles.h"
 #include "scene/maps/ground_maps.h"
 #include "scene/maps/read_maps.h"
 #include "scene/objects.h"
@@ -57,23 +55,7 @@ LaidMapRule rule_of(const LaidMapConfig& map, const std::string& section, const 
             .origin_m = map.origin_m,
             .no_data = map.no_data,
             .section = section,
-            .needed_m = {scene.bounds_min.head<2>(), scene.bounds_max.head<2>()},
-            .by_uv = map.placed == MapPlacing::uv};
-}
-
-/// The image of a map: its file, or the texture of a glTF file. Sets `parts` if the file's
-/// materials use parts of the texture.
-Image image_of(const LaidMapConfig& map, ImageReader& images, TextureParts& parts) {
-    const std::string extension = map.file.extension().string();
-    if (extension != ".glb" && extension != ".gltf") return images.read(map.file);
-    if (map.placed == MapPlacing::uv) {
-        Texture texture = read_texture(map.file, images);
-        if (!texture.part_of_material.empty())
-            parts = {map.file, std::move(texture.part_of_material)};
-        return std::move(texture.image);
-    }
-    throw InputError(Location{map.file.string()},
-                     "is a mesh, whose texture lies on it by placed: uv; name an image");
+            .needed_m = {scene.bounds_min.head<2>(), scene.bounds_max.head<2>()}};
 }
 
 /// The indices of the map's materials in the scene. Adds the materials that the scene lacks.
@@ -122,26 +104,14 @@ auto read_map(const LaidMapConfig& map, const Read& read) {
     }
 }
 
-/// 1 for the instances on which one of two maps lies.
-std::vector<char> either(std::size_t instances, const std::vector<char>& first,
-                         const std::vector<char>& second) {
-    std::vector<char> on(instances, 0);
-    for (std::size_t i = 0; i < instances; ++i) {
-        on[i] = static_cast<char>((i < first.size() && first[i] != 0) ||
-                                  (i < second.size() && second[i] != 0));
-    }
-    return on;
-}
-
 }  // namespace
 
 void lay_ground_maps(const SceneConfig& config, const MaterialTable& table, const Water& water,
-                     std::span<const PlacedFile> files, SceneFiles& models, Scene& scene) {
+                     ImageReader& images, Scene& scene) {
     if (!config.sediment_map && !config.backscatter_map) return;
     std::optional<MaterialTexels> materials;
     std::optional<StrengthTexels> strengths;
     std::vector<char> on_materials, on_strengths;
-    TextureParts parts;
     if (config.sediment_map) {
         const std::string section = "scene.sediment_map";
         const LaidMapConfig& laid = config.sediment_map->laid;
@@ -150,21 +120,20 @@ void lay_ground_maps(const SceneConfig& config, const MaterialTable& table, cons
             add_materials(config.sediment_map->materials, table, laid.place.location, scene);
         resolve_materials(scene, table, water);
         materials = read_map(laid, [&] {
-            return read_material_map(rule_of(laid, section, scene),
-                                     image_of(laid, models.images(), parts), of_scene);
+            return read_material_map(rule_of(laid, section, scene), images.read(laid.file),
+                                     of_scene);
         });
-        if (laid.placed == MapPlacing::above) warn_of_place(materials->frame, section, scene);
+        warn_of_place(materials->frame, section, scene);
     }
     if (config.backscatter_map) {
         const std::string section = "scene.backscatter_map";
         const BackscatterMapConfig& map = *config.backscatter_map;
         on_strengths = instances_of(map.laid, section, config, scene);
         strengths = read_map(map.laid, [&] {
-            return read_strength_map(rule_of(map.laid, section, scene),
-                                     image_of(map.laid, models.images(), parts), map.scale_db,
-                                     map.offset_db);
+            return read_strength_map(rule_of(map.laid, section, scene), images.read(map.laid.file),
+                                     map.scale_db, map.offset_db);
         });
-        if (map.laid.placed == MapPlacing::above) warn_of_place(strengths->frame, section, scene);
+        warn_of_place(strengths->frame, section, scene);
         if (!strengths->factor.empty() &&
             std::ranges::all_of(strengths->factor, [](float x) { return x == 1.0F; })) {
             scene.warnings.push_back(section +
@@ -172,23 +141,8 @@ void lay_ground_maps(const SceneConfig& config, const MaterialTable& table, cons
                                      "0 dB; check no_data, scale_db and offset_db");
         }
     }
-    const LaidMapConfig& laid =
-        config.sediment_map ? config.sediment_map->laid : config.backscatter_map->laid;
-    std::shared_ptr<const UvMesh> uv;
-    if (laid.placed == MapPlacing::uv) {
-        if (!parts.of_material.empty() && materials && strengths) {
-            throw InputError(laid.place.location,
-                             "the materials of the glTF name several images, over which no second "
-                             "map lies; make one image of them in the mesh's editor");
-        }
-        const std::vector<char> on = either(scene.instances.size(), on_materials, on_strengths);
-        uv = read_map(laid, [&] {
-            return std::make_shared<const UvMesh>(uv_triangles(files, models, on, parts));
-        });
-    }
     scene.maps = std::make_shared<const GroundMaps>(std::move(materials), std::move(on_materials),
-                                                    std::move(strengths), std::move(on_strengths),
-                                                    std::move(uv));
+                                                    std::move(strengths), std::move(on_strengths));
 }
 
 }  // namespace sonarsim

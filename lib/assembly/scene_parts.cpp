@@ -255,11 +255,6 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
     if (!scene.file.empty()) parts.files.push_back(file_of(scene.file, scene.mesh, scene.place));
     Shapes shapes(models);
     std::optional<PlacedFile> ground = heightmap_of(scene, seen, shapes);
-    if (ground && may_be_thinned(mission, *ground, models)) {
-        parts.heightmap =
-            thin_heights(*ground, sonars, vehicle, mission.accuracy.relative_l1, models.images());
-        ground->heightmap->every = parts.heightmap.every;
-    }
     if (scene.seabed) {
         ground = seabed_of(*scene.seabed, mission.seed, needed_ground(scene, seen, shapes));
         parts.seabed = ground->seabed;

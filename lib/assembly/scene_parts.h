@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "assembly/thin_heights.h"
 #include "mission/mission.h"
 #include "scene/gltf/scene_files.h"
 #include "scene/placed_file.h"
@@ -22,7 +21,6 @@ struct SceneParts {
     /// The bottom that objects rest on, for the label `height`; null if not needed or not there.
     std::shared_ptr<const Bottom> bottom;
     std::shared_ptr<const Seabed> seabed;  ///< the part of scene.seabed that was made; null: none
-    Thinning heightmap;                    ///< rows that were left out
     /// Sentences about files that may lie on their side.
     std::vector<std::string> orientation_warnings;
 };

@@ -18,28 +18,11 @@ BedRipples ripples_of(const BedRippleConfig& config) {
             .patch_m = config.patch_m};
 }
 
-BedScars scars_of(const BedScarConfig& config) {
-    return {.density_per_m2 = config.density_per_m2,
-            .length_m = config.length_m,
-            .width_m = config.width_m,
-            .depth_m = config.depth_m,
-            .direction_rad = {radians(config.direction_deg[0]), radians(config.direction_deg[1])}};
-}
-
 BedRocks rocks_of(const BedRockConfig& config) {
     return {.density_per_m2 = config.density_per_m2,
             .diameter_m = config.diameter_m,
             .exponent = config.exponent,
             .buried = config.buried,
-            .material = config.material,
-            .class_name = config.class_name};
-}
-
-BedPlants plants_of(const BedPlantConfig& config) {
-    return {.density_per_m2 = config.density_per_m2,
-            .height_m = config.height_m,
-            .share = config.share,
-            .patch_m = config.patch_m,
             .material = config.material,
             .class_name = config.class_name};
 }
@@ -63,14 +46,7 @@ SeabedRule rule_of(const SeabedConfig& config, std::uint64_t seed) {
             roughness.spectral_exponent, roughness.corner_m};
     }
     if (config.ripples) rule.ripples = ripples_of(*config.ripples);
-    if (config.waves) rule.waves = ripples_of(*config.waves);
-    if (config.pockmarks) {
-        rule.pockmarks = BedPockmarks{config.pockmarks->density_per_m2,
-                                      config.pockmarks->diameter_m, config.pockmarks->depth_m};
-    }
-    if (config.scars) rule.scars = scars_of(*config.scars);
     if (config.rocks) rule.rocks = rocks_of(*config.rocks);
-    if (config.plants) rule.plants = plants_of(*config.plants);
     for (const auto& [material, share] : config.sediments)
         rule.sediments.push_back({material, share});
     rule.patch_m = config.patch_m;

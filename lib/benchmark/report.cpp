@@ -212,7 +212,6 @@ Report make_report(const Mission& mission, const Assembly& assembly,
     report.mission = mission.name;
     report.triangles = all_triangles(assembly.scene);
     report.threads = threads;
-    report.heightmap = assembly.heightmap;
     ::getloadavg(&report.load, 1);
     arena.execute([&] {
         const Caster caster(assembly.scene);

@@ -89,7 +89,6 @@ struct Report {
     int poses = 0;
     int threads = 0;
     double load = 0.0;   ///< load average of the machine at the start
-    Thinning heightmap;  ///< heights that are left out; errors are those over the heights kept
     std::vector<ReportRow> rows;
     std::vector<ReferenceQuality> references;  ///< one per sonar
     std::vector<MultipathRow> multipath;       ///< only for sonars that have it

@@ -70,8 +70,6 @@ Json list_of(const std::vector<Row>& rows) {
 Json json_of(const Report& report) {
     Json json{{"mission", report.mission}, {"triangles", report.triangles}, {"poses", report.poses},
               {"threads", report.threads}, {"load", report.load}};
-    if (report.heightmap.every > 1)
-        json["heightmap"] = {{"every", report.heightmap.every}, {"error", report.heightmap.error}};
     json["rows"] = list_of(report.rows);
     json["reference"] = list_of(report.references);
     json["multipath_rows"] = list_of(report.multipath);

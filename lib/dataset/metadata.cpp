@@ -137,10 +137,6 @@ Json describe_dataset(const Mission& mission, const Assembly& assembly, const La
                            {"drawn", describe_drawn(mission.variant.drawn)}};
     }
     json["scene"] = describe_scene_use(assembly.scene);
-    if (assembly.heightmap.every > 1) {
-        json["scene"]["heightmap"] = {{"every", assembly.heightmap.every},
-                                      {"relative_l1", assembly.heightmap.error}};
-    }
     if (!mission.output.labels.empty()) {
         json["labels"] = describe_label_ids(assembly);
         json["labels"]["annotations"] = describe_annotations(assembly.objects);

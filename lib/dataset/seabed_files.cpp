@@ -4,7 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/units.h"
 #include "dataset/ping_metadata.h"
 #include "format/geotiff.h"
 #include "format/png.h"
@@ -56,26 +55,6 @@ Json list_rocks(const Seabed& bed) {
     return out;
 }
 
-Json list_hollows(const Seabed& bed, Json out) {
-    Json& pockmarks = out["pockmarks"] = Json::array();
-    for (const Pockmark& one : bed.pockmarks) {
-        pockmarks.push_back({{"x_m", one.x_m - bed.origin_m[0]},
-                             {"y_m", one.y_m - bed.origin_m[1]},
-                             {"diameter_m", one.diameter_m},
-                             {"depth_m", one.depth_m}});
-    }
-    Json& scars = out["scars"] = Json::array();
-    for (const Scar& one : bed.scars) {
-        scars.push_back({{"x_m", one.x_m - bed.origin_m[0]},
-                         {"y_m", one.y_m - bed.origin_m[1]},
-                         {"direction_deg", degrees(one.direction_rad)},
-                         {"length_m", one.length_m},
-                         {"width_m", one.width_m},
-                         {"depth_m", one.depth_m}});
-    }
-    return out;
-}
-
 }  // namespace
 
 std::vector<std::string> seabed_file_names() {
@@ -85,7 +64,7 @@ std::vector<std::string> seabed_file_names() {
 std::vector<std::pair<std::string, std::string>> seabed_files(const Seabed& bed) {
     const BedGrid& grid = bed.grid;
     const MapPlace place = place_of(bed);
-    Json list{{"grid",
+    const Json list{{"grid",
                {{"west_m", place.west_m},
                 {"north_m", place.north_m},
                 {"cell_m", place.cell_m},
@@ -93,8 +72,6 @@ std::vector<std::pair<std::string, std::string>> seabed_files(const Seabed& bed)
                 {"columns", grid.columns}}},
               {"materials", list_materials(bed)},
               {"rocks", list_rocks(bed)}};
-    list = list_hollows(bed, std::move(list));
-    list["tufts"] = bed.tufts;
     // A square of the mesh has the material of its north-western height.
     const std::string world_file =
         fmt::format("{}\n0\n0\n{}\n{}\n{}\n", grid.cell_m, -grid.cell_m, place.west_m + grid.cell_m,

@@ -14,13 +14,9 @@ namespace sonarsim {
 /// Pairs of a name and its replacement, in the order of the file.
 using Renaming = std::vector<std::pair<std::string, std::string>>;
 
-/// The way in which an image is laid on surfaces: from above, or by their texture coordinates.
-enum class MapPlacing { above, uv };
-
-/// An image that is laid on surfaces.
+/// An image that is laid on surfaces from above.
 struct LaidMapConfig {
     std::filesystem::path file;
-    MapPlacing placed = MapPlacing::above;
     double pixel_m = 0.0;                         ///< size of a pixel; 0: by size_m, or by the file
     std::optional<std::array<double, 2>> size_m;  ///< x, y, from edge to edge of the map
     std::array<double, 2> origin_m{};             ///< point of the map that is the world's (0, 0)

@@ -9,9 +9,6 @@
 
 namespace sonarsim {
 
-inline constexpr std::array map_placings{Choice<MapPlacing>{"above", MapPlacing::above},
-                                         Choice<MapPlacing>{"uv", MapPlacing::uv}};
-
 /// The keys that say where an image lies.
 template <class Visitor, class Config>
 void describe_image_place(Visitor& v, Config& c) {
@@ -30,9 +27,6 @@ void describe_laid_map(Visitor& v, LaidMapConfig& c) {
     v.place(c.place);
     v.path("file", c.file, "an image, PNG, TIFF (GeoTIFF) or OpenEXR, whose first row is the north",
            required);
-    v.choice("placed", c.placed, map_placings,
-             "`above` lays the map on the ground from above; `uv` lays it by TEXCOORD_0 of the "
-             "glTF's meshes, as their own textures");
     describe_image_place(v, c);
     v.texts(
         "instances", c.instances,
@@ -42,12 +36,7 @@ void describe_laid_map(Visitor& v, LaidMapConfig& c) {
                      "value of pixels that change nothing; `auto` takes the file's. NaN and pixels "
                      "whose alpha is 0 never change anything");
     v.require(c.pixel_m == 0.0 || !c.size_m, {"pixel_m", "size_m"},
-              "pixel_m and size_m say the same; give one of them");
-    const bool has_place = c.pixel_m != 0.0 || c.size_m || c.origin_m != std::array{0.0, 0.0};
-    v.require(c.placed == MapPlacing::above || !has_place,
-              {"placed", "pixel_m", "size_m", "origin_m"},
-              "with placed: uv the mesh says where the map lies; leave out pixel_m, size_m and "
-              "origin_m");
+              "give pixel_m or size_m, not both");
 }
 
 template <class Visitor>

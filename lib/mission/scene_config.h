@@ -73,9 +73,6 @@ struct ScatterConfig {
     bool operator==(const ScatterConfig&) const = default;
 };
 
-/// The heights of a map that become surface: all, or those that the sonars resolve.
-enum class KeptHeights { resolved, all };
-
 /// An image whose pixels are heights, which becomes the bottom.
 struct HeightmapConfig {
     std::filesystem::path file;
@@ -87,7 +84,6 @@ struct HeightmapConfig {
     std::optional<double> no_data;  ///< value of unknown heights; none: the file's
     std::string material;
     std::string class_name;
-    KeptHeights keep = KeptHeights::resolved;
     MissionPlace place;
 
     bool operator==(const HeightmapConfig&) const = default;

@@ -26,9 +26,6 @@ inline constexpr std::array repeated_files{Choice<RepeatedFiles>{"auto", Repeate
                                            Choice<RepeatedFiles>{"copied", RepeatedFiles::copied},
                                            Choice<RepeatedFiles>{"shared", RepeatedFiles::shared}};
 
-inline constexpr std::array kept_heights{Choice<KeptHeights>{"auto", KeptHeights::resolved},
-                                         Choice<KeptHeights>{"all", KeptHeights::all}};
-
 /// The largest factor by which an object is enlarged or made smaller.
 inline constexpr double largest_scale = 1e6;
 
@@ -134,11 +131,8 @@ void describe(Visitor& v, HeightmapConfig& c) {
                      "file's, and NaN always is one");
     v.text("material", c.material, "material of the bottom; default: scene.material_default");
     v.text("class", c.class_name, "class of the bottom, for labels");
-    v.choice("keep", c.keep, kept_heights,
-             "`auto` leaves out rows and columns of large maps as long as the images change by no "
-             "more than a quarter of accuracy.relative_l1; `all` keeps every height");
     v.require(c.pixel_m == 0.0 || !c.size_m, {"pixel_m", "size_m"},
-              "pixel_m and size_m say the same; give one of them");
+              "give pixel_m or size_m, not both");
     v.require(c.height_scale != 0.0, {"height_scale"}, "height_scale of 0 makes all flat");
 }
 
@@ -156,8 +150,7 @@ void describe(Visitor& v, WaterSurfaceConfig& c) {
 inline bool names_ground(const SceneConfig& c) {
     return std::ranges::any_of(c.objects, [&](const ObjectConfig& object) {
         return (c.heightmap && object.name == heightmap_instance) ||
-               (c.seabed && object.name == seabed_instance) ||
-               (c.seabed && c.seabed->plants && object.name == plants_instance);
+               (c.seabed && object.name == seabed_instance);
     });
 }
 
@@ -199,10 +192,6 @@ void describe(Visitor& v, SceneConfig& c) {
         "the surface of the water: it reflects multipath and, with `scatters`, is seen itself");
     v.require(!c.file.empty() || c.heightmap || c.seabed || !c.objects.empty(), {},
               "'scene' needs the key 'file', a heightmap, a seabed or objects");
-    v.require(!c.sediment_map || !c.backscatter_map ||
-                  c.sediment_map->laid.placed == c.backscatter_map->laid.placed,
-              {"sediment_map", "backscatter_map"},
-              "sediment_map and backscatter_map must be placed alike, both above or both by uv");
     v.require(!c.heightmap || !c.seabed, {"heightmap", "seabed"},
               "heightmap and seabed are both the bottom; give one of them");
     v.require(!names_ground(c), {"objects"},

@@ -23,7 +23,7 @@ struct BedRoughnessConfig {
     bool operator==(const BedRoughnessConfig&) const = default;
 };
 
-/// One train of ripples or sand waves.
+/// A train of ripples.
 struct BedRippleConfig {
     double height_m = 0.0;  ///< from trough to crest
     double length_m = 0.0;  ///< from crest to crest
@@ -47,38 +47,6 @@ struct BedRockConfig {
     bool operator==(const BedRockConfig&) const = default;
 };
 
-/// Tufts of leaves that stand on the bed, in patches.
-struct BedPlantConfig {
-    double density_per_m2 = 0.0;
-    std::array<double, 2> height_m{};
-    double share = 1.0;
-    double patch_m = 5.0;
-    std::string material;
-    std::string class_name = "plant";
-
-    bool operator==(const BedPlantConfig&) const = default;
-};
-
-/// Round hollows.
-struct BedPockmarkConfig {
-    double density_per_m2 = 0.0;
-    std::array<double, 2> diameter_m{};
-    std::array<double, 2> depth_m{};
-
-    bool operator==(const BedPockmarkConfig&) const = default;
-};
-
-/// Straight furrows, such as those of trawls and anchors.
-struct BedScarConfig {
-    double density_per_m2 = 0.0;
-    std::array<double, 2> length_m{};
-    std::array<double, 2> width_m{};
-    std::array<double, 2> depth_m{};
-    std::array<double, 2> direction_deg{0, 180};
-
-    bool operator==(const BedScarConfig&) const = default;
-};
-
 /// A material that covers a share of the bed.
 struct BedSedimentConfig {
     std::string material;
@@ -98,22 +66,17 @@ struct SeabedConfig {
     std::string class_name;
     std::optional<BedRoughnessConfig> roughness;
     std::optional<BedRippleConfig> ripples;
-    std::optional<BedRippleConfig> waves;
-    std::optional<BedPockmarkConfig> pockmarks;
-    std::optional<BedScarConfig> scars;
     std::vector<BedSedimentConfig> sediments;
     double patch_m = 10.0;  ///< size of the patches of sediments
     double border_m = 1.0;  ///< size of the bays of their borders
     std::optional<BedRockConfig> rocks;
-    std::optional<BedPlantConfig> plants;
     std::filesystem::path preset;  ///< empty after reading: its keys are filled in
     MissionPlace place;
 
     bool operator==(const SeabedConfig&) const = default;
 };
 
-/// The instances that a seabed makes, besides its rocks.
+/// The instance that a seabed makes, besides its rocks.
 inline constexpr const char* seabed_instance = "seabed";
-inline constexpr const char* plants_instance = "plants";
 
 }  // namespace sonarsim

@@ -37,36 +37,6 @@ void describe(Visitor& v, BedRippleConfig& c) {
 }
 
 template <class Visitor>
-void describe(Visitor& v, BedPockmarkConfig& c) {
-    v.number("density_per_m2", c.density_per_m2, between(0, 100),
-             "mean number per square metre, as in a Poisson process", required);
-    v.numbers("diameter_m", c.diameter_m, between(1e-3, 1e4), "diameter, drawn uniformly",
-              required);
-    v.numbers("depth_m", c.depth_m, between(0, 1e3), "depth, drawn uniformly", required);
-    v.require(c.diameter_m[0] <= c.diameter_m[1], {"diameter_m"},
-              "'diameter_m' is the least and the largest; the first must not be above the second");
-    v.require(c.depth_m[0] <= c.depth_m[1], {"depth_m"},
-              "'depth_m' is the least and the largest; the first must not be above the second");
-}
-
-template <class Visitor>
-void describe(Visitor& v, BedScarConfig& c) {
-    v.number("density_per_m2", c.density_per_m2, between(0, 100),
-             "mean number of middles per square metre, as in a Poisson process", required);
-    v.numbers("length_m", c.length_m, between(1e-3, 1e4), "length, drawn uniformly", required);
-    v.numbers("width_m", c.width_m, between(1e-3, 1e3), "width, drawn uniformly", required);
-    v.numbers("depth_m", c.depth_m, between(0, 1e3), "depth, drawn uniformly", required);
-    v.range("direction_deg", c.direction_deg, any_angle_deg,
-            "direction along the furrow, from x towards y, drawn uniformly");
-    v.require(c.length_m[0] <= c.length_m[1], {"length_m"},
-              "'length_m' is the least and the largest; the first must not be above the second");
-    v.require(c.width_m[0] <= c.width_m[1], {"width_m"},
-              "'width_m' is the least and the largest; the first must not be above the second");
-    v.require(c.depth_m[0] <= c.depth_m[1], {"depth_m"},
-              "'depth_m' is the least and the largest; the first must not be above the second");
-}
-
-template <class Visitor>
 void describe(Visitor& v, BedSedimentConfig& c) {
     v.text("material", c.material, "its material", required);
     v.number("share", c.share, above(0), "its share of the bed, as a part of the sum of all shares",
@@ -88,21 +58,6 @@ void describe(Visitor& v, BedRockConfig& c) {
     v.text("class", c.class_name, "class of the rocks, for labels");
     v.require(c.diameter_m[0] <= c.diameter_m[1], {"diameter_m"},
               "'diameter_m' is the least and the largest; the first must not be above the second");
-}
-
-template <class Visitor>
-void describe(Visitor& v, BedPlantConfig& c) {
-    v.number("density_per_m2", c.density_per_m2, between(0, 1e4),
-             "mean number of tufts per square metre of a patch", required);
-    v.numbers("height_m", c.height_m, between(1e-3, 100), "height of a tuft, drawn uniformly",
-              required);
-    v.number("share", c.share, between(0, 1), "share of the bed with plants");
-    v.number("patch_m", c.patch_m, above(0), "size of the patches that have them");
-    v.text("material", c.material,
-           "material of the leaves; default: that of the bed, or of its first sediment");
-    v.text("class", c.class_name, "class of the plants, for labels");
-    v.require(c.height_m[0] <= c.height_m[1], {"height_m"},
-              "'height_m' is the least and the largest; the first must not be above the second");
 }
 
 template <class Visitor>
@@ -128,24 +83,15 @@ void describe(Visitor& v, SeabedConfig& c) {
     v.text("class", c.class_name, "class of the bed, for labels");
     v.optional_section("roughness", c.roughness, "random heights of all wavelengths");
     v.optional_section("ripples", c.ripples, "sand ripples");
-    v.optional_section("waves", c.waves, "sand waves: a second train of ripples, of other sizes");
-    v.optional_section("pockmarks", c.pockmarks, "round hollows");
-    v.optional_section("scars", c.scars, "straight furrows, as of trawls and anchors");
     v.list("sediments", c.sediments, 0,
            "materials in patches; each borders on those before and after it in the list");
     v.number("patch_m", c.patch_m, above(0), "size of the patches of sediments");
     v.number("border_m", c.border_m, above(0), "size of the bays of their borders");
     v.optional_section("rocks", c.rocks, "rocks that lie on the bed, each an object");
-    v.optional_section("plants", c.plants, "tufts of leaves, as of sea grass; one object");
-    const auto has_cells = [&](const std::optional<BedRippleConfig>& ripples) {
-        return !ripples || ripples->length_m >= 4.0 * c.cell_m;
-    };
-    v.require(has_cells(c.ripples), {"cell_m", "ripples"},
+    v.require(!c.ripples || c.ripples->length_m >= 4.0 * c.cell_m, {"cell_m", "ripples"},
               "ripples need 4 cells from crest to crest; lower cell_m");
-    v.require(has_cells(c.waves), {"cell_m", "waves"},
-              "waves need 4 cells from crest to crest; lower cell_m");
     v.require(c.material.empty() || c.sediments.empty(), {"material", "sediments"},
-              "material and sediments say the same; give one of them");
+              "give material or sediments, not both");
     v.require(c.sediments.size() <= 255, {"sediments"}, "a seabed has at most 255 sediments");
 }
 

@@ -25,7 +25,6 @@ struct HeightmapRule {
     /// The part that is read, in the coordinates of the map: least x and y, largest x and y.
     /// Without a window, or if it lies outside the map, all is read.
     std::optional<std::array<double, 4>> window = {};
-    int every = 1;  ///< every n-th row and column is kept
 
     bool operator==(const HeightmapRule&) const = default;
 };

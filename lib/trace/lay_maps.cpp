@@ -75,7 +75,6 @@ class MapLayer {
             taper_of(sample, shape_),
             {ground_of(sample.position), from_above(sample.edge_u), from_above(sample.edge_v)},
             sample.area_m2};
-        if (maps_.are_by_uv()) find_ground(piece);
         cut(piece, most_halvings, out);
     }
 
@@ -90,17 +89,6 @@ class MapLayer {
     Eigen::Vector2d ground_of(const Eigen::Vector3f& p) const {
         if (profile_) return true_place(profile_, pose_, p.cast<double>()).head<2>();
         return from_above(p) + sensor_;
-    }
-
-    /// Finds a piece's place on the maps by texture coordinates. The triangles below a flat piece
-    /// need not be flat, so each piece uses the coordinates at its own centre.
-    void find_ground(MapPiece& piece) const {
-        const Eigen::Matrix3d R = pose_.rotation.toRotationMatrix();
-        piece.ground =
-            maps_.footprint(sample_->instance,
-                            profile_ ? true_place(profile_, pose_, piece.position.cast<double>())
-                                     : R * piece.position.cast<double>() + pose_.translation,
-                            R * piece.u.cast<double>(), R * piece.v.cast<double>());
     }
 
     /// The extent of an edge over the greatest extent of a piece.
@@ -122,11 +110,8 @@ class MapLayer {
         // The sizes of a piece at the sonar are NaN; with this order of arguments the piece is not
         // cut.
         if (std::max(size_u, size_v) > 1.0F && halvings > 0) {
-            for (const double low : {-1.0, 0.0}) {
-                MapPiece half = piece.between(low, low + 1.0);
-                if (maps_.are_by_uv()) find_ground(half);
-                cut(half, halvings - 1, out);
-            }
+            for (const double low : {-1.0, 0.0})
+                cut(piece.between(low, low + 1.0), halvings - 1, out);
             return;
         }
         // The strips follow each other along `u`. If `u` were the edge of greater depth, the
@@ -146,7 +131,6 @@ class MapLayer {
         piece.swap_edges();
         for (MapPiece part : {piece.between(-1.0, place), piece.between(place, 1.0)}) {
             part.swap_edges();
-            if (maps_.are_by_uv()) find_ground(part);
             add_strips(part, out);
         }
     }
@@ -217,7 +201,7 @@ MappedPoint mapped_point(const GroundMaps& maps, const Pose& T_world_sensor,
                          std::uint32_t material) {
     const Eigen::Vector3d world =
         T_world_sensor.rotation * point.cast<double>() + T_world_sensor.translation;
-    return maps.at_point(instance, material, world);
+    return maps.at(instance, material, world.head<2>());
 }
 
 }  // namespace sonarsim

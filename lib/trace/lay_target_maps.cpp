@@ -38,9 +38,8 @@ class TargetMapLayer {
         const Eigen::Vector3f v = facet.corners[2] - facet.corners[0];
         const Eigen::Vector3f middle = facet.corners[0] + (u + v) / 3.0F;
         // The corners lie up to two thirds of an edge from the middle.
-        const auto alike =
-            maps_.alike_over(facet.instance, facet.material,
-                             footprint(facet, middle, 2.0F / 3.0F * u, 2.0F / 3.0F * v));
+        const auto alike = maps_.alike_over(facet.instance, facet.material,
+                                            footprint(middle, 2.0F / 3.0F * u, 2.0F / 3.0F * v));
         if (alike) return add(facet, alike->material, alike->strength, out);
         const Arrival at = arrival_of(middle);
         const auto size = [&](float du, float dv) {
@@ -52,10 +51,12 @@ class TargetMapLayer {
     }
 
   private:
-    GroundFootprint footprint(const TargetFacet& facet, const Eigen::Vector3f& centre,
-                              const Eigen::Vector3f& u, const Eigen::Vector3f& v) const {
-        return maps_.footprint(facet.instance, R_ * centre.cast<double>() + sensor_,
-                               R_ * u.cast<double>(), R_ * v.cast<double>());
+    GroundFootprint footprint(const Eigen::Vector3f& centre, const Eigen::Vector3f& u,
+                              const Eigen::Vector3f& v) const {
+        const auto from_above = [&](const Eigen::Vector3f& p) -> Eigen::Vector2d {
+            return (R_ * p.cast<double>()).head<2>();
+        };
+        return {from_above(centre) + sensor_.head<2>(), from_above(u), from_above(v)};
     }
 
     void add_part(const TargetFacet& facet, const TrianglePart& part,
@@ -70,8 +71,8 @@ class TargetMapLayer {
         }
         const auto& [a, b, c, d] = corners;
         maps_.shares_over(facet.instance, facet.material,
-                          footprint(facet, at(part.centroid, facet.corners),
-                                    0.25F * (b + c - a - d), 0.25F * (c + d - a - b)),
+                          footprint(at(part.centroid, facet.corners), 0.25F * (b + c - a - d),
+                                    0.25F * (c + d - a - b)),
                           shares_);
         for (const MaterialShare& share : shares_) {
             const auto add_triangle = [&](std::size_t second, std::size_t third) {

@@ -195,7 +195,7 @@ MappedPoint surface_at(const SurfacePoint& point, const Scene& scene, const Loca
     if (!scene.maps || !scene.maps->lie_on(facet.instance)) return {facet.material, 1.0F};
     const Eigen::Vector3d local =
         pose.position.cast<double>() + point.range_m * point.direction.cast<double>();
-    return scene.maps->at_point(facet.instance, facet.material, scene.origin + local);
+    return scene.maps->at(facet.instance, facet.material, (scene.origin + local).head<2>());
 }
 
 std::uint64_t cast_over_surface(const ReferenceView& looking, const RayLayout& layout,

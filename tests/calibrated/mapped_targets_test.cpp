@@ -62,7 +62,7 @@ double energy_of_texels(const MappedPlate& plate, const Sonar& sonar, const Pose
         const Eigen::Vector3d at =
             plate.place((2.0 * (k % n) + 1.0) / n - 1.0, (2.0 * (k / n) + 1.0) / n - 1.0);
         const Eigen::Vector3d p = pose.rotation.conjugate() * (at - pose.translation);
-        const MappedPoint texel = plate.scene.maps->at_point(0, plate.materials[0], at);
+        const MappedPoint texel = plate.scene.maps->at(0, plate.materials[0], at.head<2>());
         points.samples.items.push_back({.position = p.cast<float>(),
                                         .edge_u = Eigen::Vector3f::Zero(),
                                         .edge_v = Eigen::Vector3f::Zero(),
@@ -174,8 +174,8 @@ TEST_SUITE("calibrated") {
                 const Eigen::Vector3f p = whole.corners[0] +
                                           u * (whole.corners[1] - whole.corners[0]) +
                                           v * (whole.corners[2] - whole.corners[0]);
-                const MappedPoint texel = plate.scene.maps->at_point(
-                    0, whole.material, p.cast<double>() + pose.translation);
+                const MappedPoint texel = plate.scene.maps->at(
+                    0, whole.material, (p.cast<double>() + pose.translation).head<2>());
                 mean += static_cast<double>(texel.strength) / (0.5 * n * (n + 1.0));
             }
         }

@@ -62,17 +62,11 @@ class TestSeabed(Composed):
         self.write("mission.yaml", MISSION.replace("name: crate", "name: seabed"))
         self.assert_refused(self.run_sonarsim("validate", "mission.yaml"), "mission.yaml:",
                             "an object has the name of the ground")
-        self.write("mission.yaml", MISSION.replace("name: crate", "name: plants"))
-        result = self.run_sonarsim("validate", "mission.yaml", "--set", "output.folder=other")
-        self.assertEqual(result.returncode, 0, result.stderr)
 
     RICH = MISSION.replace("    material: Concrete\n", """\
     sediments: [{material: Concrete, share: 2}, {material: steel, share: 1}]
     patch_m: 3
-    pockmarks: {density_per_m2: 0.05, diameter_m: [1, 2], depth_m: [0.2, 0.3]}
-    scars: {density_per_m2: 0.02, length_m: [4, 8], width_m: [0.5, 1], depth_m: [0.1, 0.2]}
     rocks: {density_per_m2: 0.3, diameter_m: [0.3, 1.5], exponent: 2, material: steel}
-    plants: {density_per_m2: 1, height_m: [0.2, 0.4], share: 0.5}
 """).replace("  labels: true\n", "  labels: [instance, class, material, objects]\n")
 
     def test_truth(self):
@@ -105,8 +99,6 @@ class TestSeabed(Composed):
         names = {one["id"]: one["name"] for one in self.dataset()["labels"]["classes"]}
         self.assertEqual({names[one["class"]] for one in instances.values() if one["name"].startswith("rock_")},
                          {"rock"})
-        self.assertIn("plants", instances)
-        self.assertGreater(len(reported["pockmarks"]) + len(reported["scars"]), 0)
         background = self.dataset()["labels"]["annotations"]["background"]
         seen = [one for file in self.out.glob("*/objects/*.json") for one in json.loads(file.read_text())["objects"]]
         self.assertEqual({one["class"] for one in seen} - {"crate", *background}, {"rock"})
@@ -152,7 +144,7 @@ class TestSeabed(Composed):
         listed = json.loads((self.out / "seabed/seabed.json").read_text())["materials"]
         names = ", ".join(f"{one['value']}: {one['material']}" for one in listed)
         start, end = text.index("  seabed:"), text.index("  objects:")
-        self.write("again.yaml", text[:start] + "  heightmap: {file: out/seabed/heights.tif, material: sand, keep: all}\n"
+        self.write("again.yaml", text[:start] + "  heightmap: {file: out/seabed/heights.tif, material: sand}\n"
                    f"  sediment_map: {{file: out/seabed/materials.png, materials: {{{names}}}}}\n" + text[end:])
         result = self.run_sonarsim("render", "again.yaml", "--out", "again")
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -170,7 +162,7 @@ class TestSeabed(Composed):
         text = (self.folder / "mission.yaml").read_text().replace(
             "materials.csv", str(clean_clone.ROOT / "scenes/materials.csv"))
         names = sorted(path.stem for path in (clean_clone.ROOT / "configs/seabeds").glob("*.yaml"))
-        self.assertEqual(names, ["gravel", "mud", "rippled_sand", "rocky", "seagrass"])
+        self.assertEqual(names, ["gravel", "mud", "rippled_sand", "rocky"])
         for name in names:
             with self.subTest(name=name):
                 self.write("mission.yaml", text.replace("PRESET", name).replace("[crate.gltf]", "[]"))

@@ -30,16 +30,11 @@ scene:
     size_m: [40, 40]
     origin_m: [20, 20]
     sediments: [{material: Concrete, share: 2}, {material: steel, share: 1}]
-    pockmarks: {density_per_m2: 0.05, diameter_m: [1, 2], depth_m: [0.2, 0.3]}
-    scars: {density_per_m2: 0.02, length_m: [4, 8], width_m: [0.5, 1], depth_m: [0.1, 0.2], direction_deg: [0, 90]}
     rocks: {density_per_m2: 0.1, diameter_m: [0.3, 1.5], buried: [0.2, 0.6]}
-    plants: {density_per_m2: 1, height_m: [0.2, 0.4]}
 """
 TRAIN = [("height_m", "uniform: [0.05, 0.3]"), ("direction_deg", "uniform: [-90, 90]"), ("spread", "uniform: [0, 0.2]"),
          ("share", "uniform: [0.2, 1]"), ("patch_m", "uniform: [2, 20]")]
-PAIRS = {"pockmarks.diameter_m": (1, 2), "pockmarks.depth_m": (0.2, 0.3), "scars.length_m": (4, 8),
-         "scars.width_m": (0.5, 1), "scars.depth_m": (0.1, 0.2), "scars.direction_deg": (0, 90),
-         "rocks.diameter_m": (0.3, 1.5), "rocks.buried": (0.2, 0.6), "plants.height_m": (0.2, 0.4)}
+PAIRS = {"rocks.diameter_m": (0.3, 1.5), "rocks.buried": (0.2, 0.6)}
 BED_RULES = [
     ("cell_m", "uniform: [0.2, 0.35]"), ("size_m.0", "uniform: [30, 40]"), ("origin_m.1", "uniform: [15, 25]"),
     ("z_m", "uniform: [-5, -4]"), ("slope_deg", "uniform: [0, 5]"), ("uphill_deg", "uniform: [-180, 180]"),
@@ -47,15 +42,12 @@ BED_RULES = [
     ("roughness.spectral_strength_cm4", "log_uniform: [0.001, 0.02]"),
     ("roughness.spectral_exponent", "uniform: [2.5, 3.5]"), ("roughness.corner_m", "uniform: [1, 4]"),
     ("ripples.length_m", "uniform: [1.5, 2]"), *[(f"ripples.{key}", rule) for key, rule in TRAIN],
-    ("waves.length_m", "uniform: [4, 9]"), *[(f"waves.{key}", rule) for key, rule in TRAIN],
     *[(f"{key}.{k}", f"uniform: [{0.9 * pair[k] - 0.01}, {pair[k]}]") for key, pair in PAIRS.items() for k in range(2)
       if pair[k] > 0],
-    *[(f"{what}.density_per_m2", "uniform: [0.02, 0.1]") for what in ("pockmarks", "scars", "rocks", "plants")],
+    ("rocks.density_per_m2", "uniform: [0.02, 0.1]"),
     ("sediments.0.material", "choice: [Concrete, rubber]"), ("sediments.1.share", "uniform: [0.5, 2]"),
-    ("rocks.exponent", "uniform: [1.5, 4]"), ("plants.share", "uniform: [0.2, 1]"),
-    ("plants.patch_m", "uniform: [2, 9]"),
-    *[(f"{what}.material", "choice: [steel, rubber]") for what in ("rocks", "plants")],
-    *[(f"{what}.class", "choice: [one, other]") for what in ("rocks", "plants")]]
+    ("rocks.exponent", "uniform: [1.5, 4]"), ("rocks.material", "choice: [steel, rubber]"),
+    ("rocks.class", "choice: [one, other]")]
 PLAIN = """\
 seed: 5
 scene:

@@ -194,13 +194,6 @@ bool stays_below(const std::string& uri) {
            !path.is_absolute() && std::find(path.begin(), path.end(), "..") == path.end();
 }
 
-std::string read_texture_json(const std::filesystem::path& path) {
-    const std::string bytes = read_file(path, max_bytes);
-    const Location where{path.string()};
-    const bool is_binary = bytes.starts_with("glTF");
-    return reduced_texture_json(is_binary ? json_chunk(bytes, where) : bytes, where.file);
-}
-
 tinygltf::Model read_gltf(const std::filesystem::path& path) {
     const Location where{path.string()};
     std::string bytes = read_file(path, max_bytes);

@@ -13,10 +13,6 @@ namespace sonarsim {
 /// for a faulty file.
 tinygltf::Model read_gltf(const std::filesystem::path& path);
 
-/// The part of such a file's JSON that describes images: reduced_texture_json(). Throws as
-/// read_gltf().
-std::string read_texture_json(const std::filesystem::path& path);
-
 /// True if a URI of a glTF file names a file in its folder or below.
 bool stays_below(const std::string& uri);
 

@@ -78,24 +78,6 @@ inline constexpr std::array document{Rule{"asset", Kind::object, Holds::one, ass
                                      Rule{"buffers", Kind::object, Holds::array, buffer},
                                      Rule{"extensionsUsed", Kind::name, Holds::array},
                                      Rule{"extensionsRequired", Kind::name, Holds::array}};
-// The members that lead from a material to the image of its colours.
-inline constexpr std::array texture_extensions{Rule{"KHR_texture_transform", Kind::object}};
-inline constexpr std::array colour_texture{
-    Rule{"index", Kind::index}, Rule{"texCoord", Kind::index},
-    Rule{"extensions", Kind::object, Holds::one, texture_extensions}};
-inline constexpr std::array colours{
-    Rule{"baseColorTexture", Kind::object, Holds::one, colour_texture}};
-inline constexpr std::array coloured_material{
-    Rule{"pbrMetallicRoughness", Kind::object, Holds::one, colours}};
-inline constexpr std::array texture{Rule{"source", Kind::index}};
-inline constexpr std::array image{Rule{"uri", Kind::uri}, Rule{"bufferView", Kind::index}};
-inline constexpr std::array texture_document{
-    Rule{"asset", Kind::object, Holds::one, asset},
-    Rule{"materials", Kind::object, Holds::array, coloured_material},
-    Rule{"textures", Kind::object, Holds::array, texture},
-    Rule{"images", Kind::object, Holds::array, image}};
-inline constexpr Rule textures_of_document{"", Kind::extras, Holds::one, texture_document};
-
 inline constexpr Rule whole_document{"", Kind::extras, Holds::one, document};
 inline constexpr Rule only_version{"", Kind::extras, Holds::one, std::span(document).first(1)};
 

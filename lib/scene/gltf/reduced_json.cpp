@@ -232,8 +232,4 @@ std::string reduced_gltf_json(std::string_view text, const std::string& file) {
     return checked(text, gltf_rules::whole_document, file);
 }
 
-std::string reduced_texture_json(std::string_view text, const std::string& file) {
-    return checked(text, gltf_rules::textures_of_document, file);
-}
-
 }  // namespace sonarsim

@@ -13,8 +13,4 @@ namespace sonarsim {
 /// and for versions other than 2.x.
 std::string reduced_gltf_json(std::string_view text, const std::string& file);
 
-/// The part that describes images: materials with their baseColorTexture, textures and images. As
-/// above.
-std::string reduced_texture_json(std::string_view text, const std::string& file);
-
 }  // namespace sonarsim

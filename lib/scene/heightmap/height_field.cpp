@@ -90,13 +90,4 @@ HeightField read_heights(const std::filesystem::path& path, const HeightmapRule&
     return out;
 }
 
-std::vector<int> every_of(int first, int last, int every) {
-    std::vector<int> out;
-    out.reserve(static_cast<std::size_t>((last - first) / every) + 2);
-    for (int k = first; k < last - 1; k += every)
-        out.push_back(k);
-    out.push_back(last - 1);
-    return out;
-}
-
 }  // namespace sonarsim

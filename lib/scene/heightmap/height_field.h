@@ -30,7 +30,4 @@ struct HeightField {
 HeightField read_heights(const std::filesystem::path& path, const HeightmapRule& rule,
                          ImageReader& images);
 
-/// Every n-th of the numbers from `first` to before `last`, and the last one.
-std::vector<int> every_of(int first, int last, int every);
-
 }  // namespace sonarsim

@@ -50,16 +50,14 @@ struct HeightVertices {
     std::size_t width = 0;         ///< vertices of a row
 };
 
-HeightVertices vertices_of(const HeightField& field, int every) {
+HeightVertices vertices_of(const HeightField& field) {
     const PixelWindow& window = field.window;
-    const std::vector<int> rows = every_of(window.first_row, window.last_row, every);
-    const std::vector<int> columns = every_of(window.first_column, window.last_column, every);
     HeightVertices out;
-    out.width = columns.size();
-    out.positions.reserve(3 * rows.size() * columns.size());
-    out.known.reserve(rows.size() * columns.size());
-    for (const int row : rows) {
-        for (const int column : columns) {
+    out.width = window.width();
+    out.positions.reserve(3 * field.heights.size());
+    out.known.reserve(field.heights.size());
+    for (int row = window.first_row; row < window.last_row; ++row) {
+        for (int column = window.first_column; column < window.last_column; ++column) {
             const std::size_t k = field.index(row, column);
             out.known.push_back(field.known[k]);
             out.positions.push_back(static_cast<float>(column));
@@ -95,7 +93,7 @@ tinygltf::Model height_model(const std::filesystem::path& path, const HeightmapR
                              ImageReader& images) {
     const HeightField field = read_heights(path, rule, images);
     const PixelGrid& grid = field.grid;
-    const HeightVertices vertices = vertices_of(field, rule.every);
+    const HeightVertices vertices = vertices_of(field);
     const std::vector<std::uint32_t> corners =
         corners_of_cells(vertices.width, vertices.known, grid.column_m * grid.row_m > 0.0);
     if (corners.empty())

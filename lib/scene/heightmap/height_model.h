@@ -15,7 +15,7 @@ class ImageReader;
 /// each pixel; four neighbours make two triangles that share the edge from the first row and column
 /// to the next row and column. A triangle needs three known heights. Positions are (column, row,
 /// value); the node's matrix turns them into the map's coordinates, so that maps far from their
-/// origin lose nothing. Every n-th row and column is kept, n = rule.every, and the last ones.
+/// origin lose nothing.
 /// InputError as read_heights(), and for a map without a triangle.
 tinygltf::Model height_model(const std::filesystem::path& path, const HeightmapRule& rule,
                              ImageReader& images);

@@ -114,13 +114,11 @@ std::string bytes_hash(const std::vector<T>& values) {
 }  // namespace
 
 GroundMaps::GroundMaps(std::optional<MaterialTexels> materials, std::vector<char> on_materials,
-                       std::optional<StrengthTexels> strengths, std::vector<char> on_strengths,
-                       std::shared_ptr<const UvMesh> uv)
+                       std::optional<StrengthTexels> strengths, std::vector<char> on_strengths)
     : materials_(std::move(materials)),
       on_materials_(std::move(on_materials)),
       strengths_(std::move(strengths)),
-      on_strengths_(std::move(on_strengths)),
-      uv_(std::move(uv)) {
+      on_strengths_(std::move(on_strengths)) {
     if (materials_) {
         const MaterialTexels& map = *materials_;
         for (std::size_t m = 0; m < map.materials.size(); ++m) {
@@ -141,15 +139,6 @@ GroundMaps::GroundMaps(std::optional<MaterialTexels> materials, std::vector<char
             return static_cast<double>(map.factor[k]) - 1.0;
         });
     }
-}
-
-GroundFootprint GroundMaps::footprint(std::uint32_t instance, const Eigen::Vector3d& centre,
-                                      const Eigen::Vector3d& u, const Eigen::Vector3d& v) const {
-    if (!uv_) return {centre.head<2>(), u.head<2>(), v.head<2>()};
-    const auto found = uv_->at(instance, centre);
-    if (found) return {found->uv, found->per_m * u, found->per_m * v};
-    constexpr double outside = -1.0;
-    return {Eigen::Vector2d::Constant(outside), Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
 }
 
 MappedPoint GroundMaps::at(std::uint32_t instance, std::uint32_t own,
@@ -249,7 +238,6 @@ std::string GroundMaps::identity() const {
         out += "\nstrengths " + frame_text(strengths_->frame) + bytes_hash(strengths_->factor) +
                bytes_hash(on_strengths_);
     }
-    if (uv_) out += "\nuv " + uv_->identity();
     return out;
 }
 

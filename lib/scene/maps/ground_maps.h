@@ -2,19 +2,16 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "scene/maps/texel_sums.h"
-#include "scene/maps/uv_mesh.h"
 
 namespace sonarsim {
 
-/// The place of an image in the world: texel coordinates are (p - corner) * per_m. For a map that
-/// is placed by texture coordinates, these stand for metres of the world.
+/// The place of an image in the world: texel coordinates are (p - corner) * per_m.
 struct TexelFrame {
     int width = 0;
     int height = 0;
@@ -64,11 +61,9 @@ struct MaterialShare {
 class GroundMaps {
   public:
     /// `materials` lies on the instances whose element of `on_materials` is not 0, `strengths` on
-    /// those of `on_strengths`. `uv`: the texture coordinates that place both; null: they lie on
-    /// the ground from above.
+    /// those of `on_strengths`.
     GroundMaps(std::optional<MaterialTexels> materials, std::vector<char> on_materials,
-               std::optional<StrengthTexels> strengths, std::vector<char> on_strengths,
-               std::shared_ptr<const UvMesh> uv = nullptr);
+               std::optional<StrengthTexels> strengths, std::vector<char> on_strengths);
 
     bool lie_on(std::uint32_t instance) const {
         return is_on(on_materials_, instance) || is_on(on_strengths_, instance);
@@ -80,23 +75,7 @@ class GroundMaps {
         return materials_->materials;
     }
 
-    /// True if texture coordinates place the maps.
-    bool are_by_uv() const { return uv_ != nullptr; }
-
-    /// A parallelogram of surface in the coordinates of the maps. `centre` and the half edges `u`
-    /// and `v` are in the world. Texture coordinates are extended from the plane of the triangle at
-    /// the centre.
-    GroundFootprint footprint(std::uint32_t instance, const Eigen::Vector3d& centre,
-                              const Eigen::Vector3d& u, const Eigen::Vector3d& v) const;
-
-    /// The material and strength of a point of an instance whose own material is `own`.
-    MappedPoint at_point(std::uint32_t instance, std::uint32_t own,
-                         const Eigen::Vector3d& world) const {
-        const Eigen::Vector3d none = Eigen::Vector3d::Zero();
-        return at(instance, own, footprint(instance, world, none, none).centre);
-    }
-
-    /// The same for a point in the coordinates of the maps: world x and y, or texture coordinates.
+    /// The material and strength at world x and y of an instance whose own material is `own`.
     MappedPoint at(std::uint32_t instance, std::uint32_t own, const Eigen::Vector2d& world) const;
 
     /// The material and strength of a footprint, if a quick test finds them uniform.
@@ -128,7 +107,6 @@ class GroundMaps {
     std::optional<StrengthTexels> strengths_;
     TexelSums<double> gains_;  ///< sums of the factors less 1
     std::vector<char> on_strengths_;
-    std::shared_ptr<const UvMesh> uv_;
 };
 
 }  // namespace sonarsim

@@ -31,14 +31,10 @@ struct LaidImage {
           unknown(rule.no_data ? rule.no_data : image.reference.no_data),
           where{rule.file.string()} {
         const Eigen::Vector2d origin(rule.origin_m[0], rule.origin_m[1]);
-        PixelGrid grid;
-        if (rule.by_uv) {
-            window = {0, image.height, 0, image.width};
-        } else {
-            grid = grid_in_metres(image, rule.pixel_m, rule.size_m, rule.section, where);
-            window = pixels_within(image, grid,
-                                   {rule.needed_m.min() + origin, rule.needed_m.max() + origin});
-        }
+        const PixelGrid grid =
+            grid_in_metres(image, rule.pixel_m, rule.size_m, rule.section, where);
+        window = pixels_within(image, grid,
+                               {rule.needed_m.min() + origin, rule.needed_m.max() + origin});
         if (window.width() * window.height() > most_map_texels) {
             throw InputError(
                 where, fmt::format("the scene needs {} x {} pixels of it, and at most 2^24 have "
@@ -48,10 +44,6 @@ struct LaidImage {
         }
         frame.width = static_cast<int>(window.width());
         frame.height = static_cast<int>(window.height());
-        if (rule.by_uv) {
-            frame.per_m = {1.0 * frame.width, 1.0 * frame.height};
-            return;
-        }
         frame.per_m = {1.0 / grid.column_m, 1.0 / grid.row_m};
         // Outer corners of pixels lie half a pixel before their centres.
         frame.corner_m = Eigen::Vector2d(grid.x_m + (window.first_column - 0.5) * grid.column_m,

@@ -26,14 +26,12 @@ struct LaidMapRule {
     std::optional<double> no_data = {};  ///< value of pixels that change nothing; none: the file's
     std::string section = {};            ///< section of the mission, for messages
     Eigen::AlignedBox2d needed_m = {};   ///< the part that is kept, world x and y
-    bool by_uv = false;  ///< texture coordinates place it: all is kept, and no size is needed
 };
 
 /// A map of materials, from an image of one channel with a number for each, or of colours.
 /// `materials` has numbers, or colours as "#c8b478", and indices into Scene::materials. InputError
 /// for an image whose place is not known, for a key that does not fit the image's numbers or
 /// colours, and for a pixel that has no material.
-/// pixel that has no material.
 MaterialTexels read_material_map(
     const LaidMapRule& rule, Image image,
     const std::vector<std::pair<std::string, std::uint32_t>>& materials);

@@ -35,18 +35,12 @@ struct BedGrid {
 /// The subjects of the draws for a bed. Draws of different subjects are independent.
 enum class BedDraw : std::uint32_t {
     roughness = 1,  ///< the octave as `number`
-    ripples,
-    waves,
-    ripple_patches,
-    wave_patches,
-    sediments,
-    borders,
-    pockmarks,
-    scars,
-    rocks,
-    rock_shapes,
-    plants,
-    plant_patches,
+    ripples = 2,
+    ripple_patches = 4,
+    sediments = 6,
+    borders = 7,
+    rocks = 10,
+    rock_shapes = 11,
 };
 
 inline PhiloxKey bed_key(std::uint64_t seed, BedDraw subject, std::uint32_t number = 0) {

@@ -57,17 +57,6 @@ class BedModel {
     tinygltf::Model model() && {
         add_bed();
         add_rocks();
-        if (bed_.tufts > 0) {
-            // Floats near the corner of the bed, which may lie far from the origin.
-            const BedGrid& grid = bed_.grid;
-            const Eigen::Vector3d corner(grid.x_m(0) - bed_.origin_m[0],
-                                         grid.y_m(0) - bed_.origin_m[1], 0.0);
-            const int mesh = add_mesh(
-                plants_node, moved(bed_.plants, Eigen::Affine3d(Eigen::Translation3d(-corner))),
-                material_or_bed(bed_.plant_material));
-            add_node(plants_node, mesh, bed_.plant_class).translation = {corner.x(), corner.y(),
-                                                                         0.0};
-        }
         return std::move(model_);
     }
 

@@ -30,8 +30,7 @@ std::uint32_t count_of_tile(std::uint32_t tile_x, std::uint32_t tile_y, PhiloxKe
 
 }  // namespace
 
-std::vector<BedPoint> poisson_points(const BedArea& area, double density_per_m2, PhiloxKey key,
-                                     const std::function<bool(const BedPoint&)>& keeps) {
+std::vector<BedPoint> poisson_points(const BedArea& area, double density_per_m2, PhiloxKey key) {
     std::vector<BedPoint> out;
     if (density_per_m2 <= 0.0) return out;
     const double tile_m = std::sqrt(points_per_tile / density_per_m2);
@@ -50,8 +49,7 @@ std::vector<BedPoint> poisson_points(const BedArea& area, double density_per_m2,
                 const double y =
                     (static_cast<double>(j) + unit_double(block.x2, block.x3)) * tile_m;
                 if (x < area[0] || x >= area[2] || y < area[1] || y >= area[3]) continue;
-                const BedPoint point{x, y, tile_x, tile_y, n};
-                if (!keeps || keeps(point)) out.push_back(point);
+                out.push_back({x, y, tile_x, tile_y, n});
             }
         }
     }

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "core/random.h"
@@ -23,9 +22,8 @@ struct BedPoint {
 
 /// The points of a Poisson process that lie in an area, [least, largest). They are drawn tile by
 /// tile of the endless plane, so that an area has the same points, in the same order, whatever else
-/// is generated. The size of the tiles depends only on the density. `keeps` may leave points out.
-std::vector<BedPoint> poisson_points(const BedArea& area, double density_per_m2, PhiloxKey key,
-                                     const std::function<bool(const BedPoint&)>& keeps = {});
+/// is generated. The size of the tiles depends only on the density.
+std::vector<BedPoint> poisson_points(const BedArea& area, double density_per_m2, PhiloxKey key);
 
 /// A uniform number in [0, 1) of a point; each `which` from 1 on gives an independent one.
 inline double draw_of(const BedPoint& point, std::uint32_t which, PhiloxKey key) {

@@ -13,23 +13,24 @@ namespace {
 
 /// Real or imaginary part of the field that moves the crests. Its wave vectors have the standard
 /// deviation `spread` times the ripples' wave number; without spread the crests are straight.
-std::vector<float> crest_field(const BedGrid& grid, const BedRipples& ripples, BedDraw subject,
-                               std::uint32_t part, std::uint64_t seed) {
+std::vector<float> crest_field(const BedGrid& grid, const BedRipples& ripples, std::uint32_t part,
+                               std::uint64_t seed) {
     if (ripples.spread <= 0.0) return std::vector<float>(grid.size(), part == 0 ? 1.0F : 0.0F);
     // exp(-(length k)^2) has the deviation 1 / (sqrt(2) length).
     const double deviation = ripples.spread * 2.0 * pi / ripples.length_m;
-    return smooth_field(grid, 1.0 / (std::sqrt(2.0) * deviation), bed_key(seed, subject, part));
+    return smooth_field(grid, 1.0 / (std::sqrt(2.0) * deviation),
+                        bed_key(seed, BedDraw::ripples, part));
 }
 
 }  // namespace
 
-void add_ripples(const BedGrid& grid, const BedRipples& ripples, BedDraw subject, BedDraw patch,
-                 std::uint64_t seed, std::vector<double>& heights) {
+void add_ripples(const BedGrid& grid, const BedRipples& ripples, std::uint64_t seed,
+                 std::vector<double>& heights) {
     if (ripples.height_m == 0.0 || ripples.share == 0.0) return;
-    const std::vector<float> real = crest_field(grid, ripples, subject, 0, seed);
-    const std::vector<float> imaginary = crest_field(grid, ripples, subject, 1, seed);
+    const std::vector<float> real = crest_field(grid, ripples, 0, seed);
+    const std::vector<float> imaginary = crest_field(grid, ripples, 1, seed);
     const std::vector<float> here =
-        patches(grid, ripples.share, ripples.patch_m, bed_key(seed, patch));
+        patches(grid, ripples.share, ripples.patch_m, bed_key(seed, BedDraw::ripple_patches));
     const SinCos direction = sincos(ripples.direction_rad);
     // Added to |b|^2, whose mean is 2, so that a crest ends and its height falls to 0 where b is 0.
     constexpr double rounding = 0.05;

@@ -20,7 +20,7 @@ struct BedRipples {
 /// Adds ripples, in metres. Their height is that of a cosine, height_m / 2 Re(exp(i k x) b / |b|),
 /// where the complex Gaussian field b moves the crests. At the zeros of b, of which a square metre
 /// has 2 pi (spread / length_m)^2, a crest ends and the height falls to 0.
-void add_ripples(const BedGrid& grid, const BedRipples& ripples, BedDraw subject, BedDraw patches,
-                 std::uint64_t seed, std::vector<double>& heights);
+void add_ripples(const BedGrid& grid, const BedRipples& ripples, std::uint64_t seed,
+                 std::vector<double>& heights);
 
 }  // namespace sonarsim

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace sonarsim {
 
@@ -67,13 +66,6 @@ BedArea area_of_grid(const BedGrid& grid) {
     return {grid.x_m(0), grid.y_m(grid.rows - 1), grid.x_m(grid.columns - 1), grid.y_m(0)};
 }
 
-/// All of a bed.
-BedArea area_of_bed(const SeabedRule& rule) {
-    constexpr double endless = std::numeric_limits<double>::max();
-    if (!rule.size_m) return {-endless, -endless, endless, endless};
-    return {0.0, 0.0, (*rule.size_m)[0], (*rule.size_m)[1]};
-}
-
 /// InputError for more items than the limit.
 void require_room(const SeabedRule& rule, const BedArea& area, double density_per_m2, double most,
                   const char* what) {
@@ -109,41 +101,6 @@ double height_at(const Seabed& bed, double x_m, double y_m) {
     return z(0, 0) + v * (z(1, 0) - z(0, 0)) + u * (z(1, 1) - z(1, 0));
 }
 
-/// InputError for too many hollows, or too much time to make them: each covered cell takes time.
-/// `reach_m` is how far a hollow reaches from its middle.
-void require_time(const SeabedRule& rule, const BedGrid& grid, double density_per_m2,
-                  double reach_m, const char* what) {
-    constexpr double most_hollows = 500000.0;
-    constexpr double most_pressed = 1e10;  // cells, a minute; both limits are chosen
-    const BedArea area = area_of_grid(grid);
-    const BedArea bed = area_of_bed(rule);
-    const double across = 2.0 * reach_m / grid.cell_m + 1.0;
-    const double cells = std::min(across, 1.0 * grid.columns) * std::min(across, 1.0 * grid.rows);
-    require_room(rule,
-                 {std::max(area[0] - reach_m, bed[0]), std::max(area[1] - reach_m, bed[1]),
-                  std::min(area[2] + reach_m, bed[2]), std::min(area[3] + reach_m, bed[3])},
-                 density_per_m2, std::min(most_hollows, std::floor(most_pressed / cells)), what);
-}
-
-void press_hollows(const SeabedRule& rule, Seabed& bed, std::vector<double>& heights) {
-    const BedArea area = area_of_grid(bed.grid);
-    const BedArea whole = area_of_bed(rule);
-    if (rule.pockmarks) {
-        require_time(rule, bed.grid, rule.pockmarks->density_per_m2,
-                     0.5 * rule.pockmarks->diameter_m[1], "pockmarks");
-        bed.pockmarks = pockmarks_in(area, whole, *rule.pockmarks, rule.seed);
-    }
-    if (rule.scars) {
-        require_time(rule, bed.grid, rule.scars->density_per_m2,
-                     0.5 * (rule.scars->length_m[1] + rule.scars->width_m[1]), "scars");
-        bed.scars = scars_in(area, whole, *rule.scars, rule.seed);
-    }
-    for (const Pockmark& pockmark : bed.pockmarks)
-        press(bed.grid, pockmark, heights);
-    for (const Scar& scar : bed.scars)
-        press(bed.grid, scar, heights);
-}
-
 void lay_rocks(const SeabedRule& rule, Seabed& bed) {
     constexpr double most_rocks = 50000.0;
     const BedArea area = area_of_grid(bed.grid);
@@ -162,23 +119,6 @@ void lay_rocks(const SeabedRule& rule, Seabed& bed) {
     }
 }
 
-void plant_tufts(const SeabedRule& rule, Seabed& bed) {
-    constexpr double most_tufts = 500000.0;
-    constexpr double most_tried = 1e8;  // some 10 s
-    const BedArea area = area_of_grid(bed.grid);
-    require_room(rule, area, rule.plants->density_per_m2 * rule.plants->share, most_tufts,
-                 "plants");
-    require_room(rule, area, rule.plants->density_per_m2, most_tried, "plants before `share`");
-    bed.plant_material = rule.plants->material;
-    bed.plant_class = rule.plants->class_name;
-    for (const Plant& plant : plants_in(area, bed.grid, *rule.plants, rule.seed)) {
-        const double z = height_at(bed, plant.x_m, plant.y_m);
-        add_leaves(plant, {plant.x_m - rule.origin_m[0], plant.y_m - rule.origin_m[1], z},
-                   rule.seed, bed.plants);
-        ++bed.tufts;
-    }
-}
-
 }  // namespace
 
 std::string rock_name(std::size_t index) {
@@ -188,7 +128,6 @@ std::string rock_name(std::size_t index) {
 std::vector<std::string> materials_of(const Seabed& bed) {
     std::vector<std::string> names = bed.materials;
     names.push_back(bed.rock_material);
-    names.push_back(bed.plant_material);
     std::erase(names, "");
     return names;
 }
@@ -199,16 +138,8 @@ Seabed make_seabed(const SeabedRule& rule) {
     bed.origin_m = rule.origin_m;
     bed.class_name = rule.class_name;
     std::vector<double> heights = smooth_heights(bed.grid, rule);
-    if (rule.waves) {
-        add_ripples(bed.grid, *rule.waves, BedDraw::waves, BedDraw::wave_patches, rule.seed,
-                    heights);
-    }
-    if (rule.ripples) {
-        add_ripples(bed.grid, *rule.ripples, BedDraw::ripples, BedDraw::ripple_patches, rule.seed,
-                    heights);
-    }
+    if (rule.ripples) add_ripples(bed.grid, *rule.ripples, rule.seed, heights);
     if (rule.roughness) add_roughness(bed.grid, *rule.roughness, rule.seed, heights);
-    press_hollows(rule, bed, heights);
     bed.heights.reserve(heights.size());
     for (const double z : heights)
         bed.heights.push_back(static_cast<float>(z));
@@ -218,7 +149,6 @@ Seabed make_seabed(const SeabedRule& rule) {
         bed.materials.push_back(sediment.material);
     bed.sediments = sediments_of(bed.grid, rule.sediments, rule.patch_m, rule.border_m, rule.seed);
     if (rule.rocks) lay_rocks(rule, bed);
-    if (rule.plants) plant_tufts(rule, bed);
     return bed;
 }
 

@@ -8,8 +8,7 @@
 
 #include "core/error.h"
 #include "scene/seabed/bed_grid.h"
-#include "scene/seabed/hollows.h"
-#include "scene/seabed/plants.h"
+#include "scene/seabed/point_process.h"
 #include "scene/seabed/ripples.h"
 #include "scene/seabed/rocks.h"
 #include "scene/seabed/roughness.h"
@@ -17,9 +16,6 @@
 #include "scene/surface.h"
 
 namespace sonarsim {
-
-/// The node with the leaves of all plants.
-inline constexpr const char* plants_node = "plants";
 
 /// The parameters of a generated sea bed, and the part of it to generate.
 struct SeabedRule {
@@ -32,14 +28,10 @@ struct SeabedRule {
     std::array<double, 2> slope{};                     ///< rise per metre along x and y
     std::optional<BedRoughness> roughness = {};
     std::optional<BedRipples> ripples = {};
-    std::optional<BedRipples> waves = {};
-    std::optional<BedPockmarks> pockmarks = {};
-    std::optional<BedScars> scars = {};
     std::vector<BedSediment> sediments = {};  ///< none: `material` everywhere
     double patch_m = 10.0;
     double border_m = 1.0;
     std::optional<BedRocks> rocks = {};
-    std::optional<BedPlants> plants = {};
     std::string material = {};  ///< "": none
     std::string class_name = {};
     Location place = {};  ///< in the mission, for messages
@@ -53,16 +45,10 @@ struct Seabed {
     std::vector<std::string> materials;   ///< the bed's; "" is none
     std::vector<std::uint8_t> sediments;  ///< index into `materials` for each cell
     std::string class_name;
-    std::vector<Pockmark> pockmarks;
-    std::vector<Scar> scars;
     std::vector<Surface> rock_shapes;
     std::vector<Rock> rocks;
     std::string rock_material;
     std::string rock_class;
-    Surface plants;  ///< the leaves of all tufts, world
-    std::size_t tufts = 0;
-    std::string plant_material;
-    std::string plant_class;
 };
 
 /// "rock_1", the node of the first rock.
@@ -73,7 +59,7 @@ std::vector<std::string> materials_of(const Seabed& bed);
 
 /// Makes a part of a bed. The same rule makes the same bed in every part, except for the numbers of
 /// the rocks. InputError at the rule's place for a part with more than 2^25 heights, fewer than 2 x
-/// 2, more than 50,000 rocks or 500,000 tufts, or too many pockmarks, scars or tufts to draw from.
+/// 2, or more than 50,000 rocks.
 Seabed make_seabed(const SeabedRule& rule);
 
 }  // namespace sonarsim

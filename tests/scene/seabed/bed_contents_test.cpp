@@ -145,42 +145,12 @@ TEST_CASE("sediments cover their shares, in patches of their size") {
     CHECK(crossings / length_m == test::approx(expected).epsilon(0.12));
 }
 
-TEST_CASE("hollows have their depth and their place") {
-    SeabedRule rule = bare_rule(30.0);
-    rule.pockmarks = BedPockmarks{0.002, {3.0, 3.0}, {0.5, 0.5}};
-    rule.scars = BedScars{0.001, {10, 20}, {1.0, 1.5}, {0.2, 0.2}, {0.5, 0.6}};
-    const Seabed bed = make_seabed(rule);
-    REQUIRE(!bed.pockmarks.empty());
-    REQUIRE(!bed.scars.empty());
-    double area = 0.0;
-    for (const float z : bed.heights)
-        area += z < 0.0F ? 0.0625 : 0.0;
-    double expected = 0.0;
-    for (const Pockmark& one : bed.pockmarks)
-        expected += 0.7854 * one.diameter_m * one.diameter_m;
-    for (const Scar& one : bed.scars)
-        expected += one.length_m * one.width_m;
-    CHECK(area > 0.3 * expected);
-    CHECK(area < 1.05 * expected);
-    for (const Pockmark& one : bed.pockmarks) {
-        const BedGrid& grid = bed.grid;
-        if (std::abs(one.x_m) > 29.0 || std::abs(one.y_m) > 29.0) continue;
-        // The nearest cell lies within 0.18 m of the centre.
-        CHECK(bed.heights[grid.cell_at(one.x_m, one.y_m)] < -0.5F * 0.97F);
-    }
-}
-
-TEST_CASE("a part of a bed has the same rocks, hollows, sediments and plants") {
+TEST_CASE("a part of a bed has the same rocks and sediments") {
     SeabedRule rule = bare_rule(12.0);
     rule.roughness = BedRoughness{1e-4, 3.25, 2.0};
-    rule.pockmarks = BedPockmarks{0.02, {1.0, 3.0}, {0.2, 0.5}};
-    rule.scars = BedScars{0.01, {10, 20}, {1.0, 1.5}, {0.2, 0.2}, {0.0, 3.0}};
     rule.sediments = {{"mud", 1.0}, {"sand", 2.0}};
     rule.rocks = BedRocks{1.0, {0.1, 2.0}, 2.4, {0.1, 0.5}};
-    rule.plants = BedPlants{2.0, {0.3, 0.6}, 0.5, 3.0};
     const Seabed whole = make_seabed(rule);
-    CHECK(whole.tufts > 100);
-    CHECK(whole.plants.triangles.size() == 6 * whole.tufts);
     rule.window = {-3.0, 1.0, 4.0, 5.0};
     const Seabed part = make_seabed(rule);
     bool same = true;
@@ -200,10 +170,6 @@ TEST_CASE("a part of a bed has the same rocks, hollows, sediments and plants") {
         CHECK(std::ranges::any_of(whole.rocks,
                                   [&](const Rock& other) { return same_rock(rock, other); }));
     }
-    for (const Eigen::Vector3d& vertex : part.plants.vertices) {
-        CHECK(std::ranges::any_of(whole.plants.vertices,
-                                  [&](const Eigen::Vector3d& other) { return vertex == other; }));
-    }
 }
 
 TEST_CASE("a bed becomes instances with classes and materials") {
@@ -212,7 +178,6 @@ TEST_CASE("a bed becomes instances with classes and materials") {
     rule.sediments = {{"mud", 1.0}, {"sand", 2.0}};
     rule.patch_m = 2.0;
     rule.rocks = BedRocks{0.3, {0.1, 2.0}, 2.4, {0.1, 0.5}, "rock", "boulder"};
-    rule.plants = BedPlants{2.0, {0.3, 0.6}, 1.0, 3.0, "grass", "plant"};
     PlacedFile placed;
     placed.file = "scene.seabed";
     placed.z_up = true;
@@ -221,13 +186,11 @@ TEST_CASE("a bed becomes instances with classes and materials") {
     const Scene scene = load_scene_geometry(placed, files);
     const std::size_t rocks = placed.seabed->rocks.size();
     REQUIRE(rocks > 3);
-    REQUIRE(scene.instances.size() == rocks + 2);
+    REQUIRE(scene.instances.size() == rocks + 1);
     CHECK(scene.instances[0] == "seabed");
     CHECK(scene.instances[1] == "rock_1");
-    CHECK(scene.instances.back() == "plants");
     CHECK(scene.instance_classes[0] == "bottom");
     CHECK(scene.instance_classes[1] == "boulder");
-    CHECK(scene.instance_classes.back() == "plant");
     const auto area_of = [&](const char* material) {
         std::size_t count = 0;
         for (const std::uint32_t m : scene.triangle_material)
@@ -236,7 +199,6 @@ TEST_CASE("a bed becomes instances with classes and materials") {
     };
     CHECK(area_of("mud") > 0);
     CHECK(area_of("sand") > area_of("mud"));
-    CHECK(area_of("grass") == 6 * placed.seabed->tufts);
     CHECK(area_of("rock") >= 20 * rocks);
     // The node that objects rest on is the bed alone.
     const std::vector<std::string> bed{"seabed"};
@@ -246,28 +208,12 @@ TEST_CASE("a bed becomes instances with classes and materials") {
               static_cast<std::size_t>(placed.seabed->grid.rows - 1));
 }
 
-TEST_CASE("more rocks or plants than have room are refused") {
+TEST_CASE("more rocks than have room are refused") {
     SeabedRule rule = bare_rule(20.0);
     rule.place = {"mission.yaml", 3, 5};
     rule.rocks = BedRocks{100.0, {0.1, 2.0}};
     CHECK_THROWS_WITH_AS(make_seabed(rule),
                          doctest::Contains("mission.yaml:3:5: the part of the seabed that the "
                                            "mission needs has some"),
-                         InputError);
-    rule.rocks.reset();
-    rule.plants = BedPlants{1000.0, {0.1, 0.2}};
-    CHECK_THROWS_WITH_AS(make_seabed(rule), doctest::Contains("plants, and at most 500000"),
-                         InputError);
-    // The few plants that a small share leaves are drawn among all.
-    rule.plants = BedPlants{1e6, {0.1, 0.2}, 1e-5};
-    CHECK_THROWS_WITH_AS(make_seabed(rule), doctest::Contains("plants before `share`"), InputError);
-    // Hollows also count by their middles outside the part that the mission needs, and by the cells
-    // that each covers: without a limit these took hours.
-    rule.plants.reset();
-    rule.pockmarks.emplace();
-    rule.pockmarks->density_per_m2 = 100.0;
-    rule.pockmarks->diameter_m = {100.0, 10000.0};
-    rule.pockmarks->depth_m = {0.0, 1.0};
-    CHECK_THROWS_WITH_AS(make_seabed(rule), doctest::Contains("pockmarks, and at most"),
                          InputError);
 }

@@ -37,7 +37,6 @@ SeabedRule everything() {
     rule.slope = {0.02, -0.01};
     rule.roughness = BedRoughness{1e-4, 3.25, 2.0};
     rule.ripples = BedRipples{0.03, 0.2, 0.5, 0.08, 0.5, 4.0};
-    rule.waves = BedRipples{0.2, 5.0, 0.9, 0.1};
     return rule;
 }
 
