@@ -13,6 +13,7 @@
 #include "assembly/ping_motions.h"
 #include "assembly/placed_files.h"
 #include "assembly/poses.h"
+#include "assembly/possible_objects.h"
 #include "assembly/scene_parts.h"
 #include "assembly/sound_profiles.h"
 #include "assembly/water_ages.h"
@@ -233,7 +234,8 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
         std::vector<ClassRule> rules;
         for (const ClassConfig& rule : mission.classes)
             rules.push_back({rule.nodes, rule.name, rule.instance, rule.place.location});
-        assembly.objects = group_objects(assembly.scene, rules);
+        assembly.objects =
+            group_objects(assembly.scene, rules, possible_objects(mission, assembly.scene));
         assembly.objects.background = background_classes(mission, assembly.scene, assembly.objects);
     }
     const std::string refusal = unsupported(settings, assembly.scene);
