@@ -16,12 +16,12 @@
 #include <vector>
 
 #include "assembly/poses.h"
+#include "assembly/possible_objects.h"
 #include "checks/find_warnings.h"
 #include "core/error.h"
 #include "dataset/ping_metadata.h"
 #include "job/ping_source.h"
 #include "mission/parse.h"
-#include "mission/variants.h"
 #include "sonar/kinds.h"
 
 namespace py = pybind11;
@@ -53,7 +53,7 @@ class LoadedMission {
     std::vector<std::shared_ptr<LoadedMission>> variants() const {
         const auto models = std::make_shared<SharedModels>();
         std::vector<std::shared_ptr<LoadedMission>> all;
-        for (Mission& variant : draw_variants(mission_, source_, sonar_keys())) {
+        for (Mission& variant : variants_of(mission_, source_)) {
             all.push_back(std::make_shared<LoadedMission>(std::move(variant), source_, models));
         }
         return all;

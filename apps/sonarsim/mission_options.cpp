@@ -1,7 +1,7 @@
 #include "mission_options.h"
 
+#include "assembly/possible_objects.h"
 #include "mission/parse.h"
-#include "mission/variants.h"
 #include "sonar/kinds.h"
 
 namespace sonarsim {
@@ -51,7 +51,7 @@ Mission load(const MissionOptions& options) {
 
 std::vector<Mission> load_variants(const MissionOptions& options, const Mission& mission) {
     if (mission.variants == 0) return {};
-    return draw_variants(mission, source_of(options), sonar_keys());
+    return variants_of(mission, source_of(options));
 }
 
 }  // namespace sonarsim

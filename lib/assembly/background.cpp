@@ -54,15 +54,6 @@ void add_automatic(const Mission& mission, const Scene& scene, const SceneObject
     background[objects.class_of(static_cast<std::uint32_t>(largest - areas.begin()))] = 1;
 }
 
-/// True if objects of this class may be scattered, though there may be none in this variant.
-bool may_be_scattered(const Mission& mission, const std::string& name) {
-    const auto& seabed = mission.scene.seabed;
-    if (seabed && seabed->rocks && seabed->rocks->class_name == name) return true;
-    return std::ranges::any_of(mission.scene.scatter, [&](const ScatterConfig& scatter) {
-        return name == (scatter.class_name.empty() ? scatter.name : scatter.class_name);
-    });
-}
-
 }  // namespace
 
 std::vector<std::uint8_t> background_classes(const Mission& mission, const Scene& scene,
@@ -74,7 +65,7 @@ std::vector<std::uint8_t> background_classes(const Mission& mission, const Scene
             background[static_cast<std::size_t>(found - objects.classes.begin())] = 1;
         } else if (name == "auto") {
             add_automatic(mission, scene, objects, background);
-        } else if (name != "none" && !may_be_scattered(mission, name)) {
+        } else if (name != "none") {
             std::string all;
             for (const std::string& one : objects.classes)
                 all += (all.empty() ? "" : ", ") + printable(one);

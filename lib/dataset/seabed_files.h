@@ -16,7 +16,7 @@ inline constexpr const char* seabed_heights_name = "seabed/heights.tif";
 /// file.
 inline constexpr const char* seabed_materials_name = "seabed/materials.png";
 inline constexpr const char* seabed_place_name = "seabed/materials.pgw";
-/// The place of these maps, the materials, and all rocks, pockmarks and scars.
+/// The place of these maps, the materials, and all rocks.
 inline constexpr const char* seabed_list_name = "seabed/seabed.json";
 
 /// The names of these files, relative to the folder of a dataset.

@@ -198,12 +198,32 @@ void finish_variants(const fs::path& folder, const Json& json) {
     require_same_inputs(folders_of_variants(folder, json));
 }
 
+namespace {
+
+/// InputError for a variant whose objects find no room, before any of the variants is written.
+void check_places(std::span<const Mission> variants, bool files) {
+    SceneFiles models;
+    for (const Mission& variant : variants) {
+        if (variant.scene.scatter.empty() || (files && is_complete(variant.output.folder)))
+            continue;
+        try {
+            check_places(variant, models);
+        } catch (const InputError& error) {
+            throw InputError(error.what() + (" (in " + variant_folder(variant.variant.index)) +
+                             ")");
+        }
+    }
+}
+
+}  // namespace
+
 RenderSummary run_variants(const Mission& mission, std::span<const Mission> variants,
                            const RenderOptions& options, const VariantCallback& begin,
                            const ProgressCallback& progress, const std::atomic<bool>& stop) {
     check(options);
     const fs::path& folder = mission.output.folder;
     const Json json = describe_variants(mission, variants);
+    check_places(variants, options.files);
     std::optional<FolderLock> lock;
     RenderOptions one_by_one = options;
     one_by_one.shard = 0;

@@ -30,8 +30,14 @@ inline constexpr RemovedKey removed_keys[] = {
     {"labels", "coco", "write labels: [objects], then run sonarsim export --format coco"},
     {"labels", "yolo", "write labels: [objects], then run sonarsim export --format yolo"},
     {"labels", "yolo_polygons",
-     "write labels: [objects], then run sonarsim export --format coco, "
-     "which has masks"},
+     "write labels: [objects], then run sonarsim export --format yolo --polygons"},
+    {"seabed", "waves", "put their heights into scene.heightmap"},
+    {"seabed", "pockmarks", "put them into a mesh or into scene.heightmap"},
+    {"seabed", "scars", "put them into a mesh or into scene.heightmap"},
+    {"seabed", "plants", "place them as objects: scene.scatter"},
+    {"heightmap", "keep", "all heights are kept; make the map coarser with gdal_translate -tr"},
+    {"sediment_map", "placed", "maps lie on the ground from above; leave it out"},
+    {"backscatter_map", "placed", "maps lie on the ground from above; leave it out"},
     {"labels", "semantic", "write labels: [class], whose files hold the same ids"},
 };
 

@@ -195,7 +195,7 @@ void describe(Visitor& v, SceneConfig& c) {
     v.require(!c.heightmap || !c.seabed, {"heightmap", "seabed"},
               "heightmap and seabed are both the bottom; give one of them");
     v.require(!names_ground(c), {"objects"},
-              "an object has the name of the ground, which is 'heightmap', 'seabed' or 'plants'; "
+              "an object has the name of the ground, which is 'heightmap' or 'seabed'; "
               "give it another");
 }
 

@@ -31,6 +31,66 @@ void keep_rules_of_pings(YamlNode& root, const std::vector<VaryConfig>& rules) {
     if (list->items.empty()) erase_key(root, "vary");
 }
 
+/// The values of a variant by the rules of `vary`; "" for rules that are drawn for every ping.
+std::vector<std::string> draw_values(const Mission& mission, std::uint32_t index) {
+    std::vector<std::string> values;
+    for (std::size_t k = 0; k < mission.vary.size(); ++k) {
+        const VaryConfig& rule = mission.vary[k];
+        values.push_back(rule.per == VaryPer::ping
+                             ? ""
+                             : draw_value(rule, mission.seed, static_cast<std::uint32_t>(k),
+                                          rule.per == VaryPer::dataset ? all_variants : index));
+    }
+    return values;
+}
+
+/// Makes missions of values that are drawn.
+class VariantMaker {
+  public:
+    VariantMaker(const Mission& mission, const MissionSource& source, SonarKeyTable sonars)
+        : mission_(mission),
+          source_(source),
+          sonars_(sonars),
+          whole_(read_mission_document(source)) {
+        erase_key(whole_, "variants");
+        keep_rules_of_pings(whole_, mission.vary);
+    }
+
+    Mission make(int index, const std::vector<std::string>& values) const {
+        YamlNode root = whole_;
+        set_text(root, "seed",
+                 std::to_string(seed_of(mission_.seed, static_cast<std::uint32_t>(index))),
+                 {source_.file.string()});
+        Variant variant;
+        variant.index = index;
+        variant.of = mission_.variants;
+        for (std::size_t k = 0; k < values.size(); ++k) {
+            const VaryConfig& rule = mission_.vary[k];
+            if (rule.per == VaryPer::ping) continue;
+            set_text(root, rule.key, values[k], rule.place.location);
+            variant.drawn.emplace_back(rule.key, values[k]);
+        }
+        Mission drawn = parse_mission(root, source_.file.string(), source_.base_folder, sonars_);
+        drawn.output.folder = mission_.output.folder / variant_folder(index);
+        drawn.variant = std::move(variant);
+        return drawn;
+    }
+
+  private:
+    const Mission& mission_;
+    const MissionSource& source_;
+    SonarKeyTable sonars_;
+    YamlNode whole_;
+};
+
+/// The values of a rule that show all objects that it may bring.
+std::vector<std::string> choices_of_objects(const VaryConfig& rule) {
+    const bool is_of_objects = rule.key.starts_with("scene") || rule.key.starts_with("classes");
+    if (!is_of_objects || rule.per != VaryPer::variant) return {};
+    if (!rule.whole) return rule.choice;
+    return {std::to_string(static_cast<std::int64_t>((*rule.whole)[1]))};
+}
+
 }  // namespace
 
 std::string variant_folder(int index) {
@@ -41,30 +101,25 @@ std::string variant_folder(int index) {
 
 std::vector<Mission> draw_variants(const Mission& mission, const MissionSource& source,
                                    SonarKeyTable sonars) {
-    YamlNode whole = read_mission_document(source);
-    erase_key(whole, "variants");
-    keep_rules_of_pings(whole, mission.vary);
+    const VariantMaker maker(mission, source, sonars);
     std::vector<Mission> variants;
-    for (int i = 0; i < mission.variants; ++i) {
-        const auto index = static_cast<std::uint32_t>(i);
-        YamlNode root = whole;
-        set_text(root, "seed", std::to_string(seed_of(mission.seed, index)),
-                 {source.file.string()});
-        Variant variant{.index = i, .of = mission.variants, .drawn = {}};
-        for (std::size_t k = 0; k < mission.vary.size(); ++k) {
-            const VaryConfig& rule = mission.vary[k];
-            if (rule.per == VaryPer::ping) continue;
-            std::string value = draw_value(rule, mission.seed, static_cast<std::uint32_t>(k),
-                                           rule.per == VaryPer::dataset ? all_variants : index);
-            set_text(root, rule.key, value, rule.place.location);
-            variant.drawn.emplace_back(rule.key, std::move(value));
-        }
-        Mission& drawn = variants.emplace_back(
-            parse_mission(root, source.file.string(), source.base_folder, sonars));
-        drawn.output.folder = mission.output.folder / variant_folder(i);
-        drawn.variant = std::move(variant);
-    }
+    for (int i = 0; i < mission.variants; ++i)
+        variants.push_back(maker.make(i, draw_values(mission, static_cast<std::uint32_t>(i))));
     return variants;
+}
+
+std::vector<Mission> extreme_variants(const Mission& mission, const MissionSource& source,
+                                      SonarKeyTable sonars) {
+    const VariantMaker maker(mission, source, sonars);
+    std::vector<Mission> extremes;
+    for (std::size_t k = 0; k < mission.vary.size(); ++k) {
+        for (const std::string& value : choices_of_objects(mission.vary[k])) {
+            std::vector<std::string> values = draw_values(mission, 0);
+            values[k] = value;
+            extremes.push_back(maker.make(0, values));
+        }
+    }
+    return extremes;
 }
 
 }  // namespace sonarsim

@@ -20,6 +20,11 @@ namespace sonarsim {
 std::vector<Mission> draw_variants(const Mission& mission, const MissionSource& source,
                                    SonarKeyTable sonars);
 
+/// Missions that show which objects the variants may have: the first variant with each choice, and
+/// with each largest whole number, of the rules that vary the scene or the classes.
+std::vector<Mission> extreme_variants(const Mission& mission, const MissionSource& source,
+                                      SonarKeyTable sonars);
+
 /// The name of a variant's folder, "variant_0017".
 std::string variant_folder(int index);
 

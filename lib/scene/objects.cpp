@@ -25,14 +25,14 @@ struct NumberedNames {
 
 /// The rule that applies to each instance; null if none does. InputError for a rule that applies to
 /// no instance.
-std::vector<const ClassRule*> rule_of_instances(const Scene& scene,
+std::vector<const ClassRule*> rule_of_instances(std::span<const NamedInstance> instances,
                                                 std::span<const ClassRule> rules) {
-    std::vector<const ClassRule*> chosen(scene.instances.size(), nullptr);
+    std::vector<const ClassRule*> chosen(instances.size(), nullptr);
     for (const ClassRule& rule : rules) {
         bool fits = false;
         bool taken = false;
         for (std::size_t i = 0; i < chosen.size(); ++i) {
-            if (!fits_pattern(rule.nodes, scene.instances[i])) continue;
+            if (!fits_pattern(rule.nodes, instances[i].name)) continue;
             taken = taken || chosen[i] != nullptr;
             fits = fits || chosen[i] == nullptr;
             if (!chosen[i]) chosen[i] = &rule;
@@ -45,6 +45,16 @@ std::vector<const ClassRule*> rule_of_instances(const Scene& scene,
                                     : "; `sonarsim inspect` lists the names of its nodes"));
     }
     return chosen;
+}
+
+/// The possible instances, followed by those of the scene.
+std::vector<NamedInstance> all_instances(const Scene& scene, const PossibleObjects& possible) {
+    std::vector<NamedInstance> all = possible.instances;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const bool known = i < scene.instance_classes.size();
+        all.push_back({scene.instances[i], known ? scene.instance_classes[i] : std::string()});
+    }
+    return all;
 }
 
 void require_ids(std::size_t count, const char* what) {
@@ -77,20 +87,24 @@ bool fits_pattern(std::string_view pattern, std::string_view text) {
     return pattern.find_first_not_of('*', p) == std::string_view::npos;
 }
 
-SceneObjects group_objects(const Scene& scene, std::span<const ClassRule> rules) {
-    const std::vector<const ClassRule*> rule_of = rule_of_instances(scene, rules);
+SceneObjects group_objects(const Scene& scene, std::span<const ClassRule> rules,
+                           const PossibleObjects& possible) {
+    const std::vector<NamedInstance> instances = all_instances(scene, possible);
+    const std::vector<const ClassRule*> rule_of = rule_of_instances(instances, rules);
     SceneObjects out;
     NumberedNames classes;
     NumberedNames names;
+    for (const std::string& name : possible.classes)
+        classes.number(name);
     std::vector<const ClassRule*> maker;  // the rule that made each object
-    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        const auto& [name, own] = instances[i];
         const ClassRule* const rule = rule_of[i];
         const bool grouped = rule && !rule->instance.empty();
-        const std::string own =
-            i < scene.instance_classes.size() ? scene.instance_classes[i] : std::string();
-        const std::string& unruled = own.empty() ? scene.instances[i] : own;
-        const std::uint32_t class_index = classes.number(rule ? rule->name : unruled);
-        const std::uint32_t object = names.number(grouped ? rule->instance : scene.instances[i]);
+        const std::uint32_t class_index =
+            classes.number(rule ? rule->name : (own.empty() ? name : own));
+        if (i < possible.instances.size()) continue;
+        const std::uint32_t object = names.number(grouped ? rule->instance : name);
         out.object_of_instance.push_back(object);
         if (object == out.objects.size()) {
             out.objects.push_back({names.names[object], class_index});

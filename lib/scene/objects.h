@@ -38,14 +38,28 @@ struct SceneObjects {
     }
 };
 
+/// An object that a scene may have, by its name and by the class that the scene's file gives it.
+struct NamedInstance {
+    std::string name;
+    std::string class_name;  ///< "": none
+};
+
+/// What the variants of a mission may have. Numbers of classes follow it, not the scene, so that
+/// they are the same in all variants.
+struct PossibleObjects {
+    std::vector<std::string> classes;      ///< they are numbered first
+    std::vector<NamedInstance> instances;  ///< their classes follow, by the rules
+};
+
 /// True if the whole of `text` matches a pattern with `*` and `?`.
 bool fits_pattern(std::string_view pattern, std::string_view text);
 
 /// Groups the instances of a scene into objects. The first rule that matches a node applies to it.
 /// A node without rule is an object of its own; its class is the one that the scene's file gives
-/// it, or else its name. InputError for a rule that applies to no node, for two rules that put
-/// nodes of different classes into one object, for an object with the name of a node outside of it,
-/// and for more objects or classes than 16 bits can number.
-SceneObjects group_objects(const Scene& scene, std::span<const ClassRule> rules);
+/// it, or else its name. InputError for a rule that applies to no node and to no possible instance,
+/// for two rules that put nodes of different classes into one object, for an object with the name
+/// of a node outside of it, and for more objects or classes than 16 bits can number.
+SceneObjects group_objects(const Scene& scene, std::span<const ClassRule> rules,
+                           const PossibleObjects& possible = {});
 
 }  // namespace sonarsim
