@@ -17,6 +17,7 @@
 #include "core/clock.h"
 #include "core/machine_memory.h"
 #include "dataset/metadata.h"
+#include "dataset/ping_metadata.h"
 #include "disk.h"
 #include "job/folder.h"
 #include "job/ping_cost.h"
