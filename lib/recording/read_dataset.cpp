@@ -185,9 +185,6 @@ Recording read_dataset_recording(const fs::path& folder, const RecordingOptions&
         if (!polar)
             throw InputError({folder.string()},
                              "has neither raw/ nor polar/ of this sensor; set output.polar: true");
-        if (!raw && !polar->ends_with(".npy"))
-            throw InputError({(folder / *polar).string()},
-                             "only images in .npy files are compared; set output.polar: true");
         if (is_soundings) {
             read_dataset_soundings(source, *polar, recording);
         } else {

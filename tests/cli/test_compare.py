@@ -115,8 +115,6 @@ class Compare(Sandbox):
         self.assert_refused(self.compare("out", "out"), "box.gltf", "is no .npy file")
         self.write("out/recording.yaml", RECORDING + "bearings_deg: [1, 2]\n")
         self.assert_refused(self.compare("out", "out"), "2 bearings for 32 beams")
-        self.assert_renders("--set", "output.polar=exr", "--out", "exr")
-        self.assert_refused(self.compare("exr", "exr"), "only images in .npy files", "output.polar: true")
 
 
 if __name__ == "__main__":
