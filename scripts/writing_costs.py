@@ -8,7 +8,7 @@
 The first renders the tank with one output at a time, on one thread, and compares processor time with
 a run that writes nothing; rounds take turns and the least of each counts, which other work on the
 machine disturbs least. The second does so with labels: without any file, beside the metadata alone and
-beside the default files, each over the same without labels. The third renders that many pings of 32 x 16 bins, loose and packed, and a
+beside the default files, each over the same without labels. The third renders that many pings of 32 x 16 bins, and a
 tenth of them: memory that grows with the number of pings would show.
 """
 import argparse
@@ -59,8 +59,7 @@ def per_output(program, out, rounds):
                 for part in ("--set", f"output.{name}={'true' if name in names else 'false'}")]
 
     cases = {"nothing": ["--no-files"], **{f"`{name}` alone": only(name) for name in OUTPUTS},
-             "the default files": [], "the same, packed": ["--set", "output.pack=tar"],
-             "all four": only(*OUTPUTS)}
+             "the default files": [], "all four": only(*OUTPUTS)}
     least = {}
     for _ in range(rounds):
         for name, arguments in cases.items():
@@ -77,19 +76,15 @@ def per_output(program, out, rounds):
 LABELS = {
     "`instance`": "instance",
     "`instance`, `fan`": "instance,fan",
-    "`semantic`": "semantic",
-    "`yolo`": "yolo",
     "`objects`": "objects",
-    "`yolo_polygons`": "yolo_polygons",
-    "`coco`": "coco",
     "`clean`": "clean",
     "`instance`, `share`, `second`, `class`, `material`": "instance,share,second,class,material",
     "`height`, with `scene.bottom: [floor]`": "height",
     "`height`, all of the tank as the bottom": "height",
     "`shadow`": "shadow",
     "`elevation`": "elevation",
-    "`instance`, `class`, `share`, `shadow`, `clean`, `coco`":
-        "instance,class,share,shadow,clean,coco",
+    "`instance`, `class`, `share`, `shadow`, `clean`, `objects`":
+        "instance,class,share,shadow,clean,objects",
     "all": None,
 }
 
@@ -110,7 +105,7 @@ def per_label(program, out, rounds):
         for name, arguments in cases.items():
             for place, other in beside.items():
                 # These labels belong to pictures, which are not written here.
-                if "metadata" in place and ("`fan`" in name or "`coco`" in name):
+                if "metadata" in place and "`fan`" in name:
                     continue
                 reported, seconds, _, _, _ = run(program, out, [*LAP, "-j1", *arguments, *other])
                 ms = 1e3 * seconds / reported["pings"]
@@ -125,21 +120,18 @@ def per_label(program, out, rounds):
 
 
 def many(program, out, pings):
-    print("| form | pings | files | pings/s | files/s | MB/s | share of encode and write | peak MiB |")
-    print("|---|---|---|---|---|---|---|---|")
+    print("| pings | files | pings/s | files/s | MB/s | share of encode and write | peak MiB |")
+    print("|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as folder:
-        for form in ("none", "tar"):
-            for count in (pings // 10, pings):
-                mission = pathlib.Path(folder, "small.yaml")
-                mission.write_text(SMALL.format(root=ROOT, pings=count))
-                reported, _, peak, files, size = run(
-                    program, out, [str(mission), "--set", f"output.pack={form}"])
-                spent = reported["thread_seconds"]
-                share = (spent["encode"] + spent["write"]) / sum(spent.values())
-                seconds = reported["seconds"]
-                print(f"| {'packed' if form == 'tar' else 'loose'} | {reported['pings']} | {files} | "
-                      f"{reported['pings_per_s']:.0f} | {files / seconds:.0f} | "
-                      f"{size / seconds / 1e6:.1f} | {100 * share:.0f} % | {peak:.0f} |", flush=True)
+        for count in (pings // 10, pings):
+            mission = pathlib.Path(folder, "small.yaml")
+            mission.write_text(SMALL.format(root=ROOT, pings=count))
+            reported, _, peak, files, size = run(program, out, [str(mission)])
+            spent = reported["thread_seconds"]
+            share = (spent["encode"] + spent["write"]) / sum(spent.values())
+            seconds = reported["seconds"]
+            print(f"| {reported['pings']} | {files} | {reported['pings_per_s']:.0f} | {files / seconds:.0f} | "
+                  f"{size / seconds / 1e6:.1f} | {100 * share:.0f} % | {peak:.0f} |", flush=True)
 
 
 def main():
