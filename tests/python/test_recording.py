@@ -248,7 +248,7 @@ class RecordingTest(unittest.TestCase):
         yaml = yaml.replace("FILE", "[A, B]")
         self.assertEqual(len(self.opened(yaml, A=content, B=content)), 4)
         self.assertEqual(len(self.opened(yaml, 3, A=content, B=content)), 3)
-        self.assertIn("another number of ranges", self.fault(yaml, A=content, B=aris(samples=6)))
+        self.assertIn("another shape of its pings", self.fault(yaml, A=content, B=aris(samples=6)))
         self.assertIn("recording.yaml says scanning", self.fault(
             "kind: scanning\nlogs: A\nlaw: {kind: power}\n", A=content))
 

@@ -95,7 +95,7 @@ def variances(real, simulated, kind, is_paired, seed):
                             for one in (real, simulated)])
     known, numbers = np.unique(units, return_inverse=True)
     of_real, of_simulated = np.split(numbers, [real.places.size])
-    random = np.random.default_rng([seed, len(kind)])
+    random = np.random.default_rng([seed, ("places", "pings", "cells").index(kind)])
     shape = (CELL_DRAWS if kind == "cells" else DRAWS, len(known))
     draws = random.standard_exponential(shape)
     a = joined((real, of_real, draws))

@@ -6,7 +6,7 @@ import numpy as np
 from ..recording import Recording, RecordingError
 from .bootstrap import adjust, compared, exchange_p
 from .images import decibels, have_one_grid, images_of, patch_size_of, zones_of
-from .measure import Bands, measure_images
+from .measure import measure_images
 from .soundings import common_angles, measure_soundings
 
 HISTOGRAM_DRAWS = 200
@@ -87,14 +87,15 @@ def measure_images_of_both(recordings, is_relative):
 
 
 def common_bands(a, b):
+    """The intervals of range and of bearing that both have; None for no bearings."""
     begin = max(a.first_range_m, b.first_range_m)
     end = min(one.first_range_m + one.shape[0] * one.range_step_m for one in (a, b))
     if end <= begin:
         raise RecordingError("the recordings have no ranges in common")
     if a.bearing_rad is None or b.bearing_rad is None:
-        return Bands((begin, end), None)
+        return (begin, end), None
     low, high = max(a.bearing_rad.min(), b.bearing_rad.min()), min(a.bearing_rad.max(), b.bearing_rad.max())
-    return Bands((begin, end), (low, high) if high > low else None)
+    return (begin, end), (low, high) if high > low else None
 
 
 def compared_histograms(real, simulated, is_paired, seed):

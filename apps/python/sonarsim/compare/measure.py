@@ -1,5 +1,5 @@
 """All figures of the images of a recording (docs/compare.md)."""
-import dataclasses
+import collections
 
 import numpy as np
 
@@ -20,26 +20,12 @@ PATTERNS = 59
 NEIGHBOURS = ((-1, -1), (-1, 0), (-1, 1), (0, 1), (1, 1), (1, 0), (1, -1), (0, -1))
 
 
-@dataclasses.dataclass
-class Bands:
-    """Intervals that both recordings have."""
-
-    ranges_m: tuple
-    bearings_rad: tuple | None
-
-
-@dataclasses.dataclass
-class Histogram:
-    """The counts of bins at each place, [place, bin], all pings together."""
-
-    name: str
-    bin_width: float
-    unit: str
-    counts: np.ndarray
+# counts[place, bin] of all pings together.
+Histogram = collections.namedtuple("Histogram", "name bin_width unit counts")
 
 
 def measure_images(images, size, zones, bands):
-    """(figures, histograms) of images."""
+    """(figures, histograms) of images. `bands` are the intervals of range and of bearing (or None) that are compared."""
     grid = Grid(images.shape, size)
     figures = level_figures(images, grid, zones, bands) + share_figures(images, grid)
     for name, zone in (("image" if zones.is_one else "bottom", zones.bottom), ("water", zones.water), ("tail", zones.tail)):
@@ -93,10 +79,10 @@ def level_figures(images, grid, zones, bands):
         zone[begin:end] = number
     names = [f"{name}: level, dB" for name in ("image" if zones.is_one else "bottom", "water", "tail", "ring")]
     figures = banded_levels(images, grid, names, zone, everywhere)
-    names, band = bands_of("level at", images.ranges_m, bands.ranges_m, RANGE_BANDS, "m")
+    names, band = bands_of("level at", images.ranges_m, bands[0], RANGE_BANDS, "m")
     figures += banded_levels(images, grid, names, band, everywhere)
-    if images.bearing_rad is not None and bands.bearings_rad:
-        names, band = bands_of("bottom: level at", np.degrees(images.bearing_rad), np.degrees(bands.bearings_rad),
+    if images.bearing_rad is not None and bands[1]:
+        names, band = bands_of("bottom: level at", np.degrees(images.bearing_rad), np.degrees(bands[1]),
                                BEARING_BANDS, "degrees")
         figures += banded_levels(images, grid, names, np.where(zone == 0, 0, -1), band)
     return figures

@@ -1,44 +1,37 @@
 """A comparison as text, as JSON and as a plot."""
 COLOURS = {"real": "#1b6ca8", "simulated": "#c8553d"}
 MOST_STANDARDISED = 10.0
-NOISE = "instrument.receiver.noise_db, common_mode_db, tvg_log, tvg_from_m, full_scale_db"
-BOTTOM = "instrument.source_level_db, instrument.receiver.full_scale_db, the material's lambert_db"
-LOOKS = "instrument.receiver.looks, samples, combine, companding; instrument.speckle.clutter_shape"
+RECEIVER, BEAM, PULSE = "instrument.receiver.", "instrument.beam.", "instrument.pulse.resolution_m, range_bins"
+LOOKS = RECEIVER + "looks, samples, combine, companding; instrument.speckle.clutter_shape, per_cell"
 # The begin of a figure's name, a text in it, the keys that it follows. The first rule that matches applies.
 RULES = (
-    ("points", "beams", "instrument.beam.width_deg, aberration_rad"),
-    ("points", "ranges", "instrument.pulse.resolution_m, range_bins"),
-    ("points", "side lobes", "instrument.beam.side_lobe_db, elements"),
-    ("edges", "degrees", "instrument.beam.width_deg, aberration_rad"),
-    ("edges", " m", "instrument.pulse.resolution_m, range_bins"),
-    ("shadows", "depth", "instrument.receiver.noise_db, instrument.beam.side_lobe_db, elements; water.content"),
-    ("shadows", "edge", "instrument.pulse.resolution_m, range_bins, instrument.beam.width_deg"),
-    ("shadows", "", "the scene's objects, the altitude"),
-    ("", "spread of ranges", "the bed's roughness; instrument.pulse.resolution_m, instrument.beam.width_deg"),
-    ("", "degrees: level", "the material's scattering; instrument.beam, instrument.source_level_db"),
-    ("", "degrees: variation", "instrument.receiver.looks, instrument.speckle.clutter_shape"),
-    ("", "next ping", "instrument.speckle.mode, the trajectory's motion, instrument.receiver.noise_db"),
-    ("", "ranges", "instrument.pulse.resolution_m, instrument.receiver.samples, range_bins"),
-    ("", "beams", "instrument.beam.width_deg, side_lobe_db, azimuth_bins"),
-    ("", " pings", "instrument.beam.width_deg, the speed of the trajectory, instrument.receiver.gain_drift_db"),
-    ("", "K shape", "instrument.speckle.clutter_shape, per_cell"),
-    ("", "variation of amplitude", LOOKS),
-    ("", "Weibull", LOOKS),
-    ("", "scintillation", "instrument.speckle.clutter_shape, per_cell; instrument.receiver.looks"),
-    ("", "spread of levels", "instrument.receiver.looks, samples, offset, bits"),
-    ("", "zeros", "instrument.receiver.noise_db, offset, bits, blanking_m"),
-    ("", "clipped", "instrument.receiver.full_scale_db"),
-    ("ring", "level", "instrument.receiver.ring_down_db, ring_down_m, blanking_m"),
-    ("water", "level", NOISE),
-    ("tail", "level", "instrument.beam.elevation_side_lobe_db, instrument.receiver.noise_db, tvg_log"),
-    ("bottom", "level at", "instrument.beam.elevation_width_deg, the mount's attitude, the material's scattering"),
-    ("level at", "", "instrument.receiver.tvg_log, noise_db, full_scale_db, ring_down_db; the scene's distance"),
-    ("", "level", BOTTOM))
+    ("points", "side lobes", BEAM + "side_lobe_db, elements"),
+    ("shadows", "depth", f"{RECEIVER}noise_db; {BEAM}side_lobe_db, elements; water.content"),
+    ("shadows", "share", "the scene's objects, the altitude"),
+    ("", "spread of ranges", f"the bed's roughness; {PULSE}; {BEAM}width_deg"),
+    ("", "degrees: level", f"the material's scattering; {BEAM}width_deg; instrument.source_level_db"),
+    ("", "degrees: variation", LOOKS),
+    ("", "next ping", "instrument.speckle.mode, the trajectory's motion, " + RECEIVER + "noise_db"),
+    ("", " pings", f"{BEAM}width_deg, the speed of the trajectory, {RECEIVER}gain_drift_db"),
+    ("", "ranges", PULSE),
+    ("", "beams", BEAM + "width_deg, side_lobe_db, aberration_rad; azimuth_bins"),
+    ("edges", "degrees", BEAM + "width_deg, aberration_rad"),
+    ("edges", "", PULSE),
+    ("", "zeros", RECEIVER + "noise_db, offset, bits, blanking_m"),
+    ("", "clipped", RECEIVER + "full_scale_db"),
+    ("ring", "level", RECEIVER + "ring_down_db, ring_down_m, blanking_m"),
+    ("water", "level, dB", RECEIVER + "noise_db, common_mode_db, tvg_log, tvg_from_m, full_scale_db"),
+    ("tail", "level, dB", f"{BEAM}elevation_side_lobe_db; {RECEIVER}noise_db, tvg_log"),
+    ("bottom", "level at", BEAM + "elevation_width_deg, the mount's attitude, the material's scattering"),
+    ("level at", "", RECEIVER + "tvg_log, noise_db, full_scale_db, ring_down_db; the scene's distance"),
+    ("", "level, dB", f"instrument.source_level_db, {RECEIVER}full_scale_db, the material's lambert_db"),
+    ("level of", "", f"instrument.source_level_db, {RECEIVER}full_scale_db, the material's lambert_db"),
+    ("", "", LOOKS))
 
 
 def keys_behind(name):
     """The keys of a mission that a figure depends on."""
-    return next((keys for begin, part, keys in RULES if name.startswith(begin) and part in name), "scene, instrument")
+    return next(keys for begin, part, keys in RULES if name.startswith(begin) and part in name)
 
 
 def interval(value, half):

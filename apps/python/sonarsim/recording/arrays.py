@@ -1,6 +1,5 @@
 """Arrays in .npy files and in grey PNG files."""
 import tokenize
-import warnings
 
 import numpy as np
 
@@ -29,15 +28,13 @@ def read_array(path):
 
 def read_png(path):
     from PIL import Image   # pylint: disable=import-outside-toplevel
-    with warnings.catch_warnings():
-        warnings.simplefilter("error", Image.DecompressionBombWarning)
-        try:
-            with Image.open(path, formats=["PNG"]) as picture:
-                if picture.mode not in ("L", "I") and not picture.mode.startswith("I;16"):  # Pillow 9: I for 16 bits
-                    raise ValueError("it is a picture in colours or with a colour table; save its values in grey")
-                return np.asarray(picture).astype(np.uint8 if picture.mode == "L" else np.uint16)
-        except (Image.DecompressionBombWarning, Image.DecompressionBombError) as fault:
-            raise ValueError(f"it has too many pixels: {fault}") from fault
+    Image.MAX_IMAGE_PIXELS = None   # the number is checked here
+    with Image.open(path, formats=["PNG"]) as picture:
+        if picture.width * picture.height > MOST_VALUES:
+            raise ValueError("it has too many pixels")
+        if picture.mode not in ("L", "I") and not picture.mode.startswith("I;16"):     # Pillow 9: I for 16 bits
+            raise ValueError("it is a picture in colours or with a colour table; save its values in grey")
+        return np.asarray(picture).astype(np.uint8 if picture.mode == "L" else np.uint16)
 
 
 def pings_of(array, kind, path):

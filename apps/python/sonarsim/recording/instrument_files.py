@@ -1,4 +1,5 @@
 """Recordings in the files of instruments: joins files, and takes from recording.yaml what the format lacks."""
+import math
 import struct
 
 import numpy as np
@@ -24,9 +25,7 @@ def read_files(own, most_pings):
         if values > MOST_VALUES:
             raise RecordingError(f"{path}: makes more than {MOST_VALUES} values in all; take fewer pings")
         parts.append(part)
-        if not part.soundings:
-            require_alike(path, part, parts[0])
-    return complete(own, joined(parts))
+    return complete(own, joined(own, parts))
 
 
 def read_file(path, own, most_pings):
@@ -54,25 +53,19 @@ def reader_of(content):
     return reader
 
 
-def require_alike(path, part, first):
-    """RecordingError if a file has other ranges, beams or levels than the first."""
-    share = 1e-2 if part.kind == "sidescan" else 1e-4       # side-scans round their ranges
-    hertz, of_first = part.frequency_hz or 0.0, first.frequency_hz or 0.0
-    for is_other, what in (
-            (part.law != first.law, "another scale of levels"),
-            (part.values.shape[1:] != first.values.shape[1:], "another number of ranges or beams"),
-            (abs(part.range_step_m - first.range_step_m) > share * first.range_step_m, "another step of range"),
-            (abs(part.first_range_m - first.first_range_m) > 0.5 * first.range_step_m, "another first range"),
-            (abs(hertz - of_first) > 0.01 * of_first, "another frequency")):     # sonars round it; chosen
-        if is_other:
-            raise RecordingError(f"{path}: has {what} than the first file; split the recording there")
-
-
-def joined(parts):
-    """The recordings of several files as one."""
+def joined(own, parts):
+    """The recordings of several files as one; RecordingError if one has other ranges, beams or levels than the first."""
     first = parts[0]
+    for path, part in zip(own.files, parts if first.values is not None else ()):
+        for what, is_alike in (
+                ("scale of levels", part.law == first.law), ("shape of its pings", part.values.shape[1:] == first.values.shape[1:]),
+                # Sonars round these; chosen.
+                *((name, math.isclose(getattr(part, name) or 0.0, getattr(first, name) or 0.0, rel_tol=share)) for name, share in (
+                    ("frequency_hz", 0.01), ("first_range_m", 0.01), ("range_step_m", 0.01 if own.source == "xtf" else 1e-4)))):
+            if not is_alike:
+                raise RecordingError(f"{path}: has another {what} than the first file; split the recording there")
     if first.soundings:
-        first.soundings = Soundings.of([ping for part in parts for ping in part.soundings.pings()])
+        first.soundings = Soundings.of([ping for part in parts for ping in zip(*vars(part.soundings).values())])
     for name in ("values", "times_s", "head_rad"):
         if getattr(first, name) is not None:
             setattr(first, name, np.concatenate([getattr(part, name) for part in parts]))

@@ -17,10 +17,11 @@ def read(data, most_pings, own):
     at, is_cut_off = data.find(MARK), False
     while at >= 0 and len(pings) < most_pings and at + HEADER <= len(data):
         end, number = at + HEADER + field(data, "H", at + 2), field(data, "H", at + 4)
-        is_whole = end + 2 <= len(data) and sum(data[at:end]) & 0xFFFF == field(data, "H", end)
-        if is_whole and number in SAMPLES_AT:
+        is_ours, is_inside = number in SAMPLES_AT, end + 2 <= len(data)
+        is_whole = is_ours and is_inside and sum(data[at:end]) & 0xFFFF == field(data, "H", end)
+        if is_whole:
             pings += ping_of(data[at + HEADER:end], SAMPLES_AT[number])
-        is_cut_off = not is_whole and (is_cut_off or (end + 2 > len(data) and number in SAMPLES_AT))
+        is_cut_off = not is_whole and (is_cut_off or is_ours and not is_inside)
         at = data.find(MARK, end + 2 if is_whole else at + len(MARK))
     if (is_cut_off or at >= 0) and len(pings) < most_pings:
         raise ValueError("is cut off within a message of a Ping360")

@@ -56,9 +56,6 @@ class Soundings:
         arrays[:, ~np.isfinite(arrays).all(axis=0)] = np.nan
         return cls(*arrays)
 
-    def pings(self):
-        return list(zip(self.range_m, self.angle_rad, self.intensity))
-
 
 @dataclasses.dataclass
 class Recording:
