@@ -1,49 +1,35 @@
 """Recordings of real sonars and of datasets, as arrays of numpy.
 
-    from sonarsim.recording import open_recording
     recording = open_recording("pings")     # a folder with recording.yaml (docs/compare.md), or a dataset
     recording.values                        # float32 [ping, range, beam], as the instrument delivers them
     recording.powers()                      # the same, as powers by the law of the recording
 """
+import math
 import pathlib
 
-from . import arrays, dataset, instrument_files
+from .arrays import read_arrays
+from .dataset import read_dataset
 from .description import FILE_NAME, read_description
-from .recording import KINDS, MOST_VALUES, Law, Recording, RecordingError, Soundings
+from .instrument_files import read_files
+from .recording import MOST_VALUES, Law, Recording, RecordingError, Soundings
 
-__all__ = ["KINDS", "Law", "Recording", "RecordingError", "Soundings", "open_recording"]
+__all__ = ["Law", "Recording", "RecordingError", "Soundings", "open_recording"]
 
 
 def open_recording(path, sensor=None, pings=None):
-    """The recording in a folder with recording.yaml, in that file itself, or in a dataset.
-
-    `sensor` chooses one of a dataset's; `pings` is the number to read, from the first. RecordingError with
-    one sentence for anything wrong."""
-    path = pathlib.Path(path)
+    """The recording in a folder with recording.yaml, in that file itself, or in a dataset. `sensor` chooses one of a
+    dataset's; `pings` is the number to read, from the first. RecordingError with one sentence for anything wrong."""
+    path, most_pings = pathlib.Path(path), pings or MOST_VALUES
     file = path / FILE_NAME if path.is_dir() else path
-    most_pings = pings or MOST_VALUES
-    if not path.exists():
-        raise RecordingError(f"{path}: does not exist")
     if file.exists():
-        recording = read_files(read_description(file), most_pings)
+        own = read_description(file)
+        recording = (read_arrays if own.source in ("files", "soundings") else read_files)(own, most_pings)
+        recording.pitch_rad = None if own.pitch_deg is None else math.radians(own.pitch_deg)
     elif (path / "dataset.json").exists():
-        recording = dataset.read_dataset(path, sensor, most_pings)
+        recording = read_dataset(path, sensor, most_pings)
     else:
-        raise RecordingError(f"{path}: is no recording: it has neither {FILE_NAME} (docs/compare.md) nor dataset.json")
+        raise RecordingError(f"{path}: is no recording: there is neither {FILE_NAME} (docs/compare.md) nor dataset.json")
     recording.check(path)
     # It stands in tables, in JSON and in a comment of a preset.
     recording.name = "".join(c if c.isprintable() else "?" for c in str(path))
-    return recording
-
-
-def read_files(own, most_pings):
-    """The recording that a recording.yaml describes."""
-    recording = Recording(own.kind, own.law or Law(), frequency_hz=own.frequency_hz, altitude_m=own.altitude_m)
-    recording.sound_speed_m_s = own.sound_speed_m_s or recording.sound_speed_m_s
-    if own.pitch_deg is not None:
-        recording.pitch_rad = own.pitch_deg * arrays.math.pi / 180.0
-    if own.source in ("files", "soundings"):
-        arrays.read_arrays(own, recording, most_pings)
-    else:
-        instrument_files.read_files(own, recording, most_pings)
     return recording

@@ -3,7 +3,7 @@
 A header of 1,024 bytes, then frames, each a header of 1,024 bytes and its samples [sample, beam]."""
 import numpy as np
 
-from .log import FASTEST_SOUND_M_S, Log, field, frames, require_one_range, stacked
+from .bytes_of_pings import FASTEST_SOUND_M_S, field, frames, law_of, timed_recording
 
 MARK = b"DDF\x05"
 HEADER = 1024
@@ -11,7 +11,7 @@ BEAMS = (48, 64, 96, 128)
 MOST_SAMPLES = 65536
 
 
-def read(data, most_pings, _frequency_hz=None):
+def read(data, most_pings, own):
     beams, samples = field(data, "I", 16), field(data, "I", 24)
     if beams not in BEAMS or not 0 < samples <= MOST_SAMPLES:
         raise ValueError(f"has {beams} beams and {samples} samples, which no ARIS has")
@@ -23,11 +23,11 @@ def read(data, most_pings, _frequency_hz=None):
             raise ValueError("changes its number of samples; split the file there")
         if field(frame, "I", 516) != 1:
             raise ValueError("has samples that are not in the order of the beams; save it again with ARIScope")
-    ranges = [(field(frame, "I", 452), field(frame, "I", 476)) for frame in found]      # period, delay in us
-    require_one_range(ranges)
-    step_s, speed = 1e-6 * ranges[0][0], field(found[0], "f", 464)
-    if not (step_s > 0.0 and 0.0 < speed < FASTEST_SOUND_M_S):
-        raise ValueError("has a frame without a step of range or without a speed of sound")
-    values = stacked([np.frombuffer(frame, np.uint8, offset=HEADER).reshape(samples, beams) for frame in found])
-    return Log("imaging", values, np.array([1e-6 * field(frame, "Q", 20) for frame in found]),
-               1e-6 * ranges[0][1] + 0.5 * step_s, step_s, sound_speed_m_s=speed)
+    speed = field(found[0], "f", 464)
+    if not 0.0 < speed < FASTEST_SOUND_M_S:
+        raise ValueError("has a frame without a speed of sound")
+    times = [(1e-6 * field(frame, "I", 476), 1e-6 * field(frame, "I", 452)) for frame in found]     # delay, period
+    return timed_recording(
+        "imaging", [np.frombuffer(frame, np.uint8, offset=HEADER).reshape(samples, beams) for frame in found], own,
+        [(delay + 0.5 * period, period) for delay, period in times], speed, law=law_of(own),
+        times_s=np.array([1e-6 * field(frame, "Q", 20) for frame in found]))

@@ -7,8 +7,7 @@ import struct
 
 import numpy as np
 
-from .log import Log, field, frames, require_one_range, stacked
-from .recording import Law
+from .bytes_of_pings import decibel_law, field, frames, timed_recording
 
 HEADERS = {b"DDF\x03": (512, 256), b"DDF\x04": (1024, 1024)}   # of the file and of a frame
 MOST_SAMPLES = 65536
@@ -17,10 +16,10 @@ LAST_CLASSIC_SERIAL = 18
 MOST_PERIODS = 1000
 
 
-def read(data, most_pings, _frequency_hz=None):
+def read(data, most_pings, own):
     mark = bytes(data[:4])
     if mark not in HEADERS:
-        raise ValueError(f"is version {mark[3] if len(mark) > 3 else 0} of DIDSON's format; 3, 4 and 5 are read")
+        raise ValueError("is a DIDSON file of another version than 3, 4 and 5, which are read")
     file_header, frame_header = HEADERS[mark]
     is_fine, beams, rate_hz, samples, serial = (
         field(data, layout, at) for layout, at in (("i", 12), ("i", 16), ("f", 20), ("i", 24), ("i", 44)))
@@ -31,11 +30,10 @@ def read(data, most_pings, _frequency_hz=None):
     found = frames(data, file_header, frame_header + beams * samples, most_pings)
     if any(bytes(frame[12:16]) != mark for frame in found):
         raise ValueError("has a frame of another version")
-    ranges = [window_s(frame, is_fine, serial) for frame in found]
-    require_one_range(ranges)
-    values = stacked([np.frombuffer(frame, np.uint8, offset=frame_header).reshape(samples, beams) for frame in found])
-    return Log("imaging", values, np.array([time_s(frame) for frame in found]), ranges[0] + 0.5 / rate_hz,
-               1.0 / rate_hz, law=Law("decibel", range_db=90.0, full_value=255.0))
+    return timed_recording(
+        "imaging", [np.frombuffer(frame, np.uint8, offset=frame_header).reshape(samples, beams) for frame in found], own,
+        [(window_s(frame, is_fine, serial) + 0.5 / rate_hz, 1.0 / rate_hz) for frame in found],
+        law=decibel_law(own, 90.0, 255.0), times_s=np.array([time_s(frame) for frame in found]))
 
 
 def window_s(frame, is_fine, serial):
@@ -49,9 +47,9 @@ def window_s(frame, is_fine, serial):
 
 def time_s(frame):
     """Seconds since 1970, by the clock of the computer that recorded."""
-    year, month, day, hour, minute, second, hundredths = struct.unpack_from("<7i", frame, 20)
+    *date, hour, minute, second, hundredths = struct.unpack_from("<7i", frame, 20)
     try:
-        days = (datetime.date(year, month, day) - datetime.date(1970, 1, 1)).days
+        days = (datetime.date(*date) - datetime.date(1970, 1, 1)).days
     except (ValueError, OverflowError):
         raise ValueError("has a frame without a date") from None
     return ((days * 24 + hour) * 60 + minute) * 60 + second + 0.01 * hundredths

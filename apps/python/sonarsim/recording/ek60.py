@@ -6,8 +6,7 @@ import math
 
 import numpy as np
 
-from .log import FASTEST_SOUND_M_S, Log, field, require_one_range, stacked
-from .recording import Law
+from .bytes_of_pings import FASTEST_SOUND_M_S, decibel_law, field, timed_recording
 
 DATA_AT = 84
 DB_PER_STEP = 10.0 * math.log10(2.0) / 256.0
@@ -15,19 +14,19 @@ RANGE_DB = 200.0
 S_FROM_1601_TO_1970 = 11644473600.0
 
 
-def read(data, most_pings, frequency_hz=None):
+def read(data, most_pings, own):
     pings = [ping for datagram in datagrams(data) if datagram[:4] == b"RAW0" for ping in power_of(datagram)]
     if not pings:
         raise ValueError("has no power of an EK60 (RAW0 datagrams)")
-    frequency = chosen_frequency(sorted({ping["frequency_hz"] for ping in pings}), frequency_hz)
+    frequency = chosen_frequency(sorted({ping["frequency_hz"] for ping in pings}), own.frequency_hz)
     pings = [ping for ping in pings if ping["frequency_hz"] == frequency][:most_pings]
-    require_one_range([(ping["sample_s"], ping["offset"], len(ping["steps"])) for ping in pings])
-    first = pings[0]
-    levels = stacked([ping["steps"][:, None] for ping in pings])
-    values = np.maximum(DB_PER_STEP * levels + RANGE_DB, 0.0)
-    return Log("echosounder", values.astype(np.float32), np.array([ping["time_s"] for ping in pings]),
-               first["offset"] * first["sample_s"], first["sample_s"], sound_speed_m_s=first["sound_speed_m_s"],
-               frequency_hz=frequency, law=Law("decibel", range_db=RANGE_DB, full_value=RANGE_DB))
+    recording = timed_recording(
+        "echosounder", [ping["steps"][:, None] for ping in pings], own,
+        [(ping["offset"] * ping["sample_s"], ping["sample_s"]) for ping in pings], pings[0]["sound_speed_m_s"],
+        law=decibel_law(own, RANGE_DB, RANGE_DB), frequency_hz=frequency,
+        times_s=np.array([ping["time_s"] for ping in pings]))
+    recording.values = np.maximum(np.float32(DB_PER_STEP) * recording.values + np.float32(RANGE_DB), np.float32(0.0))
+    return recording
 
 
 def datagrams(data):
@@ -61,7 +60,7 @@ def power_of(datagram):
 
 def chosen_frequency(all_hz, wanted_hz):
     for one in all_hz:
-        if len(all_hz) == 1 and not wanted_hz or wanted_hz and abs(one - wanted_hz) < 1e-3 * one:
+        if abs(one - (wanted_hz or one)) < 1e-3 * one and (wanted_hz or len(all_hz) == 1):
             return one
     raise ValueError(f"has channels of {', '.join(f'{one:.0f}' for one in all_hz)} Hz; choose one of them with "
                      "`frequency_hz`")

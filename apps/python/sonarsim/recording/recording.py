@@ -5,8 +5,7 @@ import numpy as np
 
 KINDS = ("imaging", "sidescan", "scanning", "echosounder", "soundings")
 LAWS = ("amplitude", "power", "gamma", "decibel")
-# The most values of one file, and of all pings of a recording.
-MOST_VALUES = 1 << 28
+MOST_VALUES = 1 << 28       # of one file, and of all pings of a recording
 MOST_RANGES = 1 << 20
 
 
@@ -37,7 +36,6 @@ class Law:
         if self.kind == "decibel":
             return (10.0 ** ((share - 1.0) * self.range_db / 10.0)).astype(np.float32)
         power = {"power": 1.0, "amplitude": 2.0, "gamma": 2.0 / self.exponent}[self.kind]
-        # Values below 0 have no power; check() refuses them in pings.
         return np.where(values > 0.0, np.maximum(share, 0.0) ** power, 0.0).astype(np.float32)
 
 
@@ -52,8 +50,7 @@ class Soundings:
     @classmethod
     def of(cls, pings):
         """The soundings of pings, each a tuple (ranges, angles, intensities)."""
-        beams = max((len(ping[0]) for ping in pings), default=0)
-        arrays = np.full((3, len(pings), beams), np.nan, np.float32)
+        arrays = np.full((3, len(pings), max((len(ping[0]) for ping in pings), default=0)), np.nan, np.float32)
         for k, ping in enumerate(pings):
             arrays[:, k, :len(ping[0])] = ping
         arrays[:, ~np.isfinite(arrays).all(axis=0)] = np.nan
@@ -98,25 +95,18 @@ class Recording:
         """The recording of some of the pings: a slice, or an array of their numbers or of booleans."""
         def of(array):
             return None if array is None else array[pings]
-        soundings = self.soundings and Soundings(*(
-            of(getattr(self.soundings, field.name)) for field in dataclasses.fields(Soundings)))
-        return dataclasses.replace(self, values=of(self.values), soundings=soundings,
-                                   times_s=of(self.times_s), head_rad=of(self.head_rad))
+        soundings = self.soundings and Soundings(*map(of, vars(self.soundings).values()))
+        return dataclasses.replace(self, values=of(self.values), soundings=soundings, times_s=of(self.times_s),
+                                   head_rad=of(self.head_rad))
 
     def check(self, source):
         """RecordingError unless there are pings, and each value can be one of the law."""
-        if not len(self):
-            raise RecordingError(f"{source}: has no pings")
-        if self.kind == "soundings":
-            return
-        if not self.values.size:
-            raise RecordingError(f"{source}: ping 0 has no values")
+        if not len(self) or (self.values is not None and not self.values.size):
+            raise RecordingError(f"{source}: has no pings, or pings without values")
         least = -np.inf if self.law.kind == "decibel" else 0.0
-        for k, ping in enumerate(self.values):
+        for k, ping in enumerate(() if self.values is None else self.values):
             if not (np.isfinite(ping) & (ping >= least)).all():
-                raise RecordingError(
-                    f"{source}: ping {k} has values that are negative or not finite; give the law of what the "
-                    "instrument delivers, and 0 where nothing was received")
-        beams = self.values.shape[2]
-        if self.kind == "imaging" and len(self.bearing_rad) != beams:
-            raise RecordingError(f"{source}: has {len(self.bearing_rad)} bearings for {beams} beams")
+                raise RecordingError(f"{source}: ping {k} has values that are negative or not finite; give the law of "
+                                     "what the instrument delivers, and 0 where nothing was received")
+        if self.kind == "imaging" and len(self.bearing_rad) != self.values.shape[2]:
+            raise RecordingError(f"{source}: has {len(self.bearing_rad)} bearings for {self.values.shape[2]} beams")

@@ -7,48 +7,52 @@ import math
 
 import numpy as np
 
-from .log import Log, field, stacked
+from .bytes_of_pings import field, law_of, stacked
+from .recording import Recording, Soundings
 
 FILE_HEADER, CHANNEL_INFO, PING_HEADER, CHANNEL_HEADER = 1024, 128, 256, 64
 SIDE_SCAN, MULTIBEAM = 0, 28
+PORT, STARBOARD = 1, 2
 MOST_CHANNELS = 64
 LONGEST_RANGE_M = 1e5
-# By the field SampleFormat, or in older files, where it is 0, by the number of bytes.
-SAMPLES = {8: "<u1", 3: "<u2", 2: "<u4", 5: "<f4"}
-OLDER_SAMPLES = {1: "<u1", 2: "<u2", 4: "<u4"}
+# By the field SampleFormat, or in older files, where it is 0, by minus the number of bytes.
+SAMPLES = {8: "<u1", 3: "<u2", 2: "<u4", 5: "<f4", -1: "<u1", -2: "<u2", -4: "<u4"}
 SOUNDING = np.dtype({"names": ["intensity", "two_way_s", "angle_deg"], "formats": ["<f8"] * 3, "offsets": [4, 16, 32],
                      "itemsize": 64})
 
 
-def read(data, most_pings, _frequency_hz=None):
+def read(data, most_pings, own):
+    return read_soundings(data, most_pings, own) if own.kind == "soundings" else read_sides(data, most_pings, own)
+
+
+def read_sides(data, most_pings, own):
     """The side-scan pings; those that lack a side are left out."""
-    channels, pings = channels_of(data), []
+    channels, pings, times = channels_of(data), [], []
+    first = full_value = 0.0
     for record in records(data, len(channels), SIDE_SCAN):
         sides = sides_of(record, channels)
-        if len(sides) == 2:
-            pings.append((record, sides))
+        if len(sides) < 2:
+            continue
+        first = first or (record, *sides[PORT])
+        for samples, range_m, largest in sides.values():
+            full_value = max(full_value, largest)
+            if len(samples) != len(first[1]) or abs(range_m - first[2]) > 0.01 * first[2]:
+                raise ValueError(f"ping {len(pings)} has {len(samples)} samples over {range_m:g} m, the first ping "
+                                 f"{len(first[1])} over {first[2]:g} m; split the file where the range changes")
+        pings.append(np.stack([sides[PORT][0][::-1], sides[STARBOARD][0]], axis=1))     # port ends at nadir
+        times.append(time_s(record))
         if len(pings) == most_pings:
             break
     if not pings:
         raise ValueError("has no side-scan pings")
-    record, first = pings[0]
-    port = first[1]
-    for k, (_, sides) in enumerate(pings):
-        for side in sides.values():
-            is_alike = len(side["samples"]) == len(port["samples"]) and (
-                abs(side["range_m"] - port["range_m"]) < 0.01 * port["range_m"])
-            if not is_alike:
-                raise ValueError(f"ping {k} has {extent(side)}, the first ping {extent(port)}; "
-                                 "split the file where the range changes")
-    values = stacked([np.stack([sides[1]["samples"][::-1], sides[2]["samples"]], axis=1) for _, sides in pings])
-    step = port["range_m"] / len(port["samples"])
-    altitude = field(record, "f", 196)
-    return Log("sidescan", values, np.array([time_s(own) for own, _ in pings]), 0.5 * step, step, True,
-               sound_speed(record), port["frequency_hz"], altitude if 0.0 < altitude < math.inf else 0.0,
-               full_value=max(side["full_value"] for _, sides in pings for side in sides.values()))
+    step, altitude = first[2] / len(first[1]), field(first[0], "f", 196)
+    return Recording("sidescan", law_of(own, full_value), sound_speed_m_s=own.sound_speed_m_s or sound_speed(first[0]) or 1500.0,
+                     first_range_m=0.5 * step, range_step_m=step, values=stacked(pings), times_s=np.array(times),
+                     frequency_hz=1e3 * field(first[0], "H", PING_HEADER + 26) or None,
+                     altitude_m=altitude if 0.0 < altitude < math.inf else None)
 
 
-def read_soundings(data, most_pings, _frequency_hz=None):
+def read_soundings(data, most_pings, own):
     pings, times, speeds = [], [], []
     for record in records(data, len(channels_of(data)), MULTIBEAM):
         count = field(record, "H", 4)
@@ -59,12 +63,17 @@ def read_soundings(data, most_pings, _frequency_hz=None):
         if not ((beams["two_way_s"] < 100.0) & (np.abs(beams["angle_deg"]) <= 180.0) & (beams["intensity"] >= 0.0)
                 & (beams["intensity"] < 1e30)).all():
             raise ValueError("has a sounding with impossible numbers")
-        pings.append((beams["two_way_s"], np.radians(beams["angle_deg"]), beams["intensity"]))
+        speeds.append(own.sound_speed_m_s or sound_speed(record))
+        if not speeds[-1]:
+            raise ValueError("has no speed of sound; add `sound_speed_m_s` to recording.yaml")
+        pings.append((0.5 * speeds[-1] * beams["two_way_s"], np.radians(beams["angle_deg"]), beams["intensity"]))
         times.append(time_s(record))
-        speeds.append(sound_speed(record))
         if len(pings) == most_pings:
             break
-    return Log("soundings", times_s=np.array(times), soundings=pings, sounding_speeds_m_s=speeds)
+    if not pings:
+        raise ValueError("has no pings with soundings (records of the type 28)")
+    return Recording("soundings", law_of(own), sound_speed_m_s=speeds[0], soundings=Soundings.of(pings),
+                     times_s=np.array(times))
 
 
 def channels_of(data):
@@ -76,18 +85,17 @@ def channels_of(data):
         raise ValueError("has no channels of a sonar, or too many")
     channels = []
     for at in range(256, 256 + count * CHANNEL_INFO, CHANNEL_INFO):
-        kind, form, size = field(data, "B", at), field(data, "B", at + 74), field(data, "H", at + 6)
-        samples = SAMPLES.get(form) if form else OLDER_SAMPLES.get(size)
-        if kind in (1, 2) and samples is None:
+        kind, form = field(data, "B", at), field(data, "B", at + 74) or -field(data, "H", at + 6)
+        if kind in (PORT, STARBOARD) and form not in SAMPLES:
             raise ValueError(f"has samples of the format {form}; those of 8, 16 and 32 bits and IEEE floats are read")
-        channels.append((kind, samples))
+        channels.append((kind, np.dtype(SAMPLES.get(form, "<u2"))))
     return channels
 
 
 def records(data, channels, kind):
     """Yields the records of a type. Six channels fit into the first 1,024 bytes, eight into each further 1,024."""
     view = memoryview(data)
-    at = FILE_HEADER * (1 + max(0, channels - 6 + 7) // 8)
+    at = FILE_HEADER * (1 + -(-max(0, channels - 6) // 8))
     while at < len(data):
         if field(data, "H", at) != 0xFACE:
             raise ValueError("has no record where one should begin")
@@ -100,42 +108,32 @@ def records(data, channels, kind):
 
 
 def sides_of(record, channels):
-    """The sides of a ping by the type of their channel: 1 is port, its last sample at nadir, 2 starboard."""
+    """(samples, range in metres, largest value that they can hold) of either side that a ping has."""
     sides, at = {}, PING_HEADER
     for _ in range(field(record, "H", 4)):
         number = field(record, "H", at)
         if number >= len(channels):
             raise ValueError("has a ping of a channel that its header lacks")
-        kind, samples = channels[number]
-        range_m, weight = field(record, "f", at + 4), field(record, "h", at + 58)
-        count = field(record, "I", at + 42)
-        dtype = np.dtype(samples or "<u2")
-        begin = at + CHANNEL_HEADER
-        if begin + count * dtype.itemsize > len(record):
+        kind, dtype = channels[number]
+        range_m, count, weight = field(record, "f", at + 4), field(record, "I", at + 42), field(record, "h", at + 58)
+        begin, at = at + CHANNEL_HEADER, at + CHANNEL_HEADER + count * dtype.itemsize
+        if at > len(record):
             raise ValueError("has more samples than their record")
-        if kind in (1, 2) and kind not in sides and count and 0.0 < range_m < LONGEST_RANGE_M:
+        if kind in (PORT, STARBOARD) and kind not in sides and count and 0.0 < range_m < LONGEST_RANGE_M:
             factor = 2.0 ** -max(-64, min(64, weight))
-            sides[kind] = {
-                "samples": np.float32(factor) * np.frombuffer(record, dtype, count, begin).astype(np.float32),
-                "range_m": range_m, "frequency_hz": 1e3 * field(record, "H", at + 26),
-                "full_value": factor * np.iinfo(dtype).max if dtype.kind == "u" else 0.0}
-        at = begin + count * dtype.itemsize
+            samples = np.float32(factor) * np.frombuffer(record, dtype, count, begin).astype(np.float32)
+            sides[kind] = samples, range_m, factor * np.iinfo(dtype).max if dtype.kind == "u" else 0.0
     return sides
-
-
-def extent(side):
-    return f"{len(side['samples'])} samples over {side['range_m']:g} m"
 
 
 def time_s(record):
     """Seconds since 1970; of the day alone where there is no date."""
-    year, month, day, hour, minute, second, hundredths = (
-        field(record, "H", 14), *(field(record, "B", at) for at in range(16, 22)))
     try:
-        days = (datetime.date(year, month, day) - datetime.date(1970, 1, 1)).days
+        day = datetime.date(field(record, "H", 14), record[16], record[17])
+        days = (day - datetime.date(1970, 1, 1)).days
     except ValueError:
         days = 0
-    return 86400.0 * days + 3600.0 * hour + 60.0 * minute + second + 0.01 * hundredths
+    return 86400.0 * days + 3600.0 * record[18] + 60.0 * record[19] + record[20] + 0.01 * record[21]
 
 
 def sound_speed(record):

@@ -1,0 +1,136 @@
+"""Compares two recordings figure by figure (docs/compare.md)."""
+import dataclasses
+
+import numpy as np
+
+from ..recording import Recording, RecordingError
+from .bootstrap import adjust, compared, exchange_p
+from .images import decibels, have_one_grid, images_of, patch_size_of, zones_of
+from .measure import measure_images
+from .soundings import common_angles, measure_soundings
+
+HISTOGRAM_DRAWS = 200
+
+
+@dataclasses.dataclass
+class Comparison:
+    real: Recording
+    simulated: Recording
+    has_one_grid: bool
+    is_relative: bool           # powers are relative to the mean of each recording
+    figures: list               # of ComparedFigure
+    histograms: list            # a dict of distances each
+    levels: list                # (ranges in m, levels in dB) of both, for the plot
+
+    @property
+    def agreeing(self):
+        return sum(figure.agrees for figure in self.figures)
+
+    @property
+    def differing(self):
+        return sum(figure.differs for figure in self.figures)
+
+    @property
+    def is_same(self):
+        return self.differing == 0
+
+    @property
+    def first_change(self):
+        """The figure that is furthest off among those that differ and do not agree, else among all that differ."""
+        return max((figure for figure in self.figures if figure.differs), default=None,
+                   key=lambda figure: (not figure.agrees, abs(figure.standardised)))
+
+
+def compare_recordings(real, simulated, seed=1):
+    """The Comparison of two recordings. RecordingError if they are of different kinds or have no figure in common."""
+    if real.kind != simulated.kind:
+        raise RecordingError(f"{real.name} is of the kind {real.kind}, {simulated.name} of the kind {simulated.kind}; "
+                             "compare recordings of one kind")
+    # A recording without a known largest value has no absolute level.
+    is_relative = real.law.full_value == 0.0 or simulated.law.full_value == 0.0
+    measure = measure_soundings_of_both if real.kind == "soundings" else measure_images_of_both
+    same_places, same_pings, measured, levels = measure((real, simulated), is_relative)
+    others = {figure.name: figure for figure in measured[1][0]}
+    pairs = [(figure, others[figure.name]) for figure in measured[0][0] if figure.name in others]
+    figures = [compared(*pair, same_places, same_pings, seed) for pair in pairs]
+    # Others were found at fewer than eight places.
+    known = [k for k, figure in enumerate(figures) if figure.degrees > 0.0]
+    pairs, figures = [pairs[k] for k in known], [figures[k] for k in known]
+    if not figures:
+        raise RecordingError(f"{real.name} and {simulated.name} have no figure in common: too few ranges, beams or pings")
+    adjust(figures)
+    if same_places:
+        # A figure must also differ by exchange, since a few bright places cause other tails than Student's. A figure
+        # without variance has no such tails.
+        for figure, p in zip(figures, exchange_p(pairs, [figure.error for figure in figures], seed)):
+            figure.adjusted_p = max(figure.adjusted_p, float(p)) if figure.error > 0.0 else figure.adjusted_p
+    histograms = [compared_histograms(*both, same_places, seed) for both in zip(measured[0][1], measured[1][1])]
+    return Comparison(real, simulated, same_places, is_relative, figures, histograms, levels)
+
+
+def measure_soundings_of_both(recordings, is_relative):
+    angles = common_angles(*recordings)
+    return False, False, [(measure_soundings(one, angles, is_relative), []) for one in recordings], []
+
+
+def measure_images_of_both(recordings, is_relative):
+    """(same places, same pings, [(figures, histograms)] of both, levels by range of both)."""
+    images = [images_of(one, is_relative) for one in recordings]
+    a, b = images
+    is_one, size, bands = have_one_grid(a, b), patch_size_of(a, b), common_bands(a, b)
+    means = [one.mean_powers() for one in images]
+    # With a common grid both have the zones of their mean, so that chance does not shift one's against the other's.
+    zones = [zones_of(mean) for mean in ([0.5 * (means[0] + means[1])] * 2 if is_one else means)]
+    measured = [measure_images(one, size, own, bands) for one, own in zip(images, zones)]
+    levels = [(one.ranges_m, decibels(mean)) for one, mean in zip(images, means)]
+    return is_one, is_one and len(a.powers) == len(b.powers), measured, levels
+
+
+def common_bands(a, b):
+    """The intervals of range and of bearing that both have; None for no bearings."""
+    begin = max(a.first_range_m, b.first_range_m)
+    end = min(one.first_range_m + one.shape[0] * one.range_step_m for one in (a, b))
+    if end <= begin:
+        raise RecordingError("the recordings have no ranges in common")
+    if a.bearing_rad is None or b.bearing_rad is None:
+        return (begin, end), None
+    low, high = max(a.bearing_rad.min(), b.bearing_rad.min()), min(a.bearing_rad.max(), b.bearing_rad.max())
+    return (begin, end), (low, high) if high > low else None
+
+
+def compared_histograms(real, simulated, is_paired, seed):
+    """The distances of two histograms. Below `usual` lie 95 % of the draws that exchange places."""
+    a, b = real.counts.sum(axis=0), simulated.counts.sum(axis=0)
+    random, drawn = np.random.default_rng([seed, 4]), []
+    share = 0.5 if is_paired else len(real.counts) / (len(real.counts) + len(simulated.counts))
+    for _ in range(HISTOGRAM_DRAWS):
+        # Common places are exchanged one by one; else all are dealt out again.
+        of_real = random.random(len(real.counts)) < share
+        of_simulated = ~of_real if is_paired else random.random(len(simulated.counts)) < share
+        one = of_real @ real.counts + of_simulated @ simulated.counts
+        drawn.append(jensen_shannon(one, a + b - one))
+    return {"name": real.name, "jensen_shannon_bits": jensen_shannon(a, b),
+            "usual_jensen_shannon_bits": float(np.quantile(drawn, 0.95)),
+            "kullback_leibler_nats": kullback_leibler(a, b), "earth_movers": real.bin_width * earth_movers(a, b),
+            "earth_movers_unit": real.unit}
+
+
+def jensen_shannon(one, other):
+    """The Jensen-Shannon divergence of two histograms, bits: 0 for equal shares, 1 for those that share no bin."""
+    if not one.sum() > 0.0 < other.sum():
+        return 1.0
+    p, q = one / one.sum(), other / other.sum()
+    middle = 0.5 * (p + q)
+    return float(0.5 * sum(np.sum(x[x > 0.0] * np.log2(x[x > 0.0] / middle[x > 0.0])) for x in (p, q)))
+
+
+def kullback_leibler(one, other):
+    """The Kullback-Leibler divergence, nats, with half a count added to each bin, so that an empty one does not make it
+    infinite."""
+    p, q = ((x + 0.5) / (x + 0.5).sum() for x in (one, other))
+    return float(np.sum(p * np.log(p / q)))
+
+
+def earth_movers(one, other):
+    """The mean number of bins by which counts have to be moved."""
+    return float(np.abs(np.cumsum(one / one.sum() - other / other.sum())).sum())

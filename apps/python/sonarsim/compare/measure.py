@@ -1,0 +1,158 @@
+"""All figures of the images of a recording (docs/compare.md)."""
+import collections
+
+import numpy as np
+
+from . import speckle
+from .edges import edge_figures
+from .figure import Figure
+from .images import Grid, decibels
+from .points import point_figures
+from .shadows import shadow_figures
+
+RANGE_BANDS, BEARING_BANDS = 12, 8
+MOST_TREND = {"bottom": 0.5, "image": 0.5, "water": 0.35, "tail": 0.35}
+MOST_CLIPPED = 0.03
+LAGS = (1, 2, 4)
+LOWEST_DB, BIN_DB, LEVEL_BINS = -160.0, 0.5, 340
+PERCENTILES = (5, 25, 50, 75, 95, 99)
+PATTERNS = 59
+NEIGHBOURS = ((-1, -1), (-1, 0), (-1, 1), (0, 1), (1, 1), (1, 0), (1, -1), (0, -1))
+
+
+# counts[place, bin] of all pings together.
+Histogram = collections.namedtuple("Histogram", "name bin_width unit counts")
+
+
+def measure_images(images, size, zones, bands):
+    """(figures, histograms) of images. `bands` are the intervals of range and of bearing (or None) that are compared."""
+    grid = Grid(images.shape, size)
+    figures = level_figures(images, grid, zones, bands) + share_figures(images, grid)
+    for name, zone in (("image" if zones.is_one else "bottom", zones.bottom), ("water", zones.water), ("tail", zones.tail)):
+        figures += zone_figures(images, grid, name, zone)
+    histograms = [level_histogram(images, grid), texture_histogram(images, grid)]
+    figures += percentile_figures(histograms[0])
+    if not images.columns_are_pings:
+        figures += point_figures(images, grid, zones) + edge_figures(images, grid, zones)
+    if images.has_shadows:
+        figures += shadow_figures(images, grid, zones)
+    return [figure for figure in figures if figure.values.size], histograms
+
+
+def zone_figures(images, grid, name, zone):
+    """Figures of the speckle in the patches of a zone that count."""
+    places = np.arange(-(-zone[0] // grid.size[0]) * grid.columns, zone[1] // grid.size[0] * grid.columns)
+    across = "pings" if images.columns_are_pings else "beams"
+    rules = [("variation of amplitude", "tenth"), ("Weibull shape", "tenth"), ("inverse K shape", "correlation"),
+             ("scintillation index", "tenth"), ("spread of levels, dB", "tenth"),
+             *((f"correlation over {lag} {unit}", "correlation") for unit in ("ranges", across) for lag in LAGS),
+             ("correlation to the next ping", "correlation")]
+    basis, before = speckle.trend_basis(grid.size), None
+    table = np.full((len(images.powers), len(rules), len(places)), np.nan)
+    for own, image in zip(table, images.powers if places.size else ()):
+        power = grid.cut(image)[places]
+        amplitude, trend, is_even = speckle.detrended(power, basis)
+        clipped = ((power >= images.full_power) | (power <= images.least_power)).mean(axis=(1, 2))
+        counts = is_even & (trend <= MOST_TREND[name]) & (clipped <= MOST_CLIPPED)
+        if counts.any():
+            own[:-1, counts] = patch_values(amplitude[counts])
+        if before is not None and not images.columns_are_pings:
+            both = counts & before[1]
+            own[-1, both] = speckle.correlation_of(amplitude[both], before[0][both])
+        before = amplitude, counts
+    return [Figure.of(f"{name}: {what}", "mean" if "correlation" in what else "quantile", tolerance, places,
+                      np.arange(len(table))[:, None], table[:, k]) for k, (what, tolerance) in enumerate(rules)]
+
+
+def patch_values(amplitude):
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.stack([*(measure(amplitude) for measure in (
+            speckle.variation, speckle.weibull_shape, speckle.inverse_k_shape, speckle.scintillation, speckle.spread_db)),
+                         *(speckle.correlation(amplitude, lag, axis) for axis in (1, 2) for lag in LAGS)])
+
+
+def level_figures(images, grid, zones, bands):
+    """Levels of zones, of bands of range, and of bands of bearing in the bottom."""
+    ranges, everywhere = np.arange(images.shape[0]), np.zeros(images.shape[1], int)
+    zone = np.where(ranges < zones.water[0], 3, -1)
+    for number, (begin, end) in ((2, zones.tail), (1, zones.water), (0, zones.bottom)):
+        zone[begin:end] = number
+    names = [f"{name}: level, dB" for name in ("image" if zones.is_one else "bottom", "water", "tail", "ring")]
+    figures = banded_levels(images, grid, names, zone, everywhere)
+    names, band = bands_of("level at", images.ranges_m, bands[0], RANGE_BANDS, "m")
+    figures += banded_levels(images, grid, names, band, everywhere)
+    if images.bearing_rad is not None and bands[1]:
+        names, band = bands_of("bottom: level at", np.degrees(images.bearing_rad), np.degrees(bands[1]),
+                               BEARING_BANDS, "degrees")
+        figures += banded_levels(images, grid, names, np.where(zone == 0, 0, -1), band)
+    return figures
+
+
+def bands_of(what, values, interval, count, unit):
+    """The names of bands, and the band of each value, -1 outside."""
+    edges = np.linspace(*interval, count + 1)
+    texts = [f"{np.copysign(np.floor(100.0 * abs(edge) + 0.5) / 100.0, edge) + 0.0:g}" for edge in edges]
+    share = (values - edges[0]) / (edges[-1] - edges[0])
+    return ([f"{what} {a} to {b} {unit}, dB" for a, b in zip(texts, texts[1:])],
+            np.where((share >= 0.0) & (share < 1.0), (share * count).astype(int), -1))
+
+
+def banded_levels(images, grid, names, range_bands, column_bands):
+    """The levels of bands: of ranges if all columns have the band 0, else of columns. A cell is the part of a patch in
+    one band."""
+    (height, width), rows, columns = grid.size, grid.rows, grid.columns
+    down, right = (np.arange(1 + max(bands.max(), 0)) == bands[:n * step].reshape(n, step)[..., None] for bands, n, step in (
+        (range_bands, rows, height), (column_bands, columns, width)))
+    counts = np.einsum("rha,cwb->rcab", down.astype(float), right.astype(float)).reshape(grid.places, -1)
+    sums = np.array([np.einsum("rchw,rha,cwb->rcab", grid.cut(image).reshape(rows, columns, height, width), down, right,
+                               optimize=True).reshape(counts.shape) for image in images.powers.astype(np.float64)])
+    with np.errstate(invalid="ignore"):
+        return [Figure.of(names[band], "level", "decibel", np.arange(grid.places), np.arange(len(sums))[:, None],
+                          sums[..., band] / counts[:, band], counts[:, band]) for band in range(counts.shape[1])]
+
+
+def share_figures(images, grid):
+    """The shares of values at either end of the scale."""
+    is_known = np.isfinite(images.full_power)
+    return [Figure.of(name, "mean", "share", np.arange(grid.places), np.arange(len(images.powers))[:, None],
+                      [is_at(grid.cut(image)).mean(axis=(1, 2)) for image in images.powers])
+            for name, is_at in (("share of zeros", lambda power: ~(power > images.least_power)),
+                                ("share of clipped values", lambda power: power >= images.full_power))[:1 + is_known]]
+
+
+def counted(grid, width, bins_of_images):
+    """The counts [place, bin] of bins [place, ...], of all images."""
+    counts = np.zeros(grid.places * width)
+    for bins in bins_of_images:
+        numbers = np.arange(grid.places)[:, None] * width + bins.reshape(grid.places, -1)
+        counts += np.bincount(numbers.ravel(), minlength=counts.size)
+    return counts.reshape(grid.places, width)
+
+
+def level_histogram(images, grid):
+    bins = (((decibels(grid.cut(image)) - LOWEST_DB) / BIN_DB + 0.5).astype(int) for image in images.powers)
+    return Histogram("levels", BIN_DB, "dB", counted(grid, LEVEL_BINS, (np.clip(own, 0, LEVEL_BINS - 1) for own in bins)))
+
+
+def texture_histogram(images, grid):
+    """The uniform local binary patterns of eight neighbours (Ojala, Pietikainen and Maenpaa 2002) of the inner pixels of
+    patches: a bit for each neighbour whose power is at least that of the pixel."""
+    patterns = np.arange(256)
+    changes = np.unpackbits((patterns ^ (patterns << 1 | patterns >> 7)).astype(np.uint8)[:, None], axis=1).sum(axis=1)
+    numbers = np.where(changes <= 2, np.cumsum(changes <= 2) - 1, PATTERNS - 1)
+    height, width = grid.size
+    def patterns_of(patches):
+        pattern = 0
+        for down, right in NEIGHBOURS:
+            other = patches[:, 1 + down:height - 1 + down, 1 + right:width - 1 + right]
+            pattern = pattern << 1 | (other >= patches[:, 1:-1, 1:-1]).astype(int)
+        return numbers[pattern]
+    images = images.powers if min(height, width) > 2 else ()
+    return Histogram("texture", 1.0, "patterns", counted(grid, PATTERNS, (patterns_of(grid.cut(one)) for one in images)))
+
+
+def percentile_figures(levels):
+    places, bins = np.nonzero(levels.counts)
+    return [Figure.of(f"level of {percent} % of the image, dB", "quantile", "decibel", places, 0,
+                      LOWEST_DB + BIN_DB * bins, levels.counts[places, bins], percent / 100.0)
+            for percent in PERCENTILES]

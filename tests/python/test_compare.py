@@ -1,0 +1,254 @@
+"""The figures of a comparison against closed forms, its verdict on drawn recordings, and its command."""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+from scipy import special
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "apps" / "python"))
+from sonarsim.compare import compare_recordings, comparison, points, report, shadows, speckle  # noqa: E402
+from sonarsim.compare.bootstrap import exchange_p  # noqa: E402
+from sonarsim.compare.edges import widths_of_steps, windows_of  # noqa: E402
+from sonarsim.compare.figure import Figure, quantile_of  # noqa: E402
+from sonarsim.compare.images import Grid, Images, zones_of  # noqa: E402
+from sonarsim.compare.measure import texture_histogram  # noqa: E402
+from sonarsim.recording import Law, Recording, RecordingError, Soundings  # noqa: E402
+
+
+def drawn(seed, level_db=-20.0, is_k=False, mixture=0.0, shape=(6, 128, 64)):
+    """An imaging recording of speckle: Rayleigh, or K of shape 2, with a share of a neighbour's amplitude in each beam."""
+    random = np.random.default_rng(seed)
+    complex_ = random.standard_normal((*shape, 2)) @ [1.0, 1j]
+    complex_[..., 1:] += mixture * complex_[..., :-1].copy()
+    values = 0.5 * 10 ** (level_db / 10) * np.abs(complex_) ** 2
+    if is_k:
+        values *= 0.5 * random.standard_exponential((*shape, 2)).sum(axis=-1)
+    return Recording(law=Law("power", full_value=1.0), first_range_m=1.0, range_step_m=0.01,
+                     bearing_rad=0.01 * np.arange(shape[2]), values=values.astype(np.float32),
+                     times_s=np.arange(float(shape[0])))
+
+
+def figure(of, name):
+    return next(one for one in of.figures if one.name == name)
+
+
+class FiguresTest(unittest.TestCase):
+    def test_speckle(self):
+        random = np.random.default_rng(1)
+        # The estimate varies by 0.78 shape / sqrt(n): four of these for 20,000 draws are 0.022.
+        for shape in (0.8, 1.5, 2.0, 4.0):
+            patch = random.weibull(shape, (1, 200, 100))
+            np.testing.assert_allclose(speckle.weibull_shape(patch) / shape, 1.0, atol=0.022)
+        self.assertTrue(np.isnan(speckle.weibull_shape(np.full((1, 3, 3), 2.0)))[0])
+        rayleigh = random.rayleigh(1.0, (1, 200, 200))
+        for measure, value, off in ((speckle.variation, np.sqrt(4 / np.pi - 1), 0.01), (speckle.scintillation, 1.0, 0.06),
+                                    (speckle.spread_db, 5.5701, 0.12), (speckle.inverse_k_shape, 0.0, 0.03)):
+            np.testing.assert_allclose(measure(rayleigh), value, atol=off)
+        checkers = 1.0 + 2.0 * (np.add.outer(np.arange(8), np.arange(6)) % 2)[None]
+        for lag, axis, value in ((1, 1, -1.0), (2, 1, 1.0), (3, 2, -1.0), (6, 2, np.nan)):
+            np.testing.assert_allclose(speckle.correlation(checkers, lag, axis), value)
+        np.testing.assert_allclose(speckle.correlation_of(checkers, checkers), 1.0)
+
+    def test_trend(self):
+        basis = speckle.trend_basis((8, 10))
+        plane = np.add.outer(10.0 + np.arange(8), 0.5 * np.arange(10))
+        edge = (np.arange(80) >= 40).astype(float).reshape(8, 10)
+        with np.errstate(invalid="ignore"):
+            amplitude, _, is_even = speckle.detrended(np.stack([plane, edge, 0.0 * edge]), basis)
+        np.testing.assert_allclose(amplitude[0], 1.0)
+        self.assertEqual(is_even.tolist(), [True, False, False])
+        self.assertEqual(speckle.trend_basis((8, 1)).shape[1], 3)
+
+    def test_zones(self):
+        powers = np.full(440, 1e-5)
+        powers[:10], powers[200:300], powers[300:] = 1.0, 0.1, 1e-3
+        zones = zones_of(powers)
+        # Smoothing over 10 ranges moves an edge by at most 5.
+        for found, value in ((zones.bottom[0], 200), (zones.bottom[1], 300), (zones.water[1], 200), (zones.tail[0], 300)):
+            self.assertLessEqual(abs(found - value), 10)
+        self.assertEqual(zones_of(np.full(100, 0.5)).bottom, (0, 100))
+
+    def test_points(self):
+        # exp(-x^2 / (2 s^2)) is half over a width of 2.3548 s; linear interpolation between bins errs by less than 4 %.
+        y, x = np.meshgrid((np.arange(60) - 30) / 1.2, (np.arange(64) - 32) / 2.0, indexing="ij")
+        image = 1e-6 + np.exp(-0.5 * (x * x + y * y))
+        self.assertEqual(points.points_of(image, 5, 55), [(30, 32)])
+        self.assertAlmostEqual(points.width_of(image[30], 32), 4.71, delta=0.2)
+        self.assertAlmostEqual(points.width_of(image[:, 32], 30), 2.826, delta=0.12)
+        self.assertEqual(points.points_of(image, 31, 55), [])
+
+    def test_shadows(self):
+        # A shadow 20 dB deep over 30 ranges that rises linearly over 12: from a quarter to three quarters are 6.
+        mean = np.ones((200, 64))
+        mean[80:, 20:36] = np.clip(0.01 + 0.99 * (np.arange(80, 200) - 110) / 12, 0.01, 1.0)[:, None]
+        image = mean * np.random.default_rng(3).standard_exponential(mean.shape)
+        found = [one for one in shadows.shadows_of(image[:190], 10) if 22 <= one[0] < 34]
+        self.assertGreaterEqual(len(found), 10)
+        _, first, _, depth, edge = np.median(np.array(found), axis=0)
+        self.assertLess(abs(first - 81), 4)
+        self.assertLess(abs(depth + 20), 1.5)
+        self.assertLess(abs(edge - 6), 3)
+        self.assertEqual(shadows.shadows_of(np.ones((100, 64)), 10), [])
+
+    def test_edges(self):
+        # Phi reaches 10 and 90 % at -+1.28155. One width varies by a third of itself, the median of 300 by 2.4 %.
+        random = np.random.default_rng(4)
+        x, y = np.arange(32)[:, None] - 15.5, np.arange(16) - 7.5
+        middle, slant = random.uniform(-2, 2, (300, 1, 1)), random.uniform(-0.2, 0.2, (300, 1, 1))
+        for sigma in (0.8, 1.7, 2.8):
+            step = 0.02 + 0.98 * special.ndtr((x - middle - slant * y) / sigma)
+            for noise, most in ((1.0, 0.01), (random.standard_exponential(step.shape), 0.1)):
+                widths = widths_of_steps(step * noise)
+                self.assertGreater(np.isfinite(widths).mean(), 0.9)
+                self.assertAlmostEqual(np.nanmedian(widths) / (2.5631 * sigma), 1.0, delta=most)
+
+    def test_edges_of_an_image(self):
+        noise = np.random.default_rng(5).standard_exponential((192, 96))
+        i, j = np.indices(noise.shape)
+        def edges(is_bright, along):
+            found = list(windows_of(np.where(is_bright, 1.0, 0.01) * noise, 0, (32, 16), along))
+            widths = widths_of_steps(np.array([window for *_, window in found])) if found else []
+            return [place[along] for place, width in zip(found, widths) if np.isfinite(width)]
+        square = (i >= 50) & (i < 130) & (j >= 21) & (j < 69)
+        for along, ends in ((0, (50, 130)), (1, (21, 69))):
+            found = edges(square, along)
+            self.assertGreaterEqual(len(found), 4)
+            self.assertTrue(all(min(abs(at - end) for end in ends) <= 2 for at in found))
+            self.assertEqual(edges(i >= 0, along), [])
+            self.assertEqual(edges((i // 3 == 25) | (j // 2 == 22), along), [])
+
+    def test_texture_and_distances(self):
+        flat = Images(np.ones((1, 10, 10), np.float32), 0.0, 1.0, np.zeros(10), False, np.inf, 0.0)
+        counts = texture_histogram(flat, Grid((10, 10), (10, 10))).counts[0]
+        self.assertEqual((counts.sum(), counts[57]), (64, 64))     # all neighbours reach the pixel: the last of 58
+        one, moved = np.array([1.0, 0, 0, 3]), np.array([0, 1.0, 0, 3])
+        self.assertEqual(comparison.jensen_shannon(one, one), 0.0)
+        self.assertAlmostEqual(comparison.jensen_shannon(np.array([1.0, 0]), np.array([0, 5.0])), 1.0)
+        self.assertAlmostEqual(comparison.earth_movers(one, moved), 0.25)
+        self.assertGreater(comparison.kullback_leibler(one, moved), comparison.kullback_leibler(one, one))
+
+    def test_quantiles(self):
+        values, weights = np.array([1.0, 2.0, 3.0]), np.array([[1.0, 2.0], [1.0, 0.0], [1.0, 2.0]])
+        np.testing.assert_allclose(quantile_of(values, weights, 0.5), [2.0, 2.0])
+        np.testing.assert_allclose(quantile_of(values, weights, 0.01), 1.0)
+        np.testing.assert_allclose(quantile_of(values, weights, 0.99), 3.0)
+
+
+class ComparisonTest(unittest.TestCase):
+    def test_same(self):
+        # Each pair is called different with a probability of at most 5 %; 4 or more of 10 with one of 0.001.
+        laws = [{"is_k": k % 2 == 0, "mixture": 0.5} for k in range(10)]
+        different = sum(not compare_recordings(drawn(2 * k, **law), drawn(2 * k + 1, **law)).is_same
+                        for k, law in enumerate(laws))
+        self.assertLess(different, 4)
+
+    def test_decibel(self):
+        one = compare_recordings(drawn(1), drawn(2, level_db=-19.0))
+        level = figure(one, "image: level, dB")
+        self.assertTrue(level.differs)
+        # 49,152 exponential powers give 4.343 / sqrt(49152) dB, the difference sqrt(2) of it.
+        self.assertAlmostEqual(level.difference, 1.0, delta=5 * 0.0277)
+        self.assertAlmostEqual(level.error / 0.0277, 1.0, delta=0.5)
+        self.assertIn("level", one.first_change.name)
+        for other in ("image: Weibull shape", "image: correlation over 1 beams"):
+            self.assertFalse(figure(one, other).differs)
+        self.assertIn("DIFFERS", report.comparison_text(compare_recordings(drawn(1), drawn(2, level_db=-18.0))))
+
+    def test_law_and_correlation(self):
+        shape = figure(compare_recordings(drawn(1), drawn(2, is_k=True)), "image: inverse K shape")
+        self.assertTrue(shape.differs)
+        # K of shape 2 has the inverse 1/2; the fit of the trend takes about 0.02.
+        self.assertAlmostEqual(shape.simulated, 0.5, delta=0.1)
+        self.assertAlmostEqual(shape.real, 0.0, delta=0.05)
+        one = figure(compare_recordings(drawn(1), drawn(2, mixture=0.5)), "image: correlation over 1 beams")
+        # Complex amplitudes have the correlation 0.5 / 1.25; that of Rayleigh amplitudes is 0.92 times its square.
+        self.assertAlmostEqual(one.simulated, 0.92 * 0.16, delta=0.03)
+        self.assertTrue(one.differs and not one.agrees)
+
+    def test_itself(self):
+        recording = drawn(3)
+        one = compare_recordings(recording, recording)
+        self.assertTrue(one.is_same and one.agreeing == len(one.figures))
+        self.assertEqual(report.comparison_json(one), report.comparison_json(compare_recordings(recording, recording)))
+        for value, is_same in ((9.0, True), (90.0, False)):
+            flat = [drawn(1), drawn(1)]
+            flat[0].values[:], flat[1].values[:] = 9.0, value
+            self.assertEqual(compare_recordings(*flat).is_same, is_same)
+
+    def test_exchange(self):
+        # One of 40 places has a value 1,000 times the others'. Its exchange gives the same size, so it never differs.
+        places, ones = np.arange(40), np.ones(40)
+        def made(values):
+            return Figure.of("a", "mean", "tenth", places, 0, values)
+        self.assertEqual(exchange_p([(made(np.where(places == 7, 1e3, 1.0)), made(ones))], [1e-3], 1), [1.0])
+        # A difference of 1 at each place is never reached: 2^-39 of the exchanges have it.
+        self.assertEqual(exchange_p([(made(2.0 * ones), made(ones))], [0.1], 1), [1.0 / 500.0])
+
+    def test_refusals(self):
+        other, far, tiny = drawn(1), drawn(1), drawn(1, shape=(1, 2, 1))
+        other.kind, far.first_range_m = "echosounder", 100.0
+        for pair in ((drawn(1), other), (drawn(1), far), (tiny, tiny)):
+            self.assertRaises(RecordingError, compare_recordings, *pair)
+
+    def test_soundings(self):
+        def soundings(seed, spread, intensity, full_value=1.0):
+            random = np.random.default_rng(seed)
+            angle = np.broadcast_to(np.linspace(-1, 1, 120), (160, 120))
+            ranges = 10 / np.cos(angle) * (1 + spread * random.standard_normal(angle.shape))
+            return Recording("soundings", Law("power", full_value=full_value), soundings=Soundings(
+                ranges, angle, intensity * random.standard_exponential(angle.shape)))
+        self.assertTrue(compare_recordings(soundings(1, 1e-3, 1.0), soundings(2, 1e-3, 1.0)).is_same)
+        one = compare_recordings(soundings(1, 1e-3, 1.0), soundings(2, 2e-3, 2.0))
+        spread = figure(one, "10 to 20 degrees: spread of ranges, %")
+        # The mean of a root of 7 degrees of freedom is 0.965 of the root of the mean.
+        self.assertAlmostEqual(spread.real, 0.1, delta=0.01)
+        self.assertAlmostEqual(spread.simulated, 0.2, delta=0.02)
+        self.assertAlmostEqual(figure(one, "10 to 20 degrees: level, dB").simulated, 3.01, delta=0.3)
+        relative = compare_recordings(soundings(1, 1e-3, 1.0, 0.0), soundings(2, 1e-3, 2.0))
+        self.assertTrue(relative.is_relative and relative.is_same)
+
+
+class CommandTest(unittest.TestCase):
+    def run_compare(self, *arguments):
+        path = os.pathsep.join(filter(None, [os.environ.get("PYTHONPATH"), str(ROOT / "apps" / "python")]))
+        return subprocess.run([sys.executable, "-B", "-m", "sonarsim.compare", *map(str, arguments)], text=True,
+                              capture_output=True, env={**os.environ, "PYTHONPATH": path}, check=False)
+
+    def test_command(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            for k in (1, 2):
+                (folder / str(k)).mkdir()
+                np.save(folder / str(k) / "pings.npy", drawn(k).values)
+                (folder / str(k) / "recording.yaml").write_text(
+                    "kind: imaging\nfiles: pings.npy\nlaw: {kind: power, full_value: 1}\nsound_speed_m_s: 1500\n"
+                    "first_range_m: 1\nrange_step_m: 0.01\nbearing_last_deg: 30\nrate_hz: 1\n")
+            out = folder / "out"
+            done = self.run_compare(folder / "1", folder / "2", "--out", out)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertIn("figures agree", done.stdout)
+            self.assertEqual(sorted(one.name for one in out.iterdir()), ["compare.json", "compare.svg"])
+            printed = json.loads(self.run_compare(folder / "1", folder / "2", "--json").stdout)
+            self.assertEqual(printed, json.loads((out / "compare.json").read_text()))
+            self.assertIn("level at 1", (out / "compare.svg").read_text().replace("&#32;", " "))
+            (folder / "broken").mkdir()
+            (folder / "file").write_text("")
+            for arguments, what in (((folder / "1", folder / "2", "--out", out), "holds a comparison already"),
+                                    ((folder / "1", folder / "no"), "is no recording"), ((folder / "1", folder / "broken"), "is no recording"),
+                                    ((folder / "1", folder / "file"), "needs keys"), ((folder / "1",), "simulated"),
+                                    ((folder / "1", folder / "2", "--out", folder / "file" / "a"), "Not a directory"),
+                                    ((folder / "1", folder / "2", "--pings", "0"), "is no number")):
+                done = self.run_compare(*arguments)
+                self.assertEqual((done.returncode, done.stdout), (2, ""), arguments)
+                self.assertIn(what, done.stderr)
+                self.assertNotIn("Traceback", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,366 @@
+"""Recordings: arrays, and a file of each instrument's format, made here from its published layout: whole, cut off
+everywhere, and with hostile numbers."""
+import json
+import pathlib
+import random
+import struct
+import sys
+import tempfile
+import unittest
+import warnings
+
+import numpy as np
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "apps" / "python"))
+from sonarsim.recording import Law, RecordingError, open_recording  # noqa: E402
+
+ARRAYS = ("kind: imaging\nfiles: pings.npy\nlaw: {kind: gamma, exponent: 0.5}\nsound_speed_m_s: 1490\n"
+          "first_range_m: 0.5\nrange_step_m: 0.1\n")
+
+
+def placed(size, *fields):
+    """Zeros with little-endian numbers at offsets: (offset, layout, value)."""
+    out = bytearray(size)
+    for at, layout, value in fields:
+        struct.pack_into("<" + layout, out, at, value)
+    return bytes(out)
+
+
+def counted(count, first=0):
+    return bytes((first + k) % 256 for k in range(count))
+
+
+def oculus(version=1, size=0, image=counted(6)):
+    """A message of 3 ranges and 2 beams."""
+    fire, more, time, spare = (89, 24, 8, 16) if version == 2 else (53, 0, 4, 0)
+    value = fire + 40 + more + time
+    end = value + 13 + spare
+    return placed(end + 16, (0, "H", 0x4F53), (6, "H", 0x23), (8, "H", version), (10, "I", end + len(image)),
+                  (fire + 8, "d", 2.1e6), (fire + 32 + more, "d", 1490.0), (value, "B", size), (value + 1, "d", 0.25),
+                  (value + 9, "H", 3), (value + 11, "H", 2), (end, "I", end + 16), (end + 4, "I", len(image)),
+                  (end + 12, "h", -3000), (end + 14, "h", 1550)) + image
+
+
+def xtf_header(sample_format=3):
+    channels = [field for at, kind in ((256, 1), (384, 2)) for field in ((at, "B", kind), (at + 6, "H", 2),
+                                                                        (at + 74, "B", sample_format))]
+    return placed(1024, (0, "B", 0x7B), (166, "H", 2), *channels)
+
+
+def xtf_record(kind, size, *fields):
+    """Of the second of January 1970, three and a quarter seconds past midnight."""
+    return placed(size, (0, "H", 0xFACE), (2, "B", kind), (10, "I", size), (14, "H", 1970), (16, "B", 1), (17, "B", 2),
+                  (20, "B", 3), (21, "B", 25), *fields)
+
+
+def xtf_ping(samples=(1, 2, 3, 4, 5, 6), layout="H", weight=0, range_m=30.0):
+    side = len(samples) // 2
+    length = 64 + side * struct.calcsize(layout)
+    fields = [(4, "H", 2), (32, "f", 740.0), (196, "f", 4.5)]
+    for number in (0, 1):
+        at = 256 + number * length
+        fields += [(at, "H", number), (at + 4, "f", range_m), (at + 26, "H", 400), (at + 42, "I", side),
+                   (at + 58, "h", weight)]
+        fields += [(at + 64 + k * struct.calcsize(layout), layout, samples[number * side + k]) for k in range(side)]
+    return xtf_record(0, 256 + 2 * length, *fields)
+
+
+def xtf_soundings(beams=((0.02, -30.0, 7.0), (0.03, 45.0, 8.0))):
+    fields = [(4, "H", len(beams)), (72, "f", 1500.0)]
+    for k, (two_way_s, angle, intensity) in enumerate(beams):
+        at = 256 + 64 * k
+        fields += [(at + 4, "d", intensity), (at + 16, "d", two_way_s), (at + 32, "d", angle)]
+    return xtf_record(28, 256 + 64 * len(beams), *fields)
+
+
+def didson(version=4, frames=2, samples=5, start=4):
+    mark = 0x00464444 + (version << 24)
+    out = placed(512 if version == 3 else 1024, (0, "I", mark), (12, "I", 1), (16, "I", 48), (20, "f", 50000.0),
+                 (24, "I", samples), (44, "I", 100))
+    for k in range(frames):
+        date = [(20 + 4 * d, "I", value) for d, value in enumerate((1970, 1, 2, 0, 0, k, 25))]
+        out += placed(256 if version == 3 else 1024, (12, "I", mark), (52, "I", start), *date) + counted(48 * samples, k)
+    return out
+
+
+def aris(frames=2, samples=5, ordered=1):
+    out = placed(1024, (0, "I", 0x05464444), (16, "I", 48), (24, "I", samples))
+    for k in range(frames):
+        out += placed(1024, (12, "I", 0x05464444), (20, "Q", 2000000 * (k + 1)), (452, "I", 8), (464, "f", 1450.0),
+                      (468, "I", samples), (476, "I", 1000), (516, "I", ordered)) + counted(48 * samples, k)
+    return out
+
+
+def ping360(angle=100, samples=(9, 8, 7), is_auto=False):
+    payload = struct.pack("<BBHHHH", 1, 0, angle, 11, 800, 750)
+    payload += struct.pack("<HHBB", 0, 399, 1, 0) if is_auto else b""
+    payload += struct.pack("<HH", len(samples), len(samples)) + bytes(samples)
+    message = b"BR" + struct.pack("<HHH", len(payload), 2301 if is_auto else 2300, 0) + payload
+    return message + struct.pack("<H", sum(message) & 0xFFFF)
+
+
+def simrad(kind, content=b""):
+    """A datagram of ten seconds past 1970."""
+    inner = kind + struct.pack("<Q", (11644473600 + 10) * 10 ** 7) + content
+    return struct.pack("<I", len(inner)) + inner + struct.pack("<I", len(inner))
+
+
+def ek60(frequency=38000.0, steps=(-4000, -8000, -20000), mode=3):
+    content = struct.pack("<HH9f", 1, mode, 0.0, frequency, 1000.0, 1e-3, 2425.0, 2e-4, 1480.0, 0.01, 0.0)
+    content += bytes(64 - len(content)) + struct.pack("<ii", 2, len(steps))
+    return simrad(b"RAW0", content + struct.pack(f"<{len(steps)}h", *steps) + bytes(2 * len(steps)))
+
+
+GAMMA = "law: {kind: gamma}\n"
+BEARINGS = "bearing_first_deg: 14\nbearing_last_deg: -14\n"
+# recording.yaml, a whole file, and the lengths to which it may be cut off and still be whole.
+FORMATS = {
+    "oculus": ("kind: imaging\noculus: FILE\nrate_hz: 5\n" + GAMMA, oculus() * 2, {len(oculus()), len(oculus()) + 1}),
+    "xtf": ("kind: sidescan\nxtf: FILE\nlaw: {kind: power}\n", xtf_header() + xtf_ping() * 2,
+            {1024 + len(xtf_ping())}),
+    "xtf soundings": ("kind: soundings\nxtf: FILE\nlaw: {kind: power}\n", xtf_header() + xtf_soundings() * 2,
+                      {1024 + len(xtf_soundings())}),
+    "didson": ("kind: imaging\nlogs: FILE\nsound_speed_m_s: 1480\n" + BEARINGS, didson(), {len(didson(frames=1))}),
+    "aris": ("kind: imaging\nlogs: FILE\n" + GAMMA + BEARINGS, aris(), {len(aris(frames=1))}),
+    "ping360": ("kind: scanning\nlogs: FILE\nsound_speed_m_s: 1500\nhead_first_deg: 90\n" + GAMMA,
+                ping360(100) + ping360(104, is_auto=True), {len(ping360()), len(ping360()) + 1}),
+    "ek60": ("kind: echosounder\nlogs: FILE\n", simrad(b"CON0") + ek60() * 2,
+             {len(simrad(b"CON0") + ek60())}),
+}
+
+
+class RecordingTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.path = pathlib.Path(self.folder.name)
+
+    def opened(self, yaml, pings=None, **files):
+        for name, content in files.items():
+            (self.path / name).write_bytes(content)
+        (self.path / "recording.yaml").write_text(yaml)
+        return open_recording(self.path, pings=pings)
+
+    def fault(self, yaml, **files):
+        with self.assertRaises(RecordingError) as caught:
+            self.opened(yaml, **files)
+        text = str(caught.exception)
+        self.assertIn(str(self.path), text)
+        self.assertNotIn("\n", text)
+        return text
+
+    def test_arrays(self):
+        np.save(self.path / "pings.npy", np.arange(24, dtype=np.float32).reshape(2, 3, 4))
+        recording = self.opened(ARRAYS + "rate_hz: 5\nbearing_first_deg: -30\nbearing_last_deg: 30\nspread: sine\n"
+                                "frequency_hz: 2.1e6\npitch_deg: 20\n")
+        self.assertEqual(recording.values.shape, (2, 3, 4))
+        self.assertEqual(list(recording.times_s), [0.0, 0.2])
+        np.testing.assert_allclose(np.sin(recording.bearing_rad), [-1 / 2, -1 / 6, 1 / 6, 1 / 2])
+        np.testing.assert_allclose(recording.ranges_m, [0.5, 0.6, 0.7])
+        self.assertEqual((recording.frequency_hz, recording.pitch_rad), (2.1e6, np.pi / 9))
+        self.assertEqual(len(open_recording(self.path / "recording.yaml", pings=1)), 1)
+        # A side-scan's row 0 1 2 | 3 4 5 is port 2, 1, 0 from nadir on, starboard 3, 4, 5.
+        np.save(self.path / "pings.npy", np.arange(12, dtype=np.uint16).reshape(2, 6))
+        recording = self.opened(ARRAYS.replace("imaging", "sidescan") + "times_s: [1, 3]\n")
+        np.testing.assert_array_equal(recording.values[0], [[2, 3], [1, 4], [0, 5]])
+        self.assertEqual(recording.times_s[1], 3.0)
+
+    def test_pictures(self):
+        from PIL import Image
+        for dtype in (np.uint8, np.uint16):
+            grey = (np.arange(12).reshape(3, 4) * (np.iinfo(dtype).max // 12)).astype(dtype)
+            Image.fromarray(grey).save(self.path / "a.png")
+            recording = self.opened(ARRAYS.replace("pings.npy", "a.png"))
+            np.testing.assert_array_equal(recording.values[0], grey)
+        whole = (self.path / "a.png").read_bytes()
+        for length in (4, 9, 30, len(whole) // 2):
+            self.fault(ARRAYS.replace("pings.npy", "a.png"), **{"a.png": whole[:length]})
+        Image.fromarray(np.zeros((3, 4, 3), np.uint8)).save(self.path / "a.png")
+        self.assertIn("in colours", self.fault(ARRAYS.replace("pings.npy", "a.png")))
+
+    def test_soundings(self):
+        for name, value in (("range", 10.0), ("angle", 0.1), ("level", 5.0)):
+            array = np.full((2, 3), value, np.float32)
+            array[1, 2] = np.nan if name == "angle" else value
+            np.save(self.path / f"{name}.npy", array)
+        recording = self.opened("kind: soundings\nlaw: {kind: power, full_value: 0}\nsound_speed_m_s: 1500\nrate_hz: 1\n"
+                                "soundings: {range_m: range.npy, angle_rad: angle.npy, intensity: level.npy}\n")
+        self.assertEqual(np.isfinite(recording.soundings.range_m).sum(axis=1).tolist(), [3, 2])
+        self.assertEqual(len(recording.part(slice(1, 2))), 1)
+
+    def test_each_format(self):
+        opened = {name: self.opened(yaml, FILE=content) for name, (yaml, content, _) in FORMATS.items()}
+        own = opened["oculus"]
+        np.testing.assert_array_equal(own.values[1], [[0, 1], [2, 3], [4, 5]])
+        np.testing.assert_allclose(np.degrees(own.bearing_rad), [30.0, -15.5])
+        self.assertEqual((own.first_range_m, own.range_step_m, own.sound_speed_m_s), (0.125, 0.25, 1490.0))
+        own = opened["xtf"]
+        np.testing.assert_array_equal(own.values[1], [[3, 4], [2, 5], [1, 6]])
+        self.assertEqual((own.range_step_m, own.first_range_m, own.sound_speed_m_s, own.altitude_m, own.frequency_hz),
+                         (10.0, 5.0, 1480.0, 4.5, 4e5))
+        self.assertEqual(own.times_s[0], 86403.25)
+        own = opened["xtf soundings"]
+        np.testing.assert_allclose(own.soundings.range_m[0], [15.0, 22.5])
+        np.testing.assert_allclose(np.degrees(own.soundings.angle_rad[0]), [-30.0, 45.0], rtol=1e-6)
+        own = opened["didson"]
+        self.assertEqual(own.values[1, 2, 7], 2 * 48 + 7 + 1)
+        self.assertAlmostEqual(own.range_step_m, 0.5 * 1480 / 50000)
+        self.assertAlmostEqual(own.first_range_m, 0.5 * 1480 * (4 * 0.000572 + 0.5 / 50000))
+        self.assertEqual((own.law, own.times_s[1]), (Law("decibel", range_db=90.0), 86401.25))
+        np.testing.assert_allclose(np.degrees(own.bearing_rad[[0, -1]]), [14, -14])
+        own = opened["aris"]
+        self.assertEqual(own.values[1, 2, 7], 2 * 48 + 7 + 1)
+        self.assertAlmostEqual(own.first_range_m, 0.5 * 1450 * 1004e-6)
+        np.testing.assert_allclose(own.times_s, [2.0, 4.0])
+        own = opened["ping360"]
+        np.testing.assert_allclose(np.degrees(own.head_rad), [0.0, -3.6], atol=1e-9)
+        self.assertAlmostEqual(own.range_step_m, 0.5 * 1500 * 800 * 25e-9)
+        self.assertEqual(own.values[0, :, 0].tolist(), [9, 8, 7])
+        own = opened["ek60"]
+        np.testing.assert_allclose(own.values[0, :, 0], np.maximum(200 + 10 * np.log10(2) / 256 * np.array(
+            [-4000, -8000, -20000]), 0), rtol=1e-6)
+        self.assertAlmostEqual(own.first_range_m, 0.5 * 1480 * 2 * 2e-4, places=6)
+        self.assertEqual(own.times_s[0], 10.0)
+
+    def test_versions_and_sizes(self):
+        yaml, *_ = FORMATS["oculus"]
+        own = self.opened(yaml, FILE=b"SO noise" + oculus(2, 1, counted(12)) + b"S")
+        self.assertEqual((own.values[0, 0, 1], own.law.full_value), (0x0302, 65535.0))
+        self.assertIn("24 bits", self.fault(yaml, FILE=oculus(1, 2, counted(18))))
+        yaml, *_ = FORMATS["xtf"]
+        for form, layout, full in ((8, "B", 127.5), (2, "I", 2147483647.5), (5, "f", 255.0)):
+            own = self.opened(yaml, FILE=xtf_header(form) + xtf_ping(layout=layout, weight=1))
+            self.assertEqual((own.values[0, 0, 0], own.law.full_value), (1.5, full))
+        self.assertEqual(self.opened(yaml.replace("}", ", full_value: 9}"), FILE=xtf_header() + xtf_ping()).law.full_value, 9)
+        self.assertIn("split the file", self.fault(yaml, FILE=xtf_header() + xtf_ping() + xtf_ping(range_m=60.0)))
+        self.assertEqual(len(self.opened(FORMATS["didson"][0], FILE=didson(3))), 2)
+        self.assertIn("another version", self.fault(FORMATS["didson"][0], FILE=didson(9)))
+        self.assertIn("not in the order", self.fault(FORMATS["aris"][0], FILE=aris(ordered=0)))
+        yaml, *_ = FORMATS["ek60"]
+        two = simrad(b"CON0") + ek60() + ek60(120000.0, (-100,)) + ek60(38000.0, (1,), mode=2)
+        self.assertIn("38000, 120000 Hz", self.fault(yaml, FILE=two))
+        self.assertEqual(self.opened(yaml + "frequency_hz: 120000\n", FILE=two).values.shape, (1, 1, 1))
+        for mark, what in ((b"XML0", "EK80"), (b"#MRZ", ".kmall"), (b"\2I..", ".all")):
+            self.assertIn(what, self.fault(yaml, FILE=b"\x10\0\0\0" + mark + bytes(20)))
+
+    def test_several_files(self):
+        yaml, content, _ = FORMATS["aris"]
+        yaml = yaml.replace("FILE", "[A, B]")
+        self.assertEqual(len(self.opened(yaml, A=content, B=content)), 4)
+        self.assertEqual(len(self.opened(yaml, 3, A=content, B=content)), 3)
+        self.assertIn("another shape of its pings", self.fault(yaml, A=content, B=aris(samples=6)))
+        self.assertIn("recording.yaml says scanning", self.fault(
+            "kind: scanning\nlogs: A\nlaw: {kind: power}\n", A=content))
+
+    def test_cut_off(self):
+        for name, (yaml, content, whole) in FORMATS.items():
+            for length in {*range(0, len(content), max(1, len(content) // 150)), *range(len(content) - 9, len(content))}:
+                with self.subTest(name, length=length):
+                    if length in whole:
+                        self.opened(yaml, FILE=content[:length])
+                    else:
+                        self.fault(yaml, FILE=content[:length])
+
+    def test_hostile_numbers(self):
+        """Any four bytes may be anything: one sentence or a recording, and no great memory."""
+        draws = random.Random(1)
+        for name, (yaml, content, _) in FORMATS.items():
+            (self.path / "recording.yaml").write_text(yaml)
+            headers = [k for k in range(0, len(content) - 4, 2) if any(content[k:k + 4])]
+            for _ in range(150):
+                damaged = bytearray(content)
+                at = draws.choice(headers)
+                damaged[at:at + 4] = draws.choice([b"\xff\xff\xff\xff", b"\xff\xff\xff\x7f", b"\0\0\0\0", b"\xff\xff\0\0",
+                                                   draws.randbytes(4)])
+                (self.path / "FILE").write_bytes(damaged)
+                with self.subTest(name, at=at), warnings.catch_warnings():
+                    warnings.simplefilter("ignore", RuntimeWarning)
+                    try:
+                        self.assertLess(open_recording(self.path).law.range_db, 1e3)
+                    except RecordingError as fault:
+                        self.assertNotIn("\n", str(fault))
+
+    def test_hostile_arrays(self):
+        def npy(header):
+            header = header.ljust(117).encode() + b"\n"
+            return b"\x93NUMPY\1\0" + struct.pack("<H", len(header)) + header
+        for header in ("{'descr': '<f4', 'fortran_order': False, 'shape': (1000000, 1000000), }",
+                       "{'descr': '<f4', 'fortran_order': False, 'shape': (-1, 4), }",
+                       "{'descr': '|O', 'fortran_order': False, 'shape': (2, 2), }",
+                       "{'descr': '<f4', 'shape': (2, 2), }", "((((", "{'descr': '<i8', 'fortran_order': False, 'shape': (1, 1), }"):
+            self.fault(ARRAYS, **{"pings.npy": npy(header) + bytes(8)})
+        for content in (b"", b"\x93NUM", b"\x93NUMPY\1\0\xff\xff", b"PK\3\4" + bytes(90)):
+            self.fault(ARRAYS, **{"pings.npy": content})
+        np.save(self.path / "pings.npy", np.full((3, 4), -1.0))
+        self.assertIn("negative", self.fault(ARRAYS))
+
+    def dataset(self, kind, arrays, resolved="", **more):
+        """A dataset of two pings, 3 ranges and 2 beams."""
+        for name, array in arrays.items():
+            (self.path / name).parent.mkdir(parents=True, exist_ok=True)
+            np.save(self.path / name, np.asarray(array, np.float32))
+        sensor = {"name": "s", "kind": kind, "every": 1, "pings": 2, "full_scale": 4.0, "files": {},
+                  "range_edges_m": [1.0, 2.0, 3.0, 4.0], "azimuth_edges_rad": [-0.2, 0.0, 0.2], **more}
+        (self.path / "dataset.json").write_text(json.dumps({
+            "format": "sonarsim dataset", "format_version": 3, "complete": True, "sensors": [sensor]}))
+        (self.path / "mission.resolved.yaml").write_text(
+            f"water: {{sound_speed_m_s: 1480}}\nsensors:\n  s: {{instrument: {{{resolved}}}}}\n")
+        return open_recording(self.path)
+
+    def test_datasets(self):
+        image = np.arange(6.0).reshape(3, 2)
+        polar = {f"s/polar/{k:06}.npy": image + k for k in range(2)}
+        files = {"files": {"polar": "s/polar/%06d.npy"}}
+        own = self.dataset("imaging", polar, **files)
+        np.testing.assert_array_equal(own.values[1], image + 1)
+        self.assertEqual((own.first_range_m, own.range_step_m, own.sound_speed_m_s), (1.5, 1.0, 1480.0))
+        self.assertEqual(own.law, Law("amplitude", full_value=4.0))
+        raw = {f"s/raw/{k:06}.npy": image for k in range(2)}
+        own = self.dataset("imaging", raw, "frequency_hz: 4.e+5, receiver: {bits: 12, companding: log, dynamic_range_db: 80}",
+                           files={"raw": "s/raw/%06d.npy"}, instrument={})
+        self.assertEqual((own.law, own.frequency_hz), (Law("decibel", range_db=80.0, full_value=4095.0), 4e5))
+        own = self.dataset("sidescan", {"s/waterfall.npy": [[0, 1, 2, 3, 4, 5]] * 2}, instrument={},
+                           records={"name": "waterfall", "file": "s/waterfall.npy", "axes": ["ping", "column"]})
+        np.testing.assert_array_equal(own.values[0], [[2, 3], [1, 4], [0, 5]])
+        self.assertEqual(own.law, Law("power", full_value=1.0))
+        records = np.zeros((2, 2, 5))
+        records[0, :, 0], records[0, :, 4] = (1.4, 3.4), 0.9
+        own = self.dataset("profiling", {**polar, "s/soundings.npy": records}, **files, records={
+            "name": "soundings", "file": "s/soundings.npy", "axes": ["ping", "beam", "value"]})
+        np.testing.assert_allclose(own.soundings.intensity, [[0, 5], [np.nan, np.nan]])
+        np.testing.assert_allclose(own.soundings.angle_rad[0], [0.1, -0.1])
+        for more, what in (({"pings": 1 << 31}, "take fewer pings"), ({"pings": 3}, "000002.npy"),
+                           ({"range_edges_m": [1, 2]}, "another shape"), ({"files": {}}, "set output.polar: true"),
+                           ({"files": {"polar": "../%06d.npy"}}, "no name that"), ({"kind": "sidescan"}, "no records")):
+            with self.subTest(what), self.assertRaisesRegex(RecordingError, what):
+                self.dataset(more.pop("kind", "imaging"), polar, **{**files, **more})
+        (self.path / "s/polar/000001.npy").write_bytes(b"\x93NUMPY\1\0")
+        with self.assertRaisesRegex(RecordingError, "ping 1"):
+            self.dataset("imaging", {}, **files)
+
+    def test_recording_yaml(self):
+        np.save(self.path / "pings.npy", np.ones((2, 3, 4), np.float32))
+        for yaml, what in (
+                (ARRAYS + "rate: 5\n", "unknown key 'rate'; did you mean rate_hz"), (ARRAYS, "'rate_hz' or 'times_s'"),
+                (ARRAYS + "times_s: [1]\n", "1 times for 2 pings"), ("kind: imaging\n", "one of the keys files"),
+                (ARRAYS.replace("imaging", "photo"), "one of imaging, sidescan"), (ARRAYS + "xtf: a\n", "files and xtf"),
+                (ARRAYS.replace("0.5}", "5}"), "'exponent' must be a number from 0.1 to 2"),
+                (ARRAYS.replace("1490", ".nan"), "'sound_speed_m_s' must be"), (ARRAYS.replace("law", "# law"), "'law'"),
+                (ARRAYS.replace("pings.npy", "[3]"), "'files' must be"), (ARRAYS.replace("pings.npy", "no.npy"), "cannot be read"),
+                (ARRAYS + "bearings_deg: [1, 2]\nrate_hz: 1\n", "2 bearings for 4 beams"), ("a: [", "is no YAML"),
+                ("[" * 20000, "is no YAML"), ("- 1", "needs keys"), (ARRAYS.replace("0.1\n", "0\n"), "range_step_m"),
+                ("kind: imaging\nlogs: pings.npy\nsound_speed_m_s: 1\n", "number from 300 to 10000")):
+            self.assertIn(what, self.fault(yaml), yaml)
+        with self.assertRaisesRegex(RecordingError, "neither recording.yaml"):
+            (self.path / "recording.yaml").unlink()
+            open_recording(self.path)
+
+    def test_laws(self):
+        np.testing.assert_allclose(Law("amplitude").powers([0, 127.5, 255]), [0, 0.25, 1])
+        np.testing.assert_allclose(Law("power", full_value=0).powers([0, 3]), [0, 3])
+        np.testing.assert_allclose(Law("gamma", exponent=0.5, offset=0.1).powers([0, 0.4 * 255, 0.9 * 255]), [0, 1 / 16, 1])
+        np.testing.assert_allclose(Law("decibel", range_db=60).powers([0, 127.5, 255]), [1e-6, 1e-3, 1], rtol=1e-5)
+
+
+if __name__ == "__main__":
+    unittest.main()
