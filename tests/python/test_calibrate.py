@@ -15,7 +15,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.append(str(ROOT / "apps" / "python"))
 from sonarsim.calibrate import command, correlations, law, main, noise, preset, soundings  # noqa: E402
 from sonarsim.calibrate.patches import Patches  # noqa: E402
-from sonarsim.calibrate.statistics import LogStatistics, bootstrap, sampled  # noqa: E402
+from sonarsim.calibrate.statistics import LogStatistics, bootstrap, sampled_correlations, sampled_statistics  # noqa: E402
 from sonarsim.recording import Law, Recording, Soundings  # noqa: E402
 
 RANGES, BEAMS = 240, 96
@@ -121,8 +121,8 @@ class Fits(unittest.TestCase):
                              (two.skewness, -0.780245), (two.correlation(0.0), 0.0)):
             self.assertAlmostEqual(found, known, 5)
         # The larger of two independent samples: the mean of ln P is ln 2 higher, its variance 2 ln(2)^2 lower.
-        white = np.vectorize(lambda lag: float(lag == 0))
-        larger, along = sampled({"samples": 2, "looks": 1, "combine": "max"}, white)
+        of_two = {"samples": 2, "looks": 1, "combine": "max"}, lambda lag: (lag == 0).astype(float)
+        larger, along = sampled_statistics(*of_two), sampled_correlations(*of_two)
         self.assertAlmostEqual(larger.mean, one.mean + np.log(2.0), delta=0.02)
         self.assertAlmostEqual(larger.variance, one.variance - 2.0 * np.log(2.0) ** 2, delta=0.03)
         self.assertLess(np.abs(along).max(), 0.03)

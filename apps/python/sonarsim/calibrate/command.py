@@ -1,6 +1,5 @@
 """The command `sonarsim calibrate`."""
 import argparse
-import dataclasses
 import json
 import math
 import os
@@ -15,51 +14,40 @@ from .preset import new_keys, read_start, set_shape, with_key
 from .soundings import NOTES, soundings_figures
 from .statistics import Bounded, CalibrationError
 
-MOST_FULL, MOST_ZEROS = 0.1, 0.9
+
+def result_of(name, pings, figures, notes, estimates):
+    """The result as it stands in JSON. `figures`: (start, fitted pings, judged pings), each a Figure."""
+    def column(figure):
+        return None if figure.predicted is None else {
+            "predicted": figure.predicted, "measured": figure.measured._asdict(), "agrees": bool(figure.agrees)}
+    changed = sum(a.measured.low > b.measured.high or a.measured.high < b.measured.low for _, a, b in figures)
+    if 5 * changed > len(figures):
+        notes = [*notes, f"{changed} of {len(figures)} figures of the judged pings lie outside the intervals of the "
+                 "fitted ones: the scene or the sonar changed between them"]
+    columns = "start", "in_sample", "held_out"
+    return {"recording": name, "pings_fitted": pings[0], "pings_judged": pings[1],
+            "estimates": {key: value._asdict() if isinstance(value, Bounded) else value
+                          for key, value in estimates.items()},
+            "figures": [{"figure": row[0].name, **dict(zip(columns, map(column, row)))} for row in figures],
+            "agree": {of: sum(bool(row[k].agrees) for row in figures) for k, of in enumerate(columns)}, "notes": notes}
 
 
-@dataclasses.dataclass
-class Calibration:
-    name: str
-    fitted: int         # pings
-    judged: int
-    figures: list       # (start, fitted pings, judged pings), each a Figure
-    notes: list
-    estimates: dict = dataclasses.field(default_factory=dict)   # key -> Bounded or a word
+def table_of(result):
+    def interval(number):
+        return str(Bounded(**number)) if isinstance(number, dict) else str(number)
 
-    def agreements(self):
-        return [sum(bool(row[k].agrees) for row in self.figures) for k in range(3)]
-
-    def all_notes(self):
-        pairs = [(fitted.measured, judged.measured) for _, fitted, judged in self.figures]
-        changed = sum(a.low > b.high or a.high < b.low for a, b in pairs)
-        return self.notes + [f"{changed} of {len(pairs)} figures of the judged pings lie outside the intervals of the "
-                             "fitted ones: the scene or the sonar changed between them"] * (5 * changed > len(pairs))
-
-    def text(self):
-        lines = [f"{self.name}: {self.fitted} pings fitted, {self.judged} judged", "",
-                 *(f"  {key:28} {value}" for key, value in self.estimates.items()), "",
-                 f"{'figure':46} {'start':>15} {'fit':>9} {'fitted pings':>28} {'':5} {'judged pings':>28}"]
-        for row in self.figures:
-            start, fit = ("-" if f.predicted is None else f"{f.predicted:.4g}" for f in (row[0], row[2]))
-            verdicts = [f"{'-' if f.predicted is None else 'yes' if f.agrees else 'NO':>5}" for f in row]
-            lines.append(f"{row[2].name:46} {start:>9} {verdicts[0]} {fit:>9} {str(row[1].measured):>28} {verdicts[1]} "
-                         f"{str(row[2].measured):>28} {verdicts[2]}")
-        start, inside, outside = self.agreements()
-        lines.append(f"{len(self.figures)} figures agree: {start} of the start, {inside} of the fit with the fitted "
-                     f"pings, {outside} with the judged ones")
-        return "\n".join([*lines, *(f"- {note}" for note in self.all_notes())])
-
-    def json(self):
-        def column(figure):
-            return None if figure.predicted is None else {
-                "predicted": figure.predicted, "measured": figure.measured._asdict(), "agrees": bool(figure.agrees)}
-        return {"recording": self.name, "pings_fitted": self.fitted, "pings_judged": self.judged,
-                "estimates": {key: value._asdict() if isinstance(value, Bounded) else value
-                              for key, value in self.estimates.items()},
-                "figures": [{"figure": judged.name, "start": column(start), "in_sample": column(fitted),
-                             "held_out": column(judged)} for start, fitted, judged in self.figures],
-                "agree": dict(zip(("start", "in_sample", "held_out"), self.agreements())), "notes": self.all_notes()}
+    verdict = {True: "yes", False: " NO"}
+    lines = [f"{result['recording']}: {result['pings_fitted']} pings fitted, {result['pings_judged']} judged", "",
+             *(f"  {key:28} {interval(number)}" for key, number in result["estimates"].items()), "",
+             f"{'figure':44} {'start':>14} {'fit, fitted pings':>41} {'fit, judged pings':>41}"]
+    for row in result["figures"]:
+        start = f"{row['start']['predicted']:10.4g} {verdict[row['start']['agrees']]}" if row["start"] else f"{'-':>14}"
+        fits = [f"{c['predicted']:9.4g} {interval(c['measured']):>27} {verdict[c['agrees']]}"
+                for c in (row["in_sample"], row["held_out"])]
+        lines.append(f"{row['figure']:44} {start} {' '.join(fits)}")
+    lines.append("{} figures agree: {start} of the start, {in_sample} of the fit with the fitted pings, "
+                 "{held_out} with the judged ones".format(len(result["figures"]), **result["agree"]))
+    return "\n".join([*lines, *(f"- {note}" for note in result["notes"])])
 
 
 def check_usable(recording, kind):
@@ -71,16 +59,17 @@ def check_usable(recording, kind):
         raise CalibrationError(f"{len(recording)} ping: a part is fitted and the other judged, so it takes two or more")
     if recording.kind == "soundings":
         return
+    if recording.values.shape[1] < 24:
+        raise CalibrationError("fewer than 24 ranges: record longer pings")
     # Values are rounded to whole numbers, unless all lie below 15.
     values, largest = recording.values, full_value_of(recording) * (1.0 - recording.law.offset)
     full = (values >= (largest - 0.5 if largest > 15.0 else largest)).mean()
-    zeros = (values <= 0.0).mean()
     if values.min() == values.max():
         raise CalibrationError("every value is the same: it is empty")
-    if zeros > MOST_ZEROS:
-        raise CalibrationError(f"{zeros:.0%} of the values are 0: record with more gain")
-    if full > MOST_FULL:
-        raise CalibrationError(f"{full:.0%} of the values are the largest one, it is saturated: record with less gain")
+    for share, most, why in (((values <= 0.0).mean(), 0.9, "0: record with more gain"),
+                             (full, 0.1, "the largest one, it is saturated: record with less gain")):
+        if share > most:
+            raise CalibrationError(f"{share:.0%} of the values are {why}")
 
 
 def split(recording, judged_share, is_reversed):
@@ -92,8 +81,7 @@ def split(recording, judged_share, is_reversed):
 
 
 def calibrate(recording, preset, judged_share=0.5, is_reversed=False, slope_rad=0.0, settings=()):
-    """(Calibration, text of the new preset) of a recording and the name or file of a preset. `settings` are those of
-    the water, as "temperature_c=12" with "water." before it."""
+    """(result as in JSON, text of the new preset) of a recording and the name or file of a preset."""
     start = read_start(preset)
     if not 0.01 <= judged_share <= 0.99:
         raise CalibrationError("--judge: the share must lie between 0.01 and 0.99")
@@ -104,12 +92,12 @@ def calibrate(recording, preset, judged_share=0.5, is_reversed=False, slope_rad=
         parts = split(recording, judged_share, is_reversed)
         pings, keys = [len(part) for part in parts], {}
         if recording.kind == "soundings":
-            result = Calibration(recording.name, *pings, soundings_figures(parts, slope_rad), NOTES)
+            result = result_of(recording.name, pings, soundings_figures(parts, slope_rad), NOTES, {})
         else:
             set_shape(start, parts[0], settings)
             fit = fit_image(parts[0], start)
             keys = new_keys(start, fit)
-            result = Calibration(recording.name, *pings, judged_figures(parts, start, fit), fit.notes, fit.estimates)
+            result = result_of(recording.name, pings, judged_figures(parts, start, fit), fit.notes, fit.estimates)
     except CalibrationError as fault:
         raise CalibrationError(f"{recording.name}: {fault}") from fault
     text = start.text
@@ -131,7 +119,7 @@ def judged_figures(parts, start, fit):
 def write(path, text):
     """Writes a file under a temporary name first, so that nothing half-written is left."""
     path = pathlib.Path(path)
-    temporary = path.with_name(f".{path.name}.{os.getpid()}")
+    temporary = path.parent / f".{path.name}.{os.getpid()}"
     try:
         temporary.write_text(text, encoding="utf-8")
         temporary.replace(path)
@@ -140,7 +128,7 @@ def write(path, text):
         raise CalibrationError(f"{path}: cannot be written: {fault.strerror}") from fault
 
 
-def parsed(arguments):
+def main(arguments=None):
     parser = argparse.ArgumentParser("sonarsim calibrate", description=(
         "Fits a preset to pings of a real sonar and judges it by other pings"))
     add = parser.add_argument
@@ -156,22 +144,17 @@ def parsed(arguments):
         help="sets a key of the water, as water.temperature_c=20")
     add("--json", action="store_true", help="prints JSON instead of text")
     add("-q", "--quiet", action="store_true", help="prints no table")
-    return parser.parse_args(arguments)
-
-
-def main(arguments=None):
-    """The exit code: 0, or 2 for a bad input."""
-    options = parsed(arguments)
+    options = parser.parse_args(arguments)
     try:
         recording = open_recording(options.recording, sensor=options.sensor)
         result, text = calibrate(recording, options.preset, options.judge, options.reverse,
                                  math.radians(options.slope_deg), options.settings)
         write(options.out, text)
         if options.report:
-            write(options.report, json.dumps(result.json()) + "\n")
+            write(options.report, json.dumps(result) + "\n")
     except (RecordingError, CalibrationError) as fault:
         print(f"sonarsim calibrate: {fault}", file=sys.stderr)
         return 2
     if options.json or not options.quiet:
-        print(json.dumps(result.json()) if options.json else result.text())
+        print(json.dumps(result) if options.json else table_of(result))
     return 0

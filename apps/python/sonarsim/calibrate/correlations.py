@@ -8,20 +8,19 @@ import functools
 import numpy as np
 from scipy import interpolate, linalg, optimize, special
 
-from .statistics import LAGS, Bounded, bootstrap, sampled
+from .statistics import LAGS, Bounded, bootstrap, sampled_correlations, sampled_statistics
 
 TAPERS_DB = np.arange(-13.3, -41.0, -0.5)
 LEAST_UNITS, MOST_PAIRS = 24, 16
-MODEL_ERROR = 0.002     # of a correlation, by the model's interpolation between the columns of its grid
 CHI2_95 = 3.84          # chi^2 of one degree of freedom stays below it in 95 of 100 cases
-LEAST_CORRELATION = 0.04
-MOST_LEFT = 0.05        # a texture that leaves more of a correlation unexplained is rejected
+# Of correlations: the error of the model between the columns of its grid, the least that shows a pulse, and the most
+# that a texture may leave unexplained.
+MODEL_ERROR, LEAST_CORRELATION, MOST_LEFT = 0.002, 0.04, 0.05
 EDGES, HALF_PATCH = 24, 12.0    # tried edges of its squares, from 1 to 12 bins
 
 
 def pattern(pedestal, t):
-    """The amplitude at t = sine of the angle x length / wavelength: the Fourier transform of the weights. A pulse
-    whose band is weighted so has this shape along range."""
+    """The Fourier transform of the weights: the amplitude at t = sine of the angle x length / wavelength."""
     cosine = 0.5 * (np.sinc(t) + 0.5 * (np.sinc(t + 1.0) + np.sinc(t - 1.0)))
     return (pedestal * np.sinc(t) + (1.0 - pedestal) * cosine) / (0.5 * (1.0 + pedestal))
 
@@ -44,20 +43,18 @@ def taper(side_lobe_db):
 
 @dataclasses.dataclass(eq=False)
 class Pulse:
-    """The effect of a pulse on values. `kind`: "noise" after the matched filter has the spectrum |S|^2, an "echo" of
-    many scatterers |S|^4. With speckle of the scene an echo is shared between two bins before the pulse; with speckle
-    of the ping ("echo of bins") amplitudes are drawn for whole bins."""
+    """The effect of a pulse on values. `kind`: "noise" has the spectrum |S|^2, an "echo" of many scatterers |S|^4. An
+    echo is shared between two bins before the pulse; "echo of bins": speckle of the ping is drawn for whole bins."""
 
     receiver: dict
     side_lobe_db: float
     kind: str
 
     def statistics(self, bins):
-        return sampled(self.receiver, self.amplitude(bins))[0]
+        return sampled_statistics(self.receiver, self.amplitude(bins))
 
     def correlations(self, bins):
-        """The correlations of log powers 1 to LAGS bins apart."""
-        return sampled(self.receiver, self.amplitude(bins), 20000, across_beams=False)[1]
+        return sampled_correlations(self.receiver, self.amplitude(bins))
 
     def amplitude(self, bins):
         """The correlation of complex amplitudes as a function of the lag in samples."""

@@ -54,8 +54,8 @@ def fit_image(recording, start):
 
 
 def fit_laws(recording, fit, find):
-    """Fits the law to all patches, finds the noise, and fits the law again to the patches of noise: these are surely
-    Rayleigh distributed, an even patch of echoes may hold a texture. True if there is too little noise."""
+    """Fits the law to all patches, finds the noise, and fits the law again to patches of noise, since even patches of
+    echoes may hold a texture. True if there is too little noise."""
     values, full, receiver = recording.values, full_value_of(recording), fit.instrument["receiver"]
     bins, offset = bins_of(fit.instrument, recording.range_step_m), receiver["offset"]
     statistics = pulse_of(fit.instrument, "noise").statistics(bins)
@@ -70,10 +70,8 @@ def fit_laws(recording, fit, find):
         chosen, pulse = echoes if of_echoes else noise, pulse_of(fit.instrument, "echo" if of_echoes else "noise")
         width = fit_pulse(patches, chosen, pulse) if len(chosen) >= LEAST_PATCHES else None
         statistics = pulse.statistics(width.value if width else bins)
-    share = 0.0
-    if of_echoes and receiver["samples"] > 1:
-        # Even patches may be noise as well as echoes, whose variances differ.
-        share = abs(np.sqrt(of_noise / statistics.variance) - 1.0)
+    # Even patches may be noise as well as echoes, whose variances differ if samples are combined.
+    share = abs(np.sqrt(of_noise / statistics.variance) - 1.0) if of_echoes else 0.0
     fit.law = fit_law(values, full, statistics, places, offset, fit.law.is_log)
     fit.law.scale = fit.law.scale.widened(share * fit.law.scale.value)
     find()
@@ -86,7 +84,7 @@ def fit_pulse_and_beams(recording, fit):
     of_echoes, texture = len(noise) < LEAST_PATCHES, None
     chosen = echoes if of_echoes else noise
     if len(chosen) < LEAST_PATCHES:
-        fit.notes.append("pulse and beams: too few patches of noise or of even echoes; those of the start are kept")
+        fit.notes.append("pulse and beams: too few patches of noise or even echoes; those of the start are kept")
         return None
     pulse = pulse_of(fit.instrument, "echo" if of_echoes else "noise")
     width = fit_pulse(patches, chosen, pulse)
@@ -100,20 +98,18 @@ def fit_pulse_and_beams(recording, fit):
     statistics, of_beams = fit.law.statistics, np.zeros(LAGS)
     if beams:
         found = fit_array(*patches.beam_covariance(chosen, not of_echoes), np.sin(recording.bearing_rad), statistics)
+        for key, number in zip(("beam.width_deg", "beam.side_lobe_db"), found or ()):
+            fit.set(key, number)
         if found is None:
             fit.notes.append("beams: too few places of even echoes; width and taper are those of the start")
-        else:
-            fit.set("beam.width_deg", found[0])
-            fit.set("beam.side_lobe_db", found[1])
-            if found[1].high - found[1].low > 8.0:
-                fit.notes.append("beam.width_deg and side_lobe_db can hardly be separated: the two belong together")
+        elif found[1].high - found[1].low > 8.0:
+            fit.notes.append("beam.width_deg and side_lobe_db can hardly be separated: the two belong together")
         of_beams = predicted_correlations(beams, np.sin(recording.bearing_rad), statistics)
     # If pulse and law are fitted to noise, the texture of the bottom does not affect them.
     if width and fit.noise and of_echoes:
         texture = fit_texture(patches, echoes, pulse, steps_on_ground(recording, patches, echoes), of_beams)
     if texture:
-        shapes = (shape_of_share(texture[0][k], statistics) for k in (0, 2, 1))
-        fit.set("speckle.clutter_shape", Bounded(*shapes))
+        fit.set("speckle.clutter_shape", Bounded(*(shape_of_share(texture[0][k], statistics) for k in (0, 2, 1))))
         fit.set("speckle.clutter_m", texture[1])
         fit.notes.append("speckle.clutter_shape and clutter_m are those of this bottom, not of the sonar")
     if width:
@@ -125,8 +121,7 @@ def set_levels(start, fit):
     """Sets gain and levels by the noise. Pings show only differences of levels, so full_scale_db is fitted."""
     noise, law = fit.noise, fit.law
     if noise is None:
-        fit.notes.append("full_scale_db and tvg_log: no rows show noise alone; those of the start are kept")
-        return
+        return fit.notes.append("full_scale_db and tvg_log: no rows show noise alone; those of the start are kept")
     # An error of the law scales all levels below full scale, and the gain with them.
     share = law.scale.half_width / law.scale.value
     near, far = noise.used.range_m[[0, -1]]

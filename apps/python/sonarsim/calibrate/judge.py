@@ -9,9 +9,7 @@ from .noise import ROWS, Noise, noise_blocks
 from .patches import Patches
 from .statistics import DB_OF_E, LAGS, Bounded, amplitude_variation, bootstrap
 
-LEAST_PATCHES = 12
-LEAST_ECHO_DB = 6.0
-DRAWS = 40
+LEAST_PATCHES, LEAST_ECHO_DB, DRAWS = 12, 6.0, 40
 
 
 class Figure(typing.NamedTuple):
@@ -22,10 +20,8 @@ class Figure(typing.NamedTuple):
 
     @property
     def agrees(self):
-        if self.predicted is None:
-            return False
         most = {"dB": 1.0, "correlation": 0.05}.get(self.tolerance) or self.tolerance * abs(self.measured.value)
-        return abs(self.predicted - self.measured.value) <= most
+        return self.predicted is not None and abs(self.predicted - self.measured.value) <= most
 
 
 def classified(recording, law, noise):

@@ -61,32 +61,30 @@ def fit_law(values, full_value, statistics, places=None, offset=0.0, is_log=None
     if len(even) < LEAST_PATCHES:
         raise CalibrationError("fewer than 8 even patches of speckle, of 24 bins and 24 beams (96 bins of a sonar with "
                                "few beams), between the ends of the scale: record longer pings, or with another gain")
-    skewness = [bootstrap(of.places, skewness_of(of, even))[0] for of in (logs, plain)]
+    found = [bootstrap(of.places, moments_of(of, even)) for of in (logs, plain)]
+    skewness = [of[1] for of in found]
     check_speckle(logs, even, skewness, statistics.skewness)
     level = np.log(plain.mean_value[even])
     if is_log is None and level.std() > LEAST_SPREAD_OF_LEVELS:
         # The slope of log standard deviation against log mean is 1 for a power, 0 for a logarithm.
-        is_log = np.polyfit(level, 0.5 * np.log(plain.variance[even]), 1)[0] <= 0.5
+        is_log = bool(np.polyfit(level, 0.5 * np.log(plain.variance[even]), 1)[0] <= 0.5)
     elif is_log is None:
         off = [abs(s.value - statistics.skewness) for s in skewness]
         is_log = off[1] <= off[0]
-    used = plain if is_log else logs
-    sums = used.sums(even, np.ones(len(used.place)), used.variance)
-
-    def scale(weights):
-        count, variance = (weights @ sums).T
-        ratio = np.sqrt(variance / count / statistics.variance)
-        return full_value * DB_OF_E / ratio if is_log else 2.0 * ratio
-    found = bootstrap(used.places, scale)[0]
-    return Law(full_value, bool(is_log), found.widened(LEAST_ERROR * found.value), offset, statistics)
+    deviation, sigma = found[is_log][0], np.sqrt(statistics.variance)
+    scale = deviation.scaled(2.0 / sigma)
+    if is_log:
+        scale = Bounded(*(full_value * DB_OF_E * sigma / x for x in (deviation.value, deviation.high, deviation.low)))
+    return Law(full_value, is_log, scale.widened(LEAST_ERROR * scale.value), offset, statistics)
 
 
-def skewness_of(patches, even):
+def moments_of(patches, even):
+    """A function of weights that gives standard deviation and skewness."""
     sums = patches.sums(even, np.ones(len(patches.place)), patches.variance, patches.third)
 
     def estimate(weights):
         count, variance, third = (weights @ sums).T
-        return third / count / (variance / count) ** 1.5
+        return np.stack([np.sqrt(variance / count), third / count / (variance / count) ** 1.5], axis=1)
     return estimate
 
 

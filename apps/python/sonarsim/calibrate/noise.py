@@ -10,16 +10,14 @@ ROWS, GROUPS = 8, 8         # bins of a block, groups of beams
 NEAR_DB = 0.8               # a block is on the law if it is within this of it
 LEAST_BLOCKS, LEAST_SHARE = 6, 0.12
 LEAST_LEVEL_DB, LEAST_TVG = 0.1, 0.2    # errors that the trend within a block and the law leave
-# Beams stand out by this many times the spread of the others, and by at least 0.4 dB.
-DEVIATIONS_AHEAD, LEAST_OVER_DB = 4.0, 0.4
+DEVIATIONS_AHEAD, LEAST_OVER_DB = 4.0, 0.4     # by which beams stand out
 
 
 def noise_blocks(recording, law, ahead=None):
     """The level in dB re full scale of the part that changes from ping to ping, in blocks of 8 bins, without the beams
-    `ahead`: rows of an array. Noise N is new in every ping, an echo of a scene at rest is constant: with M the mean of
-    the powers A and B of a place in two pings, the mean of (A - B)^2 is 2 (2 M N - N^2), for one look at one sample.
-    `homogeneous`: beams and pings have one level, and no value is 0; `without_echo`: no part is constant;
-    `without_zeros`: hardly a value is 0."""
+    `ahead`. Noise N is new in every ping, an echo of a scene at rest is constant: with M the mean of the powers A and B
+    of a place in two pings, the mean of (A - B)^2 is 2 (2 M N - N^2), for one look at one sample. `homogeneous`: beams
+    and pings have one level, and no value is 0; `without_echo`: no part is constant."""
     pings, ranges, beams = recording.values.shape
     used = np.ones(beams, bool) if ahead is None else ~ahead
     group, count = np.arange(beams)[used] * GROUPS // beams, ranges // ROWS
@@ -89,15 +87,15 @@ def fit_noise(blocks, absorption, from_m=0.0):
         return None
     r = np.maximum(blocks.range_m, from_m)
     x, y = np.log10(r), blocks.level_db - 2.0 * absorption * r
-    best, line = -np.inf, None
+    tried = []
     for factor in range(61):
         # The level with the most blocks near the law less the number of those below it.
         off = np.sort((y - factor * x)[blocks.homogeneous])
         end = np.searchsorted(off, off + 2.0 * NEAR_DB, "right")
         score = end - 2 * np.arange(len(off))
         at = int(np.argmax(score))
-        if score[at] > best:
-            best, line = score[at], (0.5 * (off[at] + off[end[at] - 1]), factor)
+        tried.append((score[at], -factor, 0.5 * (off[at] + off[end[at] - 1])))
+    line = max(tried)[:0:-1] * np.array([1.0, -1.0])
     used = blocks.homogeneous & (np.abs(y - line[0] - line[1] * x) <= NEAR_DB)
     if used.sum() < max(LEAST_BLOCKS, LEAST_SHARE * len(x)):
         return None

@@ -8,9 +8,8 @@ LEAST_MEAN_VALUE = 6.0      # smaller values are too coarse for the logarithm
 
 
 class Patches:
-    """The moments of all patches of some pings [ping, range, beam], an array of each. `scaled` takes the values of a
-    ping and gives those whose moments are wanted. Moments of differences need no mean of the patch, and correlated
-    values do not make the variance too small."""
+    """The moments of all patches of pings [ping, range, beam], of values that `scaled` makes of a ping. They come from
+    differences, so the mean of a patch need not be known, and correlated values do not make the variance too small."""
 
     def __init__(self, values, full_value, scaled):
         pings, ranges, beams = values.shape
@@ -72,9 +71,8 @@ class Patches:
         """The correlations along the beams, their covariance and the number of independent units. A unit with the
         structure S and the variance V changes r = 1 - sum S / sum V by ((1 - r) V - S) / sum V. Noise is new in
         every ping, so each patch is a unit; echoes may be constant, so each place is."""
-        sums = np.column_stack([self.variance[chosen], self.along_beams[chosen]])
-        if not new_in_each_ping:
-            sums = self.sums(chosen, self.variance, *self.along_beams.T)[np.unique(self.place[chosen])]
+        sums = np.column_stack([self.variance, self.along_beams])[chosen] if new_in_each_ping else \
+            self.sums(chosen, self.variance, *self.along_beams.T)[np.unique(self.place[chosen])]
         variance, structures = sums[:, 0], sums[:, 1:]
         left = structures.sum(axis=0) / variance.sum()
         moved = (left * variance[:, None] - structures) / variance.sum()

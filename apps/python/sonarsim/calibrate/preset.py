@@ -13,8 +13,7 @@ import yaml
 from .statistics import Bounded, CalibrationError
 
 LARGEST_PRESET = 1 << 20
-# The one that runs this command, else the one on the path.
-PROGRAM = os.environ.get("SONARSIM") or shutil.which("sonarsim") or "sonarsim"
+PROGRAM = os.environ.get("SONARSIM") or shutil.which("sonarsim") or "sonarsim"     # that runs this command
 # The defaults of the program, for the keys that a fit reads.
 DEFAULTS = {
     "beam": {"width_deg": 1.0, "side_lobe_db": -13.3},
@@ -31,7 +30,6 @@ class Start:
     text: str
     kind: str                   # as that of a recording
     instrument: dict            # the sections of DEFAULTS with the keys of the file
-    has_noise: bool             # a noise_db is given
     shape: dict = dataclasses.field(default_factory=dict)   # keys that the pings set
     noise_db: float = 0.0
     full_scale_db: float = 0.0
@@ -69,8 +67,7 @@ def read_start(name):
     if given.get("model") != "calibrated":
         raise CalibrationError(f"{file}: has nothing to calibrate: only model: calibrated has an instrument")
     kind = given.get("kind", "imaging")
-    has_noise = sections["receiver"].get("noise_db", "auto") != "auto"
-    return Start(file, text, "soundings" if kind == "profiling" else kind, sections, has_noise)
+    return Start(file, text, "soundings" if kind == "profiling" else kind, sections)
 
 
 def number(value):
@@ -99,8 +96,8 @@ def set_shape(start, recording, settings):
         if run.returncode:
             raise CalibrationError((run.stderr.strip().splitlines() or ["it failed"])[-1].removeprefix("error: "))
         found = json.loads(run.stdout)
-        start.noise_db, start.full_scale_db = found["noise_db"], found["full_scale_db"]
-        start.absorption_db_per_m = found["absorption_db_per_m"]
+        for key in ("noise_db", "full_scale_db", "absorption_db_per_m"):
+            setattr(start, key, found[key])
     except (OSError, json.JSONDecodeError, KeyError) as fault:
         raise CalibrationError(f"{PROGRAM}: does not give the levels of {start.file} ({fault}); set SONARSIM to the "
                                "path of the program") from fault
@@ -115,9 +112,8 @@ def new_keys(start, fit):
     receiver = start.instrument["receiver"]
     if fit.noise and not receiver["tvg_absorption"]:
         out["instrument.receiver.tvg_absorption"] = "true", "rule: tvg_log is fitted beside the absorption of the water"
-    if fit.noise and not start.has_noise:
-        out["instrument.receiver.noise_db"] = (f"{start.noise_db:.4g}",
-                                               "rule: that of the start; full_scale_db is fitted to it")
+    if fit.noise and receiver.get("noise_db", "auto") == "auto":
+        out["instrument.receiver.noise_db"] = f"{start.noise_db:.4g}", "rule: that of the start, for full_scale_db"
     return out
 
 
@@ -127,12 +123,12 @@ def with_key(text, path, value, comment, name):
     lines, node, parts = text.split("\n"), yaml.compose(text), path.split(".")
     for depth, part in enumerate(parts):
         at, indent = node.start_mark.line, node.start_mark.column
+        if not isinstance(node, yaml.MappingNode) or node.flow_style:
+            raise CalibrationError(f"{name}:{at + 1}: write each key in a line of its own, so that it can be replaced")
         pair = next((pair for pair in node.value if pair[0].value == part), None)
         if pair is None:
             break
         at, node = pair[0].start_mark.line, pair[1]
-        if depth + 1 < len(parts) and (not isinstance(node, yaml.MappingNode) or node.flow_style):
-            raise CalibrationError(f"{name}:{at + 1}: write each key of '{part}' in a line of its own")
     new = [f"{' ' * (indent + 2 * k)}{part}:" for k, part in enumerate(parts[depth:])]
     lines[at:at + (pair is not None)] = [*new[:-1], f"{new[-1]} {value}  # {comment}"]
     return "\n".join(lines)

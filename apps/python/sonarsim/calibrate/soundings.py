@@ -4,8 +4,7 @@ import numpy as np
 from .judge import Figure
 from .statistics import CalibrationError, bootstrap
 
-ANGLE_STEP_DEG = 4.0
-LEAST_SOUNDINGS, LEAST_ANGLES = 100, 6
+ANGLE_STEP_DEG, LEAST_SOUNDINGS, LEAST_ANGLES = 4.0, 100, 6
 STRETCHES = 20      # of pings, the units of the bootstrap: neighbours see the same bottom
 NOTES = ["transmit level, gain and strength of the bottom cannot be separated: the levels have their sum",
          "no key of the preset changes: the spread depends on how the sonar detects the bottom, which has no key"]
@@ -48,8 +47,7 @@ def fit_soundings(recording, slope_rad):
     def estimate(weights):
         count, _, level, bends, squares = np.einsum("du,kuc->cdk", weights, rows)
         return np.concatenate([10.0 * np.log10(level / count), np.sqrt(squares / bends)], axis=1)
-    bounded = bootstrap(STRETCHES, estimate, draws=40)
-    total = rows.sum(axis=1)
+    bounded, total = bootstrap(STRETCHES, estimate, draws=40), rows.sum(axis=1)
     return total[:, 1] / total[:, 0], bounded[:len(rows)], bounded[len(rows):]
 
 

@@ -2,7 +2,7 @@
 import typing
 
 import numpy as np
-from scipy import special
+from scipy import linalg, special
 
 DB_OF_E = 10.0 / np.log(10.0)   # a ratio e of powers in dB
 LAGS = 8                        # the greatest lag of correlations, in bins and beams
@@ -81,42 +81,47 @@ def amplitude_variation(shape):
     return np.sqrt(shape * np.exp(2.0 * (special.gammaln(shape) - special.gammaln(shape + 0.5))) - 1.0)
 
 
-def sampled(receiver, amplitude, bins=80000, across_beams=True):
-    """The statistics of the values of a receiver, and the correlations of ln P 1 to LAGS bins apart. `amplitude(lag)`
-    is the correlation of complex amplitudes, lags in samples. Several correlated samples that become one value have
-    no closed form, so sequences are drawn: a result is the closed form of single samples plus the drawn difference
-    between combined and single ones."""
-    out, lags = LogStatistics(receiver["looks"]), np.arange(1, LAGS + 1)
-    along = out.correlation(amplitude(receiver["samples"] * lags) ** 2)
+# Several correlated samples that become one value have no closed form: a result is that of single samples plus a drawn
+# difference between combined and single ones. `amplitude(lag)` is the correlation of complex amplitudes, in samples.
+
+def sampled_statistics(receiver, amplitude, count=120000):
+    """The statistics of the values of a receiver."""
+    out = LogStatistics(receiver["looks"])
     if receiver["samples"] == 1:
-        return out, along
-    one = drawn(receiver, amplitude, bins, 1)
-    pair = whole, single = combined(receiver, one)
+        return out
+    one, other = (drawn(receiver, amplitude, 1, count, seed) for seed in (1, 2))
+    (whole,), (single,) = pair = combined(receiver, one)
     out.mean += whole.mean() - single.mean()
     out.variance += whole.var() - single.var()
     out.skewness += np.subtract(*(((x - x.mean()) ** 3).mean() / x.std() ** 3 for x in pair))
     out.variation += np.subtract(*(np.exp(0.5 * x).std() / np.exp(0.5 * x).mean() for x in pair))
-    along = along + [np.subtract(*(np.corrcoef(x[:-k], x[k:])[0, 1] for x in pair)) for k in lags]
-    if across_beams:
-        other = drawn(receiver, amplitude, bins, 2)
-        mixed = [combined(receiver, np.sqrt(k2) * one + np.sqrt(1.0 - k2) * other) for k2 in np.linspace(0.0, 1.0, 17)]
-        out.excess = np.array([np.corrcoef(whole, m)[0, 1] - np.corrcoef(single, s)[0, 1] for m, s in mixed])
-    return out, along
+    mixed = [combined(receiver, np.sqrt(k2) * one + np.sqrt(1.0 - k2) * other) for k2 in np.linspace(0.0, 1.0, 17)]
+    out.excess = np.array([np.corrcoef(whole, m)[0, 1] - np.corrcoef(single, s)[0, 1] for m, s in mixed])
+    return out
 
 
-def drawn(receiver, amplitude, bins, seed):
-    """Complex normal sequences [look, sample] of mean power 1."""
-    count = bins * receiver["samples"]
-    lags = np.minimum(np.arange(count), count - np.arange(count))
-    rho = np.where(lags < 512, amplitude(np.minimum(lags, 512)), 0.0)
-    draws = np.random.default_rng(seed).standard_normal((2, receiver["looks"], count))
-    spectrum = np.sqrt(np.maximum(np.fft.fft(rho).real, 0.0) * count / 2.0)
-    return np.fft.ifft(spectrum * (draws[0] + 1j * draws[1]), axis=1)
+def sampled_correlations(receiver, amplitude, count=6000):
+    """The correlations of ln P 1 to LAGS bins apart."""
+    lags = np.arange(1, LAGS + 1)
+    along = LogStatistics(receiver["looks"]).correlation(amplitude(receiver["samples"] * lags) ** 2)
+    if receiver["samples"] == 1:
+        return along
+    pair = combined(receiver, drawn(receiver, amplitude, LAGS + 1, count, 1))
+    return along + [np.subtract(*(np.corrcoef(x[:-k].ravel(), x[k:].ravel())[0, 1] for x in pair)) for k in lags]
+
+
+def drawn(receiver, amplitude, bins, count, seed):
+    """Complex normal samples [look, sample, draw] of some bins."""
+    size = bins * receiver["samples"]
+    root = np.linalg.cholesky(linalg.toeplitz(amplitude(np.arange(size))) + 1e-9 * np.eye(size))
+    draws = np.random.default_rng(seed).standard_normal((2, receiver["looks"], size, count))
+    return root @ draws[0] + 1j * (root @ draws[1])
 
 
 def combined(receiver, looks):
-    """ln P of the values of bins, and of the first sample of each bin."""
-    powers = (looks.real**2 + looks.imag**2).mean(axis=0).reshape(-1, receiver["samples"]).T.copy() + 1e-12
-    rule = {"max": lambda: powers.max(axis=0), "mean": lambda: np.sqrt(powers).mean(axis=0) ** 2,
-            "rms": lambda: powers.mean(axis=0)}[receiver["combine"]]
-    return np.log(rule()), np.log(powers[0])
+    """ln P of the values of bins, [bin, draw], and of the first sample of each bin."""
+    powers = (looks.real**2 + looks.imag**2).mean(axis=0)
+    powers = powers.reshape(-1, receiver["samples"], powers.shape[1]) + 1e-12
+    rule = {"max": lambda: powers.max(axis=1), "mean": lambda: np.sqrt(powers).mean(axis=1) ** 2,
+            "rms": lambda: powers.mean(axis=1)}[receiver["combine"]]
+    return np.log(rule()), np.log(powers[:, 0])
