@@ -5,6 +5,7 @@ import multiprocessing
 import os
 import signal
 import sys
+from concurrent.futures.process import BrokenProcessPool
 
 try:
     import numpy    # noqa: F401  pylint: disable=unused-import
@@ -112,22 +113,19 @@ def export(options):
                 layout.add(piece)
                 statistics.add(piece)
         if not statistics.all.pictures:
-            raise ValueError(no_pictures(source, options))
+            raise ValueError(no_pictures(source.pictures[0], options.tile))
         layout.finish()
-        layout.write_json(folder / "statistics.json", statistics.as_json())
+        formats.write_json(folder / "statistics.json", statistics.as_json())
     print(f"{options.dest}: {options.format}\n{statistics.text()}")
 
 
-def no_pictures(source, options):
+def no_pictures(picture, tile_px):
     """Why an export with a split has no picture."""
-    strips = [one for one in source.pictures if one.kind == "strip"]
-    if not strips:
-        return (f"{options.folders[0]}: no picture lies in one part of the split; take a smaller --gap, or leave out "
-                "--split")
-    one = strips[0]
-    what = f"tiles of {options.tile[0]} x {options.tile[1]}" if options.tile else f"{one.width} x {one.height} pixels"
-    return (f"{one.path}: shows pings of several parts of the split ({what}); cut it with --tile {tile_hint(one)}, or "
-            "leave out --split")
+    if picture.kind != "strip":
+        return f"{picture.path}: shows pings of several parts of the split; take a smaller --gap, or leave out --split"
+    what = "each tile of it" if tile_px else "it"
+    return (f"{picture.path}: is {picture.width} x {picture.height} pixels, and {what} shows pings of several parts of "
+            f"the split; cut it with --tile {tile_hint(picture)}, or leave out --split")
 
 
 def main(arguments):
@@ -137,7 +135,7 @@ def main(arguments):
     except ValueError as fault:
         print(f"sonarsim export: {fault}", file=sys.stderr)
         return 2
-    except (OSError, concurrent.futures.process.BrokenProcessPool, MemoryError) as fault:
+    except (OSError, BrokenProcessPool, MemoryError) as fault:
         print(f"sonarsim export: {fault}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:

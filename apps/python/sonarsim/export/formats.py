@@ -11,7 +11,6 @@ from .split import PARTS
 
 SHARD_BYTES = 256 << 20
 LONGEST_MEMBER = 100        # in a tar archive of the format ustar
-MOST_CLASSES = 255          # of masks, without the background
 DIGITS = {"range_m": 3, "bearing_deg": 2, "contrast_db": 2, "visible_share": 4, "shadow_contrast_db": 2}
 
 
@@ -32,20 +31,20 @@ def place(piece, folder, link):
         try:
             os.link(piece.path, file)
         except OSError as fault:
-            raise ValueError(f"{piece.path}: cannot be linked to {file} ({fault.strerror}); leave out --link, or "
-                             "export to the disk that holds the dataset") from fault
+            raise ValueError(f"{piece.path}: cannot be linked ({fault.strerror}); leave out --link") from fault
 
 
 def bbox(box):
     return [box[0], box[2], box[1] - box[0], box[3] - box[2]]
 
 
+def write_json(path, value):
+    path.write_text(json.dumps(value, ensure_ascii=False) + "\n", encoding="utf-8")
+
+
 class Format:
     def __init__(self, folder, classes, info, options):
         self.folder, self.classes, self.info, self.options = folder, classes, info, options
-
-    def write_json(self, path, value):
-        path.write_text(json.dumps(value, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
 
 
 class Coco(Format):
@@ -132,7 +131,7 @@ class Masks(Format):
 
     def __init__(self, *given):
         super().__init__(*given)
-        if len(self.classes) > MOST_CLASSES:
+        if len(self.classes) > 255:
             raise ValueError("--format masks: holds at most 255 classes; leave some out (--without)")
         self.names = {}
 
@@ -147,9 +146,8 @@ class Masks(Format):
         (self.folder / "splits").mkdir()
         for part, names in self.names.items():
             (self.folder / "splits" / f"{part}.txt").write_text("".join(names), encoding="ascii")
-        self.write_json(self.folder / "meta.json", {
-            "classes": ["background", *self.classes],
-            "palette": [colour_of(k) for k in range(len(self.classes) + 1)]})
+        write_json(self.folder / "meta.json", {"classes": ["background", *self.classes],
+                                               "palette": [colour_of(k) for k in range(len(self.classes) + 1)]})
 
 
 class WebDataset(Format):
@@ -161,12 +159,10 @@ class WebDataset(Format):
 
     def add(self, piece):
         if len(piece.name) + 5 > LONGEST_MEMBER:
-            raise ValueError(f"--format webdataset: {piece.name!r} is too long for the name of a file in a tar archive; "
-                             "give the mission and its sensors shorter names")
-        objects = {"id": [one["id"] for one in piece.objects], "bbox": [bbox(one["box"]) for one in piece.objects],
-                   "area": [one["area"] for one in piece.objects],
-                   "categories": [one["class"] - 1 for one in piece.objects],
-                   "mask": [one["mask"] for one in piece.objects]}
+            raise ValueError(f"--format webdataset: {piece.name!r} is too long for the name of a file in an archive")
+        objects = {key: [one[key] for one in piece.objects] for key in ("id", "area", "mask")}
+        objects["bbox"] = [bbox(one["box"]) for one in piece.objects]
+        objects["categories"] = [one["class"] - 1 for one in piece.objects]
         text = json.dumps({"width": piece.width, "height": piece.height, "objects": objects}) + "\n"
         png = piece.path.read_bytes() if piece.png is None else piece.png
         shard = self.shards.get(piece.part)

@@ -1,8 +1,7 @@
 """Exported pictures: whole pictures or tiles, with the objects that they show. Runs in worker processes."""
 import dataclasses
 import io
-import math
-import struct
+import itertools
 
 import numpy as np
 from PIL import Image
@@ -36,7 +35,7 @@ def prepare(picture, numbers, options):
     if not any(parts):
         return [], len(frames), 0
     objects = [one for one in objects_of(picture, numbers) if is_kept(one, picture, options)]
-    pixels = None if is_ready(picture) and len(frames) == 1 else pixels_of(picture)
+    pixels = pixels_of(picture, len(frames) == 1)
     pieces, dropped = [], 0
     for frame, part in zip(frames, parts):
         if part is None:
@@ -131,37 +130,27 @@ def show(one, picture, frame, options):
     return shown
 
 
-def is_ready(picture):
-    """True for a PNG of 8 bits of the right size, which is exported as it is."""
-    if picture.path.suffix != ".png":
-        return False
-    with open(picture.path, "rb") as file:
-        head = file.read(26)
-    if len(head) < 26 or head[:8] != b"\x89PNG\r\n\x1a\n":
-        raise ValueError(f"{picture.path}: is no PNG, of which pictures are exported")
-    if struct.unpack(">II", head[16:24]) != (picture.width, picture.height):
-        raise ValueError(f"{picture.path}: is not {picture.width} x {picture.height} pixels, as its dataset says")
-    return head[24] == 8
-
-
-def pixels_of(picture):
-    """The grey values, or colours, of a picture in 8 bits: white is full_scale, and grey its square root."""
+def pixels_of(picture, is_whole):
+    """The grey values, or colours, of a picture in 8 bits; None if its file can be copied. White is full_scale, and
+    grey its square root."""
     try:
         if picture.path.suffix == ".npy":
             values = data.read_npy(picture.path.read_bytes()).astype(np.float64)
             shares = np.nan_to_num(values / picture.full_scale) if picture.full_scale > 0 else 0 * values
             pixels = np.floor(255 * np.sqrt(shares.clip(0, 1)) + 0.5).astype(np.uint8)
         else:
-            with Image.open(picture.path) as image:
-                pixels = np.asarray(image.convert("RGB") if image.mode in ("P", "RGBA") else image)
-            if pixels.dtype != np.uint8:
-                pixels = GREYS[pixels.astype(np.uint16)]
+            with Image.open(picture.path, formats=["PNG"]) as image:
+                is_grey = image.mode in ("L", "I", "I;16")
+                if is_whole and image.mode in ("L", "P", "RGB") and image.size == (picture.width, picture.height):
+                    return None
+                pixels = np.asarray(image if is_grey else image.convert("RGB"))
+            pixels = pixels if pixels.dtype == np.uint8 else GREYS[pixels.astype(np.uint16)]
     except (ValueError, SyntaxError, OSError) as fault:
         if isinstance(fault, OSError) and fault.errno:
             raise
         raise ValueError(f"{picture.path}: cannot be read: {fault}") from fault
     if pixels.shape[:2] != (picture.height, picture.width):
-        raise ValueError(f"{picture.path}: is not {picture.width} x {picture.height}, as its dataset says")
+        raise ValueError(f"{picture.path}: is not {picture.width} x {picture.height} pixels, as its dataset says")
     return pixels
 
 
@@ -183,21 +172,11 @@ def classes_png(piece):
 
 def colour_of(number):
     """The colour of a class in masks: neighbouring numbers differ strongly."""
-    colour = [0, 0, 0]
-    for bit in range(7, -1, -1):
-        for channel in range(3):
-            colour[channel] |= (number & 1) << bit
-            number >>= 1
-    return tuple(colour)
+    return tuple(sum((number >> 3 * k + channel & 1) << 7 - k for k in range(8)) for channel in range(3))
 
 
 def tile_hint(picture):
     """The sides of a tile that fits the longest stretch of a strip in one part of the split."""
-    longest = run = 0
-    before = None
-    for part in picture.parts:
-        run = run + 1 if part == before and part else int(part is not None)
-        longest, before = max(longest, run), part
-    along = max(16, math.ceil(longest / 2))
-    across = max(16, picture.width if picture.rows_are_pings else picture.height)
-    return f"{across}x{along}" if picture.rows_are_pings else f"{along}x{across}"
+    stretches = [sum(1 for _ in run) for part, run in itertools.groupby(picture.parts) if part]
+    along, across = max(16, max(stretches, default=0) // 2), max(16, picture.width)
+    return f"{across}x{along}" if picture.rows_are_pings else f"{along}x{max(16, picture.height)}"

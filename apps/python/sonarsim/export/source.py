@@ -37,10 +37,7 @@ class Source:
         for folder in folders:
             self._add_folder(pathlib.Path(folder), len(folders) > 1, options)
         self._number_classes(options)
-        sensors = sorted({name for one in self.datasets for name in one.sensors})
-        for name in options.sensor:
-            if name not in sensors:
-                raise ValueError(f"--sensor: there is no {name!r}; there are: {', '.join(sensors)}")
+        require_known(options.sensor, {name: 0 for one in self.datasets for name in one.sensors}, "--sensor")
         self.pictures, self._taken = [], set()
         for index in range(len(self.datasets)):
             self._add_pictures(index, options)
@@ -70,9 +67,7 @@ class Source:
             names = list(dataset.classes.values())
             known.update(dict.fromkeys(names))
             annotated.update(dict.fromkeys(name for name in names if name not in background(dataset)))
-        for name in options.without:
-            if name not in known:
-                raise ValueError(f"--without: there is no class {name!r}; there are: {', '.join(known)}")
+        require_known(options.without, known, "--without")
         if not annotated:
             raise ValueError(f"{self.datasets[0].folder}: each class is background by labels.background of its "
                              "mission; [none] there makes all of them objects")
@@ -111,6 +106,12 @@ class Source:
             picture.name, other = f"{first}-{other}", other + 1
         self._taken.add(picture.name)
         picture.dataset = index
+
+
+def require_known(given, known, option):
+    for name in given:
+        if name not in known:
+            raise ValueError(f"{option}: there is no {name!r}; there are: {', '.join(known)}")
 
 
 def background(dataset):

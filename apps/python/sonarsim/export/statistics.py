@@ -58,8 +58,5 @@ class Statistics:
         lines.append(f"{'class':<{width}}  objects  pictures  annotations  ignored")
         lines += [f"{one['name']:<{width}}  {len(one['objects']):7}  {one['pictures']:8}  {one['annotations']:11}  "
                   f"{one['ignored']:7}" for one in self.all.classes]
-        if self.left_out["pictures"]:
-            lines.append(f"{self.left_out['pictures']} pictures or tiles are not in one part of the split")
-        if self.left_out["pieces"]:
-            lines.append(f"{self.left_out['pieces']} pieces of objects are too small, or show no part of the box")
-        return "\n".join(lines)
+        return "\n".join(lines + [f"left out: {self.left_out['pictures']} pictures or tiles that are not in one part "
+                                  f"of the split, {self.left_out['pieces']} pieces of objects that are too small"])
