@@ -386,6 +386,22 @@ class Torch(Package):
         with self.assertRaisesRegex(sonarsim.InputError, "nowhere.yaml"):
             PingDataset("nowhere.yaml")
 
+    def test_objects_survive_a_batch(self):
+        """They are text, whose number in a batch is free."""
+        with unittest.mock.patch.dict(sys.modules, {"torch": types.SimpleNamespace(utils=types.SimpleNamespace(
+                data=types.SimpleNamespace(IterableDataset=object)))}):
+            sys.modules.pop("sonarsim.torch", None)
+            text = importlib.import_module("sonarsim.torch").tensor_of(
+                types.SimpleNamespace(image=None, raw=None, sensor="fls", labels={"objects": {"ping": 3, "objects": []}}),
+                "objects")
+        sys.modules.pop("sonarsim.torch", None)
+        self.assertEqual(text, '{"ping": 3, "objects": []}')
+
+    @unittest.skipIf(torch is None, "needs torch")
+    def test_the_boxes_of_the_page(self):
+        page = (ROOT / "docs/python.md").read_text()
+        self.assertGreater(len(self.run_page(page.split("<!-- boxes on the fly -->\n```python\n")[1].split("```")[0])), 10)
+
     @unittest.skipIf(torch is None, "needs torch")
     def test_the_training_loop_of_the_page(self):
         page = (ROOT / "docs/python.md").read_text()

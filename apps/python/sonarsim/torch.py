@@ -7,6 +7,7 @@
 """
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
@@ -30,7 +31,8 @@ class PingDataset(torch.utils.data.IterableDataset):  # type: ignore[misc]
 
     `mission`, `set` and `paths_from` are those of sonarsim.open(). `sensor`: its name, needed if the
     mission has several. An item is a tuple of tensors in the order of `names`: "image", "raw" or a
-    label; or what `transform` makes of the sonarsim.Ping. uint16 becomes int32, since torch has none.
+    label; or what `transform` makes of the sonarsim.Ping. uint16 becomes int32, since torch has none;
+    "objects" is JSON text.
 
     `shard` (i, n) is the part of a process among several machines, as in sonarsim.Mission.pings().
     Each worker of a DataLoader renders its share of it, which is disjoint from the others', on
@@ -76,13 +78,13 @@ class PingDataset(torch.utils.data.IterableDataset):  # type: ignore[misc]
 
 
 def tensor_of(ping: sonarsim.Ping, name: str) -> Any:
-    """"image", "raw" or a label of a ping as a tensor, without a copy unless it is uint16. A label that
-    is no array stays what it is. KeyError for a name that the ping does not have."""
+    """"image", "raw" or a label of a ping as a tensor, without a copy unless it is uint16. `objects` is JSON
+    text, since a DataLoader puts texts of any length into a batch. KeyError for a name that the ping does not have."""
     values = {"image": ping.image, "raw": ping.raw, **ping.labels}.get(name)
     if values is None:
         have = ["image", *(["raw"] if ping.raw is not None else []), *ping.labels]
         raise KeyError(f"sensor {ping.sensor!r} has no {name!r}, but {', '.join(have)}; output.labels of the "
                        "mission says which labels there are")
     if not isinstance(values, np.ndarray):
-        return values
+        return values if isinstance(values, str) else json.dumps(values)
     return torch.from_numpy(values.astype(np.int32) if values.dtype == np.uint16 else values)

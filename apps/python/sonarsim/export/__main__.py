@@ -1,0 +1,147 @@
+"""The command `sonarsim export`."""
+import argparse
+import concurrent.futures
+import multiprocessing
+import os
+import signal
+import sys
+from concurrent.futures.process import BrokenProcessPool
+
+try:
+    import numpy    # noqa: F401  pylint: disable=unused-import
+    import PIL      # noqa: F401  pylint: disable=unused-import
+except ImportError as missing:
+    sys.exit(print(f"sonarsim export: needs {missing.name}, which is not installed: apt install python3-numpy "
+                   "python3-pil", file=sys.stderr) or 2)
+
+from . import formats, split
+from .destination import destination
+from .pieces import prepare, tile_hint
+from .source import Source
+from .statistics import Statistics
+
+BATCH = 512     # pictures whose pieces are in memory at a time
+
+
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        self.exit(2, f"sonarsim export: {message}; --help lists the options\n")
+
+
+def number(kind, low, high):
+    """Reads a number from low to high."""
+    def read(text):
+        try:
+            value = kind(text)
+        except ValueError:
+            value = None
+        if value is None or not low <= value <= high:
+            raise argparse.ArgumentTypeError(f"{text!r} must be a number from {low} to {high}")
+        return value
+    return read
+
+
+def tile(text):
+    """(width, height) of a text like 512 or 512x256."""
+    sides = [number(int, 16, 65536)(side) for side in text.split("x")]
+    if len(sides) > 2:
+        raise argparse.ArgumentTypeError(f"{text!r} must be N or WIDTHxHEIGHT")
+    return sides[0], sides[-1]
+
+
+def parse(arguments):
+    parser = Parser(prog="sonarsim export", allow_abbrev=False, description="Writes the pictures and objects of "
+                    "datasets as a folder that a trainer opens.")
+    add = parser.add_argument
+    add("folders", nargs="+", metavar="OUT... DEST", help="datasets or folders of variants, then the folder to write")
+    add("--format", required=True, choices=("coco", "yolo", "masks", "webdataset"), help="the layout")
+    add("--box", choices=("object", "shadow", "both"), default="object", help="what boxes are drawn around")
+    add("--polygons", action="store_true", help="outlines instead of boxes (yolo) or runs (coco)")
+    add("--bins", action="store_true", help="of imaging and profiling sonars the picture of the bins, not the fan")
+    add("--sensor", action="append", default=[], metavar="NAME", help="only this sensor; may be repeated")
+    add("--without", action="append", default=[], metavar="CLASS", help="a class that is no object; may be repeated")
+    add("--min-pixels", type=number(int, 1, 1 << 30), default=16, metavar="N", help="fewer make an object faint")
+    add("--min-visible-share", type=number(float, 0, 1), default=0.1, metavar="X", help="less makes it faint")
+    add("--min-contrast-db", type=number(float, 0, 100), default=1.0, metavar="DB",
+        help="less, of object and shadow, makes it faint")
+    add("--faint", choices=("omit", "crowd"), default="omit", help="faint objects are left out, or marked as crowd")
+    add("--split", metavar="train=A,val=B,test=C", help="parts of the trajectory, or of the variants")
+    add("--gap", type=number(int, 0, 1 << 30), default=10, metavar="N", help="poses left out at each border")
+    add("--rounds", type=number(int, 1, 1 << 20), default=1, metavar="N", help="repetitions of the parts")
+    add("--tile", type=tile, metavar="N|WxH", help="cut waterfalls, echograms and sweeps into tiles")
+    add("--overlap", type=number(int, 0, 65536), default=0, metavar="N", help="pixels that tiles share")
+    add("--least-share", type=number(float, 0, 1), default=0.2, metavar="X",
+        help="a piece with a smaller share of its object is left out")
+    add("--link", action="store_true", help="hard links to pictures that need no change")
+    options = parser.parse_intermixed_args(arguments)
+    *options.folders, options.dest = options.folders
+    if not options.folders:
+        parser.error("name a dataset and then the folder to write")
+    if options.tile and options.overlap >= min(options.tile):
+        parser.error("--overlap must be less than the sides of a tile")
+    return options
+
+
+def prepare_all(pictures, numbers, options):
+    """Yields what prepare() makes of each picture, in order; processes share the work."""
+    context = multiprocessing.get_context("fork")
+    with concurrent.futures.ProcessPoolExecutor(os.cpu_count(), context, initializer=signal.signal,
+                                                initargs=(signal.SIGINT, signal.SIG_IGN)) as pool:
+        try:
+            for begin in range(0, len(pictures), BATCH):
+                some = pictures[begin:begin + BATCH]
+                yield from pool.map(prepare, some, [numbers[one.dataset] for one in some], [options] * len(some),
+                                    chunksize=16)
+        finally:
+            pool.shutdown(cancel_futures=True)
+
+
+def export(options):
+    options.split = split.parse(options.split) if options.split else None
+    if len({os.path.realpath(folder) for folder in options.folders}) < len(options.folders):
+        raise ValueError("a dataset is given twice")
+    source = Source(options.folders, options)
+    first = source.datasets[0].description
+    info = {"description": first["mission"], "version": first["program_version"]}
+    statistics = Statistics(source.classes)
+    with destination(options.dest, options.folders) as folder:
+        layout = formats.make(folder, source.classes, info, options)
+        for pieces, pictures, dropped in prepare_all(source.pictures, source.numbers, options):
+            statistics.left_out["pictures"] += pictures
+            statistics.left_out["pieces"] += dropped
+            for piece in pieces:
+                layout.add(piece)
+                statistics.add(piece)
+        if not statistics.all.pictures:
+            raise ValueError(no_pictures(source.pictures[0], options.tile))
+        layout.finish()
+        formats.write_json(folder / "statistics.json", statistics.as_json())
+    print(f"{options.dest}: {options.format}\n{statistics.text()}")
+
+
+def no_pictures(picture, tile_px):
+    """Why an export with a split has no picture."""
+    if picture.kind != "strip":
+        return f"{picture.path}: shows pings of several parts of the split; take a smaller --gap, or leave out --split"
+    what = "each tile of it" if tile_px else "it"
+    return (f"{picture.path}: is {picture.width} x {picture.height} pixels, and {what} shows pings of several parts of "
+            f"the split; cut it with --tile {tile_hint(picture)}, or leave out --split")
+
+
+def main(arguments):
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
+    try:
+        export(parse(arguments))
+    except ValueError as fault:
+        print(f"sonarsim export: {fault}", file=sys.stderr)
+        return 2
+    except (OSError, BrokenProcessPool, MemoryError) as fault:
+        print(f"sonarsim export: {fault}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        return 128 + signal.SIGINT
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

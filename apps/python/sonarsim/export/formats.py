@@ -1,0 +1,188 @@
+"""The layouts of trainers: each has add(piece) for every exported picture, and finish()."""
+import io
+import json
+import os
+import shutil
+import tarfile
+
+from . import runs
+from .pieces import colour_of
+from .split import PARTS
+
+SHARD_BYTES = 256 << 20
+LONGEST_MEMBER = 100        # in a tar archive of the format ustar
+DIGITS = {"range_m": 3, "bearing_deg": 2, "contrast_db": 2, "visible_share": 4, "shadow_contrast_db": 2}
+
+
+def make(folder, classes, info, options):
+    kinds = {"coco": Coco, "yolo": Yolo, "masks": Masks, "webdataset": WebDataset}
+    return kinds[options.format](folder, classes, info, options)
+
+
+def place(piece, folder, link):
+    """Writes the picture of a piece into a folder."""
+    folder.mkdir(parents=True, exist_ok=True)
+    file = folder / f"{piece.name}.png"
+    if piece.png is not None:
+        file.write_bytes(piece.png)
+    elif not link:
+        shutil.copyfile(piece.path, file)
+    else:
+        try:
+            os.link(piece.path, file)
+        except OSError as fault:
+            raise ValueError(f"{piece.path}: cannot be linked ({fault.strerror}); leave out --link") from fault
+
+
+def bbox(box):
+    return [box[0], box[2], box[1] - box[0], box[3] - box[2]]
+
+
+def write_json(path, value):
+    path.write_text(json.dumps(value, ensure_ascii=False) + "\n", encoding="utf-8")
+
+
+class Format:
+    def __init__(self, folder, classes, info, options):
+        self.folder, self.classes, self.info, self.options = folder, classes, info, options
+
+
+class Coco(Format):
+    """PART/NAME.png and annotations/instances_PART.json. Ids are unique over all parts."""
+
+    def __init__(self, *given):
+        super().__init__(*given)
+        self.lists, self.images, self.annotations = {}, 0, 0
+
+    def add(self, piece):
+        place(piece, self.folder / piece.part, self.options.link)
+        images, annotations = self.lists.setdefault(piece.part, ([], []))
+        self.images += 1
+        images.append(json.dumps({"id": self.images, "file_name": f"{piece.name}.png", "width": piece.width,
+                                  "height": piece.height}))
+        for one in piece.objects:
+            self.annotations += 1
+            annotations.append(json.dumps(self.annotation(one, piece)))
+
+    def annotation(self, one, piece):
+        segmentation = {"size": [piece.height, piece.width], "counts": one["mask"]}
+        if self.options.polygons:
+            segmentation = [[value for corner in outline for value in corner] for outline in one["outlines"]]
+        found = {"id": self.annotations, "image_id": self.images, "category_id": one["class"],
+                 "instance_id": one["id"], "bbox": bbox(one["box"]), "area": one["area"],
+                 "segmentation": segmentation, "iscrowd": int(one["iscrowd"])}
+        for key, digits in DIGITS.items():
+            found[key] = None if one[key] is None else round(one[key], digits)
+        found["shadow_bbox"] = one["shadow"] and bbox(one["shadow"])
+        return found | {key: one[key] for key in ("side", "clipped") if key in one}
+
+    def finish(self):
+        folder = self.folder / "annotations"
+        folder.mkdir()
+        categories = [json.dumps({"id": k + 1, "name": name, "supercategory": "object"})
+                      for k, name in enumerate(self.classes)]
+        for part, (images, annotations) in self.lists.items():
+            with open(folder / f"instances_{part}.json", "w", encoding="utf-8") as file:
+                file.write(f'{{"info": {json.dumps(self.info)},\n"licenses": []')
+                for key, items in (("categories", categories), ("images", images), ("annotations", annotations)):
+                    file.write(f',\n"{key}": [\n' + ",\n".join(items) + "\n]")
+                file.write("}\n")
+
+
+class Yolo(Format):
+    """images/PART/NAME.png, labels/PART/NAME.txt and data.yaml. A line per object: class from 0 on, then middle and
+    size of its box, or the corners of its outline, as shares of the picture."""
+
+    def __init__(self, *given):
+        super().__init__(*given)
+        self.parts = []
+
+    def add(self, piece):
+        if piece.part not in self.parts:
+            self.parts.append(piece.part)
+            (self.folder / "labels" / piece.part).mkdir(parents=True)
+        place(piece, self.folder / "images" / piece.part, self.options.link)
+        text = "".join(self.line(one, piece.width, piece.height) for one in piece.objects)
+        (self.folder / "labels" / piece.part / f"{piece.name}.txt").write_text(text, encoding="ascii")
+
+    def line(self, one, width, height):
+        left, right, top, bottom = one["box"]
+        values = [((left + right) / 2, (top + bottom) / 2), (right - left, bottom - top)]
+        if self.options.polygons:
+            values = runs.joined(one["outlines"])
+        return " ".join([str(one["class"] - 1), *(f"{x / width:.6f} {y / height:.6f}" for x, y in values)]) + "\n"
+
+    def finish(self):
+        # Without 'path' the paths start at the folder of data.yaml. 'train' and 'val' must be there.
+        text = ""
+        for part in PARTS:
+            if part in self.parts:
+                text += f"{part}: images/{part}\n"
+            elif part != "test":
+                other = "train" if "train" in self.parts else self.parts[0]
+                text += f"{part}: images/{other}  # there is no such part\n"
+        text += "names:\n" + "".join(f"  {k}: {json.dumps(name)}\n" for k, name in enumerate(self.classes))
+        (self.folder / "data.yaml").write_text(text, encoding="utf-8")
+
+
+class Masks(Format):
+    """img_dir/PART/NAME.png, ann_dir/PART/NAME.png with the number of the class of each pixel, splits/PART.txt, and
+    meta.json with names and colours. Number 0 is the background."""
+
+    def __init__(self, *given):
+        super().__init__(*given)
+        if len(self.classes) > 255:
+            raise ValueError("--format masks: holds at most 255 classes; leave some out (--without)")
+        self.names = {}
+
+    def add(self, piece):
+        place(piece, self.folder / "img_dir" / piece.part, self.options.link)
+        folder = self.folder / "ann_dir" / piece.part
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / f"{piece.name}.png").write_bytes(piece.classes_png)
+        self.names.setdefault(piece.part, []).append(piece.name + "\n")
+
+    def finish(self):
+        (self.folder / "splits").mkdir()
+        for part, names in self.names.items():
+            (self.folder / "splits" / f"{part}.txt").write_text("".join(names), encoding="ascii")
+        write_json(self.folder / "meta.json", {"classes": ["background", *self.classes],
+                                               "palette": [colour_of(k) for k in range(len(self.classes) + 1)]})
+
+
+class WebDataset(Format):
+    """PART-000000.tar with NAME.png and NAME.json for each picture, and classes.txt."""
+
+    def __init__(self, *given):
+        super().__init__(*given)
+        self.shards, self.counts = {}, {}
+
+    def add(self, piece):
+        if len(piece.name) + 5 > LONGEST_MEMBER:
+            raise ValueError(f"--format webdataset: {piece.name!r} is too long for the name of a file in an archive")
+        objects = {key: [one[key] for one in piece.objects] for key in ("id", "area", "mask")}
+        objects["bbox"] = [bbox(one["box"]) for one in piece.objects]
+        objects["categories"] = [one["class"] - 1 for one in piece.objects]
+        text = json.dumps({"width": piece.width, "height": piece.height, "objects": objects}) + "\n"
+        png = piece.path.read_bytes() if piece.png is None else piece.png
+        shard = self.shards.get(piece.part)
+        if shard is None or shard.offset + len(png) + len(text) + 4096 > SHARD_BYTES:
+            shard = self.next_shard(piece.part)
+        for ending, content in ((".png", png), (".json", text.encode())):
+            member = tarfile.TarInfo(piece.name + ending)
+            member.size = len(content)
+            shard.addfile(member, io.BytesIO(content))
+
+    def next_shard(self, part):
+        if part in self.shards:
+            self.shards[part].close()
+        number = self.counts[part] = self.counts.get(part, -1) + 1
+        self.shards[part] = tarfile.open(self.folder / f"{part}-{number:06}.tar", "w", format=tarfile.USTAR_FORMAT)
+        return self.shards[part]
+
+    def finish(self):
+        for shard in self.shards.values():
+            shard.close()
+        # A line each, whatever is in a name.
+        names = [json.dumps(name, ensure_ascii=False)[1:-1] + "\n" for name in self.classes]
+        (self.folder / "classes.txt").write_text("".join(names), encoding="utf-8")

@@ -1,0 +1,182 @@
+"""Exported pictures: whole pictures or tiles, with the objects that they show. Runs in worker processes."""
+import dataclasses
+import io
+import itertools
+
+import numpy as np
+from PIL import Image
+
+from .. import data
+from . import runs
+from .source import MOST_PIXELS, objects_of
+
+Image.MAX_IMAGE_PIXELS = MOST_PIXELS
+GREYS = np.floor(255 * np.sqrt(np.arange(65536) / 65535) + 0.5).astype(np.uint8)
+
+
+@dataclasses.dataclass
+class Piece:
+    """An exported picture."""
+    name: str
+    part: str
+    width: int
+    height: int
+    dataset: int
+    objects: list
+    path: object                # the file that it is a copy of; None if `png` has its bytes
+    png: bytes | None = None
+    classes_png: bytes | None = None    # the class of each pixel, for masks
+
+
+def prepare(picture, numbers, options):
+    """(pieces, pictures left out, objects left out) of a picture of a dataset."""
+    frames = frames_of(picture, options)
+    parts = [part_of(picture, frame) for frame in frames]
+    if not any(parts):
+        return [], len(frames), 0
+    objects = [one for one in objects_of(picture, numbers) if is_kept(one, picture, options)]
+    pixels = pixels_of(picture, len(frames) == 1)
+    pieces, dropped = [], 0
+    for frame, part in zip(frames, parts):
+        if part is None:
+            continue
+        shown = [show(one, picture, frame, options) for one in objects]
+        dropped += shown.count(False)
+        piece = Piece(picture.name + (f"-y{frame[2]:05}-x{frame[0]:05}" if len(frames) > 1 else ""), part,
+                      frame[1] - frame[0], frame[3] - frame[2], picture.dataset, [one for one in shown if one],
+                      picture.path if pixels is None else None)
+        if pixels is not None:
+            piece.png = png_of(Image.fromarray(np.ascontiguousarray(pixels[frame[2]:frame[3], frame[0]:frame[1]])))
+        if options.format == "masks":
+            piece.classes_png = classes_png(piece)
+        for one in piece.objects:
+            del one["pixels"]
+        pieces.append(piece)
+    return pieces, parts.count(None), dropped
+
+
+def frames_of(picture, options):
+    """The frames (left, right, top, bottom) of the tiles of a picture; fans and bins stay whole."""
+    if not options.tile or picture.kind in ("fan", "bins"):
+        return [(0, picture.width, 0, picture.height)]
+    width, height = options.tile
+    return [(left, min(left + width, picture.width), top, min(top + height, picture.height))
+            for top in begins(picture.height, height, options.overlap)
+            for left in begins(picture.width, width, options.overlap)]
+
+
+def begins(length, side, overlap):
+    """The begins of tiles along a length; the last one ends with it."""
+    found = [0]
+    while found[-1] + side < length:
+        found.append(min(found[-1] + side - overlap, length - side))
+    return found
+
+
+def part_of(picture, frame):
+    """The part of all pings in a frame; None if they are not in one part."""
+    if picture.kind != "strip":
+        return picture.parts[0]
+    first, end = frame[2:] if picture.rows_are_pings else frame[:2]
+    shown = set(picture.parts[first:end])
+    return shown.pop() if len(shown) == 1 else None
+
+
+def is_kept(one, picture, options):
+    """True for an object that this picture has in this format; sets its pixels, area and iscrowd."""
+    try:
+        one["pixels"] = runs.pixels_of(one["mask"], picture.width, picture.height)
+    except ValueError as fault:
+        raise ValueError(f"{picture.facts}: {fault}") from fault
+    one["area"] = one["pixels"].size
+    contrasts = [abs(one[key]) for key in ("contrast_db", "shadow_contrast_db") if one[key] is not None]
+    share = 1.0 if one["visible_share"] is None else one["visible_share"]
+    is_faint = (one["area"] < options.min_pixels or share < options.min_visible_share or
+                bool(contrasts) and max(contrasts) < options.min_contrast_db)
+    one["iscrowd"] = is_faint
+    has_crowds = options.faint == "crowd" and options.format in ("coco", "masks")
+    return (not is_faint or has_crowds) and box_of(one, picture.height, one["shadow"], options.box) is not None
+
+
+def box_of(one, height, shadow, sort):
+    """The box of an object, of its shadow, or around both; None for a shadow that is not there."""
+    own = runs.box_of(one["pixels"], height)
+    if sort == "shadow":
+        return shadow
+    if sort == "object" or shadow is None:
+        return own
+    return (min(own[0], shadow[0]), max(own[1], shadow[1]), min(own[2], shadow[2]), max(own[3], shadow[3]))
+
+
+def show(one, picture, frame, options):
+    """The part of an object that a frame shows; None if there is none, False if it is too small."""
+    pixels = runs.cut(one["pixels"], picture.height, frame)
+    if not pixels.size:
+        return None
+    width, height = frame[1] - frame[0], frame[3] - frame[2]
+    shadow = one["shadow"] and runs.cut_box(one["shadow"], frame)
+    shown = {**one, "pixels": pixels, "area": pixels.size, "shadow": shadow}
+    box = box_of(shown, height, shadow, options.box)
+    if options.format == "masks":       # maps of classes have pieces of any size
+        return shown
+    is_small = pixels.size < options.least_share * one["area"]
+    if is_small or box is None or pixels.size < options.min_pixels and not one["iscrowd"]:
+        return False
+    shown["box"] = box
+    if pixels.size < one["area"] or frame != (0, picture.width, 0, picture.height):
+        shown["mask"] = runs.counts_of(pixels, width, height) if options.format != "yolo" else ""
+    if options.polygons:
+        shown["outlines"] = runs.outlines(pixels, height)
+    return shown
+
+
+def pixels_of(picture, is_whole):
+    """The grey values, or colours, of a picture in 8 bits; None if its file can be copied. White is full_scale, and
+    grey its square root."""
+    try:
+        if picture.path.suffix == ".npy":
+            values = data.read_npy(picture.path.read_bytes()).astype(np.float64)
+            shares = np.nan_to_num(values / picture.full_scale) if picture.full_scale > 0 else 0 * values
+            pixels = np.floor(255 * np.sqrt(shares.clip(0, 1)) + 0.5).astype(np.uint8)
+        else:
+            with Image.open(picture.path, formats=["PNG"]) as image:
+                is_grey = image.mode in ("L", "I", "I;16")
+                if is_whole and image.mode in ("L", "P", "RGB") and image.size == (picture.width, picture.height):
+                    return None
+                pixels = np.asarray(image if is_grey else image.convert("RGB"))
+            pixels = pixels if pixels.dtype == np.uint8 else GREYS[pixels.astype(np.uint16)]
+    except (ValueError, SyntaxError, OSError) as fault:
+        if isinstance(fault, OSError) and fault.errno:
+            raise
+        raise ValueError(f"{picture.path}: cannot be read: {fault}") from fault
+    if pixels.shape[:2] != (picture.height, picture.width):
+        raise ValueError(f"{picture.path}: is not {picture.width} x {picture.height} pixels, as its dataset says")
+    return pixels
+
+
+def png_of(image):
+    file = io.BytesIO()
+    image.save(file, "PNG", compress_level=1 if image.mode == "P" else 6)
+    return file.getvalue()
+
+
+def classes_png(piece):
+    """A PNG with the number of the class of each pixel and a palette; 0 is the background."""
+    pixels = np.zeros(piece.width * piece.height, np.uint8)
+    for one in piece.objects:
+        pixels[one["pixels"]] = one["class"]
+    image = Image.fromarray(np.ascontiguousarray(pixels.reshape(piece.width, piece.height).T), "P")
+    image.putpalette(sum((colour_of(k) for k in range(256)), ()))
+    return png_of(image)
+
+
+def colour_of(number):
+    """The colour of a class in masks: neighbouring numbers differ strongly."""
+    return tuple(sum((number >> 3 * k + channel & 1) << 7 - k for k in range(8)) for channel in range(3))
+
+
+def tile_hint(picture):
+    """The sides of a tile that fits the longest stretch of a strip in one part of the split."""
+    stretches = [sum(1 for _ in run) for part, run in itertools.groupby(picture.parts) if part]
+    along, across = max(16, max(stretches, default=0) // 2), max(16, picture.width)
+    return f"{across}x{along}" if picture.rows_are_pings else f"{along}x{max(16, picture.height)}"

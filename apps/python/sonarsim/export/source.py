@@ -1,0 +1,233 @@
+"""The pictures of datasets that are exported, and the objects in them."""
+import dataclasses
+import math
+import pathlib
+import re
+
+from .. import data
+from . import split
+
+LARGEST_SIDE = 1 << 20
+MOST_PIXELS = 1 << 31
+ADVICE = "set output.labels: [objects] and render it again"
+FACTS = ("range_m", "bearing_deg", "contrast_db", "visible_share", "shadow_contrast_db")
+
+
+@dataclasses.dataclass
+class Picture:
+    """A picture of a dataset, with what is needed to read it and its objects."""
+    path: pathlib.Path
+    facts: pathlib.Path         # the file that lists its objects
+    name: str                   # of the exported picture: "variant_0003-fls-000012"
+    dataset: int                # its index in Source.datasets
+    kind: str                   # "fan", "bins", "strip" (waterfall, echogram) or "sweep"
+    width: int
+    height: int
+    full_scale: float           # the intensity that is white, for arrays of intensities
+    parts: list                 # the part of each row or column of pings of a strip, else one part
+    rows_are_pings: bool = True
+
+
+class Source:
+    """The datasets in some folders: `datasets`, `numbers` (for each the number of every class by its
+    name, 0 for no object), `classes` (number k is entry k - 1) and `pictures`."""
+
+    def __init__(self, folders, options):
+        self.datasets, self._names, self._shares = [], [], []
+        for folder in folders:
+            self._add_folder(pathlib.Path(folder), len(folders) > 1, options)
+        self._number_classes(options)
+        require_known(options.sensor, {name: 0 for one in self.datasets for name in one.sensors}, "--sensor")
+        self.pictures, self._taken = [], set()
+        for index in range(len(self.datasets)):
+            self._add_pictures(index, options)
+        if not self.pictures:
+            raise ValueError(f"{folders[0]}: has no pictures to export: none of the sensors writes any")
+
+    def _add_folder(self, folder, is_one_of_many, options):
+        datasets = data.open_datasets(folder)
+        has_variants = datasets[0].folder != folder
+        parts = [None] * len(datasets)
+        if has_variants and options.split:
+            parts = split.of_variants(options.split, len(datasets), options.rounds)
+        for dataset, part in zip(datasets, parts):
+            if dataset.complete is not True:
+                raise ValueError(f"{dataset.folder}: is not complete; the render command that made it, run "
+                                 "again, goes on")
+            if not dataset.classes:
+                raise ValueError(f"{dataset.folder}: has no objects; {ADVICE}")
+            names = [folder.resolve().name] if is_one_of_many else []
+            self._names.append("-".join(names + ([dataset.folder.name] if has_variants else [])))
+            self._shares.append(part if has_variants or not options.split else options.split)
+            self.datasets.append(dataset)
+
+    def _number_classes(self, options):
+        known, annotated = {}, {}       # used as sets that keep their order
+        for dataset in self.datasets:
+            names = list(dataset.classes.values())
+            known.update(dict.fromkeys(names))
+            annotated.update(dict.fromkeys(name for name in names if name not in background(dataset)))
+        require_known(options.without, known, "--without")
+        if not annotated:
+            raise ValueError(f"{self.datasets[0].folder}: each class is background by labels.background of its "
+                             "mission; [none] there makes all of them objects")
+        self.classes = [name for name in annotated if name not in options.without]
+        if not self.classes:
+            raise ValueError("--without: no class is left")
+        numbers = {name: k + 1 for k, name in enumerate(self.classes)}
+        self.numbers = [{name: 0 if name in background(dataset) else numbers.get(name, 0)
+                         for name in dataset.classes.values()} for dataset in self.datasets]
+
+    def _add_pictures(self, index, options):
+        dataset, shares = self.datasets[index], self._shares[index]
+        count = data.whole(dataset.description["poses"], 0, "poses")
+        if isinstance(shares, dict):
+            parts = split.of_poses(shares, count, options.gap, options.rounds)
+        else:
+            parts = [shares if options.split else "train"] * count
+        for sensor in dataset.sensors.values():
+            if options.sensor and sensor.name not in options.sensor:
+                continue
+            try:
+                for picture in pictures_of(sensor, parts, options):
+                    self._name(picture, index, sensor.name)
+                    self.pictures.append(picture)
+            except (KeyError, TypeError, IndexError, AttributeError) as fault:
+                raise ValueError(f"{dataset.folder / 'dataset.json'}: is damaged: sensor {sensor.name!r}: "
+                                 f"{fault!r}") from fault
+
+    def _name(self, picture, index, sensor):
+        stem = picture.path.name.split(".")[0]
+        parts = [self._names[index]] if self._names[index] else []
+        # Trainers cut the name of a sample at its first point, shells at a blank.
+        picture.name = re.sub(r"[^A-Za-z0-9_+-]", "_", "-".join([*parts, sensor, stem]))
+        first, other = picture.name, 2
+        while picture.name in self._taken:
+            picture.name, other = f"{first}-{other}", other + 1
+        self._taken.add(picture.name)
+        picture.dataset = index
+
+
+def require_known(given, known, option):
+    for name in given:
+        if name not in known:
+            raise ValueError(f"{option}: there is no {name!r}; there are: {', '.join(known)}")
+
+
+def background(dataset):
+    """The names of the classes that are no objects."""
+    return dataset.description.get("labels", {}).get("annotations", {}).get("background", [])
+
+
+def pictures_of(sensor, parts, options):
+    """Yields the pictures of a sensor; none for a kind without pictures. `parts` has those of all poses."""
+    of_ping = [parts[pose] for pose in sensor.pings]
+    if sensor.picture("sensor"):
+        yield strip_of(sensor, of_ping)
+    elif sensor.picture("sweep"):
+        yield from sweeps_of(sensor, of_ping)
+    elif sensor.kind in ("imaging", "profiling"):
+        yield from pings_of(sensor, of_ping, options.bins)
+
+
+def pings_of(sensor, of_ping, is_bins):
+    names = ("image", "polar") if is_bins else ("fan",)
+    shown = next((name for name in names if name in sensor.keys), None)
+    if shown is None:
+        advice = ("neither images nor arrays of its bins; set output.image: true and render it again, or leave out "
+                  "--bins" if is_bins else "no fans; set output.fan: true and render it again, or take the "
+                  "pictures of its bins with --bins")
+        raise ValueError(f"{sensor.folder}: sensor {sensor.name!r} has {advice}")
+    if "objects" not in sensor.keys:
+        raise ValueError(f"{sensor.folder}: sensor {sensor.name!r} has no objects; {ADVICE}")
+    if is_bins:
+        width, height = len(sensor.azimuth_edges_rad) - 1, len(sensor.range_edges_m) - 1
+    else:
+        width, height = (sensor.description["fan"][key] for key in ("width_px", "height_px"))
+    for k, part in enumerate(of_ping):
+        yield picture(sensor, sensor.file(k, shown), sensor.file(k, "objects"), "bins" if is_bins else "fan",
+                      width, height, [part])
+
+
+def strip_of(sensor, of_ping):
+    described = sensor.picture("sensor")
+    path, facts = record_facts(sensor, described["boxes_of"], "objects.json")
+    sheet = read_facts(facts)
+    each = data.whole(described.get("pings_per_pixel", 1), 1, "pings_per_pixel")
+    upright = described.get("pings_along", "y") == "x"
+    rows = [of_ping[k:k + each] for k in range(0, len(of_ping), each)]
+    one = picture(sensor, path, facts, "strip", sheet["width"], sheet["height"],
+                  [row[0] if len(set(row)) == 1 else None for row in rows])
+    one.rows_are_pings = not upright
+    if len(one.parts) != (one.width if upright else one.height):
+        raise ValueError(f"{facts}: has a picture with more or fewer pings than dataset.json says")
+    return one
+
+
+def sweeps_of(sensor, of_ping):
+    described = sensor.picture("sweep")
+    steps = data.whole(described["pings"], 1, "pings")
+    for sweep in range(-(-len(of_ping) // steps)):
+        path, facts = record_facts(sensor, described["boxes_of"] % sweep, f"objects_{sweep:04}.json")
+        sheet = read_facts(facts)
+        # The last picture shows pings of the sweep before, too, if it is cut short.
+        end = min((sweep + 1) * steps, len(of_ping))
+        shown = set(of_ping[max(end - steps, 0):end])
+        yield picture(sensor, path, facts, "sweep", sheet["width"], sheet["height"],
+                      [shown.pop() if len(shown) == 1 else None])
+
+
+def record_facts(sensor, file, facts):
+    """The paths of a picture and of the list of its objects."""
+    if not (sensor.folder / sensor.name / facts).is_file():
+        raise ValueError(f"{sensor.folder}: has no {sensor.name}/{facts}, which lists the objects; {ADVICE}")
+    return data.own_file(sensor.folder, file), data.own_file(sensor.folder, f"{sensor.name}/{facts}")
+
+
+def picture(sensor, path, facts, kind, width, height, parts):
+    data.whole(width, 1, "width")
+    data.whole(height, 1, "height")
+    if max(width, height) > LARGEST_SIDE or width * height > MOST_PIXELS:
+        raise ValueError(f"{path}: is too large a picture: {width} x {height} pixels")
+    return Picture(path, facts, "", 0, kind, width, height, sensor.description["full_scale"], parts)
+
+
+def read_facts(path):
+    """A file of objects: a dict with the list "objects"."""
+    try:
+        facts = data.read_json(path.read_bytes())
+        if isinstance(facts["objects"], list):
+            return facts
+    except (ValueError, KeyError, TypeError):
+        pass
+    raise ValueError(f"{path}: is damaged: it must be JSON with a list of objects")
+
+
+def objects_of(picture, numbers):
+    """Yields the objects of a picture: id, class (its number), mask (compressed runs), shadow (its box) and FACTS."""
+    for one in read_facts(picture.facts)["objects"]:
+        try:
+            found = object_of(one, picture.kind, numbers[one["class"]])
+        except (KeyError, TypeError, ValueError, AttributeError) as fault:
+            raise ValueError(f"{picture.facts}: is damaged: {fault!r}") from fault
+        if found:
+            yield found
+
+
+def object_of(one, kind, number):
+    """An object; None if it is background or the picture does not show it."""
+    shown = one["fan"] if kind == "fan" else one
+    if not number or shown is None:
+        return None
+    shadow = one.get("shadow") or {}
+    facts = {**one, "shadow_contrast_db": shadow.get("contrast_db", one.get("shadow_contrast_db"))}
+    if one.get("azimuth_rad") is not None:
+        facts["bearing_deg"] = -math.degrees(one["azimuth_rad"])
+    found = {key: None if facts.get(key) is None else float(facts[key]) for key in FACTS}
+    box = shadow.get("box_bins") if kind == "bins" else shown.get("shadow_box_px")
+    across, along = ("beam", "range") if kind == "bins" else ("x", "y")
+    found["shadow"] = (*map(int, box[across]), *map(int, box[along])) if box else None
+    for key in ("side", "clipped"):
+        if key in one:
+            found[key] = one[key]
+    return {**found, "id": data.whole(one["id"], 1, "id"), "class": number, "mask": str(shown["mask"])}

@@ -1,0 +1,295 @@
+"""`sonarsim export`: what it writes, read back by readers of its own, from a dataset that is made here."""
+import io
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tarfile
+import tempfile
+import unittest
+
+import numpy as np
+from PIL import Image
+
+PACKAGES = pathlib.Path(__file__).resolve().parents[2] / "apps/python"
+WIDTH, HEIGHT, PINGS = 40, 30, 10
+ROWS, COLUMNS = 60, 24
+CLASSES = ["bottom", "mine", "tyre"]
+
+
+def counts_of(mask):
+    """COCO's compressed runs, pixel by pixel."""
+    runs, value = [0], 0
+    for pixel in mask.T.ravel():
+        if pixel != value:
+            runs.append(0)
+            value = pixel
+        runs[-1] += 1
+    text = ""
+    for k, run in enumerate(runs):
+        left, more = run - (runs[k - 2] if k > 2 else 0), True
+        while more:
+            group = left & 31
+            left >>= 5
+            more = left != (-1 if group & 16 else 0)
+            text += chr(48 + group + 32 * more)
+    return text
+
+
+def mask_of(counts, width, height):
+    runs, at = [], 0
+    while at < len(counts):
+        value, shift, more = 0, 0, True
+        while more:
+            code = ord(counts[at]) - 48
+            at, more = at + 1, code & 32
+            value |= (code & 31) << shift
+            shift += 5
+            if not more and code & 16:
+                value -= 1 << shift
+        runs.append(value + (runs[-2] if len(runs) > 2 else 0))
+    flat = np.repeat(np.arange(len(runs)) % 2, runs)
+    return flat.reshape(width, height).T.astype(bool)
+
+
+def disc(width, height, x, y, radius):
+    rows, columns = np.mgrid[:height, :width]
+    return (columns - x) ** 2 + (rows - y) ** 2 <= radius ** 2
+
+
+def box_of(mask):
+    rows, columns = np.nonzero(mask)
+    left, top = int(columns.min()), int(rows.min())
+    return [left, top, int(columns.max()) + 1 - left, int(rows.max()) + 1 - top]
+
+
+def fan_objects(ping):
+    """(id, class, mask, visible share, contrast) of the objects of a fan; the mine moves."""
+    return [(1, "bottom", np.ones((HEIGHT, WIDTH), bool), None, None),
+            (2, "mine", disc(WIDTH, HEIGHT, 6 + ping, 10, 4), 0.8, 6.0),
+            (3, "tyre", disc(WIDTH, HEIGHT, 30, 22, 3), 0.05 if ping == 4 else 0.5, -4.0)]
+
+
+STRIP = [(2, "mine", disc(COLUMNS, ROWS, 5, 11, 3)), (3, "tyre", disc(COLUMNS, ROWS, 17, 40, 4))]
+SHADOW = {"x": [10, 20], "y": [8, 12]}      # of the mine in every fan
+
+
+def sensor(name, kind, pings, **more):
+    return {"name": name, "kind": kind, "every": 1, "pings": pings, "range_edges_m": [1.0, 2.0], "full_scale": 1.0,
+            "files": {}, **more}
+
+
+def write_dataset(folder, mission="made"):
+    for name in ("fls/fan", "fls/objects", "sss"):
+        (folder / name).mkdir(parents=True)
+    noise = np.random.default_rng(1)
+    for ping in range(PINGS):
+        Image.fromarray(noise.integers(0, 256, (HEIGHT, WIDTH), np.uint8)).save(folder / f"fls/fan/{ping:06}.png")
+        listed = []
+        for number, name, mask, share, contrast in fan_objects(ping):
+            fan = {"mask": counts_of(mask)} | ({"shadow_box_px": SHADOW} if number == 2 else {})
+            listed.append({"id": number, "name": f"{name}_1", "class": name, "range_m": 5.0, "azimuth_rad": 0.5,
+                           "visible_share": share, "contrast_db": contrast, "fan": fan, "clipped": False})
+        (folder / f"fls/objects/{ping:06}.json").write_text(json.dumps({"ping": ping, "objects": listed}))
+    Image.fromarray(noise.integers(0, 65536, (ROWS, COLUMNS), np.uint16)).save(folder / "sss/waterfall.png")
+    listed = [{"id": number, "class": name, "side": side, "mask": counts_of(mask), "range_m": 3.0, "bearing_deg": 90.0,
+               "contrast_db": 5.0, "visible_share": 1.0}
+              for (number, name, mask), side in zip(STRIP, ("port", "starboard"))]
+    (folder / "sss/objects.json").write_text(json.dumps({"width": COLUMNS, "height": ROWS, "objects": listed}))
+    description = {
+        "format": "sonarsim dataset", "format_version": 3, "program_version": "0", "complete": True, "mission": mission,
+        "poses": ROWS, "sensors": [
+            sensor("fls", "imaging", PINGS, azimuth_edges_rad=[-0.5, 0.5], fan={"width_px": WIDTH, "height_px": HEIGHT},
+                   files={"fan": "fls/fan/%06d.png", "objects": "fls/objects/%06d.json"}),
+            sensor("sss", "sidescan", ROWS, pictures=[{"per": "sensor", "boxes_of": "sss/waterfall.png",
+                                                       "file": "sss/waterfall.png"}])],
+        "labels": {"classes": [{"id": k + 1, "name": name} for k, name in enumerate(CLASSES)],
+                   "instances": [], "annotations": {"background": ["bottom"]}}}
+    (folder / "dataset.json").write_text(json.dumps(description))
+
+
+class Export(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        self.out, self.dest = self.folder / "out", self.folder / "dest"
+        write_dataset(self.out)
+
+    def run_export(self, *words, dest=None, setup=""):
+        program = f"import runpy, sys; {setup}\nsys.argv[0] = 'export'\nrunpy.run_module('sonarsim.export', run_name='__main__', alter_sys=True)"
+        return subprocess.run([sys.executable, "-B", "-c", program, *map(str, words), str(dest or self.dest)], check=False,
+                              capture_output=True, text=True, env={**os.environ, "PYTHONPATH": str(PACKAGES)})
+
+    def export(self, *words, dest=None):
+        result = self.run_export(*words, dest=dest)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result.stdout
+
+    def assert_refused(self, text, *words, code=2, **more):
+        result = self.run_export(*words, **more)
+        self.assertEqual(result.returncode, code, result.stderr)
+        self.assertRegex(result.stderr, f"^sonarsim export: .*{text}")
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        self.assertEqual([one.name for one in self.folder.glob("dest*")], [])
+
+    def coco(self, part="train", dest=None):
+        file = json.loads(((dest or self.dest) / f"annotations/instances_{part}.json").read_text())
+        names = {one["id"]: one["file_name"] for one in file["images"]}
+        found = {name: [] for name in names.values()}
+        for one in file["annotations"]:
+            found[names[one["image_id"]]].append(one)
+        return file, found
+
+    def test_coco(self):
+        self.export(self.out, "--format", "coco")
+        file, found = self.coco()
+        self.assertEqual([one["name"] for one in file["categories"]], ["mine", "tyre"])
+        self.assertEqual(len(found), PINGS + 1)
+        for ping in range(PINGS):
+            name = f"fls-{ping:06}.png"
+            self.assertEqual((self.dest / "train" / name).read_bytes(), (self.out / f"fls/fan/{ping:06}.png").read_bytes())
+            expected = [one for one in fan_objects(ping) if one[1] != "bottom" and one[3] >= 0.1]
+            self.assertEqual(len(found[name]), len(expected))
+            for one, (number, _, mask, share, contrast) in zip(found[name], expected):
+                self.assertEqual((one["instance_id"], one["category_id"], one["iscrowd"]), (number, number - 1, 0))
+                self.assertEqual((one["bbox"], one["area"]), (box_of(mask), mask.sum()))
+                np.testing.assert_array_equal(mask_of(one["segmentation"]["counts"], WIDTH, HEIGHT), mask)
+                self.assertEqual((one["visible_share"], one["contrast_db"], one["bearing_deg"], one["clipped"]),
+                                 (share, contrast, -28.65, False))
+                self.assertEqual(one["shadow_bbox"], [10, 8, 10, 4] if number == 2 else None)
+        self.assertEqual([one["side"] for one in found["sss-waterfall.png"]], ["port", "starboard"])
+        linear = np.asarray(Image.open(self.out / "sss/waterfall.png")) / 65535
+        np.testing.assert_array_equal(np.asarray(Image.open(self.dest / "train/sss-waterfall.png")),
+                                      np.floor(255 * np.sqrt(linear) + 0.5))
+        ids = [one["id"] for one in file["annotations"]]
+        self.assertEqual(len(set(ids)), len(ids))
+
+    def test_rules_and_boxes(self):
+        for words, expected in ((("--box", "shadow"), {2: [10, 8, 10, 4]}), (("--min-visible-share", "0.9"), {}),
+                                (("--box", "both"), {2: [2, 6, 18, 9], 3: [27, 19, 7, 7]}), (("--min-pixels", "60"), {}),
+                                (("--min-contrast-db", "5"), {2: [2, 6, 9, 9]}),
+                                (("--without", "mine"), {3: [27, 19, 7, 7]})):
+            dest = self.folder / "-".join(words)
+            self.export(self.out, "--format", "coco", "--sensor", "fls", *words, dest=dest)
+            found = self.coco(dest=dest)[1]["fls-000000.png"]
+            self.assertEqual({one["instance_id"]: one["bbox"] for one in found}, expected, words)
+        self.export(self.out, "--format", "coco", "--faint", "crowd", "--min-pixels", "40")
+        self.assertEqual([one["iscrowd"] for one in self.coco()[1]["fls-000000.png"]], [0, 1])
+
+    def test_yolo(self):
+        for words in ((), ("--polygons",)):
+            dest = self.folder / f"yolo{len(words)}"
+            self.export(self.out, "--format", "yolo", "--sensor", "fls", *words, dest=dest)
+            text = (dest / "labels/train/fls-000004.txt").read_text()
+            number, *values = text.split()
+            self.assertEqual((text.count("\n"), number), (1, "0"))
+            values = np.array(values, float).reshape(-1, 2) * (WIDTH, HEIGHT)
+            mask = fan_objects(4)[1][2]
+            left, top, width, height = box_of(mask)
+            if words:   # the area of the outline by the shoelace formula is that of the mask
+                x, y = values.T
+                self.assertAlmostEqual(0.5 * (x @ np.roll(y, -1) - y @ np.roll(x, -1)), mask.sum(), delta=0.1)
+            else:
+                np.testing.assert_allclose(values, [(left + width / 2, top + height / 2), (width, height)], atol=1e-3)
+            self.assertEqual((dest / "data.yaml").read_text(), "train: images/train\nval: images/train  # there is no "
+                             'such part\nnames:\n  0: "mine"\n  1: "tyre"\n')
+
+    def test_masks_and_webdataset(self):
+        self.export(self.out, "--format", "masks", "--sensor", "fls")
+        pixels = np.asarray(Image.open(self.dest / "ann_dir/train/fls-000002.png"))
+        np.testing.assert_array_equal(pixels, fan_objects(2)[1][2] + 2 * fan_objects(2)[2][2])
+        self.assertEqual(json.loads((self.dest / "meta.json").read_text())["palette"], [[0, 0, 0], [128, 0, 0], [0, 128, 0]])
+        self.assertEqual((self.dest / "splits/train.txt").read_text().split()[:2], ["fls-000000", "fls-000001"])
+        self.export(self.out, "--format", "webdataset", "--link", dest=self.folder / "web")
+        with tarfile.open(self.folder / "web/train-000000.tar") as archive:
+            members = {one.name: archive.extractfile(one).read() for one in archive}
+        self.assertEqual(len(members), 2 * (PINGS + 1))
+        self.assertEqual(Image.open(io.BytesIO(members["fls-000003.png"])).size, (WIDTH, HEIGHT))
+        objects = json.loads(members["fls-000003.json"])["objects"]
+        self.assertEqual((objects["categories"], objects["bbox"][0]), ([0, 1], box_of(fan_objects(3)[1][2])))
+        np.testing.assert_array_equal(mask_of(objects["mask"][1], WIDTH, HEIGHT), fan_objects(3)[2][2])
+
+    def test_tiles(self):
+        text = self.export(self.out, "--format", "coco", "--sensor", "sss", "--tile", "24x16", "--min-pixels", "1")
+        self.assertIn("left out: 0 pictures", text)
+        found = self.coco()[1]
+        self.assertEqual(sorted(found), [f"sss-waterfall-y{top:05}-x00000.png" for top in (0, 16, 32, 44)])
+        for top in (0, 16, 32, 44):
+            pieces = {number: mask[top:top + 16] for number, _, mask in STRIP
+                      if mask[top:top + 16].sum() >= max(1, 0.2 * mask.sum())}
+            shown = found[f"sss-waterfall-y{top:05}-x00000.png"]
+            self.assertEqual([one["instance_id"] for one in shown], list(pieces))
+            for one in shown:
+                piece = pieces[one["instance_id"]]
+                self.assertEqual((one["bbox"], one["area"]), (box_of(piece), piece.sum()))
+                np.testing.assert_array_equal(mask_of(one["segmentation"]["counts"], 24, 16), piece)
+
+    def test_split(self):
+        split = ("--split", "train=0.5,test=0.5")
+        self.export(self.out, "--format", "coco", *split, "--gap", "4", "--rounds", "6", "--tile", "16x16")
+        # Six stretches of ten poses; four poses around each border are in no part.
+        self.assertEqual(list(self.coco("train")[1]), [f"fls-{ping:06}.png" for ping in range(3)])
+        self.assertEqual(list(self.coco("test")[1]), [f"fls-{ping:06}.png" for ping in (7,)])
+        dest = self.folder / "tiles"
+        self.export(self.out, "--format", "yolo", *split, "--gap", "0", "--sensor", "sss", "--tile", "24x30", dest=dest)
+        self.assertEqual(len(list(dest.glob("images/*/*.png"))), 2)
+
+    def test_a_strip_that_no_part_holds(self):
+        split = ("--split", "train=0.5,test=0.5", "--sensor", "sss", "--format", "yolo")
+        self.assert_refused("shows pings of several parts of the split; cut it with --tile 24x16", self.out, *split)
+        self.assert_refused("each tile of it .*cut it with --tile 24x16", self.out, *split, "--tile", "512")
+        self.assert_refused("none of 60 poses is left for 'train'", self.out, *split, "--gap", "200")
+
+    def test_variants_and_several_datasets(self):
+        names = [f"variant_{k:04}" for k in range(5)]
+        for name in names:
+            write_dataset(self.folder / "many" / name)
+        (self.folder / "many/variants.json").write_text(json.dumps({"variants": [{"folder": name} for name in names]}))
+        self.export(self.folder / "many", self.out, "--format", "coco", "--split", "train=0.8,val=0.2", "--sensor", "fls")
+        train, val = self.coco("train"), self.coco("val")
+        self.assertEqual(sum(name.startswith("many-variant_0004-") for name in val[1]), PINGS)
+        self.assertEqual(sum(name.startswith("many-") for name in train[1]), 4 * PINGS)
+        self.assertEqual(sum(name.startswith("out-fls-") for name in train[1]), PINGS)
+        ids = [one["id"] for file, _ in (train, val) for one in file["images"]]
+        self.assertEqual(len(set(ids)), len(ids))
+        counts = json.loads((self.dest / "statistics.json").read_text())["parts"]["val"]["classes"]
+        self.assertEqual([(one["name"], one["objects"], one["annotations"]) for one in counts],
+                         [("mine", 1, PINGS), ("tyre", 1, PINGS - 1)])
+
+    def test_mistakes(self):
+        path = self.out / "dataset.json"
+        sound = json.loads(path.read_text())
+        self.assert_refused("is no dataset of sonarsim", self.folder / "nowhere", "--format", "coco")
+        self.assert_refused("there is no 'no'; there are: fls, sss", self.out, "--format", "coco", "--sensor", "no")
+        self.assert_refused("the shares sum to 0.5", self.out, "--format", "coco", "--split", "train=0.5")
+        self.assert_refused("argument --format: invalid choice", self.out, "--format", "voc")
+        self.assert_refused("apt install python3-numpy", self.out, "--format", "coco", setup="sys.modules['PIL'] = None")
+        self.assert_refused("is given twice", self.out, self.out, "--format", "coco")
+        for change, text in (({"complete": False}, "is not complete"), ({"labels": {}}, "has no objects; set output.labels"),
+                             ({"poses": "x"}, "'poses' is 'x'"), ({"sensors": [sound["sensors"][0] | {"fan": 3}]}, "is damaged")):
+            path.write_text(json.dumps(sound | change))
+            self.assert_refused(text, self.out, "--format", "coco")
+        path.write_text(json.dumps(sound))
+        facts = self.out / "fls/objects/000003.json"
+        text = facts.read_text()
+        for bad in ("[]", text.replace('"mask": "', '"mask": "0'), text.replace('"fan"', '"f"'), "[" * 100000):
+            facts.write_text(bad)
+            self.assert_refused("000003.json: ", self.out, "--format", "yolo")
+        facts.write_text(text)
+        fan = self.out / "fls/fan/000000.png"
+        fan.rename(self.folder / "secret.png")
+        fan.symlink_to(self.folder / "secret.png")
+        self.assert_refused("000000.png: is missing, or lies behind a link", self.out, "--format", "yolo")
+
+    def test_a_full_disk_and_a_full_folder(self):
+        full = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (600, 600)); import signal; signal.signal(" \
+               "signal.SIGXFSZ, signal.SIG_IGN)"
+        self.assert_refused("File too large", self.out, "--format", "coco", code=1, setup=full)
+        self.dest.mkdir()
+        (self.dest / "mine.txt").write_text("")
+        result = self.run_export(self.out, "--format", "coco")
+        self.assertEqual((result.returncode, os.listdir(self.dest)), (2, ["mine.txt"]), result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
