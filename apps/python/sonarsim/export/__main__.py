@@ -46,7 +46,7 @@ def parse(arguments):
                     "datasets as a folder that a trainer opens.")
     add = parser.add_argument
     add("folders", nargs="+", metavar="OUT... DEST", help="datasets or folders of variants, then the folder to write")
-    add("--format", required=True, choices=("coco", "yolo", "masks", "webdataset"), help="the layout")
+    add("--format", required=True, choices=formats.KINDS, help="the layout")
     add("--box", choices=("object", "shadow", "both"), default="object", help="what boxes are drawn around")
     add("--polygons", action="store_true", help="outlines instead of boxes (yolo) or runs (coco)")
     add("--bins", action="store_true", help="of imaging and profiling sonars the picture of the bins, not the fan")
@@ -99,8 +99,10 @@ def export(options):
     first = source.datasets[0].description
     info = {"description": first["mission"], "version": first["program_version"]}
     statistics = Statistics(source.classes)
+    if options.format == "masks" and len(source.classes) > 255:
+        raise ValueError("--format masks: holds at most 255 classes; leave some out (--without)")
     with destination(options.dest, options.folders) as folder:
-        layout = formats.make(folder, source.classes, info, options)
+        layout = formats.KINDS[options.format](folder, source.classes, info, options)
         for pieces, pictures, dropped in prepare_all(source.pictures, source.numbers, options):
             statistics.left_out["pictures"] += pictures
             statistics.left_out["pieces"] += dropped
@@ -130,7 +132,7 @@ def main(arguments):
         print(f"sonarsim export: {fault}", file=sys.stderr)
         return 2
     except (OSError, BrokenProcessPool, MemoryError) as fault:
-        print(f"sonarsim export: {fault}", file=sys.stderr)
+        print(f"sonarsim export: {str(fault) or 'out of memory'}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         return 128 + signal.SIGINT

@@ -116,7 +116,10 @@ def require_known(given, known, option):
 
 def background(dataset):
     """The names of the classes that are no objects."""
-    return dataset.description.get("labels", {}).get("annotations", {}).get("background", [])
+    try:
+        return dataset.description["labels"].get("annotations", {"background": []})["background"]
+    except (KeyError, TypeError, AttributeError) as fault:
+        raise ValueError(f"{dataset.folder / 'dataset.json'}: is damaged: labels.annotations: {fault!r}") from fault
 
 
 def pictures_of(sensor, parts, options):
