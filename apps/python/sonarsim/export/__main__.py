@@ -28,24 +28,16 @@ class Parser(argparse.ArgumentParser):
         self.exit(2, f"sonarsim export: {message}; --help lists the options\n")
 
 
-def number(kind, low, high):
-    """Reads a number from low to high."""
-    def read(text):
-        try:
-            value = kind(text)
-        except ValueError:
-            value = None
-        if value is None or not low <= value <= high:
-            raise argparse.ArgumentTypeError(f"{text!r} must be a number from {low} to {high}")
-        return value
-    return read
+# The least and largest values of numbers.
+LIMITS = {"min_pixels": (1, 1 << 30), "min_visible_share": (0, 1), "min_contrast_db": (0, 100), "gap": (0, 1 << 30),
+          "rounds": (1, 1 << 20), "overlap": (0, 65536), "least_share": (0, 1)}
 
 
 def tile(text):
     """(width, height) of a text like 512 or 512x256."""
-    sides = [number(int, 16, 65536)(side) for side in text.split("x")]
-    if len(sides) > 2:
-        raise argparse.ArgumentTypeError(f"{text!r} must be N or WIDTHxHEIGHT")
+    sides = [int(side) for side in text.split("x")]
+    if len(sides) > 2 or not 16 <= min(sides) <= max(sides) <= 65536:
+        raise ValueError
     return sides[0], sides[-1]
 
 
@@ -54,29 +46,32 @@ def parse(arguments):
                     "datasets as a folder that a trainer opens.")
     add = parser.add_argument
     add("folders", nargs="+", metavar="OUT... DEST", help="datasets or folders of variants, then the folder to write")
-    add("--format", required=True, choices=("coco", "yolo", "masks", "webdataset"), help="the layout")
+    add("--format", required=True, choices=formats.KINDS, help="the layout")
     add("--box", choices=("object", "shadow", "both"), default="object", help="what boxes are drawn around")
     add("--polygons", action="store_true", help="outlines instead of boxes (yolo) or runs (coco)")
     add("--bins", action="store_true", help="of imaging and profiling sonars the picture of the bins, not the fan")
     add("--sensor", action="append", default=[], metavar="NAME", help="only this sensor; may be repeated")
     add("--without", action="append", default=[], metavar="CLASS", help="a class that is no object; may be repeated")
-    add("--min-pixels", type=number(int, 1, 1 << 30), default=16, metavar="N", help="fewer make an object faint")
-    add("--min-visible-share", type=number(float, 0, 1), default=0.1, metavar="X", help="less makes it faint")
-    add("--min-contrast-db", type=number(float, 0, 100), default=1.0, metavar="DB",
+    add("--min-pixels", type=int, default=16, metavar="N", help="fewer make an object faint")
+    add("--min-visible-share", type=float, default=0.1, metavar="X", help="less makes it faint")
+    add("--min-contrast-db", type=float, default=1.0, metavar="DB",
         help="less, of object and shadow, makes it faint")
     add("--faint", choices=("omit", "crowd"), default="omit", help="faint objects are left out, or marked as crowd")
     add("--split", metavar="train=A,val=B,test=C", help="parts of the trajectory, or of the variants")
-    add("--gap", type=number(int, 0, 1 << 30), default=10, metavar="N", help="poses left out at each border")
-    add("--rounds", type=number(int, 1, 1 << 20), default=1, metavar="N", help="repetitions of the parts")
+    add("--gap", type=int, default=10, metavar="N", help="poses left out at each border")
+    add("--rounds", type=int, default=1, metavar="N", help="repetitions of the parts")
     add("--tile", type=tile, metavar="N|WxH", help="cut waterfalls, echograms and sweeps into tiles")
-    add("--overlap", type=number(int, 0, 65536), default=0, metavar="N", help="pixels that tiles share")
-    add("--least-share", type=number(float, 0, 1), default=0.2, metavar="X",
+    add("--overlap", type=int, default=0, metavar="N", help="pixels that tiles share")
+    add("--least-share", type=float, default=0.2, metavar="X",
         help="a piece with a smaller share of its object is left out")
     add("--link", action="store_true", help="hard links to pictures that need no change")
     options = parser.parse_intermixed_args(arguments)
     *options.folders, options.dest = options.folders
     if not options.folders:
-        parser.error("name a dataset and then the folder to write")
+        parser.error("name a dataset, then the folder to write")
+    for key, (low, high) in LIMITS.items():
+        if not low <= getattr(options, key) <= high:
+            parser.error(f"--{key.replace('_', '-')} must be a number from {low} to {high}")
     if options.tile and options.overlap >= min(options.tile):
         parser.error("--overlap must be less than the sides of a tile")
     return options
@@ -104,8 +99,10 @@ def export(options):
     first = source.datasets[0].description
     info = {"description": first["mission"], "version": first["program_version"]}
     statistics = Statistics(source.classes)
+    if options.format == "masks" and len(source.classes) > 255:
+        raise ValueError("--format masks: holds at most 255 classes; leave some out (--without)")
     with destination(options.dest, options.folders) as folder:
-        layout = formats.make(folder, source.classes, info, options)
+        layout = formats.KINDS[options.format](folder, source.classes, info, options)
         for pieces, pictures, dropped in prepare_all(source.pictures, source.numbers, options):
             statistics.left_out["pictures"] += pictures
             statistics.left_out["pieces"] += dropped
@@ -120,7 +117,6 @@ def export(options):
 
 
 def no_pictures(picture, tile_px):
-    """Why an export with a split has no picture."""
     if picture.kind != "strip":
         return f"{picture.path}: shows pings of several parts of the split; take a smaller --gap, or leave out --split"
     what = "each tile of it" if tile_px else "it"
@@ -136,7 +132,7 @@ def main(arguments):
         print(f"sonarsim export: {fault}", file=sys.stderr)
         return 2
     except (OSError, BrokenProcessPool, MemoryError) as fault:
-        print(f"sonarsim export: {fault}", file=sys.stderr)
+        print(f"sonarsim export: {str(fault) or 'out of memory'}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         return 128 + signal.SIGINT

@@ -14,11 +14,6 @@ LONGEST_MEMBER = 100        # in a tar archive of the format ustar
 DIGITS = {"range_m": 3, "bearing_deg": 2, "contrast_db": 2, "visible_share": 4, "shadow_contrast_db": 2}
 
 
-def make(folder, classes, info, options):
-    kinds = {"coco": Coco, "yolo": Yolo, "masks": Masks, "webdataset": WebDataset}
-    return kinds[options.format](folder, classes, info, options)
-
-
 def place(piece, folder, link):
     """Writes the picture of a piece into a folder."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -43,20 +38,20 @@ def write_json(path, value):
 
 
 class Format:
+    """`parts` holds what is known of each part of the split."""
+
     def __init__(self, folder, classes, info, options):
-        self.folder, self.classes, self.info, self.options = folder, classes, info, options
+        self.folder, self.classes, self.info, self.options, self.parts = folder, classes, info, options, {}
 
 
 class Coco(Format):
     """PART/NAME.png and annotations/instances_PART.json. Ids are unique over all parts."""
 
-    def __init__(self, *given):
-        super().__init__(*given)
-        self.lists, self.images, self.annotations = {}, 0, 0
+    images = annotations = 0
 
     def add(self, piece):
         place(piece, self.folder / piece.part, self.options.link)
-        images, annotations = self.lists.setdefault(piece.part, ([], []))
+        images, annotations = self.parts.setdefault(piece.part, ([], []))
         self.images += 1
         images.append(json.dumps({"id": self.images, "file_name": f"{piece.name}.png", "width": piece.width,
                                   "height": piece.height}))
@@ -81,7 +76,7 @@ class Coco(Format):
         folder.mkdir()
         categories = [json.dumps({"id": k + 1, "name": name, "supercategory": "object"})
                       for k, name in enumerate(self.classes)]
-        for part, (images, annotations) in self.lists.items():
+        for part, (images, annotations) in self.parts.items():
             with open(folder / f"instances_{part}.json", "w", encoding="utf-8") as file:
                 file.write(f'{{"info": {json.dumps(self.info)},\n"licenses": []')
                 for key, items in (("categories", categories), ("images", images), ("annotations", annotations)):
@@ -93,13 +88,9 @@ class Yolo(Format):
     """images/PART/NAME.png, labels/PART/NAME.txt and data.yaml. A line per object: class from 0 on, then middle and
     size of its box, or the corners of its outline, as shares of the picture."""
 
-    def __init__(self, *given):
-        super().__init__(*given)
-        self.parts = []
-
     def add(self, piece):
         if piece.part not in self.parts:
-            self.parts.append(piece.part)
+            self.parts[piece.part] = True
             (self.folder / "labels" / piece.part).mkdir(parents=True)
         place(piece, self.folder / "images" / piece.part, self.options.link)
         text = "".join(self.line(one, piece.width, piece.height) for one in piece.objects)
@@ -119,8 +110,7 @@ class Yolo(Format):
             if part in self.parts:
                 text += f"{part}: images/{part}\n"
             elif part != "test":
-                other = "train" if "train" in self.parts else self.parts[0]
-                text += f"{part}: images/{other}  # there is no such part\n"
+                text += f"{part}: images/{next(iter(self.parts))}  # there is no such part\n"
         text += "names:\n" + "".join(f"  {k}: {json.dumps(name)}\n" for k, name in enumerate(self.classes))
         (self.folder / "data.yaml").write_text(text, encoding="utf-8")
 
@@ -129,22 +119,16 @@ class Masks(Format):
     """img_dir/PART/NAME.png, ann_dir/PART/NAME.png with the number of the class of each pixel, splits/PART.txt, and
     meta.json with names and colours. Number 0 is the background."""
 
-    def __init__(self, *given):
-        super().__init__(*given)
-        if len(self.classes) > 255:
-            raise ValueError("--format masks: holds at most 255 classes; leave some out (--without)")
-        self.names = {}
-
     def add(self, piece):
         place(piece, self.folder / "img_dir" / piece.part, self.options.link)
         folder = self.folder / "ann_dir" / piece.part
         folder.mkdir(parents=True, exist_ok=True)
         (folder / f"{piece.name}.png").write_bytes(piece.classes_png)
-        self.names.setdefault(piece.part, []).append(piece.name + "\n")
+        self.parts.setdefault(piece.part, []).append(piece.name + "\n")
 
     def finish(self):
         (self.folder / "splits").mkdir()
-        for part, names in self.names.items():
+        for part, names in self.parts.items():
             (self.folder / "splits" / f"{part}.txt").write_text("".join(names), encoding="ascii")
         write_json(self.folder / "meta.json", {"classes": ["background", *self.classes],
                                                "palette": [colour_of(k) for k in range(len(self.classes) + 1)]})
@@ -152,10 +136,6 @@ class Masks(Format):
 
 class WebDataset(Format):
     """PART-000000.tar with NAME.png and NAME.json for each picture, and classes.txt."""
-
-    def __init__(self, *given):
-        super().__init__(*given)
-        self.shards, self.counts = {}, {}
 
     def add(self, piece):
         if len(piece.name) + 5 > LONGEST_MEMBER:
@@ -165,24 +145,23 @@ class WebDataset(Format):
         objects["categories"] = [one["class"] - 1 for one in piece.objects]
         text = json.dumps({"width": piece.width, "height": piece.height, "objects": objects}) + "\n"
         png = piece.path.read_bytes() if piece.png is None else piece.png
-        shard = self.shards.get(piece.part)
+        number, shard = self.parts.get(piece.part, (-1, None))
         if shard is None or shard.offset + len(png) + len(text) + 4096 > SHARD_BYTES:
-            shard = self.next_shard(piece.part)
+            if shard:
+                shard.close()
+            shard = tarfile.open(self.folder / f"{piece.part}-{number + 1:06}.tar", "w", format=tarfile.USTAR_FORMAT)
+            self.parts[piece.part] = number + 1, shard
         for ending, content in ((".png", png), (".json", text.encode())):
             member = tarfile.TarInfo(piece.name + ending)
             member.size = len(content)
             shard.addfile(member, io.BytesIO(content))
 
-    def next_shard(self, part):
-        if part in self.shards:
-            self.shards[part].close()
-        number = self.counts[part] = self.counts.get(part, -1) + 1
-        self.shards[part] = tarfile.open(self.folder / f"{part}-{number:06}.tar", "w", format=tarfile.USTAR_FORMAT)
-        return self.shards[part]
-
     def finish(self):
-        for shard in self.shards.values():
+        for _, shard in self.parts.values():
             shard.close()
         # A line each, whatever is in a name.
         names = [json.dumps(name, ensure_ascii=False)[1:-1] + "\n" for name in self.classes]
         (self.folder / "classes.txt").write_text("".join(names), encoding="utf-8")
+
+
+KINDS = {"coco": Coco, "yolo": Yolo, "masks": Masks, "webdataset": WebDataset}

@@ -8,7 +8,7 @@ from PIL import Image
 
 from .. import data
 from . import runs
-from .source import MOST_PIXELS, objects_of
+from .source import MOST_PIXELS, objects_of, read_facts
 
 Image.MAX_IMAGE_PIXELS = MOST_PIXELS
 GREYS = np.floor(255 * np.sqrt(np.arange(65536) / 65535) + 0.5).astype(np.uint8)
@@ -34,7 +34,11 @@ def prepare(picture, numbers, options):
     parts = [part_of(picture, frame) for frame in frames]
     if not any(parts):
         return [], len(frames), 0
-    objects = [one for one in objects_of(picture, numbers) if is_kept(one, picture, options)]
+    facts = read_facts(picture.facts)
+    try:
+        objects = [one for one in objects_of(facts, picture, numbers) if is_kept(one, picture, options)]
+    except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as fault:
+        raise ValueError(f"{picture.facts}: is damaged: {fault}") from fault
     pixels = pixels_of(picture, len(frames) == 1)
     pieces, dropped = [], 0
     for frame, part in zip(frames, parts):
@@ -84,10 +88,7 @@ def part_of(picture, frame):
 
 def is_kept(one, picture, options):
     """True for an object that this picture has in this format; sets its pixels, area and iscrowd."""
-    try:
-        one["pixels"] = runs.pixels_of(one["mask"], picture.width, picture.height)
-    except ValueError as fault:
-        raise ValueError(f"{picture.facts}: {fault}") from fault
+    one["pixels"] = runs.pixels_of(one["mask"], picture.width, picture.height)
     one["area"] = one["pixels"].size
     contrasts = [abs(one[key]) for key in ("contrast_db", "shadow_contrast_db") if one[key] is not None]
     share = 1.0 if one["visible_share"] is None else one["visible_share"]
@@ -110,7 +111,8 @@ def box_of(one, height, shadow, sort):
 
 def show(one, picture, frame, options):
     """The part of an object that a frame shows; None if there is none, False if it is too small."""
-    pixels = runs.cut(one["pixels"], picture.height, frame)
+    is_whole = frame == (0, picture.width, 0, picture.height)
+    pixels = one["pixels"] if is_whole else runs.cut(one["pixels"], picture.height, frame)
     if not pixels.size:
         return None
     width, height = frame[1] - frame[0], frame[3] - frame[2]
@@ -123,8 +125,8 @@ def show(one, picture, frame, options):
     if is_small or box is None or pixels.size < options.min_pixels and not one["iscrowd"]:
         return False
     shown["box"] = box
-    if pixels.size < one["area"] or frame != (0, picture.width, 0, picture.height):
-        shown["mask"] = runs.counts_of(pixels, width, height) if options.format != "yolo" else ""
+    if not is_whole:
+        shown["mask"] = runs.counts_of(pixels, width, height)
     if options.polygons:
         shown["outlines"] = runs.outlines(pixels, height)
     return shown

@@ -116,77 +116,63 @@ def require_known(given, known, option):
 
 def background(dataset):
     """The names of the classes that are no objects."""
-    return dataset.description.get("labels", {}).get("annotations", {}).get("background", [])
+    try:
+        return dataset.description["labels"].get("annotations", {"background": []})["background"]
+    except (KeyError, TypeError, AttributeError) as fault:
+        raise ValueError(f"{dataset.folder / 'dataset.json'}: is damaged: labels.annotations: {fault!r}") from fault
 
 
 def pictures_of(sensor, parts, options):
     """Yields the pictures of a sensor; none for a kind without pictures. `parts` has those of all poses."""
     of_ping = [parts[pose] for pose in sensor.pings]
-    if sensor.picture("sensor"):
-        yield strip_of(sensor, of_ping)
-    elif sensor.picture("sweep"):
-        yield from sweeps_of(sensor, of_ping)
+    if sensor.picture("sensor") or sensor.picture("sweep"):
+        yield from records_of(sensor, of_ping)
     elif sensor.kind in ("imaging", "profiling"):
         yield from pings_of(sensor, of_ping, options.bins)
 
 
 def pings_of(sensor, of_ping, is_bins):
-    names = ("image", "polar") if is_bins else ("fan",)
-    shown = next((name for name in names if name in sensor.keys), None)
-    if shown is None:
+    names = [name for name in (("image", "polar") if is_bins else ("fan",)) if name in sensor.keys]
+    if not names:
         advice = ("neither images nor arrays of its bins; set output.image: true and render it again, or leave out "
                   "--bins" if is_bins else "no fans; set output.fan: true and render it again, or take the "
                   "pictures of its bins with --bins")
         raise ValueError(f"{sensor.folder}: sensor {sensor.name!r} has {advice}")
     if "objects" not in sensor.keys:
         raise ValueError(f"{sensor.folder}: sensor {sensor.name!r} has no objects; {ADVICE}")
-    if is_bins:
-        width, height = len(sensor.azimuth_edges_rad) - 1, len(sensor.range_edges_m) - 1
-    else:
-        width, height = (sensor.description["fan"][key] for key in ("width_px", "height_px"))
+    shape = len(sensor.azimuth_edges_rad) - 1, len(sensor.range_edges_m) - 1
+    if not is_bins:
+        shape = sensor.description["fan"]["width_px"], sensor.description["fan"]["height_px"]
     for k, part in enumerate(of_ping):
-        yield picture(sensor, sensor.file(k, shown), sensor.file(k, "objects"), "bins" if is_bins else "fan",
-                      width, height, [part])
+        yield picture(sensor, sensor.file(k, names[0]), sensor.file(k, "objects"), "bins" if is_bins else "fan", shape,
+                      [part])
 
 
-def strip_of(sensor, of_ping):
-    described = sensor.picture("sensor")
-    path, facts = record_facts(sensor, described["boxes_of"], "objects.json")
-    sheet = read_facts(facts)
-    each = data.whole(described.get("pings_per_pixel", 1), 1, "pings_per_pixel")
-    upright = described.get("pings_along", "y") == "x"
-    rows = [of_ping[k:k + each] for k in range(0, len(of_ping), each)]
-    one = picture(sensor, path, facts, "strip", sheet["width"], sheet["height"],
-                  [row[0] if len(set(row)) == 1 else None for row in rows])
-    one.rows_are_pings = not upright
-    if len(one.parts) != (one.width if upright else one.height):
-        raise ValueError(f"{facts}: has a picture with more or fewer pings than dataset.json says")
-    return one
-
-
-def sweeps_of(sensor, of_ping):
-    described = sensor.picture("sweep")
-    steps = data.whole(described["pings"], 1, "pings")
-    for sweep in range(-(-len(of_ping) // steps)):
-        path, facts = record_facts(sensor, described["boxes_of"] % sweep, f"objects_{sweep:04}.json")
+def records_of(sensor, of_ping):
+    """The waterfall or echogram of a sensor, or the picture of each sweep."""
+    strip, sweep = sensor.picture("sensor"), sensor.picture("sweep")
+    steps = max(1, len(of_ping)) if strip else data.whole(sweep["pings"], 1, "pings")
+    for k in range(-(-len(of_ping) // steps)):
+        facts = f"{sensor.name}/objects.json" if strip else f"{sensor.name}/objects_{k:04}.json"
+        if not (sensor.folder / facts).is_file():
+            raise ValueError(f"{sensor.folder}: has no {facts}, which lists the objects; {ADVICE}")
+        path = data.own_file(sensor.folder, strip["boxes_of"] if strip else sweep["boxes_of"] % k)
+        facts = data.own_file(sensor.folder, facts)
         sheet = read_facts(facts)
-        # The last picture shows pings of the sweep before, too, if it is cut short.
-        end = min((sweep + 1) * steps, len(of_ping))
-        shown = set(of_ping[max(end - steps, 0):end])
-        yield picture(sensor, path, facts, "sweep", sheet["width"], sheet["height"],
-                      [shown.pop() if len(shown) == 1 else None])
+        # The last picture of sweeps shows pings of the sweep before, too, if it is cut short.
+        end = min((k + 1) * steps, len(of_ping))
+        each = data.whole(strip.get("pings_per_pixel", 1), 1, "pings_per_pixel") if strip else steps
+        shown = [set(of_ping[first:min(first + each, end)]) for first in range(max(end - steps, 0), end, each)]
+        one = picture(sensor, path, facts, "strip" if strip else "sweep", (sheet["width"], sheet["height"]),
+                      [parts.pop() if len(parts) == 1 else None for parts in shown])
+        one.rows_are_pings = not strip or strip.get("pings_along", "y") == "y"
+        if strip and len(one.parts) != (one.height if one.rows_are_pings else one.width):
+            raise ValueError(f"{facts}: has a picture with more or fewer pings than dataset.json says")
+        yield one
 
 
-def record_facts(sensor, file, facts):
-    """The paths of a picture and of the list of its objects."""
-    if not (sensor.folder / sensor.name / facts).is_file():
-        raise ValueError(f"{sensor.folder}: has no {sensor.name}/{facts}, which lists the objects; {ADVICE}")
-    return data.own_file(sensor.folder, file), data.own_file(sensor.folder, f"{sensor.name}/{facts}")
-
-
-def picture(sensor, path, facts, kind, width, height, parts):
-    data.whole(width, 1, "width")
-    data.whole(height, 1, "height")
+def picture(sensor, path, facts, kind, shape, parts):
+    width, height = (data.whole(side, 1, "width or height") for side in shape)
     if max(width, height) > LARGEST_SIDE or width * height > MOST_PIXELS:
         raise ValueError(f"{path}: is too large a picture: {width} x {height} pixels")
     return Picture(path, facts, "", 0, kind, width, height, sensor.description["full_scale"], parts)
@@ -200,17 +186,13 @@ def read_facts(path):
             return facts
     except (ValueError, KeyError, TypeError):
         pass
-    raise ValueError(f"{path}: is damaged: it must be JSON with a list of objects")
+    raise ValueError(f"{path}: must be JSON with a list of objects")
 
 
-def objects_of(picture, numbers):
+def objects_of(facts, picture, numbers):
     """Yields the objects of a picture: id, class (its number), mask (compressed runs), shadow (its box) and FACTS."""
-    for one in read_facts(picture.facts)["objects"]:
-        try:
-            found = object_of(one, picture.kind, numbers[one["class"]])
-        except (KeyError, TypeError, ValueError, AttributeError) as fault:
-            raise ValueError(f"{picture.facts}: is damaged: {fault!r}") from fault
-        if found:
+    for one in facts["objects"]:
+        if found := object_of(one, picture.kind, numbers[one["class"]]):
             yield found
 
 

@@ -6,18 +6,14 @@ PARTS = ("train", "val", "test")
 
 def parse(text):
     """{"train": share, ...} of a text like train=0.8,val=0.2; ValueError for anything else."""
-    shares = {}
-    for one in text.split(","):
-        name, _, share = one.partition("=")
-        try:
-            value = float(share)
-        except ValueError:
-            value = -1.0
-        if name not in PARTS or name in shares or not 0 <= value <= 1:
-            raise ValueError(f"--split: {one!r} must be train, val or test with a share from 0 to 1, as in "
-                             "train=0.8,val=0.1,test=0.1")
-        shares[name] = value
-    if abs(sum(shares.values()) - 1) > 1e-6:
+    try:
+        pairs = [(name, float(share)) for name, share in (one.split("=") for one in text.split(","))]
+    except ValueError:
+        pairs = []
+    shares = dict(pairs)
+    if not len(pairs) == len(shares) > 0 or not set(shares) <= set(PARTS) or min(shares.values()) < 0:
+        raise ValueError(f"--split: {text!r} must be shares of train, val and test, as in train=0.8,val=0.1,test=0.1")
+    if not abs(sum(shares.values()) - 1) < 1e-6:
         raise ValueError(f"--split: the shares sum to {sum(shares.values()):g} and must sum to 1")
     return {name: shares[name] for name in PARTS if shares.get(name)}
 

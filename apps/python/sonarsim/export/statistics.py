@@ -1,5 +1,6 @@
 """Counts of the exported pictures and objects, in all and for each part of the split."""
 import bisect
+import collections
 
 EDGES = {
     "range_m": (1, 1.5, 2, 3, 5, 7, 10, 15, 20, 30, 50, 70, 100, 150, 200, 300, 500, 700, 1000),
@@ -39,12 +40,13 @@ class Tally:
 
 class Statistics:
     def __init__(self, classes):
-        self.classes, self.all, self.parts = classes, Tally(classes), {}
+        self.parts = collections.defaultdict(lambda: Tally(classes))
+        self.all = Tally(classes)
         self.left_out = {"pictures": 0, "pieces": 0}
 
     def add(self, piece):
         self.all.add(piece)
-        self.parts.setdefault(piece.part, Tally(self.classes)).add(piece)
+        self.parts[piece.part].add(piece)
 
     def as_json(self):
         return {"format": "sonarsim statistics", "format_version": 2, "edges": EDGES, "left_out": self.left_out,
@@ -54,9 +56,9 @@ class Statistics:
         """A few lines for the terminal."""
         lines = [f"{name}: {one.pictures} pictures, {one.without_objects} of them without an object"
                  for name, one in self.parts.items()]
-        width = max(5, *map(len, self.classes))
-        lines.append(f"{'class':<{width}}  objects  pictures  annotations  ignored")
-        lines += [f"{one['name']:<{width}}  {len(one['objects']):7}  {one['pictures']:8}  {one['annotations']:11}  "
-                  f"{one['ignored']:7}" for one in self.all.classes]
+        rows = [[one["name"], len(one["objects"]), one["pictures"], one["annotations"], one["ignored"]]
+                for one in self.all.classes]
+        lines += ["  ".join(f"{cell!s:>11}" for cell in row)
+                  for row in [["class", "objects", "pictures", "annotations", "ignored"], *rows]]
         return "\n".join(lines + [f"left out: {self.left_out['pictures']} pictures or tiles that are not in one part "
                                   f"of the split, {self.left_out['pieces']} pieces of objects that are too small"])
