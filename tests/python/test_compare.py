@@ -6,6 +6,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import warnings
 
 import numpy as np
 from scipy import special
@@ -195,6 +196,22 @@ class ComparisonTest(unittest.TestCase):
         other.kind, far.first_range_m = "echosounder", 100.0
         for pair in ((drawn(1), other), (drawn(1), far), (tiny, tiny)):
             self.assertRaises(RecordingError, compare_recordings, *pair)
+
+    def test_extremes(self):
+        """Tiny, empty and huge recordings are compared or refused."""
+        random = np.random.default_rng(6)
+        for kind, shape in (("imaging", (20, 9, 3)), ("imaging", (9, 70, 24)), ("sidescan", (40, 60, 2)),
+                            ("echosounder", (3, 5, 1))):
+            for scale in (0.0, 1.0, 1e36):
+                recordings = [Recording(kind, Law("amplitude", full_value=1.0), range_step_m=0.1,
+                                        bearing_rad=0.01 * np.arange(shape[2]) if kind == "imaging" else None,
+                                        values=np.float32(scale * random.random(shape))) for _ in range(2)]
+                with self.subTest(kind=kind, shape=shape, scale=scale), warnings.catch_warnings():
+                    warnings.simplefilter("error")
+                    try:
+                        json.dumps(report.comparison_json(compare_recordings(*recordings)), allow_nan=False)
+                    except RecordingError as fault:
+                        self.assertIn("no figure in common", str(fault))
 
     def test_soundings(self):
         def soundings(seed, spread, intensity, full_value=1.0):
