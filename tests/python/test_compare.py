@@ -6,6 +6,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import warnings
 
 import numpy as np
 from scipy import special
@@ -196,6 +197,22 @@ class ComparisonTest(unittest.TestCase):
         for pair in ((drawn(1), other), (drawn(1), far), (tiny, tiny)):
             self.assertRaises(RecordingError, compare_recordings, *pair)
 
+    def test_extremes(self):
+        """Tiny, empty and huge recordings are compared or refused."""
+        random = np.random.default_rng(6)
+        for kind, shape in (("imaging", (20, 9, 3)), ("imaging", (9, 70, 24)), ("sidescan", (40, 60, 2)),
+                            ("echosounder", (3, 5, 1))):
+            for scale in (0.0, 1.0, 1e36):
+                recordings = [Recording(kind, Law("amplitude", full_value=1.0), range_step_m=0.1,
+                                        bearing_rad=0.01 * np.arange(shape[2]) if kind == "imaging" else None,
+                                        values=np.float32(scale * random.random(shape))) for _ in range(2)]
+                with self.subTest(kind=kind, shape=shape, scale=scale), warnings.catch_warnings():
+                    warnings.simplefilter("error")
+                    try:
+                        json.dumps(report.comparison_json(compare_recordings(*recordings)), allow_nan=False)
+                    except RecordingError as fault:
+                        self.assertIn("no figure in common", str(fault))
+
     def test_soundings(self):
         def soundings(seed, spread, intensity, full_value=1.0):
             random = np.random.default_rng(seed)
@@ -240,7 +257,8 @@ class CommandTest(unittest.TestCase):
             (folder / "broken").mkdir()
             (folder / "file").write_text("")
             for arguments, what in (((folder / "1", folder / "2", "--out", out), "holds a comparison already"),
-                                    ((folder / "1", folder / "no"), "is no recording"), ((folder / "1", folder / "broken"), "is no recording"),
+                                    ((folder / "1", folder / "no"), "is no recording"),
+                                    ((folder / "1", folder / "broken"), "is no recording"),
                                     ((folder / "1", folder / "file"), "needs keys"), ((folder / "1",), "simulated"),
                                     ((folder / "1", folder / "2", "--out", folder / "file" / "a"), "Not a directory"),
                                     ((folder / "1", folder / "2", "--pings", "0"), "is no number")):

@@ -231,7 +231,8 @@ class RecordingTest(unittest.TestCase):
         for form, layout, full in ((8, "B", 127.5), (2, "I", 2147483647.5), (5, "f", 255.0)):
             own = self.opened(yaml, FILE=xtf_header(form) + xtf_ping(layout=layout, weight=1))
             self.assertEqual((own.values[0, 0, 0], own.law.full_value), (1.5, full))
-        self.assertEqual(self.opened(yaml.replace("}", ", full_value: 9}"), FILE=xtf_header() + xtf_ping()).law.full_value, 9)
+        own = self.opened(yaml.replace("}", ", full_value: 9}"), FILE=xtf_header() + xtf_ping())
+        self.assertEqual(own.law.full_value, 9)
         self.assertIn("split the file", self.fault(yaml, FILE=xtf_header() + xtf_ping() + xtf_ping(range_m=60.0)))
         self.assertEqual(len(self.opened(FORMATS["didson"][0], FILE=didson(3))), 2)
         self.assertIn("another version", self.fault(FORMATS["didson"][0], FILE=didson(9)))
@@ -287,7 +288,8 @@ class RecordingTest(unittest.TestCase):
         for header in ("{'descr': '<f4', 'fortran_order': False, 'shape': (1000000, 1000000), }",
                        "{'descr': '<f4', 'fortran_order': False, 'shape': (-1, 4), }",
                        "{'descr': '|O', 'fortran_order': False, 'shape': (2, 2), }",
-                       "{'descr': '<f4', 'shape': (2, 2), }", "((((", "{'descr': '<i8', 'fortran_order': False, 'shape': (1, 1), }"):
+                       "{'descr': '<f4', 'shape': (2, 2), }", "((((",
+                       "{'descr': '<i8', 'fortran_order': False, 'shape': (1, 1), }"):
             self.fault(ARRAYS, **{"pings.npy": npy(header) + bytes(8)})
         for content in (b"", b"\x93NUM", b"\x93NUMPY\1\0\xff\xff", b"PK\3\4" + bytes(90)):
             self.fault(ARRAYS, **{"pings.npy": content})
@@ -316,8 +318,8 @@ class RecordingTest(unittest.TestCase):
         self.assertEqual((own.first_range_m, own.range_step_m, own.sound_speed_m_s), (1.5, 1.0, 1480.0))
         self.assertEqual(own.law, Law("amplitude", full_value=4.0))
         raw = {f"s/raw/{k:06}.npy": image for k in range(2)}
-        own = self.dataset("imaging", raw, "frequency_hz: 4.e+5, receiver: {bits: 12, companding: log, dynamic_range_db: 80}",
-                           files={"raw": "s/raw/%06d.npy"}, instrument={})
+        resolved = "frequency_hz: 4.e+5, receiver: {bits: 12, companding: log, dynamic_range_db: 80}"
+        own = self.dataset("imaging", raw, resolved, files={"raw": "s/raw/%06d.npy"}, instrument={})
         self.assertEqual((own.law, own.frequency_hz), (Law("decibel", range_db=80.0, full_value=4095.0), 4e5))
         own = self.dataset("sidescan", {"s/waterfall.npy": [[0, 1, 2, 3, 4, 5]] * 2}, instrument={},
                            records={"name": "waterfall", "file": "s/waterfall.npy", "axes": ["ping", "column"]})
@@ -346,7 +348,8 @@ class RecordingTest(unittest.TestCase):
                 (ARRAYS.replace("imaging", "photo"), "one of imaging, sidescan"), (ARRAYS + "xtf: a\n", "files and xtf"),
                 (ARRAYS.replace("0.5}", "5}"), "'exponent' must be a number from 0.1 to 2"),
                 (ARRAYS.replace("1490", ".nan"), "'sound_speed_m_s' must be"), (ARRAYS.replace("law", "# law"), "'law'"),
-                (ARRAYS.replace("pings.npy", "[3]"), "'files' must be"), (ARRAYS.replace("pings.npy", "no.npy"), "cannot be read"),
+                (ARRAYS.replace("pings.npy", "[3]"), "'files' must be"),
+                (ARRAYS.replace("pings.npy", "no.npy"), "cannot be read"),
                 (ARRAYS + "bearings_deg: [1, 2]\nrate_hz: 1\n", "2 bearings for 4 beams"), ("a: [", "is no YAML"),
                 ("[" * 20000, "is no YAML"), ("- 1", "needs keys"), (ARRAYS.replace("0.1\n", "0\n"), "range_step_m"),
                 ("kind: imaging\nlogs: pings.npy\nsound_speed_m_s: 1\n", "number from 300 to 10000")):

@@ -66,7 +66,7 @@ def main():
     except ImportError as fault:
         return fail(f"needs the Python package {fault.name}: apt install {PACKAGES}")
     except OSError as fault:
-        return fail(f"{fault.filename or options.out}: {fault.strerror or fault}")
+        return fail(f"{fault.filename or options.out or 'output'}: {fault.strerror or fault}")
     except MemoryError:
         return fail("the recordings do not fit into memory; take fewer pings with --pings")
     return 0

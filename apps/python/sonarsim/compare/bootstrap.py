@@ -1,8 +1,8 @@
 """The uncertainty of a figure of two recordings, and the test by exchange of places.
 
 Errors come from the Bayesian bootstrap (Rubin 1981): draws of weights for places, for pings and for cells. The variance is
-the one over places, plus the excess of that over pings above that over cells (Cameron, Gelbach and Miller 2011): speckle that
-stays from ping to ping counts once, and a gain that drifts counts as often as there are pings."""
+the one over places, plus the excess of that over pings above that over cells (Cameron, Gelbach and Miller 2011): speckle
+that stays from ping to ping counts once, and a gain that drifts counts as often as there are pings."""
 import dataclasses
 
 import numpy as np

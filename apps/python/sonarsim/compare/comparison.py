@@ -64,7 +64,8 @@ def compare_recordings(real, simulated, seed=1):
         # without variance has no such tails.
         for figure, p in zip(figures, exchange_p(pairs, [figure.error for figure in figures], seed)):
             figure.adjusted_p = max(figure.adjusted_p, float(p)) if figure.error > 0.0 else figure.adjusted_p
-    histograms = [compared_histograms(*both, same_places, seed) for both in zip(measured[0][1], measured[1][1])]
+    histograms = [compared_histograms(*both, same_places, seed) for both in zip(measured[0][1], measured[1][1])
+                  if all(one.counts.any() for one in both)]
     return Comparison(real, simulated, same_places, is_relative, figures, histograms, levels)
 
 

@@ -45,7 +45,7 @@ def windows_of(image, begin, size, along):
     turned = image[begin:].T if along else image[begin:]
     length, width = size[::-1] if along else size
     half = length // 2
-    for across in range(0, turned.shape[1] - width + 1, width):
+    for across in range(0, turned.shape[1] - width + 1 if width > 1 else 0, width):
         strip = turned[:, across:across + width]
         for middle in steps_in(strip.sum(axis=1), length):
             centre = across + width // 2
@@ -56,7 +56,7 @@ def windows_of(image, begin, size, along):
 def steps_in(line, length):
     """The middles of windows whose step is the greatest within half a window, and 6 dB between the outer quarters."""
     half, quarter, count = length // 2, length // 4, len(line)
-    if count < 2 * half or half < 1:
+    if count < 2 * half or quarter < 1:
         return []
     sums = np.concatenate([[0.0], np.cumsum(line)])
     middles = np.arange(half, count - half + 1)

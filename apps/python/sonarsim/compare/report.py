@@ -27,6 +27,8 @@ RULES = (
     ("", "level, dB", f"instrument.source_level_db, {RECEIVER}full_scale_db, the material's lambert_db"),
     ("level of", "", f"instrument.source_level_db, {RECEIVER}full_scale_db, the material's lambert_db"),
     ("", "", LOOKS))
+HISTOGRAM = ("{name}: Jensen-Shannon {jensen_shannon_bits:.4g} bits (by chance up to {usual_jensen_shannon_bits:.4g}), "
+             "Kullback-Leibler {kullback_leibler_nats:.4g} nats, earth mover's {earth_movers:.4g} {earth_movers_unit}")
 
 
 def keys_behind(name):
@@ -51,9 +53,7 @@ def comparison_text(c):
         values = zip((figure.real, figure.simulated, figure.difference), figure.halves)
         columns = "  ".join(f"{interval(*one):>19}" for one in values)
         lines.append(f"{figure.name:{width}}  {columns}  {word_of(figure)}")
-    lines += ["{name}: Jensen-Shannon {jensen_shannon_bits:.4g} bits (by chance up to {usual_jensen_shannon_bits:.4g}), "
-              "Kullback-Leibler {kullback_leibler_nats:.4g} nats, earth mover's {earth_movers:.4g} {earth_movers_unit}".format(
-                  **one) for one in c.histograms]
+    lines += [HISTOGRAM.format(**one) for one in c.histograms]
     if c.is_relative:
         lines.append("Levels are relative to the mean of each recording: one has no full_value.")
     lines.append(f"{c.agreeing} of {len(c.figures)} figures agree ({100.0 * c.agreeing / len(c.figures):.0f} %): their "
@@ -74,7 +74,8 @@ def comparison_json(c):
         "simulated": {"name": c.simulated.name, "pings": len(c.simulated)}, "one_grid": c.has_one_grid,
         "relative_levels": c.is_relative, "figures_agreeing": c.agreeing, "figures_differing": c.differing,
         "agreement": c.agreeing / len(c.figures), "same": c.is_same,
-        "change_first": first and {"figure": first.name, "standardised": first.standardised, "keys": keys_behind(first.name)},
+        "change_first": first and {"figure": first.name, "standardised": first.standardised,
+                                   "keys": keys_behind(first.name)},
         "figures": [{"name": f.name, "real": f.real, "real_half_interval": f.halves[0], "simulated": f.simulated,
                      "simulated_half_interval": f.halves[1], "difference": f.difference,
                      "difference_half_interval": f.halves[2], "tolerance": f.tolerance, "standardised": f.standardised,

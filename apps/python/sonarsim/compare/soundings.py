@@ -13,7 +13,8 @@ def common_angles(*recordings):
     ends = []
     for recording in recordings:
         angles = np.sort(recording.soundings.angle_rad[np.isfinite(recording.soundings.angle_rad)])
-        ends.append((angles[angles.size // 100], angles[angles.size - 1 - angles.size // 100]) if angles.size else (0.0, 0.0))
+        cut = angles.size // 100
+        ends.append((angles[cut], angles[angles.size - 1 - cut]) if angles.size else (0.0, 0.0))
     return max(end[0] for end in ends), min(end[1] for end in ends)
 
 

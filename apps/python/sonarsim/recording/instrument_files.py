@@ -56,14 +56,15 @@ def reader_of(content):
 def joined(own, parts):
     """The recordings of several files as one; RecordingError if one has other ranges, beams or levels than the first."""
     first = parts[0]
+    # Sonars round these; chosen.
+    shares = {"frequency_hz": 0.01, "first_range_m": 0.01, "range_step_m": 0.01 if own.source == "xtf" else 1e-4}
     for path, part in zip(own.files, parts if first.values is not None else ()):
-        for what, is_alike in (
-                ("scale of levels", part.law == first.law), ("shape of its pings", part.values.shape[1:] == first.values.shape[1:]),
-                # Sonars round these; chosen.
-                *((name, math.isclose(getattr(part, name) or 0.0, getattr(first, name) or 0.0, rel_tol=share)) for name, share in (
-                    ("frequency_hz", 0.01), ("first_range_m", 0.01), ("range_step_m", 0.01 if own.source == "xtf" else 1e-4)))):
-            if not is_alike:
-                raise RecordingError(f"{path}: has another {what} than the first file; split the recording there")
+        others = [name for name, share in shares.items()
+                  if not math.isclose(getattr(part, name) or 0.0, getattr(first, name) or 0.0, rel_tol=share)]
+        others += ["scale of levels"] * (part.law != first.law)
+        others += ["shape of its pings"] * (part.values.shape[1:] != first.values.shape[1:])
+        if others:
+            raise RecordingError(f"{path}: has another {others[0]} than the first file; split the recording there")
     if first.soundings:
         first.soundings = Soundings.of([ping for part in parts for ping in zip(*vars(part.soundings).values())])
     for name in ("values", "times_s", "head_rad"):

@@ -7,6 +7,7 @@ KINDS = ("imaging", "sidescan", "scanning", "echosounder", "soundings")
 LAWS = ("amplitude", "power", "gamma", "decibel")
 MOST_VALUES = 1 << 28       # of one file, and of all pings of a recording
 MOST_RANGES = 1 << 20
+MOST_POWER = 1e30           # a float32 holds it, and a double its cube
 
 
 class RecordingError(ValueError):
@@ -33,10 +34,13 @@ class Law:
         value 0 has the power 0; under the law decibel it has that of the lowest level."""
         values = np.asarray(values, np.float64)
         share = values / (self.full_value or 1.0) + self.offset
-        if self.kind == "decibel":
-            return (10.0 ** ((share - 1.0) * self.range_db / 10.0)).astype(np.float32)
-        power = {"power": 1.0, "amplitude": 2.0, "gamma": 2.0 / self.exponent}[self.kind]
-        return np.where(values > 0.0, np.maximum(share, 0.0) ** power, 0.0).astype(np.float32)
+        with np.errstate(over="ignore"):
+            if self.kind == "decibel":
+                powers = 10.0 ** ((share - 1.0) * self.range_db / 10.0)
+            else:
+                power = {"power": 1.0, "amplitude": 2.0, "gamma": 2.0 / self.exponent}[self.kind]
+                powers = np.where(values > 0.0, np.maximum(share, 0.0) ** power, 0.0)
+        return np.minimum(powers, MOST_POWER).astype(np.float32)
 
 
 @dataclasses.dataclass

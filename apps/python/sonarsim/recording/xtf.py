@@ -34,7 +34,7 @@ def read_sides(data, most_pings, own):
         if len(sides) < 2:
             continue
         first = first or (record, *sides[PORT])
-        for samples, range_m, largest in sides.values():
+        for samples, range_m, _, largest in sides.values():
             full_value = max(full_value, largest)
             if len(samples) != len(first[1]) or abs(range_m - first[2]) > 0.01 * first[2]:
                 raise ValueError(f"ping {len(pings)} has {len(samples)} samples over {range_m:g} m, the first ping "
@@ -46,9 +46,9 @@ def read_sides(data, most_pings, own):
     if not pings:
         raise ValueError("has no side-scan pings")
     step, altitude = first[2] / len(first[1]), field(first[0], "f", 196)
-    return Recording("sidescan", law_of(own, full_value), sound_speed_m_s=own.sound_speed_m_s or sound_speed(first[0]) or 1500.0,
-                     first_range_m=0.5 * step, range_step_m=step, values=stacked(pings), times_s=np.array(times),
-                     frequency_hz=1e3 * field(first[0], "H", PING_HEADER + 26) or None,
+    speed = own.sound_speed_m_s or sound_speed(first[0]) or 1500.0      # ranges do not need it
+    return Recording("sidescan", law_of(own, full_value), sound_speed_m_s=speed, first_range_m=0.5 * step, range_step_m=step,
+                     values=stacked(pings), times_s=np.array(times), frequency_hz=first[3] or None,
                      altitude_m=altitude if 0.0 < altitude < math.inf else None)
 
 
@@ -108,7 +108,7 @@ def records(data, channels, kind):
 
 
 def sides_of(record, channels):
-    """(samples, range in metres, largest value that they can hold) of either side that a ping has."""
+    """(samples, range in metres, frequency, largest value that samples can hold) of either side that a ping has."""
     sides, at = {}, PING_HEADER
     for _ in range(field(record, "H", 4)):
         number = field(record, "H", at)
@@ -122,7 +122,8 @@ def sides_of(record, channels):
         if kind in (PORT, STARBOARD) and kind not in sides and count and 0.0 < range_m < LONGEST_RANGE_M:
             factor = 2.0 ** -max(-64, min(64, weight))
             samples = np.float32(factor) * np.frombuffer(record, dtype, count, begin).astype(np.float32)
-            sides[kind] = samples, range_m, factor * np.iinfo(dtype).max if dtype.kind == "u" else 0.0
+            sides[kind] = (samples, range_m, 1e3 * field(record, "H", begin - CHANNEL_HEADER + 26),
+                           factor * np.iinfo(dtype).max if dtype.kind == "u" else 0.0)
     return sides
 
 
