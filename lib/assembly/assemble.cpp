@@ -187,12 +187,20 @@ Assembly assemble(const Mission& mission) {
     return assemble(mission, models);
 }
 
-Assembly assemble(const Mission& mission, SceneFiles& models) {
-    Assembly assembly;
+namespace {
+
+/// The materials and the placed files of a scene.
+struct PlacedScene {
+    MaterialTable materials;
+    SceneParts parts;
+};
+
+/// Sets the trajectory and the sonars, and places the scene.
+PlacedScene place(const Mission& mission, const EngineSettings& settings, SceneFiles& models,
+                  Assembly& assembly) {
     ErrorList errors;
     errors.attempt([&] { assembly.trajectory = vehicle_poses(mission); });
     assembly.reported = navigation_poses(mission, assembly.trajectory);
-    const EngineSettings settings = engine_settings(mission);
     for (const SonarConfig& sensor : mission.sensors)
         errors.attempt(
             [&] { assembly.sonars.push_back(checked_sonar(mission, sensor, settings)); });
@@ -209,7 +217,21 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
     if (errors.count() > 0) errors.attempt([&] { read_scene_files(mission, models); });
     errors.raise();
     add_ping_motions(mission, assembly.trajectory, assembly.sonars);
-    SceneParts parts = place_scene(mission, assembly.trajectory, assembly.sonars, models);
+    return {std::move(materials),
+            place_scene(mission, assembly.trajectory, assembly.sonars, models)};
+}
+
+}  // namespace
+
+void check_places(const Mission& mission, SceneFiles& models) {
+    Assembly assembly;
+    place(mission, engine_settings(mission), models, assembly);
+}
+
+Assembly assemble(const Mission& mission, SceneFiles& models) {
+    Assembly assembly;
+    const EngineSettings settings = engine_settings(mission);
+    auto [materials, parts] = place(mission, settings, models, assembly);
     assembly.scene = load_scene(parts.files, models, materials, mission.scene.material_default,
                                 {mission.water.density_kg_m3, mission.water.sound_speed_m_s},
                                 sharing_threshold(mission.scene.repeats, settings.type));

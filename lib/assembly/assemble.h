@@ -46,6 +46,10 @@ Assembly assemble(const Mission& mission);
 /// The same; `models` may hold files that were read for another mission.
 Assembly assemble(const Mission& mission, SceneFiles& models);
 
+/// Finds the place of every object, as assemble() does first. InputError where that fails, as for
+/// objects that find no room.
+void check_places(const Mission& mission, SceneFiles& models);
+
 /// The poses of the scene's bodies at a time of the trajectory, world.
 std::vector<Pose> body_poses(const Assembly& assembly, double t_s);
 

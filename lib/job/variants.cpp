@@ -239,12 +239,32 @@ void finish_variants(const fs::path& folder, const Json& json) {
     write_label_files(folder, json, folders, common_sums(json));
 }
 
+namespace {
+
+/// InputError for a variant whose objects find no room, before any of the variants is written.
+void require_places(std::span<const Mission> variants, bool files) {
+    SceneFiles models;
+    for (const Mission& variant : variants) {
+        if (variant.scene.scatter.empty() || (files && is_complete(variant.output.folder)))
+            continue;
+        try {
+            check_places(variant, models);
+        } catch (const InputError& error) {
+            throw InputError(error.what() + (" (in " + variant_folder(variant.variant.index)) +
+                             ")");
+        }
+    }
+}
+
+}  // namespace
+
 RenderSummary run_variants(const Mission& mission, std::span<const Mission> variants,
                            const RenderOptions& options, const VariantCallback& begin,
                            const ProgressCallback& progress, const std::atomic<bool>& stop) {
     check(options);
     const fs::path& folder = mission.output.folder;
     const Json json = describe_variants(mission, variants);
+    require_places(variants, options.files);
     std::optional<FolderLock> lock;
     RenderOptions one_by_one = options;
     one_by_one.shard = 0;

@@ -3,7 +3,7 @@ import json
 import shutil
 import unittest
 
-from sandbox import Sandbox, box_gltf, digest
+from sandbox import MISSION, Sandbox, box_gltf, digest
 
 VARY = """
 variants: 6
@@ -250,6 +250,32 @@ class Variants(Sandbox):
                     self.refused(*fragments)
                 finally:
                     self.write("mission.yaml", mission)
+
+    def scatter(self, *lines):
+        """Lets the mission scatter small boxes, and writes only the rules `lines`."""
+        self.write("small.gltf", box_gltf(half=(0.1, 0.1, 0.1)))
+        self.write("mission.yaml", MISSION.replace(
+            "trajectory:", "  scatter:\n" + "".join(
+                f"    - {{name: {name}, count: [0, 1], files: small.gltf, area_min_m: [-1.5, -1.5], "
+                "area_max_m: [1.5, 1.5]}\n" for name in ("mine", "tyre", "drum")) + "trajectory:", 1)
+            + "  labels: [class, instance]\nvariants: 8\n" + "\n".join(lines) + "\n")
+
+    def test_classes_have_the_same_numbers(self):
+        self.scatter("classes:", "  - {nodes: 'mine_*', class: threat}", "vary:",
+                     "  - {key: scene.scatter.1.class, choice: [tyre, buoy]}")
+        self.assert_renders()
+        labels = [self.dataset(self.out / one["folder"])["labels"] for one in self.index()]
+        self.assertGreater(len({len(one["instances"]) for one in labels}), 1, "counts must differ")
+        names = [[one["name"] for one in variant["classes"]] for variant in labels]
+        self.assertEqual(names, [["walls", "threat", "tyre", "drum", "buoy"]] * 8)
+        self.edit("mission.yaml", "classes:", "classes:\n  - {nodes: 'boat_*', class: boat}")
+        shutil.rmtree(self.out)
+        self.refused("mission.yaml:", "no node of the scene fits 'boat_*'")
+
+    def test_a_variant_without_room_is_found_before_the_first(self):
+        self.scatter("vary:", "  - {key: scene.scatter.2.spacing_m, choice: [0, 3]}",
+                     "  - {key: scene.scatter.2.count, choice: [2]}")
+        self.refused("'drum': object 2 of 2 finds no room", "the bottom lies from (-2, -2) to (2, 2)")
 
     def test_vary_without_variants(self):
         self.edit("mission.yaml", "variants: 6\n", "")
