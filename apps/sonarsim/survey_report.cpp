@@ -103,9 +103,11 @@ std::string estimate_text(std::uint64_t pings, std::size_t images, double second
     const std::string about =
         std::isnan(seconds)
             ? fmt::format("{} images; a ping has no room in memory", images)
-            : fmt::format("{} images, {} on {} threads after {:.2g} s of set-up, {}", images,
-                          duration_text(seconds), tbb::info::default_concurrency(), set_up_s,
-                          size_text(bytes));
+            : fmt::format(
+                  "{} images, {} on {} threads after {} of set-up, {}", images,
+                  duration_text(seconds), tbb::info::default_concurrency(),
+                  set_up_s < 60.0 ? fmt::format("{:.2g} s", set_up_s) : duration_text(set_up_s),
+                  size_text(bytes));
     return result_line("dataset",
                        fmt::format("{} pings, at most {}", pings, size_text(most_bytes))) +
            result_line("about", about);

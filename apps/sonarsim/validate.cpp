@@ -47,7 +47,7 @@ struct VariantFindings {
     double bytes = 0.0;           ///< at most
     double seconds = 0.0;         ///< sum over all pings, if they cost what the first variant costs
     double expected_bytes = 0.0;  ///< sum, estimated in the same way
-    double set_up_s = 0.0;        ///< set-up of the first variant
+    double set_up_s = 0.0;        ///< sum, if all cost what the first variant costs
     bool is_new = true;           ///< no variant is begun
     std::string first;            ///< text about the first
     std::vector<Warning> warnings;
@@ -64,7 +64,7 @@ struct Findings {
     const char* state;
     std::vector<std::size_t> pings;        ///< per sonar
     double bytes = 0.0;                    ///< at most
-    std::size_t images = 0;                ///< PNG files
+    std::size_t images = 0;                ///< pings with a picture, and pictures of all pings
     double set_up_s = 0.0;                 ///< before the first ping: reading, tables, the engine
     std::vector<PingCost> costs = {};      ///< per sonar
     std::vector<SonarSurvey> sonars = {};  ///< per sonar
@@ -160,18 +160,34 @@ std::string text_of(const Findings& f) {
            result_line("folder", fmt::format("{} ({})", f.folder.string(), f.state));
 }
 
-/// The PNG files that a sensor leaves.
+/// The images that a sensor leaves. A ping counts once, whatever files show it.
 std::size_t count_images(const Writers& writers, std::size_t pings) {
     std::size_t images = 0;
+    bool of_pings = false;
     for (const auto& writer : writers) {
         const WriterOutputs outputs = writer->outputs();
         const auto* file = std::get_if<PingFile>(&outputs.per_ping);
-        if (file != nullptr && file->extension == ".png") images += pings;
+        of_pings = of_pings || (file != nullptr && !file->title.empty());
         images += std::ranges::count_if(outputs.products, [](const Product& product) {
             return product.file.ends_with(".png");
         });
     }
-    return images;
+    return of_pings ? images + pings : images;
+}
+
+/// The largest size of the files that all sensors share, and of the folders.
+double common_bytes_at_most(const Mission& mission, const Assembly& assembly, const Layout& layout,
+                            const nlohmann::ordered_json& description) {
+    constexpr double line_bytes = 128.0;  // of SHA256SUMS, and of the poses
+    double files = 0.0;
+    for (const SensorLayout& sensor : layout.sensors)
+        files +=
+            static_cast<double>(sensor.pings * sensor.per_ping.size() + sensor.products.size());
+    return on_disk(static_cast<double>(json_text(description).size())) +
+           on_disk(static_cast<double>(resolved_text(mission, assembly).size())) +
+           2.0 * on_disk(line_bytes * static_cast<double>(assembly.trajectory.size())) +
+           2.0 * on_disk(line_bytes * files) +
+           on_disk(1.0) * static_cast<double>(layout.folders().size() + 1);
 }
 
 /// Checks one mission against its folder.
@@ -180,13 +196,17 @@ Findings find_out(const Mission& mission, const Assembly& assembly,
     const std::size_t poses = assembly.trajectory.size();
     const Layout layout = make_layout(mission, writers, poses);
     protect_inputs(layout, mission);
+    const nlohmann::ordered_json description = describe_dataset(mission, assembly, layout, writers);
     const FolderState state =
         overwrite ? FolderState::fresh
-                  : inspect_folder(layout, describe_dataset(mission, assembly, layout, writers),
-                                   resolved_text(mission, assembly));
+                  : inspect_folder(layout, description, resolved_text(mission, assembly));
     require_writable(layout.folder);
-    Findings findings{mission, assembly, layout.folder,
-                      state_names[static_cast<std::size_t>(state)], count_pings(mission, poses)};
+    Findings findings{mission,
+                      assembly,
+                      layout.folder,
+                      state_names[static_cast<std::size_t>(state)],
+                      count_pings(mission, poses),
+                      common_bytes_at_most(mission, assembly, layout, description)};
     for (std::size_t i = 0; i < writers.size(); ++i) {
         findings.bytes += bytes_at_most(writers[i], findings.pings[i]);
         findings.images += count_images(writers[i], findings.pings[i]);
@@ -213,23 +233,42 @@ void look_at(const Mission& mission, const Assembly& assembly, const std::vector
     }
 }
 
+/// The variant as it is assembled to be checked. The white of a new dataset's pictures need not be
+/// found, which takes as long as all else together.
+Mission checked_variant(const Mission& variant) {
+    Mission checked = variant;
+    const bool is_new = !std::filesystem::exists(variant.output.folder);
+    if (is_new && checked.output.full_scale == 0.0) checked.output.full_scale = 1.0;
+    return checked;
+}
+
 /// Checks every variant, since scenes differ and each may fail for its own reasons. Casts rays only
 /// in the first.
-VariantFindings check_variants(const std::vector<Mission>& variants, bool overwrite) {
+VariantFindings check_variants(const std::vector<Mission>& variants,
+                               const ValidateArguments& arguments) {
     VariantFindings all;
     std::vector<PingCost> costs;
+    double set_up_s = 0.0;
     SceneFiles models;
+    ProgressLine line(arguments.log, "variants");
     for (const Mission& variant : variants) {
-        const Assembly assembly = assemble(variant, models);
-        const std::vector<Writers> writers = make_writers(variant, assembly);
-        Findings findings = find_out(variant, assembly, writers, overwrite);
-        if (all.variants++ == 0) {
+        Stopwatch watch;
+        const bool is_first = all.variants++ == 0;
+        const Mission checked = is_first ? variant : checked_variant(variant);
+        const Assembly assembly = assemble(checked, models);
+        const double assemble_s = watch.lap();
+        const std::vector<Writers> writers = make_writers(checked, assembly);
+        Findings findings = find_out(checked, assembly, writers, arguments.overwrite);
+        if (is_first) {
+            findings.set_up_s = assemble_s;
             look_at(variant, assembly, writers, findings);
             all.warnings = std::move(findings.warnings);
             all.first = text_of_parts(findings);
-            all.set_up_s = findings.set_up_s;
+            set_up_s = findings.set_up_s;
             costs = std::move(findings.costs);
         }
+        all.set_up_s += set_up_s;
+        line.show(all.variants, variants.size());
         findings.costs = costs;
         all.pings += findings.all_pings();
         all.images += findings.images;
@@ -248,6 +287,7 @@ void print_variants(const Mission& mission, const VariantFindings& all, bool as_
                                     {"pings", all.pings},
                                     {"folder", mission.output.folder.string()},
                                     {"images", all.images},
+                                    {"set_up_seconds", all.set_up_s},
                                     {"hours", all.seconds / 3600.0},
                                     {"bytes", all.expected_bytes},
                                     {"bytes_at_most", all.bytes},
@@ -270,7 +310,7 @@ int validate(const ValidateArguments& arguments) {
     if (!variants.empty()) {
         inspect_variants(mission.output.folder, describe_variants(mission, variants), variants,
                          arguments.overwrite);
-        VariantFindings all = check_variants(variants, arguments.overwrite);
+        VariantFindings all = check_variants(variants, arguments);
         for (Warning& warning : split_warnings(mission.output.split, variants.size()))
             all.warnings.push_back(std::move(warning));
         for (Warning& warning :

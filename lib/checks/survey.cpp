@@ -22,6 +22,7 @@ namespace {
 constexpr std::size_t most_pings = 36;       // per sonar
 constexpr std::size_t most_bins = 1U << 25;  // per sonar, all pings together
 constexpr std::size_t most_slow = 9;         // per sonar with a slow echo model
+constexpr std::size_t images_of_slow = 3;    // of these pings, one in so many becomes an image
 constexpr double coarse_l1 = 0.2;
 
 /// The surface around a sonar.
@@ -145,8 +146,9 @@ void take_attitude(const Eigen::Quaterniond& rotation, SonarSurvey& out) {
     out.pitch_deg.take(degrees(attitude.pitch));
 }
 
-/// Adds the surface that a ping saw, and the range of its first and last echo.
-void take_samples(const View& view, const Samples& samples, SonarSurvey& out) {
+/// Adds the surface that a ping saw, and the range of its first and last echo. Returns false if it
+/// saw nothing.
+bool take_samples(const View& view, const Samples& samples, SonarSurvey& out) {
     ValueRange echoes;
     for (const Sample& sample : samples.items) {
         const double range = arrival_range(sample.position);
@@ -154,9 +156,10 @@ void take_samples(const View& view, const Samples& samples, SonarSurvey& out) {
         echoes.take(range);
         out.seen_m2[sample.instance] += sample.area_m2;
     }
-    if (echoes.empty()) return;
+    if (echoes.empty()) return false;
     out.first_echo_m.take(echoes.low);
     out.last_echo_m.take(echoes.high);
+    return true;
 }
 
 /// Sums over the bins of a sonar's pings.
@@ -206,7 +209,8 @@ SonarSurvey survey_sonar(const Mission& mission, const Assembly& assembly, Sonar
     View& view = sonar.settings.view;
     view.relative_l1 = std::max(view.relative_l1, coarse_l1);
     const auto bins = static_cast<std::size_t>(view.range_bins) * view.beams;
-    const std::size_t most = sonar.settings.model->is_slow() ? most_slow : most_pings;
+    const bool slow = sonar.settings.model->is_slow();
+    const std::size_t most = slow ? most_slow : most_pings;
     BinSums sums;
     for (const std::uint32_t pose :
          sample_pings(assembly.trajectory.size(), sonar.config.every,
@@ -218,23 +222,27 @@ SonarSurvey survey_sonar(const Mission& mission, const Assembly& assembly, Sonar
             engine_at(rays, assembly.motions, at.t_s);
         const TracedPing traced = trace(*then, assembly.scene, *now, at.T_world_vehicle, pose);
         const PingKey key{mission.seed, pose};
-        const Ping ping = form_image(traced, then->settings, assembly.scene, key);
         const Surroundings around = look(view, *now, T_world_sensor);
+        const bool has_image = !slow || out.pings % images_of_slow == 0;
         ++out.pings;
         take_attitude(at.T_world_vehicle.rotation, out);
         if (const auto altitude = altitude_m(*now, T_world_sensor)) out.altitude_m.take(*altitude);
-        take_samples(view, traced.samples, out);
+        bool is_blind = !take_samples(view, traced.samples, out);
         judge_place(assembly.scene, open_upwards, boxes, T_world_sensor, around, out);
-        if (ping.counts.occupied_bins == 0) {
+        if (has_image) {
+            const Ping ping = form_image(traced, then->settings, assembly.scene, key);
+            is_blind = ping.counts.occupied_bins == 0;
+            add_bins(sonar, full_scale,
+                     form_image(traced, then->settings, assembly.scene, key, {.random = 1}), ping,
+                     sums, out);
+        }
+        if (is_blind) {
             ++out.blind;
             explain(view, around, distance_to(assembly.scene, T_world_sensor.translation),
                     out.no_return);
             out.no_return.depths +=
                 looks_like_depth(assembly.scene, T_world_sensor.translation.z(), view.range_max_m);
         }
-        add_bins(sonar, full_scale,
-                 form_image(traced, then->settings, assembly.scene, key, {.random = 1}), ping, sums,
-                 out);
     }
     finish(sums, out);
     return out;

@@ -1,5 +1,8 @@
 #include "dataset/writers.h"
 
+#include <cmath>
+#include <variant>
+
 #include "core/error.h"
 #include "dataset/shared_products.h"
 #include "dataset/writers/label_writers.h"
@@ -77,13 +80,24 @@ std::vector<Writers> make_writers(const Mission& mission, const Assembly& assemb
     return all;
 }
 
+double on_disk(double bytes) {
+    constexpr double block = 4096.0;
+    return block * std::ceil(bytes / block);
+}
+
 double bytes_at_most(const Writers& writers, std::size_t pings) {
+    constexpr double name_bytes = 64.0;  // in the folder
+    const auto count = static_cast<double>(pings);
     double bytes = 0.0;
     for (const auto& writer : writers) {
         const WriterOutputs outputs = writer->outputs();
-        bytes += outputs.bytes_per_ping * static_cast<double>(pings);
+        if (std::holds_alternative<PingFile>(outputs.per_ping)) {
+            bytes += count * on_disk(outputs.bytes_per_ping) + on_disk(count * name_bytes);
+        } else {
+            bytes += on_disk(count * outputs.bytes_per_ping);
+        }
         for (const Product& product : outputs.products)
-            bytes += product.bytes_at_most;
+            bytes += on_disk(product.bytes_at_most);
     }
     return bytes;
 }

@@ -19,7 +19,10 @@ Writers make_array_writers(const WriterContext& context);
 /// The number of pings of each sensor.
 std::vector<std::size_t> count_pings(const Mission& mission, std::size_t poses);
 
-/// The largest size of a sensor's files, bytes.
+/// The room that a file takes on the disk, which has blocks of 4096 bytes.
+double on_disk(double bytes);
+
+/// The largest size of a sensor's files on the disk, bytes.
 double bytes_at_most(const Writers& writers, std::size_t pings);
 
 }  // namespace sonarsim

@@ -12,7 +12,7 @@ namespace sonarsim {
 
 std::vector<PingCost> measure_pings(const Mission& mission, const Assembly& assembly,
                                     const std::vector<Writers>& writers, double& set_up_s) {
-    constexpr std::size_t most_pings = 3;  // after the first
+    constexpr std::size_t most_pings = 2;  // after the first
     Stopwatch watch;
     const std::unique_ptr<VisibilityEngine> engine = make_engine(mission, assembly);
     set_up_s += watch.lap();
