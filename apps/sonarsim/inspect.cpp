@@ -124,6 +124,12 @@ PlacedFile file_of(const InspectArguments& arguments) {
 
 int inspect(const InspectArguments& arguments) {
     start_logging(arguments.log);
+    const std::string extension = arguments.scene.extension().string();
+    if (extension == ".yaml" || extension == ".yml") {
+        throw InputError({arguments.scene.string()},
+                         "is a mission; name the file of a mesh, or check the mission with "
+                         "`sonarsim validate`");
+    }
     const PlacedFile file = file_of(arguments);
     SceneFiles models;
     const Scene scene = load_scene_geometry(file, models);
