@@ -126,9 +126,15 @@ PlacedFile file_of(const InspectArguments& arguments) {
 
 int inspect(const InspectArguments& arguments) {
     start_logging(arguments.log);
-    if (arguments.scene.extension() == ".csv") {
+    const std::string extension = arguments.scene.extension().string();
+    if (extension == ".csv") {
         print_materials(arguments.scene, arguments.frequency_khz, arguments.log.json);
         return exit_done;
+    }
+    if (extension == ".yaml" || extension == ".yml") {
+        throw InputError({arguments.scene.string()},
+                         "is a mission; name the file of a mesh, or check the mission with "
+                         "`sonarsim validate`");
     }
     const PlacedFile file = file_of(arguments);
     SceneFiles models;

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -17,7 +18,21 @@ namespace {
 
 constexpr int bar_width = 20;
 
-/// "trace 41 %, encode 30 %".
+/// A stage in the words of users.
+std::string_view title_of(std::string_view stage) {
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 6> titles{
+        {{"trace", "visible surface"},
+         {"multipath", "multipath"},
+         {"accumulate", "echoes"},
+         {"noise", "noise and beams"},
+         {"encode", "making files"},
+         {"write", "writing files"}}};
+    const auto found =
+        std::ranges::find(titles, stage, [](const auto& title) { return title.first; });
+    return found == titles.end() ? stage : found->second;
+}
+
+/// "visible surface 41 %, making files 30 %".
 std::string shares_text(std::span<const StageSeconds> stages) {
     constexpr std::size_t most = 3;
     std::vector<StageSeconds> sorted(stages.begin(), stages.end());
@@ -27,8 +42,10 @@ std::string shares_text(std::span<const StageSeconds> stages) {
     for (const StageSeconds& stage : sorted)
         sum += stage.second;
     std::string text;
-    for (std::size_t i = 0; i < std::min(most, sorted.size()) && sorted[i].second > 0.0; ++i) {
-        text += fmt::format("{}{} {:.0f} %", i > 0 ? ", " : "", sorted[i].first,
+    constexpr double least = 0.01;
+    for (std::size_t i = 0; i < std::min(most, sorted.size()) && sorted[i].second > least * sum;
+         ++i) {
+        text += fmt::format("{}{} {:.0f} %", i > 0 ? ", " : "", title_of(sorted[i].first),
                             100.0 * sorted[i].second / sum);
     }
     return text;

@@ -61,17 +61,16 @@ class LazyBottom {
 
     /// "; 'tyre' is 650 m long: millimetres? units: mm" where an object or the bottom may be in
     /// another unit; "" elsewhere. An object longer than the bottom cannot rest on it.
-    std::string unit_questions(const ObjectConfig& object, const Surface& shape, double range_m) {
+    std::string unit_questions(const std::string& object, double length_m, const MeshConfig& of,
+                               double range_m) {
         const double bottom_m = get().area().sizes().maxCoeff();
         const MeshConfig& mesh = is_of_files() ? scene_.mesh : scene_.objects.front().mesh;
         std::string out;
         const auto add = [&](const std::string& title, const std::string& question) {
             if (!question.empty()) out += "; " + title + " is " + question;
         };
-        add(title_of(object),
-            unit_question(object.scale * box_of(shape).sizes().maxCoeff(),
-                          metres(object.mesh.units), std::min(range_m, bottom_m / long_object),
-                          long_object));
+        add(object, unit_question(length_m, metres(of.units),
+                                  std::min(range_m, bottom_m / long_object), long_object));
         if (!ground_)
             add("the bottom", unit_question(bottom_m, metres(mesh.units), range_m, long_place));
         return out;
@@ -137,7 +136,9 @@ Eigen::Affine3d transform_of(const ObjectConfig& object, const Surface& shape, L
         throw InputError(object.place.location,
                          title_of(object) + " reaches beyond the bottom, which lies" +
                              bottom.reach() + "; move it by position_m, or place: free" +
-                             bottom.unit_questions(object, shape, range_m));
+                             bottom.unit_questions(title_of(object),
+                                                   object.scale * box_of(shape).sizes().maxCoeff(),
+                                                   object.mesh, range_m));
     }
     Eigen::Affine3d T_world_file = Eigen::Affine3d::Identity();
     T_world_file.translation() = position;
@@ -199,9 +200,27 @@ bool is_upright(const ObjectConfig& object) {
     return std::max(std::abs(object.rpy_deg[0]), std::abs(object.rpy_deg[1])) < most_tilt_deg;
 }
 
+/// Scatters objects. The error of objects without room says where the bottom lies, and asks for
+/// the units.
+std::vector<ScatteredObject> scattered(const ScatterConfig& config, const ScatterRule& rule,
+                                       std::uint32_t index, std::uint64_t seed, LazyBottom& bottom,
+                                       double range_m, std::vector<Hull>& taken) {
+    const Bottom& ground = bottom.get();
+    try {
+        return scatter(rule, index, seed, ground, taken);
+    } catch (const InputError& error) {
+        double length_m = 0.0;
+        for (const Surface* shape : rule.shapes)
+            length_m = std::max(length_m, config.scale[1] * box_of(*shape).sizes().maxCoeff());
+        throw InputError(
+            error.what() + ("; the bottom lies" + bottom.reach()) +
+            bottom.unit_questions("'" + rule.name + "'", length_m, config.mesh, range_m));
+    }
+}
+
 /// Scatters the objects of one rule and appends their files.
 void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64_t seed,
-                   SceneFiles& models, LazyBottom& bottom, std::vector<Hull>& taken,
+                   double range_m, SceneFiles& models, LazyBottom& bottom, std::vector<Hull>& taken,
                    SceneParts& parts) {
     std::vector<PlacedFile> kinds;
     std::vector<Surface> shapes;
@@ -223,7 +242,8 @@ void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64
         add_orientation_warning(up_question(kinds[i], shapes[i]), parts);
     std::vector<PlacedFile>& files = parts.files;
     std::size_t number = 0;
-    for (const ScatteredObject& object : scatter(rule, index, seed, bottom.get(), taken)) {
+    for (const ScatteredObject& object :
+         scattered(config, rule, index, seed, bottom, range_m, taken)) {
         PlacedFile& file = files.emplace_back(kinds[object.shape]);
         file.name = config.name + "_" + std::to_string(++number);
         file.T_world_file = object.T_world_shape;
@@ -292,8 +312,8 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
         if (!scene.scatter.empty()) taken.push_back(hull_of(placed.vertices));
     }
     for (std::size_t i = 0; i < scene.scatter.size(); ++i) {
-        scatter_files(scene.scatter[i], static_cast<std::uint32_t>(i), mission.seed, models, bottom,
-                      taken, parts);
+        scatter_files(scene.scatter[i], static_cast<std::uint32_t>(i), mission.seed, range_m,
+                      models, bottom, taken, parts);
     }
     // Reports a pattern of `bottom` that matches no node, even if no object rests on it.
     if (!scene.bottom.empty()) bottom.get();

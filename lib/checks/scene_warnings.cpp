@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "assembly/placed_files.h"
 #include "checks/doubled_triangles.h"
@@ -52,6 +53,35 @@ void judge_extent(const Mission& mission, const Assembly& assembly,
         out.push_back(
             make_warning(WarningCode::scene_out_of_scale, "scene", length, ratio, blind, pings));
     }
+}
+
+/// The distance between two heights of the scene's heightmap, before thinning, m; 0: it has none.
+double cell_of_heightmap_m(const Assembly& assembly) {
+    const Scene& scene = assembly.scene;
+    for (std::size_t k = 0; k < scene.triangles.size(); ++k) {
+        if (scene.instances[scene.triangle_instance[k]] != heightmap_instance) continue;
+        const auto& [a, b, c] = scene.triangles[k];
+        const auto side = [&](std::uint32_t from, std::uint32_t to) {
+            return (scene.vertices[to] - scene.vertices[from]).head<2>().norm();
+        };
+        return std::min({side(a, b), side(b, c), side(c, a)}) / assembly.heightmap.every;
+    }
+    return 0.0;
+}
+
+/// W37 for the finest bins of all sonars.
+void judge_heightmap(const Assembly& assembly, std::vector<Warning>& out) {
+    constexpr double most_bins = 8.0;
+    if (assembly.sonars.empty()) return;
+    double bin_m = std::numeric_limits<double>::infinity();
+    for (const Sonar& sonar : assembly.sonars) {
+        const View& view = sonar.settings.view;
+        bin_m = std::min<double>(bin_m, (view.range_max_m - view.range_min_m) / view.range_bins);
+    }
+    const double cell_m = cell_of_heightmap_m(assembly);
+    if (cell_m <= most_bins * bin_m) return;
+    out.push_back(make_warning(WarningCode::heightmap_facets, "scene.heightmap", cell_m, bin_m,
+                               cell_m / bin_m));
 }
 
 /// Twice the area of all surface, and of the surface whose normal lies along each axis of the
@@ -197,6 +227,7 @@ std::vector<Warning> scene_warnings(const Mission& mission, const Assembly& asse
         judge_extent(mission, assembly, sonars, out);
         judge_axes(assembly.scene, out);
         judge_doubles(assembly.scene, out);
+        if (mission.scene.heightmap) judge_heightmap(assembly, out);
     }
     return out;
 }

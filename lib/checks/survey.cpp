@@ -188,7 +188,8 @@ void add_bins(const Sonar& sonar, double full_scale, const Ping& clean, const Pi
         sums.noise += noise;
     }
     sums.bins += ping.intensity.size();
-    sums.occupied += ping.counts.occupied_bins;
+    // Pulses and side lobes also fill bins beyond the image.
+    sums.occupied += std::min<std::size_t>(ping.counts.occupied_bins, ping.intensity.size());
 }
 
 void finish(const BinSums& sums, SonarSurvey& out) {
@@ -223,13 +224,13 @@ SonarSurvey survey_sonar(const Mission& mission, const Assembly& assembly, Sonar
         const TracedPing traced = trace(*then, assembly.scene, *now, at.T_world_vehicle, pose);
         const PingKey key{mission.seed, pose};
         const Surroundings around = look(view, *now, T_world_sensor);
-        const bool has_image = !slow || out.pings % images_of_slow == 0;
+        const bool in_turn = !slow || out.pings % images_of_slow == 0;
         ++out.pings;
         take_attitude(at.T_world_vehicle.rotation, out);
         if (const auto altitude = altitude_m(*now, T_world_sensor)) out.altitude_m.take(*altitude);
         bool is_blind = !take_samples(view, traced.samples, out);
         judge_place(assembly.scene, open_upwards, boxes, T_world_sensor, around, out);
-        if (has_image) {
+        if (in_turn || is_blind) {  // water and targets in it have echoes without surface
             const Ping ping = form_image(traced, then->settings, assembly.scene, key);
             is_blind = ping.counts.occupied_bins == 0;
             add_bins(sonar, full_scale,

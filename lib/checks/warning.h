@@ -45,6 +45,7 @@ enum class WarningCode {
     disk_full = 34,
     multipath_missed = 35,
     unseen_particles = 36,
+    heightmap_facets = 37,
 };
 
 /// A row of the table of all warnings. `what` and `cure` are format strings of the same figures.

@@ -20,7 +20,8 @@ constexpr std::array table{
                 "metres that are written in millimetres are tens of kilometres"},
     WarningText{WarningCode::scene_tiny,
                 "it is {0:.3g} x {1:.3g} x {2:.3g} m, and the sonars reach {3:.4g} m",
-                "if the file is in kilometres or inches, write scene.units: km or in",
+                "if the file is in kilometres or inches, write scene.units: km or in; else lower "
+                "sensors.NAME.range_max_m, which is in metres",
                 "below 0.1 m, or 1 % of the longest range",
                 "the smallest laboratory tank is larger; 1 % of the range is five of 512 bins"},
     WarningText{WarningCode::scene_out_of_scale,
@@ -207,6 +208,14 @@ constexpr std::array table{
                 "a group without a target in view and in front of the surface in up to 200 pings "
                 "of each sonar",
                 "they cost time in each ping and have no label"},
+    WarningText{
+        WarningCode::heightmap_facets,
+        "its cells of {0:.3g} m are {2:.0f} times as long as the range bins of {1:.3g} m, "
+        "so that images show its flat facets",
+        "interpolate the map smoothly onto smaller cells before, as by gdalwarp -tr {1:.3g} "
+        "{1:.3g} -r cubicspline, or take fewer range bins",
+        "cells above eight range bins of a sonar",
+        "the shade of a facet is constant, and its borders are seen where it fills many bins"},
 };
 
 static_assert(std::ranges::is_sorted(table, {}, &WarningText::code));

@@ -201,7 +201,7 @@ void finish_variants(const fs::path& folder, const Json& json) {
 namespace {
 
 /// InputError for a variant whose objects find no room, before any of the variants is written.
-void check_places(std::span<const Mission> variants, bool files) {
+void require_places(std::span<const Mission> variants, bool files) {
     SceneFiles models;
     for (const Mission& variant : variants) {
         if (variant.scene.scatter.empty() || (files && is_complete(variant.output.folder)))
@@ -223,7 +223,7 @@ RenderSummary run_variants(const Mission& mission, std::span<const Mission> vari
     check(options);
     const fs::path& folder = mission.output.folder;
     const Json json = describe_variants(mission, variants);
-    check_places(variants, options.files);
+    require_places(variants, options.files);
     std::optional<FolderLock> lock;
     RenderOptions one_by_one = options;
     one_by_one.shard = 0;

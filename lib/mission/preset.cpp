@@ -121,8 +121,10 @@ std::vector<std::string> shipped_presets(const std::string& kind) {
 std::string shipped_hint(std::string name, const std::string& kind) {
     std::ranges::replace(name, '\\', '/');
     const std::vector<std::string> names = shipped_presets(kind);
-    return did_you_mean(std::filesystem::path(name).stem().string(), names) +
-           "; there are: " + listed(names);
+    const std::string stem = std::filesystem::path(name).stem().string();
+    if (std::ranges::find(names, stem) != names.end())
+        return " (did you mean '" + kind + "/" + stem + ".yaml'?)";
+    return did_you_mean(stem, names) + "; there are: " + listed(names);
 }
 
 void fill_in_presets(YamlNode& mission, const std::filesystem::path& base_folder) {

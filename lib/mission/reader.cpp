@@ -1,6 +1,7 @@
 #include "mission/reader.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "core/text.h"
@@ -16,6 +17,25 @@ bool is_name(std::string_view text) {
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
     return !text.empty() && text.size() <= 64 &&
            text.find_first_not_of(allowed) == std::string_view::npos;
+}
+
+/// What to do with a key that is known, but not in this section; "" for any other.
+std::string misplaced(const std::string& key, const std::vector<std::string>& known) {
+    const auto knows = [&](const char* name) {
+        return std::ranges::find(known, name) != known.end();
+    };
+    if (knows("sensors")) {
+        constexpr std::array of_sensors{"instrument", "model",       "mount",       "multipath",
+                                        "noise",      "range_max_m", "range_min_m", "streaks"};
+        if (std::ranges::find(of_sensors, key) != of_sensors.end())
+            return "; it belongs to a sensor: sensors.NAME." + key;
+    }
+    if (!knows("range_max_m")) return "";
+    if (key == "instrument") return "; it needs model: calibrated";
+    if (key == "noise" || key == "streaks") return "; it needs model: paper";
+    if (key == "azimuth_bins" || key == "azimuth_deg" || key == "elevation_deg")
+        return "; this kind of sonar has none, leave it out";
+    return "";
 }
 
 }  // namespace
@@ -297,7 +317,8 @@ void MissionReader::finish() {
             errors_.add(InputError(item.key_place.location(), removed));
             continue;
         }
-        const std::string hint = did_you_mean(item.key, known_);
+        std::string hint = misplaced(item.key, known_);
+        if (hint.empty()) hint = did_you_mean(item.key, known_);
         errors_.add(InputError(item.key_place.location(),
                                "unknown key " + in_quotes(item.key) +
                                    (hint.empty() ? "; known here: " + listed(known_) : hint)));

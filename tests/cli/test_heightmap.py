@@ -167,6 +167,14 @@ class Heightmap(Composed):
         kept = json.loads((self.folder / "report/report.json").read_text())["heightmap"]
         self.assertIn(kept["every"], (2, 4, 8, 16))
 
+    def test_long_cells_are_told(self):
+        """Cells of 0.25 m have facets in bins of 2.5 cm, and none to see in bins of 6 cm."""
+        self.map_mission(", pixel_m: 0.25, height_scale: 0.001, height_offset_m: -3")
+        for bins, told in ((356, True), (142, False)):
+            result = self.run_sonarsim("validate", "mission.yaml", "--set", f"sensors.fls.range_bins={bins}")
+            self.assertEqual("W37 scene.heightmap: its cells of 0.25 m are 10 times" in result.stderr, told,
+                             result.stderr)
+
     def test_extent_and_origin(self):
         """size_m instead of pixel_m, and another origin with a trajectory moved by as much."""
         self.assert_same(MAP % ("bed.png", ", size_m: [12, 10], origin_m: [0, 0], height_scale: 0.001, "

@@ -55,6 +55,19 @@ REFUSED = {
     "a material of an object": ({"materials.csv": MATERIALS.replace("Steel", "steel")},
                                 ("lacks the material 'Steel' of 'mine' in", "mine.gltf",
                                  "(mission.yaml:6:7)", "did you mean 'steel'?", *CURES)),
+    "a file's name in capitals": (edited("bottom.gltf", "BOTTOM.GLTF"), ("did you mean 'bottom.gltf'?",)),
+    "an instrument of the paper's model": (
+        edited("    noise: {add_sigma: 0.01}\n", "    instrument: {frequency_hz: 400000}\n"),
+        ("unknown key 'instrument'; it needs model: calibrated",)),
+    "noise outside of the sensors": (
+        edited("sensors:\n", "noise: {add_sigma: 0.01}\nsensors:\n"),
+        ("unknown key 'noise'; it belongs to a sensor: sensors.NAME.noise",)),
+    "beams of a side-scan": (
+        edited("kind: imaging", "kind: sidescan"),
+        ("unknown key 'azimuth_bins'; this kind of sonar has none, leave it out",)),
+    "a preset by its name alone": (
+        edited("kind: imaging", "preset: oculus_m750d_750khz"),
+        ("did you mean 'sensors/oculus_m750d_750khz.yaml'?",)),
     "a file's name": (edited("bottom.gltf", "botom.gltf"),
                       ("botom.gltf: cannot open", "did you mean 'bottom.gltf'?", "mission.yaml:3:3")),
     "the name of the materials": (edited("materials.csv", "material.csv"),

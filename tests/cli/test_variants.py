@@ -237,6 +237,15 @@ class Variants(Sandbox):
                      "  - {key: scene.scatter.2.count, choice: [2]}")
         self.refused("'drum': object 2 of 2 finds no room", "the bottom lies from (-2, -2) to (2, 2)")
 
+    def test_validate_estimates_all_variants(self):
+        result = self.run_sonarsim("validate", "mission.yaml", "--json")
+        found = json.loads(result.stdout)
+        self.assertEqual((found["pings"], found["images"]), (36, 36), "a ping is one image")
+        self.assertGreater(found["set_up_seconds"], 0)
+        self.assert_renders()
+        blocks = [path.stat().st_blocks for path in [self.out, *self.out.rglob("*")]]
+        self.assertLessEqual(512 * sum(blocks), found["bytes_at_most"])
+
     def test_vary_without_variants(self):
         self.edit("mission.yaml", "variants: 6\n", "")
         self.refused("mission.yaml:", "'vary' needs 'variants'")
