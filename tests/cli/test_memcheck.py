@@ -19,7 +19,6 @@ trajectory:
               {{position_m: [0.1, 0.1, 1.5], rpy_deg: [0, 15, -3]}}]
   speed_m_s: 0.1
   rate_hz: 1
-labels: {{min_pixels: 1}}
 output: {{folder: out, labels: true}}
 scene:
   file: {SCENES}/tank.glb

@@ -62,7 +62,7 @@ TEST_CASE("an override is checked like the file and named in the message") {
     CHECK(set_refusal("output.meta=on") ==
           "--set output.meta=on: 'meta' must be true or false, not 'on'");
     CHECK(set_refusal("output.polar=on") ==
-          "--set output.polar=on: unknown polar 'on'; known: true, false, exr, tiff");
+          "--set output.polar=on: 'polar' must be true or false, not 'on'");
     CHECK(set_refusal("sensors.fls.range_max_m=0.05") ==
           "--set sensors.fls.range_max_m=0.05: range_min_m must be below range_max_m "
           "(range_min_m is 0.1, range_max_m is 0.05)");

@@ -70,7 +70,7 @@ TEST_CASE("every fault is reported at its place") {
           "m.yaml:8:18: 'range_min_m' must be at least 0, not '-1'\n"
           "m.yaml:7:17: 'range_bins' must be a whole number, not 'many'\n"
           "m.yaml:6:5: unknown key 'azimut_deg' (did you mean 'azimuth_deg'?)\n"
-          "m.yaml:9:15: unknown fan 'yes'; known: true, false, jpeg, webp\n"
+          "m.yaml:9:15: 'fan' must be true or false, not 'yes'\n"
           "m.yaml:9:20: unknown key 'polr' (did you mean 'polar'?)");
     // A section of unknown kind is not checked further; the other sections are.
     CHECK(faults("scene: {file: a}\nsensors: {s: {kind: imagin, every: 0}}\n") ==
