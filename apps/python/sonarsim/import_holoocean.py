@@ -1,7 +1,6 @@
 """`sonarsim import-holoocean`: a mission from the sonars and the pose of the main agent of a HoloOcean scenario.
 
-Its frames and units are those of sonarsim. The source of its parameters is the documentation of HoloOcean 2, pages of
-its sensors and "Units and Coordinates"; docs/holoocean.md has the tables below for readers.
+HoloOcean's frames and units are those of sonarsim. docs/holoocean.md has the tables below for readers.
 """
 import argparse
 import json
@@ -71,8 +70,8 @@ def vector(where, items, key):
 
 def value_of(where, items, name):
     form, key, *limits = PARAMETERS[name]
-    is_flag = form in ("flag", "multipath")
-    value = take(where, items, name, bool, False) if is_flag else number(where, items, name, *limits)
+    value = (take(where, items, name, bool, False) if form in ("flag", "multipath") else
+             number(where, items, name, *limits))
     if form in ("whole", "streaks") and value != math.floor(value):
         wrong(f"{where}{name} must be a whole number, not {value}")
     if form == "width":
@@ -145,7 +144,7 @@ def mission_of(top, arguments):
     agent, where = (agents[k := names.index(wanted) if wanted else 0], f"agents[{k}].")
     sensors, water, rate = sensors_of(where, agent, number("", {"ticks_per_sec": 30} | top, "ticks_per_sec", 1e-6))
     start, turn = vector(where, agent, "location"), vector(where, agent, "rotation")
-    pitch, yaw = math.radians(turn[1]), math.radians(turn[2])
+    _, pitch, yaw = map(math.radians, turn)
     bow = math.cos(yaw) * math.cos(pitch), math.sin(yaw) * math.cos(pitch), -math.sin(pitch)
     end = [round(at + 10 * step, 6) for at, step in zip(start, bow)]
     remarks = [f"'{' '.join(name.split())}' has no counterpart: there is no octree to prepare"
