@@ -6,7 +6,7 @@ Rules: a folder of lib/ includes only the folders below it, a part of a folder o
 no files include each other in a circle, no two headers define a class of one name, folders after the
 trace take ranges from lib/trace/arrivals.h, and folders whose results reach files take elementary
 functions from lib/core/elementary.h; x.h and x.cpp count as one. Tests compare numbers by
-tests/support/approx.h. The tables of folders in docs/development.md and README.md name the same folders.
+tests/support/approx.h. The table of docs/development.md names the same folders.
 Each rule is first tried on made-up files that break it.
 """
 import pathlib
@@ -15,7 +15,7 @@ import sys
 import tempfile
 
 # The folders of lib/ with the folders that each may include. The table of docs/development.md says the
-# same, and README's table names each.
+# same.
 ALLOWED = {
     "core": set(),
     "mission": {"core"},
@@ -173,14 +173,6 @@ def faults_in_table(text: str) -> list[str]:
                      for folder in ALLOWED if folder not in listed]
 
 
-def faults_in_readme(text: str) -> list[str]:
-    """Folders of ALLOWED that the table of README lacks, and others that it names."""
-    named = [folder for row in re.findall(r"^\| (.*?) \|", text, re.MULTILINE)
-             for folder in re.findall(r"`lib/(\w+)`", row)]
-    return ([f"README.md: no row names lib/{folder}" for folder in ALLOWED if folder not in named] +
-            [f"README.md: ALLOWED has no folder {folder}" for folder in named if folder not in ALLOWED])
-
-
 def fault_when(files: dict[str, str]) -> list[str]:
     """What is wrong with made-up files."""
     with tempfile.TemporaryDirectory() as folder:
@@ -225,10 +217,6 @@ def try_the_rules():
     row = "| `lib/core` | | |\n| `lib/mission` | | core |\n"
     assert len(faults_in_table(row)) == len(ALLOWED) - 2, faults_in_table(row)
     assert any("row of lib/mission" in line for line in faults_in_table(row.replace("| core", "| ping")))
-    readme = "".join(f"| `lib/{folder}` | |\n" for folder in ALLOWED)
-    assert faults_in_readme(readme + "No row: `lib/lamps`.\n") == []
-    assert faults_in_readme(readme.replace("`lib/core`", "")) == ["README.md: no row names lib/core"]
-    assert faults_in_readme(readme + "| `lib/lamps` | |\n") == ["README.md: ALLOWED has no folder lamps"]
 
 
 def main(root: pathlib.Path) -> int:
@@ -236,7 +224,6 @@ def main(root: pathlib.Path) -> int:
     files, faults = faults_in_code(root)
     faults += faults_in_tests(root)
     faults += faults_in_table((root / "docs/development.md").read_text())
-    faults += faults_in_readme((root / "README.md").read_text())
     print("\n".join(faults) if faults else f"{files} files, no arrow runs the wrong way")
     return 1 if faults else 0
 

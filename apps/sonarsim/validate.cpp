@@ -165,7 +165,7 @@ std::size_t count_images(const Writers& writers, std::size_t pings) {
 /// The largest size of the files that all sensors share, and of the folders.
 double common_bytes_at_most(const Mission& mission, const Assembly& assembly, const Layout& layout,
                             const nlohmann::ordered_json& description) {
-    constexpr double line_bytes = 128.0;  // of SHA256SUMS, and of the poses
+    constexpr double line_bytes = 128.0;  // a line of SHA256SUMS or a pose
     double files = 0.0;
     for (const SensorLayout& sensor : layout.sensors)
         files +=

@@ -9,7 +9,7 @@
 namespace sonarsim {
 
 /// The objects and classes that any variant of a mission can have, in the order of the mission.
-/// Those of files are taken from `scene`; objects whose number is drawn are named even if the scene
+/// Objects of files are taken from `scene`; objects whose number is drawn are named even if the scene
 /// has none.
 PossibleObjects possible_objects(const Mission& mission, const Scene& scene);
 

@@ -22,7 +22,7 @@ namespace {
 constexpr std::size_t most_pings = 36;       // per sonar
 constexpr std::size_t most_bins = 1U << 25;  // per sonar, all pings together
 constexpr std::size_t most_slow = 9;         // per sonar with a slow echo model
-constexpr std::size_t images_of_slow = 3;    // of these pings, one in so many becomes an image
+constexpr std::size_t images_of_slow = 3;    // one in so many of these pings becomes an image
 constexpr double coarse_l1 = 0.2;
 
 /// The surface around a sonar.

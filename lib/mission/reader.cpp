@@ -19,7 +19,7 @@ bool is_name(std::string_view text) {
            text.find_first_not_of(allowed) == std::string_view::npos;
 }
 
-/// What to do with a key that is known, but not in this section; "" for any other.
+/// The cure for a key that is known, but not in this section; "" for any other.
 std::string misplaced(const std::string& key, const std::vector<std::string>& known) {
     const auto knows = [&](const char* name) {
         return std::ranges::find(known, name) != known.end();

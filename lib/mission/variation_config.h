@@ -36,7 +36,7 @@ struct Variant {
     int index = -1;  ///< -1: none
     int of = 0;      ///< number of variants
     DrawnValues drawn;
-    std::vector<std::string> classes;  ///< those of all choices of `vary`
+    std::vector<std::string> classes;  ///< classes of all choices of `vary`
     /// Likewise the instances, each with the class that its file gives it.
     std::vector<std::pair<std::string, std::string>> instances;
 

@@ -44,7 +44,7 @@ struct NamedInstance {
     std::string class_name;  ///< "": none
 };
 
-/// What the variants of a mission may have. Numbers of classes follow it, not the scene, so that
+/// The objects that variants of a mission may have. Numbers of classes follow it, not the scene, so that
 /// they are the same in all variants.
 struct PossibleObjects {
     std::vector<std::string> classes;      ///< they are numbered first
