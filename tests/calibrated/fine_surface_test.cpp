@@ -26,7 +26,7 @@ TEST_SUITE("calibrated") {
             sonar.T_vehicle_sensor = Pose{};
             const Reference truth =
                 cast_energy_reference(Caster(lattice.scene), lattice.scene, sonar.settings, Pose{},
-                                      {0.01, 32.0, 1'000'000});
+                                      {0.01, 32.0, 400'000});
             const auto rays = make_engine(lattice.scene, {.type = EngineKind::rays, .octree = {}});
             const Ping ping =
                 render_ping(sonar, lattice.scene, *rays, Pose{}, {1, 0}, direct_echoes_alone);
