@@ -48,7 +48,7 @@ struct Surroundings {
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< mean of their unit normals
     float triangles = 0.0F;
     Eigen::Vector3f open = Eigen::Vector3f::Zero();  ///< sum of the sides opposite to the place
-    float length_m = 0.0F;                           ///< of these sides
+    float length_m = 0.0F;                           ///< the length of these sides
 
     /// True if the surface ends here: the sides are no loop.
     bool is_border() const { return open.norm() > 0.01F * length_m; }
