@@ -7,7 +7,7 @@
 #include <span>
 
 #include "calibrated/patches.h"
-#include "trace/cut_triangle.h"
+#include "visibility/cut_triangle.h"
 #include "trace/target_surface.h"
 
 // The highlight of a smooth curved surface. With incidence angles t off the normal and facets of

@@ -21,6 +21,7 @@ Sonar make_sonar(const KindOfSonar& kind, const SonarConfig& config, const Accur
     if (kind.finish) kind.finish(sonar);
     PingSettings& settings = sonar.settings;
     settings.model = make_echo_model(sonar, kind, water);
+    settings.view.energies_add = settings.model->energies_add();
     settings.guard_beams = settings.model->guard_beams();
     // Multipath starts at the samples, so it needs those of every beam.
     if (settings.multipath.on) {

@@ -10,7 +10,7 @@
 
 #include "trace/arrivals.h"
 #include "trace/corners.h"
-#include "trace/cut_triangle.h"
+#include "visibility/cut_triangle.h"
 #include "trace/lay_maps.h"
 #include "trace/seen_points.h"
 #include "trace/strips.h"

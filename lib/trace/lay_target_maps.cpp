@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "trace/arrivals.h"
-#include "trace/cut_triangle.h"
+#include "visibility/cut_triangle.h"
 
 namespace sonarsim {
 

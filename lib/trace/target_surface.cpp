@@ -8,7 +8,7 @@
 #include "core/elementary.h"
 #include "trace/arrivals.h"
 #include "trace/ball_in_view.h"
-#include "trace/cut_triangle.h"
+#include "visibility/cut_triangle.h"
 #include "trace/lay_target_maps.h"
 #include "visibility/view_volume.h"
 

@@ -24,6 +24,7 @@ struct View {
     int beams = 0;
     double relative_l1 = 0.0;  ///< error goal of the noise-free image
     ViewShape shape = ViewShape::fan;
+    bool energies_add = false;  ///< a bin holds the sum of its echoes, not their mean
 
     bool operator==(const View&) const = default;
 

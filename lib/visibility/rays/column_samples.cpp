@@ -175,7 +175,7 @@ void collect(const Context& context, const RayColumn& column, const std::uint8_t
         const CastRay& ray = context.columns.rays[i];
         segment.to = border(context, column, i, ray.next);
         if (!segment.from.continuous) run = {.first_sample = sets.size()};
-        if (!ray.missed()) {
+        if (!ray.missed() && !ray.fine) {
             const int at = static_cast<int>((ray.along - first) / column.step + 0.5F);
             const bool strip = !column.whole || narrowed[std::clamp(at, 0, n - 1)];
             const ColumnSides& sides = column.whole && strip ? middle : full;
@@ -201,7 +201,8 @@ void collect(const Context& context, const RayColumn& column, const std::uint8_t
 }  // namespace
 
 void add_column_samples(const View& view, const Sampling& sampling, const RayColumns& columns,
-                        BeamRange beams, SetComparison& comparison, Samples& samples) {
+                        BeamRange beams, const Samples& fine, SetComparison& comparison,
+                        Samples& samples) {
     const Context context{view.shape, sampling, columns};
     samples.dropped += columns.dropped;
     if (samples.items.empty()) samples.items.reserve(columns.rays.size());
@@ -216,6 +217,11 @@ void add_column_samples(const View& view, const Sampling& sampling, const RayCol
         }
         for (; strip < columns.columns.size() && columns.columns[strip].beam == j; ++strip) {
             collect(context, columns.columns[strip], nullptr, samples.items, sets);
+        }
+        if (!fine.items.empty()) {
+            const std::span<const Sample> pieces = fine.beam(j);
+            samples.items.insert(samples.items.end(), pieces.begin(), pieces.end());
+            sets.resize(sets.size() + pieces.size(), RaySet::both);
         }
         samples.beam_begin[j + 1] = static_cast<std::uint32_t>(samples.items.size());
         comparison.add_beam(j, samples.beam(j), sets);

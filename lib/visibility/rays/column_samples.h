@@ -10,8 +10,10 @@ namespace sonarsim {
 /// flat patch of the plane that it met. If the surface is continuous from one ray to the next,
 /// their patches meet where the two planes do, so faceted surface is reproduced exactly; otherwise
 /// they end half way. Appends the samples of `beams` to `samples`, which holds those of the earlier
-/// beams, and adds each of these beams to `comparison`.
+/// beams, and adds each of these beams to `comparison`. `fine` are the pieces of fine surface, for
+/// which rays leave out that surface.
 void add_column_samples(const View& view, const Sampling& sampling, const RayColumns& columns,
-                        BeamRange beams, SetComparison& comparison, Samples& samples);
+                        BeamRange beams, const Samples& fine, SetComparison& comparison,
+                        Samples& samples);
 
 }  // namespace sonarsim

@@ -8,6 +8,7 @@
 #include "visibility/local_pose.h"
 #include "visibility/rays/bent_rays.h"
 #include "visibility/rays/cast_ray.h"
+#include "visibility/rays/fine_surface.h"
 #include "visibility/rays/sampling.h"
 #include "visibility/view.h"
 
@@ -45,9 +46,14 @@ struct BeamRange {
     int end;
 };
 
+/// The spacing of the rays of a view, before gaps are split.
+RaySpacing spacing_of(const View& view, const Sampling& sampling);
+
 /// Casts rays along every column of these beams. Adds edge strips where neighbouring columns
 /// disagree, and splits the gap between two neighbouring rays while its estimate is too uncertain.
+/// `fine` marks rays that met fine surface; null: none.
 RayColumns cast_ray_columns(const Caster& caster, const View& view, const LocalPose& pose,
-                            const Sampling& sampling, BeamRange beams, const BentWater& water = {});
+                            const Sampling& sampling, BeamRange beams, const BentWater& water = {},
+                            const FineSurface* fine = nullptr);
 
 }  // namespace sonarsim

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -11,6 +13,7 @@
 #include "visibility/local_pose.h"
 #include "visibility/rays/bent_rays.h"
 #include "visibility/rays/column_samples.h"
+#include "visibility/rays/fine_surface.h"
 #include "visibility/rays/ray_columns.h"
 #include "visibility/rays/set_disagreement.h"
 #include "visibility/rays/surface_probes.h"
@@ -32,28 +35,40 @@ constexpr int most_rays_together = 1 << 16;
 constexpr double sag_by_bin = 0.25;
 constexpr double sag_of_sight_lines_m = 0.01;
 
+/// Made for the first view that needs it.
+struct LazyFineSurface {
+    std::once_flag once;
+    std::optional<FineSurface> surface;
+};
+
 class RaysEngine final : public VisibilityEngine {
   public:
     RaysEngine(const Scene& scene, Caster caster, SceneCoverage coverage,
-               std::span<const Pose> T_world_body, const RaysExcess& excess)
+               std::span<const Pose> T_world_body, const RaysExcess& excess,
+               std::shared_ptr<LazyFineSurface> fine = std::make_shared<LazyFineSurface>())
         : scene_(&scene),
           caster_(std::move(caster)),
           coverage_(std::move(coverage)),
           T_world_body_(T_world_body.begin(), T_world_body.end()),
-          excess_(excess) {}
+          excess_(excess),
+          fine_(std::move(fine)) {}
 
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
         const Sampling sampling = denser_sampling(view);
         const LocalPose pose = local_pose(T_world_sensor, scene_->origin);
         SetComparison comparison(view, scene_->materials);
         Samples samples;
+        const FineSurface* const fine = fine_surface(view);
+        const Samples pieces =
+            fine ? fine->seen(caster_, view, T_world_sensor, spacing_of(view, sampling))
+                 : Samples{};
         std::size_t rays = 0;
         const int together = beams_together(view, sampling);
         for (int begin = 0; begin < view.beams; begin += together) {
             const BeamRange beams{begin, std::min(begin + together, view.beams)};
             const RayColumns columns = cast_ray_columns(caster_, view, pose, sampling, beams,
-                                                        water(sag_by_bin * view.bin_m()));
-            add_column_samples(view, sampling, columns, beams, comparison, samples);
+                                                        water(sag_by_bin * view.bin_m()), fine);
+            add_column_samples(view, sampling, columns, beams, pieces, comparison, samples);
             rays += columns.rays.size();
         }
         const SetDisagreement& image = comparison.result();
@@ -94,12 +109,20 @@ class RaysEngine final : public VisibilityEngine {
         for (Pose& pose : T_local_body)
             pose.translation -= scene_->origin;
         return std::make_unique<RaysEngine>(*scene_, caster_.moved(T_local_body), coverage_,
-                                            T_world_body, excess_);
+                                            T_world_body, excess_, fine_);
     }
 
     std::span<const Pose> body_poses() const override { return T_world_body_; }
 
   private:
+    /// Null: the columns stand for all surface. A piece is seen by a straight ray, and its area
+    /// counts where energies add alone.
+    const FineSurface* fine_surface(const View& view) const {
+        if (!view.energies_add || scene_->sound_profile) return nullptr;
+        std::call_once(fine_->once, [&] { fine_->surface.emplace(*scene_); });
+        return &*fine_->surface;
+    }
+
     Sampling denser_sampling(View view) const {
         view.relative_l1 /= excess_.density;
         Sampling sampling = sampling_for(view);
@@ -124,6 +147,7 @@ class RaysEngine final : public VisibilityEngine {
     SceneCoverage coverage_;
     std::vector<Pose> T_world_body_;
     RaysExcess excess_;
+    std::shared_ptr<LazyFineSurface> fine_;
 };
 
 }  // namespace
