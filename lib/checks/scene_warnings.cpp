@@ -55,7 +55,7 @@ void judge_extent(const Mission& mission, const Assembly& assembly,
     }
 }
 
-/// The distance between two heights of the scene's heightmap, before thinning, m; 0: it has none.
+/// The distance between two heights of the scene's heightmap, m; 0: it has none.
 double cell_of_heightmap_m(const Assembly& assembly) {
     const Scene& scene = assembly.scene;
     for (std::size_t k = 0; k < scene.triangles.size(); ++k) {
@@ -64,7 +64,7 @@ double cell_of_heightmap_m(const Assembly& assembly) {
         const auto side = [&](std::uint32_t from, std::uint32_t to) {
             return (scene.vertices[to] - scene.vertices[from]).head<2>().norm();
         };
-        return std::min({side(a, b), side(b, c), side(c, a)}) / assembly.heightmap.every;
+        return std::min({side(a, b), side(b, c), side(c, a)});
     }
     return 0.0;
 }
