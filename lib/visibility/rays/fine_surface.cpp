@@ -192,6 +192,9 @@ Samples FineSurface::seen(const Caster& caster, const View& view, const Pose& T_
             ball_m = std::max(ball_m, (corner - middle).norm());
         if (volume.of_sensor_frame(middle, ball_m) == Containment::outside) continue;
         Piece piece{};
+        for (Eigen::Vector3f* v : {&piece.sample.position, &piece.sample.normal,
+                                   &piece.sample.edge_u, &piece.sample.edge_v})
+            v->setZero();  // copies of what is not set yet would warn
         piece.facet = t;
         piece.sample.material = scene_.triangle_material[t];
         piece.sample.instance = scene_.triangle_instance[t];
