@@ -1,3 +1,2 @@
 from .command import main
-
 raise SystemExit(main())

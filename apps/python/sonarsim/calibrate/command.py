@@ -120,6 +120,8 @@ def write(path, text):
     """Writes a file under a temporary name first, so that nothing half-written is left."""
     path = pathlib.Path(path)
     temporary = path.parent / f".{path.name}.{os.getpid()}"
+    if path.exists() and not path.is_file():
+        raise CalibrationError(f"{path}: is no regular file, so it cannot be replaced")
     try:
         temporary.write_text(text, encoding="utf-8")
         temporary.replace(path)

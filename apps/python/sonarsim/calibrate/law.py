@@ -8,8 +8,7 @@ import numpy as np
 from .patches import Patches
 from .statistics import DB_OF_E, Bounded, CalibrationError, LogStatistics, bootstrap
 
-LEAST_PATCHES = 8
-LEAST_SPREAD_OF_LEVELS = 0.1    # patches of about one level do not determine the slope
+LEAST_PATCHES, LEAST_SPREAD_OF_LEVELS = 8, 0.1  # patches of about one level do not determine the slope
 LEAST_ERROR = 0.01              # that finite patches, their trend and the steps of the values leave
 # If a share p of the powers becomes 0, the variance of the logarithm lacks p (0.8 - 2 ln p): half a per cent here.
 MOST_CUT_OFF = 5e-4
@@ -75,7 +74,8 @@ def fit_law(values, full_value, statistics, places=None, offset=0.0, is_log=None
     scale = deviation.scaled(2.0 / sigma)
     if is_log:
         scale = Bounded(*(full_value * DB_OF_E * sigma / x for x in (deviation.value, deviation.high, deviation.low)))
-    return Law(full_value, is_log, scale.widened(LEAST_ERROR * scale.value), offset, statistics)
+    least = LEAST_ERROR * scale.value * (2.0 if statistics.excess.any() else 1.0)   # drawn statistics have errors
+    return Law(full_value, is_log, scale.widened(least), offset, statistics)
 
 
 def moments_of(patches, even):

@@ -118,8 +118,7 @@ def new_keys(start, fit):
 
 
 def with_key(text, path, value, comment, name):
-    """The text of a preset with another value. Other lines keep their comments; a key that it lacks is added at the
-    head of its section."""
+    """The text of a preset with another value. A key that it lacks is added at the head of its section."""
     lines, node, parts = text.split("\n"), yaml.compose(text), path.split(".")
     for depth, part in enumerate(parts):
         at, indent = node.start_mark.line, node.start_mark.column
