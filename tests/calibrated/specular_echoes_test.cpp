@@ -246,15 +246,16 @@ TEST_SUITE("calibrated") {
                     static_cast<std::size_t>(row) * view.beams, view.beams);
                 const float rounding = 1e-6F * *std::ranges::max_element(beams);
                 for (int j = 0; j < view.beams; ++j) {
-                    const auto at = [&](int k) {
-                        return static_cast<std::size_t>(k) * view.beams + j;
-                    };
                     float added = 0.0F;
                     for (int k = std::max(0, row - 12); k < std::min(view.range_bins, row + 13);
-                         ++k)
-                        added = std::max(added, alone[at(k)]);
+                         ++k) {
+                        for (int i = std::max(0, j - 2); i < std::min(view.beams, j + 3); ++i)
+                            added = std::max(added,
+                                             alone[static_cast<std::size_t>(k) * view.beams + i]);
+                    }
                     if (added == 0.0F) continue;
-                    const float lost = without[at(row)] - with[at(row)] - rounding;
+                    const auto at = static_cast<std::size_t>(row) * view.beams + j;
+                    const float lost = without[at] - with[at] - rounding;
                     most_lost = std::max<double>(most_lost, lost / added);
                 }
             }
