@@ -81,14 +81,17 @@ void check_files(const fs::path& folder, const std::vector<Task>& tasks, int thr
     check.stopped = check.files < tasks.size();
 }
 
-/// Files that dataset.json does not list. Links are not followed: they lead out of the folder.
+/// Files that dataset.json does not list, without the page of `sonarsim gallery`. Links are not
+/// followed: they lead out of the folder.
 std::vector<std::string> unknown_files_in(const fs::path& folder,
                                           const std::set<std::string>& expected) {
     std::vector<std::string> unknown;
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
         std::string name = entry.path().lexically_relative(folder).string();
         const bool is_folder = entry.symlink_status().type() == fs::file_type::directory;
-        if (!is_folder && !expected.contains(name)) unknown.push_back(std::move(name));
+        const bool is_of_page = name == gallery_name || name.starts_with(gallery_files);
+        if (!is_folder && !is_of_page && !expected.contains(name))
+            unknown.push_back(std::move(name));
     }
     std::ranges::sort(unknown);
     return unknown;

@@ -19,6 +19,7 @@ inline constexpr const char* journal_name = "journal.txt";
 inline constexpr const char* journal_folder_name = "journal.d";
 inline constexpr const char* seabed_folder_name = "seabed";
 inline constexpr const char* gallery_name = "index.html";
+inline constexpr const char* gallery_files = "index_files/";
 /// A file in the folder above the datasets of variants.
 inline constexpr const char* variants_name = "variants.json";
 

@@ -126,7 +126,7 @@ class BadObjects(Composed):
         # A unit that is proposed is one that is taken.
         self.write("floor.gltf", gltf([{"name": "floor", "mesh": 0}], [floor_mesh(0.02)]))
         self.scene("  file: floor.gltf\n  materials: materials.csv\n")
-        self.warned("write scene.units: km or in\n")
+        self.warned("write scene.units: km or in; else lower")
         self.edit("mission.yaml", "materials.csv\n", "materials.csv\n  units: in\n")
         self.assertEqual(self.run_sonarsim("validate", "mission.yaml").returncode, 0)
 

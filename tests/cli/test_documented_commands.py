@@ -17,7 +17,7 @@ PAGES = ("README.md", "CONTRIBUTING.md", *(f"docs/{path.name}" for path in sorte
 # How a command begins: variables, then a script of the repository or a program.
 BEGINS = re.compile(r"""(?:[A-Z_]+=(?:"[^"]*"|\S+)\ )*
                     (?:\./|\.ci/|scripts/|build/|build-release/|for\ \w+\ in\ [^:;]*;\ do|
-                    (?:sonarsim|make|parallel|mkdir|ln|cd|cp|sudo|apt|python3|cmake|git|ctest|yolo)\ )""", re.VERBOSE)
+                    (?:sonarsim|/usr/bin/python3|make|parallel|mkdir|ln|cd|cp|sudo|apt|python3|cmake|git|ctest|yolo)\ )""", re.VERBOSE)
 
 HOURS = "takes hours, or needs an idle machine"
 CI = "CI runs it: builds the program anew"
@@ -42,7 +42,6 @@ NOT_RUN = {
     "./scripts/same_sums.sh PROGRAM": "takes minutes; test_clusters.py and test_merge.py compare the same sums",
     "sonarsim calibrate out/real --preset gemini_720is --out mine.yaml --report mine.json":
         "needs pings of a real sonar",
-    "sonarsim calibrate out/real --preset START --out MINE": "the same",
     **{f"sonarsim calibrate out/{name} --out fit.yaml": "needs pings that belong to others"
        for name in ("oculus --preset oculus_m1200d_2100khz_10m --judge 0.34",
                     "oculus --preset oculus_m1200d_2100khz_10m --judge 0.34 --reverse",
@@ -57,9 +56,6 @@ NOT_RUN = {
         "needs GNU parallel",
 }
 PYTHON = python_with("matplotlib")
-DRAWN = {"scripts/draw_labels.py OUT drawn": "needs python3-matplotlib"}
-if PYTHON is None:
-    NOT_RUN.update(DRAWN)
 
 # What is run in place of a command that is too large, has place-holders or would find its output there.
 TINY = "--set sensors.fls.range_bins=64 --set sensors.fls.azimuth_bins=64"
@@ -75,8 +71,6 @@ INSTEAD = {
         # Sixty fields of ten images.
         " && grep -q '^variants: 60$' configs/detection.yaml && sonarsim validate configs/detection.yaml "
         "--set variants=1 --out out/sixty --json | grep '\"pings\":10,'",
-    "sonarsim merge PART... OUT": "sonarsim merge PART1 PART2 OUT",
-    "sonarsim report mission.yaml": f"sonarsim report mission.yaml --engines slices {QUICK}",
     "sonarsim report mission.yaml --out out/report":
         f"sonarsim report mission.yaml --engines slices {QUICK} --out out/report",
     "build/sonarsim validate hull.yaml && build/sonarsim render hull.yaml":
@@ -104,7 +98,6 @@ INSTEAD = {
         f"sonarsim render configs/tank_detection.yaml --set trajectory.rate_hz=8 {TINY} --out OUT",
     "sonarsim inspect crane.glb --materials crane.csv":
         "cp scenes/materials.csv crane.csv; sonarsim inspect crane.glb --materials crane.csv",
-    "sonarsim inspect FILE.csv": "sonarsim inspect scenes/materials.csv",
     "for n in 0 1 2 3; do scripts/make_scenes.py lifeboat --quarterings $n --out out/lifeboat_$n; done":
         "for n in 0 3; do "
         "scripts/make_scenes.py lifeboat --quarterings $((n / 3)) --out out/lifeboat_$n; done",
@@ -112,7 +105,6 @@ INSTEAD = {
     "--out out/report":
         "sonarsim report configs/lifeboat_imaging.yaml --set scene.file=$PWD/out/lifeboat_3/lifeboat.glb "
         f"--out out/report --engines slices {QUICK}",
-    "sonarsim compare out/real out/hull": "sonarsim compare out/hull out/hull",
     **{f"sonarsim render configs/tank_calibrated.yaml --set seed={seed} --out out/{name}":
        f"sonarsim render configs/tank_calibrated.yaml --set seed={seed} --out out/{name} --set trajectory.rate_hz=1 "
        "--set sensors.fls.range_bins=128 --set sensors.fls.azimuth_bins=64" for seed, name in ((1, "one"), (2, "two"))},
@@ -228,7 +220,7 @@ class DocumentedCommands(unittest.TestCase):
     def test_the_lists_name_commands_that_there_are(self):
         there = {command for commands in self.commands.values() for _, command in commands}
         self.assertGreater(len(there), 40)
-        self.assertEqual((NOT_RUN.keys() | INSTEAD.keys() | DRAWN.keys()) - there, set())
+        self.assertEqual((NOT_RUN.keys() | INSTEAD.keys()) - there, set())
         self.assertEqual(NOT_RUN.keys() & INSTEAD.keys(), set())
 
     def test_packages_are_installed_with_sudo(self):

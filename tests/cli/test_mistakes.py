@@ -132,7 +132,7 @@ MISTAKES = {
         {"files": {"bottom.gltf": bottom(95), "path.csv": path(z=500)}}, "W04", "check its units"),
     "a mesh in kilometres": ({"files": {"bottom.gltf": bottom(0.001)}} | set_key("scene.objects=[]"),
                              "W03", "if the file is in kilometres"),
-    "a range in millimetres": (set_key("sensors.fls.range_max_m=6000"), "W03",
+    "a range in millimetres": (set_key("sensors.fls.range_max_m=15000"), "W03",
                                "range_max_m, which is in metres"),
     "a mesh with z up": ({"files": {"bottom.gltf": bottom(z_up=True)}}
                          | set_key("scene.objects=[]"), "W05", "write scene.up: z"),

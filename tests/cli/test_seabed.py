@@ -194,7 +194,7 @@ class TestSeabed(Composed):
                 ("length_m: 0.8", "length_m: 0.79", ("ripples need 4 cells from crest to crest; lower cell_m",)),
                 ("length_m: 0.8", "length_m: 0.8, height_m: 1", ("mission.yaml:", "height_m")),
                 ("cell_m: 0.2", "cell_m: 0.2\n    sediments: [{material: steel, share: 1}]",
-                 ("material and sediments say the same",)),
+                 ("give material or sediments, not both",)),
                 ("cell_m: 0.2", "cell_m: 0.2\n    rocks: {density_per_m2: 1, diameter_m: [2, 1]}",
                  ("'diameter_m' is the least and the largest",)),
                 ("cell_m: 0.2", "cell_m: 0.2\n    rocks: {density_per_m2: 1}", ("lacks the key 'diameter_m'",)),

@@ -70,10 +70,9 @@ MAP_RULES = [
     *[(f"{section}.{key}", rule) for section in ("heightmap", "sediment_map", "backscatter_map")
       for key, rule in LAID_RULES],
     *[(f"{section}.instances.0", 'choice: [heightmap, height*]') for section in ("sediment_map", "backscatter_map")],
-    *[(f"{section}.placed", "choice: [above]") for section in ("sediment_map", "backscatter_map")],
     ("heightmap.height_scale", "uniform: [0.1, 0.3]"), ("heightmap.height_offset_m", "uniform: [-5, -4]"),
     ("heightmap.material", "choice: [steel, rubber]"), ("heightmap.class", "choice: [one, other]"),
-    ("heightmap.keep", "choice: [auto, all]"), ("sediment_map.materials.3", "choice: [Concrete, rubber]"),
+    ("sediment_map.materials.3", "choice: [Concrete, rubber]"),
     ("backscatter_map.scale_db", "uniform: [1, 3]"), ("backscatter_map.offset_db", "uniform: [-3, 3]")]
 SECTIONS = ("heightmap", "sediment_map", "backscatter_map")
 PIXELS = [(f"{section}.pixel_m", "uniform: [0.9, 1.1]") for section in SECTIONS]
@@ -90,6 +89,11 @@ def documented_keys():
             if kind != "section" and kind != "list of sections":
                 keys.add(f"{title}.{key}")
     return keys
+
+
+def files(dataset):
+    """The sums of all files of the sonar but those of classes, which have numbers of all variants there."""
+    return {name: sum_ for name, sum_ in digest(dataset / "fls").items() if not name.startswith("class/")}
 
 
 class VaryGround(Composed):
@@ -115,7 +119,7 @@ class VaryGround(Composed):
             self.assertEqual(list(one["drawn"]), [key for key, _ in rules])
             sets = [word for key, value in one["drawn"].items() for word in ("--set", f"{key}={value}")]
             self.assert_renders("--overwrite", *sets, "--set", f"seed={one['seed']}")
-            self.assertEqual(digest(self.out / "fls"), digest(self.folder / "varied" / one["folder"] / "fls"))
+            self.assertEqual(files(self.out), files(self.folder / "varied" / one["folder"]))
 
     def test_a_bed(self):
         self.assert_draws(BED, "seabed.", BED_RULES)

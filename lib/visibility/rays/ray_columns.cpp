@@ -35,14 +35,14 @@ class ColumnCaster {
   public:
     ColumnCaster(const Caster& caster, const View& view, const LocalPose& pose,
                  const Sampling& sampling, BeamRange beams, const BentWater& water,
-                 const FineSurface* fine, RayColumns& out)
+                 const FineSurface* fine, const RaySpacing& spacing, RayColumns& out)
         : caster_(caster),
           water_(water),
           view_(view),
           pose_(pose),
           sampling_(sampling),
           fine_(fine),
-          spacing_(spacing_of(view, sampling)),
+          spacing_(spacing),
           reach_m_(static_cast<float>(view.range_max_m)),
           view_columns_(columns_of(view, sampling.columns, beams)),
           out_(out) {
@@ -304,9 +304,9 @@ RaySpacing spacing_of(const View& view, const Sampling& sampling) {
 
 RayColumns cast_ray_columns(const Caster& caster, const View& view, const LocalPose& pose,
                             const Sampling& sampling, BeamRange beams, const BentWater& water,
-                            const FineSurface* fine) {
+                            const FineSurface* fine, const RaySpacing& spacing) {
     RayColumns out;
-    ColumnCaster columns(caster, view, pose, sampling, beams, water, fine, out);
+    ColumnCaster columns(caster, view, pose, sampling, beams, water, fine, spacing, out);
     columns.cast_whole_columns();
     columns.cast_edge_strips();
     columns.split_gaps();

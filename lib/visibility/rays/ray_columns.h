@@ -54,6 +54,6 @@ RaySpacing spacing_of(const View& view, const Sampling& sampling);
 /// `fine` marks rays that met fine surface; null: none.
 RayColumns cast_ray_columns(const Caster& caster, const View& view, const LocalPose& pose,
                             const Sampling& sampling, BeamRange beams, const BentWater& water = {},
-                            const FineSurface* fine = nullptr);
+                            const FineSurface* fine = nullptr, const RaySpacing& spacing = {});
 
 }  // namespace sonarsim

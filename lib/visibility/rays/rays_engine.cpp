@@ -59,15 +59,17 @@ class RaysEngine final : public VisibilityEngine {
         SetComparison comparison(view, scene_->materials);
         Samples samples;
         const FineSurface* const fine = fine_surface(view);
+        // More columns than the goal asks for resolve no more.
+        const RaySpacing spacing = spacing_of(view, sampling_for(view));
         const Samples pieces =
-            fine ? fine->seen(caster_, view, T_world_sensor, spacing_of(view, sampling))
-                 : Samples{};
+            fine ? fine->seen(caster_, view, T_world_sensor, spacing) : Samples{};
         std::size_t rays = 0;
         const int together = beams_together(view, sampling);
         for (int begin = 0; begin < view.beams; begin += together) {
             const BeamRange beams{begin, std::min(begin + together, view.beams)};
-            const RayColumns columns = cast_ray_columns(caster_, view, pose, sampling, beams,
-                                                        water(sag_by_bin * view.bin_m()), fine);
+            const RayColumns columns =
+                cast_ray_columns(caster_, view, pose, sampling, beams,
+                                 water(sag_by_bin * view.bin_m()), fine, spacing);
             add_column_samples(view, sampling, columns, beams, pieces, comparison, samples);
             rays += columns.rays.size();
         }
