@@ -126,6 +126,7 @@ BEFORE = {
     "docs/running.md": (SHARDS.format(4, "part"),),
     "docs/pictures.md": ("sonarsim render mission.yaml -q --out OUT",),
     "docs/scenes.md": MINEFIELD,
+    "docs/export.md": MINEFIELD,
 }
 
 SCENARIO = '{"agents": [{"sensors": [{"sensor_type": "ImagingSonar", "configuration": {"RangeMax": 6}}]}]}'
