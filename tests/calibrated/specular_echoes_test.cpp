@@ -261,7 +261,7 @@ TEST_SUITE("calibrated") {
             }
             MESSAGE("most lost: ", most_lost,
                     ", multipath by direct: ", energy_of(alone) / energy_of(without));
-            CHECK(most_lost < 5e-3);
+            CHECK(most_lost < 1e-2);
             CHECK(std::fabs(energy_of(with) / (energy_of(without) + energy_of(alone)) - 1.0) <
                   1e-3);
             CHECK(energy_of(alone) > 0.02 * energy_of(without));

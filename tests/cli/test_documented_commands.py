@@ -158,6 +158,7 @@ def fill(folder, clone):
     for program in ("build/sonarsim", "bin/sonarsim"):
         (folder / program).parent.mkdir()
         (folder / program).symlink_to(SONARSIM)
+    (folder / "build/python").symlink_to(pathlib.Path(SONARSIM).parent / "python")
     (folder / "build-release").symlink_to(pathlib.Path(SONARSIM).parent)
     if PYTHON is not None:
         (folder / "bin/python3").symlink_to(PYTHON)
