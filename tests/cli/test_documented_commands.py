@@ -37,8 +37,6 @@ NOT_RUN = {
     "./scripts/package.sh && sudo apt install ./build-package/sonarsim_*.deb": CI,
     "./scripts/report.sh": HOURS,
     'SCENES="tank seafloor wreck lifeboat motorbike" ./scripts/report.sh': HOURS,
-    "./scripts/scene_costs.py copies": HOURS,
-    "./scripts/map_figures.py errors": HOURS,
     "./scripts/same_sums.sh PROGRAM": "takes minutes; test_clusters.py and test_merge.py compare the same sums",
     "sonarsim calibrate out/real --preset gemini_720is --out mine.yaml --report mine.json":
         "needs pings of a real sonar",
@@ -77,7 +75,6 @@ INSTEAD = {
         f"build/sonarsim validate hull.yaml {FEW} && build/sonarsim render hull.yaml {FEW}",
     "sonarsim render /usr/share/sonarsim/configs/tank_imaging.yaml":
         f"sonarsim render share/sonarsim/configs/tank_imaging.yaml {FEW} --out out/installed",
-    "scripts/writing_costs.py --rounds 5": "scripts/writing_costs.py --sonarsim $PWD/build/sonarsim --rounds 1",
     "sonarsim report configs/tank_calibrated.yaml --engines slices --quick":
         f"sonarsim report configs/tank_calibrated.yaml --engines slices {QUICK}",
     "sonarsim report configs/tank_calibrated.yaml --engines slices --quick "
