@@ -81,8 +81,9 @@ std::vector<std::string> classes_of(const PossibleObjects& possible,
                                     const std::vector<ClassConfig>& rules) {
     std::vector<std::string> classes;
     for (const auto& [name, own] : possible.instances) {
-        const auto rule = std::ranges::find_if(
-            rules, [&](const ClassConfig& one) { return fits_pattern(one.nodes, name); });
+        const auto rule = std::ranges::find_if(rules, [&, &node = name](const ClassConfig& one) {
+            return fits_pattern(one.nodes, node);
+        });
         classes.push_back(rule != rules.end() ? rule->name : (own.empty() ? name : own));
     }
     return classes;
