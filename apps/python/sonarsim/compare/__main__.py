@@ -6,9 +6,10 @@ import pathlib
 import sys
 import tempfile
 
+from ..need import need
+
 DESCRIPTION = "Compares simulated pings with real ones, figure by figure"
 EXAMPLE = "example: sonarsim compare real_pings out/survey --sensor fls --pings 100 --out compared"
-PACKAGES = "python3-numpy python3-scipy python3-matplotlib python3-yaml python3-pil"
 
 
 def arguments():
@@ -33,6 +34,7 @@ def number_of_pings(text):
 
 def run(options):
     # Imported here, so that --help needs no packages.
+    need("numpy", "scipy", "yaml", "PIL", *["matplotlib"] * bool(options.out))
     from ..recording import RecordingError, open_recording
     from . import report
     from .comparison import compare_recordings
@@ -63,8 +65,6 @@ def main():
     options = arguments()
     try:
         run(options)
-    except ImportError as fault:
-        return fail(f"needs the Python package {fault.name}: apt install {PACKAGES}")
     except OSError as fault:
         return fail(f"{fault.filename or options.out or 'output'}: {fault.strerror or fault}")
     except MemoryError:
