@@ -4,7 +4,7 @@ import struct
 
 import numpy as np
 
-from . import aris, didson, ek60, oculus, ping360, xtf
+from . import didson, ek60, oculus, ping360, xtf
 from .arrays import bearings_of, set_times
 from .recording import MOST_VALUES, RecordingError, Soundings
 
@@ -46,7 +46,7 @@ def read_file(path, own, most_pings):
 def reader_of(content):
     """The reader of the format that the first bytes show."""
     if content[:3] == b"DDF":
-        return aris.read if content[:4] == aris.MARK else didson.read
+        return didson.read
     reader = next((reader for mark, reader in READERS.items() if content[4:].startswith(mark)), ping360.read)
     if isinstance(reader, str):
         raise ValueError(f"is {reader} file, which is not read; write its pings as arrays (docs/compare.md)")

@@ -2,12 +2,11 @@
 
 Of each ping the first port channel and the first starboard channel are read. Samples are unsigned 8, 16 or 32 bits or
 IEEE floats, times 2 to the power of minus the channel's weight."""
-import datetime
 import math
 
 import numpy as np
 
-from .bytes_of_pings import field, law_of, stacked
+from .bytes_of_pings import days_since_1970, field, law_of, stacked
 from .recording import Recording, Soundings
 
 FILE_HEADER, CHANNEL_INFO, PING_HEADER, CHANNEL_HEADER = 1024, 128, 256, 64
@@ -129,11 +128,7 @@ def sides_of(record, channels):
 
 def time_s(record):
     """Seconds since 1970; of the day alone where there is no date."""
-    try:
-        day = datetime.date(field(record, "H", 14), record[16], record[17])
-        days = (day - datetime.date(1970, 1, 1)).days
-    except ValueError:
-        days = 0
+    days = days_since_1970(field(record, "H", 14), record[16], record[17]) or 0
     return 86400.0 * days + 3600.0 * record[18] + 60.0 * record[19] + record[20] + 0.01 * record[21]
 
 
