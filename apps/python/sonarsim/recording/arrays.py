@@ -70,14 +70,6 @@ def values_of(own, most_pings):
     return np.concatenate(arrays)
 
 
-def soundings_of(own, most_pings):
-    arrays = [read_array(path) for path in own.files]
-    for array, path in zip(arrays, own.files):
-        if array.ndim != 2 or array.shape != arrays[0].shape:
-            raise RecordingError(f"{path}: has the shape {list(array.shape)}, not [ping, beam] as {own.files[0]}")
-    return Soundings.of(list(zip(*(array[:most_pings] for array in arrays))))
-
-
 def bearings_of(own, beams):
     """The bearings of the beams in radians, from the keys of recording.yaml."""
     if own.bearings_deg:
@@ -104,7 +96,11 @@ def read_arrays(own, most_pings):
     recording = Recording(own.kind, own.law, "", own.sound_speed_m_s, own.first_range_m or 0.0, own.range_step_m or 0.0,
                           frequency_hz=own.frequency_hz, altitude_m=own.altitude_m)
     if own.source == "soundings":
-        recording.soundings = soundings_of(own, most_pings)
+        arrays = [read_array(path) for path in own.files]
+        for array, path in zip(arrays, own.files):
+            if array.ndim != 2 or array.shape != arrays[0].shape:
+                raise RecordingError(f"{path}: has the shape {list(array.shape)}, not [ping, beam] as {own.files[0]}")
+        recording.soundings = Soundings.of(list(zip(*(array[:most_pings] for array in arrays))))
     else:
         recording.values = values_of(own, most_pings)
     if own.kind == "imaging":

@@ -19,8 +19,9 @@ TYPES = {0: "<u1", 1: "<u2", 3: "<u4"}
 
 
 def read(data, most_pings, own):
-    pings = pings_among(data, MARK, HEADER, most_pings, lambda at: HEADER + field(data, "I", at + 10) if field(
-        data, "H", at + 6) == PING_RESULT else 0, lambda message: [ping_of(message)])
+    def length_of(at):
+        return HEADER + field(data, "I", at + 10) if field(data, "H", at + 6) == PING_RESULT else 0
+    pings = pings_among(data, MARK, HEADER, most_pings, length_of, lambda message: [ping_of(message)])
     if not pings:
         raise ValueError("has no ping result of an Oculus")
     frequency, speed, step, image, bearings = pings[0]

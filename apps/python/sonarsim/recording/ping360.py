@@ -13,8 +13,9 @@ GRADIAN = np.pi / 200.0
 
 
 def read(data, most_pings, own):
-    pings = pings_among(data, MARK, HEADER, most_pings, lambda at: HEADER + field(data, "H", at + 2) + 2 if field(
-        data, "H", at + 4) in SAMPLES_AT else 0, pings_of)
+    def length_of(at):
+        return HEADER + field(data, "H", at + 2) + 2 if field(data, "H", at + 4) in SAMPLES_AT else 0
+    pings = pings_among(data, MARK, HEADER, most_pings, length_of, pings_of)
     if not pings:
         raise ValueError("is no .raw of an EK60, no .ddf and no .aris, and has no pings of a Ping360")
     # Heads turn clockwise from above.

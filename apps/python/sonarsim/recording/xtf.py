@@ -20,10 +20,6 @@ SOUNDING = np.dtype({"names": ["intensity", "two_way_s", "angle_deg"], "formats"
                      "itemsize": 64})
 
 
-def read(data, most_pings, own):
-    return read_soundings(data, most_pings, own) if own.kind == "soundings" else read_sides(data, most_pings, own)
-
-
 def read_sides(data, most_pings, own):
     """The side-scan pings; those that lack a side are left out."""
     channels, pings, times = channels_of(data), [], []
