@@ -32,7 +32,8 @@ def number_of_pings(text):
     return int(text)
 
 
-def run(options):
+def main():
+    options = arguments()
     # Imported here, so that --help needs no packages.
     need("numpy", "scipy", "yaml", "PIL", *["matplotlib"] * bool(options.out))
     from ..recording import RecordingError, open_recording
@@ -43,28 +44,20 @@ def run(options):
             raise RecordingError(f"{options.out}: holds a comparison already: name another folder, or remove it")
         comparison = compare_recordings(open_recording(options.real, options.real_sensor, options.pings),
                                         open_recording(options.simulated, options.sensor, options.pings))
+        content = report.comparison_json(comparison)
+        if options.out:
+            options.out.mkdir(parents=True, exist_ok=True)
+            # Made beside it and renamed, so that no half of a file is left.
+            with tempfile.TemporaryDirectory(dir=options.out, prefix=".compare") as folder:
+                made = pathlib.Path(folder)
+                report.plot(comparison, made / "compare.svg")
+                (made / "compare.json").write_text(json.dumps(content, indent=2) + "\n")
+                for name in ("compare.svg", "compare.json"):
+                    os.replace(made / name, options.out / name)
+        if options.json or not options.quiet:
+            print(json.dumps(content) + "\n" if options.json else report.comparison_text(comparison), end="")
     except RecordingError as fault:
-        sys.exit(fail(fault))
-    content = report.comparison_json(comparison)
-    if options.out:
-        options.out.mkdir(parents=True, exist_ok=True)
-        # Made beside it and renamed, so that no half of a file is left.
-        with tempfile.TemporaryDirectory(dir=options.out, prefix=".compare") as folder:
-            made = pathlib.Path(folder)
-            report.plot(comparison, made / "compare.svg")
-            (made / "compare.json").write_text(json.dumps(content, indent=2) + "\n")
-            for name in ("compare.svg", "compare.json"):
-                os.replace(made / name, options.out / name)
-    if options.json:
-        print(json.dumps(content))
-    elif not options.quiet:
-        print(report.comparison_text(comparison), end="")
-
-
-def main():
-    options = arguments()
-    try:
-        run(options)
+        return fail(fault)
     except OSError as fault:
         return fail(f"{fault.filename or options.out or 'output'}: {fault.strerror or fault}")
     except MemoryError:

@@ -6,7 +6,8 @@ from scipy import stats
 
 from ..recording import Recording, RecordingError
 from .bootstrap import adjust, compared, exchange_p
-from .images import decibels, have_one_grid, images_of, patch_size_of, zones_of
+from .figure import decibels
+from .images import have_one_grid, images_of, patch_size_of, zones_of
 from .measure import measure_images
 from .soundings import common_angles, measure_soundings
 

@@ -6,8 +6,8 @@ import numpy as np
 
 from . import speckle
 from .edges import edge_figures
-from .figure import Figure
-from .images import Grid, decibels
+from .figure import Figure, decibels
+from .images import Grid
 from .points import point_figures
 from .shadows import shadow_figures
 

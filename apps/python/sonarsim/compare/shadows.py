@@ -2,8 +2,7 @@
 import numpy as np
 from scipy import ndimage
 
-from .figure import Figure
-from .images import LEAST_POWER
+from .figure import LEAST_POWER, Figure
 
 WINDOW = 5
 LEAST_LENGTH = 5

@@ -2,6 +2,7 @@
 
 Of each ping the first port channel and the first starboard channel are read. Samples are unsigned 8, 16 or 32 bits or
 IEEE floats, times 2 to the power of minus the channel's weight."""
+import itertools
 import math
 
 import numpy as np
@@ -49,7 +50,7 @@ def read_sides(data, most_pings, own):
 
 def read_soundings(data, most_pings, own):
     pings, times, speeds = [], [], []
-    for record in records(data, len(channels_of(data)), MULTIBEAM):
+    for record in itertools.islice(records(data, len(channels_of(data)), MULTIBEAM), most_pings):
         count = field(record, "H", 4)
         if PING_HEADER + count * SOUNDING.itemsize > len(record):
             raise ValueError("has more soundings than their record")
@@ -63,8 +64,6 @@ def read_soundings(data, most_pings, own):
             raise ValueError("has no speed of sound; add `sound_speed_m_s` to recording.yaml")
         pings.append((0.5 * speeds[-1] * beams["two_way_s"], np.radians(beams["angle_deg"]), beams["intensity"]))
         times.append(time_s(record))
-        if len(pings) == most_pings:
-            break
     if not pings:
         raise ValueError("has no pings with soundings (records of the type 28)")
     return Recording("soundings", law_of(own), sound_speed_m_s=speeds[0], soundings=Soundings.of(pings),
