@@ -76,7 +76,7 @@ def fit_law(values, full_value, statistics, places=None, offset=0.0, is_log=None
         is_log = bool(np.polyfit(level, 0.5 * np.log(plain.variance[even]), 1)[0] <= 0.5)
     elif is_log is None:
         off = [abs(s.value - statistics.skewness) for s in skewness]
-        is_log = off[1] <= off[0]
+        is_log = bool(off[1] <= off[0])
     deviation, sigma = found[is_log][0], np.sqrt(statistics.variance)
     scale = deviation.scaled(2.0 / sigma)
     if is_log:
