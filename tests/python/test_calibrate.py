@@ -236,7 +236,8 @@ class Fits(unittest.TestCase):
 
     def test_missing_packages(self):
         for command_name, packages in (("calibrate", "python3-numpy python3-scipy"), ("compare", "python3-scipy")):
-            start = ("import runpy, sys; sys.modules.update(dict.fromkeys(sys.argv[2:])); name = sys.argv[1]; sys.argv[1:] = ['a', 'b']; "
+            start = ("import runpy, sys; sys.modules.update(dict.fromkeys(sys.argv[2:])); "
+                     "name = sys.argv[1]; sys.argv[1:] = ['a', 'b']; "
                      "runpy.run_module('sonarsim.' + name, run_name='__main__', alter_sys=True)")
             hidden = [{"python3-numpy": "numpy", "python3-scipy": "scipy"}[package] for package in packages.split()]
             done = subprocess.run([sys.executable, "-B", "-c", start, command_name, *hidden], capture_output=True, text=True,

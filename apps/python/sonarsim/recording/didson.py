@@ -21,13 +21,14 @@ def read(data, most_pings, own):
         raise ValueError("is a DIDSON file of another version than 3, 4 and 5, which are read")
     file_header, frame_header = HEADERS[mark]
     beams, samples = field(data, "I", 16), field(data, "I", 24)
+    name, facts_of = ("ARIS", facts_of_aris) if mark == ARIS else ("DIDSON", facts_of_didson)
     if beams not in ((48, 64, 96, 128) if mark == ARIS else (48, 96)) or not 0 < samples <= MOST_SAMPLES:
-        raise ValueError(f"has {beams} beams and {samples} samples, which no {'ARIS' if mark == ARIS else 'DIDSON'} has")
+        raise ValueError(f"has {beams} beams and {samples} samples, which no {name} has")
     found = frames(data, file_header, frame_header + beams * samples, most_pings)
     if any(bytes(frame[12:16]) != mark for frame in found):
         raise ValueError("has a frame of another version")
     values = [np.frombuffer(frame, np.uint8, offset=frame_header).reshape(samples, beams) for frame in found]
-    return timed_recording("imaging", values, own, **(facts_of_aris if mark == ARIS else facts_of_didson)(data, found, own))
+    return timed_recording("imaging", values, own, **facts_of(data, found, own))
 
 
 def facts_of_aris(data, found, own):
@@ -40,8 +41,8 @@ def facts_of_aris(data, found, own):
     if not 0.0 < speed < FASTEST_SOUND_M_S:
         raise ValueError("has a frame without a speed of sound")
     times = [(1e-6 * field(frame, "I", 476), 1e-6 * field(frame, "I", 452)) for frame in found]     # delay, period
-    return {"ranges_s": [(delay + 0.5 * period, period) for delay, period in times], "speed_m_s": speed, "law": law_of(own),
-            "times_s": np.array([1e-6 * field(frame, "Q", 20) for frame in found])}
+    return {"ranges_s": [(delay + 0.5 * period, period) for delay, period in times], "speed_m_s": speed,
+            "law": law_of(own), "times_s": np.array([1e-6 * field(frame, "Q", 20) for frame in found])}
 
 
 def facts_of_didson(data, found, own):
@@ -57,5 +58,6 @@ def facts_of_didson(data, found, own):
             raise ValueError("has a frame without a window of range, or without a date")
         window = (1 if is_fine else 2) * (CLASSIC_PERIOD_S if is_classic else EXTENDED_PERIOD_S) * periods
         ranges_s.append((window + 0.5 / rate_hz, 1.0 / rate_hz))
-        times_s.append(np.dot([field(frame, "i", at) for at in (32, 36, 40, 44)], (3600.0, 60.0, 1.0, 0.01)) + 86400.0 * days)
+        clock = [field(frame, "i", at) for at in (32, 36, 40, 44)]
+        times_s.append(86400.0 * days + np.dot(clock, (3600.0, 60.0, 1.0, 0.01)))
     return {"ranges_s": ranges_s, "law": decibel_law(own, 90.0, 255.0), "times_s": np.array(times_s)}
