@@ -8,12 +8,13 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.append(str(ROOT / "apps" / "python"))
-from sonarsim.calibrate import command, correlations, law, main, noise, preset, soundings  # noqa: E402
+from sonarsim.calibrate import command, correlations, law, noise, preset, soundings  # noqa: E402
 from sonarsim.calibrate.patches import Patches  # noqa: E402
 from sonarsim.calibrate.statistics import LogStatistics, bootstrap, sampled_correlations, sampled_statistics  # noqa: E402
 from sonarsim.recording import Law, Recording, Soundings  # noqa: E402
@@ -217,6 +218,34 @@ class Fits(unittest.TestCase):
             preset.with_key("instrument: {receiver: {}}", "instrument.receiver.gamma", "1", "fit", "x")
 
 
+    def test_program_beside_the_package(self):
+        with tempfile.TemporaryDirectory() as name, unittest.mock.patch.dict(os.environ, {"PATH": "", "SONARSIM": ""}):
+            root = pathlib.Path(name)
+            for program, python in (("build/sonarsim", "build/python"), ("usr/bin/sonarsim", "usr/lib/sonarsim/python")):
+                (root / python / "sonarsim").mkdir(parents=True)
+                (root / program).parent.mkdir(exist_ok=True)
+                self.assertEqual(preset.program_of(root / python / "sonarsim"), "sonarsim")
+                (root / program).touch()
+                self.assertEqual(preset.program_of(root / python / "sonarsim"), str(root / program))
+            # A build tree links to the source.
+            (root / "build/python/sonarsim").rmdir()
+            (root / "build/python/sonarsim").symlink_to(pathlib.Path(preset.__file__).parents[1])
+            path = subprocess.run([sys.executable, "-B", "-c", "import sonarsim.calibrate.preset as p; print(p.PROGRAM)"],
+                                  env={"PYTHONPATH": str(root / "build/python")}, capture_output=True, text=True, check=False)
+            self.assertEqual(path.stdout, f"{root}/build/sonarsim\n", path.stderr)
+
+    def test_missing_packages(self):
+        for command_name, packages in (("calibrate", "python3-numpy python3-scipy"), ("compare", "python3-scipy")):
+            start = ("import runpy, sys; sys.modules.update(dict.fromkeys(sys.argv[2:])); "
+                     "name = sys.argv[1]; sys.argv[1:] = ['a', 'b']; "
+                     "runpy.run_module('sonarsim.' + name, run_name='__main__', alter_sys=True)")
+            hidden = [{"python3-numpy": "numpy", "python3-scipy": "scipy"}[package] for package in packages.split()]
+            done = subprocess.run([sys.executable, "-B", "-c", start, command_name, *hidden], capture_output=True, text=True,
+                                  env={**os.environ, "PYTHONPATH": str(ROOT / "apps" / "python")}, check=False)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertTrue(done.stderr.startswith(f"sonarsim {command_name}: install {packages} (Python is"), done.stderr)
+
+
 class Command(unittest.TestCase):
     def setUp(self):
         scratch = tempfile.TemporaryDirectory()
@@ -228,7 +257,7 @@ class Command(unittest.TestCase):
         start = str(self.folder / start) if start.endswith(".yaml") else start
         out = io.StringIO()
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(out):
-            code = main([str(self.folder / recording), "--preset", start, "--out", str(self.folder / "mine.yaml"), *options])
+            code = command.main([str(self.folder / recording), "--preset", start, "--out", str(self.folder / "mine.yaml"), *options])
         return code, out.getvalue()
 
     def refused(self, sentence, values, start="start.yaml", *options):

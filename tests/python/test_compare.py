@@ -13,8 +13,9 @@ from scipy import special
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.append(str(ROOT / "apps" / "python"))
-from sonarsim.compare import compare_recordings, comparison, points, report, shadows, speckle  # noqa: E402
+from sonarsim.compare import comparison, points, report, shadows, speckle  # noqa: E402
 from sonarsim.compare.bootstrap import exchange_p  # noqa: E402
+from sonarsim.compare.comparison import compare_recordings  # noqa: E402
 from sonarsim.compare.edges import widths_of_steps, windows_of  # noqa: E402
 from sonarsim.compare.figure import Figure, quantile_of  # noqa: E402
 from sonarsim.compare.images import Grid, Images, zones_of  # noqa: E402

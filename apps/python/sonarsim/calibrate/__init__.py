@@ -1,3 +1,1 @@
-"""Fits a preset to one part of the pings of a recording, and judges it by the other."""
-from .command import calibrate, main
-from .statistics import CalibrationError
+"""Fits a preset to one part of the pings of a recording, and judges it by the other (command.py)."""

@@ -97,7 +97,12 @@ def calibrate(recording, preset, judged_share=0.5, is_reversed=False, slope_rad=
             set_shape(start, parts[0], settings)
             fit = fit_image(parts[0], start)
             keys = new_keys(start, fit)
-            result = result_of(recording.name, pings, judged_figures(parts, start, fit), fit.notes, fit.estimates)
+            # The figures that the start and the fit both predict.
+            before = figures_of(parts[1], start.instrument, start.noise_db - start.full_scale_db, start, fit)
+            rows = [before, *(figures_of(part, fit.instrument, fit.level_db, start, fit) for part in parts)]
+            named = [{figure.name: figure for figure in figures} for figures in rows]
+            figures = [tuple(of[name] for of in named) for name in named[2] if name in named[0] and name in named[1]]
+            result = result_of(recording.name, pings, figures, fit.notes, fit.estimates)
     except CalibrationError as fault:
         raise CalibrationError(f"{recording.name}: {fault}") from fault
     text = start.text
@@ -106,14 +111,6 @@ def calibrate(recording, preset, judged_share=0.5, is_reversed=False, slope_rad=
     return result, (f"# Fitted by sonarsim calibrate to {pings[0]} pings of {recording.name}, from {preset}.\n"
                     "# `fit`: a number that was estimated, with its interval of 95 %; `file`: the shape of the pings.\n"
                     "# All others are those of the start, whose own head follows.\n#\n" + text)
-
-
-def judged_figures(parts, start, fit):
-    """The figures that the start and the fit both predict: (start, fitted pings, judged pings)."""
-    before = figures_of(parts[1], start.instrument, start.noise_db - start.full_scale_db, start, fit)
-    rows = [before, *(figures_of(part, fit.instrument, fit.level_db, start, fit) for part in parts)]
-    named = [{figure.name: figure for figure in figures} for figures in rows]
-    return [tuple(of[name] for of in named) for name in named[2] if name in named[0] and name in named[1]]
 
 
 def write(path, text):

@@ -60,7 +60,14 @@ def fit_law(values, full_value, statistics, places=None, offset=0.0, is_log=None
     if len(even) < LEAST_PATCHES:
         raise CalibrationError("fewer than 8 even patches of speckle, of 24 bins and 24 beams (96 bins of a sonar with "
                                "few beams), between the ends of the scale: record longer pings, or with another gain")
-    found = [bootstrap(of.places, moments_of(of, even)) for of in (logs, plain)]
+    found = []      # (standard deviation, skewness) of either
+    for of in (logs, plain):
+        sums = of.sums(even, np.ones(len(of.place)), of.variance, of.third)
+
+        def moments(weights, sums=sums):
+            count, variance, third = (weights @ sums).T
+            return np.stack([np.sqrt(variance / count), third / count / (variance / count) ** 1.5], axis=1)
+        found.append(bootstrap(of.places, moments))
     skewness = [of[1] for of in found]
     check_speckle(logs, even, skewness, statistics.skewness)
     level = np.log(plain.mean_value[even])
@@ -69,23 +76,13 @@ def fit_law(values, full_value, statistics, places=None, offset=0.0, is_log=None
         is_log = bool(np.polyfit(level, 0.5 * np.log(plain.variance[even]), 1)[0] <= 0.5)
     elif is_log is None:
         off = [abs(s.value - statistics.skewness) for s in skewness]
-        is_log = off[1] <= off[0]
+        is_log = bool(off[1] <= off[0])
     deviation, sigma = found[is_log][0], np.sqrt(statistics.variance)
     scale = deviation.scaled(2.0 / sigma)
     if is_log:
         scale = Bounded(*(full_value * DB_OF_E * sigma / x for x in (deviation.value, deviation.high, deviation.low)))
     least = LEAST_ERROR * scale.value * (2.0 if statistics.excess.any() else 1.0)   # drawn statistics have errors
     return Law(full_value, is_log, scale.widened(least), offset, statistics)
-
-
-def moments_of(patches, even):
-    """A function of weights that gives standard deviation and skewness."""
-    sums = patches.sums(even, np.ones(len(patches.place)), patches.variance, patches.third)
-
-    def estimate(weights):
-        count, variance, third = (weights @ sums).T
-        return np.stack([np.sqrt(variance / count), third / count / (variance / count) ** 1.5], axis=1)
-    return estimate
 
 
 def check_speckle(logs, even, skewness, of_start):

@@ -1,6 +1,7 @@
 """The moments of patches of pings, from differences of their values."""
 import numpy as np
 
+from ..compare.images import Grid
 from .statistics import LAGS
 
 MOST_AT_AN_END = 0.003      # share of a patch's values at an end of the scale, which bias its moments
@@ -15,22 +16,16 @@ class Patches:
         pings, ranges, beams = values.shape
         self.full_value = full_value
         self.shape = rows, columns = min(96 if beams < 8 else 24, ranges), min(24, beams)
-        self.grid = ranges // rows, beams // columns
-        self.places = self.grid[0] * self.grid[1]
+        self.grid = Grid((ranges, beams), self.shape)
+        self.places = self.grid.places
         self.place = np.tile(np.arange(self.places), pings)
-        self.row, self.beam = self.place // self.grid[1] * rows, self.place % self.grid[1] * columns
+        self.row, self.beam = self.place // self.grid.columns * rows, self.place % self.grid.columns * columns
         parts = [self.moments(ping, scaled(ping)) for ping in values]
         for name in parts[0]:
             setattr(self, name, np.concatenate([part[name] for part in parts]))
 
-    def cut(self, image):
-        """The patches [place, row, beam] of an image."""
-        (down, across), (rows, columns) = self.grid, self.shape
-        whole = np.asarray(image, float)[:down * rows, :across * columns].reshape(down, rows, across, columns)
-        return whole.transpose(0, 2, 1, 3).reshape(-1, rows, columns)
-
     def moments(self, ping, scaled):
-        (rows, columns), values, x = self.shape, self.cut(ping), self.cut(scaled)
+        (rows, columns), (values, x) = self.shape, (self.grid.cut(np.asarray(one, float)) for one in (ping, scaled))
         middle, half = (rows + 1) // 2, max(columns // 2, 1)
         quarters = [x[:, a, b].mean(axis=(1, 2)) for a in (slice(middle), slice(middle, None))
                     for b in (slice(half), slice(half, None)) if x[:, a, b].size]

@@ -13,7 +13,6 @@ import yaml
 from .statistics import Bounded, CalibrationError
 
 LARGEST_PRESET = 1 << 20
-PROGRAM = os.environ.get("SONARSIM") or shutil.which("sonarsim") or "sonarsim"     # that runs this command
 # The defaults of the program, for the keys that a fit reads.
 DEFAULTS = {
     "beam": {"width_deg": 1.0, "side_lobe_db": -13.3},
@@ -22,6 +21,18 @@ DEFAULTS = {
     "receiver": {"tvg_log": 40.0, "tvg_absorption": True, "tvg_from_m": 0.0, "companding": "gamma", "gamma": 0.5,
                  "dynamic_range_db": 60.0, "samples": 1, "combine": "max", "looks": 1, "offset": 0.0},
 }
+
+
+def program_of(package):
+    """The program of a package folder, .../python/sonarsim: SONARSIM, else the one that came with it, else that of PATH.
+    Links are not followed: those of a build tree lead to the source."""
+    python = pathlib.Path(package).absolute().parent
+    came_with_it = [python.parent / "sonarsim", *(prefix / "bin" / "sonarsim" for prefix in python.parents[2:3])]
+    return (os.environ.get("SONARSIM") or next((str(one) for one in came_with_it if one.is_file()), None)
+            or shutil.which("sonarsim") or "sonarsim")
+
+
+PROGRAM = program_of(pathlib.Path(__file__).parent.parent)
 
 
 @dataclasses.dataclass

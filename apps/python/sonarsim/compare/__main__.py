@@ -6,9 +6,10 @@ import pathlib
 import sys
 import tempfile
 
+from ..need import need
+
 DESCRIPTION = "Compares simulated pings with real ones, figure by figure"
 EXAMPLE = "example: sonarsim compare real_pings out/survey --sensor fls --pings 100 --out compared"
-PACKAGES = "python3-numpy python3-scipy python3-matplotlib python3-yaml python3-pil"
 
 
 def arguments():
@@ -31,8 +32,10 @@ def number_of_pings(text):
     return int(text)
 
 
-def run(options):
+def main():
+    options = arguments()
     # Imported here, so that --help needs no packages.
+    need("numpy", "scipy", "yaml", "PIL", *["matplotlib"] * bool(options.out))
     from ..recording import RecordingError, open_recording
     from . import report
     from .comparison import compare_recordings
@@ -41,30 +44,20 @@ def run(options):
             raise RecordingError(f"{options.out}: holds a comparison already: name another folder, or remove it")
         comparison = compare_recordings(open_recording(options.real, options.real_sensor, options.pings),
                                         open_recording(options.simulated, options.sensor, options.pings))
+        content = report.comparison_json(comparison)
+        if options.out:
+            options.out.mkdir(parents=True, exist_ok=True)
+            # Made beside it and renamed, so that no half of a file is left.
+            with tempfile.TemporaryDirectory(dir=options.out, prefix=".compare") as folder:
+                made = pathlib.Path(folder)
+                report.plot(comparison, made / "compare.svg")
+                (made / "compare.json").write_text(json.dumps(content, indent=2) + "\n")
+                for name in ("compare.svg", "compare.json"):
+                    os.replace(made / name, options.out / name)
+        if options.json or not options.quiet:
+            print(json.dumps(content) + "\n" if options.json else report.comparison_text(comparison), end="")
     except RecordingError as fault:
-        sys.exit(fail(fault))
-    content = report.comparison_json(comparison)
-    if options.out:
-        options.out.mkdir(parents=True, exist_ok=True)
-        # Made beside it and renamed, so that no half of a file is left.
-        with tempfile.TemporaryDirectory(dir=options.out, prefix=".compare") as folder:
-            made = pathlib.Path(folder)
-            report.plot(comparison, made / "compare.svg")
-            (made / "compare.json").write_text(json.dumps(content, indent=2) + "\n")
-            for name in ("compare.svg", "compare.json"):
-                os.replace(made / name, options.out / name)
-    if options.json:
-        print(json.dumps(content))
-    elif not options.quiet:
-        print(report.comparison_text(comparison), end="")
-
-
-def main():
-    options = arguments()
-    try:
-        run(options)
-    except ImportError as fault:
-        return fail(f"needs the Python package {fault.name}: apt install {PACKAGES}")
+        return fail(fault)
     except OSError as fault:
         return fail(f"{fault.filename or options.out or 'output'}: {fault.strerror or fault}")
     except MemoryError:

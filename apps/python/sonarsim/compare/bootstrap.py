@@ -55,14 +55,11 @@ class ComparedFigure:
         return self.adjusted_p < SIGNIFICANCE
 
 
-def tolerance_of(kind, real):
-    tenth = 0.1 * abs(real)
-    return {"tenth": tenth, "decibel": 1.0, "correlation": 0.05, "share": max(0.001, tenth)}[kind]
-
-
 def compared(real, simulated, same_places, same_pings, seed):
     """The ComparedFigure of two figures. What they share at common places, or in common pings, cancels in the difference."""
-    out = ComparedFigure(real.name, value_of(real), value_of(simulated), tolerance_of(real.tolerance, value_of(real)))
+    tenth = 0.1 * abs(value_of(real))
+    tolerances = {"tenth": tenth, "decibel": 1.0, "correlation": 0.05, "share": max(0.001, tenth)}
+    out = ComparedFigure(real.name, value_of(real), value_of(simulated), tolerances[real.tolerance])
     places, pings = (min(len(np.unique(units)) for units in both) for both in (
         (real.places, simulated.places), (real.pings, simulated.pings)))
     of_places, of_pings = corrected(variances(real, simulated, "places", same_places, seed), places), np.zeros(3)

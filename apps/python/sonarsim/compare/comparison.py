@@ -2,10 +2,12 @@
 import dataclasses
 
 import numpy as np
+from scipy import stats
 
 from ..recording import Recording, RecordingError
 from .bootstrap import adjust, compared, exchange_p
-from .images import decibels, have_one_grid, images_of, patch_size_of, zones_of
+from .figure import decibels
+from .images import have_one_grid, images_of, patch_size_of, zones_of
 from .measure import measure_images
 from .soundings import common_angles, measure_soundings
 
@@ -121,15 +123,13 @@ def jensen_shannon(one, other):
     if not one.sum() > 0.0 < other.sum():
         return 1.0
     p, q = one / one.sum(), other / other.sum()
-    middle = 0.5 * (p + q)
-    return float(0.5 * sum(np.sum(x[x > 0.0] * np.log2(x[x > 0.0] / middle[x > 0.0])) for x in (p, q)))
+    return float(0.5 * (stats.entropy(p, 0.5 * (p + q), 2) + stats.entropy(q, 0.5 * (p + q), 2)))
 
 
 def kullback_leibler(one, other):
     """The Kullback-Leibler divergence, nats, with half a count added to each bin, so that an empty one does not make it
     infinite."""
-    p, q = ((x + 0.5) / (x + 0.5).sum() for x in (one, other))
-    return float(np.sum(p * np.log(p / q)))
+    return float(stats.entropy(one + 0.5, other + 0.5))
 
 
 def earth_movers(one, other):

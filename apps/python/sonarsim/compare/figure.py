@@ -4,8 +4,12 @@ import dataclasses
 import numpy as np
 from scipy import sparse
 
-LEAST_POWER = 1e-16
+LEAST_POWER = 1e-16         # -160 dB
 MOST_WEIGHTS = 1 << 22      # held at a time
+
+
+def decibels(powers):
+    return 10.0 * np.log10(np.maximum(powers, LEAST_POWER))
 
 
 @dataclasses.dataclass
@@ -44,7 +48,7 @@ def joined(*parts):
         with np.errstate(invalid="ignore", divide="ignore"):
             mean = np.divide(*(sum(own @ np.bincount(units, figure.weights * factor(figure), own.shape[1])
                                    for figure, units, own in parts) for factor in (lambda f: f.values, lambda f: 1.0)))
-        return 10.0 * np.log10(np.maximum(mean, LEAST_POWER)) if first.reduce == "level" else mean
+        return decibels(mean) if first.reduce == "level" else mean
     values, at = np.unique(np.concatenate([figure.values for figure, *_ in parts]), return_inverse=True)
     ends = np.cumsum([figure.values.size for figure, *_ in parts])
     cells = [sparse.csr_matrix((figure.weights, (own, units)), (len(values), drawn.shape[1]))

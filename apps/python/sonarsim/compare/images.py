@@ -3,16 +3,13 @@ import dataclasses
 
 import numpy as np
 
+from .figure import decibels
+
 MOST_STRIP_PINGS = 64
 CLIPPED_SHARE = 0.995       # values above this share of the largest count as clipped
-LEAST_POWER = 1e-16         # -160 dB
 # Zones; on three pings of a real sonar over a rough bottom these shares find the ranges that a person had marked.
 BOTTOM_DB, STANDS_OUT_DB = 10.0, 15.0
 RING_SHARE, SMOOTHED_SHARE = 28, 44
-
-
-def decibels(powers):
-    return 10.0 * np.log10(np.maximum(powers, LEAST_POWER))
 
 
 @dataclasses.dataclass

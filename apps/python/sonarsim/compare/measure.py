@@ -1,12 +1,13 @@
 """All figures of the images of a recording (docs/compare.md)."""
 import collections
+import functools
 
 import numpy as np
 
 from . import speckle
 from .edges import edge_figures
-from .figure import Figure
-from .images import Grid, decibels
+from .figure import Figure, decibels
+from .images import Grid
 from .points import point_figures
 from .shadows import shadow_figures
 
@@ -31,7 +32,10 @@ def measure_images(images, size, zones, bands):
     for name, zone in (("image" if zones.is_one else "bottom", zones.bottom), ("water", zones.water), ("tail", zones.tail)):
         figures += zone_figures(images, grid, name, zone)
     histograms = [level_histogram(images, grid), texture_histogram(images, grid)]
-    figures += percentile_figures(histograms[0])
+    places, bins = np.nonzero(histograms[0].counts)
+    figures += [Figure.of(f"level of {percent} % of the image, dB", "quantile", "decibel", places, 0,
+                          LOWEST_DB + BIN_DB * bins, histograms[0].counts[places, bins], percent / 100.0)
+                for percent in PERCENTILES]
     if not images.columns_are_pings:
         figures += point_figures(images, grid, zones) + edge_figures(images, grid, zones)
     if images.has_shadows:
@@ -43,10 +47,14 @@ def zone_figures(images, grid, name, zone):
     """Figures of the speckle in the patches of a zone that count."""
     places = np.arange(-(-zone[0] // grid.size[0]) * grid.columns, zone[1] // grid.size[0] * grid.columns)
     across = "pings" if images.columns_are_pings else "beams"
-    rules = [("variation of amplitude", "tenth"), ("Weibull shape", "tenth"), ("inverse K shape", "correlation"),
-             ("scintillation index", "tenth"), ("spread of levels, dB", "tenth"),
-             *((f"correlation over {lag} {unit}", "correlation") for unit in ("ranges", across) for lag in LAGS),
-             ("correlation to the next ping", "correlation")]
+    rules = [("variation of amplitude", "tenth", speckle.variation), ("Weibull shape", "tenth", speckle.weibull_shape),
+             ("inverse K shape", "correlation", speckle.inverse_k_shape),
+             ("scintillation index", "tenth", speckle.scintillation),
+             ("spread of levels, dB", "tenth", speckle.spread_db),
+             *((f"correlation over {lag} {unit}", "correlation",
+                functools.partial(speckle.correlation, lag=lag, axis=axis))
+               for axis, unit in ((1, "ranges"), (2, across)) for lag in LAGS),
+             ("correlation to the next ping", "correlation", None)]
     basis, before = speckle.trend_basis(grid.size), None
     table = np.full((len(images.powers), len(rules), len(places)), np.nan)
     for own, image in zip(table, images.powers if places.size else ()):
@@ -55,20 +63,14 @@ def zone_figures(images, grid, name, zone):
         clipped = ((power >= images.full_power) | (power <= images.least_power)).mean(axis=(1, 2))
         counts = is_even & (trend <= MOST_TREND[name]) & (clipped <= MOST_CLIPPED)
         if counts.any():
-            own[:-1, counts] = patch_values(amplitude[counts])
+            with np.errstate(invalid="ignore", divide="ignore"):
+                own[:-1, counts] = [measure(amplitude[counts]) for *_, measure in rules[:-1]]
         if before is not None and not images.columns_are_pings:
             both = counts & before[1]
             own[-1, both] = speckle.correlation_of(amplitude[both], before[0][both])
         before = amplitude, counts
     return [Figure.of(f"{name}: {what}", "mean" if "correlation" in what else "quantile", tolerance, places,
-                      np.arange(len(table))[:, None], table[:, k]) for k, (what, tolerance) in enumerate(rules)]
-
-
-def patch_values(amplitude):
-    with np.errstate(invalid="ignore", divide="ignore"):
-        return np.stack([*(measure(amplitude) for measure in (
-            speckle.variation, speckle.weibull_shape, speckle.inverse_k_shape, speckle.scintillation, speckle.spread_db)),
-                         *(speckle.correlation(amplitude, lag, axis) for axis in (1, 2) for lag in LAGS)])
+                      np.arange(len(table))[:, None], table[:, k]) for k, (what, tolerance, _) in enumerate(rules)]
 
 
 def level_figures(images, grid, zones, bands):
@@ -149,10 +151,3 @@ def texture_histogram(images, grid):
         return numbers[pattern]
     images = images.powers if min(height, width) > 2 else ()
     return Histogram("texture", 1.0, "patterns", counted(grid, PATTERNS, (patterns_of(grid.cut(one)) for one in images)))
-
-
-def percentile_figures(levels):
-    places, bins = np.nonzero(levels.counts)
-    return [Figure.of(f"level of {percent} % of the image, dB", "quantile", "decibel", places, 0,
-                      LOWEST_DB + BIN_DB * bins, levels.counts[places, bins], percent / 100.0)
-            for percent in PERCENTILES]

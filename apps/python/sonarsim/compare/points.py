@@ -2,8 +2,7 @@
 import numpy as np
 from scipy import ndimage
 
-from .figure import Figure
-from .images import decibels
+from .figure import Figure, decibels
 
 REACH = (9, 25)         # a point is the largest within 4 ranges and 12 beams
 STANDS_OUT = 150.0      # 22 dB over the median of the 7 ranges about it

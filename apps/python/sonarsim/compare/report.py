@@ -27,6 +27,9 @@ RULES = (
     ("", "level, dB", f"instrument.source_level_db, {RECEIVER}full_scale_db, the material's lambert_db"),
     ("level of", "", f"instrument.source_level_db, {RECEIVER}full_scale_db, the material's lambert_db"),
     ("", "", LOOKS))
+WORDS = {   # by (differs, agrees)
+    (True, True): "agrees, measurably different", (True, False): "DIFFERS", (False, True): "agrees",
+    (False, False): "off, perhaps by chance"}
 HISTOGRAM = ("{name}: Jensen-Shannon {jensen_shannon_bits:.4g} bits (by chance up to {usual_jensen_shannon_bits:.4g}), "
              "Kullback-Leibler {kullback_leibler_nats:.4g} nats, earth mover's {earth_movers:.4g} {earth_movers_unit}")
 
@@ -40,19 +43,13 @@ def interval(value, half):
     return f"{value:.4g} +- {half:.2g}" if half > 0.0 else f"{value:.4g}"
 
 
-def word_of(figure):
-    if figure.differs:
-        return "agrees, measurably different" if figure.agrees else "DIFFERS"
-    return "agrees" if figure.agrees else "off, perhaps by chance"
-
-
 def comparison_text(c):
     width = max(6, *(len(figure.name) for figure in c.figures))
     lines = [f"{'figure':{width}}  {'real':>19}  {'simulated':>19}  {'difference':>19}"]
     for figure in c.figures:
         values = zip((figure.real, figure.simulated, figure.difference), figure.halves)
         columns = "  ".join(f"{interval(*one):>19}" for one in values)
-        lines.append(f"{figure.name:{width}}  {columns}  {word_of(figure)}")
+        lines.append(f"{figure.name:{width}}  {columns}  {WORDS[figure.differs, figure.agrees]}")
     lines += [HISTOGRAM.format(**one) for one in c.histograms]
     if c.is_relative:
         lines.append("Levels are relative to the mean of each recording: one has no full_value.")

@@ -2,8 +2,7 @@
 import numpy as np
 from scipy import ndimage
 
-from .figure import Figure
-from .images import LEAST_POWER
+from .figure import LEAST_POWER, Figure
 
 WINDOW = 5
 LEAST_LENGTH = 5
@@ -27,15 +26,12 @@ def shadow_figures(images, grid, zones):
             Figure.of("shadows: far edge, ranges", "quantile", "tenth", places, pings, edges)]
 
 
-def window_mean(image, size):
-    """The mean of a window that ends at the image's borders."""
-    inside, all_ones = (ndimage.uniform_filter(one, size, mode="constant") for one in (image, np.ones_like(image)))
-    return inside / all_ones
-
-
 def shadows_of(image, begin):
     """(column, first range, end, depth in dB, width of the far edge) of the shadows from range `begin` on."""
-    smooth, across = (window_mean(image, size)[begin:] for size in ((WINDOW, WINDOW), (1, WINDOW)))
+    # Windows end at the image's borders.
+    inside, ones = ([ndimage.uniform_filter(one, size, mode="constant")[begin:] for size in ((WINDOW, WINDOW), (1, WINDOW))]
+                    for one in (image, np.ones_like(image)))
+    smooth, across = inside[0] / ones[0], inside[1] / ones[1]
     middle = image.shape[1] // 2
     median = np.partition(smooth, middle, axis=1)[:, middle]
     is_dark = np.zeros((len(smooth) + 2, image.shape[1]), int)

@@ -7,18 +7,15 @@ import signal
 import sys
 from concurrent.futures.process import BrokenProcessPool
 
-try:
-    import numpy    # noqa: F401  pylint: disable=unused-import
-    import PIL      # noqa: F401  pylint: disable=unused-import
-except ImportError as missing:
-    sys.exit(print(f"sonarsim export: needs {missing.name}, which is not installed: apt install python3-numpy "
-                   "python3-pil", file=sys.stderr) or 2)
+from ..need import need
 
-from . import formats, split
-from .destination import destination
-from .pieces import prepare, tile_hint
-from .source import Source
-from .statistics import Statistics
+need("numpy", "PIL")
+# pylint: disable=wrong-import-position
+from . import formats, split    # noqa: E402
+from .destination import destination  # noqa: E402
+from .pieces import prepare, tile_hint  # noqa: E402
+from .source import Source  # noqa: E402
+from .statistics import Statistics  # noqa: E402
 
 BATCH = 512     # pictures whose pieces are in memory at a time
 

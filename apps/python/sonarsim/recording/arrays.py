@@ -57,27 +57,6 @@ def two_sides(rows):
     return np.stack([rows[:, side - 1::-1], rows[:, side:]], axis=2)
 
 
-def values_of(own, most_pings):
-    """The pings of `files` as float32 [ping, range, beam]."""
-    arrays = []
-    for path in own.files:
-        array = pings_of(read_array(path), own.kind, path)[:most_pings - sum(map(len, arrays))]
-        if arrays and array.shape[1:] != arrays[0].shape[1:]:
-            raise RecordingError(f"{path}: has pings of the shape {array.shape[1:]}, the first file {arrays[0].shape[1:]}")
-        if array.size + sum(one.size for one in arrays) > MOST_VALUES:
-            raise RecordingError(f"{path}: makes more than {MOST_VALUES} values in all; take fewer pings")
-        arrays.append(np.asarray(array, np.float32))
-    return np.concatenate(arrays)
-
-
-def soundings_of(own, most_pings):
-    arrays = [read_array(path) for path in own.files]
-    for array, path in zip(arrays, own.files):
-        if array.ndim != 2 or array.shape != arrays[0].shape:
-            raise RecordingError(f"{path}: has the shape {list(array.shape)}, not [ping, beam] as {own.files[0]}")
-    return Soundings.of(list(zip(*(array[:most_pings] for array in arrays))))
-
-
 def bearings_of(own, beams):
     """The bearings of the beams in radians, from the keys of recording.yaml."""
     if own.bearings_deg:
@@ -104,9 +83,22 @@ def read_arrays(own, most_pings):
     recording = Recording(own.kind, own.law, "", own.sound_speed_m_s, own.first_range_m or 0.0, own.range_step_m or 0.0,
                           frequency_hz=own.frequency_hz, altitude_m=own.altitude_m)
     if own.source == "soundings":
-        recording.soundings = soundings_of(own, most_pings)
+        arrays = [read_array(path) for path in own.files]
+        for array, path in zip(arrays, own.files):
+            if array.ndim != 2 or array.shape != arrays[0].shape:
+                raise RecordingError(f"{path}: has the shape {list(array.shape)}, not [ping, beam] as {own.files[0]}")
+        recording.soundings = Soundings.of(list(zip(*(array[:most_pings] for array in arrays))))
     else:
-        recording.values = values_of(own, most_pings)
+        arrays = []
+        for path in own.files:
+            array = pings_of(read_array(path), own.kind, path)[:most_pings - sum(map(len, arrays))]
+            if arrays and array.shape[1:] != arrays[0].shape[1:]:
+                raise RecordingError(f"{path}: has pings of the shape {array.shape[1:]}, the first file "
+                                     f"{arrays[0].shape[1:]}")
+            if array.size + sum(one.size for one in arrays) > MOST_VALUES:
+                raise RecordingError(f"{path}: makes more than {MOST_VALUES} values in all; take fewer pings")
+            arrays.append(np.asarray(array, np.float32))
+        recording.values = np.concatenate(arrays)
     if own.kind == "imaging":
         recording.bearing_rad = bearings_of(own, recording.values.shape[2])
     set_times(own, recording)

@@ -3,6 +3,7 @@
 A reader takes the bytes of a file, the number of pings to read and the recording.yaml, and returns a Recording. It raises
 ValueError with a sentence that lacks its subject, the file. struct.error means that the file is cut off."""
 import dataclasses
+import datetime
 import struct
 
 import numpy as np
@@ -25,6 +26,30 @@ def frames(data, at, length, most_pings):
     if not whole:
         raise ValueError("has no frames")
     return [memoryview(data)[at + k * length:at + (k + 1) * length] for k in range(min(whole, most_pings))]
+
+
+def pings_among(data, mark, header, most_pings, length_of, pings_of):
+    """The pings of the messages that begin with a mark, among any other bytes. `length_of(at)` is the length of the one at
+    an offset, 0 if it is not read; `pings_of` gives a list of its pings, None if its sum is wrong."""
+    found, at, is_cut_off = [], data.find(mark), False
+    while at >= 0 and len(found) < most_pings and at + header <= len(data):
+        length = length_of(at)
+        is_inside = at + length <= len(data)
+        pings = pings_of(memoryview(data)[at:at + length]) if length and is_inside else None
+        is_cut_off = pings is None and (is_cut_off or not is_inside)
+        found += pings or []
+        at = data.find(mark, at + (1 if pings is None else length))
+    if (is_cut_off or at >= 0) and len(found) < most_pings:
+        raise ValueError("is cut off within a message")
+    return found
+
+
+def days_since_1970(year, month, day):
+    """None if there is no such day."""
+    try:
+        return (datetime.date(year, month, day) - datetime.date(1970, 1, 1)).days
+    except (ValueError, OverflowError):
+        return None
 
 
 def stacked(pings):

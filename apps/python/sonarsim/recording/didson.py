@@ -1,15 +1,14 @@
-"""Sound Metrics DIDSON (.ddf), versions 3 and 4: 8 bits over 90 dB in the order of the beams.
+"""Sound Metrics DIDSON (.ddf, versions 3 and 4: 8 bits over 90 dB) and ARIS (.aris, version 5: 8 bits).
 
-A header of the file, then frames, each a header and its samples [sample, beam]. Ranges follow Echoview's formula ("DIDSON
-data files"): the begin of the window counts periods. The distortion of the lens is not taken out."""
-import datetime
-import struct
-
+A header of the file, then frames, each a header and its samples [sample, beam] in the order of the beams. Ranges of a
+DIDSON follow Echoview's formula ("DIDSON data files"): the begin of the window counts periods. The distortion of the lens
+is not taken out."""
 import numpy as np
 
-from .bytes_of_pings import decibel_law, field, frames, timed_recording
+from .bytes_of_pings import FASTEST_SOUND_M_S, days_since_1970, decibel_law, field, frames, law_of, timed_recording
 
-HEADERS = {b"DDF\x03": (512, 256), b"DDF\x04": (1024, 1024)}   # of the file and of a frame
+ARIS = b"DDF\x05"
+HEADERS = {b"DDF\x03": (512, 256), b"DDF\x04": (1024, 1024), ARIS: (1024, 1024)}    # of the file and of a frame
 MOST_SAMPLES = 65536
 CLASSIC_PERIOD_S, EXTENDED_PERIOD_S = 0.000512, 0.000572
 LAST_CLASSIC_SERIAL = 18
@@ -21,35 +20,44 @@ def read(data, most_pings, own):
     if mark not in HEADERS:
         raise ValueError("is a DIDSON file of another version than 3, 4 and 5, which are read")
     file_header, frame_header = HEADERS[mark]
-    is_fine, beams, rate_hz, samples, serial = (
-        field(data, layout, at) for layout, at in (("i", 12), ("i", 16), ("f", 20), ("i", 24), ("i", 44)))
-    if beams not in (48, 96) or not 0 < samples <= MOST_SAMPLES:
-        raise ValueError(f"has {beams} beams and {samples} samples, which no DIDSON has")
-    if not 0.0 < rate_hz < 1e9:
-        raise ValueError("has no rate of samples")
+    beams, samples = field(data, "I", 16), field(data, "I", 24)
+    name, facts_of = ("ARIS", facts_of_aris) if mark == ARIS else ("DIDSON", facts_of_didson)
+    if beams not in ((48, 64, 96, 128) if mark == ARIS else (48, 96)) or not 0 < samples <= MOST_SAMPLES:
+        raise ValueError(f"has {beams} beams and {samples} samples, which no {name} has")
     found = frames(data, file_header, frame_header + beams * samples, most_pings)
     if any(bytes(frame[12:16]) != mark for frame in found):
         raise ValueError("has a frame of another version")
-    return timed_recording(
-        "imaging", [np.frombuffer(frame, np.uint8, offset=frame_header).reshape(samples, beams) for frame in found], own,
-        [(window_s(frame, is_fine, serial) + 0.5 / rate_hz, 1.0 / rate_hz) for frame in found],
-        law=decibel_law(own, 90.0, 255.0), times_s=np.array([time_s(frame) for frame in found]))
+    values = [np.frombuffer(frame, np.uint8, offset=frame_header).reshape(samples, beams) for frame in found]
+    return timed_recording("imaging", values, own, **facts_of(data, found, own))
 
 
-def window_s(frame, is_fine, serial):
-    """The two-way travel time at which a frame begins."""
-    is_classic = serial <= LAST_CLASSIC_SERIAL or field(frame, "i", 192) & 1
-    periods = field(frame, "i", 52)
-    if not 0 <= periods < MOST_PERIODS:
-        raise ValueError("has a frame without a window of range")
-    return (1 if is_fine else 2) * (CLASSIC_PERIOD_S if is_classic else EXTENDED_PERIOD_S) * periods
+def facts_of_aris(data, found, own):
+    """Ranges, speed of sound, law and times of frames."""
+    if any(field(frame, "I", 468) != field(data, "I", 24) for frame in found):
+        raise ValueError("changes its number of samples; split the file there")
+    if any(field(frame, "I", 516) != 1 for frame in found):
+        raise ValueError("has samples that are not in the order of the beams; save it again with ARIScope")
+    speed = field(found[0], "f", 464)
+    if not 0.0 < speed < FASTEST_SOUND_M_S:
+        raise ValueError("has a frame without a speed of sound")
+    times = [(1e-6 * field(frame, "I", 476), 1e-6 * field(frame, "I", 452)) for frame in found]     # delay, period
+    return {"ranges_s": [(delay + 0.5 * period, period) for delay, period in times], "speed_m_s": speed,
+            "law": law_of(own), "times_s": np.array([1e-6 * field(frame, "Q", 20) for frame in found])}
 
 
-def time_s(frame):
-    """Seconds since 1970, by the clock of the computer that recorded."""
-    *date, hour, minute, second, hundredths = struct.unpack_from("<7i", frame, 20)
-    try:
-        days = (datetime.date(*date) - datetime.date(1970, 1, 1)).days
-    except (ValueError, OverflowError):
-        raise ValueError("has a frame without a date") from None
-    return ((days * 24 + hour) * 60 + minute) * 60 + second + 0.01 * hundredths
+def facts_of_didson(data, found, own):
+    """The same; the speed of sound is that of recording.yaml, and times are of the computer that recorded."""
+    is_fine, rate_hz, serial = field(data, "i", 12), field(data, "f", 20), field(data, "i", 44)
+    if not 0.0 < rate_hz < 1e9:
+        raise ValueError("has no rate of samples")
+    ranges_s, times_s = [], []
+    for frame in found:
+        is_classic, periods = serial <= LAST_CLASSIC_SERIAL or field(frame, "i", 192) & 1, field(frame, "i", 52)
+        days = days_since_1970(*(field(frame, "i", at) for at in (20, 24, 28)))
+        if not 0 <= periods < MOST_PERIODS or days is None:
+            raise ValueError("has a frame without a window of range, or without a date")
+        window = (1 if is_fine else 2) * (CLASSIC_PERIOD_S if is_classic else EXTENDED_PERIOD_S) * periods
+        ranges_s.append((window + 0.5 / rate_hz, 1.0 / rate_hz))
+        clock = [field(frame, "i", at) for at in (32, 36, 40, 44)]
+        times_s.append(86400.0 * days + np.dot(clock, (3600.0, 60.0, 1.0, 0.01)))
+    return {"ranges_s": ranges_s, "law": decibel_law(own, 90.0, 255.0), "times_s": np.array(times_s)}

@@ -18,7 +18,12 @@ def read(data, most_pings, own):
     pings = [ping for datagram in datagrams(data) if datagram[:4] == b"RAW0" for ping in power_of(datagram)]
     if not pings:
         raise ValueError("has no power of an EK60 (RAW0 datagrams)")
-    frequency = chosen_frequency(sorted({ping["frequency_hz"] for ping in pings}), own.frequency_hz)
+    all_hz = sorted({ping["frequency_hz"] for ping in pings})
+    near = [one for one in all_hz if abs(one - (own.frequency_hz or one)) < 1e-3 * one]
+    if not near or len(near) > 1 and not own.frequency_hz:
+        raise ValueError(f"has channels of {', '.join(f'{one:.0f}' for one in all_hz)} Hz; choose one of them with "
+                         "`frequency_hz`")
+    frequency = near[0]
     pings = [ping for ping in pings if ping["frequency_hz"] == frequency][:most_pings]
     recording = timed_recording(
         "echosounder", [ping["steps"][:, None] for ping in pings], own,
@@ -56,11 +61,3 @@ def power_of(datagram):
     return [{"time_s": field(datagram, "Q", 4) / 1e7 - S_FROM_1601_TO_1970, "frequency_hz": frequency,
              "sample_s": sample_s, "sound_speed_m_s": speed, "offset": offset,
              "steps": np.frombuffer(datagram, "<i2", count, DATA_AT)}]
-
-
-def chosen_frequency(all_hz, wanted_hz):
-    for one in all_hz:
-        if abs(one - (wanted_hz or one)) < 1e-3 * one and (wanted_hz or len(all_hz) == 1):
-            return one
-    raise ValueError(f"has channels of {', '.join(f'{one:.0f}' for one in all_hz)} Hz; choose one of them with "
-                     "`frequency_hz`")

@@ -4,12 +4,14 @@ import struct
 
 import numpy as np
 
-from . import aris, didson, ek60, oculus, ping360, xtf
+from . import didson, ek60, oculus, ping360, xtf
 from .arrays import bearings_of, set_times
 from .recording import MOST_VALUES, RecordingError, Soundings
 
 LARGEST_FILE = 1 << 31
-READERS = {b"CON0": ek60.read, b"XML0": "an EK80", b"#": "a .kmall", b"\x02I": "an .all"}   # by the bytes from the fourth on
+READERS = {     # of `logs`, by an offset and the bytes there
+    (0, b"DDF"): didson.read, (4, b"CON0"): ek60.read, (4, b"XML0"): "an EK80", (4, b"#"): "a .kmall",
+    (4, b"\x02I"): "an .all"}
 
 
 def read_files(own, most_pings):
@@ -25,7 +27,20 @@ def read_files(own, most_pings):
         if values > MOST_VALUES:
             raise RecordingError(f"{path}: makes more than {MOST_VALUES} values in all; take fewer pings")
         parts.append(part)
-    return complete(own, joined(own, parts))
+    recording = joined(own, parts)
+    # What the format lacks is taken from recording.yaml.
+    recording.frequency_hz = own.frequency_hz or recording.frequency_hz
+    recording.altitude_m = own.altitude_m or recording.altitude_m
+    if own.kind == "imaging" and recording.bearing_rad is None:
+        if not own.bearings_deg and own.bearing_first_deg == own.bearing_last_deg:
+            own.refuse("lacks 'bearing_first_deg' and 'bearing_last_deg', or 'bearings_deg': this format has no "
+                       "bearings")
+        recording.bearing_rad = bearings_of(own, recording.values.shape[2])
+    heads = np.zeros(len(recording)) if recording.head_rad is None else recording.head_rad
+    if recording.times_s is None:
+        set_times(own, recording, own.kind == "imaging")
+    recording.head_rad = np.radians(own.head_first_deg) + heads
+    return recording
 
 
 def read_file(path, own, most_pings):
@@ -33,7 +48,11 @@ def read_file(path, own, most_pings):
         if path.stat().st_size > LARGEST_FILE:
             raise ValueError("is larger than 2 GB; split it")
         content = path.read_bytes()
-        read = {"xtf": xtf.read, "oculus": oculus.read}.get(own.source) or reader_of(content)
+        of_xtf = xtf.read_soundings if own.kind == "soundings" else xtf.read_sides
+        read = {"xtf": of_xtf, "oculus": oculus.read}.get(own.source) or next(
+            (reader for (at, mark), reader in READERS.items() if content.startswith(mark, at)), ping360.read)
+        if isinstance(read, str):
+            raise ValueError(f"is {read} file, which is not read; write its pings as arrays (docs/compare.md)")
         return read(content, most_pings, own)
     except OSError as fault:
         raise RecordingError(f"{path}: cannot be read: {fault.strerror}") from fault
@@ -41,16 +60,6 @@ def read_file(path, own, most_pings):
         raise RecordingError(f"{path}: is cut off") from fault
     except ValueError as fault:
         raise RecordingError(f"{path}: {fault}") from fault
-
-
-def reader_of(content):
-    """The reader of the format that the first bytes show."""
-    if content[:3] == b"DDF":
-        return aris.read if content[:4] == aris.MARK else didson.read
-    reader = next((reader for mark, reader in READERS.items() if content[4:].startswith(mark)), ping360.read)
-    if isinstance(reader, str):
-        raise ValueError(f"is {reader} file, which is not read; write its pings as arrays (docs/compare.md)")
-    return reader
 
 
 def joined(own, parts):
@@ -71,18 +80,3 @@ def joined(own, parts):
         if getattr(first, name) is not None:
             setattr(first, name, np.concatenate([getattr(part, name) for part in parts]))
     return first
-
-
-def complete(own, recording):
-    """Takes from recording.yaml what the format lacks."""
-    recording.frequency_hz = own.frequency_hz or recording.frequency_hz
-    recording.altitude_m = own.altitude_m or recording.altitude_m
-    if own.kind == "imaging" and recording.bearing_rad is None:
-        if not own.bearings_deg and own.bearing_first_deg == own.bearing_last_deg:
-            own.refuse("lacks 'bearing_first_deg' and 'bearing_last_deg', or 'bearings_deg': this format has no bearings")
-        recording.bearing_rad = bearings_of(own, recording.values.shape[2])
-    heads = np.zeros(len(recording)) if recording.head_rad is None else recording.head_rad
-    if recording.times_s is None:
-        set_times(own, recording, own.kind == "imaging")
-    recording.head_rad = np.radians(own.head_first_deg) + heads
-    return recording

@@ -4,7 +4,7 @@ The messages of the Oculus SDK as the sonar sends them, one after the other, or 
 unpacked. A header of 16 bytes: 0x4f53, two devices, the kind of message, its version, the length of what follows."""
 import numpy as np
 
-from .bytes_of_pings import field, law_of, stacked
+from .bytes_of_pings import field, law_of, pings_among, stacked
 from .recording import Recording
 
 MARK = b"SO"
@@ -19,16 +19,9 @@ TYPES = {0: "<u1", 1: "<u2", 3: "<u4"}
 
 
 def read(data, most_pings, own):
-    pings, at, is_cut_off = [], data.find(MARK), False
-    while at >= 0 and len(pings) < most_pings and at + HEADER <= len(data):
-        is_result, end = field(data, "H", at + 6) == PING_RESULT, at + HEADER + field(data, "I", at + 10)
-        is_whole = is_result and end <= len(data)
-        if is_whole:
-            pings.append(ping_of(memoryview(data)[at:end]))
-        is_cut_off = not is_whole and (is_cut_off or is_result)
-        at = data.find(MARK, end if is_whole else at + 1)
-    if (is_cut_off or at >= 0) and len(pings) < most_pings:
-        raise ValueError("is cut off within a message of an Oculus")
+    def length_of(at):
+        return HEADER + field(data, "I", at + 10) if field(data, "H", at + 6) == PING_RESULT else 0
+    pings = pings_among(data, MARK, HEADER, most_pings, length_of, lambda message: [ping_of(message)])
     if not pings:
         raise ValueError("has no ping result of an Oculus")
     frequency, speed, step, image, bearings = pings[0]

@@ -3,7 +3,7 @@
 A message is "BR", the length of its payload, its number, two devices, the payload, and the sum of all bytes before."""
 import numpy as np
 
-from .bytes_of_pings import field, law_of, timed_recording
+from .bytes_of_pings import field, law_of, pings_among, timed_recording
 
 MARK = b"BR"
 HEADER = 8
@@ -13,18 +13,9 @@ GRADIAN = np.pi / 200.0
 
 
 def read(data, most_pings, own):
-    pings = []      # gradians, period, kHz, samples
-    at, is_cut_off = data.find(MARK), False
-    while at >= 0 and len(pings) < most_pings and at + HEADER <= len(data):
-        end, number = at + HEADER + field(data, "H", at + 2), field(data, "H", at + 4)
-        is_ours, is_inside = number in SAMPLES_AT, end + 2 <= len(data)
-        is_whole = is_ours and is_inside and sum(data[at:end]) & 0xFFFF == field(data, "H", end)
-        if is_whole:
-            pings += ping_of(data[at + HEADER:end], SAMPLES_AT[number])
-        is_cut_off = not is_whole and (is_cut_off or is_ours and not is_inside)
-        at = data.find(MARK, end + 2 if is_whole else at + len(MARK))
-    if (is_cut_off or at >= 0) and len(pings) < most_pings:
-        raise ValueError("is cut off within a message of a Ping360")
+    def length_of(at):
+        return HEADER + field(data, "H", at + 2) + 2 if field(data, "H", at + 4) in SAMPLES_AT else 0
+    pings = pings_among(data, MARK, HEADER, most_pings, length_of, pings_of)
     if not pings:
         raise ValueError("is no .raw of an EK60, no .ddf and no .aris, and has no pings of a Ping360")
     # Heads turn clockwise from above.
@@ -33,8 +24,12 @@ def read(data, most_pings, own):
                            frequency_hz=1e3 * pings[0][2], head_rad=np.array([-GRADIAN * ping[0] for ping in pings]))
 
 
-def ping_of(payload, samples_at):
-    """The ping of a message in a list, which is empty if it has no samples."""
+def pings_of(message):
+    """The (gradians, period, kHz, samples) of a message in a list, which is empty if it has no samples; None if its sum is
+    wrong."""
+    if sum(message[:-2]) & 0xFFFF != field(message, "H", len(message) - 2):
+        return None
+    payload, samples_at = message[HEADER:-2], SAMPLES_AT[field(message, "H", 4)]
     count = field(payload, "H", samples_at - 2)
     if count > len(payload) - samples_at:
         raise ValueError("has a ping with more samples than their message")

@@ -2,12 +2,12 @@
 
 Of each ping the first port channel and the first starboard channel are read. Samples are unsigned 8, 16 or 32 bits or
 IEEE floats, times 2 to the power of minus the channel's weight."""
-import datetime
+import itertools
 import math
 
 import numpy as np
 
-from .bytes_of_pings import field, law_of, stacked
+from .bytes_of_pings import days_since_1970, field, law_of, stacked
 from .recording import Recording, Soundings
 
 FILE_HEADER, CHANNEL_INFO, PING_HEADER, CHANNEL_HEADER = 1024, 128, 256, 64
@@ -19,10 +19,6 @@ LONGEST_RANGE_M = 1e5
 SAMPLES = {8: "<u1", 3: "<u2", 2: "<u4", 5: "<f4", -1: "<u1", -2: "<u2", -4: "<u4"}
 SOUNDING = np.dtype({"names": ["intensity", "two_way_s", "angle_deg"], "formats": ["<f8"] * 3, "offsets": [4, 16, 32],
                      "itemsize": 64})
-
-
-def read(data, most_pings, own):
-    return read_soundings(data, most_pings, own) if own.kind == "soundings" else read_sides(data, most_pings, own)
 
 
 def read_sides(data, most_pings, own):
@@ -54,7 +50,7 @@ def read_sides(data, most_pings, own):
 
 def read_soundings(data, most_pings, own):
     pings, times, speeds = [], [], []
-    for record in records(data, len(channels_of(data)), MULTIBEAM):
+    for record in itertools.islice(records(data, len(channels_of(data)), MULTIBEAM), most_pings):
         count = field(record, "H", 4)
         if PING_HEADER + count * SOUNDING.itemsize > len(record):
             raise ValueError("has more soundings than their record")
@@ -68,8 +64,6 @@ def read_soundings(data, most_pings, own):
             raise ValueError("has no speed of sound; add `sound_speed_m_s` to recording.yaml")
         pings.append((0.5 * speeds[-1] * beams["two_way_s"], np.radians(beams["angle_deg"]), beams["intensity"]))
         times.append(time_s(record))
-        if len(pings) == most_pings:
-            break
     if not pings:
         raise ValueError("has no pings with soundings (records of the type 28)")
     return Recording("soundings", law_of(own), sound_speed_m_s=speeds[0], soundings=Soundings.of(pings),
@@ -129,11 +123,7 @@ def sides_of(record, channels):
 
 def time_s(record):
     """Seconds since 1970; of the day alone where there is no date."""
-    try:
-        day = datetime.date(field(record, "H", 14), record[16], record[17])
-        days = (day - datetime.date(1970, 1, 1)).days
-    except ValueError:
-        days = 0
+    days = days_since_1970(field(record, "H", 14), record[16], record[17]) or 0
     return 86400.0 * days + 3600.0 * record[18] + 60.0 * record[19] + record[20] + 0.01 * record[21]
 
 
