@@ -7,12 +7,9 @@ import signal
 import sys
 from concurrent.futures.process import BrokenProcessPool
 
-try:
-    import numpy    # noqa: F401  pylint: disable=unused-import
-    import PIL      # noqa: F401  pylint: disable=unused-import
-except ImportError as missing:
-    sys.exit(print(f"sonarsim export: needs {missing.name}, which is not installed: apt install python3-numpy "
-                   "python3-pil", file=sys.stderr) or 2)
+from ..need import need
+
+need("numpy", "PIL")
 
 from . import formats, split
 from .destination import destination

@@ -8,7 +8,7 @@ from PIL import Image
 
 from .. import data
 from . import runs
-from .source import MOST_PIXELS, objects_of, read_facts
+from .source import MOST_PIXELS, objects_of
 
 Image.MAX_IMAGE_PIXELS = MOST_PIXELS
 GREYS = np.floor(255 * np.sqrt(np.arange(65536) / 65535) + 0.5).astype(np.uint8)
@@ -34,11 +34,8 @@ def prepare(picture, numbers, options):
     parts = [part_of(picture, frame) for frame in frames]
     if not any(parts):
         return [], len(frames), 0
-    facts = read_facts(picture.facts)
-    try:
-        objects = [one for one in objects_of(facts, picture, numbers) if is_kept(one, picture, options)]
-    except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as fault:
-        raise ValueError(f"{picture.facts}: is damaged: {fault}") from fault
+    with data.reading(picture.facts):
+        objects = [one for one in objects_of(picture, numbers) if is_kept(one, picture, options)]
     pixels = pixels_of(picture, len(frames) == 1)
     pieces, dropped = [], 0
     for frame, part in zip(frames, parts):

@@ -66,7 +66,7 @@ class Source:
         for dataset in self.datasets:
             names = list(dataset.classes.values())
             known.update(dict.fromkeys(names))
-            annotated.update(dict.fromkeys(name for name in names if name not in background(dataset)))
+            annotated.update(dict.fromkeys(name for name in names if name not in dataset.background))
         require_known(options.without, known, "--without")
         if not annotated:
             raise ValueError(f"{self.datasets[0].folder}: each class is background by labels.background of its "
@@ -75,7 +75,7 @@ class Source:
         if not self.classes:
             raise ValueError("--without: no class is left")
         numbers = {name: k + 1 for k, name in enumerate(self.classes)}
-        self.numbers = [{name: 0 if name in background(dataset) else numbers.get(name, 0)
+        self.numbers = [{name: 0 if name in dataset.background else numbers.get(name, 0)
                          for name in dataset.classes.values()} for dataset in self.datasets]
 
     def _add_pictures(self, index, options):
@@ -88,13 +88,10 @@ class Source:
         for sensor in dataset.sensors.values():
             if options.sensor and sensor.name not in options.sensor:
                 continue
-            try:
+            with data.reading(dataset.folder / "dataset.json"):
                 for picture in pictures_of(sensor, parts, options):
                     self._name(picture, index, sensor.name)
                     self.pictures.append(picture)
-            except (KeyError, TypeError, IndexError, AttributeError) as fault:
-                raise ValueError(f"{dataset.folder / 'dataset.json'}: is damaged: sensor {sensor.name!r}: "
-                                 f"{fault!r}") from fault
 
     def _name(self, picture, index, sensor):
         stem = picture.path.name.split(".")[0]
@@ -114,14 +111,6 @@ def require_known(given, known, option):
             raise ValueError(f"{option}: there is no {name!r}; there are: {', '.join(known)}")
 
 
-def background(dataset):
-    """The names of the classes that are no objects."""
-    try:
-        return dataset.description["labels"].get("annotations", {"background": []})["background"]
-    except (KeyError, TypeError, AttributeError) as fault:
-        raise ValueError(f"{dataset.folder / 'dataset.json'}: is damaged: labels.annotations: {fault!r}") from fault
-
-
 def pictures_of(sensor, parts, options):
     """Yields the pictures of a sensor; none for a kind without pictures. `parts` has those of all poses."""
     of_ping = [parts[pose] for pose in sensor.pings]
@@ -137,9 +126,9 @@ def pings_of(sensor, of_ping, is_bins):
         advice = ("neither images nor arrays of its bins; set output.image: true and render it again, or leave out "
                   "--bins" if is_bins else "no fans; set output.fan: true and render it again, or take the "
                   "pictures of its bins with --bins")
-        raise ValueError(f"{sensor.folder}: sensor {sensor.name!r} has {advice}")
+        raise data.DataError(f"{sensor.folder}: sensor {sensor.name!r} has {advice}")
     if "objects" not in sensor.keys:
-        raise ValueError(f"{sensor.folder}: sensor {sensor.name!r} has no objects; {ADVICE}")
+        raise data.DataError(f"{sensor.folder}: sensor {sensor.name!r} has no objects; {ADVICE}")
     shape = len(sensor.azimuth_edges_rad) - 1, len(sensor.range_edges_m) - 1
     if not is_bins:
         shape = sensor.description["fan"]["width_px"], sensor.description["fan"]["height_px"]
@@ -155,43 +144,34 @@ def records_of(sensor, of_ping):
     for k in range(-(-len(of_ping) // steps)):
         facts = f"{sensor.name}/objects.json" if strip else f"{sensor.name}/objects_{k:04}.json"
         if not (sensor.folder / facts).is_file():
-            raise ValueError(f"{sensor.folder}: has no {facts}, which lists the objects; {ADVICE}")
+            raise data.DataError(f"{sensor.folder}: has no {facts}, which lists the objects; {ADVICE}")
         path = data.own_file(sensor.folder, strip["boxes_of"] if strip else sweep["boxes_of"] % k)
         facts = data.own_file(sensor.folder, facts)
-        sheet = read_facts(facts)
+        with data.reading(facts):
+            sheet = data.read_json(facts.read_bytes())
+            shape = sheet["width"], sheet["height"]
         # The last picture of sweeps shows pings of the sweep before, too, if it is cut short.
         end = min((k + 1) * steps, len(of_ping))
         each = data.whole(strip.get("pings_per_pixel", 1), 1, "pings_per_pixel") if strip else steps
         shown = [set(of_ping[first:min(first + each, end)]) for first in range(max(end - steps, 0), end, each)]
-        one = picture(sensor, path, facts, "strip" if strip else "sweep", (sheet["width"], sheet["height"]),
+        one = picture(sensor, path, facts, "strip" if strip else "sweep", shape,
                       [parts.pop() if len(parts) == 1 else None for parts in shown])
         one.rows_are_pings = not strip or strip.get("pings_along", "y") == "y"
         if strip and len(one.parts) != (one.height if one.rows_are_pings else one.width):
-            raise ValueError(f"{facts}: has a picture with more or fewer pings than dataset.json says")
+            raise data.DataError(f"{facts}: has a picture with more or fewer pings than dataset.json says")
         yield one
 
 
 def picture(sensor, path, facts, kind, shape, parts):
     width, height = (data.whole(side, 1, "width or height") for side in shape)
     if max(width, height) > LARGEST_SIDE or width * height > MOST_PIXELS:
-        raise ValueError(f"{path}: is too large a picture: {width} x {height} pixels")
+        raise data.DataError(f"{path}: is too large a picture: {width} x {height} pixels")
     return Picture(path, facts, "", 0, kind, width, height, sensor.description["full_scale"], parts)
 
 
-def read_facts(path):
-    """A file of objects: a dict with the list "objects"."""
-    try:
-        facts = data.read_json(path.read_bytes())
-        if isinstance(facts["objects"], list):
-            return facts
-    except (ValueError, KeyError, TypeError):
-        pass
-    raise ValueError(f"{path}: must be JSON with a list of objects")
-
-
-def objects_of(facts, picture, numbers):
+def objects_of(picture, numbers):
     """Yields the objects of a picture: id, class (its number), mask (compressed runs), shadow (its box) and FACTS."""
-    for one in facts["objects"]:
+    for one in data.read_json(picture.facts.read_bytes())["objects"]:
         if found := object_of(one, picture.kind, numbers[one["class"]]):
             yield found
 
