@@ -7,7 +7,6 @@ import re
 from .. import data
 from . import split
 
-LARGEST_SIDE = 1 << 20
 MOST_PIXELS = 1 << 31
 ADVICE = "set output.labels: [objects] and render it again"
 FACTS = ("range_m", "bearing_deg", "contrast_db", "visible_share", "shadow_contrast_db")
@@ -62,12 +61,9 @@ class Source:
             self.datasets.append(dataset)
 
     def _number_classes(self, options):
-        known, annotated = {}, {}       # used as sets that keep their order
-        for dataset in self.datasets:
-            names = list(dataset.classes.values())
-            known.update(dict.fromkeys(names))
-            annotated.update(dict.fromkeys(name for name in names if name not in dataset.background))
-        require_known(options.without, known, "--without")
+        known = [(name, name in one.background) for one in self.datasets for name in one.classes.values()]
+        annotated = dict.fromkeys(name for name, is_background in known if not is_background)
+        require_known(options.without, dict(known), "--without")
         if not annotated:
             raise ValueError(f"{self.datasets[0].folder}: each class is background by labels.background of its "
                              "mission; [none] there makes all of them objects")
@@ -80,7 +76,8 @@ class Source:
 
     def _add_pictures(self, index, options):
         dataset, shares = self.datasets[index], self._shares[index]
-        count = data.whole(dataset.description["poses"], 0, "poses")
+        with data.reading(dataset.folder / "dataset.json") as file:
+            count = data.whole(dataset.description["poses"], 0, "poses")
         if isinstance(shares, dict):
             parts = split.of_poses(shares, count, options.gap, options.rounds)
         else:
@@ -88,16 +85,15 @@ class Source:
         for sensor in dataset.sensors.values():
             if options.sensor and sensor.name not in options.sensor:
                 continue
-            with data.reading(dataset.folder / "dataset.json"):
+            with data.reading(file):
                 for picture in pictures_of(sensor, parts, options):
                     self._name(picture, index, sensor.name)
                     self.pictures.append(picture)
 
     def _name(self, picture, index, sensor):
         stem = picture.path.name.split(".")[0]
-        parts = [self._names[index]] if self._names[index] else []
         # Trainers cut the name of a sample at its first point, shells at a blank.
-        picture.name = re.sub(r"[^A-Za-z0-9_+-]", "_", "-".join([*parts, sensor, stem]))
+        picture.name = re.sub(r"[^A-Za-z0-9_+-]", "_", "-".join(filter(None, [self._names[index], sensor, stem])))
         first, other = picture.name, 2
         while picture.name in self._taken:
             picture.name, other = f"{first}-{other}", other + 1
@@ -164,20 +160,14 @@ def records_of(sensor, of_ping):
 
 def picture(sensor, path, facts, kind, shape, parts):
     width, height = (data.whole(side, 1, "width or height") for side in shape)
-    if max(width, height) > LARGEST_SIDE or width * height > MOST_PIXELS:
+    if width * height > MOST_PIXELS:
         raise data.DataError(f"{path}: is too large a picture: {width} x {height} pixels")
     return Picture(path, facts, "", 0, kind, width, height, sensor.description["full_scale"], parts)
 
 
-def objects_of(picture, numbers):
-    """Yields the objects of a picture: id, class (its number), mask (compressed runs), shadow (its box) and FACTS."""
-    for one in data.read_json(picture.facts.read_bytes())["objects"]:
-        if found := object_of(one, picture.kind, numbers[one["class"]]):
-            yield found
-
-
 def object_of(one, kind, number):
-    """An object; None if it is background or the picture does not show it."""
+    """What is known of an object: id, class (its number), mask (compressed runs), shadow (its box) and FACTS. None if
+    it is background or the picture does not show it."""
     shown = one["fan"] if kind == "fan" else one
     if not number or shown is None:
         return None
@@ -189,7 +179,5 @@ def object_of(one, kind, number):
     box = shadow.get("box_bins") if kind == "bins" else shown.get("shadow_box_px")
     across, along = ("beam", "range") if kind == "bins" else ("x", "y")
     found["shadow"] = (*map(int, box[across]), *map(int, box[along])) if box else None
-    for key in ("side", "clipped"):
-        if key in one:
-            found[key] = one[key]
+    found |= {key: one[key] for key in ("side", "clipped") if key in one}
     return {**found, "id": data.whole(one["id"], 1, "id"), "class": number, "mask": str(shown["mask"])}
