@@ -85,6 +85,8 @@ class Dataset:
             {entry["id"]: entry["name"] for entry in labels.get(kind, [])}
             for kind in ("instances", "classes", "materials"))
         self.class_of = {entry["id"]: entry["class"] for entry in labels.get("instances", [])}
+        if not self.classes.keys() >= set(self.class_of.values()):
+            raise ValueError("labels.instances has a class that labels.classes does not have")
         # The names of the classes that are no objects.
         self.background = set(labels.get("annotations", {}).get("background", []))
 
@@ -138,6 +140,9 @@ class Sensor:
             self._path(pattern, PATTERN)
         for record in self._records.values():
             self._path(record["file"], INNER_PATH)
+        for one in description.get("pictures", ()):
+            for key in ("file", "boxes_of")[:2 if one["per"] != "ping" and "boxes_of" in one else 1]:
+                self._path(one[key], INNER_PATH if one["per"] == "sensor" else PATTERN)
         self._arrays = {}
         self.keys = [*self._files, *self._records]
 
@@ -145,7 +150,6 @@ class Sensor:
         """ValueError unless the path, or pattern, lies in the folder of the sensor."""
         if not checked(path, rule, "file").startswith(self.name + "/"):
             raise ValueError(f"sensor {self.name!r} has {path!r}, which is not in its folder")
-        return path
 
     def __len__(self):
         return len(self.pings)
@@ -176,11 +180,8 @@ class Sensor:
 
     def picture(self, per):
         """The picture of dataset.json whose objects are labelled, per "sensor" or "sweep"; None for none."""
-        for one in self.description.get("pictures", ()):
-            if one["per"] == per and "boxes_of" in one:
-                self._path(one["boxes_of"], INNER_PATH if per == "sensor" else PATTERN)
-                return one
-        return None
+        pictures = self.description.get("pictures", ())
+        return next((one for one in pictures if one["per"] == per and "boxes_of" in one), None)
 
     def raw(self, index, name):
         """The bytes of a ping's file."""
