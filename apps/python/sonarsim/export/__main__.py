@@ -135,8 +135,10 @@ def main(arguments):
         print(f"sonarsim export: {fault}", file=sys.stderr)
         return 2
     except (OSError, BrokenProcessPool, MemoryError) as fault:
-        what = fault.strerror or fault if isinstance(fault, OSError) else "out of memory"
-        print(f"sonarsim export: {getattr(fault, 'filename', None) or options.dest}: {what}", file=sys.stderr)
+        # Of a copy that fails, the second name is that of the file that is written.
+        file = getattr(fault, "filename2", None) or getattr(fault, "filename", None) or options.dest
+        what = getattr(fault, "strerror", None) or str(fault) or "out of memory"
+        print(f"sonarsim export: {file}: {what}", file=sys.stderr)
         return 1
     return 0
 

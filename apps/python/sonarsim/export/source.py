@@ -51,8 +51,7 @@ class Source:
             parts = split.of_variants(options.split, len(datasets), options.rounds)
         for dataset, part in zip(datasets, parts):
             if dataset.complete is not True:
-                raise ValueError(f"{dataset.folder}: is not complete; the render command that made it, run "
-                                 "again, goes on")
+                raise ValueError(f"{dataset.folder}: is not complete; run the render command that made it again")
             if not dataset.classes:
                 raise ValueError(f"{dataset.folder}: has no objects; {ADVICE}")
             names = [folder.resolve().name] if is_one_of_many else []
