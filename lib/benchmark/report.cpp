@@ -71,6 +71,7 @@ double rate(const Comparison& comparison, const Trial& trial) {
 template <class Figures>
 double mean_over(const std::vector<Figures>& poses, double Figures::*figure) {
     std::vector<double> values;
+    values.reserve(poses.size());
     for (const Figures& figures : poses)
         values.push_back(figures.*figure);
     return mean_of(values);

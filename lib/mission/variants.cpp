@@ -103,6 +103,7 @@ std::vector<Mission> draw_variants(const Mission& mission, const MissionSource& 
                                    SonarKeyTable sonars) {
     const VariantMaker maker(mission, source, sonars);
     std::vector<Mission> variants;
+    variants.reserve(static_cast<std::size_t>(mission.variants));
     for (int i = 0; i < mission.variants; ++i)
         variants.push_back(maker.make(i, draw_values(mission, static_cast<std::uint32_t>(i))));
     return variants;

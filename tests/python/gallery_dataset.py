@@ -78,7 +78,7 @@ def write_dataset(folder):
             {"picture": "waterfall.png", "width": width, "height": height, "pings": 50, "pings_per_pixel": 1,
              "objects": [in_picture(MASKS[name])]}))
     description = {
-        "format": "sonarsim dataset", "program_version": "0.1.0", "complete": True, "mission": "drawn",
+        "format": "sonarsim dataset", "format_version": 3, "program_version": "0.1.0", "complete": True, "mission": "drawn",
         "seed": 9007199254740993, "poses": PINGS,
         "labels": {"instances": [{"id": 1, "name": "floor", "class": 1}, {"id": 2, "name": "mine_1", "class": 2}],
                    "classes": [{"id": 1, "name": "bottom"}, {"id": 2, "name": "mine"}],
@@ -90,11 +90,11 @@ def write_dataset(folder):
                           {"title": "polar", "file": "fls/image/%06d.png", "per": "ping", "ahead": "down",
                            "boxes_of": "bins"}],
              "fan": {"width_px": 40, "height_px": 30}, "range_edges_m": [0.0] * 25, "azimuth_edges_rad": [0.0] * 17},
-            {"name": "sss", "kind": "sidescan", "every": 1, "pings": 50, "files": {},
+            {"name": "sss", "kind": "sidescan", "every": 1, "pings": 50, "files": {}, "range_edges_m": [],
              "pictures": [{"title": "waterfall", "file": "sss/waterfall_view.png", "per": "sensor",
                            "boxes_of": "sss/waterfall.png", "origin_px": [0, 9], "pixel_px": [1, 1],
                            "pings_along": "y", "pings_per_pixel": 1}]},
-            {"name": "head", "kind": "scanning", "every": 1, "pings": 50, "files": {},
+            {"name": "head", "kind": "scanning", "every": 1, "pings": 50, "files": {}, "range_edges_m": [],
              "pictures": [{"title": "scan", "file": "head/scan_%04d.png", "per": "sweep", "pings": 60,
                            "boxes_of": "head/scan_%04d.png", "radius_px": 15.5, "width_px": 31}]}]}
     (folder / "dataset.json").write_text(json.dumps(description))

@@ -259,11 +259,12 @@ class Export(unittest.TestCase):
     def test_mistakes(self):
         path = self.out / "dataset.json"
         sound = json.loads(path.read_text())
+        no_pillow = "import importlib.util as u; find = u.find_spec; u.find_spec = lambda name: None if name == 'PIL' else find(name)"
         self.assert_refused("is no dataset of sonarsim", self.folder / "nowhere", "--format", "coco")
         self.assert_refused("there is no 'no'; there are: fls, sss", self.out, "--format", "coco", "--sensor", "no")
         self.assert_refused("the shares sum to 0.5", self.out, "--format", "coco", "--split", "train=0.5")
         self.assert_refused("argument --format: invalid choice", self.out, "--format", "voc")
-        self.assert_refused("install python3-pil ", self.out, "--format", "coco", setup="sys.modules['PIL'] = None")
+        self.assert_refused("install python3-pil ", self.out, "--format", "coco", setup=no_pillow)
         self.assert_refused("is given twice", self.out, self.out, "--format", "coco")
         for change, text in (({"complete": False}, "is not complete"), ({"labels": {}}, "has no objects; set output.labels"),
                              ({"poses": "x"}, "'poses' is 'x'"), ({"sensors": [sound["sensors"][0] | {"fan": 3}]}, "is damaged")):

@@ -140,7 +140,7 @@ class InBrowser(Gallery):
         description = write_dataset(self.out / "one")
         description["labels"]["instances"][1]["name"] = description["labels"]["classes"][1]["name"] = HOSTILE
         description["labels"]["instances"][0]["name"] = "__proto__"
-        description["sensors"][0]["name"] = description["sensors"][0]["kind"] = HOSTILE.replace("/", "")
+        description["sensors"][0]["kind"] = HOSTILE
         description["seed"] = HOSTILE
         (self.out / "one/dataset.json").write_text(json.dumps(description))
         (self.out / "variants.json").write_text(json.dumps({"variants": [
@@ -222,7 +222,7 @@ class Files(Gallery):
         self.assertFalse((self.out / "index_files.tmp").exists())
 
     def test_bad_datasets_are_refused_in_one_sentence(self):
-        self.refused("is no folder")
+        self.refused("is no dataset and holds none")
         description = write_dataset(self.out)
         file = self.out / "dataset.json"
         (self.out / "fls/link").symlink_to("/etc")
@@ -233,14 +233,14 @@ class Files(Gallery):
             file.write_text(json.dumps(changed))
             if key == "file":
                 self.refused("dataset.json")
-        for text in ("", "[]", "{", '{"sensors": 1}', '{"sensors": [{}]}', "[" * 100000, '{"seed": NaN}'):
+        for text in ("", "[]", "{", '{"sensors": 1}', '{"sensors": [{}]}', "[" * 100000):
             file.write_text(text)
-            self.refused("dataset.json", "is not as sonarsim writes it")
+            self.refused("dataset.json: ")
         file.write_text(json.dumps(description))
         damaged = self.out / "fls/objects/000003.json"
         for text in ('{"objects": [{"id": 9}]}', '{"objects": [{"id": 2, "box_px": {}}]}', "\0", '{"objects": 1e999}'):
             damaged.write_text(text)
-            self.refused("000003.json", "is not as sonarsim writes it")
+            self.refused("000003.json: is damaged")
         file.unlink()
         self.refused("is no dataset and holds none")
 
@@ -249,7 +249,7 @@ class Files(Gallery):
         self.write_page()
         page = (self.out / "index.html").read_bytes()
         names = sorted(path.name for path in (self.out / "index_files").iterdir())
-        self.assertEqual(names, ["0.js", "0_0_0.js", "0_0_1.js", "0_0_2.js"])
+        self.assertEqual(names, ["0.js", "0_0_0.js", "0_0_1.js", "0_0_2.js", "page.css", "page.js"])
         self.write_page()
         self.assertEqual((self.out / "index.html").read_bytes(), page)
         (self.out / "index_files/mine.txt").write_text("mine")

@@ -17,6 +17,7 @@ A sample has the names of docs/dataset.md and docs/labels.md: 'polar', 'image', 
 written as records have their rows: 'waterfall', 'echogram', 'scan', 'soundings'.
 """
 import collections.abc
+import contextlib
 import io
 import json
 import math
@@ -49,16 +50,16 @@ def open_dataset(folder):
 def open_datasets(folder):
     """The datasets in a folder: its own, or the variants of a mission in order. ValueError as open_dataset()."""
     folder = pathlib.Path(folder)
-    file = folder / "variants.json"
-    if not file.is_file():
+    if not (folder / "variants.json").is_file():
         return [open_dataset(folder)]
-    try:
-        names = [one["folder"] for one in read_json(file.read_bytes())["variants"]]
-        for name in names:
-            checked(name, re.compile(NAME, re.ASCII), "folder")
-    except (ValueError, KeyError, TypeError) as fault:
-        raise ValueError(f"{file}: is damaged: {fault}") from fault
-    return [open_dataset(own_file(folder, name, is_folder=True)) for name in names]
+    return [open_dataset(own_file(folder, name, is_folder=True)) for name in read_variants(folder)]
+
+
+def read_variants(folder):
+    """What variants.json of a folder says of each variant, by the name of its folder."""
+    with reading(folder / "variants.json") as file:
+        return {checked(one["folder"], re.compile(NAME, re.ASCII), "folder"): one
+                for one in read_json(file.read_bytes())["variants"]}
 
 
 class Dataset:
@@ -68,23 +69,14 @@ class Dataset:
         self.folder = folder
         path = folder / "dataset.json"
         if not path.is_file():
-            raise ValueError(f"{folder}: is no dataset of sonarsim: it has no dataset.json")
-        try:
-            self.description = json.loads(path.read_bytes())    # UTF-8, whatever the locale
-        except (ValueError, RecursionError) as fault:
-            raise ValueError(f"{path}: is no JSON, or damaged: {fault}") from fault
-        is_ours = isinstance(self.description, dict) and (
-            self.description.get("format") == "sonarsim dataset")
-        version = self.description.get("format_version") if is_ours else None
-        if version != FORMAT_VERSION:
-            raise ValueError(f"{path}: has format_version {version}; this reads {FORMAT_VERSION}")
-        try:
+            raise DataError(f"{folder}: is no dataset of sonarsim: it has no dataset.json")
+        with reading(path):
+            self.description = read_json(path.read_bytes())     # UTF-8, whatever the locale
+            is_ours = isinstance(self.description, dict) and self.description.get("format") == "sonarsim dataset"
+            version = self.description.get("format_version") if is_ours else None
+            if version != FORMAT_VERSION:
+                raise DataError(f"{path}: has format_version {version}; this reads {FORMAT_VERSION}")
             self._read()
-        except (KeyError, TypeError, AttributeError, IndexError) as fault:
-            raise ValueError(f"{path}: is damaged: {fault!r}; sonarsim verify names the key"
-                             ) from fault
-        except ValueError as fault:
-            raise ValueError(f"{path}: {fault}") from fault
 
     def _read(self):
         self.sensors = {d["name"]: Sensor(self.folder, d) for d in self.description["sensors"]}
@@ -93,6 +85,10 @@ class Dataset:
             {entry["id"]: entry["name"] for entry in labels.get(kind, [])}
             for kind in ("instances", "classes", "materials"))
         self.class_of = {entry["id"]: entry["class"] for entry in labels.get("instances", [])}
+        if not self.classes.keys() >= set(self.class_of.values()):
+            raise ValueError("labels.instances has a class that labels.classes does not have")
+        # The names of the classes that are no objects.
+        self.background = set(labels.get("annotations", {}).get("background", []))
 
     @property
     def complete(self):
@@ -144,6 +140,9 @@ class Sensor:
             self._path(pattern, PATTERN)
         for record in self._records.values():
             self._path(record["file"], INNER_PATH)
+        for one in description.get("pictures", ()):
+            for key in ("file", "boxes_of")[:2 if one["per"] != "ping" and "boxes_of" in one else 1]:
+                self._path(one[key], INNER_PATH if one["per"] == "sensor" else PATTERN)
         self._arrays = {}
         self.keys = [*self._files, *self._records]
 
@@ -181,11 +180,8 @@ class Sensor:
 
     def picture(self, per):
         """The picture of dataset.json whose objects are labelled, per "sensor" or "sweep"; None for none."""
-        for one in self.description.get("pictures", ()):
-            if one["per"] == per and "boxes_of" in one:
-                self._path(one["boxes_of"], INNER_PATH if per == "sensor" else PATTERN)
-                return one
-        return None
+        pictures = self.description.get("pictures", ())
+        return next((one for one in pictures if one["per"] == per and "boxes_of" in one), None)
 
     def raw(self, index, name):
         """The bytes of a ping's file."""
@@ -296,6 +292,22 @@ def middles(edges):
     return 0.5 * (edges[:-1] + edges[1:])
 
 
+class DataError(ValueError):
+    """What is wrong with a dataset; the text names the file."""
+
+
+@contextlib.contextmanager
+def reading(path):
+    """Makes a DataError, which names the file, of any error that comes from what is in the file."""
+    try:
+        yield path
+    except DataError:
+        raise
+    except (ValueError, LookupError, TypeError, AttributeError, ArithmeticError) as fault:
+        what = str(fault) if isinstance(fault, ValueError) else repr(fault)
+        raise DataError(f"{path}: is damaged: {what}; sonarsim verify says more") from fault
+
+
 def checked(text, rule, key):
     """The text, if all of it matches the rule; else ValueError."""
     if isinstance(text, str) and rule.fullmatch(text):
@@ -314,9 +326,13 @@ def own_file(folder, inner, is_folder=False):
     """The path of a file, or folder, in a folder. ValueError where it is missing or lies behind a link."""
     path = folder / inner
     there = path.is_dir() if is_folder else path.is_file()
-    if not there or os.path.realpath(path) != os.path.join(os.path.realpath(folder), inner):
-        raise ValueError(f"{path}: is missing, or lies behind a link")
+    if not there or is_behind_link(folder, inner):
+        raise DataError(f"{path}: is missing, or lies behind a link")
     return path
+
+
+def is_behind_link(folder, inner):
+    return os.path.realpath(folder / inner) != os.path.join(os.path.realpath(folder), inner)
 
 
 def read_png(data):

@@ -204,6 +204,7 @@ Samples FineSurface::seen(const Caster& caster, const View& view, const Pose& T_
     std::iota(order.begin(), order.end(), 0U);
     std::ranges::stable_sort(order, {}, [&](std::uint32_t k) { return pieces[k].beam; });
     std::vector<Eigen::Vector3f> directions;
+    directions.reserve(order.size());
     for (const std::uint32_t k : order)
         directions.emplace_back(pose.rotation * pieces[k].sample.position.normalized());
     std::vector<std::uint32_t> met(pieces.size());

@@ -1,6 +1,7 @@
 """The command `sonarsim export`."""
 import argparse
 import concurrent.futures
+import itertools
 import multiprocessing
 import os
 import signal
@@ -10,12 +11,12 @@ from concurrent.futures.process import BrokenProcessPool
 from ..need import need
 
 need("numpy", "PIL")
-# pylint: disable=wrong-import-position
-from . import formats, split    # noqa: E402
-from .destination import destination  # noqa: E402
-from .pieces import prepare, tile_hint  # noqa: E402
-from .source import Source  # noqa: E402
-from .statistics import Statistics  # noqa: E402
+
+from . import formats, split
+from .destination import destination
+from .pieces import prepare
+from .source import Source
+from .statistics import Statistics
 
 BATCH = 512     # pictures whose pieces are in memory at a time
 
@@ -116,23 +117,29 @@ def export(options):
 def no_pictures(picture, tile_px):
     if picture.kind != "strip":
         return f"{picture.path}: shows pings of several parts of the split; take a smaller --gap, or leave out --split"
-    what = "each tile of it" if tile_px else "it"
-    return (f"{picture.path}: is {picture.width} x {picture.height} pixels, and {what} shows pings of several parts of "
-            f"the split; cut it with --tile {tile_hint(picture)}, or leave out --split")
+    # A tile that fits the longest stretch of the strip in one part.
+    along = max((len(list(run)) for part, run in itertools.groupby(picture.parts) if part), default=0) // 2
+    sides = (picture.width, along) if picture.rows_are_pings else (along, picture.height)
+    return (f"{picture.path}: is {picture.width} x {picture.height} pixels, and {'each tile of ' if tile_px else ''}it "
+            f"shows pings of several parts of the split; cut it with --tile {max(16, sides[0])}x{max(16, sides[1])}, "
+            "or leave out --split")
 
 
 def main(arguments):
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda number, _: sys.exit(128 + number))
+    options = parse(arguments)
     try:
-        export(parse(arguments))
+        export(options)
     except ValueError as fault:
         print(f"sonarsim export: {fault}", file=sys.stderr)
         return 2
     except (OSError, BrokenProcessPool, MemoryError) as fault:
-        print(f"sonarsim export: {str(fault) or 'out of memory'}", file=sys.stderr)
+        # Of a copy that fails, the second name is that of the file that is written.
+        file = getattr(fault, "filename2", None) or getattr(fault, "filename", None) or options.dest
+        what = getattr(fault, "strerror", None) or str(fault) or "out of memory"
+        print(f"sonarsim export: {file}: {what}", file=sys.stderr)
         return 1
-    except KeyboardInterrupt:
-        return 128 + signal.SIGINT
     return 0
 
 

@@ -14,19 +14,18 @@ LONGEST_MEMBER = 100        # in a tar archive of the format ustar
 DIGITS = {"range_m": 3, "bearing_deg": 2, "contrast_db": 2, "visible_share": 4, "shadow_contrast_db": 2}
 
 
-def place(piece, folder, link):
-    """Writes the picture of a piece into a folder."""
+def place(folder, name, content, link=False):
+    """Writes a file; `content` is its bytes, or the path of the file that it is a copy of."""
     folder.mkdir(parents=True, exist_ok=True)
-    file = folder / f"{piece.name}.png"
-    if piece.png is not None:
-        file.write_bytes(piece.png)
+    if isinstance(content, bytes):
+        (folder / name).write_bytes(content)
     elif not link:
-        shutil.copyfile(piece.path, file)
+        shutil.copyfile(content, folder / name)
     else:
         try:
-            os.link(piece.path, file)
+            os.link(content, folder / name)
         except OSError as fault:
-            raise ValueError(f"{piece.path}: cannot be linked ({fault.strerror}); leave out --link") from fault
+            raise ValueError(f"{content}: cannot be linked ({fault.strerror}); leave out --link") from fault
 
 
 def bbox(box):
@@ -43,6 +42,9 @@ class Format:
     def __init__(self, folder, classes, info, options):
         self.folder, self.classes, self.info, self.options, self.parts = folder, classes, info, options, {}
 
+    def place_picture(self, piece, folder):
+        place(self.folder / folder / piece.part, f"{piece.name}.png", piece.content, self.options.link)
+
 
 class Coco(Format):
     """PART/NAME.png and annotations/instances_PART.json. Ids are unique over all parts."""
@@ -50,7 +52,7 @@ class Coco(Format):
     images = annotations = 0
 
     def add(self, piece):
-        place(piece, self.folder / piece.part, self.options.link)
+        self.place_picture(piece, "")
         images, annotations = self.parts.setdefault(piece.part, ([], []))
         self.images += 1
         images.append(json.dumps({"id": self.images, "file_name": f"{piece.name}.png", "width": piece.width,
@@ -66,8 +68,7 @@ class Coco(Format):
         found = {"id": self.annotations, "image_id": self.images, "category_id": one["class"],
                  "instance_id": one["id"], "bbox": bbox(one["box"]), "area": one["area"],
                  "segmentation": segmentation, "iscrowd": int(one["iscrowd"])}
-        for key, digits in DIGITS.items():
-            found[key] = None if one[key] is None else round(one[key], digits)
+        found |= {key: None if one[key] is None else round(one[key], digits) for key, digits in DIGITS.items()}
         found["shadow_bbox"] = one["shadow"] and bbox(one["shadow"])
         return found | {key: one[key] for key in ("side", "clipped") if key in one}
 
@@ -89,12 +90,10 @@ class Yolo(Format):
     size of its box, or the corners of its outline, as shares of the picture."""
 
     def add(self, piece):
-        if piece.part not in self.parts:
-            self.parts[piece.part] = True
-            (self.folder / "labels" / piece.part).mkdir(parents=True)
-        place(piece, self.folder / "images" / piece.part, self.options.link)
+        self.parts[piece.part] = True
+        self.place_picture(piece, "images")
         text = "".join(self.line(one, piece.width, piece.height) for one in piece.objects)
-        (self.folder / "labels" / piece.part / f"{piece.name}.txt").write_text(text, encoding="ascii")
+        place(self.folder / "labels" / piece.part, f"{piece.name}.txt", text.encode())
 
     def line(self, one, width, height):
         left, right, top, bottom = one["box"]
@@ -120,16 +119,13 @@ class Masks(Format):
     meta.json with names and colours. Number 0 is the background."""
 
     def add(self, piece):
-        place(piece, self.folder / "img_dir" / piece.part, self.options.link)
-        folder = self.folder / "ann_dir" / piece.part
-        folder.mkdir(parents=True, exist_ok=True)
-        (folder / f"{piece.name}.png").write_bytes(piece.classes_png)
+        self.place_picture(piece, "img_dir")
+        place(self.folder / "ann_dir" / piece.part, f"{piece.name}.png", piece.classes_png)
         self.parts.setdefault(piece.part, []).append(piece.name + "\n")
 
     def finish(self):
-        (self.folder / "splits").mkdir()
         for part, names in self.parts.items():
-            (self.folder / "splits" / f"{part}.txt").write_text("".join(names), encoding="ascii")
+            place(self.folder / "splits", f"{part}.txt", "".join(names).encode())
         write_json(self.folder / "meta.json", {"classes": ["background", *self.classes],
                                                "palette": [colour_of(k) for k in range(len(self.classes) + 1)]})
 
@@ -144,7 +140,7 @@ class WebDataset(Format):
         objects["bbox"] = [bbox(one["box"]) for one in piece.objects]
         objects["categories"] = [one["class"] - 1 for one in piece.objects]
         text = json.dumps({"width": piece.width, "height": piece.height, "objects": objects}) + "\n"
-        png = piece.path.read_bytes() if piece.png is None else piece.png
+        png = piece.content if isinstance(piece.content, bytes) else piece.content.read_bytes()
         number, shard = self.parts.get(piece.part, (-1, None))
         if shard is None or shard.offset + len(png) + len(text) + 4096 > SHARD_BYTES:
             if shard:

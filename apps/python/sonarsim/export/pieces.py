@@ -1,14 +1,13 @@
 """Exported pictures: whole pictures or tiles, with the objects that they show. Runs in worker processes."""
 import dataclasses
 import io
-import itertools
 
 import numpy as np
 from PIL import Image
 
 from .. import data
 from . import runs
-from .source import MOST_PIXELS, objects_of, read_facts
+from .source import MOST_PIXELS, object_of
 
 Image.MAX_IMAGE_PIXELS = MOST_PIXELS
 GREYS = np.floor(255 * np.sqrt(np.arange(65536) / 65535) + 0.5).astype(np.uint8)
@@ -23,8 +22,7 @@ class Piece:
     height: int
     dataset: int
     objects: list
-    path: object                # the file that it is a copy of; None if `png` has its bytes
-    png: bytes | None = None
+    content: object             # its bytes, or the path of the file that it is a copy of
     classes_png: bytes | None = None    # the class of each pixel, for masks
 
 
@@ -34,11 +32,10 @@ def prepare(picture, numbers, options):
     parts = [part_of(picture, frame) for frame in frames]
     if not any(parts):
         return [], len(frames), 0
-    facts = read_facts(picture.facts)
-    try:
-        objects = [one for one in objects_of(facts, picture, numbers) if is_kept(one, picture, options)]
-    except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as fault:
-        raise ValueError(f"{picture.facts}: is damaged: {fault}") from fault
+    with data.reading(picture.facts):
+        listed = data.read_json(picture.facts.read_bytes())["objects"]
+        shown = [object_of(one, picture.kind, numbers[one["class"]]) for one in listed]
+        objects = [one for one in shown if one and is_kept(one, picture, options)]
     pixels = pixels_of(picture, len(frames) == 1)
     pieces, dropped = [], 0
     for frame, part in zip(frames, parts):
@@ -48,9 +45,9 @@ def prepare(picture, numbers, options):
         dropped += shown.count(False)
         piece = Piece(picture.name + (f"-y{frame[2]:05}-x{frame[0]:05}" if len(frames) > 1 else ""), part,
                       frame[1] - frame[0], frame[3] - frame[2], picture.dataset, [one for one in shown if one],
-                      picture.path if pixels is None else None)
+                      picture.path)
         if pixels is not None:
-            piece.png = png_of(Image.fromarray(np.ascontiguousarray(pixels[frame[2]:frame[3], frame[0]:frame[1]])))
+            piece.content = png_of(Image.fromarray(np.ascontiguousarray(pixels[frame[2]:frame[3], frame[0]:frame[1]])))
         if options.format == "masks":
             piece.classes_png = classes_png(piece)
         for one in piece.objects:
@@ -71,10 +68,8 @@ def frames_of(picture, options):
 
 def begins(length, side, overlap):
     """The begins of tiles along a length; the last one ends with it."""
-    found = [0]
-    while found[-1] + side < length:
-        found.append(min(found[-1] + side - overlap, length - side))
-    return found
+    last = max(length - side, 0)
+    return [*range(0, last, side - overlap), last]
 
 
 def part_of(picture, frame):
@@ -92,11 +87,10 @@ def is_kept(one, picture, options):
     one["area"] = one["pixels"].size
     contrasts = [abs(one[key]) for key in ("contrast_db", "shadow_contrast_db") if one[key] is not None]
     share = 1.0 if one["visible_share"] is None else one["visible_share"]
-    is_faint = (one["area"] < options.min_pixels or share < options.min_visible_share or
-                bool(contrasts) and max(contrasts) < options.min_contrast_db)
-    one["iscrowd"] = is_faint
+    one["iscrowd"] = (one["area"] < options.min_pixels or share < options.min_visible_share or
+                      bool(contrasts) and max(contrasts) < options.min_contrast_db)
     has_crowds = options.faint == "crowd" and options.format in ("coco", "masks")
-    return (not is_faint or has_crowds) and box_of(one, picture.height, one["shadow"], options.box) is not None
+    return (not one["iscrowd"] or has_crowds) and box_of(one, picture.height, one["shadow"], options.box) is not None
 
 
 def box_of(one, height, shadow, sort):
@@ -175,10 +169,3 @@ def classes_png(piece):
 def colour_of(number):
     """The colour of a class in masks: neighbouring numbers differ strongly."""
     return tuple(sum((number >> 3 * k + channel & 1) << 7 - k for k in range(8)) for channel in range(3))
-
-
-def tile_hint(picture):
-    """The sides of a tile that fits the longest stretch of a strip in one part of the split."""
-    stretches = [sum(1 for _ in run) for part, run in itertools.groupby(picture.parts) if part]
-    along, across = max(16, max(stretches, default=0) // 2), max(16, picture.width)
-    return f"{across}x{along}" if picture.rows_are_pings else f"{along}x{max(16, picture.height)}"

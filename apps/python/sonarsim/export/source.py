@@ -7,7 +7,6 @@ import re
 from .. import data
 from . import split
 
-LARGEST_SIDE = 1 << 20
 MOST_PIXELS = 1 << 31
 ADVICE = "set output.labels: [objects] and render it again"
 FACTS = ("range_m", "bearing_deg", "contrast_db", "visible_share", "shadow_contrast_db")
@@ -52,8 +51,7 @@ class Source:
             parts = split.of_variants(options.split, len(datasets), options.rounds)
         for dataset, part in zip(datasets, parts):
             if dataset.complete is not True:
-                raise ValueError(f"{dataset.folder}: is not complete; the render command that made it, run "
-                                 "again, goes on")
+                raise ValueError(f"{dataset.folder}: is not complete; run the render command that made it again")
             if not dataset.classes:
                 raise ValueError(f"{dataset.folder}: has no objects; {ADVICE}")
             names = [folder.resolve().name] if is_one_of_many else []
@@ -62,12 +60,9 @@ class Source:
             self.datasets.append(dataset)
 
     def _number_classes(self, options):
-        known, annotated = {}, {}       # used as sets that keep their order
-        for dataset in self.datasets:
-            names = list(dataset.classes.values())
-            known.update(dict.fromkeys(names))
-            annotated.update(dict.fromkeys(name for name in names if name not in background(dataset)))
-        require_known(options.without, known, "--without")
+        known = [(name, name in one.background) for one in self.datasets for name in one.classes.values()]
+        annotated = dict.fromkeys(name for name, is_background in known if not is_background)
+        require_known(options.without, dict(known), "--without")
         if not annotated:
             raise ValueError(f"{self.datasets[0].folder}: each class is background by labels.background of its "
                              "mission; [none] there makes all of them objects")
@@ -75,12 +70,13 @@ class Source:
         if not self.classes:
             raise ValueError("--without: no class is left")
         numbers = {name: k + 1 for k, name in enumerate(self.classes)}
-        self.numbers = [{name: 0 if name in background(dataset) else numbers.get(name, 0)
+        self.numbers = [{name: 0 if name in dataset.background else numbers.get(name, 0)
                          for name in dataset.classes.values()} for dataset in self.datasets]
 
     def _add_pictures(self, index, options):
         dataset, shares = self.datasets[index], self._shares[index]
-        count = data.whole(dataset.description["poses"], 0, "poses")
+        with data.reading(dataset.folder / "dataset.json") as file:
+            count = data.whole(dataset.description["poses"], 0, "poses")
         if isinstance(shares, dict):
             parts = split.of_poses(shares, count, options.gap, options.rounds)
         else:
@@ -88,19 +84,15 @@ class Source:
         for sensor in dataset.sensors.values():
             if options.sensor and sensor.name not in options.sensor:
                 continue
-            try:
+            with data.reading(file):
                 for picture in pictures_of(sensor, parts, options):
                     self._name(picture, index, sensor.name)
                     self.pictures.append(picture)
-            except (KeyError, TypeError, IndexError, AttributeError) as fault:
-                raise ValueError(f"{dataset.folder / 'dataset.json'}: is damaged: sensor {sensor.name!r}: "
-                                 f"{fault!r}") from fault
 
     def _name(self, picture, index, sensor):
         stem = picture.path.name.split(".")[0]
-        parts = [self._names[index]] if self._names[index] else []
         # Trainers cut the name of a sample at its first point, shells at a blank.
-        picture.name = re.sub(r"[^A-Za-z0-9_+-]", "_", "-".join([*parts, sensor, stem]))
+        picture.name = re.sub(r"[^A-Za-z0-9_+-]", "_", "-".join(filter(None, [self._names[index], sensor, stem])))
         first, other = picture.name, 2
         while picture.name in self._taken:
             picture.name, other = f"{first}-{other}", other + 1
@@ -112,14 +104,6 @@ def require_known(given, known, option):
     for name in given:
         if name not in known:
             raise ValueError(f"{option}: there is no {name!r}; there are: {', '.join(known)}")
-
-
-def background(dataset):
-    """The names of the classes that are no objects."""
-    try:
-        return dataset.description["labels"].get("annotations", {"background": []})["background"]
-    except (KeyError, TypeError, AttributeError) as fault:
-        raise ValueError(f"{dataset.folder / 'dataset.json'}: is damaged: labels.annotations: {fault!r}") from fault
 
 
 def pictures_of(sensor, parts, options):
@@ -137,9 +121,9 @@ def pings_of(sensor, of_ping, is_bins):
         advice = ("neither images nor arrays of its bins; set output.image: true and render it again, or leave out "
                   "--bins" if is_bins else "no fans; set output.fan: true and render it again, or take the "
                   "pictures of its bins with --bins")
-        raise ValueError(f"{sensor.folder}: sensor {sensor.name!r} has {advice}")
+        raise data.DataError(f"{sensor.folder}: sensor {sensor.name!r} has {advice}")
     if "objects" not in sensor.keys:
-        raise ValueError(f"{sensor.folder}: sensor {sensor.name!r} has no objects; {ADVICE}")
+        raise data.DataError(f"{sensor.folder}: sensor {sensor.name!r} has no objects; {ADVICE}")
     shape = len(sensor.azimuth_edges_rad) - 1, len(sensor.range_edges_m) - 1
     if not is_bins:
         shape = sensor.description["fan"]["width_px"], sensor.description["fan"]["height_px"]
@@ -155,49 +139,34 @@ def records_of(sensor, of_ping):
     for k in range(-(-len(of_ping) // steps)):
         facts = f"{sensor.name}/objects.json" if strip else f"{sensor.name}/objects_{k:04}.json"
         if not (sensor.folder / facts).is_file():
-            raise ValueError(f"{sensor.folder}: has no {facts}, which lists the objects; {ADVICE}")
+            raise data.DataError(f"{sensor.folder}: has no {facts}, which lists the objects; {ADVICE}")
         path = data.own_file(sensor.folder, strip["boxes_of"] if strip else sweep["boxes_of"] % k)
         facts = data.own_file(sensor.folder, facts)
-        sheet = read_facts(facts)
+        with data.reading(facts):
+            sheet = data.read_json(facts.read_bytes())
+            shape = sheet["width"], sheet["height"]
         # The last picture of sweeps shows pings of the sweep before, too, if it is cut short.
         end = min((k + 1) * steps, len(of_ping))
         each = data.whole(strip.get("pings_per_pixel", 1), 1, "pings_per_pixel") if strip else steps
         shown = [set(of_ping[first:min(first + each, end)]) for first in range(max(end - steps, 0), end, each)]
-        one = picture(sensor, path, facts, "strip" if strip else "sweep", (sheet["width"], sheet["height"]),
+        one = picture(sensor, path, facts, "strip" if strip else "sweep", shape,
                       [parts.pop() if len(parts) == 1 else None for parts in shown])
         one.rows_are_pings = not strip or strip.get("pings_along", "y") == "y"
         if strip and len(one.parts) != (one.height if one.rows_are_pings else one.width):
-            raise ValueError(f"{facts}: has a picture with more or fewer pings than dataset.json says")
+            raise data.DataError(f"{facts}: has a picture with more or fewer pings than dataset.json says")
         yield one
 
 
 def picture(sensor, path, facts, kind, shape, parts):
     width, height = (data.whole(side, 1, "width or height") for side in shape)
-    if max(width, height) > LARGEST_SIDE or width * height > MOST_PIXELS:
-        raise ValueError(f"{path}: is too large a picture: {width} x {height} pixels")
+    if width * height > MOST_PIXELS:
+        raise data.DataError(f"{path}: is too large a picture: {width} x {height} pixels")
     return Picture(path, facts, "", 0, kind, width, height, sensor.description["full_scale"], parts)
 
 
-def read_facts(path):
-    """A file of objects: a dict with the list "objects"."""
-    try:
-        facts = data.read_json(path.read_bytes())
-        if isinstance(facts["objects"], list):
-            return facts
-    except (ValueError, KeyError, TypeError):
-        pass
-    raise ValueError(f"{path}: must be JSON with a list of objects")
-
-
-def objects_of(facts, picture, numbers):
-    """Yields the objects of a picture: id, class (its number), mask (compressed runs), shadow (its box) and FACTS."""
-    for one in facts["objects"]:
-        if found := object_of(one, picture.kind, numbers[one["class"]]):
-            yield found
-
-
 def object_of(one, kind, number):
-    """An object; None if it is background or the picture does not show it."""
+    """What is known of an object: id, class (its number), mask (compressed runs), shadow (its box) and FACTS. None if
+    it is background or the picture does not show it."""
     shown = one["fan"] if kind == "fan" else one
     if not number or shown is None:
         return None
@@ -209,7 +178,5 @@ def object_of(one, kind, number):
     box = shadow.get("box_bins") if kind == "bins" else shown.get("shadow_box_px")
     across, along = ("beam", "range") if kind == "bins" else ("x", "y")
     found["shadow"] = (*map(int, box[across]), *map(int, box[along])) if box else None
-    for key in ("side", "clipped"):
-        if key in one:
-            found[key] = one[key]
+    found |= {key: one[key] for key in ("side", "clipped") if key in one}
     return {**found, "id": data.whole(one["id"], 1, "id"), "class": number, "mask": str(shown["mask"])}

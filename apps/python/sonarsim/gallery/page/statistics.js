@@ -13,19 +13,24 @@ function table_of(heads, rows) {
   return table;
 }
 
-// A row for each interval with a bar of the counts of each class.
-function histogram_of(classes, [title, edges], axis) {
-  const sums = [...edges, 0].map((_, k) => classes.reduce((sum, one) => sum + one[4][axis][k], 0));
-  const most = Math.max(...sums);
+const titles = {range_m: 'range, m', area: 'size, pixels or bins', contrast_db: 'contrast, dB',
+                visible_share: 'visible share'};
+
+// A row for each interval with a bar of the counts of each class, from the first that is not empty to the last.
+function histogram_of(classes, fact) {
+  const edges = page.edges[fact];
+  const sums = [...edges, 0].map((_, k) => classes.reduce((sum, one) => sum + one[fact][k], 0));
+  const [first, most] = [sums.findIndex(sum => sum), Math.max(...sums)];
   if (!most) return [];
-  return [table_of([title, '', 'labels'], sums.map((sum, k) => {
+  const rows = sums.map((sum, k) => {
     const bar = element('span', '', 'bar');
-    for (const [name, , , , bars] of classes) {
-      bar.append(Object.assign(swatch(class_colour(name), 'part'), {title: `${name}: ${bars[axis][k]}`}));
-      bar.lastChild.style.width = `${100 * bars[axis][k] / most}%`;
+    for (const one of classes) {
+      bar.append(Object.assign(swatch(class_colour(one.name), 'part'), {title: `${one.name}: ${one[fact][k]}`}));
+      bar.lastChild.style.width = `${100 * one[fact][k] / most}%`;
     }
     return [k ? `${edges[k - 1]} to ${edges[k] ?? '...'}` : `below ${edges[0]}`, bar, `${sum}`];
-  }))];
+  });
+  return [table_of([titles[fact], '', 'labels'], rows.slice(first, sums.findLastIndex(sum => sum) + 1))];
 }
 
 function show_statistics() {
@@ -34,9 +39,12 @@ function show_statistics() {
   buttons($('scopes'), scopes, of_all ? 0 : 1, k => { of_all = k === 0; show_statistics(); });
   $('tallies').replaceChildren();
   if (!tally || !tally.pictures) $('tallies').append('No objects: render with output.labels: [objects].');
-  else $('tallies').append(
-    element('p', `${sensor().name}: ${tally.pictures} pictures, ${tally.empty} without an object`),
-    table_of(['class', 'objects', 'pictures', 'labels'], tally.classes.map(one =>
-      [[swatch(class_colour(one[0])), one[0]], `${one[1]}`, `${one[2]}`, `${one[3]}`])),
-    ...page.axes.flatMap((axis, k) => histogram_of(tally.classes, axis, k)));
+  else {
+    const classes = tally.classes.filter(one => one.annotations);
+    $('tallies').append(
+      element('p', `${sensor().name}: ${tally.pictures} pictures, ${tally.without_objects} without an object`),
+      table_of(['class', 'objects', 'pictures', 'labels'], classes.map(one =>
+        [[swatch(class_colour(one.name)), one.name], `${one.objects}`, `${one.pictures}`, `${one.annotations}`])),
+      ...Object.keys(titles).flatMap(fact => histogram_of(classes, fact)));
+  }
 }
