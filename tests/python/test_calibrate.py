@@ -101,7 +101,7 @@ def recording_of(amplitude, gamma=0.5, range_db=None, full=255):
     share = 1.0 + 20.0 * np.log10(amplitude) / range_db if range_db else amplitude**gamma
     values = np.clip(np.floor(full * share + 0.5), 0.0, full).astype(np.float32)
     return Recording(kind="imaging", law=Law("gamma", full_value=full), name="made", values=values, range_step_m=STEP_M,
-                     first_range_m=FIRST_M, bearing_rad=np.arcsin(SINES), times_s=np.arange(float(len(values))))
+                     first_range_m=FIRST_M, bearing_rad=np.arcsin(SINES))
 
 
 def noise_of(draws, tvg=20.0, level_db=-32.0, **shape):
@@ -203,10 +203,11 @@ class Fits(unittest.TestCase):
 
     def test_split(self):
         pings = recording_of(np.ones((7, 24, BEAMS)))
+        pings.values[:] = np.arange(7.0)[:, None, None]
         sizes = [[len(part) for part in command.split(pings, share, back)]
                  for share, back in ((0.5, False), (0.3, True), (0.01, False), (0.99, False))]
         self.assertEqual(sizes, [[4, 3], [5, 2], [6, 1], [1, 6]])
-        self.assertEqual(command.split(pings, 0.3, True)[1].times_s[0], 0.0)
+        self.assertEqual(command.split(pings, 0.3, True)[1].values[0, 0, 0], 0.0)
 
     def test_text_of_a_preset(self):
         text = preset.with_key(START, "instrument.receiver.gamma", "0.5", "fit", "x")

@@ -59,7 +59,8 @@ class LogStatistics:
         self.mean = special.digamma(looks) - np.log(looks)
         self.variance = special.polygamma(1, looks)
         self.skewness = special.polygamma(2, looks) / self.variance**1.5
-        self.variation = amplitude_variation(looks)
+        # Of the root of a gamma distributed power: 0.5227 for one look.
+        self.variation = np.sqrt(looks * np.exp(2.0 * (special.gammaln(looks) - special.gammaln(looks + 0.5))) - 1.0)
         self.excess = np.zeros(2)   # of the correlation at even steps of k2, where samples are combined
         self.sorted = np.log(special.gammaincinv(looks, (np.arange(4000) + 0.5) / 4000) / looks)    # ln P, evenly likely
 
@@ -81,11 +82,6 @@ class LogStatistics:
             covariance = (k2[..., None] ** j / (j**2 * special.binom(self.looks + j - 1, j))).sum(axis=-1)
         excess = np.interp(k2, np.linspace(0.0, 1.0, len(self.excess)), self.excess)
         return covariance / special.polygamma(1, self.looks) + excess
-
-
-def amplitude_variation(shape):
-    """The coefficient of variation of the root of a gamma distributed power: 0.5227 for shape 1."""
-    return np.sqrt(shape * np.exp(2.0 * (special.gammaln(shape) - special.gammaln(shape + 0.5))) - 1.0)
 
 
 # Several correlated samples that become one value have no closed form: a result is that of single samples plus a drawn

@@ -8,9 +8,9 @@ import re
 import shutil
 import sys
 
-from ..need import need
+from ..command import need, run
 
-need("numpy")
+need("gallery", "numpy")
 
 from .. import data
 from ..tally import EDGES, Tally
@@ -70,8 +70,8 @@ def write_dataset(files, k, shown):
     return sum(sensor["pings"] for sensor in sensors)
 
 
-def write_page(out):
-    """Writes the page, whole or not at all. Returns the numbers of datasets and pings, and the bytes."""
+def write_page(out, is_quiet):
+    """Writes the page, whole or not at all."""
     datasets, drawn, missing = members_of(out)
     require_ours(out)
     files, partial = out / FILES, out / f"{FILES}.tmp"
@@ -98,7 +98,8 @@ def write_page(out):
     except BaseException:
         shutil.rmtree(partial, ignore_errors=True)
         raise
-    return len(datasets), pings, size
+    if not is_quiet:
+        print(f"{out / 'index.html'}: {len(datasets)} datasets, {pings} pings, {size / 1e6:.1f} MB; open it in a browser")
 
 
 def main():
@@ -108,18 +109,7 @@ def main():
                         help="the folder of a dataset, of the variants of a mission, or of several datasets")
     parser.add_argument("-q", "--quiet", action="store_true", help="print only errors")
     arguments = parser.parse_args()
-    try:
-        datasets, pings, size = write_page(arguments.folder)
-    except ValueError as error:
-        print(f"sonarsim gallery: {error}", file=sys.stderr)
-        return 2
-    except OSError as error:
-        print(f"sonarsim gallery: {error.filename or arguments.folder}: {error.strerror}", file=sys.stderr)
-        return 1
-    if not arguments.quiet:
-        print(f"{arguments.folder / 'index.html'}: {datasets} datasets, {pings} pings, {size / 1e6:.1f} MB; "
-              "open it in a browser")
-    return 0
+    return run("gallery", write_page, arguments.folder, arguments.quiet)
 
 
 if __name__ == "__main__":
