@@ -219,7 +219,7 @@ class Files(Gallery):
         for fragment in ("sonarsim gallery: ", *fragments):
             self.assertIn(fragment, done.stderr)
         self.assertEqual({path: path.read_bytes() for path in self.out.glob("*") if path.is_file()}, before)
-        self.assertFalse((self.out / "index_files.tmp").exists())
+        self.assertFalse((self.out / "index_files.part").exists())
 
     def test_bad_datasets_are_refused_in_one_sentence(self):
         self.refused("is no dataset and holds none")

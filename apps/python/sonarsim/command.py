@@ -3,6 +3,7 @@ import contextlib
 import importlib.util
 import os
 import pathlib
+import shutil
 import sys
 
 PACKAGES = {"numpy": "python3-numpy", "PIL": "python3-pil", "scipy": "python3-scipy",
@@ -53,4 +54,21 @@ def replaced(path):
                 path.parent.rmdir()
         if isinstance(fault, OSError):
             raise OSError(fault.errno, fault.strerror or str(fault), str(path)) from fault
+        raise
+
+
+@contextlib.contextmanager
+def new_folder(path):
+    """A folder to fill, which becomes `path` if no exception comes; else nothing is left."""
+    part = path.with_name(path.name + ".part")
+    try:
+        part.mkdir(parents=True)
+    except FileExistsError:
+        raise ValueError(f"{part}: another run writes it, or was killed; if none is running, remove it") from None
+    try:
+        yield part
+        shutil.rmtree(path, ignore_errors=True)
+        part.rename(path)
+    except BaseException:
+        shutil.rmtree(part, ignore_errors=True)
         raise

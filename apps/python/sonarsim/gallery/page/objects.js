@@ -39,7 +39,7 @@ function select(label) {
   const shows = one => one.seen[label];
   if (!shows(sensor()) && data.sensors.some(shows)) choose_sensor(data.sensors.findIndex(shows));
   if (shows(sensor()) && view() && !view().width) choose_view(sensor().views.findIndex(one => one.width));
-  const is_here = !(view() && 'along' in view()) && entries_of(view(), state.ping).some(entry => entry[0] === label);
+  const is_here = !(view() && 'pings_along' in view()) && entries_of(view(), state.ping).some(entry => entry[0] === label);
   if (shows(sensor()) && !is_here)
     state.ping = pings_of(label).reduce((a, b) => Math.abs(b - state.ping) < Math.abs(a - state.ping) ? b : a);
   show_objects();
