@@ -148,8 +148,8 @@ def write_page(out, is_quiet):
         with data.reading(out / "variants.json"):
             drawn = {name: {str(key): str(value) for key, value in facts_of(one.get("drawn", {})).items()}
                      for name, one in variants.items()}
-        about = {"name": out.resolve().name, "missing": len(variants.keys() - set(found)), "classes": classes,
-                 "chunk": PINGS_PER_CHUNK, "edges": EDGES, "datasets": [(name, drawn.get(name, {})) for name in found],
+        about = {"name": out.resolve().name, "classes": classes, "chunk": PINGS_PER_CHUNK, "edges": EDGES,
+                 "datasets": [(name, drawn.get(name, {})) for name in found],
                  "statistics": {sensor: tally.as_json() for sensor, tally in totals.items()}}
         text = (PAGE / "page.html").read_text("utf-8").replace("<!--data-->", json.dumps(about).replace("<", "\\u003c"))
         index.write_text(text, "utf-8")

@@ -4,7 +4,6 @@ const most_rows = 300;  // of the list: more would make the page slow
 const sightings = count => count ? `${count} ${count === 1 ? 'sighting' : 'sightings'}` : 'not seen';
 
 function show_legend() {
-  const of_class = page.classes.map((_, k) => data.labels.filter(label => label[1] === k).length);
   $('legend').replaceChildren(...page.classes.map((name, k) => {
     const box = Object.assign(element('input', ''), {type: 'checkbox', checked: !state.hidden.has(k)});
     box.onchange = () => {
@@ -14,7 +13,7 @@ function show_legend() {
       show();
     };
     const row = element('label', '');
-    row.append(box, swatch(colours[k % colours.length]), `${name} `, element('small', `${of_class[k]}`));
+    row.append(box, swatch(colours[k % colours.length]), `${name} `);
     return row;
   }));
 }
