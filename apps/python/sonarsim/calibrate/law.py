@@ -9,7 +9,7 @@ from .patches import Patches
 from .statistics import DB_OF_E, Bounded, CalibrationError, LogStatistics, bootstrap
 
 LEAST_PATCHES, LEAST_SPREAD_OF_LEVELS = 8, 0.1  # patches of about one level do not determine the slope
-MOST_ZEROS = 0.05               # share of values at a place that a logarithm may cut off; their variance is known
+MOST_ZEROS = 0.02               # share of values at a place that a logarithm may cut off; their variance is known
 LEAST_ERROR = 0.01              # that finite patches, their trend and the steps of the values leave
 # If a share p of the powers becomes 0, the variance of the logarithm lacks p (0.8 - 2 ln p): half a per cent here.
 MOST_CUT_OFF = 5e-4
