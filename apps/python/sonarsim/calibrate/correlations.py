@@ -16,7 +16,7 @@ CHI2_95 = 3.84          # chi^2 of one degree of freedom stays below it in 95 of
 # Of correlations: the error of the model between the columns of its grid, the least that shows a pulse, and the most
 # that a texture may leave unexplained.
 MODEL_ERROR, LEAST_CORRELATION, MOST_LEFT = 0.002, 0.04, 0.05
-SIZES = 24          # tried sizes of its squares, from 1 to 12 bins
+SIZES = 24          # tried sizes of its squares, from 2 to 12 bins
 
 
 def pattern(pedestal, t):
@@ -131,10 +131,10 @@ def fit_texture(patches, echoes, pulse):
     one size, of which a share 1 - lag / size of all bins that far apart lies in one. By least squares over a grid of
     squares and pulses; None if the share lies less than 3.3 standard errors off 0, or if the correlations are others."""
     bins, rows = (of[::5] for of in pulse.table)
-    squares = np.maximum(1.0 - np.arange(1, LAGS + 1) / np.linspace(1.0, 12.0, SIZES)[:, None], 0.0)
+    squares = np.maximum(1.0 - np.arange(1, LAGS + 1) / np.linspace(2.0, 12.0, SIZES)[:, None], 0.0)
     own = np.tile(rows, (SIZES, 1))
     t = np.repeat(squares, len(rows), axis=0) - own       # [size and pulse, lag]
-    norm, correlations = (t**2).sum(axis=1, keepdims=True), patches.correlations(echoes)
+    norm, correlations = np.maximum((t**2).sum(axis=1, keepdims=True), 1e-6), patches.correlations(echoes)
 
     def estimate(weights):
         # Least squares of seen - own = share (squares - own), with own the speckle's correlation.
