@@ -271,13 +271,11 @@ class ImageFormer {
     /// exact.
     void add_multipath(const TracedPing& traced, EchoGrid& grid) {
         const std::vector<SpecularPath> paths = specular_paths(traced, context_.scene);
-        if (paths.empty() && traced.retraced.samples.empty()) return;
+        if (paths.empty()) return;
         ping_.counts.echoes += 2 * paths.size();
         const auto add_to = [&](EchoGrid& powers) {
             ping_.counts.out_of_range += add_specular_powers(
                 beams_, paths, scattering_->materials, model_.equation, model_.limits, powers);
-            const std::vector<Sample>& retraced = traced.retraced.samples;
-            add_surface_powers(model_, beams_, retraced, *scattering_, ping_.counts, powers);
         };
         if (speckle_ != SpeckleMode::scene) return add_to(grid);
         EchoGrid specular(grid.rows(), grid.columns());

@@ -78,8 +78,6 @@ struct MultipathConfig {
     /// bins on a rough sea floor; 5 miss 2 % and take a tenth more rays.
     double delta_deg = 5.0;
     int columns_per_beam = 1;        ///< parts that the trace divides a beam into; fans only
-    int retraced = 0;                ///< most reflections on a retraced path
-    double retraced_loss_db = 40.0;  ///< paths with a greater loss are left out
 
     bool operator==(const MultipathConfig&) const = default;
 };

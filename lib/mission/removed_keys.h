@@ -38,6 +38,8 @@ inline constexpr RemovedKey removed_keys[] = {
     {"heightmap", "keep", "all heights are kept; make the map coarser with gdal_translate -tr"},
     {"sediment_map", "placed", "maps lie on the ground from above; leave it out"},
     {"backscatter_map", "placed", "maps lie on the ground from above; leave it out"},
+    {"multipath", "retraced", "echoes end at the second surface; leave it out"},
+    {"multipath", "retraced_loss_db", "echoes end at the second surface; leave it out"},
     {"labels", "semantic", "write labels: [class], whose files hold the same ids"},
 };
 

@@ -62,9 +62,7 @@ Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
     settings.multipath = {
         .on = multipath.method != MultipathMethod::none,
         .cluster = {.epsilon_bins = exact ? 0 : multipath.epsilon_bins,
-                    .delta_cosine = cosine_of(multipath.delta_deg)},
-        .retraced = multipath.retraced,
-        .retraced_least = static_cast<float>(power(10.0, -0.1 * multipath.retraced_loss_db))};
+                    .delta_cosine = cosine_of(multipath.delta_deg)}};
     return sonar;
 }
 

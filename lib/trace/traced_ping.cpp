@@ -77,7 +77,6 @@ void trace_multipath(const TraceSettings& settings, const Scene& scene,
     Stopwatch watch;
     traced.counts.multipath = {};
     traced.bounces.clear();
-    traced.retraced = {};
     traced.missed_multipath = std::numeric_limits<double>::quiet_NaN();
     if (settings.multipath.on) {
         const TraceContext context{.view = settings.view,
@@ -86,8 +85,6 @@ void trace_multipath(const TraceSettings& settings, const Scene& scene,
                                    .T_world_sensor = traced.T_world_sensor};
         traced.bounces =
             find_bounces(settings.multipath, context, traced.samples, traced.counts.multipath);
-        traced.retraced =
-            retraced_surface(settings.multipath, context, traced.samples, traced.counts.multipath);
         // Surface that scatters sound back may fill bins that the bounces miss.
         if (!settings.multipath.scattered) {
             const View view = traced_view(settings.view, settings.guard_beams);

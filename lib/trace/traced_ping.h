@@ -14,7 +14,6 @@
 #include "trace/object_motion.h"
 #include "trace/particles.h"
 #include "trace/ping_motion.h"
-#include "trace/retraced.h"
 #include "trace/target_shapes.h"
 #include "trace/target_surface.h"
 #include "trace/terms.h"
@@ -50,7 +49,6 @@ struct TracedPing {
     SeenParticles particles;
     std::vector<Sample> water_surface;  ///< material and instance are 0
     std::vector<BouncePath> bounces;    ///< multipath paths from `samples`
-    RetracedSurface retraced;
     /// The age of the water's speckle; none: each ping draws its own speckle.
     std::optional<double> water_age;
     /// The group in which each beam transmits, and the traces of all groups after the first, whose

@@ -59,18 +59,13 @@ TEST_CASE("particles: what is refused, and where") {
         std::string::npos);
 }
 
-TEST_CASE("motion in a ping and retraced paths: what is refused") {
+TEST_CASE("motion in a ping: what is refused") {
     const std::string mission =
         "scene: {file: a.glb, materials: a.csv}\ntrajectory: {file: a.tum}\nsensors:\n  fls:\n"
         "    kind: imaging\n";
     CHECK(refusal(mission + "    shutter: {groups: 2}\n").find("moves_in_ping: true") !=
           std::string::npos);
     CHECK(refusal(mission + "    moves_in_ping: true\n    shutter: {groups: 2}\n").empty());
-    const std::string retraced = mission + "    multipath: {method: cluster, retraced: 3}\n";
-    CHECK(refusal(retraced).find("model: calibrated") != std::string::npos);
-    CHECK(refusal(retraced + "    model: calibrated\n").empty());
-    CHECK(refusal(mission + "    multipath: {retraced: 3}\n").find("multipath.method") !=
-          std::string::npos);
     CHECK(refusal(mission + "    model: calibrated\n    instrument: {pulse: {sweep: up}}\n")
               .find("duration_s above 0") != std::string::npos);
 }
