@@ -21,8 +21,6 @@ ERRORS = "instrument.beam.elements={gain_error_db: 0.5, phase_error_deg: 3}"
 ERRORS_OFF = "fls.instrument.beam.elements={gain_error_db: 0, phase_error_deg: 0}"
 POINTS = ("scene.particles=[{name: p, kind: fish, length_m: [0.1, 0.3], count: %d, region: ellipsoid, "
           "position_m: %s, size_m: [6, 4, 2]}]")
-BURIED = ("scene.particles=[{name: p, target_strength_db: -30, count: 100, region: ellipsoid, "
-          "position_m: [0, 0, -1], size_m: [40, 40, 1], buried: true}]")
 QUIET = ["water.content=none", "output.labels=[]", *(f"output.{file}=false" for file in ("polar", "image", "fan", "meta",
                                                                                          "waterfall"))]
 # Each mission: its sensor, the shard of its pings that is rendered, and the settings of each stage.
@@ -37,8 +35,6 @@ TANK = ("tank_calibrated", "fls", "1/1", {
     "motion within a ping": ["fls.moves_in_ping=true"],
     "4 groups of beams": ["fls.moves_in_ping=true", "fls.shutter.groups=4"],
     "multipath": ["fls.multipath.method=cluster"],
-    "multipath, retraced: 2": ["fls.multipath.method=cluster", "fls.multipath.retraced=2"],
-    "multipath, retraced: 4": ["fls.multipath.method=cluster", "fls.multipath.retraced=4"],
 })
 SIDE = ("seafloor_sidescan_calibrated", "sss", "1/3", {
     "water column": ["water.content=coastal"],
@@ -48,7 +44,6 @@ SIDE = ("seafloor_sidescan_calibrated", "sss", "1/3", {
     "two samples": ["sss.instrument.receiver.samples=2"],
     "ringing": ["sss.instrument.receiver.ring_down_db=140"],
     "tail below the bottom": ["sss.instrument.below_bottom=true"],
-    "100 buried points": [BURIED],
     "motion within a ping": ["sss.moves_in_ping=true"],
     "second bottom echo": ["scene.water_surface={height_m: 12}", "sss.multipath.method=cluster"],
     "sound-speed profile": ["scene.water_surface={height_m: 12}", "water.profile={named: summer}"],

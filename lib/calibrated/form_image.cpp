@@ -91,11 +91,6 @@ class ImageFormer {
             ping_.counts.occupied_bins = std::max<std::uint64_t>(
                 ping_.counts.occupied_bins, coherent->convolve_pulse(model_.amplitude_taps));
         }
-        if (model_.pulse_floor.share > 0.0F) {
-            add_pulse_floor(model_.pulse_floor, of_powers ? PowerForm::power : PowerForm::amplitude,
-                            pulse_floor_gain(), context_.draws.of(stream_named("pulse floor")),
-                            coherent ? &*coherent : nullptr, grid);
-        }
         // 3, 4. Beams, the receiver's noise and its gain.
         beamform(beams_, grid, of_powers, coherent ? &*coherent : nullptr,
                  context_.terms.random > 1, context_.draws.of(Stream::receiver_noise),
@@ -103,21 +98,6 @@ class ImageFormer {
     }
 
   private:
-    /// The far side lobes are drawn in each column, after the pulse. The amplitudes of
-    /// `speckle: ping` were drawn in each column as well, and nearly all have the right power
-    /// there.
-    float pulse_floor_gain() const {
-        switch (speckle_) {
-            case SpeckleMode::none:
-                return split_gain(beams_);
-            case SpeckleMode::ping:
-                return 1.0F;
-            case SpeckleMode::scene:
-                break;
-        }
-        return split_gain(beams_) * scalloping_gain(beams_);
-    }
-
     /// Computes the echoes of a block of patches: levels, range bins and columns of the grid.
     void find(const PatchBlock& patches) {
         const SedimentScattering* const sediment = scattering_.sediment();
@@ -231,9 +211,8 @@ class ImageFormer {
         std::vector<float> phase2;  // one for each facet
         if (!shares_.are_all_one()) {
             for (const TargetFacet& facet : targets.facets)
-                phase2.push_back(facet.buried ? IncoherentShares::incoherent
-                                              : shares_.phase2(facet.instance, facet.material,
-                                                               facet.corners[0], facet.normal));
+                phase2.push_back(shares_.phase2(facet.instance, facet.material, facet.corners[0],
+                                                facet.normal));
         }
         TargetPieces pieces;
         cut_targets(targets.facets, limits, slopes_, pieces, [&](TargetPieces& cut) {

@@ -67,8 +67,6 @@ struct PulseConfig {
     double resolution_m = 0.0;    ///< half-power width of a point target in range; 0: one bin
     double duration_s = 0.0;      ///< transmitted pulse; 0: that of a pulse without a code
     double side_lobe_db = -30.0;  ///< highest range side lobe after compression
-    /// Energy of the far side lobes relative to the pulse, spread over `duration_s`; -300: none.
-    double floor_db = -300.0;
     Sweep sweep = Sweep::none;  ///< motion shifts and weakens its echoes
 
     bool operator==(const PulseConfig&) const = default;

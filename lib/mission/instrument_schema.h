@@ -105,9 +105,6 @@ void describe(Visitor& v, PulseConfig& c) {
              "resolution is coded, and its noise is that of the long pulse; 0 means no code");
     v.number("side_lobe_db", c.side_lobe_db, side_lobes_db,
              "highest range side lobe of the compressed pulse");
-    v.number("floor_db", c.floor_db, between(-300, 0),
-             "energy of the side lobes of a coded pulse that are spread over its duration_s before "
-             "and behind each echo, relative to the pulse; -300 means none");
     v.choice("sweep", c.sweep, sweeps,
              "with moves_in_ping: the frequency of the coded pulse runs `up` or `down`, so that "
              "what approaches is measured too near or too far, and is weaker by the share of the "

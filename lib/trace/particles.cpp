@@ -1,9 +1,7 @@
 #include "trace/particles.h"
 
 #include <cmath>
-#include <optional>
 
-#include "trace/buried.h"
 #include "trace/object_motion.h"
 #include "visibility/view_volume.h"
 
@@ -50,8 +48,6 @@ SeenParticles seen_particles(const Particles& particles, double time_s, const Vi
             return false;
         return guard_beams.count == 0 || is_reached(view, place);
     };
-    // A buried point is in view if its apparent place is, which may be nearer.
-    const double farthest = view.range_max_m * most_distance_by_range(particles.sediments);
     SeenParticles found;
     std::vector<Ray> rays;
     for (std::uint32_t k = 0; k < particles.all.size(); ++k) {
@@ -59,7 +55,7 @@ SeenParticles seen_particles(const Particles& particles, double time_s, const Vi
         const Eigen::Vector3f place =
             (to_sensor * (place_at(particle, time_s) - T_world_sensor.translation)).cast<float>();
         const float range = place.norm();
-        if (!(range > 0.0F && (particle.buried ? range < farthest : is_in_view(place)))) continue;
+        if (!(range > 0.0F && is_in_view(place))) continue;
         rays.push_back({Eigen::Vector3f::Zero(), place / range});
         found.numbers.push_back(k);
         found.samples.push_back({.position = place,
@@ -77,13 +73,7 @@ SeenParticles seen_particles(const Particles& particles, double time_s, const Vi
     for (std::size_t k = 0; k < rays.size(); ++k) {
         Sample& sample = found.samples[k];
         const Particle& particle = particles.all[found.numbers[k]];
-        if (particle.buried) {
-            const std::optional<Sample> below = seen_buried(particles.sediments, sample, hits[k]);
-            if (!below || !is_in_view(below->position)) continue;
-            sample = *below;
-        } else if (hits[k].distance_m < sample.height_m) {
-            continue;
-        }
+        if (hits[k].distance_m < sample.height_m) continue;
         if (motion.sound_speed_m_s > 0.0)
             move_point(motion, view.shape, to_sensor * particle.velocity_m_s, sample);
         found.samples[kept] = sample;

@@ -57,9 +57,8 @@ struct Target {
 
 class TargetSampler {
   public:
-    TargetSampler(const View& view, const GuardBeams& guard_beams, const BuriedObjects* buried)
+    TargetSampler(const View& view, const GuardBeams& guard_beams)
         : view_(view),
-          buried_(buried),
           guarded_(guard_beams.count > 0),
           widened_(widened_view(view, guard_beams)),
           field_(widened_) {}
@@ -72,11 +71,7 @@ class TargetSampler {
         const Eigen::Vector3f centre = T_sensor_shape * shape.centre;
         const float radius = scale * shape.radius_m;
         const float range = arrival_range(centre);
-        // Echoes through a sediment of fast sound are nearer than their places.
-        const double farthest =
-            view_.range_max_m *
-            (is_buried(placed.instance) ? most_distance_by_range(buried_->sediments) : 1.0);
-        if (range - radius > static_cast<float>(farthest) ||
+        if (range - radius > static_cast<float>(view_.range_max_m) ||
             range < least_distance_by_radius * radius)
             return std::nullopt;
         const Containment contained =
@@ -88,8 +83,7 @@ class TargetSampler {
             shape.curvature_m > 0.0F ? scale * shape.curvature_m * placed.least_slope : radius;
         // On a coarse mesh an engine sees facets where the surface is curved.
         const bool is_smooth = shape.turn <= placed.least_slope;
-        if (highlight > most_cells * cell && is_smooth && !is_buried(placed.instance))
-            return std::nullopt;
+        if (highlight > most_cells * cell && is_smooth) return std::nullopt;
         const float part = part_by_diameter * 2.0F * radius;
         return Target{
             &placed, &shape, T_sensor_shape, scale, cell, part, contained == Containment::inside};
@@ -101,15 +95,13 @@ class TargetSampler {
         for (const Eigen::Vector3f& p : shape.vertices)
             vertices_.push_back(target.T_sensor_shape * p);
         const Eigen::Matrix3f R = target.T_sensor_shape.linear() / target.scale;
-        // Refracted sound may meet triangles that face away from the straight line.
-        const bool is_outside = shape.closed && is_buried(target.placed->instance);
         last_point_.reset();
         parts_.reserve(parts_.size() + 2 * shape.triangles.size());
         for (const TargetTriangle& triangle : shape.triangles) {
             Eigen::Vector3f normal = R * triangle.normal;
             const float height = -normal.dot(vertices_[triangle.corners[0]]);
-            if (shape.closed && !is_outside && !(height > 0.0F)) continue;
-            const float side = height < 0.0F && !is_outside ? -1.0F : 1.0F;
+            if (shape.closed && !(height > 0.0F)) continue;
+            const float side = height < 0.0F ? -1.0F : 1.0F;
             TargetFacet facet{.corners = {},
                               .normals = {},
                               .normal = side * normal,
@@ -132,12 +124,7 @@ class TargetSampler {
         std::size_t kept = 0;
         for (std::size_t k = 0; k < parts_.size(); ++k) {
             const std::uint32_t ray = ray_of_[k];
-            if (!is_reached(aims_[ray], hits[ray])) {
-                if (!is_buried(parts_[k].instance)) continue;
-                const auto seen = seen_buried(buried_->sediments, parts_[k], rays_[ray], hits[ray]);
-                if (!seen) continue;
-                parts_[k] = *seen;
-            }
+            if (!is_reached(aims_[ray], hits[ray])) continue;
             if (kept != k) parts_[kept] = parts_[k];
             ++kept;
         }
@@ -160,8 +147,6 @@ class TargetSampler {
         const float slack = (hit.rounding_m + aim.slack_m) / std::max(aim.cosine, 1e-3F);
         return hit.distance_m + slack >= aim.range_m;
     }
-
-    bool is_buried(std::uint32_t instance) const { return buried_ && buried_->has(instance); }
 
     bool is_in_view(const Eigen::Vector3f& p) const {
         if (field_.beam(p, arrival_range(p)) < 0.0F) return false;
@@ -238,7 +223,6 @@ class TargetSampler {
     static constexpr float weld_slack = 2e-5F;
 
     const View& view_;
-    const BuriedObjects* buried_;  ///< null: none
     bool guarded_;
     View widened_;
     BeamLocator field_;
@@ -266,10 +250,9 @@ Eigen::Affine3f in_sensor_frame(const PlacedTarget& placed, const Scene& scene,
 
 TargetSurface target_surface(const TargetShapes& shapes, const View& view,
                              const GuardBeams& guard_beams, const Scene& scene,
-                             const VisibilityEngine& engine, const Pose& T_world_sensor,
-                             const BuriedObjects* buried) {
+                             const VisibilityEngine& engine, const Pose& T_world_sensor) {
     TargetSurface out;
-    TargetSampler sampler(view, guard_beams, buried);
+    TargetSampler sampler(view, guard_beams);
     const std::span<const Pose> bodies = engine.body_poses();
     for (const PlacedTarget& placed : shapes.placed) {
         if (placed.body && bodies.empty()) continue;  // without a pose it is invisible

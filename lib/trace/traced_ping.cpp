@@ -50,7 +50,7 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
     move_in_ping(motion, settings.view, traced.samples, traced.outside_sector);
     if (settings.targets) {
         traced.targets = target_surface(*settings.targets, settings.view, settings.guard_beams,
-                                        scene, engine, T_world_sensor, settings.buried.get());
+                                        scene, engine, T_world_sensor);
         move_objects(objects, motion, T_world_sensor, traced.targets.facets);
         fade_by_doppler(objects, motion, T_world_sensor, traced.targets.facets);
         move_in_ping(motion, settings.view.shape, traced.targets.facets);

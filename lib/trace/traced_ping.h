@@ -7,7 +7,6 @@
 
 #include "core/pose.h"
 #include "scene/scene.h"
-#include "trace/buried.h"
 #include "trace/coherent_surface.h"
 #include "trace/counters.h"
 #include "trace/multipath.h"
@@ -33,7 +32,6 @@ struct TraceSettings {
     std::shared_ptr<const TargetShapes> targets;
     std::shared_ptr<const CoherentFaces> coherent;  ///< null: none
     std::shared_ptr<const Particles> particles;     ///< point targets in the water; null: none
-    std::shared_ptr<const BuriedObjects> buried;    ///< null: none
     bool sees_water_surface = false;                ///< if the surface scatters
 };
 

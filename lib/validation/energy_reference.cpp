@@ -117,7 +117,7 @@ Reference cast_energy_reference(const Caster& caster, const Scene& scene,
     if (settings.targets) {
         targets =
             target_surface(*settings.targets, settings.view, settings.guard_beams, scene,
-                           TargetRays(caster, scene.origin), T_world_sensor, settings.buried.get());
+                           TargetRays(caster, scene.origin), T_world_sensor);
     }
     const ReferenceView looking{caster, scene, view, pose, shares};
     return settled(settings.view, goal, [&](int per_beam, int count) {

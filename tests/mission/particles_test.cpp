@@ -49,10 +49,7 @@ TEST_CASE("particles: what is refused, and where") {
     is_refused("target_strength_db: -40, count: 3, rise_m_s: 1", "rise_m_s is for kind: bubbles");
     is_refused("target_strength_db: -40, per_m3: 1", "region with a volume");
     is_refused("target_strength_db: -40, per_m3: 1e6, size_m: [10, 10, 10]", "a million");
-    is_refused("kind: fish, length_m: 0.3, count: 3, buried: true", "kind: points");
-    is_refused("target_strength_db: -40, count: 3, buried: true, drift_m_s: [1, 0, 0]",
-               "do not drift");
-    CHECK(refusal(with_particles("target_strength_db: -40, count: 3, buried: true")).empty());
+    is_refused("target_strength_db: -40, count: 3, buried: true", "leave it out");
     CHECK(refusal(with_particles("target_strength_db: -40, count: 3")).empty());
     CHECK(
         refusal(with_particles("target_strength_db: -40, count: 3", "paper")).find("calibrated") !=
