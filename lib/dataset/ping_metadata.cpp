@@ -90,8 +90,6 @@ Json describe_ping(const Mission& mission, const Assembly& assembly, const Finis
     // Rounded, since it is an estimate.
     if (const double error = finished.ping.estimated_l1; !std::isnan(error))
         json["estimated_error"] = std::round(1e5 * error) / 1e5;
-    if (const double missed = finished.ping.missed_multipath; !std::isnan(missed))
-        json["estimated_missed_multipath"] = std::round(1e3 * missed) / 1e3;
     if (mission.variant.index >= 0) {
         json["variant"] = {{"index", mission.variant.index},
                            {"drawn", describe_drawn(mission.variant.drawn)}};

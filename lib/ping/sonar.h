@@ -23,9 +23,6 @@ struct Sonar {
     /// The angles of a head that turns from ping to ping about the sensor's z axis, positive to
     /// port; they repeat. Empty for a fixed sonar.
     std::vector<double> head_angles_rad;
-    /// For soundings: the bias of a range by range noise, m, indexed by the length in bins of the
-    /// run that shows the surface. Empty: no bias.
-    std::vector<double> range_bias_m;
     // For soundings, where sound bends: the profile of the water. Null: sound goes straight.
     std::shared_ptr<const SoundProfile> true_profile;
     std::shared_ptr<const SoundProfile> assumed_profile;  ///< the profile the instrument assumes

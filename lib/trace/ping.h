@@ -17,8 +17,6 @@ struct Ping {
     std::vector<float> intensity;  ///< [range_bins, beams], 0 where nothing is seen
     /// The engine's estimate of its own error, see Samples::estimated_l1.
     double estimated_l1 = std::numeric_limits<double>::quiet_NaN();
-    /// See TracedPing::missed_multipath; NaN without multipath in the image.
-    double missed_multipath = std::numeric_limits<double>::quiet_NaN();
     PingCounts counts;
     PingSeconds seconds;
 

@@ -1,17 +1,12 @@
 #include "trace/traced_ping.h"
 
-#include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/clock.h"
 #include "trace/find_coherent_surface.h"
 #include "trace/lay_maps.h"
-#include "trace/map_error.h"
-#include "trace/missed_multipath.h"
 #include "trace/seen_water_surface.h"
 #include "trace/water_mirror.h"
-#include "visibility/rays/sampling.h"
 
 namespace sonarsim {
 
@@ -31,11 +26,6 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
     traced.counts.samples = traced.samples.items.size() + traced.outside_sector.size();
     traced.counts.dropped_samples = traced.samples.dropped;
     if (scene.maps) {
-        // The errors of the texels and of the engine are independent, so their squares add.
-        const double of_maps = error_of_maps(scene, settings.view, T_world_sensor, traced.samples);
-        double& estimate = traced.samples.estimated_l1;
-        estimate *= growth_by_maps(scene, settings.view, T_world_sensor, traced.samples.compared);
-        estimate = std::sqrt(estimate * estimate + of_maps * of_maps);
         lay_maps(*scene.maps, settings.view, T_world_sensor, traced.samples, traced.outside_sector,
                  1.0, scene.sound_profile.get());
     }
@@ -77,7 +67,6 @@ void trace_multipath(const TraceSettings& settings, const Scene& scene,
     Stopwatch watch;
     traced.counts.multipath = {};
     traced.bounces.clear();
-    traced.missed_multipath = std::numeric_limits<double>::quiet_NaN();
     if (settings.multipath.on) {
         const TraceContext context{.view = settings.view,
                                    .scene = scene,
@@ -85,13 +74,6 @@ void trace_multipath(const TraceSettings& settings, const Scene& scene,
                                    .T_world_sensor = traced.T_world_sensor};
         traced.bounces =
             find_bounces(settings.multipath, context, traced.samples, traced.counts.multipath);
-        // Surface that scatters sound back may fill bins that the bounces miss.
-        if (!settings.multipath.scattered) {
-            const View view = traced_view(settings.view, settings.guard_beams);
-            const int columns = sampling_for(view).columns * settings.guard_beams.divided;
-            traced.missed_multipath =
-                missed_multipath(settings.view, columns, traced.samples, traced.bounces);
-        }
     }
     traced.seconds.multipath = watch.lap();
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -53,9 +52,6 @@ struct TracedPing {
     /// trace is this one. Empty: all beams transmit at once.
     std::vector<int> group_of_beam;
     std::vector<TracedPing> later_groups;
-    /// The estimated share of bins with multipath that `bounces` do not reach, see
-    /// missed_multipath(); NaN without an estimate.
-    double missed_multipath = std::numeric_limits<double>::quiet_NaN();
     PingCounts counts;
     PingSeconds seconds;
 };
