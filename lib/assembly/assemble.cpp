@@ -247,7 +247,6 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
     add_water_surface(mission, assembly);
     add_particles(mission, assembly.trajectory, assembly.scene, assembly.sonars);
     add_sound_profiles(mission, assembly.scene, assembly.sonars);
-    add_object_motions(assembly.trajectory, assembly.scene, assembly.motions, assembly.sonars);
     add_water_ages(mission, assembly.trajectory, assembly.sonars);
     warn_of_empty_scatter(mission, assembly.scene);
     if (!mission.output.labels.empty() || !mission.classes.empty()) {

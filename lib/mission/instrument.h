@@ -59,15 +59,15 @@ struct BeamConfig {
     bool operator==(const BeamConfig&) const = default;
 };
 
-/// The direction in which the frequency of a coded pulse runs. `none`: motion does not change its
+/// The direction in which the frequency of a coded pulse runs. `none`: motion does not shift its
 /// echo.
-enum class Sweep { none, up, down, tone };
+enum class Sweep { none, up, down };
 
 struct PulseConfig {
     double resolution_m = 0.0;    ///< half-power width of a point target in range; 0: one bin
     double duration_s = 0.0;      ///< transmitted pulse; 0: that of a pulse without a code
     double side_lobe_db = -30.0;  ///< highest range side lobe after compression
-    Sweep sweep = Sweep::none;  ///< motion shifts and weakens its echoes
+    Sweep sweep = Sweep::none;  ///< motion shifts its echoes
 
     bool operator==(const PulseConfig&) const = default;
 };

@@ -91,7 +91,7 @@ void describe(Visitor& v, BeamConfig& c) {
 
 inline constexpr std::array sweeps{
     Choice<Sweep>{"none", Sweep::none}, Choice<Sweep>{"up", Sweep::up},
-    Choice<Sweep>{"down", Sweep::down}, Choice<Sweep>{"tone", Sweep::tone}};
+    Choice<Sweep>{"down", Sweep::down}};
 
 template <class Visitor>
 void describe(Visitor& v, PulseConfig& c) {
@@ -107,11 +107,9 @@ void describe(Visitor& v, PulseConfig& c) {
              "highest range side lobe of the compressed pulse");
     v.choice("sweep", c.sweep, sweeps,
              "with moves_in_ping: the frequency of the coded pulse runs `up` or `down`, so that "
-             "what approaches is measured too near or too far, and is weaker by the share of the "
-             "band that it is shifted; `tone`: the filter is as narrow as one over duration_s, and "
-             "passes less of what approaches or recedes; `none`: neither");
+             "what approaches is measured too near or too far; `none`: at its place");
     v.require(c.sweep == Sweep::none || c.duration_s > 0.0, {"sweep", "duration_s"},
-              "a pulse that sweeps, or is a tone, needs a duration_s above 0");
+              "a pulse that sweeps needs a duration_s above 0");
 }
 
 template <class Visitor>

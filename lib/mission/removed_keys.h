@@ -42,6 +42,7 @@ inline constexpr RemovedKey removed_keys[] = {
     {"scatter", "buried", "objects wholly below the bottom have no echo; leave it out"},
     {"particles", "buried", "points below the bottom have no echo; leave it out"},
     {"pulse", "floor_db", "side_lobe_db sets the side lobes of the pulse; leave it out"},
+    {"sweep", "tone", "motion weakens no echo; leave it out"},
     {"multipath", "retraced", "echoes end at the second surface; leave it out"},
     {"multipath", "retraced_loss_db", "echoes end at the second surface; leave it out"},
     {"labels", "semantic", "write labels: [class], whose files hold the same ids"},

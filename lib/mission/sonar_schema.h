@@ -103,8 +103,8 @@ void require_insonified(Visitor& v, const SonarConfig& c) {
 template <class Visitor>
 void describe_motion(Visitor& v, SonarConfig& c) {
     v.flag("moves_in_ping", c.moves_in_ping,
-           "the sonar moves and turns during a ping, and so do objects and targets in the water; "
-           "otherwise all are at rest during a ping");
+           "the sonar moves and turns during a ping; otherwise it is at rest. Objects and targets "
+           "in the water always are");
     if (c.kind == SonarKind::imaging) {
         v.section("shutter", c.shutter, "beams that transmit one after the other");
         v.require(c.shutter.groups == 1 || c.moves_in_ping, {"shutter", "moves_in_ping"},

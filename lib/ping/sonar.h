@@ -28,8 +28,6 @@ struct Sonar {
     std::shared_ptr<const SoundProfile> assumed_profile;  ///< the profile the instrument assumes
     /// Its motion during a ping, by pose of the trajectory; null: it stands still.
     std::shared_ptr<const std::vector<PingMotion>> motions;
-    /// Motions of the objects that move during a ping, by pose; null: all stand still.
-    std::shared_ptr<const std::vector<std::vector<ObjectMotion>>> object_motions;
     /// TracedPing::water_age by pose; null: none.
     std::shared_ptr<const std::vector<double>> water_ages;
 };

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "trace/object_motion.h"
 #include "visibility/view_volume.h"
 
 namespace sonarsim {
@@ -20,17 +19,8 @@ Eigen::Vector3d place_at(const Particle& particle, double time_s) {
 namespace {
 
 /// Moves a point to where the sonar measures it.
-void move_point(const PingMotion& motion, ViewShape shape, const Eigen::Vector3d& velocity,
-                Sample& sample) {
-    Eigen::Vector3d place = sample.position.cast<double>();
-    const double recedes = (velocity - motion.velocity_m_s).dot(place.normalized());
-    sample.area_m2 *= static_cast<float>(passed_by_filter(motion.loss, recedes));
-    if (!velocity.isZero(0.0))
-        place = met_place(motion, place, velocity);
-    else if (motion.is_still())
-        return;
-    if (!motion.is_still()) place = measured_place(motion, shape, place);
-    sample.position = place.cast<float>();
+void move_point(const PingMotion& motion, ViewShape shape, Sample& sample) {
+    sample.position = measured_place(motion, shape, sample.position.cast<double>()).cast<float>();
     sample.height_m = sample.position.norm();
     sample.normal = -sample.position / sample.height_m;
 }
@@ -72,10 +62,8 @@ SeenParticles seen_particles(const Particles& particles, double time_s, const Vi
     std::size_t kept = 0;
     for (std::size_t k = 0; k < rays.size(); ++k) {
         Sample& sample = found.samples[k];
-        const Particle& particle = particles.all[found.numbers[k]];
         if (hits[k].distance_m < sample.height_m) continue;
-        if (motion.sound_speed_m_s > 0.0)
-            move_point(motion, view.shape, to_sensor * particle.velocity_m_s, sample);
+        if (!motion.is_still()) move_point(motion, view.shape, sample);
         found.samples[kept] = sample;
         found.numbers[kept] = found.numbers[k];
         ++kept;

@@ -39,7 +39,7 @@ struct SeenParticles {
     std::vector<std::uint32_t> numbers;  ///< index of each into Particles::all
 };
 
-/// The particles in view that no surface hides. One ray tests each. In a ping with motion they move on with their velocity.
+/// The particles in view that no surface hides. One ray tests each.
 SeenParticles seen_particles(const Particles& particles, double time_s, const View& view,
                              const GuardBeams& guard_beams, const VisibilityEngine& engine,
                              const Pose& T_world_sensor, const PingMotion& motion);

@@ -12,7 +12,7 @@ namespace sonarsim {
 
 TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
                       const VisibilityEngine& engine, const Pose& T_world_sensor,
-                      const Terms& terms, const PingMotion& motion, const MovingObjects& objects) {
+                      const Terms& terms, const PingMotion& motion) {
     TracedPing traced;
     traced.T_world_sensor = T_world_sensor;
     traced.motion = motion;
@@ -29,20 +29,10 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
         lay_maps(*scene.maps, settings.view, T_world_sensor, traced.samples, traced.outside_sector,
                  1.0, scene.sound_profile.get());
     }
-    if (!objects.all.empty()) {
-        move_objects(objects, motion, T_world_sensor, traced.samples.items);
-        move_objects(objects, motion, T_world_sensor, traced.outside_sector);
-        if (motion.is_still())
-            sort_into_beams(settings.view, traced.samples, traced.outside_sector);
-    }
-    fade_by_doppler(objects, motion, T_world_sensor, traced.samples.items);
-    fade_by_doppler(objects, motion, T_world_sensor, traced.outside_sector);
     move_in_ping(motion, settings.view, traced.samples, traced.outside_sector);
     if (settings.targets) {
         traced.targets = target_surface(*settings.targets, settings.view, settings.guard_beams,
                                         scene, engine, T_world_sensor);
-        move_objects(objects, motion, T_world_sensor, traced.targets.facets);
-        fade_by_doppler(objects, motion, T_world_sensor, traced.targets.facets);
         move_in_ping(motion, settings.view.shape, traced.targets.facets);
     }
     if (settings.coherent) {

@@ -9,7 +9,6 @@
 #include "trace/coherent_surface.h"
 #include "trace/counters.h"
 #include "trace/multipath.h"
-#include "trace/object_motion.h"
 #include "trace/particles.h"
 #include "trace/ping_motion.h"
 #include "trace/target_shapes.h"
@@ -60,8 +59,7 @@ struct TracedPing {
 /// steps 1 and 2 of docs/model.md.
 TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
                       const VisibilityEngine& engine, const Pose& T_world_sensor,
-                      const Terms& terms = {}, const PingMotion& motion = {},
-                      const MovingObjects& objects = {});
+                      const Terms& terms = {}, const PingMotion& motion = {});
 
 /// Finds the multipath of a traced ping again, with these settings.
 void trace_multipath(const TraceSettings& settings, const Scene& scene,

@@ -35,7 +35,6 @@ struct GhostError {
     double missed = 0.0;       ///< share of the reference's bins that are empty in the ping
     double by_mistake = 0.0;   ///< share of the ping's bins that are empty in the reference
     double relative_l1 = 0.0;  ///< error of the multipath image
-    double estimate = 0.0;     ///< see missed_multipath()
 };
 
 /// Traces the ghost by the exact method with rays at the view's goal.
