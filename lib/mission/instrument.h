@@ -84,15 +84,6 @@ struct SpeckleConfig {
 /// The rule by which several samples become the one that is delivered.
 enum class SampleRule { maximum, mean, rms };
 
-/// Sound of another sonar that arrives as if it were an echo.
-struct InterferenceConfig {
-    double level_db = 0.0;  ///< above the noise; 0: none
-    double length_m = 0.1;  ///< length of its pulse in range
-    double step_m = 1.0;    ///< its shift in range from ping to ping
-
-    bool operator==(const InterferenceConfig&) const = default;
-};
-
 struct ReceiverConfig {
     std::optional<double> noise_db;  ///< noise power in a beam; empty: by instrument_levels()
     double efficiency = 0.5;         ///< acoustic / electric power of the transducer
@@ -115,15 +106,9 @@ struct ReceiverConfig {
     double blanking_m = 0.0;         ///< nothing is received up to this range
     double ring_down_db = 0.0;       ///< at range 0, above the noise; 0: none
     double ring_down_m = 0.1;        ///< range over which it falls by 10 dB
-    double gain_drift_db = 0.0;      ///< standard deviation of the gain of pings
-    double gain_drift_pings = 20.0;  ///< pings over which the gain changes
     double beam_gain_db = 0.0;       ///< standard deviation of the gains of the beams
     double sector_gain_db = 0.0;     ///< standard deviation of the gains of sectors of beams
     int sectors = 1;                 ///< equal shares of the beams
-    double dropped_share = 0.0;      ///< share of the pings
-    double spikes_per_ping = 0.0;
-    double spike_db = 40.0;  ///< above the noise
-    InterferenceConfig interference = {};
 
     bool operator==(const ReceiverConfig&) const = default;
 };

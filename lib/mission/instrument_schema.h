@@ -157,21 +157,12 @@ void describe_chain(Visitor& v, ReceiverConfig& c) {
              "level of the transducer's ringing at range 0 above the noise; 0 means none");
     v.number("ring_down_m", c.ring_down_m, between(1e-4, 1e4),
              "range over which the ringing falls by 10 dB");
-    v.number("gain_drift_db", c.gain_drift_db, between(0, 30),
-             "standard deviation of a gain that drifts from ping to ping");
-    v.number("gain_drift_pings", c.gain_drift_pings, between(1, 1e6),
-             "pings over which this gain changes");
     v.number("beam_gain_db", c.beam_gain_db, between(0, 30),
              "standard deviation of the gains of single beams, which stay from ping to ping");
     v.number("sector_gain_db", c.sector_gain_db, between(0, 30),
              "standard deviation of the gains of sectors, which stay, too");
     v.integer("sectors", c.sectors, between(1, 64),
               "number of sectors, which share the beams equally");
-    v.number("dropped_share", c.dropped_share, between(0, 1), "share of the pings that are lost");
-    v.number("spikes_per_ping", c.spikes_per_ping, between(0, 1e4),
-             "mean number of bins of a ping with an electric spike");
-    v.number("spike_db", c.spike_db, raised_levels_db, "level of a spike above the noise");
-    v.section("interference", c.interference, "pulses of another sonar");
 }
 
 template <class Visitor>

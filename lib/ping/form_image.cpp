@@ -21,8 +21,7 @@ Ping form_group(const TracedPing& traced, const PingSettings& settings, const Sc
                           .scene = scene,
                           .draws = {.seed = key.seed,
                                     .sensor = settings.stream,
-                                    .ping = key.ping,
-                                    .every = settings.every},
+                                    .ping = key.ping},
                           .terms = terms},
                          ping);
     return ping;

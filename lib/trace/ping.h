@@ -31,10 +31,6 @@ struct PingDraws {
     std::uint32_t sensor = 0;  ///< names the sonar
     std::uint32_t ping = 0;    ///< index of the pose on the trajectory
     std::uint32_t look = 0;    ///< number of the look, of several that are averaged
-    std::uint32_t every = 1;   ///< number of poses from one ping of the sonar to the next
-
-    /// The number of pings of the sonar before this one.
-    std::uint32_t number() const { return ping / every; }
 
     PhiloxKey of(Stream stream) const { return stream_key(seed_of_look(), sensor, ping, stream); }
     /// Draws that belong to the scene: the same for all sonars and pings.
