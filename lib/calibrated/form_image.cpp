@@ -138,7 +138,7 @@ class ImageFormer {
         grid.add(energy);
     }
 
-    /// Adds the echoes of plates and strips.
+    /// Adds the echoes of plates.
     void add_coherent(EchoGrid& grid) {
         ping_.counts.out_of_range +=
             add_plate_amplitudes(beams_, plates_, model_.equation, model_.limits, grid);

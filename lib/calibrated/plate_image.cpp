@@ -28,45 +28,9 @@ EdgeLimits edge_limits(const PointLimits& limits) {
 }
 
 PlateSurface surface_of(const PlateOfPing& plate, const PlateScene& scene) {
-    if (plate.mirrors.empty()) {
-        const Material& material = scene.materials[plate.material];
-        return {.reflection = plate.strength * material.reflection,
-                .roughness_m = material.roughness_m.value_or(0.0)};
-    }
-    PlateSurface out{.reflection = plate.strength};
-    for (const Mirror& mirror : plate.mirrors) {
-        const Material& material = scene.materials[mirror.material];
-        const double phase =
-            4.0 * pi / scene.wavelength_m * material.roughness_m.value_or(0.0) * mirror.sine;
-        out.reflection *= material.reflection * exponential(-phase * phase);
-    }
-    return out;
-}
-
-/// The plate that reflects like a part of a cylinder. Around the specular line the phase 2 k r on
-/// the arc is stationary over a width w. With D the distance of the sonar from the axis and r from
-/// the line, 2 k r grows by k a D t^2 / r over an angle t, and
-///
-///     |integral of exp(i k a D t^2 / r) a dt| = sqrt(pi a r / (k D)) = sqrt(a r lambda / (2 D)) =
-///     w.
-///
-/// Far away, a length L has A / lambda = L sqrt(a / (2 lambda)). The plate's own phases differ over
-/// w by less than pi a / (4 D), which costs 0.25 dB at most.
-PlateOfPing plate_of(const StripOfPing& strip, double wavelength_m) {
-    const Eigen::Vector3d along = (strip.to - strip.from).normalized();
-    const Eigen::Vector3d middle = 0.5 * (strip.from + strip.to);
-    const double range = arrival_range(middle.cast<float>());
-    const double height = middle.cross(along).norm();
-    const double to_axis = height + strip.radius_m;
-    // In a hollow cylinder the sound is focused close to the axis.
-    if (!(to_axis > std::fabs(strip.radius_m)) && strip.radius_m < 0.0) return {};
-    const double width =
-        std::sqrt(std::fabs(strip.radius_m) * range * wavelength_m / (2.0 * to_axis));
-    PlateOfPing out = plate_along(strip.from, strip.to, along.cross(middle).normalized(),
-                                  0.5 * width, 0.5 * width);
-    out.material = strip.material;
-    out.strength = strip.strength;
-    return out;
+    const Material& material = scene.materials[plate.material];
+    return {.reflection = plate.strength * material.reflection,
+            .roughness_m = material.roughness_m.value_or(0.0)};
 }
 
 /// Makes one echo of the parts from `first` on if the plate is a point to the beams and bins. Parts
@@ -151,15 +115,11 @@ std::uint64_t add_plate_amplitudes(const Beams& beams, const PlateScene& scene,
                                    EchoGrid& grid) {
     std::vector<PlateEcho> echoes;
     const EdgeLimits edges = edge_limits(limits);
-    const auto add = [&](const PlateOfPing& plate) {
+    for (const PlateOfPing& plate : scene.surface.plates) {
         const std::size_t first = echoes.size();
         add_plate_echoes(plate, surface_of(plate, scene), scene.wavelength_m, edges, echoes);
         join_parts(plate, edges, first, echoes);
-    };
-    for (const PlateOfPing& plate : scene.surface.plates)
-        add(plate);
-    for (const StripOfPing& strip : scene.surface.strips)
-        add(plate_of(strip, scene.wavelength_m));
+    }
     PlateBlock block;
     std::uint64_t outside = 0;
     for (std::size_t first = 0; first < echoes.size(); first += PatchBlock::most) {

@@ -48,7 +48,6 @@ Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
     sonar.range_edges_m = edges(config.range_min_m, config.range_max_m, config.range_bins);
     PingSettings& settings = sonar.settings;
     settings.stream = number_of_name(config.name);
-    settings.every = static_cast<std::uint32_t>(config.every);
     settings.view = {.azimuth_rad = radians(cone ? config.opening_deg : config.azimuth_deg),
                      .elevation_rad = radians(cone ? config.opening_deg : config.elevation_deg),
                      .range_min_m = config.range_min_m,
