@@ -120,7 +120,7 @@ Brightness find_full_scales(const Mission& mission, const Scene& scene,
     arena.execute([&] {
         out.caster = std::make_shared<const Caster>(scene);
         const std::unique_ptr<VisibilityEngine> engine =
-            make_rays_engine(scene, *out.caster, false);
+            make_rays_engine(scene, *out.caster);
         for (const Sonar& sonar : sonars) {
             out.full_scales.push_back(
                 find_full_scale(mission, scene, trajectory, motions, sonar, *engine));

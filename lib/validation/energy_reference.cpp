@@ -26,11 +26,6 @@ class TargetRays final : public VisibilityEngine {
                    std::span<Intersection> intersections) const override {
         intersect_rays(caster_, origin_, T_world_sensor, rays, intersections);
     }
-    std::vector<std::uint8_t> covered_bins(const View& /*view*/,
-                                           const Pose& /*T_world_sensor*/) const override {
-        return {};
-    }
-
   private:
     const Caster& caster_;
     const Eigen::Vector3d& origin_;
