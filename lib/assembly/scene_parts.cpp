@@ -187,7 +187,7 @@ ScatterRule rule_of(const ScatterConfig& config) {
 }
 
 /// An object that is turned by more than this is not expected to stand upright in its file.
-constexpr double most_tilt_deg = 45.0;
+constexpr double max_tilt_deg = 45.0;
 
 void add_orientation_warning(const std::string& question, SceneParts& parts) {
     if (question.empty() ||
@@ -197,7 +197,7 @@ void add_orientation_warning(const std::string& question, SceneParts& parts) {
 }
 
 bool is_upright(const ObjectConfig& object) {
-    return std::max(std::abs(object.rpy_deg[0]), std::abs(object.rpy_deg[1])) < most_tilt_deg;
+    return std::max(std::abs(object.rpy_deg[0]), std::abs(object.rpy_deg[1])) < max_tilt_deg;
 }
 
 /// Scatters objects. The error of objects without room says where the bottom lies, and asks for
@@ -236,7 +236,7 @@ void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64
         rule.shapes.push_back(&shape);
     const bool upright =
         std::max({std::abs(config.roll_deg[0]), std::abs(config.roll_deg[1]),
-                  std::abs(config.pitch_deg[0]), std::abs(config.pitch_deg[1])}) < most_tilt_deg;
+                  std::abs(config.pitch_deg[0]), std::abs(config.pitch_deg[1])}) < max_tilt_deg;
     for (std::size_t i = 0; upright && i < kinds.size(); ++i)
         add_orientation_warning(up_question(kinds[i], shapes[i]), parts);
     std::vector<PlacedFile>& files = parts.files;
@@ -248,9 +248,9 @@ void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64
         file.T_world_file = object.T_world_shape;
         if (config.bury_m[1] > 0.0 &&
             lies_below(bottom.get(), moved(shapes[object.shape], file.T_world_file))) {
-            throw InputError(config.place.location,
-                             "'" + printable(file.name) +
-                                 "' lies wholly below the bottom; lower bury_m");
+            throw InputError(
+                config.place.location,
+                "'" + printable(file.name) + "' lies wholly below the bottom; lower bury_m");
         }
     }
 }

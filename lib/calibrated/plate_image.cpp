@@ -13,11 +13,10 @@ namespace sonarsim {
 
 namespace {
 
-// A sample belongs to a plate if it faces as the plate does, within 0.8 degrees, and lies in its
-// plane, within this share of its range.
+// Cosine of 0.8 degrees: within it a sample faces as its plate does.
 constexpr float faces_alike = 0.9999F;
-constexpr double most_apart = 0.0142;  // the distance of two such normals
-constexpr double in_plane = 1e-3;
+constexpr double max_apart = 0.0142;  // the distance of two such normals
+constexpr double in_plane = 1e-3;     // distance from the plane, as a share of the range
 
 EdgeLimits edge_limits(const PointLimits& limits) {
     double sine = limits.sine;
@@ -88,7 +87,7 @@ struct PlateBlock {
             echoes.range_m[k] = range;
             echoes.row[k] = kept ? row : 0.0F;
             echoes.power[k] =
-                kept ? static_cast<float>(size * size * exponential(equation.ln_raised - loss))
+                kept ? static_cast<float>(size * size * exponential(equation.ln_headroom - loss))
                      : 0.0F;
             amplitudes.re[k] = kept ? static_cast<float>(part.amplitude.real() / size) : 0.0F;
             amplitudes.im[k] = kept ? static_cast<float>(part.amplitude.imag() / size) : 0.0F;
@@ -152,11 +151,10 @@ float IncoherentShares::phase2(std::uint32_t instance, std::uint32_t material,
     const double x = -static_cast<double>(normal.x());
     const auto before = [&](const FaceOfPing& face) {
         return face.instance < instance ||
-               (face.instance == instance && face.normal.x() < x - most_apart);
+               (face.instance == instance && face.normal.x() < x - max_apart);
     };
     auto at = std::partition_point(faces_.begin(), faces_.end(), before);
-    for (; at != faces_.end() && at->instance == instance && at->normal.x() < x + most_apart;
-         ++at) {
+    for (; at != faces_.end() && at->instance == instance && at->normal.x() < x + max_apart; ++at) {
         const FaceOfPing& face = *at;
         if (face.material == material &&
             std::fabs(face.normal.dot(point.cast<double>()) - face.height_m) < slack &&

@@ -33,7 +33,7 @@ float combined_power(SampleRule rule, const float* first, int samples, std::size
 void add_to_row(float value, int row, const ImageRows& rows, std::span<float> image) {
     float* const first = image.data() + static_cast<std::size_t>(row) * rows.beams;
     for (int beam = 0; beam < rows.beams; ++beam)
-        first[beam] = std::min(first[beam] + value, most_value);
+        first[beam] = std::min(first[beam] + value, max_value);
 }
 
 /// The ringing falls by 10 dB in each `ring_down_m`.
@@ -53,7 +53,7 @@ void apply_beam_gains(const ReceiverConfig& receiver, const ImageRows& rows, con
         const auto gain =
             static_cast<float>(power_of_db(beam_gain_db(receiver, beam, rows.beams, draws)));
         for (auto k = static_cast<std::size_t>(beam); k < image.size(); k += rows.beams)
-            image[k] = std::min(gain * image[k], most_value);
+            image[k] = std::min(gain * image[k], max_value);
     }
 }
 

@@ -19,14 +19,13 @@ namespace sonarsim {
 
 namespace {
 
-// Patches may be larger than those of an image, since their echoes are spread over bins and beams.
-// Over a depth d at the range r the power changes by 4 d / r of itself.
-constexpr float most_depth_in_bins = 2.0F;
+// Depth of a patch of labels: its echo is spread over the bins.
+constexpr float max_depth_in_bins = 2.0F;
 
 /// The greatest size of a patch of labels.
 PointLimits label_limits(const CalibratedModel& model) {
     PointLimits limits = model.limits;
-    limits.depth_m = most_depth_in_bins * model.equation.bin_m;
+    limits.depth_m = max_depth_in_bins * model.equation.bin_m;
     if (model.cones.exist()) limits.sine = std::max(limits.sine, model.cones.mean_width());
     return limits;
 }

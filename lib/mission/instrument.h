@@ -67,7 +67,7 @@ struct PulseConfig {
     double resolution_m = 0.0;    ///< half-power width of a point target in range; 0: one bin
     double duration_s = 0.0;      ///< transmitted pulse; 0: that of a pulse without a code
     double side_lobe_db = -30.0;  ///< highest range side lobe after compression
-    Sweep sweep = Sweep::none;  ///< motion shifts its echoes
+    Sweep sweep = Sweep::none;    ///< motion shifts its echoes
 
     bool operator==(const PulseConfig&) const = default;
 };
@@ -100,15 +100,15 @@ struct ReceiverConfig {
     int bits = 8;
     int samples = 1;  ///< for each range bin
     SampleRule combine = SampleRule::maximum;
-    int looks = 1;                   ///< their powers are averaged
-    double offset = 0.0;             ///< subtracted from raw/, as a share of its largest value
-    double tvg_step_db = 0.0;        ///< 0: the TVG is smooth
-    double blanking_m = 0.0;         ///< nothing is received up to this range
-    double ring_down_db = 0.0;       ///< at range 0, above the noise; 0: none
-    double ring_down_m = 0.1;        ///< range over which it falls by 10 dB
-    double beam_gain_db = 0.0;       ///< standard deviation of the gains of the beams
-    double sector_gain_db = 0.0;     ///< standard deviation of the gains of sectors of beams
-    int sectors = 1;                 ///< equal shares of the beams
+    int looks = 1;                ///< their powers are averaged
+    double offset = 0.0;          ///< subtracted from raw/, as a share of its largest value
+    double tvg_step_db = 0.0;     ///< 0: the TVG is smooth
+    double blanking_m = 0.0;      ///< nothing is received up to this range
+    double ring_down_db = 0.0;    ///< at range 0, above the noise; 0: none
+    double ring_down_m = 0.1;     ///< range over which it falls by 10 dB
+    double beam_gain_db = 0.0;    ///< standard deviation of the gains of the beams
+    double sector_gain_db = 0.0;  ///< standard deviation of the gains of sectors of beams
+    int sectors = 1;              ///< equal shares of the beams
 
     bool operator==(const ReceiverConfig&) const = default;
 };

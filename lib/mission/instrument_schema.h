@@ -89,9 +89,9 @@ void describe(Visitor& v, BeamConfig& c) {
               "elevation_width_deg is 0, for a constant pattern, or at least 0.01");
 }
 
-inline constexpr std::array sweeps{
-    Choice<Sweep>{"none", Sweep::none}, Choice<Sweep>{"up", Sweep::up},
-    Choice<Sweep>{"down", Sweep::down}};
+inline constexpr std::array sweeps{Choice<Sweep>{"none", Sweep::none},
+                                   Choice<Sweep>{"up", Sweep::up},
+                                   Choice<Sweep>{"down", Sweep::down}};
 
 template <class Visitor>
 void describe(Visitor& v, PulseConfig& c) {
@@ -126,15 +126,6 @@ void describe(Visitor& v, SpeckleConfig& c) {
               "clutter_shape is 0, for Rayleigh, or at least 0.05");
     v.number("clutter_m", c.clutter_m, between(1e-3, 1e3),
              "edge of the cells of the scene that share one clutter strength");
-}
-
-template <class Visitor>
-void describe(Visitor& v, InterferenceConfig& c) {
-    v.number("level_db", c.level_db, raised_levels_db,
-             "level of another sonar's pulse above the noise; 0 means none");
-    v.number("length_m", c.length_m, between(1e-3, 1e4), "its length in range");
-    v.number("step_m", c.step_m, between(-1e4, 1e4),
-             "range by which it moves from ping to ping; it starts anew at the other end");
 }
 
 /// The keys of a receiver besides noise, gain and companding.

@@ -19,9 +19,7 @@ Ping form_group(const TracedPing& traced, const PingSettings& settings, const Sc
     settings.model->form(traced,
                          {.view = settings.view,
                           .scene = scene,
-                          .draws = {.seed = key.seed,
-                                    .sensor = settings.stream,
-                                    .ping = key.ping},
+                          .draws = {.seed = key.seed, .sensor = settings.stream, .ping = key.ping},
                           .terms = terms},
                          ping);
     return ping;

@@ -58,10 +58,9 @@ Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
                      .shape = kind.shape};
     const MultipathConfig& multipath = config.multipath;
     const bool exact = multipath.method == MultipathMethod::exact;
-    settings.multipath = {
-        .on = multipath.method != MultipathMethod::none,
-        .cluster = {.epsilon_bins = exact ? 0 : multipath.epsilon_bins,
-                    .delta_cosine = cosine_of(multipath.delta_deg)}};
+    settings.multipath = {.on = multipath.method != MultipathMethod::none,
+                          .cluster = {.epsilon_bins = exact ? 0 : multipath.epsilon_bins,
+                                      .delta_cosine = cosine_of(multipath.delta_deg)}};
     return sonar;
 }
 

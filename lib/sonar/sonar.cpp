@@ -63,15 +63,16 @@ namespace {
 
 /// The trace of one transmission of a ping.
 TracedPing trace_at(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
-                    const Pose& T_world_sensor, std::uint32_t pose,
-                    const PingMotion& motion, const Terms& terms) {
+                    const Pose& T_world_sensor, std::uint32_t pose, const PingMotion& motion,
+                    const Terms& terms) {
     TracedPing traced = trace_ping(sonar.settings, scene, engine, T_world_sensor, terms, motion);
     if (sonar.water_ages && pose < sonar.water_ages->size())
         traced.water_age = (*sonar.water_ages)[pose];
     if (const auto& particles = sonar.settings.particles) {
         const double time_s = pose < particles->time_s.size() ? particles->time_s[pose] : 0.0;
-        traced.particles = seen_particles(*particles, time_s, sonar.settings.view,
-                                          sonar.settings.guard_beams, engine, T_world_sensor, motion);
+        traced.particles =
+            seen_particles(*particles, time_s, sonar.settings.view, sonar.settings.guard_beams,
+                           engine, T_world_sensor, motion);
     }
     return traced;
 }
@@ -104,9 +105,9 @@ TracedPing trace(const Sonar& sonar, const Scene& scene, const VisibilityEngine&
     const double period_s = group_period_s(sonar, motion.sound_speed_m_s);
     for (int group = 1; group < shutter.groups; ++group) {
         const double later_s = group * period_s;
-        traced.later_groups.push_back(
-            trace_at(sonar, scene, engine, pose_after(motion, T_world_sensor, later_s), pose,
-                     motion_after(motion, later_s), terms));
+        traced.later_groups.push_back(trace_at(sonar, scene, engine,
+                                               pose_after(motion, T_world_sensor, later_s), pose,
+                                               motion_after(motion, later_s), terms));
     }
     traced.group_of_beam = groups_of_beams(shutter, sonar.settings.view.beams);
     return traced;

@@ -17,11 +17,11 @@ struct PlateEdge {
 /// A flat face.
 struct PlateOfPing {
     std::vector<PlateEdge> edges;
-    Eigen::Vector3d normal;       ///< unit, away from the sonar
-    double height_m = 0.0;        ///< the sonar's height above its plane
-    bool foot_seen = true;        ///< the foot of the perpendicular is visible
-    std::uint32_t material = 0;   ///< index into Scene::materials
-    float strength = 1.0F;        ///< factor on its power, from a map
+    Eigen::Vector3d normal;      ///< unit, away from the sonar
+    double height_m = 0.0;       ///< the sonar's height above its plane
+    bool foot_seen = true;       ///< the foot of the perpendicular is visible
+    std::uint32_t material = 0;  ///< index into Scene::materials
+    float strength = 1.0F;       ///< factor on its power, from a map
 };
 
 /// The plane of a face that reflects coherently. It scatters less sound incoherently.

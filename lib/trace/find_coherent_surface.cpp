@@ -8,17 +8,16 @@
 #include <utility>
 
 #include "trace/arrivals.h"
-#include "visibility/cut_triangle.h"
 #include "trace/lay_maps.h"
-#include "trace/seen_points.h"
+#include "trace/visibility_test.h"
+#include "visibility/cut_triangle.h"
 
 namespace sonarsim {
 
 namespace {
 
 constexpr int parts_of_edge = 8;
-// A ray meets the plate this far inside its border, as a share of the length of the part of the
-// edge.
+// A ray meets the plate this far inside its border, as a share of the edge's part.
 constexpr double inset_by_part = 0.05;
 // A partly hidden plate is cut into parts if it is smaller than this share of its range.
 constexpr double small_plate = 0.1;
@@ -118,7 +117,8 @@ class CoherentSurfaceFinder {
 
     /// The material and strength of a face at a point: its own, or those of a texel; nothing if a
     /// texel is not coherent.
-    std::optional<MappedPoint> at_point(const ScenePlate& face, const Eigen::Vector3d& point) const {
+    std::optional<MappedPoint> at_point(const ScenePlate& face,
+                                        const Eigen::Vector3d& point) const {
         if (!face.mapped) return MappedPoint{face.material, 1.0F};
         const MappedPoint texel = mapped_point(*scene_.maps, T_world_sensor_, point.cast<float>(),
                                                face.instance, face.material);
@@ -131,34 +131,34 @@ class CoherentSurfaceFinder {
     /// Finds the edges of a plate that are in view and not hidden. Returns whether all, some or
     /// none of those in view are visible.
     Seen find_seen(PlateOfPing& plate) const {
-        SeenPoints points;
-        std::vector<std::pair<std::size_t, bool*>> asked;
+        VisibilityTest points;
+        std::vector<std::pair<std::size_t, bool*>> tested;
         double area = 0.0;  // positive if the border is counter-clockwise about the normal
         for (const PlateEdge& edge : plate.edges)
             area += plate.normal.dot(edge.from.cross(edge.to));
         const Eigen::Vector3d foot = plate.height_m * plate.normal;
         plate.foot_seen = is_in_view(view_, foot);
-        if (plate.foot_seen) asked.emplace_back(points.ask(foot), &plate.foot_seen);
+        if (plate.foot_seen) tested.emplace_back(points.add(foot), &plate.foot_seen);
         for (PlateEdge& edge : plate.edges) {
             const Eigen::Vector3d middle = 0.5 * (edge.from + edge.to);
             edge.seen = is_in_view(view_, edge.from) || is_in_view(view_, middle) ||
                         is_in_view(view_, edge.to);
             const Eigen::Vector3d inwards = plate.normal.cross(edge.to - edge.from);
             const double inset = std::copysign(inset_by_part, area);
-            if (edge.seen) asked.emplace_back(points.ask(middle + inset * inwards), &edge.seen);
+            if (edge.seen) tested.emplace_back(points.add(middle + inset * inwards), &edge.seen);
         }
-        points.answer(engine_, T_world_sensor_);
-        for (auto& [question, seen] : asked)
-            *seen = points.is_seen(question);
-        const auto count = std::ranges::count_if(asked, [](const auto& of) { return *of.second; });
+        points.trace(engine_, T_world_sensor_);
+        for (auto& [point, seen] : tested)
+            *seen = points.visible(point);
+        const auto count = std::ranges::count_if(tested, [](const auto& of) { return *of.second; });
         if (count == 0) return Seen::none;
-        return count == std::ssize(asked) ? Seen::all : Seen::partly;
+        return count == std::ssize(tested) ? Seen::all : Seen::partly;
     }
 
     /// Adds the parts of a plate that are not hidden, each with a closed border of its own. The
     /// diffraction at the edges of an open border would not cancel.
     void add_seen_parts(const ScenePlate& plate, const PlateOfPing& whole, float size_m) {
-        SeenPoints points;
+        VisibilityTest points;
         std::vector<PlateOfPing> parts;
         for (const auto& triangle : plate.triangles) {
             const Eigen::Vector3f u = triangle[1] - triangle[0];
@@ -177,13 +177,13 @@ class CoherentSurfaceFinder {
                 part.strength = whole.strength;
                 for (std::size_t k = 0; k < 4; ++k)
                     part.edges.push_back({point(cut.corners[k]), point(cut.corners[(k + 1) % 4])});
-                points.ask(point(cut.centroid));
+                points.add(point(cut.centroid));
                 parts.push_back(std::move(part));
             });
         }
-        points.answer(engine_, T_world_sensor_);
+        points.trace(engine_, T_world_sensor_);
         for (std::size_t k = 0; k < parts.size(); ++k) {
-            if (points.is_seen(k)) out_.plates.push_back(std::move(parts[k]));
+            if (points.visible(k)) out_.plates.push_back(std::move(parts[k]));
         }
     }
 

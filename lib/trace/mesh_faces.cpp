@@ -16,9 +16,9 @@ namespace {
 constexpr double one_plane_rad = 0.0017;
 // Vertices are floats: they are off by up to this share of their distance from the origin.
 constexpr double rounding = 1.2e-7;
-constexpr double least_crease = 0.866025;  // cosine of 30 degrees
+constexpr double min_crease = 0.866025;    // cosine of 30 degrees
 constexpr float straight_on = 0.9999995F;  // cosine of 0.06 degrees
-constexpr float most_reach_ratio = 5.0F;
+constexpr float max_reach_ratio = 5.0F;
 
 /// A side of a triangle, from its corner `corner` on. Corners of one position have one number.
 struct TriangleSide {
@@ -172,8 +172,7 @@ class FaceFinder {
     /// Finds the faces that are facets of a curved surface.
     void mark_facets() {
         for (const auto& [corners, sides] : edges_) {
-            if (sides.size() != 2 || is_inner(sides) ||
-                !(turn_at(sides[0], sides[1]) > least_crease))
+            if (sides.size() != 2 || is_inner(sides) || !(turn_at(sides[0], sides[1]) > min_crease))
                 continue;
             std::array<std::uint32_t, 2> sets{};
             std::array<float, 2> reach{};
@@ -182,7 +181,7 @@ class FaceFinder {
                 sets[k] = sets_.of(sides[k].triangle);
                 reach[k] = reach_from(faces_[sets[k]], ends[0], ends[1]);
             }
-            if (reach[0] < most_reach_ratio * reach[1] && reach[1] < most_reach_ratio * reach[0])
+            if (reach[0] < max_reach_ratio * reach[1] && reach[1] < max_reach_ratio * reach[0])
                 curved_.insert(sets.begin(), sets.end());
         }
     }

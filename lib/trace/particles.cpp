@@ -36,7 +36,7 @@ SeenParticles seen_particles(const Particles& particles, double time_s, const Vi
         const float range = place.norm();
         if (range >= static_cast<float>(view.range_max_m) || field.beam(place, range) < 0.0F)
             return false;
-        return guard_beams.count == 0 || is_reached(view, place);
+        return guard_beams.count == 0 || in_array_cones(view, place);
     };
     SeenParticles found;
     std::vector<Ray> rays;

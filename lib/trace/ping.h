@@ -36,7 +36,7 @@ struct PingDraws {
     /// Draws that belong to the scene: the same for all sonars and pings.
     PhiloxKey of_scene(Stream stream) const { return stream_key(seed_of_look(), 0, 0, stream); }
     /// The same for all looks, too.
-    PhiloxKey of_scene_in_all_looks(Stream stream) const { return stream_key(seed, 0, 0, stream); }
+    PhiloxKey of_scene_all_looks(Stream stream) const { return stream_key(seed, 0, 0, stream); }
 
   private:
     std::uint64_t seed_of_look() const { return seed + 0x9E3779B97F4A7C15U * look; }

@@ -5,7 +5,7 @@
 #include "core/clock.h"
 #include "trace/find_coherent_surface.h"
 #include "trace/lay_maps.h"
-#include "trace/seen_water_surface.h"
+#include "trace/visible_water_surface.h"
 #include "trace/water_mirror.h"
 
 namespace sonarsim {
@@ -41,8 +41,8 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
     }
     if (settings.sees_water_surface && scene.water_surface && scene.water_surface->wind_m_s) {
         if (const auto water = mirror_of(scene.water_surface, T_world_sensor)) {
-            traced.water_surface = seen_water_surface(*water, settings.view, settings.guard_beams,
-                                                      engine, T_world_sensor, motion);
+            traced.water_surface = visible_water_surface(
+                *water, settings.view, settings.guard_beams, engine, T_world_sensor, motion);
         }
     }
     traced.seconds.trace = watch.lap();

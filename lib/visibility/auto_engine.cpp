@@ -97,8 +97,7 @@ std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const Sli
 std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const Caster& caster,
                                                    const SlicesOptions& options,
                                                    std::span<const Probe> probes) {
-    if (!scene.bodies.empty() || !scene.copies.empty())
-        return make_rays_engine(scene, caster);
+    if (!scene.bodies.empty() || !scene.copies.empty()) return make_rays_engine(scene, caster);
     if (scene.triangles.size() > many_triangles)
         return make_dense_rays_engine(scene, caster, probes);
     auto slices = make_slices_engine(scene, caster, options);

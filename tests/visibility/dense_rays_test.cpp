@@ -87,8 +87,7 @@ TEST_SUITE("dense rays") {
             const auto error = [&](const Samples& seen) {
                 return image_change(mean_echoes(scene, view, seen), truth);
             };
-            const Samples lines =
-                make_rays_engine(scene, caster)->visible_surface(view, pose);
+            const Samples lines = make_rays_engine(scene, caster)->visible_surface(view, pose);
             const Samples dense =
                 make_dense_rays_engine(scene, caster, probes)->visible_surface(view, pose);
             const RaysDensity chosen = density_for(scene, caster, view, probes);

@@ -40,10 +40,7 @@ bool same_pose(const Pose& a, const Pose& b) {
 /// The parts that an engine shares with the engines of its prepared().
 struct OctreeParts {
     OctreeParts(const Scene& of_scene, const OctreeOptions& with)
-        : scene(of_scene),
-          options(with),
-          caster(scene),
-          tree(scene, caster, options) {}
+        : scene(of_scene), options(with), caster(scene), tree(scene, caster, options) {}
 
     const Scene& scene;
     OctreeOptions options;
@@ -134,8 +131,8 @@ class OctreeEngineWithPings final : public OctreeEngine {
 }  // namespace
 
 std::unique_ptr<OctreeEngine> make_octree_engine(const Scene& scene, const OctreeOptions& options) {
-    return std::make_unique<OctreeEngineWithPings>(
-        std::make_shared<OctreeParts>(scene, options), std::vector<ReadyPing>{});
+    return std::make_unique<OctreeEngineWithPings>(std::make_shared<OctreeParts>(scene, options),
+                                                   std::vector<ReadyPing>{});
 }
 
 }  // namespace sonarsim

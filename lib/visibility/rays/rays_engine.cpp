@@ -42,7 +42,8 @@ struct LazyFineSurface {
 
 class RaysEngine final : public VisibilityEngine {
   public:
-    RaysEngine(const Scene& scene, Caster caster, std::span<const Pose> T_world_body, const RaysExcess& excess,
+    RaysEngine(const Scene& scene, Caster caster, std::span<const Pose> T_world_body,
+               const RaysExcess& excess,
                std::shared_ptr<LazyFineSurface> fine = std::make_shared<LazyFineSurface>())
         : scene_(&scene),
           caster_(std::move(caster)),
