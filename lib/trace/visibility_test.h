@@ -13,7 +13,7 @@ namespace sonarsim {
 /// Finds which points are visible to the sonar.
 class VisibilityTest {
   public:
-    /// Returns the number of the i.
+    /// Returns the number of the point.
     std::size_t add(const Eigen::Vector3d& point) {
         const double range = arrival_range(point.cast<float>());
         rays_.push_back({Eigen::Vector3f::Zero(), (point / range).cast<float>()});
