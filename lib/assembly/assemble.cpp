@@ -6,7 +6,6 @@
 
 #include "assembly/background.h"
 #include "assembly/brightness.h"
-#include "assembly/buried_objects.h"
 #include "assembly/ground_maps.h"
 #include "assembly/heightmap_part.h"
 #include "assembly/particles.h"
@@ -248,7 +247,6 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
     add_water_surface(mission, assembly);
     add_particles(mission, assembly.trajectory, assembly.scene, assembly.sonars);
     add_sound_profiles(mission, assembly.scene, assembly.sonars);
-    add_object_motions(assembly.trajectory, assembly.scene, assembly.motions, assembly.sonars);
     add_water_ages(mission, assembly.trajectory, assembly.sonars);
     warn_of_empty_scatter(mission, assembly.scene);
     if (!mission.output.labels.empty() || !mission.classes.empty()) {
@@ -269,7 +267,6 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
         warn_of_lost_glints(assembly.sonars, assembly.scene);
     else
         find_targets(assembly.sonars, assembly.scene);
-    bury_objects(mission, parts.files, assembly.scene, assembly.sonars);
     leave_out_glints(assembly.sonars, assembly.scene);
     assembly.inputs = inputs_of(mission);
     Brightness brightness = find_full_scales(mission, assembly.scene, assembly.trajectory,

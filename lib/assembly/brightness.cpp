@@ -17,14 +17,14 @@ namespace sonarsim {
 
 namespace {
 
-constexpr std::size_t most_pings_for_white = 8;  // per sonar
-constexpr std::size_t most_slow = 3;             // per sonar with a slow echo model
-constexpr std::size_t most_bins = 1U << 24;      // in all probes of a sonar
-constexpr double coarse_l1 = 0.1;                // brightness needs no fine sampling
-constexpr double share_below_white = 0.99;       // quantile of the occupied bins
+constexpr std::size_t max_pings_for_white = 8;  // per sonar
+constexpr std::size_t most_slow = 3;            // per sonar with a slow echo model
+constexpr std::size_t most_bins = 1U << 24;     // in all probes of a sonar
+constexpr double coarse_l1 = 0.1;               // brightness needs no fine sampling
+constexpr double share_below_white = 0.99;      // quantile of the occupied bins
 // A few glints far above all other echoes, as in the calibrated model, are allowed to saturate.
 constexpr double share_usual = 0.9;
-constexpr double most_above_usual = 10.0;
+constexpr double max_above_usual = 10.0;
 constexpr double full_scale_without_echo = 1.0;  // any value works
 
 /// Rounds up to two digits. It multiplies and divides, since the last bit of powers and logarithms
@@ -82,7 +82,7 @@ double find_full_scale(const Mission& mission, const Scene& scene, const Traject
     View& view = sonar.settings.view;
     view.relative_l1 = std::max(view.relative_l1, coarse_l1);
     const auto bins = static_cast<std::size_t>(view.range_bins) * view.beams;
-    const std::size_t most = sonar.settings.model->is_slow() ? most_slow : most_pings_for_white;
+    const std::size_t most = sonar.settings.model->is_slow() ? most_slow : max_pings_for_white;
     const std::size_t probes = std::clamp<std::size_t>(most_bins / bins, 1, most);
     std::vector<float> occupied;
     for (const std::uint32_t pose : sample_pings(trajectory.size(), sonar.config.every, probes)) {
@@ -101,7 +101,7 @@ double find_full_scale(const Mission& mission, const Scene& scene, const Traject
     }
     if (occupied.empty()) return full_scale_without_echo;
     const double white = std::min<double>(quantile(occupied, share_below_white),
-                                          most_above_usual * quantile(occupied, share_usual));
+                                          max_above_usual * quantile(occupied, share_usual));
     return std::isfinite(white) ? two_digits_up(white) : full_scale_without_echo;
 }
 
@@ -119,8 +119,7 @@ Brightness find_full_scales(const Mission& mission, const Scene& scene,
     tbb::task_arena arena;
     arena.execute([&] {
         out.caster = std::make_shared<const Caster>(scene);
-        const std::unique_ptr<VisibilityEngine> engine =
-            make_rays_engine(scene, *out.caster, false);
+        const std::unique_ptr<VisibilityEngine> engine = make_rays_engine(scene, *out.caster);
         for (const Sonar& sonar : sonars) {
             out.full_scales.push_back(
                 find_full_scale(mission, scene, trajectory, motions, sonar, *engine));

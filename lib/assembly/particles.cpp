@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "assembly/buried_objects.h"
 #include "calibrated/decibel.h"
 #include "calibrated/target_strength.h"
 #include "core/elementary.h"
@@ -92,7 +91,6 @@ std::vector<DrawnParticle> draw_group(const ParticlesConfig& config, const Group
         Particle& particle = out[k].particle;
         particle.start_m = middle + half.cwiseProduct(place_in(config.region, draws, k));
         particle.velocity_m_s = velocity;
-        particle.buried = config.buried;
         if (config.rise_m_s > 0.0) {
             particle.bottom_m = middle.z() - half.z();
             particle.top_m = middle.z() + half.z();
@@ -179,8 +177,6 @@ void add_particles(const Mission& mission, const Trajectory& trajectory, Scene& 
     for (Sonar& sonar : sonars) {
         Particles particles;
         particles.time_s = time_s;
-        if (std::ranges::any_of(mission.scene.particles, &ParticlesConfig::buried))
-            particles.sediments = sediments_of(mission, scene, sonar);
         for (const ParticleGroup& group : groups) {
             for (const DrawnParticle& drawn : group.targets) {
                 Particle& particle = particles.all.emplace_back(drawn.particle);

@@ -13,10 +13,6 @@ namespace sonarsim {
 void add_ping_motions(const Mission& mission, const Trajectory& trajectory,
                       std::span<Sonar> sonars);
 
-/// Sets the motions of the scene's bodies, whose trajectories are `bodies`, in these sonars.
-void add_object_motions(const Trajectory& trajectory, const Scene& scene,
-                        std::span<const Trajectory> bodies, std::span<Sonar> sonars);
-
 /// The coherent echo of smooth faces supports only a sonar at rest: removes it from sonars that
 /// move in a ping, and adds a warning to the scene.
 void leave_out_glints(std::span<Sonar> sonars, Scene& scene);

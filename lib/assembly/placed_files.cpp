@@ -40,7 +40,6 @@ PlacedFile file_of(const ObjectConfig& object) {
     file.name = object.name;
     file.class_name = object.class_name;
     file.moves = object.trajectory.has_value();
-    file.buried = object.buried;
     return file;
 }
 

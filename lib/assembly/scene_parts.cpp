@@ -187,7 +187,7 @@ ScatterRule rule_of(const ScatterConfig& config) {
 }
 
 /// An object that is turned by more than this is not expected to stand upright in its file.
-constexpr double most_tilt_deg = 45.0;
+constexpr double max_tilt_deg = 45.0;
 
 void add_orientation_warning(const std::string& question, SceneParts& parts) {
     if (question.empty() ||
@@ -197,7 +197,7 @@ void add_orientation_warning(const std::string& question, SceneParts& parts) {
 }
 
 bool is_upright(const ObjectConfig& object) {
-    return std::max(std::abs(object.rpy_deg[0]), std::abs(object.rpy_deg[1])) < most_tilt_deg;
+    return std::max(std::abs(object.rpy_deg[0]), std::abs(object.rpy_deg[1])) < max_tilt_deg;
 }
 
 /// Scatters objects. The error of objects without room says where the bottom lies, and asks for
@@ -227,7 +227,6 @@ void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64
     for (const std::filesystem::path& path : config.files) {
         kinds.push_back(file_of(path, config.mesh, config.place));
         kinds.back().class_name = config.class_name.empty() ? config.name : config.class_name;
-        kinds.back().buried = config.buried;
         shapes.push_back(surface_of(kinds.back(), models));
         if (!shapes.back().triangles.empty()) continue;
         throw InputError(config.place.location, path.string() + " has no surface to scatter");
@@ -237,7 +236,7 @@ void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64
         rule.shapes.push_back(&shape);
     const bool upright =
         std::max({std::abs(config.roll_deg[0]), std::abs(config.roll_deg[1]),
-                  std::abs(config.pitch_deg[0]), std::abs(config.pitch_deg[1])}) < most_tilt_deg;
+                  std::abs(config.pitch_deg[0]), std::abs(config.pitch_deg[1])}) < max_tilt_deg;
     for (std::size_t i = 0; upright && i < kinds.size(); ++i)
         add_orientation_warning(up_question(kinds[i], shapes[i]), parts);
     std::vector<PlacedFile>& files = parts.files;
@@ -247,12 +246,11 @@ void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64
         PlacedFile& file = files.emplace_back(kinds[object.shape]);
         file.name = config.name + "_" + std::to_string(++number);
         file.T_world_file = object.T_world_shape;
-        if (!config.buried && config.bury_m[1] > 0.0 &&
+        if (config.bury_m[1] > 0.0 &&
             lies_below(bottom.get(), moved(shapes[object.shape], file.T_world_file))) {
-            throw InputError(config.place.location,
-                             "'" + printable(file.name) +
-                                 "' lies wholly below the bottom; lower bury_m; sound reaches it "
-                                 "there with buried: true");
+            throw InputError(
+                config.place.location,
+                "'" + printable(file.name) + "' lies wholly below the bottom; lower bury_m");
         }
     }
 }
@@ -300,14 +298,13 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
         }
         if (bottom.is(object)) continue;
         const Surface placed = moved(shape, file.T_world_file);
-        if (!object.buried && bottom.exists() && lies_below(bottom.get(), placed)) {
+        if (bottom.exists() && lies_below(bottom.get(), placed)) {
             throw InputError(object.place.location,
                              title_of(object) + " lies wholly below the bottom; " +
                                  (object.place_on == ObjectPlace::free
                                       ? "raise it by position_m, or let it rest there with place: "
                                         "on_bottom"
-                                      : "lower bury_m") +
-                                 "; sound reaches it there with buried: true");
+                                      : "lower bury_m"));
         }
         if (!scene.scatter.empty()) taken.push_back(hull_of(placed.vertices));
     }

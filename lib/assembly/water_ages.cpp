@@ -36,7 +36,7 @@ AgeScales age_scales(const Sonar& sonar, const WaterConfig& water) {
 }
 
 /// Beyond this age the speckle is independent anyway.
-constexpr double most_step = 2.0;
+constexpr double max_step = 2.0;
 
 /// `to` is the later pose.
 double age_between(const AgeScales& scales, const Pose& from, const Pose& to, double time_s,
@@ -47,7 +47,7 @@ double age_between(const AgeScales& scales, const Pose& from, const Pose& to, do
     const double by_way =
         scales.per_m * (to.translation - from.translation - time_s * current_m_s).norm();
     const double by_turn = scales.per_rad * angle;
-    return std::min(most_step, std::sqrt(by_time * by_time + by_way * by_way + by_turn * by_turn));
+    return std::min(max_step, std::sqrt(by_time * by_time + by_way * by_way + by_turn * by_turn));
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ __m128 alternating(float a, float b) {
 Floats8 values_of(float gain, Floats8 power, Floats8 before) {
     // In this order of arguments NaN stays NaN.
     const Floats8 finite = least(std::numeric_limits<float>::max(), power);
-    return least(most_value, fma(gain, finite, before));
+    return least(max_value, fma(gain, finite, before));
 }
 
 /// Writes 8 bins of all beams into rows of the image, each times its gain.

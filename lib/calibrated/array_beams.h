@@ -35,11 +35,6 @@ inline const SineGrid* sines_of(const ArrayBeams& beams) {
 inline float scalloping_gain(const ArrayBeams& beams) {
     return beams.amplitudes.scalloping_gain();
 }
-/// The power of an echo / the sum of the powers of its amplitudes in the columns. An amplitude at x
-/// from one of two columns is split into 1 - x and x, and the mean of (1 - x)^2 + x^2 is 2 / 3.
-inline float split_gain(const ArrayBeams& /*beams*/) {
-    return 1.5F;
-}
 
 /// Finds the columns of echoes. Echoes outside the grid get the power 0; returns their number.
 std::uint64_t find_columns(const ArrayBeams& beams, const PatchBlock& pieces, PointEchoes& echoes);

@@ -14,8 +14,7 @@ namespace sonarsim {
 
 namespace {
 
-// Columns outside the outer beams: for echoes between a beam and the edge of the view, and for the
-// interpolation of an outer beam.
+// Columns outside the outer beams, for echoes at the view's edge and for interpolation.
 constexpr int margin = 5;
 // Free columns after the last one, so that an outer beam does not wrap to the other side.
 constexpr int gap = 12;
@@ -181,18 +180,17 @@ Beamformer::Beamformer(const LineArray& array, const std::vector<double>& beam_s
         const double at = (sine - grid_.first) / grid_.step;
         on_columns = on_columns && std::fabs(at - std::round(at)) < 1e-4;
     }
-    taps_ = on_columns ? 1 : most_taps;
+    taps_ = on_columns ? 1 : max_taps;
     for (const double sine : beam_sines) {
         const double at = (sine - grid_.first) / grid_.step;
         const int first = on_columns ? static_cast<int>(std::round(at))
-                                     : static_cast<int>(std::floor(at)) - most_taps / 2 + 1;
+                                     : static_cast<int>(std::floor(at)) - max_taps / 2 + 1;
         first_tap_.push_back(first);
         double sum = 0.0;
         std::vector<double> taps;
         for (int t = 0; t < taps_; ++t) {
             const double distance = first + t - at;
-            taps.push_back(on_columns ? 1.0
-                                      : sinc(distance) * window(distance / (0.5 * most_taps)));
+            taps.push_back(on_columns ? 1.0 : sinc(distance) * window(distance / (0.5 * max_taps)));
             sum += taps.back();
         }
         for (const double tap : taps)

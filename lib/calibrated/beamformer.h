@@ -53,7 +53,7 @@ class Beamformer {
               Lanes* out) const;
 
   private:
-    static constexpr int most_taps = 8;
+    static constexpr int max_taps = 8;
     struct Weight {
         float re, im;
         int index;          ///< element of the transform

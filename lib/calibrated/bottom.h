@@ -77,7 +77,7 @@ Backscatter backscatter(const SeafloorScattering& sea_bed);
 /// `exp_neg` is 0 from here on. This suffices for facets: a power of 1e-19 is left.
 inline constexpr float exp_neg_cutoff = 43.0F;
 /// The same for absorption, which a gain may compensate: the least power that floats hold.
-inline constexpr float least_loss = 87.0F;
+inline constexpr float min_loss = 87.0F;
 
 /// e^-x for x >= -88, relative error below 3e-6; 0 from x = `longest` on and for NaN. Without
 /// branches.

@@ -12,8 +12,7 @@ namespace sonarsim {
 
 namespace {
 
-// The greatest length of a resolution cell on the surface, in pulse lengths; at normal incidence it
-// is unbounded. With longer cells, objects of a few centimetres would hold few scatterers.
+// Greatest length of a resolution cell on the surface, in pulse lengths.
 constexpr float longest_on_surface = 4.0F;
 
 template <class T>
@@ -95,7 +94,7 @@ float power_of_two(std::int32_t exponent) {
 /// cell holds 4 smaller ones, so its mean number of scatterers is w + 4 (1 - w), which w sets to
 /// the wanted number.
 void find_levels(const Surfaces& surfaces, const ScattererCells& cells, CellFootprints& out) {
-    const float per_area = 1.0F / (cells.least_edge_m * cells.least_edge_m);
+    const float per_area = 1.0F / (cells.min_edge_m * cells.min_edge_m);
     const std::int32_t top = cells.levels - 1;
     for (int k = 0; k < surfaces.count; ++k) {
         const float range = surfaces.range[k];
@@ -107,7 +106,7 @@ void find_levels(const Surfaces& surfaces, const ScattererCells& cells, CellFoot
             (4.0F / 3.0F) * (1.0F - power_of_two(2 * std::min(level, top)) / ratio);
         out.level[k] = std::min(level, top);
         out.unsplit_share[k] = level < top ? unsplit_share : 0.0F;
-        out.fine_m[k] = cells.least_edge_m * power_of_two(out.level[k]);
+        out.fine_m[k] = cells.min_edge_m * power_of_two(out.level[k]);
     }
 }
 
@@ -115,7 +114,7 @@ void find_levels(const Surfaces& surfaces, const ScattererCells& cells, CellFoot
 void find_parallelograms(const Surfaces& surfaces, const Eigen::Vector3d& sensor,
                          const ScattererCells& cells, CellFootprints& out) {
     const auto& [place, u, v, range, height, area, count] = surfaces;
-    const double per_least = 1.0 / cells.least_edge_m;
+    const double per_least = 1.0 / cells.min_edge_m;
     for (int k = 0; k < count; ++k) {
         const float nx = u.y[k] * v.z[k] - u.z[k] * v.y[k];
         const float ny = u.z[k] * v.x[k] - u.x[k] * v.z[k];

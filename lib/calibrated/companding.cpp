@@ -11,7 +11,7 @@ namespace sonarsim {
 namespace {
 
 // The smallest power for the logarithm: it is a normal float, and every companding makes it 0.
-constexpr float least_power = 1e-37F;
+constexpr float min_power = 1e-37F;
 
 /// The function from the natural logarithm of the power, at most 0, to a value in [0, 1].
 struct Law {
@@ -39,7 +39,7 @@ std::vector<std::uint16_t> companded(std::span<const float> powers,
     const auto offset = static_cast<float>(receiver.offset);
     std::vector<std::uint16_t> out(powers.size());
     for (std::size_t i = 0; i < out.size(); ++i) {
-        const float power = std::min(std::max(powers[i], least_power), 1.0F);
+        const float power = std::min(std::max(powers[i], min_power), 1.0F);
         const float logarithm_of_power = std::min(natural_log(power), 0.0F);
         const float value = law.logarithmic ? std::max(1.0F + law.factor * logarithm_of_power, 0.0F)
                                             : exp_neg(-law.factor * logarithm_of_power);

@@ -12,12 +12,11 @@ namespace sonarsim {
 namespace {
 
 // Within a piece of an edge the phase departs from a straight line by at most this.
-constexpr double most_bend_rad = 0.1;
+constexpr double max_bend_rad = 0.1;
 // A piece turns by at most this about the foot of the perpendicular.
-constexpr double most_turn_rad = 0.1;
+constexpr double max_turn_rad = 0.1;
 constexpr int most_pieces = 100'000;
-// An edge is integrated in pieces while 2 k s^2 / r is less than this, s being the distance from
-// its point nearest to the foot. The relative error of the rest is about the inverse of this.
+// 2 k s^2 / r beyond which an edge is not integrated in pieces: the relative error is its inverse.
 constexpr double many_turns_rad = 200.0;
 
 std::complex<double> turned(double radians) {
@@ -48,10 +47,10 @@ double piece_length(const Geometry& of, const EdgeLimits& limits, double s, doub
     const double flat2 = s * s + d * d;
     const double range = std::sqrt(of.height_m * of.height_m + flat2);
     // The phase 2 k r bends by 2 k (H^2 + d^2) / r^3 at most.
-    double length = std::sqrt(8.0 * most_bend_rad * range / (2.0 * of.k));
-    if (d != 0.0) length = std::min(length, most_turn_rad * flat2 / std::fabs(d));
+    double length = std::sqrt(8.0 * max_bend_rad * range / (2.0 * of.k));
+    if (d != 0.0) length = std::min(length, max_turn_rad * flat2 / std::fabs(d));
     // The angle turns fastest at s = 0, so pieces get shorter towards it.
-    if (s < 0.0) length = std::min(length, std::max(-0.3 * s, most_turn_rad * std::fabs(d)));
+    if (s < 0.0) length = std::min(length, std::max(-0.3 * s, max_turn_rad * std::fabs(d)));
     if (limits.sine > 0.0) length = std::min(length, limits.sine * range);
     if (limits.depth_m > 0.0)
         length = std::min(length, limits.depth_m * range / (std::fabs(s) + limits.depth_m));

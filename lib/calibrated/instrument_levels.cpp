@@ -16,10 +16,9 @@ namespace {
 /// The pressure at 1 m of a watt of sound that spreads evenly, 10 log(rho c / (4 pi)) re 1 uPa.
 constexpr double watt_db = 170.8;
 
-// Shares of the largest value of raw/. At a third, speckle, which is rarely more than 10 dB above
-// its mean, is not clipped.
+// Shares of the largest value of raw/: at a third, speckle is rarely clipped.
 constexpr double share_of_sand = 1.0 / 3.0;
-constexpr double most_share_of_noise = 2.0 / 3.0;
+constexpr double max_share_of_noise = 2.0 / 3.0;
 
 /// The decibels from a share of the largest value of raw/ to that value.
 double headroom_db(const ReceiverConfig& receiver, double share) {
@@ -45,7 +44,7 @@ double full_scale_by_rule(const InstrumentConfig& instrument, const WaterConfig&
                            gain_db(half_m);
     const double noise_db = levels.noise_db + gain_db(view.range_max_m);
     return std::max(sand_db + headroom_db(instrument.receiver, share_of_sand),
-                    noise_db + headroom_db(instrument.receiver, most_share_of_noise));
+                    noise_db + headroom_db(instrument.receiver, max_share_of_noise));
 }
 
 }  // namespace

@@ -6,15 +6,15 @@ namespace sonarsim {
 
 namespace {
 
-constexpr double least_noise_db = -300.0;
-constexpr double most_noise_db = 200.0;
-constexpr double most_gain_db = 370.0;
+constexpr double min_noise_db = -300.0;
+constexpr double max_noise_db = 200.0;
+constexpr double max_gain_db = 370.0;
 
 }  // namespace
 
-double raised_by_db(double noise_db, double common_mode_db) {
-    const double at_least = std::max(0.0, least_noise_db - noise_db);
-    return std::min(at_least, most_noise_db - std::max(noise_db, common_mode_db));
+double float_headroom_db(double noise_db, double common_mode_db) {
+    const double at_least = std::max(0.0, min_noise_db - noise_db);
+    return std::min(at_least, max_noise_db - std::max(noise_db, common_mode_db));
 }
 
 std::vector<float> row_gains(const ReceiverConfig& receiver, const InstrumentLevels& levels,
@@ -26,7 +26,7 @@ std::vector<float> row_gains(const ReceiverConfig& receiver, const InstrumentLev
         const double step_db = receiver.tvg_step_db;
         const double tvg = step_db > 0.0 ? step_db * std::floor(smooth_db / step_db) : smooth_db;
         const double gain_db = levels.source_level_db + tvg - levels.full_scale_db - raised_db;
-        out.push_back(static_cast<float>(power_of_db(std::min(gain_db, most_gain_db))));
+        out.push_back(static_cast<float>(power_of_db(std::min(gain_db, max_gain_db))));
     }
     return out;
 }

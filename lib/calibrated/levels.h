@@ -19,14 +19,14 @@ namespace sonarsim {
 /// so that floats hold the noise of the receiver and the echoes above it. `noise_db` and
 /// `common_mode_db` are relative to the source level. 0 where the noise lies within -300 and 200
 /// dB.
-double raised_by_db(double noise_db, double common_mode_db);
+double float_headroom_db(double noise_db, double common_mode_db);
 
 /// The greatest power of an echo in the grid, 40 dB above the greatest noise there. A million such
 /// echoes that add in phase are finite in every beam.
-inline constexpr float most_echo = 1e24F;
+inline constexpr float max_echo = 1e24F;
 
 /// The greatest value of an image: 300 dB above full scale, at which the receiver clips.
-inline constexpr float most_value = 1e30F;
+inline constexpr float max_value = 1e30F;
 
 /// The factors from powers of the grid to values of the image, by bin: source level, gain and full
 /// scale. They are at most 370 dB, which lifts the least noise, -300 dB, above full scale.
@@ -36,7 +36,7 @@ std::vector<float> row_gains(const ReceiverConfig& receiver, const InstrumentLev
 /// The value of a power. NaN stays NaN.
 inline float value_of(float gain, float power, float before = 0.0F) {
     const float finite = std::min(power, std::numeric_limits<float>::max());
-    return std::min(std::fma(gain, finite, before), most_value);
+    return std::min(std::fma(gain, finite, before), max_value);
 }
 
 }  // namespace sonarsim

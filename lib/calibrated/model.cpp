@@ -16,11 +16,11 @@ namespace sonarsim {
 namespace {
 
 // On the tank the expected image is within 0.7 % of that of much smaller patches.
-constexpr float most_depth_by_bin = 0.5F;
+constexpr float max_depth_by_bin = 0.5F;
 // One or two beams of the view are often a few per cent wider than one or two steps.
-constexpr float most_sine_by_step = 1.1F;
+constexpr float max_sine_by_step = 1.1F;
 // As a share of the half-power width, within which the pattern bends.
-constexpr double most_by_width = 0.1;
+constexpr double max_by_width = 0.1;
 
 constexpr double no_common_mode_db = -300.0;
 
@@ -52,21 +52,21 @@ GuardBeams guard_beams_of(const BeamConfig& beam, const View& view) {
 /// The size of patches that are points to the beams and to the bins.
 PointLimits point_limits(const BeamConfig& beam, const View& view,
                          const std::variant<TransducerBeams, ArrayBeams>& beams) {
-    PointLimits limits{.depth_m = most_depth_by_bin * static_cast<float>(view.bin_m())};
+    PointLimits limits{.depth_m = max_depth_by_bin * static_cast<float>(view.bin_m())};
     const double width = radians(beam.width_deg);
     if (const auto* const fan = std::get_if<ArrayBeams>(&beams)) {
-        limits.sine = most_sine_by_step * static_cast<float>(fan->amplitudes.grid().step);
+        limits.sine = max_sine_by_step * static_cast<float>(fan->amplitudes.grid().step);
         limits.elevation_sine =
-            static_cast<float>(most_by_width * radians(beam.elevation_width_deg));
+            static_cast<float>(max_by_width * radians(beam.elevation_width_deg));
     } else if (beam.aperture == Aperture::head) {
-        limits.sine = static_cast<float>(most_by_width * width);
+        limits.sine = static_cast<float>(max_by_width * width);
         limits.elevation_sine =
-            static_cast<float>(most_by_width * radians(beam.elevation_width_deg));
+            static_cast<float>(max_by_width * radians(beam.elevation_width_deg));
     } else if (beam.aperture == Aperture::port_starboard) {
-        limits.sine = static_cast<float>(most_by_width * radians(beam.across_width_deg));
-        limits.elevation_sine = static_cast<float>(most_by_width * width);
+        limits.sine = static_cast<float>(max_by_width * radians(beam.across_width_deg));
+        limits.elevation_sine = static_cast<float>(max_by_width * width);
     } else {
-        limits.sine = static_cast<float>(most_by_width * width);
+        limits.sine = static_cast<float>(max_by_width * width);
         limits.elevation_sine = limits.sine;
     }
     return limits;
@@ -104,7 +104,7 @@ std::vector<float> noise_values(const std::vector<float>& row_gain, double noise
     std::vector<float> out;
     out.reserve(row_gain.size() / samples);
     for (std::size_t row = 0; row < row_gain.size(); row += samples)
-        out.push_back(std::min(row_gain[row] * static_cast<float>(noise), most_value));
+        out.push_back(std::min(row_gain[row] * static_cast<float>(noise), max_value));
     return out;
 }
 
@@ -139,7 +139,7 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
     const bool has_common_mode = receiver.common_mode_db > no_common_mode_db;
     const double common_mode_db =
         has_common_mode ? receiver.common_mode_db - model.levels.source_level_db : noise_db;
-    const double raised_db = raised_by_db(noise_db, common_mode_db);
+    const double raised_db = float_headroom_db(noise_db, common_mode_db);
     const double noise = power_of_db(noise_db + raised_db);
     const double common_mode = has_common_mode ? power_of_db(common_mode_db + raised_db) : 0.0;
     if (beam.aperture == Aperture::line) {
@@ -155,12 +155,11 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
                       .bin_m = static_cast<float>(bin_m),
                       .rows = view.range_bins,
                       .loss_per_m = static_cast<float>(0.2 * ln_10 * model.absorption_db_per_m),
-                      .ln_raised = static_cast<float>(0.1 * ln_10 * raised_db),
+                      .ln_headroom = static_cast<float>(0.1 * ln_10 * raised_db),
                       .elevation = elevation_pattern(radians(beam.elevation_width_deg),
                                                      beam.elevation_side_lobe_db, beam.elements)};
     model.water = water_column(water_of(water, instrument), instrument.frequency_hz,
                                widened_view(view, model.guard), model.beams, model.equation);
-    model.pulse_floor = pulse_floor(instrument.pulse, bin_m, water.sound_speed_m_s);
     model.cells = scatterer_cells(instrument.speckle.per_cell, std::max(resolution_m, 0.5 * bin_m),
                                   radians(beam.width_deg), view.range_min_m, model.wavelength_m);
     model.target_cells =

@@ -9,7 +9,6 @@
 
 #include "calibrated/array_beams.h"
 #include "calibrated/instrument_levels.h"
-#include "calibrated/pulse_floor.h"
 #include "calibrated/scatterers.h"
 #include "calibrated/sediment.h"
 #include "calibrated/sonar_equation.h"
@@ -55,7 +54,6 @@ struct CalibratedModel final : EchoModel {
     /// The parts of the scattering on and below sea beds; nothing: the whole echo comes from their
     /// surface.
     std::optional<SedimentScattering> sediment;
-    PulseFloor pulse_floor;
     WindSurface water_surface;  ///< its table, if the model was prepared for it
 
     Scattering scattering_of(std::span<const Material> materials) const;

@@ -13,8 +13,7 @@ namespace {
 // In the order in which they enter an image.
 constexpr std::array<std::string_view, 2> calibrated_terms{"speckle", "receiver_noise"};
 
-// The beam of a side-scan sonar is narrower than the columns of rays that the goal requires. This
-// number is chosen; docs/calibrated.md has a table of the errors.
+// Columns of rays across a side-scan's beam, which is narrower than one column of the goal.
 constexpr int columns_along_track = 4;
 
 }  // namespace

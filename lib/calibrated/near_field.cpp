@@ -11,8 +11,7 @@ namespace sonarsim {
 
 namespace {
 
-// The change of the phase at the ends of the array from one entry to the next. The squared pattern
-// has twice this phase.
+// Change of the phase at the ends of the array from one entry to the next, rad.
 constexpr double phase_by_entry = 0.3;
 
 /// The phase at the ends of the array at curvature 1, rad.
@@ -33,7 +32,7 @@ void add_times(const float* values, float factor, std::vector<float>& sums) {
 }
 
 // A table that takes more products than these, a second of work, is filled by Fourier transforms.
-constexpr double most_products = 1e9;
+constexpr double max_products = 1e9;
 
 /// Fills the table by Fourier transforms over the array, of several curvatures at once: half a
 /// second where sums take a minute. The sines are those of the transform. `bend` is the phase of
@@ -109,7 +108,7 @@ UnfocusedBeam unfocused_beam(const LineArray& array, double wavelength_m, double
     const double bend = 4.0 * end_phase(array, wavelength_m) / nearest;
     UnfocusedBeam out;
     out.greatest_sine = static_cast<float>(greatest_sine);
-    out.most_curvature = static_cast<float>(1.0 / nearest);
+    out.max_curvature = static_cast<float>(1.0 / nearest);
     const auto entries = [](double phase) { return 2 + static_cast<int>(phase / phase_by_entry); };
     const int half = (entries(turn) + 1) / 2;
     out.sines = 2 * half + 1;
@@ -121,7 +120,7 @@ UnfocusedBeam unfocused_beam(const LineArray& array, double wavelength_m, double
     // of x times the turn are the same for every curvature.
     const int steps = steps_for(bend, turn) / 2;
     const int count = half + 1;
-    if (1.0 * steps * count * out.curvatures > most_products) {
+    if (1.0 * steps * count * out.curvatures > max_products) {
         fill_by_transforms(array, bend, turn, half, out);
         return out;
     }

@@ -26,7 +26,7 @@ struct UnfocusedBeam {
     std::complex<float> at(float u, float range_m) const;
 
     float greatest_sine = 1.0F;  ///< at the ends of the table
-    float most_curvature = 0.0F;
+    float max_curvature = 0.0F;
     float sines_per_unit = 0.0F, curvatures_per_unit = 0.0F;
     int sines = 0, curvatures = 0;            ///< numbers of entries, both ends included
     std::vector<std::complex<float>> values;  ///< [curvatures, sines]
@@ -38,7 +38,7 @@ UnfocusedBeam unfocused_beam(const LineArray& array, double wavelength_m, double
 
 inline std::complex<float> UnfocusedBeam::at(float u, float range_m) const {
     const float across = (u + greatest_sine) * sines_per_unit;
-    const float up = std::min(1.0F / range_m, most_curvature) * curvatures_per_unit;
+    const float up = std::min(1.0F / range_m, max_curvature) * curvatures_per_unit;
     const int i = std::min(static_cast<int>(std::max(across, 0.0F)), sines - 2);
     const int j = std::min(static_cast<int>(up), curvatures - 2);
     const float s = across - static_cast<float>(i);

@@ -13,11 +13,10 @@ namespace sonarsim {
 
 namespace {
 
-// A sample belongs to a plate if it faces as the plate does, within 0.8 degrees, and lies in its
-// plane, within this share of its range.
+// Cosine of 0.8 degrees: within it a sample faces as its plate does.
 constexpr float faces_alike = 0.9999F;
-constexpr double most_apart = 0.0142;  // the distance of two such normals
-constexpr double in_plane = 1e-3;
+constexpr double max_apart = 0.0142;  // the distance of two such normals
+constexpr double in_plane = 1e-3;     // distance from the plane, as a share of the range
 
 EdgeLimits edge_limits(const PointLimits& limits) {
     double sine = limits.sine;
@@ -28,45 +27,9 @@ EdgeLimits edge_limits(const PointLimits& limits) {
 }
 
 PlateSurface surface_of(const PlateOfPing& plate, const PlateScene& scene) {
-    if (plate.mirrors.empty()) {
-        const Material& material = scene.materials[plate.material];
-        return {.reflection = plate.strength * material.reflection,
-                .roughness_m = material.roughness_m.value_or(0.0)};
-    }
-    PlateSurface out{.reflection = plate.strength};
-    for (const Mirror& mirror : plate.mirrors) {
-        const Material& material = scene.materials[mirror.material];
-        const double phase =
-            4.0 * pi / scene.wavelength_m * material.roughness_m.value_or(0.0) * mirror.sine;
-        out.reflection *= material.reflection * exponential(-phase * phase);
-    }
-    return out;
-}
-
-/// The plate that reflects like a part of a cylinder. Around the specular line the phase 2 k r on
-/// the arc is stationary over a width w. With D the distance of the sonar from the axis and r from
-/// the line, 2 k r grows by k a D t^2 / r over an angle t, and
-///
-///     |integral of exp(i k a D t^2 / r) a dt| = sqrt(pi a r / (k D)) = sqrt(a r lambda / (2 D)) =
-///     w.
-///
-/// Far away, a length L has A / lambda = L sqrt(a / (2 lambda)). The plate's own phases differ over
-/// w by less than pi a / (4 D), which costs 0.25 dB at most.
-PlateOfPing plate_of(const StripOfPing& strip, double wavelength_m) {
-    const Eigen::Vector3d along = (strip.to - strip.from).normalized();
-    const Eigen::Vector3d middle = 0.5 * (strip.from + strip.to);
-    const double range = arrival_range(middle.cast<float>());
-    const double height = middle.cross(along).norm();
-    const double to_axis = height + strip.radius_m;
-    // In a hollow cylinder the sound is focused close to the axis.
-    if (!(to_axis > std::fabs(strip.radius_m)) && strip.radius_m < 0.0) return {};
-    const double width =
-        std::sqrt(std::fabs(strip.radius_m) * range * wavelength_m / (2.0 * to_axis));
-    PlateOfPing out = plate_along(strip.from, strip.to, along.cross(middle).normalized(),
-                                  0.5 * width, 0.5 * width);
-    out.material = strip.material;
-    out.strength = strip.strength;
-    return out;
+    const Material& material = scene.materials[plate.material];
+    return {.reflection = plate.strength * material.reflection,
+            .roughness_m = material.roughness_m.value_or(0.0)};
 }
 
 /// Makes one echo of the parts from `first` on if the plate is a point to the beams and bins. Parts
@@ -124,7 +87,7 @@ struct PlateBlock {
             echoes.range_m[k] = range;
             echoes.row[k] = kept ? row : 0.0F;
             echoes.power[k] =
-                kept ? static_cast<float>(size * size * exponential(equation.ln_raised - loss))
+                kept ? static_cast<float>(size * size * exponential(equation.ln_headroom - loss))
                      : 0.0F;
             amplitudes.re[k] = kept ? static_cast<float>(part.amplitude.real() / size) : 0.0F;
             amplitudes.im[k] = kept ? static_cast<float>(part.amplitude.imag() / size) : 0.0F;
@@ -151,15 +114,11 @@ std::uint64_t add_plate_amplitudes(const Beams& beams, const PlateScene& scene,
                                    EchoGrid& grid) {
     std::vector<PlateEcho> echoes;
     const EdgeLimits edges = edge_limits(limits);
-    const auto add = [&](const PlateOfPing& plate) {
+    for (const PlateOfPing& plate : scene.surface.plates) {
         const std::size_t first = echoes.size();
         add_plate_echoes(plate, surface_of(plate, scene), scene.wavelength_m, edges, echoes);
         join_parts(plate, edges, first, echoes);
-    };
-    for (const PlateOfPing& plate : scene.surface.plates)
-        add(plate);
-    for (const StripOfPing& strip : scene.surface.strips)
-        add(plate_of(strip, scene.wavelength_m));
+    }
     PlateBlock block;
     std::uint64_t outside = 0;
     for (std::size_t first = 0; first < echoes.size(); first += PatchBlock::most) {
@@ -192,11 +151,10 @@ float IncoherentShares::phase2(std::uint32_t instance, std::uint32_t material,
     const double x = -static_cast<double>(normal.x());
     const auto before = [&](const FaceOfPing& face) {
         return face.instance < instance ||
-               (face.instance == instance && face.normal.x() < x - most_apart);
+               (face.instance == instance && face.normal.x() < x - max_apart);
     };
     auto at = std::partition_point(faces_.begin(), faces_.end(), before);
-    for (; at != faces_.end() && at->instance == instance && at->normal.x() < x + most_apart;
-         ++at) {
+    for (; at != faces_.end() && at->instance == instance && at->normal.x() < x + max_apart; ++at) {
         const FaceOfPing& face = *at;
         if (face.material == material &&
             std::fabs(face.normal.dot(point.cast<double>()) - face.height_m) < slack &&

@@ -14,11 +14,11 @@ namespace {
 constexpr double unit_width = 1e-3;
 
 // Pulses are cut off at this many bins.
-constexpr double most_reach = 64.0;
+constexpr double max_reach = 64.0;
 
 /// The bins to either side of a pulse's middle that have its main lobe and two side lobes.
 int reach_of(double resolution_bins) {
-    return static_cast<int>(std::clamp(std::ceil(3.0 * resolution_bins), 2.0, most_reach));
+    return static_cast<int>(std::clamp(std::ceil(3.0 * resolution_bins), 2.0, max_reach));
 }
 
 /// The square root of the spectrum of noise after a matched filter, `frequency` in cycles per bin.
@@ -95,14 +95,14 @@ std::vector<float> noise_taps(double resolution_bins, double side_lobe_db) {
     const double pulse_bins = std::max(resolution_bins, 0.1);
     const LineArray band = line_array(unit_width, side_lobe_db);
     const double width = band.wavelengths * unit_width / pulse_bins;
-    const double most_frequency = 0.5 * std::min(width, 1.0);
+    const double max_frequency = 0.5 * std::min(width, 1.0);
     constexpr int steps = 512;
     std::vector<double> one_side;  // from the middle on
     double energy = 0.0;
     for (int m = 0; m <= reach_of(pulse_bins); ++m) {
         double tap = 0.0;
         for (int k = 0; k < steps; ++k) {
-            const double frequency = most_frequency * (k + 0.5) / steps;
+            const double frequency = max_frequency * (k + 0.5) / steps;
             tap += noise_amplitude(band, width, frequency) * sincos(2.0 * pi * m * frequency).cos /
                    steps;
         }

@@ -33,7 +33,7 @@ float combined_power(SampleRule rule, const float* first, int samples, std::size
 void add_to_row(float value, int row, const ImageRows& rows, std::span<float> image) {
     float* const first = image.data() + static_cast<std::size_t>(row) * rows.beams;
     for (int beam = 0; beam < rows.beams; ++beam)
-        first[beam] = std::min(first[beam] + value, most_value);
+        first[beam] = std::min(first[beam] + value, max_value);
 }
 
 /// The ringing falls by 10 dB in each `ring_down_m`.
@@ -47,55 +47,21 @@ void add_ringing(const ReceiverConfig& receiver, const ImageRows& rows, std::spa
     }
 }
 
-/// Adds a pulse whose range in the first ping follows from the seed.
-void add_interference(const InterferenceConfig& interference, const ImageRows& rows,
-                      const PingDraws& draws, std::span<float> image) {
-    const PhiloxKey key = stream_key(draws.seed, draws.sensor, 0, stream_named("interference"));
-    const PhiloxBlock first = philox({0, 0, 0, 0}, key);
-    const double extent_m = rows.bin_m * rows.rows;
-    const double moved_m = extent_m * unit_double(first.x0, first.x1) +
-                           interference.step_m * static_cast<double>(draws.number());
-    const double at_m = moved_m - extent_m * std::floor(moved_m / extent_m);
-    const auto level = static_cast<float>(power_of_db(interference.level_db));
-    const int begin = static_cast<int>(at_m / rows.bin_m);
-    const double last = std::ceil((at_m + interference.length_m) / rows.bin_m);
-    const int end = static_cast<int>(std::min<double>(rows.rows, last));
-    for (int row = begin; row < end; ++row)
-        add_to_row(rows.noise[row] * level, row, rows, image);
-}
-
-void add_spikes(const ReceiverConfig& receiver, const ImageRows& rows, PhiloxKey key,
-                std::span<float> image) {
-    const double share = receiver.spikes_per_ping / (static_cast<double>(rows.rows) * rows.beams);
-    const auto level = static_cast<float>(power_of_db(receiver.spike_db));
-    for (int row = 0; row < rows.rows; ++row) {
-        for (int beam = 0; beam < rows.beams; ++beam) {
-            const PhiloxBlock draw = philox(
-                {static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(beam), 0, 0}, key);
-            if (unit_double(draw.x0, draw.x1) >= share) continue;
-            float& value = image[static_cast<std::size_t>(row) * rows.beams + beam];
-            value = std::min(value + rows.noise[row] * level, most_value);
-        }
-    }
-}
-
 void apply_beam_gains(const ReceiverConfig& receiver, const ImageRows& rows, const PingDraws& draws,
                       std::span<float> image) {
     for (int beam = 0; beam < rows.beams; ++beam) {
         const auto gain =
             static_cast<float>(power_of_db(beam_gain_db(receiver, beam, rows.beams, draws)));
         for (auto k = static_cast<std::size_t>(beam); k < image.size(); k += rows.beams)
-            image[k] = std::min(gain * image[k], most_value);
+            image[k] = std::min(gain * image[k], max_value);
     }
 }
 
 }  // namespace
 
 bool has_faults(const ReceiverConfig& receiver) {
-    return receiver.ring_down_db > 0.0 || receiver.interference.level_db > 0.0 ||
-           receiver.spikes_per_ping > 0.0 || receiver.gain_drift_db > 0.0 ||
-           receiver.beam_gain_db > 0.0 || receiver.sector_gain_db > 0.0 ||
-           receiver.dropped_share > 0.0;
+    return receiver.ring_down_db > 0.0 || receiver.beam_gain_db > 0.0 ||
+           receiver.sector_gain_db > 0.0;
 }
 
 void combine_samples(std::span<const float> powers, int samples, SampleRule rule, int beams,
@@ -113,19 +79,6 @@ void blank(const ReceiverConfig& receiver, const ImageRows& rows, std::span<floa
     std::fill_n(image.begin(), static_cast<std::ptrdiff_t>(end) * rows.beams, 0.0F);
 }
 
-double drifting_gain_db(const ReceiverConfig& receiver, const PingDraws& draws) {
-    // Normal numbers are drawn a fixed number of pings apart and interpolated with weights whose
-    // squares add up to 1, so the standard deviation is the same in every ping.
-    const double at = static_cast<double>(draws.number()) / receiver.gain_drift_pings;
-    const double whole = std::floor(at);
-    const PhiloxKey key = stream_key(draws.seed, draws.sensor, 0, stream_named("gain drift"));
-    const auto node = static_cast<std::uint32_t>(whole);
-    const float before = normal_pair(philox({node, 0, 0, 0}, key).x0).first;
-    const float after = normal_pair(philox({node + 1U, 0, 0, 0}, key).x0).first;
-    const SinCos weights = sincos(0.5 * pi * (at - whole));
-    return receiver.gain_drift_db * (weights.cos * before + weights.sin * after);
-}
-
 double beam_gain_db(const ReceiverConfig& receiver, int beam, int beams, const PingDraws& draws) {
     const PhiloxKey key = stream_key(draws.seed, draws.sensor, 0, stream_named("beam gains"));
     const auto normal = [&](std::uint32_t number, std::uint32_t what) {
@@ -138,23 +91,7 @@ double beam_gain_db(const ReceiverConfig& receiver, int beam, int beams, const P
 
 void add_faults(const ReceiverConfig& receiver, const ImageRows& rows, const PingDraws& draws,
                 std::span<float> image) {
-    const PhiloxKey key = draws.of(stream_named("receiver faults"));
-    if (receiver.dropped_share > 0.0) {
-        const PhiloxBlock draw = philox({0, 0, 1, 0}, key);
-        if (unit_double(draw.x0, draw.x1) < receiver.dropped_share) {
-            std::ranges::fill(image, 0.0F);
-            return;
-        }
-    }
     if (receiver.ring_down_db > 0.0) add_ringing(receiver, rows, image);
-    if (receiver.interference.level_db > 0.0)
-        add_interference(receiver.interference, rows, draws, image);
-    if (receiver.spikes_per_ping > 0.0) add_spikes(receiver, rows, key, image);
-    if (receiver.gain_drift_db > 0.0) {
-        const auto gain = static_cast<float>(power_of_db(drifting_gain_db(receiver, draws)));
-        for (float& value : image)
-            value = std::min(gain * value, most_value);
-    }
     if (receiver.beam_gain_db > 0.0 || receiver.sector_gain_db > 0.0)
         apply_beam_gains(receiver, rows, draws, image);
 }

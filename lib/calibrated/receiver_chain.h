@@ -31,12 +31,9 @@ struct ImageRows {
 /// Sets the rows up to the blanking range to 0.
 void blank(const ReceiverConfig& receiver, const ImageRows& rows, std::span<float> image);
 
-/// Adds ringing, interference and spikes, applies the gains of ping and beams, and drops pings.
+/// Adds ringing and applies the gains of beams.
 void add_faults(const ReceiverConfig& receiver, const ImageRows& rows, const PingDraws& draws,
                 std::span<float> image);
-
-/// The gain of a ping that drifts, dB: normal with the standard deviation `gain_drift_db`.
-double drifting_gain_db(const ReceiverConfig& receiver, const PingDraws& draws);
 
 /// The gain of a beam, dB, the same in all pings: the sum of its own gain and its sector's.
 double beam_gain_db(const ReceiverConfig& receiver, int beam, int beams, const PingDraws& draws);

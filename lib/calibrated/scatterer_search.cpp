@@ -15,7 +15,7 @@ namespace sonarsim {
 namespace {
 
 /// A one-to-one function of 32 bits whose results look random.
-Ints8 mixed(Ints8 h) {
+Ints8 hash8(Ints8 h) {
     h = (h ^ (h >> 16)) * Ints8(0x7FEB352DU);
     h = (h ^ (h >> 15)) * Ints8(0x846CA68BU);
     return h ^ (h >> 16);
@@ -25,7 +25,7 @@ Ints8 mixed(Ints8 h) {
 Ints8 cell_bits(Ints8 i, Ints8 j, std::int32_t level, std::int32_t axis, std::uint32_t key) {
     const auto plane = static_cast<std::uint32_t>(4 * level + axis + 1) * 0x9E3779B1U;
     const Ints8 cell = i * Ints8(0x85EBCA6BU) + j * Ints8(0xC2B2AE35U) + Ints8(plane);
-    return mixed(cell ^ Ints8(key));
+    return hash8(cell ^ Ints8(key));
 }
 
 /// Position of a cell's point along the first and the second axis, in edges, from its random bits.
@@ -115,8 +115,8 @@ class Search {
         whole_.begin[footprints_.count] = whole_.count;
         split_.begin[footprints_.count] = split_.count;
         for (int k = 0; k < footprints_.count; ++k) {
-            keep_whole(k);
-            keep_split(k);
+            emit_coarse(k);
+            emit_fine(k);
             runs_[run_count_++] = {k, block_.pieces.count};
         }
         complete_runs();
@@ -145,8 +145,8 @@ class Search {
         return PatchBlock::most - block_.pieces.count;
     }
 
-    void keep_whole(int k);
-    void keep_split(int k);
+    void emit_coarse(int k);
+    void emit_fine(int k);
     template <int size>
     int keep(int k, Ints8 column, Ints8 row, Ints8 bits, unsigned mask, int to);
     void complete(const Run& run);
@@ -171,7 +171,7 @@ class Search {
     int completed_ = 0;  ///< number of complete scatterers in the block
 };
 
-void Search::keep_whole(int k) {
+void Search::emit_coarse(int k) {
     const int end = whole_.begin[k + 1];
     for (int at = whole_.begin[k]; at < end;) {
         const int stop = std::min(end, at + room(k));
@@ -188,7 +188,7 @@ void Search::keep_whole(int k) {
 }
 
 /// Two cells at a time, four parts each.
-void Search::keep_split(int k) {
+void Search::emit_fine(int k) {
     const CellFootprints& p = footprints_;
     const Ints8 right = _mm256_setr_epi32(0, 1, 0, 1, 0, 1, 0, 1);
     const Ints8 up = _mm256_setr_epi32(0, 0, 1, 1, 0, 0, 1, 1);

@@ -13,9 +13,8 @@ namespace {
 using Floats = PatchBlock::Array<float>;
 using Words = PatchBlock::Array<std::uint32_t>;
 
-// The greatest length of cells as a share of the resolution in range. The whole cell has its
-// scatterer's phase; longer cells would make speckle longer than the pulse.
-constexpr double most_of_resolution = 0.75;
+// Greatest length of cells as a share of the resolution: longer ones make speckle too long.
+constexpr double max_of_resolution = 0.75;
 
 // Cells in a resolution cell if it has less than one scatterer.
 constexpr double cells_for_few = 4.0;
@@ -24,7 +23,7 @@ constexpr double cells_for_few = 4.0;
 constexpr int steep_levels = 1;
 
 /// A hash of two words: the finaliser of MurmurHash3, applied to each in turn.
-std::uint32_t mixed(std::uint32_t a, std::uint32_t b) {
+std::uint32_t hash2(std::uint32_t a, std::uint32_t b) {
     std::uint32_t h = a * 0x85EBCA6BU;
     h = (h ^ (h >> 15)) + b * 0xC2B2AE35U;
     h = (h ^ (h >> 16)) * 0x85EBCA6BU;
@@ -112,7 +111,7 @@ void find_strengths_of_few(const Words& words, int count, const PatchBlock& piec
 
 ScattererCells scatterer_cells(double per_cell, double resolution_m, double width_rad,
                                double range_min_m, double wavelength_m) {
-    const double greatest = most_of_resolution * resolution_m;
+    const double greatest = max_of_resolution * resolution_m;
     const bool few = per_cell < 1.0;
     const double in_cell = few ? cells_for_few : per_cell;
     const double per_root_range = std::sqrt(resolution_m * width_rad / in_cell);
@@ -125,12 +124,12 @@ ScattererCells scatterer_cells(double per_cell, double resolution_m, double widt
         ++out.levels;
     }
     out.levels += steep_levels;
-    out.least_edge_m = static_cast<float>(edge);
+    out.min_edge_m = static_cast<float>(edge);
     out.edge_per_root_range = static_cast<float>(per_root_range);
     out.greatest_depth_m = static_cast<float>(greatest);
     out.width_rad = static_cast<float>(width_rad);
     out.turns_per_m = 2.0 / wavelength_m;
-    if (few) out.few_per_m2 = static_cast<float>(per_cell / (resolution_m * width_rad));
+    if (few) out.density_at_1m_per_m2 = static_cast<float>(per_cell / (resolution_m * width_rad));
     return out;
 }
 
@@ -141,7 +140,7 @@ void add_clutter(const PatchBlock& pieces, const Clutter& clutter, const SonarIn
     find_places(pieces, echoes.count, sonar, places);
     const float per_edge = 1.0F / clutter.edge_m;
     for (int k = 0; k < echoes.count; ++k) {
-        const std::uint32_t h = mixed(word_of(cell_along(places.x[k], per_edge)) ^
+        const std::uint32_t h = hash2(word_of(cell_along(places.x[k], per_edge)) ^
                                           word_of(cell_along(places.z[k], per_edge)) << 16 ^ key.k0,
                                       word_of(cell_along(places.y[k], per_edge)) ^ key.k1);
         echoes.power[k] *= clutter.strength[h >> 22];
@@ -158,8 +157,8 @@ void draw_amplitudes(const Scatterers& block, const PointEchoes& echoes,
     philox_pairs(for_strength.data(), for_phase.data(), count, key);
     find_phases(block, count, sonar, cells.turns_per_m, turns);
     Floats strength;
-    if (cells.few_per_m2 > 0.0F) {
-        find_strengths_of_few(for_strength, count, block.pieces, echoes, cells.few_per_m2,
+    if (cells.density_at_1m_per_m2 > 0.0F) {
+        find_strengths_of_few(for_strength, count, block.pieces, echoes, cells.density_at_1m_per_m2,
                               strength);
     } else {
         find_strengths_of_many(for_strength, count, strength);

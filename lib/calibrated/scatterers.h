@@ -19,16 +19,16 @@ namespace sonarsim {
 /// exponentially distributed. With fewer, some cells of the lattice are empty, and all others have
 /// the same strength per m^2 of the surface.
 struct ScattererCells {
-    float least_edge_m = 0.0F;         ///< level 0
+    float min_edge_m = 0.0F;           ///< level 0
     float edge_per_root_range = 0.0F;  ///< m per sqrt(m), at grazing incidence
     float greatest_depth_m = 0.0F;     ///< greatest size of a cell in range
     float width_rad = 0.0F;            ///< width of a resolution cell
     int levels = 1;
     double turns_per_m = 0.0;  ///< two-way phase: 2 / wavelength
     /// Scatterers per m^2 at a range of 1 m, falling as one over the range; 0: one in each cell.
-    float few_per_m2 = 0.0F;
+    float density_at_1m_per_m2 = 0.0F;
 
-    float edge_of(int level) const { return least_edge_m * static_cast<float>(1 << level); }
+    float edge_of(int level) const { return min_edge_m * static_cast<float>(1 << level); }
 };
 
 /// Cells with `per_cell` scatterers to a resolution cell of `resolution_m` in range and `width_rad`

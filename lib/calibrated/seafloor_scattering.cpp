@@ -166,10 +166,9 @@ Complex SeafloorScattering::vertical_wavenumber(double sine) const {
 double SeafloorScattering::kirchhoff(double grazing_rad) const {
     const double cos2 = squared(sincos(grazing_rad).cos);
     const double sin2 = 1.0 - cos2;
-    constexpr double least_normal = 1e-300;
+    constexpr double min_normal = 1e-300;
     return peak_ /
-           power(power(std::max(cos2, least_normal), 2.0 * alpha_) + flatness_ * sin2 * sin2,
-                 power_);
+           power(power(std::max(cos2, min_normal), 2.0 * alpha_) + flatness_ * sin2 * sin2, power_);
 }
 
 double SeafloorScattering::perturbation(double grazing_rad) const {

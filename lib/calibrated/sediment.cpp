@@ -11,8 +11,7 @@ namespace sonarsim {
 
 namespace {
 
-// As a share of a bin. With a shorter lag, less than e^-4 of the energy lies behind the bin of the
-// surface.
+// As a share of a bin: below it less than e^-4 of the energy lies behind the surface's bin.
 constexpr double shortest_lag = 0.25;
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace sonarsim {
 namespace {
 
 constexpr double cell_rad = radians(1.0);
-constexpr int fewest_cells = 4;
+constexpr int min_cell_count = 4;
 constexpr int most_cells = 128;
 constexpr int cone_rings = 48;
 constexpr int cone_turns = 16;
@@ -24,7 +24,7 @@ constexpr int parts = 4;
 constexpr float far_m = 1e6F;
 
 int cells_over(double extent) {
-    return std::clamp(static_cast<int>(std::ceil(extent / cell_rad)), fewest_cells, most_cells);
+    return std::clamp(static_cast<int>(std::ceil(extent / cell_rad)), min_cell_count, most_cells);
 }
 
 /// The axis of symmetry, then the two axes from which the turn is measured.

@@ -153,11 +153,11 @@ std::uint64_t apply_sonar_equation(const PatchBlock& pieces, const Scattering& s
         const Floats8 sine = least(read(pieces.height_m) * inverse, 1.0F);
         const Floats8 received = read(pieces.area_m2) * (spreading * spreading);
         const Floats8 loss =
-            exp_neg_of_8(fms(equation.loss_per_m, range, equation.ln_raised), least_loss);
+            exp_neg_of_8(fms(equation.loss_per_m, range, equation.ln_headroom), min_loss);
         const Floats8 power = strengths.at(pieces.material.data() + k, sine) * loss * received;
         range.store(echoes.range_m.data() + k);
         // In this order of arguments NaN stays NaN.
-        least(most_echo, power).store(echoes.power.data() + k);
+        least(max_echo, power).store(echoes.power.data() + k);
         fms(range - equation.range_min_m, per_bin, 0.5F).store(echoes.row.data() + k);
     }
     weigh_by_elevation(equation.elevation, pieces, count, echoes);

@@ -32,8 +32,8 @@ struct SonarEquation {
     float range_min_m = 0.0F;
     float bin_m = 0.0F;
     int rows = 0;
-    float loss_per_m = 0.0F;  ///< two-way absorption: power falls as e^-(loss r)
-    float ln_raised = 0.0F;   ///< powers are e^ln_raised times their ratio to the source level
+    float loss_per_m = 0.0F;   ///< two-way absorption: power falls as e^-(loss r)
+    float ln_headroom = 0.0F;  ///< powers are e^ln_headroom times their ratio to the source level
     ElevationPattern elevation;
 };
 

@@ -70,9 +70,9 @@ std::uint64_t use_block(const SonarEquation& equation, PiecesOfPaths& block, con
         const float row = (range - equation.range_min_m) / equation.bin_m - 0.5F;
         const bool inside = row > -0.5F && row < rows - 0.5F;
         const float faded =
-            exp_neg(std::fma(equation.loss_per_m, range, -equation.ln_raised), least_loss);
+            exp_neg(std::fma(equation.loss_per_m, range, -equation.ln_headroom), min_loss);
         const float lost = std::min(faded / (r * r * s * s), std::numeric_limits<float>::max());
-        block.power[k] = inside ? std::min(block.power[k] * lost, most_echo) : 0.0F;
+        block.power[k] = inside ? std::min(block.power[k] * lost, max_echo) : 0.0F;
         block.row[k] = inside ? row : 0.0F;
         outside += inside ? 0 : 2;
     }

@@ -49,8 +49,8 @@ SpecularPath specular_path(const BouncePath& path, const Sample& sample, const W
 
 std::vector<SpecularPath> specular_paths(const TracedPing& traced, const Scene& scene) {
     const std::optional<WaterMirror> water = mirror_of(scene.water_surface, traced.T_world_sensor);
-    std::vector<SpecularPath> paths = traced.retraced.unequal;
-    paths.reserve(paths.size() + traced.bounces.size());
+    std::vector<SpecularPath> paths;
+    paths.reserve(traced.bounces.size());
     for (const BouncePath& path : traced.bounces) {
         if (path.material == no_material) continue;
         const Sample& sample = traced.samples.items[path.sample];

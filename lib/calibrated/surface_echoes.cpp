@@ -19,14 +19,13 @@ namespace sonarsim {
 
 namespace {
 
-// Patches may be larger than those of an image, since their echoes are spread over bins and beams.
-// Over a depth d at the range r the power changes by 4 d / r of itself.
-constexpr float most_depth_in_bins = 2.0F;
+// Depth of a patch of labels: its echo is spread over the bins.
+constexpr float max_depth_in_bins = 2.0F;
 
 /// The greatest size of a patch of labels.
 PointLimits label_limits(const CalibratedModel& model) {
     PointLimits limits = model.limits;
-    limits.depth_m = most_depth_in_bins * model.equation.bin_m;
+    limits.depth_m = max_depth_in_bins * model.equation.bin_m;
     if (model.cones.exist()) limits.sine = std::max(limits.sine, model.cones.mean_width());
     return limits;
 }
@@ -147,22 +146,6 @@ class SurfaceEchoFinder {
         find_specular_echoes(paths, scattering_->materials, equation, model_.limits, use);
     }
 
-    /// The labels of retraced echoes are those of their first reflectors.
-    void add_retraced(const TracedPing& traced) {
-        const std::span<const Sample> seen = traced.retraced.samples;
-        subdivide(seen, {}, limits_, pieces_, [&](const PatchBlock& pieces) {
-            apply_sonar_equation(pieces, *scattering_, model_.equation, echoes_);
-            const auto cut_at = [&](int k) { return cut_of(seen[pieces.sample[k]], limits_); };
-            const auto half_sine = [&](int k) { return cut_at(k).half.sine; };
-            for_each_beam(pieces, echoes_, nullptr, half_sine, [&](int beam, int k, float power) {
-                const std::uint32_t source = traced.retraced.sources[pieces.sample[k]];
-                multipath_.push_back({static_cast<std::uint32_t>(beam), echoes_.range_m[k],
-                                      cut_at(k).half.range_m, power,
-                                      &traced.samples.items[source]});
-            });
-        });
-    }
-
     SurfaceEchoes take(int beams) {
         SurfaceEchoes out;
         out.direct = by_beam(direct_, beams);
@@ -276,7 +259,6 @@ SurfaceEchoes CalibratedModel::surface_echoes(const TracedPing& traced, const Vi
             finder.add_targets(traced.targets, slopes_of(scene.materials));
             finder.add_particles(traced.particles);
             finder.add_multipath(traced, specular_paths(traced, scene));
-            finder.add_retraced(traced);
             return finder.take(view.beams);
         },
         beams);

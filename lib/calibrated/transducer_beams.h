@@ -54,9 +54,6 @@ inline const SineGrid* sines_of(const TransducerBeams& /*beams*/) {
 inline float scalloping_gain(const TransducerBeams& /*beams*/) {
     return 1.0F;
 }
-inline float split_gain(const TransducerBeams& /*beams*/) {
-    return 1.0F;
-}
 inline std::uint64_t find_columns(const TransducerBeams& /*beams*/, const PatchBlock& /*pieces*/,
                                   PointEchoes& /*echoes*/) {
     return 0;

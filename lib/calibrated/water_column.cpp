@@ -107,10 +107,10 @@ std::optional<WaterColumn> water_column(const WaterConfig& water, double frequen
     out.row_power.resize(padded);
     for (int row = 0; row < equation.rows; ++row) {
         const double range_m = equation.range_min_m + (row + 0.5) * equation.bin_m;
-        const double loss = equation.loss_per_m * range_m - equation.ln_raised;
+        const double loss = equation.loss_per_m * range_m - equation.ln_headroom;
         const double power = equation.bin_m / (range_m * range_m) * exponential(-loss) *
                              mean_along_track(beams, view, range_m);
-        out.row_power[row] = static_cast<float>(std::min<double>(power, most_echo));
+        out.row_power[row] = static_cast<float>(std::min<double>(power, max_echo));
     }
     return out;
 }

@@ -20,7 +20,7 @@ namespace sonarsim {
 /// it is their sum with weights whose squares add up to 1, like the drifting gain.
 template <class Beams>
 void add_water_column(const CalibratedModel& model, const Beams& beams, const TracedPing& traced,
-                      const FormContext& context, bool of_powers, float speckle_gain,
+                      const FormContext& context, bool expected_power, float speckle_gain,
                       EchoGrid& grid) {
     std::optional<double> surface_z_m;
     if (context.scene.water_surface) surface_z_m = context.scene.water_surface->height_m;
@@ -29,10 +29,10 @@ void add_water_column(const CalibratedModel& model, const Beams& beams, const Tr
                        traced.T_world_sensor, surface_z_m, grid.rows());
     const auto add = [&](const PingDraws& draws, double share) {
         add_water(*model.water, received, sines_of(beams),
-                  of_powers ? PowerForm::power : PowerForm::amplitude,
+                  expected_power ? PowerForm::power : PowerForm::amplitude,
                   static_cast<float>(share) * speckle_gain, draws.of(stream_named("water")), grid);
     };
-    if (of_powers || !traced.water_age) return add(context.draws, 1.0);
+    if (expected_power || !traced.water_age) return add(context.draws, 1.0);
     const double whole = std::floor(*traced.water_age);
     const SinCos weights = sincos(0.5 * pi * (*traced.water_age - whole));
     PingDraws draws = context.draws;

@@ -7,10 +7,8 @@ namespace sonarsim {
 
 namespace {
 
-// A cell is closed if surface covers this share of its solid angle; the number is chosen. Pieces of
-// surface count for the cell of their middle, so a wholly covered cell may get less than its solid
-// angle. A cell that the edge of a surface cuts is closed as well.
-constexpr float least_cover = 0.2F;
+// Share of a cell's solid angle that closes it: pieces count for the cell of their middle.
+constexpr float min_cover = 0.2F;
 
 /// Sums over the pieces of surface in each cell. Pieces are collected, since finding their cells is
 /// faster for many at a time.
@@ -43,7 +41,7 @@ class CoveredCells {
         flush();
         std::vector<float> out(cells_.count());
         for (int cell = 0; cell < cells_.count(); ++cell) {
-            const bool closed = covered_sr_[cell] > least_cover * cells_.seen_sr[cell];
+            const bool closed = covered_sr_[cell] > min_cover * cells_.seen_sr[cell];
             out[cell] = closed ? weighted_m_[cell] / covered_sr_[cell] : no_end;
         }
         return out;

@@ -12,9 +12,8 @@ namespace sonarsim {
 namespace {
 
 constexpr double high_from_hz = 10e3;
-// Both models are evaluated at no less than this angle: below it their strengths go to 0 or
-// infinity.
-constexpr double least_grazing_rad = radians(0.1);
+// Smallest angle at which both models are evaluated: their strengths stay finite.
+constexpr double min_grazing_rad = radians(0.1);
 
 /// The mean square slope of the waves. Below 1 m/s the report has 0.034, which jumps there; 0.0034
 /// is the value of the other branch at 1 m/s, 4.6e-3 ln 2.1.
@@ -88,7 +87,7 @@ double low_frequency(double grazing_rad, double wind_m_s, double frequency_hz) {
 }  // namespace
 
 double wind_surface_section(double grazing_rad, double wind_m_s, double frequency_hz) {
-    const double grazing = std::max(grazing_rad, least_grazing_rad);
+    const double grazing = std::max(grazing_rad, min_grazing_rad);
     return frequency_hz < high_from_hz ? low_frequency(grazing, wind_m_s, frequency_hz)
                                        : high_frequency(grazing, wind_m_s, 1e-3 * frequency_hz);
 }

@@ -131,11 +131,6 @@ std::vector<Warning> image_warnings(const Mission& mission, const Assembly& asse
                                        summary.missed_goals, summary.pings,
                                        mission.accuracy.relative_l1, summary.worst_l1));
         }
-        if (summary.missed_multipath > 0) {
-            out.push_back(make_warning(WarningCode::multipath_missed, about_sensor(config.name),
-                                       summary.missed_multipath, summary.pings,
-                                       100.0 * summary.worst_multipath));
-        }
         if (summary.dark_pings == summary.pings) continue;
         judge_brightness(mission.output, about_sensor(config.name), assembly.full_scales[i],
                          share(summary.clipped_pixels, summary.counts.occupied_bins),

@@ -43,7 +43,6 @@ enum class WarningCode {
     noise_beyond_range = 31,
     thin_fan = 32,
     disk_full = 34,
-    multipath_missed = 35,
     unseen_particles = 36,
     heightmap_facets = 37,
 };

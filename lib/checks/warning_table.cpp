@@ -191,17 +191,6 @@ constexpr std::array table{
         "validate estimates a greater size than the free space, and nothing is rendered yet",
         "the estimate is the mean of a few pings; a run that fills the disk stops, and "
         "goes on once there is room"},
-    WarningText{
-        WarningCode::multipath_missed,
-        "{0} of {1} pings may miss more than 5 % of the bins with multipath, or fill others by "
-        "mistake, the worst an estimated {2:.2g} %: facets are too small for the rays, or their "
-        "echoes thinner than a bin",
-        "raise multipath.columns_per_beam (2 cost two to three times the time, 4 about eight "
-        "times), or lower accuracy.relative_l1",
-        "one ping of a fan whose estimate is above 5 % of the bins with multipath",
-        "accuracy.relative_l1 holds for direct echoes: a facet that is narrower than a column of "
-        "rays hardly counts for them, but its echo over a second surface may have bins of its "
-        "own. The standard error of a few bins is large, and the estimate includes twice that"},
     WarningText{WarningCode::unseen_particles,
                 "no tested ping sees a target of these groups of scene.particles: {0:s}",
                 "move them into the view of a sonar, raise their count, or leave them out",

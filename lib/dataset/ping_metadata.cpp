@@ -40,7 +40,6 @@ Json describe_particles(const Assembly& assembly, const FinishedPing& finished, 
     struct Sum {
         int count = 0;
         double section_m2 = 0.0;
-        bool buried = false;
         Eigen::Vector3d place = Eigen::Vector3d::Zero();
     };
     const SeenParticles& seen = finished.traced.particles;
@@ -50,7 +49,6 @@ Json describe_particles(const Assembly& assembly, const FinishedPing& finished, 
         ++sum.count;
         const Particle& particle = finished.sonar.settings.particles->all[seen.numbers[k]];
         sum.section_m2 += particle.section_m2;
-        sum.buried = particle.buried;
         sum.place += place_at(particle, time_s);
     }
     Json json = Json::object();
@@ -61,7 +59,6 @@ Json describe_particles(const Assembly& assembly, const FinishedPing& finished, 
             {"position_m", {place.x(), place.y(), place.z()}},
             // Rounded to a hundredth of a decibel, since the cross-sections are floats.
             {"target_strength_db", std::round(100.0 * db_of_power(sum.section_m2)) / 100.0}};
-        if (sum.buried) json[assembly.scene.instances[instance]]["buried"] = true;
     }
     return json;
 }
@@ -93,8 +90,6 @@ Json describe_ping(const Mission& mission, const Assembly& assembly, const Finis
     // Rounded, since it is an estimate.
     if (const double error = finished.ping.estimated_l1; !std::isnan(error))
         json["estimated_error"] = std::round(1e5 * error) / 1e5;
-    if (const double missed = finished.ping.missed_multipath; !std::isnan(missed))
-        json["estimated_missed_multipath"] = std::round(1e3 * missed) / 1e3;
     if (mission.variant.index >= 0) {
         json["variant"] = {{"index", mission.variant.index},
                            {"drawn", describe_drawn(mission.variant.drawn)}};

@@ -7,9 +7,6 @@
 
 namespace sonarsim {
 
-/// The least share of the bins with multipath that a ping must find.
-inline constexpr double least_found_multipath = 0.95;
-
 /// Sums over pings of one sonar.
 struct SensorSummary {
     std::uint64_t pings = 0;
@@ -18,10 +15,7 @@ struct SensorSummary {
     std::uint64_t clipped_pixels = 0;  ///< intensities above full_scale, if files were written
     std::uint64_t missed_goals = 0;    ///< pings whose estimated error is above the goal
     double worst_l1 = 0.0;             ///< the greatest of the estimates
-    /// Pings in which more bins with multipath are missed than least_found_multipath allows.
-    std::uint64_t missed_multipath = 0;
-    double worst_multipath = 0.0;  ///< the greatest of the estimates
-    float brightest = 0.0F;        ///< intensity of the brightest pixel of all
+    float brightest = 0.0F;            ///< intensity of the brightest pixel of all
 
     SensorSummary& operator+=(const SensorSummary& more) {
         pings += more.pings;
@@ -30,8 +24,6 @@ struct SensorSummary {
         clipped_pixels += more.clipped_pixels;
         missed_goals += more.missed_goals;
         worst_l1 = std::max(worst_l1, more.worst_l1);
-        missed_multipath += more.missed_multipath;
-        worst_multipath = std::max(worst_multipath, more.worst_multipath);
         brightest = std::max(brightest, more.brightest);
         return *this;
     }

@@ -37,8 +37,6 @@ PingReport report_of(const RenderedPing& rendered) {
     // The estimate is NaN if the engine has none.
     summary.missed_goals = ping.estimated_l1 > sonar->settings.view.relative_l1 ? 1 : 0;
     if (!std::isnan(ping.estimated_l1)) summary.worst_l1 = ping.estimated_l1;
-    if (!std::isnan(ping.missed_multipath)) summary.worst_multipath = ping.missed_multipath;
-    summary.missed_multipath = summary.worst_multipath > 1.0 - least_found_multipath ? 1 : 0;
     return {.id = id, .encoded = {}, .fields = {}, .summary = summary, .seconds = ping.seconds};
 }
 

@@ -10,12 +10,10 @@ namespace {
 
 // Surface that lies below the bottom by at most this share of its range is on it: rounding.
 constexpr double on_bottom = 1e-4;
-// The same if sound bends or the sonar moves: pieces are flat at their apparent places, but not at
-// their true ones.
+// The same if sound bends or the sonar moves: pieces are not flat at their true places.
 constexpr double on_bottom_where_bent = 2e-3;
 
-// A vertical face of the bottom is not its own bottom: its height is that above its foot. Faces
-// with a smaller vertical share of their normal count as vertical. Chosen.
+// Vertical share of the normal below which a face of the bottom has the height above its foot.
 constexpr float vertical = 1e-3F;
 
 }  // namespace

@@ -13,20 +13,19 @@ namespace sonarsim {
 namespace {
 
 // A sight line ends after this many surfaces: four closed bodies one behind the other.
-constexpr int most_surfaces_behind = 8;
+constexpr int max_surfaces_behind = 8;
 
-// The gap behind a surface at which a sight line continues, as a share of its range: well above the
-// rounding of floats and far below a bin.
+// Gap behind a surface at which a sight line continues, as a share of its range.
 constexpr float step_behind = 1e-5F;
 
 /// An object that a sight line has met, and the node before it. The first node of a way refers to
 /// itself.
-struct WayNode {
+struct Occluder {
     std::uint32_t object, before;
 };
 
 /// True if the way that ends in a node has met an object.
-bool has_met(const std::vector<WayNode>& nodes, std::uint32_t node, std::uint32_t object) {
+bool has_met(const std::vector<Occluder>& nodes, std::uint32_t node, std::uint32_t object) {
     while (nodes[node].object != object && nodes[node].before != node)
         node = nodes[node].before;
     return nodes[node].object == object;
@@ -109,7 +108,7 @@ class LineTracer {
     const ObjectDirections& directions_;
     bool all_;  ///< background hides surface, too
     float range_max_m_;
-    std::vector<WayNode> nodes_;
+    std::vector<Occluder> nodes_;
     std::vector<SolidAngles> solid_angles_;  ///< indexed by object
     std::vector<HiddenPiece> pieces_;
 };
@@ -144,7 +143,7 @@ HiddenSurface find_hidden_surface(const TracedPing& traced, const SurfaceEchoes&
         lines = divided(with_surface, echoes.cones);
         tracer.begin(lines);
     }
-    for (int layer = 0; layer < most_surfaces_behind && !lines.empty(); ++layer) {
+    for (int layer = 0; layer < max_surfaces_behind && !lines.empty(); ++layer) {
         cast(lines);
         std::size_t going_on = 0;
         for (std::size_t k = 0; k < lines.size(); ++k) {

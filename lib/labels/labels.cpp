@@ -141,8 +141,8 @@ class BeamLabeller {
     std::vector<float> direct_;      ///< echo of the visible surface, by bin
     std::vector<Stretch> stretches_;
     std::vector<EchoRange> ranges_;  ///< the stretches of one surface
-    StrongestFinder finder_;
-    Strongest strongest_;
+    TopTwoFinder finder_;
+    TopTwo strongest_;
     std::vector<std::uint8_t> occupied_;
 };
 

@@ -19,8 +19,7 @@ PingShadows::PingShadows(Wanted wanted, const TracedPing& traced, const SurfaceE
         if (by_objects_.size() < hidden_.pieces.size()) of_objects_.emplace(by_objects_, view);
     }
     if (wanted.of_all) {
-        if (!echoes.cones.exist()) covered_ = engine.covered_bins(view, traced.T_world_sensor);
-        if (covered_.empty()) covered_ = hidden_bins(hidden_.pieces, bins, view.beams);
+        covered_ = hidden_bins(hidden_.pieces, bins, view.beams);
         return;
     }
     for (std::uint32_t k = 0; k < hidden_.visible_shares.size(); ++k) {

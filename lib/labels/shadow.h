@@ -45,8 +45,8 @@ class ShadowFinder {
     /// computed yet.
     std::vector<std::vector<std::uint16_t>> owners_;
     BeamShares shares_;
-    StrongestFinder finder_;
-    Strongest strongest_;
+    TopTwoFinder finder_;
+    TopTwo strongest_;
     RangeBoxes echoes_;
 };
 

@@ -32,9 +32,9 @@ Reach reach_of(const RangeBoxes& echoes, std::span<const EchoRange> ranges, cons
 }
 
 /// Merges one key's echoes of `count` bins into the two largest.
-void take_larger(const float* __restrict echo, int count, std::uint32_t id,
-                 std::uint32_t* __restrict best, float* __restrict best_echo,
-                 std::uint32_t* __restrict second, float* __restrict second_echo) {
+void keep_top_two(const float* __restrict echo, int count, std::uint32_t id,
+                  std::uint32_t* __restrict best, float* __restrict best_echo,
+                  std::uint32_t* __restrict second, float* __restrict second_echo) {
     for (int i = 0; i < count; ++i) {
         const float e = echo[i];
         const bool first = e > best_echo[i];
@@ -99,7 +99,7 @@ void BeamShares::add(std::uint32_t key, const RangeBoxes& echoes, std::span<cons
     sources.push_back({key, reach.first, reach.last, offset});
 }
 
-void Strongest::clear(int bins) {
+void TopTwo::clear(int bins) {
     const auto blank = [&](auto& values) {
         if (std::ssize(values) == bins) {
             std::fill(values.begin() + first, values.begin() + last, 0);
@@ -115,7 +115,7 @@ void Strongest::clear(int bins) {
     has_second = false;
 }
 
-void StrongestFinder::find_ordered(const BeamShares& shares, Ranks ranks, Strongest& out) {
+void TopTwoFinder::find_ordered(const BeamShares& shares, Ranks ranks, TopTwo& out) {
     out.clear(static_cast<int>(shares.total.size()));
     out.first = shares.first;
     out.last = shares.last;
@@ -143,9 +143,9 @@ void StrongestFinder::find_ordered(const BeamShares& shares, Ranks ranks, Strong
             take_largest(echo, last - first, order_[a].key + 1, out.key.data() + first,
                          out.echo.data() + first);
         } else {
-            take_larger(echo, last - first, order_[a].key + 1, out.key.data() + first,
-                        out.echo.data() + first, out.second_key.data() + first,
-                        out.second_echo.data() + first);
+            keep_top_two(echo, last - first, order_[a].key + 1, out.key.data() + first,
+                         out.echo.data() + first, out.second_key.data() + first,
+                         out.second_echo.data() + first);
         }
     }
 }

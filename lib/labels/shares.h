@@ -37,7 +37,7 @@ struct BeamShares {
 };
 
 /// The largest and the second largest share of each bin of a beam.
-struct Strongest {
+struct TopTwo {
     std::vector<std::uint32_t> key;         ///< 1 + key of the source; 0: the bin has no echo
     std::vector<float> echo;                ///< its share
     std::vector<std::uint32_t> second_key;  ///< 0: no other key, or not asked for
@@ -54,10 +54,10 @@ enum class Ranks { first, first_and_second };
 /// Finds the keys with the largest parts in every bin. `key_of` maps the key of a source to the
 /// wanted one, such as the class of an object; parts of one key are summed first. The lower key
 /// wins among equal parts.
-class StrongestFinder {
+class TopTwoFinder {
   public:
     template <class KeyOf>
-    void find(const BeamShares& shares, Ranks ranks, KeyOf key_of, Strongest& out) {
+    void find(const BeamShares& shares, Ranks ranks, KeyOf key_of, TopTwo& out) {
         order_.clear();
         for (std::uint32_t k = 0; k < shares.sources.size(); ++k)
             order_.push_back({key_of(shares.sources[k].key), k});
@@ -70,7 +70,7 @@ class StrongestFinder {
         auto operator<=>(const Entry&) const = default;  // NOLINT(modernize-use-nullptr)
     };
 
-    void find_ordered(const BeamShares& shares, Ranks ranks, Strongest& out);
+    void find_ordered(const BeamShares& shares, Ranks ranks, TopTwo& out);
 
     std::vector<Entry> order_;
     std::vector<float> sum_;  ///< sum of the sources with one key

@@ -59,17 +59,15 @@ struct BeamConfig {
     bool operator==(const BeamConfig&) const = default;
 };
 
-/// The direction in which the frequency of a coded pulse runs. `none`: motion does not change its
+/// The direction in which the frequency of a coded pulse runs. `none`: motion does not shift its
 /// echo.
-enum class Sweep { none, up, down, tone };
+enum class Sweep { none, up, down };
 
 struct PulseConfig {
     double resolution_m = 0.0;    ///< half-power width of a point target in range; 0: one bin
     double duration_s = 0.0;      ///< transmitted pulse; 0: that of a pulse without a code
     double side_lobe_db = -30.0;  ///< highest range side lobe after compression
-    /// Energy of the far side lobes relative to the pulse, spread over `duration_s`; -300: none.
-    double floor_db = -300.0;
-    Sweep sweep = Sweep::none;  ///< motion shifts and weakens its echoes
+    Sweep sweep = Sweep::none;    ///< motion shifts its echoes
 
     bool operator==(const PulseConfig&) const = default;
 };
@@ -85,15 +83,6 @@ struct SpeckleConfig {
 
 /// The rule by which several samples become the one that is delivered.
 enum class SampleRule { maximum, mean, rms };
-
-/// Sound of another sonar that arrives as if it were an echo.
-struct InterferenceConfig {
-    double level_db = 0.0;  ///< above the noise; 0: none
-    double length_m = 0.1;  ///< length of its pulse in range
-    double step_m = 1.0;    ///< its shift in range from ping to ping
-
-    bool operator==(const InterferenceConfig&) const = default;
-};
 
 struct ReceiverConfig {
     std::optional<double> noise_db;  ///< noise power in a beam; empty: by instrument_levels()
@@ -111,21 +100,15 @@ struct ReceiverConfig {
     int bits = 8;
     int samples = 1;  ///< for each range bin
     SampleRule combine = SampleRule::maximum;
-    int looks = 1;                   ///< their powers are averaged
-    double offset = 0.0;             ///< subtracted from raw/, as a share of its largest value
-    double tvg_step_db = 0.0;        ///< 0: the TVG is smooth
-    double blanking_m = 0.0;         ///< nothing is received up to this range
-    double ring_down_db = 0.0;       ///< at range 0, above the noise; 0: none
-    double ring_down_m = 0.1;        ///< range over which it falls by 10 dB
-    double gain_drift_db = 0.0;      ///< standard deviation of the gain of pings
-    double gain_drift_pings = 20.0;  ///< pings over which the gain changes
-    double beam_gain_db = 0.0;       ///< standard deviation of the gains of the beams
-    double sector_gain_db = 0.0;     ///< standard deviation of the gains of sectors of beams
-    int sectors = 1;                 ///< equal shares of the beams
-    double dropped_share = 0.0;      ///< share of the pings
-    double spikes_per_ping = 0.0;
-    double spike_db = 40.0;  ///< above the noise
-    InterferenceConfig interference = {};
+    int looks = 1;                ///< their powers are averaged
+    double offset = 0.0;          ///< subtracted from raw/, as a share of its largest value
+    double tvg_step_db = 0.0;     ///< 0: the TVG is smooth
+    double blanking_m = 0.0;      ///< nothing is received up to this range
+    double ring_down_db = 0.0;    ///< at range 0, above the noise; 0: none
+    double ring_down_m = 0.1;     ///< range over which it falls by 10 dB
+    double beam_gain_db = 0.0;    ///< standard deviation of the gains of the beams
+    double sector_gain_db = 0.0;  ///< standard deviation of the gains of sectors of beams
+    int sectors = 1;              ///< equal shares of the beams
 
     bool operator==(const ReceiverConfig&) const = default;
 };

@@ -89,9 +89,9 @@ void describe(Visitor& v, BeamConfig& c) {
               "elevation_width_deg is 0, for a constant pattern, or at least 0.01");
 }
 
-inline constexpr std::array sweeps{
-    Choice<Sweep>{"none", Sweep::none}, Choice<Sweep>{"up", Sweep::up},
-    Choice<Sweep>{"down", Sweep::down}, Choice<Sweep>{"tone", Sweep::tone}};
+inline constexpr std::array sweeps{Choice<Sweep>{"none", Sweep::none},
+                                   Choice<Sweep>{"up", Sweep::up},
+                                   Choice<Sweep>{"down", Sweep::down}};
 
 template <class Visitor>
 void describe(Visitor& v, PulseConfig& c) {
@@ -105,16 +105,11 @@ void describe(Visitor& v, PulseConfig& c) {
              "resolution is coded, and its noise is that of the long pulse; 0 means no code");
     v.number("side_lobe_db", c.side_lobe_db, side_lobes_db,
              "highest range side lobe of the compressed pulse");
-    v.number("floor_db", c.floor_db, between(-300, 0),
-             "energy of the side lobes of a coded pulse that are spread over its duration_s before "
-             "and behind each echo, relative to the pulse; -300 means none");
     v.choice("sweep", c.sweep, sweeps,
              "with moves_in_ping: the frequency of the coded pulse runs `up` or `down`, so that "
-             "what approaches is measured too near or too far, and is weaker by the share of the "
-             "band that it is shifted; `tone`: the filter is as narrow as one over duration_s, and "
-             "passes less of what approaches or recedes; `none`: neither");
+             "what approaches is measured too near or too far; `none`: at its place");
     v.require(c.sweep == Sweep::none || c.duration_s > 0.0, {"sweep", "duration_s"},
-              "a pulse that sweeps, or is a tone, needs a duration_s above 0");
+              "a pulse that sweeps needs a duration_s above 0");
 }
 
 template <class Visitor>
@@ -131,15 +126,6 @@ void describe(Visitor& v, SpeckleConfig& c) {
               "clutter_shape is 0, for Rayleigh, or at least 0.05");
     v.number("clutter_m", c.clutter_m, between(1e-3, 1e3),
              "edge of the cells of the scene that share one clutter strength");
-}
-
-template <class Visitor>
-void describe(Visitor& v, InterferenceConfig& c) {
-    v.number("level_db", c.level_db, raised_levels_db,
-             "level of another sonar's pulse above the noise; 0 means none");
-    v.number("length_m", c.length_m, between(1e-3, 1e4), "its length in range");
-    v.number("step_m", c.step_m, between(-1e4, 1e4),
-             "range by which it moves from ping to ping; it starts anew at the other end");
 }
 
 /// The keys of a receiver besides noise, gain and companding.
@@ -162,21 +148,12 @@ void describe_chain(Visitor& v, ReceiverConfig& c) {
              "level of the transducer's ringing at range 0 above the noise; 0 means none");
     v.number("ring_down_m", c.ring_down_m, between(1e-4, 1e4),
              "range over which the ringing falls by 10 dB");
-    v.number("gain_drift_db", c.gain_drift_db, between(0, 30),
-             "standard deviation of a gain that drifts from ping to ping");
-    v.number("gain_drift_pings", c.gain_drift_pings, between(1, 1e6),
-             "pings over which this gain changes");
     v.number("beam_gain_db", c.beam_gain_db, between(0, 30),
              "standard deviation of the gains of single beams, which stay from ping to ping");
     v.number("sector_gain_db", c.sector_gain_db, between(0, 30),
              "standard deviation of the gains of sectors, which stay, too");
     v.integer("sectors", c.sectors, between(1, 64),
               "number of sectors, which share the beams equally");
-    v.number("dropped_share", c.dropped_share, between(0, 1), "share of the pings that are lost");
-    v.number("spikes_per_ping", c.spikes_per_ping, between(0, 1e4),
-             "mean number of bins of a ping with an electric spike");
-    v.number("spike_db", c.spike_db, raised_levels_db, "level of a spike above the noise");
-    v.section("interference", c.interference, "pulses of another sonar");
 }
 
 template <class Visitor>

@@ -77,9 +77,7 @@ struct MultipathConfig {
     /// Largest angle between normals within a cluster. The paper's 15 miss more than 5 % of the
     /// bins on a rough sea floor; 5 miss 2 % and take a tenth more rays.
     double delta_deg = 5.0;
-    int columns_per_beam = 1;        ///< parts that the trace divides a beam into; fans only
-    int retraced = 0;                ///< most reflections on a retraced path
-    double retraced_loss_db = 40.0;  ///< paths with a greater loss are left out
+    int columns_per_beam = 1;  ///< parts that the trace divides a beam into; fans only
 
     bool operator==(const MultipathConfig&) const = default;
 };

@@ -30,7 +30,6 @@ struct ParticlesConfig {
     std::array<double, 3> size_m{};      ///< from end to end along x, y and z
     std::array<double, 3> drift_m_s{};
     double rise_m_s = 0.0;  ///< for bubbles, which come back at the bottom of the region
-    bool buried = false;    ///< they lie in the sediment, and sound reaches them through it
     ParticleInstances instances = ParticleInstances::automatic;
     MissionPlace place;
 

@@ -57,9 +57,6 @@ void describe(Visitor& v, ParticlesConfig& c) {
     v.number("rise_m_s", c.rise_m_s, between(0, 10),
              "speed at which bubbles rise, in addition; at the top of the region they start again "
              "at its bottom");
-    v.flag("buried", c.buried,
-           "points that lie below the bottom, whose sea bed refracts and absorbs the sound on both "
-           "ways; such a point above the bottom is not seen");
     v.choice("instances", c.instances, particle_instances,
              "the object of labels: `each` target, or the whole `group`; `auto` takes the "
              "group from 100 targets on");
@@ -75,8 +72,6 @@ void describe(Visitor& v, ParticlesConfig& c) {
               "kind: points needs a target_strength_db other than 0, and no other kind has one");
     v.require(are_bubbles || c.rise_m_s == 0.0, {"kind", "rise_m_s"},
               "rise_m_s is for kind: bubbles; others have a drift_m_s");
-    v.require(!c.buried || (are_points && c.drift_m_s == std::array<double, 3>{}),
-              {"buried", "kind", "drift_m_s"}, "buried targets are kind: points and do not drift");
     v.require((c.count[1] > 0.0) != (c.per_m3 > 0.0), {"count", "per_m3"},
               "give either 'count' or 'per_m3', above 0");
     v.require(c.count[0] == std::floor(c.count[0]) && c.count[1] == std::floor(c.count[1]),

@@ -43,7 +43,6 @@ struct ObjectConfig {
     ObjectPlace place_on = ObjectPlace::free;
     double bury_m = 0.0;  ///< burial depth of an object on the bottom
     bool align = false;   ///< upright on the bottom's slope
-    bool buried = false;  ///< sound reaches its part below the bottom
     std::optional<TrajectoryConfig> trajectory;
     MissionPlace place;
 
@@ -66,8 +65,7 @@ struct ScatterConfig {
     std::array<double, 2> bury_m{};
     double spacing_m = 0.0;  ///< least distance between objects, seen from above
     bool align = false;
-    bool buried = false;  ///< as for an object
-    int tries = 1000;     ///< number of places tried for each object
+    int tries = 1000;  ///< number of places tried for each object
     MissionPlace place;
 
     bool operator==(const ScatterConfig&) const = default;

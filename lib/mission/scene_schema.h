@@ -67,9 +67,6 @@ void describe(Visitor& v, ObjectConfig& c) {
              "depth to which an object on the bottom is buried; a negative one raises it above the "
              "bottom");
     v.flag("align", c.align, "an object on the bottom stands upright on the slope below it");
-    v.flag("buried", c.buried,
-           "the object may lie wholly below the bottom, whose sea bed refracts and absorbs the "
-           "sound on both ways; its labels say so");
     v.optional_section("trajectory", c.trajectory,
                        "trajectory of a moving object, written like the vehicle's. Waypoints and a "
                        "lawnmower begin with the first ping; a file has its own times");
@@ -79,8 +76,6 @@ void describe(Visitor& v, ObjectConfig& c) {
               "an object that moves cannot rest on the bottom: its trajectory says where it is");
     v.require(!c.trajectory || !c.name.empty(), {"trajectory"},
               "an object that moves needs a name, for its poses in the metadata");
-    v.require(!c.buried || (!c.name.empty() && !c.trajectory), {"buried", "name", "trajectory"},
-              "a buried object needs a name, for its labels, and does not move");
 }
 
 template <class Visitor>
@@ -106,7 +101,6 @@ void describe(Visitor& v, ScatterConfig& c) {
     v.number("spacing_m", c.spacing_m, at_least(0),
              "least distance between two objects, seen from above");
     v.flag("align", c.align, "objects stand upright on the slope below them");
-    v.flag("buried", c.buried, "the objects may lie wholly below the bottom, as in `objects`");
     v.integer("tries", c.tries, between(1, 1e6), "number of places that are tried for each object");
     v.require(c.area_min_m[0] < c.area_max_m[0] && c.area_min_m[1] < c.area_max_m[1],
               {"area_min_m", "area_max_m"}, "area_min_m must be below area_max_m in x and in y");

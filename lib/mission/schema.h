@@ -173,21 +173,20 @@ void describe(Visitor& v, Mission& c) {
               "water.profile has depths below the water's surface: give its height by "
               "scene.water_surface");
     v.named("sensors", c.sensors, "one section per sonar; NAME is its folder in the dataset");
-    const bool is_seen = !c.scene.particles.empty() ||
-                         (c.scene.water_surface && c.scene.water_surface->scatters) ||
-                         std::ranges::any_of(c.scene.objects, &ObjectConfig::buried) ||
-                         std::ranges::any_of(c.scene.scatter, &ScatterConfig::buried);
+    const bool is_seen =
+        !c.scene.particles.empty() || (c.scene.water_surface && c.scene.water_surface->scatters);
     v.require(!is_seen || std::ranges::all_of(c.sensors,
                                               [](const SonarConfig& s) {
                                                   return s.model == ModelKind::calibrated;
                                               }),
               {"scene", "sensors"},
-              "scene.particles, scene.water_surface.scatters and buried objects are for the "
-              "calibrated model: the paper's has no energies that a point could add to. Give all "
+              "scene.particles and scene.water_surface.scatters are for the calibrated model: the "
+              "paper's has no energies that a point could add to. Give all "
               "sensors model: calibrated, or leave these keys out");
-    v.require(!is_seen || !c.water.profile, {"scene", "water"},
-              "scene.particles, scene.water_surface.scatters and buried objects need straight "
-              "paths of sound: leave out water.profile or these keys");
+    v.require(
+        !is_seen || !c.water.profile, {"scene", "water"},
+        "scene.particles and scene.water_surface.scatters need straight paths of sound: leave "
+        "out water.profile or these keys");
     v.section("accuracy", c.accuracy, "error goal of the images");
     v.choice("engine", c.engine, engine_kinds,
              "method that finds the visible surface. `auto` takes the slices; it takes the rays "

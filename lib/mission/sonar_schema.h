@@ -54,14 +54,6 @@ void describe(Visitor& v, MultipathConfig& c) {
     v.integer("columns_per_beam", c.columns_per_beam, between(1, 16),
               "number of narrower beams that each beam of a fan is traced as: more echoes of small "
               "facets are found, and a ping takes that many times as long");
-    v.integer("retraced", c.retraced, between(0, 16),
-              "calibrated model: most reflections on the way out, and on the way back, of further "
-              "echoes, as behind the wall of a tank; 0: none");
-    v.number("retraced_loss_db", c.retraced_loss_db, between(0, 300),
-             "ways are followed until the reflections of out and back together take more "
-             "than this");
-    v.require(c.retraced == 0 || c.method != MultipathMethod::none, {"retraced", "method"},
-              "multipath.retraced needs multipath.method: cluster or exact");
 }
 
 /// Checks that a table of beams fits the other keys of a sonar.
@@ -111,8 +103,8 @@ void require_insonified(Visitor& v, const SonarConfig& c) {
 template <class Visitor>
 void describe_motion(Visitor& v, SonarConfig& c) {
     v.flag("moves_in_ping", c.moves_in_ping,
-           "the sonar moves and turns during a ping, and so do objects and targets in the water; "
-           "otherwise all are at rest during a ping");
+           "the sonar moves and turns during a ping; otherwise it is at rest. Objects and targets "
+           "in the water always are");
     if (c.kind == SonarKind::imaging) {
         v.section("shutter", c.shutter, "beams that transmit one after the other");
         v.require(c.shutter.groups == 1 || c.moves_in_ping, {"shutter", "moves_in_ping"},
@@ -161,8 +153,6 @@ void describe(Visitor& v, SonarConfig& c) {
     v.choice(
         "model", c.model, echo_models,
         "echo model: the paper's, or the calibrated one, which gives what the instrument measures");
-    v.require(c.multipath.retraced == 0 || c.model == ModelKind::calibrated, {"multipath", "model"},
-              "multipath.retraced is for model: calibrated");
     if (c.model == ModelKind::calibrated) {
         v.section("instrument", c.instrument, "the instrument of the calibrated model");
         require_insonified(v, c);

@@ -6,9 +6,8 @@ namespace sonarsim {
 
 namespace {
 
-// A bin averages over its pieces. More of them than this change neither its mean nor its speckle
-// visibly: the contrast of a mean over 64 draws is an eighth of one draw's.
-constexpr float most_pieces_per_bin = 64.0F;
+// Pieces of a bin: the contrast of a mean over 64 draws is an eighth of one draw's.
+constexpr float max_pieces_per_bin = 64.0F;
 
 /// The squared length of (x, y, z) in the order in which Eigen adds.
 float squared(float x, float y, float z) {
@@ -65,7 +64,7 @@ void cut_for_cells(float bin_m, float cell_m, Footprints& f) {
         const float u_m = std::sqrt(squared(f.edge_u[0][k], f.edge_u[1][k], f.edge_u[2][k]));
         const float v_m = std::sqrt(squared(f.edge_v[0][k], f.edge_v[1][k], f.edge_v[2][k]));
         const float bins = 2.0F + 2.0F * (f.depth_u_m[k] + f.depth_v_m[k]) / bin_m;
-        const Pieces wanted = one_piece_per_cell(u_m, v_m, cell_m, most_pieces_per_bin * bins);
+        const Pieces wanted = one_piece_per_cell(u_m, v_m, cell_m, max_pieces_per_bin * bins);
         f.u[k] = std::ceil(wanted.u);
         f.v[k] = std::ceil(wanted.v);
     }

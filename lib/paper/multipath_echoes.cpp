@@ -11,10 +11,9 @@ namespace sonarsim {
 
 namespace {
 
-// The most pieces along an edge of a footprint, and of its scatterer cells in one bin. More have no
-// visible effect.
-constexpr float most_pieces_per_edge = 64.0F;
-constexpr float most_bounce_pieces_per_bin = 16.0F;
+// Pieces along an edge of a footprint, and of its scatterer cells in one bin.
+constexpr float max_pieces_per_edge = 64.0F;
+constexpr float max_bounce_pieces_per_bin = 16.0F;
 
 /// A part of a bounce in one beam and one scatterer cell.
 struct Piece {
@@ -40,11 +39,11 @@ Cut cut(const BouncePath& b, const Sample& sample, float bin_m, const ScattererL
         const float bins = (2.0F + 2.0F * (std::fabs(b.range_u) + std::fabs(b.range_v)) / bin_m) *
                            (1.0F + wanted.u + wanted.v);
         const Pieces cells = one_piece_per_cell(sample.edge_u.norm(), sample.edge_v.norm(),
-                                                lattice.edge_m, most_bounce_pieces_per_bin * bins);
+                                                lattice.edge_m, max_bounce_pieces_per_bin * bins);
         wanted = {.u = std::max(wanted.u, cells.u), .v = std::max(wanted.v, cells.v)};
     }
     const auto rounded_up = [](float pieces) {
-        return static_cast<int>(std::ceil(std::clamp(pieces, 1.0F, most_pieces_per_edge)));
+        return static_cast<int>(std::ceil(std::clamp(pieces, 1.0F, max_pieces_per_edge)));
     };
     return {.u = rounded_up(wanted.u), .v = rounded_up(wanted.v)};
 }

@@ -15,17 +15,11 @@ Ping form_group(const TracedPing& traced, const PingSettings& settings, const Sc
     ping.estimated_l1 = traced.samples.estimated_l1;
     ping.counts = traced.counts;
     ping.seconds = traced.seconds;
-    if (terms.multipath)
-        ping.missed_multipath = traced.missed_multipath;
-    else
-        ping.counts.multipath = {};
+    if (!terms.multipath) ping.counts.multipath = {};
     settings.model->form(traced,
                          {.view = settings.view,
                           .scene = scene,
-                          .draws = {.seed = key.seed,
-                                    .sensor = settings.stream,
-                                    .ping = key.ping,
-                                    .every = settings.every},
+                          .draws = {.seed = key.seed, .sensor = settings.stream, .ping = key.ping},
                           .terms = terms},
                          ping);
     return ping;

@@ -12,7 +12,6 @@ namespace sonarsim {
 struct PingSettings : TraceSettings {
     std::shared_ptr<const EchoModel> model;
     std::uint32_t stream = 0;  ///< names the sonar in every random draw
-    std::uint32_t every = 1;   ///< number of poses from one ping to the next
 };
 
 /// The key of the random draws of a ping.

@@ -23,16 +23,11 @@ struct Sonar {
     /// The angles of a head that turns from ping to ping about the sensor's z axis, positive to
     /// port; they repeat. Empty for a fixed sonar.
     std::vector<double> head_angles_rad;
-    /// For soundings: the bias of a range by range noise, m, indexed by the length in bins of the
-    /// run that shows the surface. Empty: no bias.
-    std::vector<double> range_bias_m;
     // For soundings, where sound bends: the profile of the water. Null: sound goes straight.
     std::shared_ptr<const SoundProfile> true_profile;
     std::shared_ptr<const SoundProfile> assumed_profile;  ///< the profile the instrument assumes
     /// Its motion during a ping, by pose of the trajectory; null: it stands still.
     std::shared_ptr<const std::vector<PingMotion>> motions;
-    /// Motions of the objects that move during a ping, by pose; null: all stand still.
-    std::shared_ptr<const std::vector<std::vector<ObjectMotion>>> object_motions;
     /// TracedPing::water_age by pose; null: none.
     std::shared_ptr<const std::vector<double>> water_ages;
 };

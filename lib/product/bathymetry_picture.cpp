@@ -9,8 +9,8 @@ namespace sonarsim {
 
 namespace {
 
-constexpr int map_px = 900;        // longer side of a map of few cells
-constexpr int most_map_px = 4000;  // longer side of a map of many cells
+constexpr int map_px = 900;       // longer side of a map of few cells
+constexpr int max_map_px = 4000;  // longer side of a map of many cells
 constexpr int margin = 10;
 constexpr int legend_width = 80;
 constexpr int bar_height = 30;
@@ -121,8 +121,8 @@ Picture draw_bathymetry(const Bathymetry& grid) {
     const HeightRange range = height_range(z);
     const float stretched = stretch(grid, z);
     const int longer = std::max({grid.columns, grid.rows, 1});
-    const int zoom = std::max(1, map_px / longer);              // pixels per cell
-    const int step = (longer + most_map_px - 1) / most_map_px;  // cells per pixel
+    const int zoom = std::max(1, map_px / longer);            // pixels per cell
+    const int step = (longer + max_map_px - 1) / max_map_px;  // cells per pixel
     const int width = (grid.columns + step - 1) / step * zoom;
     const int height = (grid.rows + step - 1) / step * zoom;
     Picture picture(std::max(width, 200) + 2 * margin + legend_width,

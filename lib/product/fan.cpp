@@ -10,8 +10,7 @@ namespace sonarsim {
 
 namespace {
 
-/// The largest number of bins in range or in azimuth that a pixel averages. Only pixels next to the
-/// apex cover more, and their mean hardly changes.
+/// Bins in range or in azimuth that a pixel averages; only pixels next to the apex cover more.
 constexpr double most_bins = 128.0;
 
 /// The ratio of the beams that a pixel covers in successive rings.
@@ -50,8 +49,8 @@ int first_column(const View& view, const FanFrame& frame, int row) {
     const SinCos half = sincos(0.5 * view.azimuth_rad);
     const double x = view.range_max_m - (row + 0.5) * frame.pixel_m;
     constexpr double margin_px = 2.0;
-    const double most_px = (x / frame.pixel_m * half.sin + margin_px) / half.cos;
-    const double columns = std::floor(0.5 * frame.width - 0.5 - most_px);
+    const double max_px = (x / frame.pixel_m * half.sin + margin_px) / half.cos;
+    const double columns = std::floor(0.5 * frame.width - 0.5 - max_px);
     return static_cast<int>(std::clamp(columns, 0.0, 0.5 * frame.width));
 }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <span>
@@ -13,7 +13,7 @@ namespace sonarsim {
 
 namespace {
 
-/// The number of pixels that are worked out at a time; a multiple of 32.
+/// The number of pixels that are worked out at a time.
 constexpr std::size_t fan_block = 256;
 
 /// An image with a margin of bins on all sides.
@@ -92,40 +92,13 @@ void add_lanes(std::span<const FanMap::Pixel> pixels, Weighted weighted, float* 
     }
 }
 
-/// The weights of a range kernel of three bins, in fours.
-using FourWeights = std::array<float, std::size_t{4} * KernelTable::phases>;
-
-/// Weighs the bins of at most `fan_block` pixels with three bins in range and four beams, as nearly
-/// all pixels of a fan have. Most of its time goes into its five loads per pixel.
-void weigh_3_by_4(const FourWeights& range_weights, const KernelTable& beam_kernel,
-                  std::span<const FanMap::Pixel> pixels, const PaddedImage& bins, float* sums) {
-    const float* const range = range_weights.data();
-    const float* const beam = beam_kernel.weights.data();
-    const float* const row_0 = bins.values.get();
-    const float* const row_1 = row_0 + bins.width;
-    const float* const row_2 = row_1 + bins.width;
-    add_lanes(
-        pixels,
-        [=](const FanMap::Pixel& pixel) {
-            const std::ptrdiff_t at = pixel.first_bin;
-            const __m128 w = _mm_loadu_ps(range + 4 * std::ptrdiff_t{pixel.range_phase});
-            const __m128 w_0 = _mm_shuffle_ps(w, w, 0x00);
-            const __m128 w_1 = _mm_shuffle_ps(w, w, 0x55);
-            const __m128 w_2 = _mm_shuffle_ps(w, w, 0xaa);
-            const __m128 two = _mm_add_ps(_mm_mul_ps(w_0, _mm_loadu_ps(row_0 + at)),
-                                          _mm_mul_ps(w_1, _mm_loadu_ps(row_1 + at)));
-            const __m128 over_range = _mm_add_ps(two, _mm_mul_ps(w_2, _mm_loadu_ps(row_2 + at)));
-            return _mm_mul_ps(over_range,
-                              _mm_loadu_ps(beam + 4 * std::ptrdiff_t{pixel.beam_phase}));
-        },
-        sums);
-}
-
 /// Weighs the bins of at most `fan_block` pixels. The number of beam taps is a multiple of 4.
+/// Nearly all pixels of a fan have three bins in range and four beams: as constants they save time.
+template <int fixed_range_taps, int fixed_beam_taps>
 void weigh_bins(const FanMap& map, const KernelTable& beam_kernel,
                 std::span<const FanMap::Pixel> pixels, const PaddedImage& bins, float* sums) {
-    const int range_taps = map.range_kernel.taps;
-    const int beam_taps = beam_kernel.taps;
+    const int range_taps = fixed_range_taps > 0 ? fixed_range_taps : map.range_kernel.taps;
+    const int beam_taps = fixed_beam_taps > 0 ? fixed_beam_taps : beam_kernel.taps;
     add_lanes(
         pixels,
         [&](const FanMap::Pixel& pixel) {
@@ -149,31 +122,16 @@ void weigh_bins(const FanMap& map, const KernelTable& beam_kernel,
         sums);
 }
 
-/// The grey values of at most `fan_block` pixels: 255 sqrt(scale * sum), rounded. Values beyond the
-/// last pixel are arbitrary.
-void shade(const std::array<float, fan_block>& sums, float scale,
-           std::array<std::uint8_t, fan_block>& grey) {
-    const auto eight = [&](std::size_t p) {
-        // max_ps() returns its second argument where the first is no number.
-        const __m256 scaled = _mm256_mul_ps(_mm256_loadu_ps(&sums[p]), _mm256_set1_ps(scale));
-        const __m256 share =
-            _mm256_min_ps(_mm256_max_ps(scaled, _mm256_setzero_ps()), _mm256_set1_ps(1.0F));
-        const __m256 amplitude = _mm256_mul_ps(_mm256_set1_ps(255.0F), _mm256_sqrt_ps(share));
-        return _mm256_cvttps_epi32(_mm256_add_ps(amplitude, _mm256_set1_ps(0.5F)));
-    };
-    // Packing works within each half of a vector, so groups of four are reordered at the end.
-    const __m256i order = _mm256_setr_epi32(0, 4, 1, 5, 2, 6, 3, 7);
-    for (std::size_t p = 0; p < fan_block; p += 32) {
-        const __m256i low = _mm256_packus_epi32(eight(p), eight(p + 8));
-        const __m256i high = _mm256_packus_epi32(eight(p + 16), eight(p + 24));
-        const __m256i bytes = _mm256_permutevar8x32_epi32(_mm256_packus_epi16(low, high), order);
-        std::memcpy(&grey[p], &bytes, sizeof(bytes));
-    }
+/// The grey value of a pixel: 255 sqrt(scale * sum), rounded.
+std::uint8_t grey_of(float sum, float scale) {
+    // In this order of arguments NaN becomes 0.
+    const float share = std::min(std::max(0.0F, scale * sum), 1.0F);
+    return static_cast<std::uint8_t>(static_cast<int>(255.0F * std::sqrt(share) + 0.5F));
 }
 
 /// Draws the pixels of a ring.
-void draw_ring(const FanMap& map, const FanMap::Ring& ring, const FourWeights& range_weights,
-               const PaddedImage& bins, float scale, std::vector<std::uint8_t>& picture) {
+void draw_ring(const FanMap& map, const FanMap::Ring& ring, const PaddedImage& bins, float scale,
+               std::vector<std::uint8_t>& picture) {
     const bool three_by_four = map.range_kernel.taps == 3 && ring.beam_kernel.taps == 4;
     std::array<float, fan_block> sums{};
     std::array<std::uint8_t, fan_block> grey;
@@ -182,14 +140,14 @@ void draw_ring(const FanMap& map, const FanMap::Ring& ring, const FourWeights& r
     for (std::size_t begin = 0; begin < ring.pixels.size(); begin += fan_block) {
         const auto pixels =
             std::span(ring.pixels).subspan(begin, std::min(fan_block, ring.pixels.size() - begin));
-        if (three_by_four) {
-            weigh_3_by_4(range_weights, ring.beam_kernel, pixels, bins, sums.data());
-        } else {
-            weigh_bins(map, ring.beam_kernel, pixels, bins, sums.data());
-        }
+        if (three_by_four)
+            weigh_bins<3, 4>(map, ring.beam_kernel, pixels, bins, sums.data());
+        else
+            weigh_bins<0, 0>(map, ring.beam_kernel, pixels, bins, sums.data());
         for (; edge != ring.edges.end() && edge->pixel < begin + pixels.size(); ++edge)
             sums[edge->pixel - begin] *= edge->covered;
-        shade(sums, scale, grey);
+        for (std::size_t p = 0; p < pixels.size(); ++p)
+            grey[p] = grey_of(sums[p], scale);
         out.put(std::span(grey).first(pixels.size()));
     }
 }
@@ -199,13 +157,10 @@ void draw_ring(const FanMap& map, const FanMap::Ring& ring, const FourWeights& r
 std::vector<std::uint8_t> render_fan(const FanMap& map, const Ping& ping, double full_scale) {
     const auto scale = static_cast<float>(1.0 / full_scale);
     const PaddedImage bins = padded(map, ping);
-    FourWeights range_weights{};
-    for (std::size_t phase = 0; map.range_kernel.taps == 3 && phase < KernelTable::phases; ++phase)
-        std::copy_n(&map.range_kernel.weights[3 * phase], 3, &range_weights[4 * phase]);
     std::vector<std::uint8_t> picture(static_cast<std::size_t>(map.frame.width) * map.frame.height,
                                       0);
     for (const FanMap::Ring& ring : map.rings)
-        draw_ring(map, ring, range_weights, bins, scale, picture);
+        draw_ring(map, ring, bins, scale, picture);
     return picture;
 }
 

@@ -19,12 +19,6 @@ Sounding sounding_of_beam(const Sonar& sonar, std::span<const double> beam) {
     if (run.begin == run.end) run = {0, static_cast<int>(beam.size()), 1.0, 1.0};  // all alike
     Sounding sounding;
     sounding.range_m = 0.5 * (sonar.range_edges_m[run.begin] + sonar.range_edges_m[run.end]);
-    if (!sonar.range_bias_m.empty()) {
-        // No echo is nearer than the middle of the first bin.
-        const double nearest_m = 0.5 * (sonar.range_edges_m[0] + sonar.range_edges_m[1]);
-        sounding.range_m =
-            std::max(sounding.range_m - sonar.range_bias_m[run.end - run.begin], nearest_m);
-    }
     const double rival = run.rival / run.contrast;
     sounding.quality = std::max(0.0, 1.0 - rival * rival);
     return sounding;

@@ -29,10 +29,10 @@ int beams_with_sounding(const Ping& ping);
 /// Makes one sounding per beam, in the order of the beams.
 ///
 /// A beam is divided by the growth of the echo model's noise with range, so that the noise is
-/// uniform. The range is the middle of its detect_return(), less the bias due to range noise
-/// (range_bias_m). The position lies on the beam's axis, at elevation 0, by the profile of sound
-/// speed that the instrument assumes. If the sonar moves in the ping, the axis is that at the pose
-/// of reception. `T_world_vehicle` is the pose of transmission.
+/// uniform. The range is the middle of its detect_return(). The position lies on the beam's axis,
+/// at elevation 0, by the profile of sound speed that the instrument assumes. If the sonar moves in
+/// the ping, the axis is that at the pose of reception. `T_world_vehicle` is the pose of
+/// transmission.
 std::vector<Sounding> find_soundings(const Sonar& sonar, const Pose& T_world_vehicle,
                                      const Ping& ping, const PingMotion& motion = {});
 

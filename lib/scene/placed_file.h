@@ -47,7 +47,6 @@ struct PlacedFile {
     /// frame of a body that moves.
     Eigen::Affine3d T_world_file = Eigen::Affine3d::Identity();
     bool moves = false;
-    bool buried = false;  ///< sound reaches its part below the bottom
     /// Patterns of the nodes that are the bottom of heights, empty for all; none: no node is.
     std::optional<std::vector<std::string>> bottom = {};
     Location place = {};  ///< in the mission, for messages

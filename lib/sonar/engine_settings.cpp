@@ -1,7 +1,5 @@
 #include "sonar/engine_settings.h"
 
-#include <algorithm>
-
 namespace sonarsim {
 
 EngineSettings engine_settings(EngineKind kind, const OctreeConfig& octree,
@@ -14,9 +12,7 @@ EngineSettings engine_settings(EngineKind kind, const OctreeConfig& octree,
 }
 
 EngineSettings engine_settings(const Mission& mission) {
-    EngineSettings settings = engine_settings(mission.engine, mission.octree, mission.slices);
-    settings.coverage = std::ranges::count(mission.output.labels, Label::shadow) > 0;
-    return settings;
+    return engine_settings(mission.engine, mission.octree, mission.slices);
 }
 
 }  // namespace sonarsim

@@ -1,4 +1,3 @@
-#include "product/range_bias.h"
 #include "product/soundings.h"
 #include "sonar/kinds.h"
 #include "sonar/setup.h"
@@ -10,13 +9,6 @@ namespace {
 /// The number of beams with a sounding.
 void measure_soundings(const PingView& view, nlohmann::ordered_json& json) {
     json["soundings"] = beams_with_sounding(view.ping);
-}
-
-void add_azimuth_and_offsets(Sonar& sonar) {
-    add_azimuth(sonar);
-    const View& view = sonar.settings.view;
-    sonar.range_bias_m = range_bias_m(static_cast<float>(sonar.config.noise.range_lambda_m),
-                                      view.bin_m(), view.range_bins);
 }
 
 }  // namespace
@@ -41,7 +33,7 @@ KindOfSonar profiling_kind() {
             .range_noise_fades = true,
             .has_images = true,
             .record = {.name = "soundings", .wanted = &OutputConfig::soundings},
-            .finish = add_azimuth_and_offsets,
+            .finish = add_azimuth,
             .measure = measure_soundings};
 }
 

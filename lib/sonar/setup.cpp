@@ -48,7 +48,6 @@ Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
     sonar.range_edges_m = edges(config.range_min_m, config.range_max_m, config.range_bins);
     PingSettings& settings = sonar.settings;
     settings.stream = number_of_name(config.name);
-    settings.every = static_cast<std::uint32_t>(config.every);
     settings.view = {.azimuth_rad = radians(cone ? config.opening_deg : config.azimuth_deg),
                      .elevation_rad = radians(cone ? config.opening_deg : config.elevation_deg),
                      .range_min_m = config.range_min_m,
@@ -59,12 +58,9 @@ Sonar common_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
                      .shape = kind.shape};
     const MultipathConfig& multipath = config.multipath;
     const bool exact = multipath.method == MultipathMethod::exact;
-    settings.multipath = {
-        .on = multipath.method != MultipathMethod::none,
-        .cluster = {.epsilon_bins = exact ? 0 : multipath.epsilon_bins,
-                    .delta_cosine = cosine_of(multipath.delta_deg)},
-        .retraced = multipath.retraced,
-        .retraced_least = static_cast<float>(power(10.0, -0.1 * multipath.retraced_loss_db))};
+    settings.multipath = {.on = multipath.method != MultipathMethod::none,
+                          .cluster = {.epsilon_bins = exact ? 0 : multipath.epsilon_bins,
+                                      .delta_cosine = cosine_of(multipath.delta_deg)}};
     return sonar;
 }
 

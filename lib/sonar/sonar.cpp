@@ -61,22 +61,18 @@ std::optional<Sonar> drawn_sonar(const Mission& mission, const Sonar& sonar, std
 
 namespace {
 
-/// The trace of one transmission of a ping, `later_s` after the first.
+/// The trace of one transmission of a ping.
 TracedPing trace_at(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
-                    const Pose& T_world_sensor, std::uint32_t pose, double later_s,
-                    const PingMotion& motion, const Terms& terms) {
-    MovingObjects objects{.all = {}, .later_s = later_s};
-    if (sonar.object_motions && pose < sonar.object_motions->size())
-        objects.all = (*sonar.object_motions)[pose];
-    TracedPing traced =
-        trace_ping(sonar.settings, scene, engine, T_world_sensor, terms, motion, objects);
+                    const Pose& T_world_sensor, std::uint32_t pose, const PingMotion& motion,
+                    const Terms& terms) {
+    TracedPing traced = trace_ping(sonar.settings, scene, engine, T_world_sensor, terms, motion);
     if (sonar.water_ages && pose < sonar.water_ages->size())
         traced.water_age = (*sonar.water_ages)[pose];
     if (const auto& particles = sonar.settings.particles) {
         const double time_s = pose < particles->time_s.size() ? particles->time_s[pose] : 0.0;
         traced.particles =
-            seen_particles(*particles, time_s + later_s, sonar.settings.view,
-                           sonar.settings.guard_beams, engine, T_world_sensor, motion);
+            seen_particles(*particles, time_s, sonar.settings.view, sonar.settings.guard_beams,
+                           engine, T_world_sensor, motion);
     }
     return traced;
 }
@@ -103,19 +99,15 @@ TracedPing trace(const Sonar& sonar, const Scene& scene, const VisibilityEngine&
     const PingMotion motion =
         sonar.motions && pose < sonar.motions->size() ? (*sonar.motions)[pose] : PingMotion{};
     const Pose T_world_sensor = sensor_pose(sonar, T_world_vehicle, pose);
-    TracedPing traced = trace_at(sonar, scene, engine, T_world_sensor, pose, 0.0, motion, terms);
+    TracedPing traced = trace_at(sonar, scene, engine, T_world_sensor, pose, motion, terms);
     const ShutterConfig& shutter = sonar.config.shutter;
-    // Without a speed of sound nothing moves in the ping.
-    const bool others_move = sonar.object_motions || sonar.settings.particles;
-    if (shutter.groups == 1 || !(motion.sound_speed_m_s > 0.0) ||
-        (motion.is_still() && !others_move))
-        return traced;
+    if (shutter.groups == 1 || motion.is_still()) return traced;
     const double period_s = group_period_s(sonar, motion.sound_speed_m_s);
     for (int group = 1; group < shutter.groups; ++group) {
         const double later_s = group * period_s;
         traced.later_groups.push_back(trace_at(sonar, scene, engine,
                                                pose_after(motion, T_world_sensor, later_s), pose,
-                                               later_s, motion_after(motion, later_s), terms));
+                                               motion_after(motion, later_s), terms));
     }
     traced.group_of_beam = groups_of_beams(shutter, sonar.settings.view.beams);
     return traced;

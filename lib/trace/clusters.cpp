@@ -14,9 +14,8 @@ namespace {
 
 constexpr std::uint32_t none = 0xFFFFFFFFU;
 
-// A sample is compared with at most this many clusters of its tile before it starts its own. In a
-// tile with more normals than this, few clusters would have a second member.
-constexpr int most_comparisons = 16;
+// Clusters of its tile with which a sample is compared before it starts its own.
+constexpr int max_comparisons = 16;
 
 struct Tile {
     std::int32_t range;
@@ -77,7 +76,7 @@ class ClusterTable {
     std::uint32_t cluster_of(const Tile& tile, const Eigen::Vector3f& normal) {
         std::uint32_t& head =
             heads_[bucket_of(tile, static_cast<std::uint32_t>(heads_.size()) - 1U)];
-        int left = most_comparisons;
+        int left = max_comparisons;
         for (std::uint32_t k = head; k != none && left > 0; k = clusters_[k].next) {
             if (clusters_[k].tile != tile) continue;
             if (clusters_[k].normal.dot(normal) >= delta_cosine_) return k;

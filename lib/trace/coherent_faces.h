@@ -21,40 +21,9 @@ struct ScenePlate {
     bool mapped = false;  ///< maps lie on it: its material is that of a texel
 };
 
-/// A line along which a curved surface is straight, from one end of a strip to the other.
-struct Ruling {
-    Eigen::Vector3f from, to;
-    Eigen::Vector3f normal;  ///< unit, of the curved surface
-};
-
-/// A facet of a surface whose normals turn about one axis, such as a cylinder: it is straight along
-/// its rulings, and an arc across them.
-struct SceneStrip {
-    Ruling first, second;
-    Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< unit, of the facet
-    std::uint32_t material = 0;
-    std::uint32_t instance = 0;
-    bool mapped = false;  ///< as for a plate
-};
-
-/// Two plates at right angles that meet in a seam.
-struct SceneDihedral {
-    std::array<std::uint32_t, 2> plates;  ///< indices into CoherentFaces::plates
-    Eigen::Vector3f from, to;             ///< the seam
-};
-
-/// Three plates at right angles to each other that meet in a point.
-struct SceneTrihedral {
-    std::array<std::uint32_t, 3> plates;
-    Eigen::Vector3f apex;
-};
-
 /// The faces of the scene at rest and of copies. Moving bodies have none.
 struct CoherentFaces {
     std::vector<ScenePlate> plates;
-    std::vector<SceneStrip> strips;
-    std::vector<SceneDihedral> dihedrals;
-    std::vector<SceneTrihedral> trihedrals;
 };
 
 }  // namespace sonarsim

@@ -8,28 +8,21 @@
 
 #include "core/groups.h"
 #include "scene/maps/ground_maps.h"
-#include "trace/corners.h"
-#include "trace/strips.h"
+#include "trace/mesh_faces.h"
 
 namespace sonarsim {
 
 namespace {
 
-/// The plates and strips of a mesh. `mapped`: maps lie on it.
+/// The plates of a mesh. `mapped`: maps lie on it.
 void add_faces(const FaceMesh& mesh, std::uint32_t instance, bool mapped, CoherentFaces& out) {
     for (MeshFace& face : faces_of(mesh)) {
-        if (face.smooth.empty()) {
-            out.plates.push_back({.triangles = std::move(face.triangles),
-                                  .border = std::move(face.border),
-                                  .normal = face.normal,
-                                  .material = face.material,
-                                  .instance = instance,
-                                  .mapped = mapped});
-        } else if (auto strip = strip_of(face)) {
-            strip->instance = instance;
-            strip->mapped = mapped;
-            out.strips.push_back(*strip);
-        }
+        out.plates.push_back({.triangles = std::move(face.triangles),
+                              .border = std::move(face.border),
+                              .normal = face.normal,
+                              .material = face.material,
+                              .instance = instance,
+                              .mapped = mapped});
     }
 }
 
@@ -82,14 +75,6 @@ class Placement {
         }
         turn(plate.normal);
     }
-    void place(SceneStrip& strip) const {
-        for (Ruling* const ruling : {&strip.first, &strip.second}) {
-            place(ruling->from);
-            place(ruling->to);
-            turn(ruling->normal);
-        }
-        turn(strip.normal);
-    }
 
   private:
     Eigen::Affine3d T_local_mesh_;
@@ -124,15 +109,11 @@ void add_copied_faces(const Scene& scene, const CoherentMaterials& materials, Co
             add_faces(triangles, 0, mapped, place->second);
         }
         const Placement placement(copy.T_world_mesh, scene.origin);
-        const auto add_to = [&](const auto& from, auto& to) {
-            for (const auto& face : from) {
-                to.push_back(face);
-                placement.place(to.back());
-                to.back().instance = copy.instance;
-            }
-        };
-        add_to(place->second.plates, out.plates);
-        add_to(place->second.strips, out.strips);
+        for (const ScenePlate& plate : place->second.plates) {
+            out.plates.push_back(plate);
+            placement.place(out.plates.back());
+            out.plates.back().instance = copy.instance;
+        }
     }
 }
 
@@ -144,7 +125,6 @@ std::shared_ptr<const CoherentFaces> find_coherent_faces(const Scene& scene) {
     auto out = std::make_shared<CoherentFaces>();
     add_own_faces(scene, materials, *out);
     add_copied_faces(scene, materials, *out);
-    find_corners(*out);
     return out;
 }
 

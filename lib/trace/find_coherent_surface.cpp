@@ -5,23 +5,19 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "trace/arrivals.h"
-#include "trace/corners.h"
-#include "visibility/cut_triangle.h"
 #include "trace/lay_maps.h"
-#include "trace/seen_points.h"
-#include "trace/strips.h"
+#include "trace/visibility_test.h"
+#include "visibility/cut_triangle.h"
 
 namespace sonarsim {
 
 namespace {
 
 constexpr int parts_of_edge = 8;
-// A ray meets the plate this far inside its border, as a share of the length of the part of the
-// edge.
+// A ray meets the plate this far inside its border, as a share of the edge's part.
 constexpr double inset_by_part = 0.05;
 // A partly hidden plate is cut into parts if it is smaller than this share of its range.
 constexpr double small_plate = 0.1;
@@ -48,27 +44,9 @@ class CoherentSurfaceFinder {
     CoherentSurface find() {
         for (const ScenePlate& plate : faces_.plates)
             add_plate(plate);
-        for (const SceneStrip& strip : faces_.strips)
-            add_strip(strip);
         std::ranges::stable_sort(out_.faces, {}, [](const FaceOfPing& face) {
             return std::pair(face.instance, face.normal.x());
         });
-        for (const SceneDihedral& of : faces_.dihedrals) {
-            const Eigen::Vector3d from = placed(of.from);
-            const Eigen::Vector3d to = placed(of.to);
-            if (0.5 * (from + to).norm() - 0.5 * (to - from).norm() > view_.range_max_m) continue;
-            add_apertures(dihedral_apertures({corner_face(of.plates[0]), corner_face(of.plates[1])},
-                                             from, to),
-                          of.plates);
-        }
-        for (const SceneTrihedral& of : faces_.trihedrals) {
-            const Eigen::Vector3d apex = placed(of.apex);
-            if (arrival_range(apex.cast<float>()) > view_.range_max_m) continue;
-            auto aperture = trihedral_aperture(
-                {corner_face(of.plates[0]), corner_face(of.plates[1]), corner_face(of.plates[2])},
-                apex);
-            if (aperture) add_apertures({std::move(*aperture)}, of.plates);
-        }
         return std::move(out_);
     }
 
@@ -139,8 +117,8 @@ class CoherentSurfaceFinder {
 
     /// The material and strength of a face at a point: its own, or those of a texel; nothing if a
     /// texel is not coherent.
-    template <class Face>
-    std::optional<MappedPoint> at_point(const Face& face, const Eigen::Vector3d& point) const {
+    std::optional<MappedPoint> at_point(const ScenePlate& face,
+                                        const Eigen::Vector3d& point) const {
         if (!face.mapped) return MappedPoint{face.material, 1.0F};
         const MappedPoint texel = mapped_point(*scene_.maps, T_world_sensor_, point.cast<float>(),
                                                face.instance, face.material);
@@ -153,34 +131,34 @@ class CoherentSurfaceFinder {
     /// Finds the edges of a plate that are in view and not hidden. Returns whether all, some or
     /// none of those in view are visible.
     Seen find_seen(PlateOfPing& plate) const {
-        SeenPoints points;
-        std::vector<std::pair<std::size_t, bool*>> asked;
+        VisibilityTest points;
+        std::vector<std::pair<std::size_t, bool*>> tested;
         double area = 0.0;  // positive if the border is counter-clockwise about the normal
         for (const PlateEdge& edge : plate.edges)
             area += plate.normal.dot(edge.from.cross(edge.to));
         const Eigen::Vector3d foot = plate.height_m * plate.normal;
         plate.foot_seen = is_in_view(view_, foot);
-        if (plate.foot_seen) asked.emplace_back(points.ask(foot), &plate.foot_seen);
+        if (plate.foot_seen) tested.emplace_back(points.add(foot), &plate.foot_seen);
         for (PlateEdge& edge : plate.edges) {
             const Eigen::Vector3d middle = 0.5 * (edge.from + edge.to);
             edge.seen = is_in_view(view_, edge.from) || is_in_view(view_, middle) ||
                         is_in_view(view_, edge.to);
             const Eigen::Vector3d inwards = plate.normal.cross(edge.to - edge.from);
             const double inset = std::copysign(inset_by_part, area);
-            if (edge.seen) asked.emplace_back(points.ask(middle + inset * inwards), &edge.seen);
+            if (edge.seen) tested.emplace_back(points.add(middle + inset * inwards), &edge.seen);
         }
-        points.answer(engine_, T_world_sensor_);
-        for (auto& [question, seen] : asked)
-            *seen = points.is_seen(question);
-        const auto count = std::ranges::count_if(asked, [](const auto& of) { return *of.second; });
+        points.trace(engine_, T_world_sensor_);
+        for (auto& [point, seen] : tested)
+            *seen = points.visible(point);
+        const auto count = std::ranges::count_if(tested, [](const auto& of) { return *of.second; });
         if (count == 0) return Seen::none;
-        return count == std::ssize(asked) ? Seen::all : Seen::partly;
+        return count == std::ssize(tested) ? Seen::all : Seen::partly;
     }
 
     /// Adds the parts of a plate that are not hidden, each with a closed border of its own. The
     /// diffraction at the edges of an open border would not cancel.
     void add_seen_parts(const ScenePlate& plate, const PlateOfPing& whole, float size_m) {
-        SeenPoints points;
+        VisibilityTest points;
         std::vector<PlateOfPing> parts;
         for (const auto& triangle : plate.triangles) {
             const Eigen::Vector3f u = triangle[1] - triangle[0];
@@ -199,78 +177,13 @@ class CoherentSurfaceFinder {
                 part.strength = whole.strength;
                 for (std::size_t k = 0; k < 4; ++k)
                     part.edges.push_back({point(cut.corners[k]), point(cut.corners[(k + 1) % 4])});
-                points.ask(point(cut.centroid));
+                points.add(point(cut.centroid));
                 parts.push_back(std::move(part));
             });
         }
-        points.answer(engine_, T_world_sensor_);
+        points.trace(engine_, T_world_sensor_);
         for (std::size_t k = 0; k < parts.size(); ++k) {
-            if (points.is_seen(k)) out_.plates.push_back(std::move(parts[k]));
-        }
-    }
-
-    void add_strip(const SceneStrip& strip) {
-        const auto face = face_at(strip.first.from, strip.normal, strip.material, strip.instance);
-        if (!face) return;
-        strip.mapped ? add_faces_of_texels(*face) : out_.faces.push_back(*face);
-        const double side = face->normal.dot(turned(strip.normal)) > 0.0 ? -1.0 : 1.0;
-        const SpecularParts found =
-            specular_parts({.first = {placed(strip.first.from), placed(strip.first.to)},
-                            .second = {placed(strip.second.from), placed(strip.second.to)},
-                            .first_normal = side * turned(strip.first.normal),
-                            .second_normal = side * turned(strip.second.normal)});
-        if (found.parts.empty()) return;
-        SeenPoints points;
-        for (const Eigen::Vector3d& point : found.on_facet)
-            points.ask(point);
-        points.answer(engine_, T_world_sensor_);
-        for (std::size_t k = 0; k < found.parts.size(); ++k) {
-            if (!is_in_view(view_, found.on_facet[k]) || !points.is_seen(k)) continue;
-            const auto texel = at_point(strip, found.on_facet[k]);
-            if (!texel) continue;
-            StripOfPing& part = out_.strips.emplace_back(found.parts[k]);
-            part.material = texel->material;
-            part.strength = texel->strength;
-        }
-    }
-
-    CornerFace corner_face(std::uint32_t number) const {
-        const ScenePlate& plate = faces_.plates[number];
-        CornerFace out{.outwards = turned(plate.normal), .border = {}, .material = plate.material};
-        for (const auto& side : plate.border)
-            out.border.push_back({placed(side[0]), placed(side[1])});
-        if (out.outwards.dot(out.border.front()[0]) > 0.0) out.outwards = -out.outwards;
-        return out;
-    }
-
-    /// Gives the faces of a corner that have maps the materials and strengths of the texels at its
-    /// points. Returns whether all reflect coherently.
-    bool lay_on_corner(std::span<const std::uint32_t> plates, Aperture& aperture) const {
-        for (std::size_t k = 0; k < aperture.points.size(); ++k) {
-            const auto texel = at_point(faces_.plates[plates[k]], aperture.points[k]);
-            if (!texel) return false;
-            aperture.plate.mirrors[k].material = texel->material;
-            aperture.plate.strength *= texel->strength;
-        }
-        return true;
-    }
-
-    /// Adds the apertures whose faces are visible. `plates`: the faces, indices into
-    /// CoherentFaces::plates.
-    void add_apertures(std::vector<Aperture> apertures, std::span<const std::uint32_t> plates) {
-        for (Aperture& aperture : apertures) {
-            const bool in_view = std::ranges::all_of(
-                aperture.points, [&](const auto& point) { return is_in_view(view_, point); });
-            if (!in_view || aperture.points.empty()) continue;
-            SeenPoints points;
-            for (const Eigen::Vector3d& point : aperture.points)
-                points.ask(point);
-            points.answer(engine_, T_world_sensor_);
-            bool seen = true;
-            for (std::size_t k = 0; k < aperture.points.size(); ++k)
-                seen = seen && points.is_seen(k);
-            if (seen && lay_on_corner(plates, aperture))
-                out_.plates.push_back(std::move(aperture.plate));
+            if (points.visible(k)) out_.plates.push_back(std::move(parts[k]));
         }
     }
 

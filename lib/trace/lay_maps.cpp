@@ -44,10 +44,10 @@ struct MapPiece {
 };
 
 /// Cuts the samples of a ping.
-class MapLayer {
+class GroundMapApplier {
   public:
-    MapLayer(const GroundMaps& maps, const View& view, const Pose& T_world_sensor, double size,
-             const SoundProfile* profile)
+    GroundMapApplier(const GroundMaps& maps, const View& view, const Pose& T_world_sensor,
+                     double size, const SoundProfile* profile)
         : maps_(maps),
           profile_(profile),
           pose_(T_world_sensor),
@@ -62,7 +62,7 @@ class MapLayer {
           sine_z_(static_cast<float>(size * view.elevation_rad / parts_of_cone)) {}
 
     /// Appends the pieces of a sample.
-    void lay(const Sample& sample, std::vector<Sample>& out) {
+    void apply(const Sample& sample, std::vector<Sample>& out) {
         if (!maps_.lie_on(sample.instance)) {
             out.push_back(sample);
             return;
@@ -75,13 +75,13 @@ class MapLayer {
             taper_of(sample, shape_),
             {ground_of(sample.position), from_above(sample.edge_u), from_above(sample.edge_v)},
             sample.area_m2};
-        cut(piece, most_halvings, out);
+        cut(piece, max_halvings, out);
     }
 
   private:
     static constexpr double depth_in_bins = 0.5;
     static constexpr int parts_of_cone = 8;  ///< across a cone or a side, which no beams divide
-    static constexpr int most_halvings = 16;
+    static constexpr int max_halvings = 16;
     static constexpr float whole_piece = 0.95F;  ///< parts below a fortieth are not cut off
 
     Eigen::Vector2d from_above(const Eigen::Vector3f& v) const { return R_ * v.cast<double>(); }
@@ -178,21 +178,21 @@ class MapLayer {
 void lay_maps(const GroundMaps& maps, const View& view, const Pose& T_world_sensor,
               Samples& samples, std::vector<Sample>& outside_sector, double size,
               const SoundProfile* profile) {
-    MapLayer layer(maps, view, T_world_sensor, size, profile);
+    GroundMapApplier layer(maps, view, T_world_sensor, size, profile);
     std::vector<Sample> items;
     items.reserve(2 * samples.items.size());
     std::uint32_t begin = 0;
     for (std::size_t beam = 0; beam + 1 < samples.beam_begin.size(); ++beam) {
         const std::uint32_t end = samples.beam_begin[beam + 1];
         for (std::uint32_t k = begin; k < end; ++k)
-            layer.lay(samples.items[k], items);
+            layer.apply(samples.items[k], items);
         begin = end;
         samples.beam_begin[beam + 1] = static_cast<std::uint32_t>(items.size());
     }
     samples.items = std::move(items);
     std::vector<Sample> outside;
     for (const Sample& sample : outside_sector)
-        layer.lay(sample, outside);
+        layer.apply(sample, outside);
     outside_sector = std::move(outside);
 }
 

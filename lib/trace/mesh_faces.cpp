@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "trace/joined_sets.h"
@@ -15,9 +16,9 @@ namespace {
 constexpr double one_plane_rad = 0.0017;
 // Vertices are floats: they are off by up to this share of their distance from the origin.
 constexpr double rounding = 1.2e-7;
-constexpr double least_crease = 0.866025;  // cosine of 30 degrees
+constexpr double min_crease = 0.866025;    // cosine of 30 degrees
 constexpr float straight_on = 0.9999995F;  // cosine of 0.06 degrees
-constexpr float most_reach_ratio = 5.0F;
+constexpr float max_reach_ratio = 5.0F;
 
 /// A side of a triangle, from its corner `corner` on. Corners of one position have one number.
 struct TriangleSide {
@@ -105,11 +106,11 @@ class FaceFinder {
     std::vector<MeshFace> find() {
         join_planes();
         add_borders();
-        add_smooth_sides();
+        mark_facets();
         std::vector<MeshFace> out;
         for (auto& [set, face] : faces_) {
-            if (planar_[set] == 0) continue;
-            if (face.smooth.empty()) face.border = joined_sides(face.border);
+            if (planar_[set] == 0 || curved_.contains(set)) continue;
+            face.border = joined_sides(face.border);
             out.push_back(std::move(face));
         }
         return out;
@@ -168,29 +169,20 @@ class FaceFinder {
         }
     }
 
-    void add_smooth_sides() {
+    /// Finds the faces that are facets of a curved surface.
+    void mark_facets() {
         for (const auto& [corners, sides] : edges_) {
-            if (sides.size() != 2 || is_inner(sides) ||
-                !(turn_at(sides[0], sides[1]) > least_crease))
+            if (sides.size() != 2 || is_inner(sides) || !(turn_at(sides[0], sides[1]) > min_crease))
                 continue;
-            std::array<MeshFace*, 2> faces{};
+            std::array<std::uint32_t, 2> sets{};
             std::array<float, 2> reach{};
             for (int k = 0; k < 2; ++k) {
                 const auto ends = ends_of(sides[k]);
-                faces[k] = &faces_[sets_.of(sides[k].triangle)];
-                reach[k] = reach_from(*faces[k], ends[0], ends[1]);
+                sets[k] = sets_.of(sides[k].triangle);
+                reach[k] = reach_from(faces_[sets[k]], ends[0], ends[1]);
             }
-            if (!(reach[0] < most_reach_ratio * reach[1] && reach[1] < most_reach_ratio * reach[0]))
-                continue;
-            // The facets of a circular arc turn in proportion to their widths, so the common normal
-            // divides the angle by their widths.
-            const float same = faces[0]->normal.dot(faces[1]->normal) < 0.0F ? -1.0F : 1.0F;
-            const Eigen::Vector3f normal =
-                (reach[1] * faces[0]->normal + reach[0] * same * faces[1]->normal).normalized();
-            for (int k = 0; k < 2; ++k) {
-                const auto ends = ends_of(sides[k]);
-                faces[k]->smooth.push_back({ends[0], ends[1], k == 0 ? normal : same * normal});
-            }
+            if (reach[0] < max_reach_ratio * reach[1] && reach[1] < max_reach_ratio * reach[0])
+                curved_.insert(sets.begin(), sets.end());
         }
     }
 
@@ -201,6 +193,7 @@ class FaceFinder {
     std::vector<double> slack_;  ///< greatest angle to a plane that a triangle belongs to, rad
     std::vector<char> planar_;   ///< one for each set
     std::map<std::uint32_t, MeshFace> faces_;
+    std::set<std::uint32_t> curved_;  ///< facets of curved surfaces
 };
 
 }  // namespace

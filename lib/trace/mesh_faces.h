@@ -20,24 +20,17 @@ struct FaceMesh {
     }
 };
 
-/// A side of a face over which the surface turns smoothly into another face.
-struct SmoothSide {
-    Eigen::Vector3f from, to;
-    Eigen::Vector3f normal;  ///< unit, of the curved surface there
-};
-
 /// Triangles of one material that join in one plane.
 struct MeshFace {
     std::vector<std::array<Eigen::Vector3f, 3>> triangles;
     std::vector<std::array<Eigen::Vector3f, 2>> border;  ///< the face lies on one side of it
-    std::vector<SmoothSide> smooth;                      ///< sides of the border; empty: flat
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();    ///< unit
     std::uint32_t material = 0;
 };
 
-/// The planar faces of a mesh. Two faces that meet are parts of one curved surface if it turns by
-/// less than 30 degrees there and neither of them reaches 5 times as far from the side as the
-/// other: a large face next to a narrow bevel is flat.
+/// The flat faces of a mesh. Two faces that meet are facets of one curved surface, and left out, if
+/// it turns by less than 30 degrees there and neither of them reaches 5 times as far from the side
+/// as the other: a large face next to a narrow bevel is flat.
 std::vector<MeshFace> faces_of(const FaceMesh& mesh);
 
 }  // namespace sonarsim

@@ -12,9 +12,7 @@ namespace sonarsim {
 
 namespace {
 
-// Below this |r . n_h|, half a degree, the second plane is seen edge-on: floats are too coarse for
-// the point where the ray meets the plane, and so far away the plane does not represent the
-// surface.
+// Below this |r . n_h|, half a degree, the second plane is seen edge-on.
 constexpr float least_cosine = 0.01F;
 
 // Two traced members of a cluster have hit one plane when each point lies on the other's plane to

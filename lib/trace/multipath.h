@@ -17,8 +17,6 @@ struct Multipath {
     ClusterLimits cluster;  ///< epsilon 0 is the exact method: every sample is traced by itself
     /// Keeps paths that the second surface reflects away from the sonar.
     bool scattered = false;
-    int retraced = 0;             ///< most reflections on a one-way path
-    float retraced_least = 0.0F;  ///< least share of the power that an echo's reflections leave
 };
 
 /// The scene and the sonar that paths are traced for.

@@ -1,10 +1,7 @@
 #include "trace/particles.h"
 
 #include <cmath>
-#include <optional>
 
-#include "trace/buried.h"
-#include "trace/object_motion.h"
 #include "visibility/view_volume.h"
 
 namespace sonarsim {
@@ -22,17 +19,8 @@ Eigen::Vector3d place_at(const Particle& particle, double time_s) {
 namespace {
 
 /// Moves a point to where the sonar measures it.
-void move_point(const PingMotion& motion, ViewShape shape, const Eigen::Vector3d& velocity,
-                Sample& sample) {
-    Eigen::Vector3d place = sample.position.cast<double>();
-    const double recedes = (velocity - motion.velocity_m_s).dot(place.normalized());
-    sample.area_m2 *= static_cast<float>(passed_by_filter(motion.loss, recedes));
-    if (!velocity.isZero(0.0))
-        place = met_place(motion, place, velocity);
-    else if (motion.is_still())
-        return;
-    if (!motion.is_still()) place = measured_place(motion, shape, place);
-    sample.position = place.cast<float>();
+void move_point(const PingMotion& motion, ViewShape shape, Sample& sample) {
+    sample.position = measured_place(motion, shape, sample.position.cast<double>()).cast<float>();
     sample.height_m = sample.position.norm();
     sample.normal = -sample.position / sample.height_m;
 }
@@ -48,10 +36,8 @@ SeenParticles seen_particles(const Particles& particles, double time_s, const Vi
         const float range = place.norm();
         if (range >= static_cast<float>(view.range_max_m) || field.beam(place, range) < 0.0F)
             return false;
-        return guard_beams.count == 0 || is_reached(view, place);
+        return guard_beams.count == 0 || in_array_cones(view, place);
     };
-    // A buried point is in view if its apparent place is, which may be nearer.
-    const double farthest = view.range_max_m * most_distance_by_range(particles.sediments);
     SeenParticles found;
     std::vector<Ray> rays;
     for (std::uint32_t k = 0; k < particles.all.size(); ++k) {
@@ -59,7 +45,7 @@ SeenParticles seen_particles(const Particles& particles, double time_s, const Vi
         const Eigen::Vector3f place =
             (to_sensor * (place_at(particle, time_s) - T_world_sensor.translation)).cast<float>();
         const float range = place.norm();
-        if (!(range > 0.0F && (particle.buried ? range < farthest : is_in_view(place)))) continue;
+        if (!(range > 0.0F && is_in_view(place))) continue;
         rays.push_back({Eigen::Vector3f::Zero(), place / range});
         found.numbers.push_back(k);
         found.samples.push_back({.position = place,
@@ -76,16 +62,8 @@ SeenParticles seen_particles(const Particles& particles, double time_s, const Vi
     std::size_t kept = 0;
     for (std::size_t k = 0; k < rays.size(); ++k) {
         Sample& sample = found.samples[k];
-        const Particle& particle = particles.all[found.numbers[k]];
-        if (particle.buried) {
-            const std::optional<Sample> below = seen_buried(particles.sediments, sample, hits[k]);
-            if (!below || !is_in_view(below->position)) continue;
-            sample = *below;
-        } else if (hits[k].distance_m < sample.height_m) {
-            continue;
-        }
-        if (motion.sound_speed_m_s > 0.0)
-            move_point(motion, view.shape, to_sensor * particle.velocity_m_s, sample);
+        if (hits[k].distance_m < sample.height_m) continue;
+        if (!motion.is_still()) move_point(motion, view.shape, sample);
         found.samples[kept] = sample;
         found.numbers[kept] = found.numbers[k];
         ++kept;

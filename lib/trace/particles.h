@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/pose.h"
-#include "trace/buried.h"
 #include "trace/ping_motion.h"
 #include "trace/visible_surface.h"
 #include "visibility/engine.h"
@@ -22,14 +21,12 @@ struct Particle {
     float section_m2 = 0.0F;     ///< backscattering cross-section: 10 log of it is the strength
     std::uint32_t material = 0;  ///< index into Scene::materials
     std::uint32_t instance = 0;  ///< index into Scene::instances
-    bool buried = false;         ///< in the sediment
 };
 
 /// The point targets of a scene, with their strengths at the frequency of one sonar.
 struct Particles {
     std::vector<Particle> all;
-    std::vector<double> time_s;                ///< since the first ping, by pose of the trajectory
-    std::vector<SedimentPath> sediments = {};  ///< one for each of Scene::materials
+    std::vector<double> time_s;  ///< since the first ping, by pose of the trajectory
 };
 
 /// The place of a particle, world.
@@ -42,8 +39,7 @@ struct SeenParticles {
     std::vector<std::uint32_t> numbers;  ///< index of each into Particles::all
 };
 
-/// The particles in view that no surface hides. One ray tests each. Buried ones are seen through
-/// the sea bed above them (trace/buried.h). In a ping with motion they move on with their velocity.
+/// The particles in view that no surface hides. One ray tests each.
 SeenParticles seen_particles(const Particles& particles, double time_s, const View& view,
                              const GuardBeams& guard_beams, const VisibilityEngine& engine,
                              const Pose& T_world_sensor, const PingMotion& motion);

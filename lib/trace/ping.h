@@ -17,8 +17,6 @@ struct Ping {
     std::vector<float> intensity;  ///< [range_bins, beams], 0 where nothing is seen
     /// The engine's estimate of its own error, see Samples::estimated_l1.
     double estimated_l1 = std::numeric_limits<double>::quiet_NaN();
-    /// See TracedPing::missed_multipath; NaN without multipath in the image.
-    double missed_multipath = std::numeric_limits<double>::quiet_NaN();
     PingCounts counts;
     PingSeconds seconds;
 
@@ -33,16 +31,12 @@ struct PingDraws {
     std::uint32_t sensor = 0;  ///< names the sonar
     std::uint32_t ping = 0;    ///< index of the pose on the trajectory
     std::uint32_t look = 0;    ///< number of the look, of several that are averaged
-    std::uint32_t every = 1;   ///< number of poses from one ping of the sonar to the next
-
-    /// The number of pings of the sonar before this one.
-    std::uint32_t number() const { return ping / every; }
 
     PhiloxKey of(Stream stream) const { return stream_key(seed_of_look(), sensor, ping, stream); }
     /// Draws that belong to the scene: the same for all sonars and pings.
     PhiloxKey of_scene(Stream stream) const { return stream_key(seed_of_look(), 0, 0, stream); }
     /// The same for all looks, too.
-    PhiloxKey of_scene_in_all_looks(Stream stream) const { return stream_key(seed, 0, 0, stream); }
+    PhiloxKey of_scene_all_looks(Stream stream) const { return stream_key(seed, 0, 0, stream); }
 
   private:
     std::uint64_t seed_of_look() const { return seed + 0x9E3779B97F4A7C15U * look; }

@@ -57,6 +57,26 @@ int beam_by_azimuth(const View& view, const Eigen::Vector3f& p) {
     return beam >= 0.0 && beam < view.beams ? static_cast<int>(beam) : -1;
 }
 
+/// Sorts the samples of a fan and those of `outside_sector` into the beams of their azimuths.
+/// Samples outside the sector end in `outside_sector`.
+void sort_into_beams(const View& view, Samples& samples, std::vector<Sample>& outside_sector) {
+    if (view.shape != ViewShape::fan) return;
+    std::vector<std::vector<Sample>> of_beam(view.beams);
+    std::vector<Sample> outside;
+    for (const std::vector<Sample>* all : {&samples.items, &outside_sector}) {
+        for (const Sample& sample : *all) {
+            const int beam = beam_by_azimuth(view, sample.position);
+            (beam < 0 ? outside : of_beam[beam]).push_back(sample);
+        }
+    }
+    samples.items.clear();
+    for (int j = 0; j < view.beams; ++j) {
+        samples.items.insert(samples.items.end(), of_beam[j].begin(), of_beam[j].end());
+        samples.beam_begin[j + 1] = static_cast<std::uint32_t>(samples.items.size());
+    }
+    outside_sector = std::move(outside);
+}
+
 }  // namespace
 
 Eigen::Quaterniond rotation_by(const Eigen::Vector3d& turn_rad) {
@@ -108,24 +128,6 @@ Eigen::Vector3d unmoved_place(const PingMotion& motion, ViewShape shape,
         place = s + length * d;
     }
     return place;
-}
-
-void sort_into_beams(const View& view, Samples& samples, std::vector<Sample>& outside_sector) {
-    if (view.shape != ViewShape::fan) return;
-    std::vector<std::vector<Sample>> of_beam(view.beams);
-    std::vector<Sample> outside;
-    for (const std::vector<Sample>* all : {&samples.items, &outside_sector}) {
-        for (const Sample& sample : *all) {
-            const int beam = beam_by_azimuth(view, sample.position);
-            (beam < 0 ? outside : of_beam[beam]).push_back(sample);
-        }
-    }
-    samples.items.clear();
-    for (int j = 0; j < view.beams; ++j) {
-        samples.items.insert(samples.items.end(), of_beam[j].begin(), of_beam[j].end());
-        samples.beam_begin[j + 1] = static_cast<std::uint32_t>(samples.items.size());
-    }
-    outside_sector = std::move(outside);
 }
 
 void move_in_ping(const PingMotion& motion, const View& view, Samples& samples,

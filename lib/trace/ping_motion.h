@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "core/pose.h"
-#include "trace/doppler_loss.h"
 #include "trace/target_surface.h"
 #include "visibility/engine.h"
 
@@ -19,8 +18,6 @@ struct PingMotion {
     /// A pulse that sweeps measures a range that is too long by this times the speed at which the
     /// place recedes.
     double doppler_s = 0.0;
-    /// The loss of the pulse's filter for a shifted echo.
-    DopplerLoss loss = {};
     /// False for a fan of one beam, as of a scanning sonar, which measures no direction.
     bool measures_direction = true;
 
@@ -48,10 +45,6 @@ Eigen::Vector3d measured_place(const PingMotion& motion, ViewShape shape,
 /// The inverse of measured_place().
 Eigen::Vector3d unmoved_place(const PingMotion& motion, ViewShape shape,
                               const Eigen::Vector3d& measured);
-
-/// Sorts the samples of a fan and those of `outside_sector` into the beams of their azimuths.
-/// Samples outside the sector end in `outside_sector`.
-void sort_into_beams(const View& view, Samples& samples, std::vector<Sample>& outside_sector);
 
 /// Moves the visible surface of a sonar at rest to where the moving sonar measures it. The samples
 /// of a fan are then sorted into beams again.

@@ -22,7 +22,6 @@ struct TargetFacet {
     std::uint32_t instance;                  ///< index into Scene::instances
     std::uint32_t region;                    ///< as in TargetTriangle
     float strength = 1.0F;                   ///< factor on its power, from a map
-    bool buried = false;                     ///< seen through the bottom, so at its apparent place
 };
 
 /// The differences between the normals of a facet and the directions to the sonar, as vectors. A

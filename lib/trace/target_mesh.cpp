@@ -15,7 +15,7 @@ namespace {
 // The cosine of 30 degrees, between the normals of two triangles that meet.
 constexpr float crease_cosine = 0.8660254F;
 // Meshes of curved surfaces have neighbours of about equal size.
-constexpr float most_height_ratio = 5.0F;
+constexpr float max_height_ratio = 5.0F;
 // Vertices closer than this share of the object's size are one.
 constexpr float weld_share = 1e-5F;
 
@@ -126,8 +126,8 @@ bool is_smooth(const TargetShape& shape, const MeshEdge& a, const MeshEdge& b) {
     const float cosine = shape.triangles[a.triangle].normal.dot(shape.triangles[b.triangle].normal);
     const float of_a = height_over(shape, a);
     const float of_b = height_over(shape, b);
-    return cosine >= crease_cosine && of_a < most_height_ratio * of_b &&
-           of_b < most_height_ratio * of_a;
+    return cosine >= crease_cosine && of_a < max_height_ratio * of_b &&
+           of_b < max_height_ratio * of_a;
 }
 
 /// Calls use(a, b) for the two sides of each edge that two triangles share, from sorted edges.

@@ -15,19 +15,18 @@ namespace sonarsim {
 namespace {
 
 // With more triangles an object would take longer than the rest of a ping.
-constexpr std::size_t most_target_triangles = 20'000;
-constexpr float most_target_radius_m = 5.0F;
+constexpr std::size_t max_target_triangles = 20'000;
+constexpr float max_target_radius_m = 5.0F;
 
 /// Adds the shape of a mesh, if it may be a target, and returns its index.
 std::optional<std::uint32_t> add_shape(const TargetMesh& mesh, float scale, TargetShapes& out) {
-    if (mesh.triangles.empty() || mesh.triangles.size() > most_target_triangles)
-        return std::nullopt;
+    if (mesh.triangles.empty() || mesh.triangles.size() > max_target_triangles) return std::nullopt;
     Eigen::AlignedBox3f box;
     for (const auto& triangle : mesh.triangles) {
         for (const std::uint32_t corner : triangle)
             box.extend(mesh.vertices[corner]);
     }
-    if (0.5F * scale * box.diagonal().norm() > most_target_radius_m) return std::nullopt;
+    if (0.5F * scale * box.diagonal().norm() > max_target_radius_m) return std::nullopt;
     out.shapes.push_back(target_shape(mesh));
     return static_cast<std::uint32_t>(out.shapes.size() - 1);
 }
@@ -38,7 +37,7 @@ void add_instances(const Scene& scene, TargetShapes& out) {
         const std::span<const std::uint32_t> triangles(
             groups.items.data() + groups.begin[instance],
             groups.items.data() + groups.begin[instance + 1]);
-        if (triangles.size() > most_target_triangles) continue;
+        if (triangles.size() > max_target_triangles) continue;
         TargetMesh mesh{.vertices = scene.vertices, .triangles = {}, .materials = {}};
         for (const std::uint32_t t : triangles) {
             mesh.triangles.push_back(scene.triangles[t]);
@@ -68,7 +67,7 @@ void add_copies(const Scene& scene, TargetShapes& out) {
             place->second =
                 add_shape({mesh.vertices, mesh.triangles, mesh.triangle_material}, 0.0F, out);
         }
-        if (!place->second || scale * out.shapes[*place->second].radius_m > most_target_radius_m)
+        if (!place->second || scale * out.shapes[*place->second].radius_m > max_target_radius_m)
             continue;
         Eigen::Affine3d T_local_mesh = copy.T_world_mesh;
         T_local_mesh.translation() -= scene.origin;
@@ -82,14 +81,14 @@ float lesser_slope(float slope, const Material& material) {
     return of_material > 0.0F ? std::min(slope, of_material) : slope;
 }
 
-float least_slope(std::span<const Material> materials, const TargetShape& shape) {
+float min_slope(std::span<const Material> materials, const TargetShape& shape) {
     float least = 1.0F;
     for (const TargetTriangle& triangle : shape.triangles)
         least = lesser_slope(least, materials[triangle.material]);
     return least;
 }
 
-float least_slope_of_texels(const Scene& scene) {
+float min_slope_of_texels(const Scene& scene) {
     float least = 1.0F;
     if (!scene.maps) return least;
     for (const std::uint32_t material : scene.maps->materials())
@@ -107,12 +106,12 @@ std::shared_ptr<const TargetShapes> find_target_shapes(const Scene& scene) {
     if (out->placed.empty()) return nullptr;
     std::vector<float> slopes;
     for (const TargetShape& shape : out->shapes)
-        slopes.push_back(least_slope(scene.materials, shape));
-    const float of_texels = least_slope_of_texels(scene);
+        slopes.push_back(min_slope(scene.materials, shape));
+    const float of_texels = min_slope_of_texels(scene);
     for (PlacedTarget& placed : out->placed) {
-        placed.least_slope = slopes[placed.shape];
+        placed.min_slope = slopes[placed.shape];
         if (scene.maps && scene.maps->lie_on(placed.instance))
-            placed.least_slope = std::min(placed.least_slope, of_texels);
+            placed.min_slope = std::min(placed.min_slope, of_texels);
     }
     return out;
 }

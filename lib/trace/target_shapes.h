@@ -20,7 +20,7 @@ struct PlacedTarget {
     /// Rotation, uniform scale and translation, scene-local, if it is at rest.
     Eigen::Affine3f T_local_shape;
     /// The least RMS slope of its materials, and of the texels on it, that have facets.
-    float least_slope = 1.0F;
+    float min_slope = 1.0F;
 };
 
 struct TargetShapes {

@@ -8,40 +8,34 @@
 #include "core/elementary.h"
 #include "trace/arrivals.h"
 #include "trace/ball_in_view.h"
-#include "visibility/cut_triangle.h"
 #include "trace/lay_target_maps.h"
+#include "visibility/cut_triangle.h"
 #include "visibility/view_volume.h"
 
 namespace sonarsim {
 
 namespace {
 
-// The triangles of an object are sampled if it, or its highlight, is smaller than this many
-// resolution cells. An engine has a sample per cell: over 4 x 4 cells its energy is right to 1 /
-// sqrt(16), 1 dB.
+// Resolution cells below which an object or its highlight is a target: an engine is right to 1 dB.
 constexpr float most_cells = 4.0F;
-// In the presets the views of sonars of one or two beams are 3 to 14 beamwidths wide, so a 32nd of
-// them is half a beamwidth or less.
-constexpr double least_parts = 32.0;
+// Parts of the view of one or two beams: each is half a beamwidth or less in the presets.
+constexpr double min_parts = 32.0;
 // The sonar is outside of the ball around a target.
-constexpr float least_distance_by_radius = 1.05F;
-// The size of the parts whose visibility is found by one ray, as a share of a target's diameter. An
-// edge that hides a target is off by up to half a part, which is 0.5 dB where it hides half.
+constexpr float min_distance_by_radius = 1.05F;
+// Size of the parts that one ray decides on, as a share of a target's diameter: within 0.5 dB.
 constexpr float part_by_diameter = 1.0F / 8.0F;
 // All but exp(-3^2 / 2), a hundredth, of the power of a highlight lies within this many slopes.
 constexpr float highlight_reach = 3.0F;
-// The size of a highlight's parts relative to the highlight's own size a s, with the radius of
-// curvature a and the slope s: one ray decides on at most erf(0.75 / sqrt(2))^2 = 0.3 of its power.
+// Size of a highlight's parts relative to the highlight's own, curvature radius times slope.
 constexpr float part_by_highlight = 1.5F;
-// Parts are no smaller than this share of a resolution cell: an image shows no finer detail of an
-// edge.
-constexpr float least_part_by_cell = 0.25F;
+// Parts are no smaller than this share of a resolution cell.
+constexpr float min_part_by_cell = 0.25F;
 
 /// The width in which a view resolves directions, or an engine samples them, rad.
 double resolved_width(const View& view) {
-    const double parts = std::max<double>(least_parts, view.beams);
+    const double parts = std::max<double>(min_parts, view.beams);
     if (view.shape == ViewShape::fan) return view.azimuth_rad / parts;
-    return view.elevation_rad / least_parts;
+    return view.elevation_rad / min_parts;
 }
 
 /// A target in the sensor frame.
@@ -57,9 +51,8 @@ struct Target {
 
 class TargetSampler {
   public:
-    TargetSampler(const View& view, const GuardBeams& guard_beams, const BuriedObjects* buried)
+    TargetSampler(const View& view, const GuardBeams& guard_beams)
         : view_(view),
-          buried_(buried),
           guarded_(guard_beams.count > 0),
           widened_(widened_view(view, guard_beams)),
           field_(widened_) {}
@@ -72,12 +65,8 @@ class TargetSampler {
         const Eigen::Vector3f centre = T_sensor_shape * shape.centre;
         const float radius = scale * shape.radius_m;
         const float range = arrival_range(centre);
-        // Echoes through a sediment of fast sound are nearer than their places.
-        const double farthest =
-            view_.range_max_m *
-            (is_buried(placed.instance) ? most_distance_by_range(buried_->sediments) : 1.0);
-        if (range - radius > static_cast<float>(farthest) ||
-            range < least_distance_by_radius * radius)
+        if (range - radius > static_cast<float>(view_.range_max_m) ||
+            range < min_distance_by_radius * radius)
             return std::nullopt;
         const Containment contained =
             ball_in_view(view_, widened_, guarded_, {centre, range, radius});
@@ -85,11 +74,10 @@ class TargetSampler {
         const float cell = std::max(static_cast<float>(resolved_width(view_)) * range,
                                     static_cast<float>(view_.bin_m()));
         const float highlight =
-            shape.curvature_m > 0.0F ? scale * shape.curvature_m * placed.least_slope : radius;
+            shape.curvature_m > 0.0F ? scale * shape.curvature_m * placed.min_slope : radius;
         // On a coarse mesh an engine sees facets where the surface is curved.
-        const bool is_smooth = shape.turn <= placed.least_slope;
-        if (highlight > most_cells * cell && is_smooth && !is_buried(placed.instance))
-            return std::nullopt;
+        const bool is_smooth = shape.turn <= placed.min_slope;
+        if (highlight > most_cells * cell && is_smooth) return std::nullopt;
         const float part = part_by_diameter * 2.0F * radius;
         return Target{
             &placed, &shape, T_sensor_shape, scale, cell, part, contained == Containment::inside};
@@ -101,15 +89,13 @@ class TargetSampler {
         for (const Eigen::Vector3f& p : shape.vertices)
             vertices_.push_back(target.T_sensor_shape * p);
         const Eigen::Matrix3f R = target.T_sensor_shape.linear() / target.scale;
-        // Refracted sound may meet triangles that face away from the straight line.
-        const bool is_outside = shape.closed && is_buried(target.placed->instance);
         last_point_.reset();
         parts_.reserve(parts_.size() + 2 * shape.triangles.size());
         for (const TargetTriangle& triangle : shape.triangles) {
             Eigen::Vector3f normal = R * triangle.normal;
             const float height = -normal.dot(vertices_[triangle.corners[0]]);
-            if (shape.closed && !is_outside && !(height > 0.0F)) continue;
-            const float side = height < 0.0F && !is_outside ? -1.0F : 1.0F;
+            if (shape.closed && !(height > 0.0F)) continue;
+            const float side = height < 0.0F ? -1.0F : 1.0F;
             TargetFacet facet{.corners = {},
                               .normals = {},
                               .normal = side * normal,
@@ -132,12 +118,7 @@ class TargetSampler {
         std::size_t kept = 0;
         for (std::size_t k = 0; k < parts_.size(); ++k) {
             const std::uint32_t ray = ray_of_[k];
-            if (!is_reached(aims_[ray], hits[ray])) {
-                if (!is_buried(parts_[k].instance)) continue;
-                const auto seen = seen_buried(buried_->sediments, parts_[k], rays_[ray], hits[ray]);
-                if (!seen) continue;
-                parts_[k] = *seen;
-            }
+            if (!ray_arrives(aims_[ray], hits[ray])) continue;
             if (kept != k) parts_[kept] = parts_[k];
             ++kept;
         }
@@ -153,7 +134,7 @@ class TargetSampler {
         float slack_m;  ///< greatest distance of the part from the surface
     };
 
-    static bool is_reached(const Aim& aim, const Intersection& hit) {
+    static bool ray_arrives(const Aim& aim, const Intersection& hit) {
         // The ray hit nothing: it passed the outline of the target, where vertices were moved to
         // join them.
         if (!std::isfinite(hit.distance_m)) return true;
@@ -161,11 +142,9 @@ class TargetSampler {
         return hit.distance_m + slack >= aim.range_m;
     }
 
-    bool is_buried(std::uint32_t instance) const { return buried_ && buried_->has(instance); }
-
     bool is_in_view(const Eigen::Vector3f& p) const {
         if (field_.beam(p, arrival_range(p)) < 0.0F) return false;
-        return !guarded_ || sonarsim::is_reached(view_, p);
+        return !guarded_ || in_array_cones(view_, p);
     }
 
     /// Cuts a facet into parts. Where a highlight may lie, the normal turns by about a slope over
@@ -173,12 +152,12 @@ class TargetSampler {
     void add_parts(const TargetFacet& facet, const Target& target) {
         const Eigen::Vector3f u = facet.corners[1] - facet.corners[0];
         const Eigen::Vector3f v = facet.corners[2] - facet.corners[0];
-        const float slope = target.placed->least_slope;
+        const float slope = target.placed->min_slope;
         std::optional<FacetTurn> turn;
         if (facet.curvature_m != 0.0F) turn.emplace(facet);
         const bool may_highlight = turn && turn->least <= highlight_reach * slope;
         const float radius = std::fabs(facet.curvature_m);
-        const float least_m = least_part_by_cell * target.cell_m;
+        const float least_m = min_part_by_cell * target.cell_m;
         const float highlight_m = std::clamp(part_by_highlight * radius * slope, least_m,
                                              std::max(target.part_m, least_m));
         const float per_turn = may_highlight ? radius / highlight_m : 0.0F;
@@ -238,7 +217,6 @@ class TargetSampler {
     static constexpr float weld_slack = 2e-5F;
 
     const View& view_;
-    const BuriedObjects* buried_;  ///< null: none
     bool guarded_;
     View widened_;
     BeamLocator field_;
@@ -266,10 +244,9 @@ Eigen::Affine3f in_sensor_frame(const PlacedTarget& placed, const Scene& scene,
 
 TargetSurface target_surface(const TargetShapes& shapes, const View& view,
                              const GuardBeams& guard_beams, const Scene& scene,
-                             const VisibilityEngine& engine, const Pose& T_world_sensor,
-                             const BuriedObjects* buried) {
+                             const VisibilityEngine& engine, const Pose& T_world_sensor) {
     TargetSurface out;
-    TargetSampler sampler(view, guard_beams, buried);
+    TargetSampler sampler(view, guard_beams);
     const std::span<const Pose> bodies = engine.body_poses();
     for (const PlacedTarget& placed : shapes.placed) {
         if (placed.body && bodies.empty()) continue;  // without a pose it is invisible

@@ -6,7 +6,6 @@
 
 #include "core/pose.h"
 #include "scene/scene.h"
-#include "trace/buried.h"
 #include "trace/target_facet.h"
 #include "trace/target_shapes.h"
 #include "trace/visible_surface.h"
@@ -27,11 +26,9 @@ struct TargetSurface {
 
 /// Samples those objects that the samples of an engine cannot represent in this view, because they
 /// or their highlights are few resolution cells across. A part of a triangle is seen if a ray from
-/// the sonar reaches it. The result does not depend on the engine. Buried objects are always
-/// sampled in this way, and seen through the sea bed above them.
+/// the sonar reaches it. The result does not depend on the engine.
 TargetSurface target_surface(const TargetShapes& shapes, const View& view,
                              const GuardBeams& guard_beams, const Scene& scene,
-                             const VisibilityEngine& engine, const Pose& T_world_sensor,
-                             const BuriedObjects* buried = nullptr);
+                             const VisibilityEngine& engine, const Pose& T_world_sensor);
 
 }  // namespace sonarsim

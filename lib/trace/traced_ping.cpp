@@ -1,23 +1,18 @@
 #include "trace/traced_ping.h"
 
-#include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/clock.h"
 #include "trace/find_coherent_surface.h"
 #include "trace/lay_maps.h"
-#include "trace/map_error.h"
-#include "trace/missed_multipath.h"
-#include "trace/seen_water_surface.h"
+#include "trace/visible_water_surface.h"
 #include "trace/water_mirror.h"
-#include "visibility/rays/sampling.h"
 
 namespace sonarsim {
 
 TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
                       const VisibilityEngine& engine, const Pose& T_world_sensor,
-                      const Terms& terms, const PingMotion& motion, const MovingObjects& objects) {
+                      const Terms& terms, const PingMotion& motion) {
     TracedPing traced;
     traced.T_world_sensor = T_world_sensor;
     traced.motion = motion;
@@ -31,28 +26,13 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
     traced.counts.samples = traced.samples.items.size() + traced.outside_sector.size();
     traced.counts.dropped_samples = traced.samples.dropped;
     if (scene.maps) {
-        // The errors of the texels and of the engine are independent, so their squares add.
-        const double of_maps = error_of_maps(scene, settings.view, T_world_sensor, traced.samples);
-        double& estimate = traced.samples.estimated_l1;
-        estimate *= growth_by_maps(scene, settings.view, T_world_sensor, traced.samples.compared);
-        estimate = std::sqrt(estimate * estimate + of_maps * of_maps);
         lay_maps(*scene.maps, settings.view, T_world_sensor, traced.samples, traced.outside_sector,
                  1.0, scene.sound_profile.get());
     }
-    if (!objects.all.empty()) {
-        move_objects(objects, motion, T_world_sensor, traced.samples.items);
-        move_objects(objects, motion, T_world_sensor, traced.outside_sector);
-        if (motion.is_still())
-            sort_into_beams(settings.view, traced.samples, traced.outside_sector);
-    }
-    fade_by_doppler(objects, motion, T_world_sensor, traced.samples.items);
-    fade_by_doppler(objects, motion, T_world_sensor, traced.outside_sector);
     move_in_ping(motion, settings.view, traced.samples, traced.outside_sector);
     if (settings.targets) {
         traced.targets = target_surface(*settings.targets, settings.view, settings.guard_beams,
-                                        scene, engine, T_world_sensor, settings.buried.get());
-        move_objects(objects, motion, T_world_sensor, traced.targets.facets);
-        fade_by_doppler(objects, motion, T_world_sensor, traced.targets.facets);
+                                        scene, engine, T_world_sensor);
         move_in_ping(motion, settings.view.shape, traced.targets.facets);
     }
     if (settings.coherent) {
@@ -61,8 +41,8 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
     }
     if (settings.sees_water_surface && scene.water_surface && scene.water_surface->wind_m_s) {
         if (const auto water = mirror_of(scene.water_surface, T_world_sensor)) {
-            traced.water_surface = seen_water_surface(*water, settings.view, settings.guard_beams,
-                                                      engine, T_world_sensor, motion);
+            traced.water_surface = visible_water_surface(
+                *water, settings.view, settings.guard_beams, engine, T_world_sensor, motion);
         }
     }
     traced.seconds.trace = watch.lap();
@@ -77,8 +57,6 @@ void trace_multipath(const TraceSettings& settings, const Scene& scene,
     Stopwatch watch;
     traced.counts.multipath = {};
     traced.bounces.clear();
-    traced.retraced = {};
-    traced.missed_multipath = std::numeric_limits<double>::quiet_NaN();
     if (settings.multipath.on) {
         const TraceContext context{.view = settings.view,
                                    .scene = scene,
@@ -86,15 +64,6 @@ void trace_multipath(const TraceSettings& settings, const Scene& scene,
                                    .T_world_sensor = traced.T_world_sensor};
         traced.bounces =
             find_bounces(settings.multipath, context, traced.samples, traced.counts.multipath);
-        traced.retraced =
-            retraced_surface(settings.multipath, context, traced.samples, traced.counts.multipath);
-        // Surface that scatters sound back may fill bins that the bounces miss.
-        if (!settings.multipath.scattered) {
-            const View view = traced_view(settings.view, settings.guard_beams);
-            const int columns = sampling_for(view).columns * settings.guard_beams.divided;
-            traced.missed_multipath =
-                missed_multipath(settings.view, columns, traced.samples, traced.bounces);
-        }
     }
     traced.seconds.multipath = watch.lap();
 }

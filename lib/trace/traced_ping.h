@@ -1,20 +1,16 @@
 #pragma once
 
-#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "core/pose.h"
 #include "scene/scene.h"
-#include "trace/buried.h"
 #include "trace/coherent_surface.h"
 #include "trace/counters.h"
 #include "trace/multipath.h"
-#include "trace/object_motion.h"
 #include "trace/particles.h"
 #include "trace/ping_motion.h"
-#include "trace/retraced.h"
 #include "trace/target_shapes.h"
 #include "trace/target_surface.h"
 #include "trace/terms.h"
@@ -34,7 +30,6 @@ struct TraceSettings {
     std::shared_ptr<const TargetShapes> targets;
     std::shared_ptr<const CoherentFaces> coherent;  ///< null: none
     std::shared_ptr<const Particles> particles;     ///< point targets in the water; null: none
-    std::shared_ptr<const BuriedObjects> buried;    ///< null: none
     bool sees_water_surface = false;                ///< if the surface scatters
 };
 
@@ -50,16 +45,12 @@ struct TracedPing {
     SeenParticles particles;
     std::vector<Sample> water_surface;  ///< material and instance are 0
     std::vector<BouncePath> bounces;    ///< multipath paths from `samples`
-    RetracedSurface retraced;
     /// The age of the water's speckle; none: each ping draws its own speckle.
     std::optional<double> water_age;
     /// The group in which each beam transmits, and the traces of all groups after the first, whose
     /// trace is this one. Empty: all beams transmit at once.
     std::vector<int> group_of_beam;
     std::vector<TracedPing> later_groups;
-    /// The estimated share of bins with multipath that `bounces` do not reach, see
-    /// missed_multipath(); NaN without an estimate.
-    double missed_multipath = std::numeric_limits<double>::quiet_NaN();
     PingCounts counts;
     PingSeconds seconds;
 };
@@ -68,8 +59,7 @@ struct TracedPing {
 /// steps 1 and 2 of docs/model.md.
 TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
                       const VisibilityEngine& engine, const Pose& T_world_sensor,
-                      const Terms& terms = {}, const PingMotion& motion = {},
-                      const MovingObjects& objects = {});
+                      const Terms& terms = {}, const PingMotion& motion = {});
 
 /// Finds the multipath of a traced ping again, with these settings.
 void trace_multipath(const TraceSettings& settings, const Scene& scene,

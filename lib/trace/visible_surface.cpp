@@ -26,8 +26,7 @@ Pose guard_side(const View& view, const GuardBeams& guard_beams, double side) {
     return {rotation_from_rpy(0.0, 0.0, side * middle), Eigen::Vector3d::Zero()};
 }
 
-// The error goal from which on beams are joined. Tracing two beams of the tank as one raises the
-// error of the expected image from 1.1 to 1.5 %.
+// The error goal from which on beams are joined.
 constexpr double joining_goal = 0.02;
 
 int joined_beams(const View& view, const GuardBeams& guard_beams) {
@@ -35,7 +34,7 @@ int joined_beams(const View& view, const GuardBeams& guard_beams) {
 }
 
 /// The offsets of a view's beams, from the offsets of its joined beams.
-std::vector<std::uint32_t> separated(std::span<const std::uint32_t> begins, int joined) {
+std::vector<std::uint32_t> repeat_offsets(std::span<const std::uint32_t> begins, int joined) {
     std::vector<std::uint32_t> out{begins.front()};
     for (const std::uint32_t end : begins.subspan(1))
         out.insert(out.end(), joined, end);
@@ -43,7 +42,7 @@ std::vector<std::uint32_t> separated(std::span<const std::uint32_t> begins, int 
 }
 
 /// The offsets of a view's beams, from the offsets of the parts that they are divided into.
-std::vector<std::uint32_t> together(std::span<const std::uint32_t> begins, int divided) {
+std::vector<std::uint32_t> merge_offsets(std::span<const std::uint32_t> begins, int divided) {
     std::vector<std::uint32_t> out;
     out.reserve(begins.size() / static_cast<std::size_t>(divided) + 1);
     for (std::size_t j = 0; j < begins.size(); j += static_cast<std::size_t>(divided))
@@ -57,7 +56,7 @@ void add_guard_side(const View& view, const Samples& seen, const Pose& T_sensor_
     const Eigen::Matrix3f R = T_sensor_side.rotation.toRotationMatrix().cast<float>();
     for (Sample sample : seen.items) {
         sample.position = R * sample.position;
-        if (!is_reached(view, sample.position)) continue;
+        if (!in_array_cones(view, sample.position)) continue;
         sample.edge_u = R * sample.edge_u;
         sample.edge_v = R * sample.edge_v;
         sample.normal = R * sample.normal;
@@ -86,7 +85,7 @@ View traced_view(const View& view, const GuardBeams& guard_beams) {
     return out;
 }
 
-bool is_reached(const View& view, const Eigen::Vector3f& position) {
+bool in_array_cones(const View& view, const Eigen::Vector3f& position) {
     const auto widest = static_cast<float>(sincos(0.5 * view.azimuth_rad).sin);
     return std::fabs(position.y()) <= widest * arrival_range(position);
 }
@@ -112,8 +111,8 @@ VisibleSurface visible_surface(const View& view, const GuardBeams& guard_beams,
     VisibleSurface out;
     out.samples = see(asked[0]);
     std::vector<std::uint32_t>& begins = out.samples.beam_begin;
-    if (guard_beams.divided > 1) begins = together(begins, guard_beams.divided);
-    begins = separated(begins, joined_beams(view, guard_beams));
+    if (guard_beams.divided > 1) begins = merge_offsets(begins, guard_beams.divided);
+    begins = repeat_offsets(begins, joined_beams(view, guard_beams));
     if (asked.size() > 1) {
         add_guard_side(view, see(asked[1]), guard_side(view, guard_beams, -1.0), out);
         add_guard_side(view, see(asked[2]), guard_side(view, guard_beams, 1.0), out);
@@ -125,7 +124,7 @@ VisibleSurface visible_surface(const View& view, const GuardBeams& guard_beams,
     const auto first = items.begin() + begins[guards];
     const auto last = items.begin() + begins[guards + view.beams];
     const auto is_in_reach = [&](const Sample& sample) {
-        return is_reached(view, sample.position);
+        return in_array_cones(view, sample.position);
     };
     std::copy_if(items.begin(), first, std::back_inserter(out.outside_sector), is_in_reach);
     std::copy_if(last, items.end(), std::back_inserter(out.outside_sector), is_in_reach);

@@ -36,7 +36,7 @@ std::vector<Sight> sights(const View& view, const GuardBeams& guard_beams,
 
 /// True if the cones of a fan's beams reach a point in its guard beams: its y / r is no more than
 /// that of the view's borders on the horizontal plane. `position` is in the sensor frame, m.
-bool is_reached(const View& view, const Eigen::Vector3f& position);
+bool in_array_cones(const View& view, const Eigen::Vector3f& position);
 
 /// The surface within the view, and in the guard beams the surface that the cones of its beams
 /// reach. The first of several joined beams has the samples of all of them.

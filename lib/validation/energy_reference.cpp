@@ -26,10 +26,6 @@ class TargetRays final : public VisibilityEngine {
                    std::span<Intersection> intersections) const override {
         intersect_rays(caster_, origin_, T_world_sensor, rays, intersections);
     }
-    std::vector<std::uint8_t> covered_bins(const View& /*view*/,
-                                           const Pose& /*T_world_sensor*/) const override {
-        return {};
-    }
 
   private:
     const Caster& caster_;
@@ -54,7 +50,7 @@ class EnergyImage {
         if (traced_.targets.has(point.facet.instance)) return;
         const auto range = static_cast<float>(point.range_m);
         const Eigen::Vector3f position = range * (R_sensor_local_ * point.direction);
-        if (settings_.guard_beams.count > 0 && !is_reached(settings_.view, position)) return;
+        if (settings_.guard_beams.count > 0 && !in_array_cones(settings_.view, position)) return;
         Sample& sample = traced_.samples.items.emplace_back();
         sample.position = position;
         sample.edge_u.setZero();
@@ -115,9 +111,8 @@ Reference cast_energy_reference(const Caster& caster, const Scene& scene,
     const std::vector<SurfaceShare> shares = surface_shares(scene, view, pose);
     TargetSurface targets;
     if (settings.targets) {
-        targets =
-            target_surface(*settings.targets, settings.view, settings.guard_beams, scene,
-                           TargetRays(caster, scene.origin), T_world_sensor, settings.buried.get());
+        targets = target_surface(*settings.targets, settings.view, settings.guard_beams, scene,
+                                 TargetRays(caster, scene.origin), T_world_sensor);
     }
     const ReferenceView looking{caster, scene, view, pose, shares};
     return settled(settings.view, goal, [&](int per_beam, int count) {

@@ -90,22 +90,21 @@ bool rays_are_better(const RaysTrial& trial, const View& view) {
 }
 
 std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const SlicesOptions& options,
-                                                   std::span<const Probe> probes, bool coverage) {
-    return make_auto_engine(scene, Caster(scene), options, probes, coverage);
+                                                   std::span<const Probe> probes) {
+    return make_auto_engine(scene, Caster(scene), options, probes);
 }
 
 std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const Caster& caster,
                                                    const SlicesOptions& options,
-                                                   std::span<const Probe> probes, bool coverage) {
-    if (!scene.bodies.empty() || !scene.copies.empty())
-        return make_rays_engine(scene, caster, coverage);
+                                                   std::span<const Probe> probes) {
+    if (!scene.bodies.empty() || !scene.copies.empty()) return make_rays_engine(scene, caster);
     if (scene.triangles.size() > many_triangles)
-        return make_dense_rays_engine(scene, caster, probes, coverage);
-    auto slices = make_slices_engine(scene, caster, options, coverage);
+        return make_dense_rays_engine(scene, caster, probes);
+    auto slices = make_slices_engine(scene, caster, options);
     const bool few = scene.triangles.size() < few_triangles;
     if (few && std::ranges::all_of(probes, [](const Probe& p) { return p.rays.goal == 0.0; }))
         return slices;
-    const std::shared_ptr<const VisibilityEngine> rays = make_rays_engine(scene, caster, false);
+    const std::shared_ptr<const VisibilityEngine> rays = make_rays_engine(scene, caster);
     const auto trial_slices = without_points(*slices);
     std::vector<View> tried;
     std::vector<EngineOfView> better;
@@ -115,7 +114,7 @@ std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const Cas
         const RaysNeed need = required_rays(probe.view, probes);
         if (need.goal > 0.0) {
             better.push_back({probe.view, need.goal,
-                              make_rays_engine(scene, caster, false, {.columns = need.columns})});
+                              make_rays_engine(scene, caster, {.columns = need.columns})});
             continue;
         }
         if (few) continue;

@@ -33,14 +33,13 @@ bool rays_are_better(const RaysTrial& trial, const View& view);
 /// everywhere. Scenes of few triangles get slices without a comparison; scenes with bodies or
 /// copies get rays, the only engine that traces them, and scenes of many triangles get the rays of
 /// dense_rays.h. The estimated error of a ping by rays is the bound found on the probes, or the
-/// rays' own if they were required. `scene` must outlive the engine. `coverage` as for
-/// make_rays_engine(). Throws std::runtime_error when Embree cannot build its tree.
+/// rays' own if they were required. `scene` must outlive the engine. Throws std::runtime_error when
+/// Embree cannot build its tree.
 std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const SlicesOptions& slices,
-                                                   std::span<const Probe> probes,
-                                                   bool coverage = false);
+                                                   std::span<const Probe> probes);
 /// The same with a caster over the scene, whose trees engines may share.
 std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const Caster& caster,
                                                    const SlicesOptions& slices,
-                                                   std::span<const Probe> probes, bool coverage);
+                                                   std::span<const Probe> probes);
 
 }  // namespace sonarsim

@@ -28,7 +28,7 @@ struct DensestImage {
 
 std::vector<DensestImage> densest_images(const Scene& scene, const Caster& caster, const View& view,
                                          std::span<const Probe> probes) {
-    const auto densest = make_rays_engine(scene, caster, false, {densities.back()});
+    const auto densest = make_rays_engine(scene, caster, {densities.back()});
     std::vector<DensestImage> out;
     for (const Probe& probe : probes) {
         if (probe.view != view) continue;
@@ -47,7 +47,7 @@ RaysDensity density_for(const Scene& scene, const Caster& caster, const View& vi
     const std::vector<DensestImage> images = densest_images(scene, caster, view, probes);
     for (const int density : densities) {
         if (density == densities.back()) break;
-        const auto rays = make_rays_engine(scene, caster, false, {density});
+        const auto rays = make_rays_engine(scene, caster, {density});
         double worst = 0.0;
         for (const auto& [part, image, error] : images) {
             const Samples seen = rays->visible_surface(part.view, part.T_world_sensor);
@@ -61,8 +61,7 @@ RaysDensity density_for(const Scene& scene, const Caster& caster, const View& vi
 }
 
 std::unique_ptr<VisibilityEngine> make_dense_rays_engine(const Scene& scene, const Caster& caster,
-                                                         std::span<const Probe> probes,
-                                                         bool coverage) {
+                                                         std::span<const Probe> probes) {
     std::vector<EngineOfView> views;
     int most = densities.front();
     for (const Probe& probe : probes) {
@@ -70,15 +69,15 @@ std::unique_ptr<VisibilityEngine> make_dense_rays_engine(const Scene& scene, con
         const RaysNeed need = required_rays(probe.view, probes);
         if (need.goal > 0.0) {
             views.push_back({probe.view, need.goal,
-                             make_rays_engine(scene, caster, false, {.columns = need.columns})});
+                             make_rays_engine(scene, caster, {.columns = need.columns})});
             continue;
         }
         const auto [density, error] = density_for(scene, caster, probe.view, probes);
         most = std::max(most, density);
         views.push_back({probe.view, probe.view.relative_l1,
-                         make_rays_engine(scene, caster, false, {density}), error});
+                         make_rays_engine(scene, caster, {density}), error});
     }
-    return make_engine_by_view(make_rays_engine(scene, caster, coverage, {most}), std::move(views));
+    return make_engine_by_view(make_rays_engine(scene, caster, {most}), std::move(views));
 }
 
 }  // namespace sonarsim

@@ -32,9 +32,8 @@ RaysDensity density_for(const Scene& scene, const Caster& caster, const View& vi
                         std::span<const Probe> probes);
 
 /// Rays for every view, with the density of density_for(). A view without probes gets the greatest
-/// density of the others. `coverage` as for make_rays_engine().
+/// density of the others.
 std::unique_ptr<VisibilityEngine> make_dense_rays_engine(const Scene& scene, const Caster& caster,
-                                                         std::span<const Probe> probes,
-                                                         bool coverage);
+                                                         std::span<const Probe> probes);
 
 }  // namespace sonarsim

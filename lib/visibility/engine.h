@@ -118,12 +118,6 @@ class VisibilityEngine {
 
     /// Warnings about the results so far: sentences that name the keys to change.
     virtual std::vector<std::string> warnings() const { return {}; }
-
-    /// 1 for the bins of `view` that contain surface, visible or hidden, else 0: [beams, range
-    /// bins], beam after beam. Surface less than a thousandth of a bin deep may be left out. Empty
-    /// if sound bends, since these bins are not known then.
-    virtual std::vector<std::uint8_t> covered_bins(const View& view,
-                                                   const Pose& T_world_sensor) const = 0;
 };
 
 }  // namespace sonarsim

@@ -28,11 +28,6 @@ class EngineByView final : public VisibilityEngine {
         of_others_->intersect(T_world_sensor, rays, intersections);
     }
 
-    std::vector<std::uint8_t> covered_bins(const View& view,
-                                           const Pose& T_world_sensor) const override {
-        return of_others_->covered_bins(view, T_world_sensor);
-    }
-
   private:
     std::shared_ptr<const VisibilityEngine> of_others_;
     std::vector<EngineOfView> views_;

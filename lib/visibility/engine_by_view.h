@@ -17,7 +17,7 @@ struct EngineOfView {
     double error = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Traces each of `views` with its own engine, and other views, rays and coverage with `of_others`.
+/// Traces each of `views` with its own engine, and other views and rays with `of_others`.
 std::unique_ptr<VisibilityEngine> make_engine_by_view(
     std::shared_ptr<const VisibilityEngine> of_others, std::vector<EngineOfView> views);
 

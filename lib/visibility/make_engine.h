@@ -20,7 +20,6 @@ struct EngineSettings {
     SlicesOptions slices = {};  ///< for the slices only
     /// For `automatic` only. Without probes it takes the slices, unless the scene requires rays.
     std::vector<Probe> probes = {};
-    bool coverage = false;  ///< covered_bins() will be called: its data are made with the engine
     /// A caster over the scene, whose trees the rays and the slices then use; null: they make one.
     std::shared_ptr<const Caster> caster = {};
 };

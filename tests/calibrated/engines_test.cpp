@@ -70,7 +70,7 @@ TEST_SUITE("calibrated") {
                 cast_energy_reference(caster, scene, sonar.settings, sensor_pose(sonar, pose, 0),
                                       {0.01, 64.0, 8'000'000});
             const auto error_with = [&](int columns) {
-                const auto rays = make_rays_engine(scene, caster, false, {.columns = columns});
+                const auto rays = make_rays_engine(scene, caster, {.columns = columns});
                 const Ping ping =
                     render_ping(sonar, scene, *rays, pose, {1, 0}, direct_echoes_alone);
                 return image_error(ping.intensity, truth.intensity).relative_l1;

@@ -97,7 +97,7 @@ double second_moment(const CalibratedModel& model, double per_cell, double range
     const double longer = 1.0 / std::cos(radians(grazing_deg));
     const double wanted = std::min({grazing2 * longer, depth2 * longer * longer,
                                     std::max(std::min(grazing2, depth2), across_m * across_m)});
-    double edge = model.cells.least_edge_m;
+    double edge = model.cells.min_edge_m;
     for (int level = 1; level < model.cells.levels && 4.0 * edge * edge <= wanted; ++level)
         edge *= 2.0;
     const double larger = 4.0 / 3.0 * (1.0 - edge * edge / wanted);

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <random>
@@ -61,6 +62,20 @@ struct Rectangle {
         normal = {std::cos(turned_rad), std::sin(turned_rad), 0.0};
     }
 };
+
+/// The rectangle along a line that reaches `half_m` across it to either side.
+PlateOfPing plate_along(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                        const Eigen::Vector3d& across, double half_m) {
+    const std::array<Eigen::Vector3d, 4> corners{from - half_m * across, to - half_m * across,
+                                                 to + half_m * across, from + half_m * across};
+    PlateOfPing out;
+    for (std::size_t k = 0; k < 4; ++k)
+        out.edges.push_back({corners[k], corners[(k + 1) % 4]});
+    out.normal = across.cross(to - from).normalized();
+    if (out.normal.dot(from) < 0.0) out.normal = -out.normal;
+    out.height_m = out.normal.dot(from);
+    return out;
+}
 
 }  // namespace
 
@@ -197,7 +212,7 @@ TEST_SUITE("calibrated") {
             const double half_v = number(0.01, 0.07);
             const auto echo = [&](double from, double to) {
                 std::vector<PlateEcho> echoes;
-                add_plate_echoes(plate_along(foot + from * u, foot + to * u, v, half_v, half_v), {},
+                add_plate_echoes(plate_along(foot + from * u, foot + to * u, v, half_v), {},
                                  wavelength, {}, echoes);
                 std::complex<double> sum = 0.0;
                 for (const PlateEcho& part : echoes)

@@ -140,7 +140,7 @@ TEST_SUITE("calibrated") {
                 CAPTURE(trial);
                 bool finite = true;
                 for (const float value : image_of(config, plate_at(range), noise))
-                    finite = finite && value >= 0.0F && value <= most_value;
+                    finite = finite && value >= 0.0F && value <= max_value;
                 CHECK(finite);
             }
         }

@@ -197,33 +197,6 @@ TEST_SUITE("calibrated") {
         }
     }
 
-    // A strip of surface from 4.5 m on, in rows 150 to 190. Its far side lobes reach 80 rows ahead;
-    // the pulse itself does not reach row 140. The sum over the lobes of twelve scenes has about
-    // 12 x 1,000 independent echoes, so it is known to 1 %.
-    TEST_CASE("calibrated: speckle keeps the mean power of the pulse's far side lobes") {
-        InstrumentConfig config = instrument();
-        config.pulse.duration_s = 2.0 * 80.0 * 0.01 / 1500.0;
-        config.pulse.floor_db = -10.0;
-        Samples strip = floor_below({});
-        std::erase_if(strip.items, [](const Sample& sample) {
-            return sample.position.norm() < 4.5F || sample.position.norm() > 4.9F;
-        });
-        const auto lobes_of = [&](SpeckleMode mode, std::uint32_t seed) {
-            config.speckle.mode = mode;
-            const std::vector<float> image =
-                image_of_samples(model_of(config), view_of_fan(), strip, {}, {}, {seed, 2, 0});
-            return std::accumulate(image.begin(), image.begin() + 140 * beams_of_fan, 0.0);
-        };
-        const double expected = lobes_of(SpeckleMode::none, 1);
-        for (const SpeckleMode mode : {SpeckleMode::scene, SpeckleMode::ping}) {
-            double mean = 0.0;
-            for (std::uint32_t seed = 0; seed < 12; ++seed)
-                mean += lobes_of(mode, seed) / 12.0;
-            CAPTURE(static_cast<int>(mode));
-            CHECK(mean == approx(expected).epsilon(0.05));
-        }
-    }
-
     TEST_CASE("calibrated: scatterers stay, and turn with the sonar as the beams do") {
         InstrumentConfig config = instrument();
         config.beam.spread = BeamSpacing::equal_angle;

@@ -68,7 +68,7 @@ std::vector<Sample> floor_in(int parts) {
 
 std::map<std::array<std::int32_t, 3>, int> cells_on(const std::vector<Sample>& surface) {
     // All of one size.
-    const ScattererCells cells{.least_edge_m = 0.02F,
+    const ScattererCells cells{.min_edge_m = 0.02F,
                                .edge_per_root_range = 0.01F,
                                .greatest_depth_m = 0.02F,
                                .width_rad = 0.001F};

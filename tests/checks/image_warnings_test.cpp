@@ -109,18 +109,6 @@ TEST_SUITE("checks") {
         CHECK(found[1].starts_with("W30 sensor 'left': 1000 of 2000 pieces of surface"));
     }
 
-    TEST_CASE("image warnings: multipath that was missed") {
-        Run run;
-        run.sensors[1].missed_multipath = 2;
-        run.sensors[1].worst_multipath = 0.174;
-        const Sentences found = run.warnings();
-        REQUIRE(found.size() == 1);
-        CHECK(found[0].starts_with(
-            "W35 sensor 'left': 2 of 10 pings may miss more than 5 % of the bins with multipath"));
-        CHECK(found[0].find("the worst an estimated 17 %") != std::string::npos);
-        CHECK(found[0].find("raise multipath.columns_per_beam") != std::string::npos);
-    }
-
     TEST_CASE("image warnings: a full scale far above or below what is seen") {
         Run run;
         run.mission.output.full_scale = 1e6;

@@ -64,17 +64,9 @@ class BadObjects(Composed):
     def test_buried_wholly(self):
         self.objects(["{name: a, file: crate.gltf, place: on_bottom, bury_m: 1.01}"])
         self.refused("mission.yaml:7:7: 'a' lies wholly below the bottom; lower bury_m")
-        self.objects(["{file: crate.gltf, place: on_bottom, bury_m: 1.01, buried: true}"])
-        self.refused("mission.yaml:7:66: a buried object needs a name")
-        self.objects(["{name: a, file: crate.gltf, place: on_bottom, bury_m: 1.01, buried: true}"])
-        self.refused("buried objects are for the calibrated model")
         self.scene("  file: floor.gltf\n  materials: materials.csv\n" +
                    SCATTER.replace("count: 5", "count: 2, bury_m: 1.01"))
-        self.refused("mission.yaml:7:7: 'mine_1' lies wholly below the bottom; lower bury_m",
-                     "buried: true")
-        self.scene("  file: floor.gltf\n  materials: materials.csv\n" +
-                   SCATTER.replace("count: 5", "count: 2, bury_m: 1.01, buried: true"))
-        self.refused("buried objects are for the calibrated model")
+        self.refused("mission.yaml:7:7: 'mine_1' lies wholly below the bottom; lower bury_m")
 
     def test_names_that_nothing_asks_for(self):
         """What no object needs so far is checked all the same."""

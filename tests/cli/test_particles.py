@@ -80,27 +80,6 @@ class Particles(Composed):
         meta = json.loads((self.out / "fls/meta/000003.json").read_text())
         self.assertEqual(list(meta["particles"]), ["fish_1"])
 
-    def test_buried_ones_are_labelled_so(self):
-        """A point and two crates in mud, one of them scattered, by sound of 12 kHz."""
-        self.write("materials.csv", "material,density_kg_m3,sound_speed_m_s,grain_phi\n"
-                   "Concrete,1150,1470,9\nsteel,7850,5890,\n")
-        scattered = ("  scatter:\n    - {name: other, files: [crate.gltf], material: steel, count: 1, bury_m: 1.1, "
-                     "area_min_m: [-1, 0.6], area_max_m: [1, 2.2], buried: true}\n")
-        self.objects(["{name: mine, file: crate.gltf, material: steel, position_m: [0, 0, 0], place: on_bottom, "
-                      "bury_m: 1.1, buried: true}"],
-                     "  file: floor.gltf\n  materials: materials.csv\n" + scattered)
-        self.edit("mission.yaml", "  objects:\n", PARTICLES.replace("[4, 0.5, 0.6]", "[0, 0, -1.6]").replace(
-            "drift_m_s: [0, 0.5, 0]", "buried: true") + "  objects:\n")
-        self.calibrated()
-        self.edit("mission.yaml", "    model: calibrated\n", "    model: calibrated\n"
-                  "    instrument: {frequency_hz: 12000}\n    mount: {rpy_deg: [0, 70, 0]}\n")
-        self.assert_renders()
-        objects = json.loads((self.out / "fls/objects/000000.json").read_text())["objects"]
-        buried = {one["name"]: one.get("buried", False) for one in objects}
-        self.assertEqual({name for name, is_buried in buried.items() if is_buried},
-                         {"mine", "fish_1", "other_1"})
-        self.assertGreater(len(buried), 2)
-
     def test_the_papers_model_refuses_them(self):
         result = self.render()
         self.assertEqual(result.returncode, 2)

@@ -49,28 +49,20 @@ TEST_CASE("particles: what is refused, and where") {
     is_refused("target_strength_db: -40, count: 3, rise_m_s: 1", "rise_m_s is for kind: bubbles");
     is_refused("target_strength_db: -40, per_m3: 1", "region with a volume");
     is_refused("target_strength_db: -40, per_m3: 1e6, size_m: [10, 10, 10]", "a million");
-    is_refused("kind: fish, length_m: 0.3, count: 3, buried: true", "kind: points");
-    is_refused("target_strength_db: -40, count: 3, buried: true, drift_m_s: [1, 0, 0]",
-               "do not drift");
-    CHECK(refusal(with_particles("target_strength_db: -40, count: 3, buried: true")).empty());
+    is_refused("target_strength_db: -40, count: 3, buried: true", "leave it out");
     CHECK(refusal(with_particles("target_strength_db: -40, count: 3")).empty());
     CHECK(
         refusal(with_particles("target_strength_db: -40, count: 3", "paper")).find("calibrated") !=
         std::string::npos);
 }
 
-TEST_CASE("motion in a ping and retraced paths: what is refused") {
+TEST_CASE("motion in a ping: what is refused") {
     const std::string mission =
         "scene: {file: a.glb, materials: a.csv}\ntrajectory: {file: a.tum}\nsensors:\n  fls:\n"
         "    kind: imaging\n";
     CHECK(refusal(mission + "    shutter: {groups: 2}\n").find("moves_in_ping: true") !=
           std::string::npos);
     CHECK(refusal(mission + "    moves_in_ping: true\n    shutter: {groups: 2}\n").empty());
-    const std::string retraced = mission + "    multipath: {method: cluster, retraced: 3}\n";
-    CHECK(refusal(retraced).find("model: calibrated") != std::string::npos);
-    CHECK(refusal(retraced + "    model: calibrated\n").empty());
-    CHECK(refusal(mission + "    multipath: {retraced: 3}\n").find("multipath.method") !=
-          std::string::npos);
     CHECK(refusal(mission + "    model: calibrated\n    instrument: {pulse: {sweep: up}}\n")
               .find("duration_s above 0") != std::string::npos);
 }

@@ -140,8 +140,6 @@ sensors:
       epsilon_bins: 5
       delta_deg: 5
       columns_per_beam: 1
-      retraced: 0
-      retraced_loss_db: 40
     model: paper
     noise:
       range_lambda_m: 0

@@ -167,7 +167,6 @@ TEST_CASE("variants: the keys of targets in the water and of its surface vary") 
                                          "particles.0.size_m, choice: [[1, 1, 1], [2, 2, 2]]",
                                          "particles.0.drift_m_s.0, uniform: [-1, 1]",
                                          "particles.0.instances, choice: [each, group]",
-                                         "particles.0.buried, choice: [true, false]",
                                          "particles.1.length_m, uniform: [0.1, 0.5]",
                                          "particles.1.law, choice: [love, foote_clupeid]",
                                          "particles.2.radius_m, log_uniform: [1e-4, 1e-2]",

@@ -80,7 +80,7 @@ TEST_CASE("auto gives a view the finest goal and the most columns that its probe
     View finer = view;
     finer.relative_l1 = 0.02;
     const Pose pose = above_floor(-15.0);
-    const auto rays = make_rays_engine(scene, Caster(scene), false, {.columns = 4});
+    const auto rays = make_rays_engine(scene, Caster(scene), {.columns = 4});
     const Samples seen = make_auto_engine(scene, {}, probes)->visible_surface(view, pose);
     CHECK(same(seen, rays->visible_surface(finer, pose)));
     CHECK_FALSE(same(seen, make_rays_engine(scene)->visible_surface(finer, pose)));

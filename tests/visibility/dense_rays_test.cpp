@@ -81,16 +81,15 @@ TEST_SUITE("dense rays") {
             const Pose& pose = probes.front().T_world_sensor;
             View fine = view;
             fine.relative_l1 = 0.01;
-            const auto slices = make_slices_engine(scene, caster, {}, false);
+            const auto slices = make_slices_engine(scene, caster, {});
             const std::vector<double> truth =
                 mean_echoes(scene, view, slices->visible_surface(fine, pose));
             const auto error = [&](const Samples& seen) {
                 return image_change(mean_echoes(scene, view, seen), truth);
             };
-            const Samples lines =
-                make_rays_engine(scene, caster, false)->visible_surface(view, pose);
+            const Samples lines = make_rays_engine(scene, caster)->visible_surface(view, pose);
             const Samples dense =
-                make_dense_rays_engine(scene, caster, probes, false)->visible_surface(view, pose);
+                make_dense_rays_engine(scene, caster, probes)->visible_surface(view, pose);
             const RaysDensity chosen = density_for(scene, caster, view, probes);
             CAPTURE(goal);
             CAPTURE(height_m);
@@ -112,9 +111,9 @@ TEST_SUITE("dense rays") {
         const std::vector<Probe> probes = at_the_border(view);
         CHECK(density_for(scene, caster, view, probes).density == 1);
         const Pose& pose = probes.front().T_world_sensor;
-        const Samples rays = make_rays_engine(scene, caster, false)->visible_surface(view, pose);
+        const Samples rays = make_rays_engine(scene, caster)->visible_surface(view, pose);
         const Samples chosen =
-            make_dense_rays_engine(scene, caster, probes, false)->visible_surface(view, pose);
+            make_dense_rays_engine(scene, caster, probes)->visible_surface(view, pose);
         REQUIRE(chosen.items.size() == rays.items.size());
         CHECK(chosen.beam_begin == rays.beam_begin);
         // It is that of the border of the ground, where the places of rays follow their density.
@@ -129,8 +128,8 @@ TEST_SUITE("dense rays") {
         const std::vector<Probe> probes = at_the_border(dense_view(0.03));
         const View& view = probes.front().view;
         const Pose& pose = probes.front().T_world_sensor;
-        const auto chosen = make_auto_engine(scene, caster, {}, probes, false);
-        const auto rays = make_rays_engine(scene, caster, false);
+        const auto chosen = make_auto_engine(scene, caster, {}, probes);
+        const auto rays = make_rays_engine(scene, caster);
         CHECK(chosen->visible_surface(view, pose).items.size() ==
               rays->visible_surface(view, pose).items.size());
     }
@@ -142,7 +141,7 @@ TEST_SUITE("dense rays") {
         view.beams = 256;
         const Pose pose = at_the_border(view).front().T_world_sensor;
         const Samples seen =
-            make_rays_engine(scene, caster, false, {.density = 2})->visible_surface(view, pose);
+            make_rays_engine(scene, caster, {.density = 2})->visible_surface(view, pose);
         REQUIRE(seen.beam_begin.size() == 257);
         CHECK(seen.beam_begin.back() == seen.items.size());
         int astray = 0;

@@ -42,29 +42,11 @@ const ObjectMask* mask_of(const std::vector<ObjectMask>& masks, std::uint32_t id
     return found != masks.end() && found->id == id ? &*found : nullptr;
 }
 
-/// Indexed by object: true if sound reaches it through the bottom.
-std::vector<bool> buried_objects(const WriterContext& context) {
-    const SceneObjects& objects = context.assembly.objects;
-    const PingSettings& settings = context.sonar().settings;
-    std::vector<bool> out(objects.objects.size());
-    if (settings.buried) {
-        for (const std::uint32_t instance : settings.buried->instances)
-            out[objects.object_of(instance)] = true;
-    }
-    if (settings.particles) {
-        for (const Particle& particle : settings.particles->all) {
-            if (particle.buried) out[objects.object_of(particle.instance)] = true;
-        }
-    }
-    return out;
-}
-
 class ObjectsWriter final : public Writer {
   public:
     explicit ObjectsWriter(const WriterContext& context)
         : context_(context),
           view_(context.sonar().settings.view),
-          buried_(buried_objects(context)),
           boxes_(object_boxes(context.assembly)),
           moving_(moving_objects(context.assembly)) {}
 
@@ -108,7 +90,6 @@ class ObjectsWriter final : public Writer {
                      {"level_around", number_or_null(seen.surrounding_level)},
                      {"range_m", seen.range_m},
                      {"azimuth_rad", number_or_null(seen.azimuth_rad)}};
-        if (buried_[seen.id - 1]) json["buried"] = true;
         json["seen_box_sensor_m"] = seen_box_json(seen.box_sensor_m);
         const Pose& T_world_sensor = finished.traced.T_world_sensor;
         if (const std::optional<MovingObject>& moving = moving_[seen.id - 1]) {
@@ -164,7 +145,6 @@ class ObjectsWriter final : public Writer {
 
     WriterContext context_;
     const View& view_;
-    std::vector<bool> buried_;                         ///< indexed by object
     std::vector<Eigen::AlignedBox3d> boxes_;           ///< indexed by object, world frame
     std::vector<std::optional<MovingObject>> moving_;  ///< indexed by object
 };

@@ -10,7 +10,6 @@
 
 #include "core/text.h"
 #include "visibility/caster.h"
-#include "visibility/coverage.h"
 #include "visibility/image_change.h"
 #include "visibility/intersect.h"
 #include "visibility/octree/goal_check.h"
@@ -40,17 +39,12 @@ bool same_pose(const Pose& a, const Pose& b) {
 
 /// The parts that an engine shares with the engines of its prepared().
 struct OctreeParts {
-    OctreeParts(const Scene& of_scene, const OctreeOptions& with, bool covered)
-        : scene(of_scene),
-          options(with),
-          caster(scene),
-          coverage(scene, covered),
-          tree(scene, caster, options) {}
+    OctreeParts(const Scene& of_scene, const OctreeOptions& with)
+        : scene(of_scene), options(with), caster(scene), tree(scene, caster, options) {}
 
     const Scene& scene;
     OctreeOptions options;
     Caster caster;
-    SceneCoverage coverage;
     std::mutex preparing;  ///< guards changes of the tree and of the goal check; pings only read
     Octree tree;
     GoalCheck goal_check;
@@ -81,11 +75,6 @@ class OctreeEngineWithPings final : public OctreeEngine {
         intersect_rays(parts_->caster, parts_->scene.origin, T_world_sensor, rays, intersections);
     }
 
-    std::vector<std::uint8_t> covered_bins(const View& view,
-                                           const Pose& T_world_sensor) const override {
-        return parts_->coverage.bins(view, T_world_sensor);
-    }
-
     std::vector<std::string> warnings() const override {
         const std::scoped_lock alone(parts_->preparing);
         std::vector<std::string> all = parts_->goal_check.warnings(parts_->options.leaf_m);
@@ -109,7 +98,7 @@ class OctreeEngineWithPings final : public OctreeEngine {
 
   private:
     ReadyPing ready(const Sight& sight) const {
-        auto& [scene, options, caster, coverage, preparing, tree, goal_check] = *parts_;
+        auto& [scene, options, caster, preparing, tree, goal_check] = *parts_;
         const Pose T_local_sensor{sight.T_world_sensor.rotation,
                                   sight.T_world_sensor.translation - scene.origin};
         const LeafSize leaf_size(sight.view, options.leaf_m);
@@ -141,10 +130,9 @@ class OctreeEngineWithPings final : public OctreeEngine {
 
 }  // namespace
 
-std::unique_ptr<OctreeEngine> make_octree_engine(const Scene& scene, const OctreeOptions& options,
-                                                 bool coverage) {
-    return std::make_unique<OctreeEngineWithPings>(
-        std::make_shared<OctreeParts>(scene, options, coverage), std::vector<ReadyPing>{});
+std::unique_ptr<OctreeEngine> make_octree_engine(const Scene& scene, const OctreeOptions& options) {
+    return std::make_unique<OctreeEngineWithPings>(std::make_shared<OctreeParts>(scene, options),
+                                                   std::vector<ReadyPing>{});
 }
 
 }  // namespace sonarsim

@@ -15,9 +15,8 @@ class OctreeEngine : public VisibilityEngine {
     virtual OctreeStatistics statistics() const = 0;
 };
 
-/// Makes the engine; `scene` must outlive it. `coverage`: covered_bins() will be called. Throws
-/// InputError when `leaf_m` is negative or so small that the scene is more than 2^30 leaves long.
-std::unique_ptr<OctreeEngine> make_octree_engine(const Scene& scene, const OctreeOptions& options,
-                                                 bool coverage = false);
+/// Makes the engine; `scene` must outlive it. Throws InputError when `leaf_m` is negative or so
+/// small that the scene is more than 2^30 leaves long.
+std::unique_ptr<OctreeEngine> make_octree_engine(const Scene& scene, const OctreeOptions& options);
 
 }  // namespace sonarsim

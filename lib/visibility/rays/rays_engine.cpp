@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "visibility/caster.h"
-#include "visibility/coverage.h"
 #include "visibility/intersect.h"
 #include "visibility/local_pose.h"
 #include "visibility/rays/bent_rays.h"
@@ -43,12 +42,11 @@ struct LazyFineSurface {
 
 class RaysEngine final : public VisibilityEngine {
   public:
-    RaysEngine(const Scene& scene, Caster caster, SceneCoverage coverage,
-               std::span<const Pose> T_world_body, const RaysExcess& excess,
+    RaysEngine(const Scene& scene, Caster caster, std::span<const Pose> T_world_body,
+               const RaysExcess& excess,
                std::shared_ptr<LazyFineSurface> fine = std::make_shared<LazyFineSurface>())
         : scene_(&scene),
           caster_(std::move(caster)),
-          coverage_(std::move(coverage)),
           T_world_body_(T_world_body.begin(), T_world_body.end()),
           excess_(excess),
           fine_(std::move(fine)) {}
@@ -100,18 +98,12 @@ class RaysEngine final : public VisibilityEngine {
                             intersections);
     }
 
-    std::vector<std::uint8_t> covered_bins(const View& view,
-                                           const Pose& T_world_sensor) const override {
-        if (scene_->sound_profile) return {};
-        return coverage_.bins(view, T_world_sensor, T_world_body_);
-    }
-
     std::unique_ptr<VisibilityEngine> at(std::span<const Pose> T_world_body) const override {
         std::vector<Pose> T_local_body(T_world_body.begin(), T_world_body.end());
         for (Pose& pose : T_local_body)
             pose.translation -= scene_->origin;
-        return std::make_unique<RaysEngine>(*scene_, caster_.moved(T_local_body), coverage_,
-                                            T_world_body, excess_, fine_);
+        return std::make_unique<RaysEngine>(*scene_, caster_.moved(T_local_body), T_world_body,
+                                            excess_, fine_);
     }
 
     std::span<const Pose> body_poses() const override { return T_world_body_; }
@@ -146,7 +138,6 @@ class RaysEngine final : public VisibilityEngine {
 
     const Scene* scene_;
     Caster caster_;
-    SceneCoverage coverage_;
     std::vector<Pose> T_world_body_;
     RaysExcess excess_;
     std::shared_ptr<LazyFineSurface> fine_;
@@ -154,14 +145,13 @@ class RaysEngine final : public VisibilityEngine {
 
 }  // namespace
 
-std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene, bool coverage) {
-    return make_rays_engine(scene, Caster(scene), coverage);
+std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene) {
+    return make_rays_engine(scene, Caster(scene));
 }
 
 std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene, const Caster& caster,
-                                                   bool coverage, const RaysExcess& excess) {
-    return std::make_unique<RaysEngine>(scene, caster, SceneCoverage(scene, coverage),
-                                        std::span<const Pose>(), excess);
+                                                   const RaysExcess& excess) {
+    return std::make_unique<RaysEngine>(scene, caster, std::span<const Pose>(), excess);
 }
 
 }  // namespace sonarsim

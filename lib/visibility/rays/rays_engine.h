@@ -8,10 +8,9 @@
 
 namespace sonarsim {
 
-/// The ray tracing engine, based on Embree. `scene` must outlive it. `coverage`: covered_bins()
-/// will be called, so its data are made now. Throws std::runtime_error when Embree cannot build its
-/// tree (out of memory).
-std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene, bool coverage = false);
+/// The ray tracing engine, based on Embree. `scene` must outlive it. Throws
+/// std::runtime_error when Embree cannot build its tree (out of memory).
+std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene);
 /// Factors on the number of rays of a goal.
 struct RaysExcess {
     /// n: a goal that is n times as fine, and n times as many columns. The rays of a goal sample
@@ -26,6 +25,6 @@ struct RaysExcess {
 
 /// The same with a caster over the scene, whose trees engines may share.
 std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene, const Caster& caster,
-                                                   bool coverage, const RaysExcess& excess = {});
+                                                   const RaysExcess& excess = {});
 
 }  // namespace sonarsim

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "visibility/caster.h"
-#include "visibility/coverage.h"
 #include "visibility/intersect.h"
 #include "visibility/local_pose.h"
 #include "visibility/slices/beam_check.h"
@@ -46,12 +45,10 @@ constexpr int times_the_slices = 4;
 
 class SlicesEngine final : public VisibilityEngine {
   public:
-    SlicesEngine(const Scene& scene, const Caster& caster, const SlicesOptions& options,
-                 bool coverage)
+    SlicesEngine(const Scene& scene, const Caster& caster, const SlicesOptions& options)
         : scene_(&scene),
           options_(options),
           caster_(caster),
-          coverage_(scene, coverage),
           mesh_(std::make_shared<const ClusterMesh>(make_clusters(scene))) {}
 
     SlicesEngine(const SlicesEngine& other, bool image_by_points) : SlicesEngine(other) {
@@ -83,11 +80,6 @@ class SlicesEngine final : public VisibilityEngine {
     void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
                    std::span<Intersection> intersections) const override {
         intersect_rays(caster_, scene_->origin, T_world_sensor, rays, intersections);
-    }
-
-    std::vector<std::uint8_t> covered_bins(const View& view,
-                                           const Pose& T_world_sensor) const override {
-        return coverage_.bins(view, T_world_sensor);
     }
 
   private:
@@ -158,20 +150,19 @@ class SlicesEngine final : public VisibilityEngine {
     const Scene* scene_;
     SlicesOptions options_;
     Caster caster_;
-    SceneCoverage coverage_;
     std::shared_ptr<const ClusterMesh> mesh_;
 };
 
 }  // namespace
 
 std::unique_ptr<VisibilityEngine> make_slices_engine(const Scene& scene,
-                                                     const SlicesOptions& options, bool coverage) {
-    return make_slices_engine(scene, Caster(scene), options, coverage);
+                                                     const SlicesOptions& options) {
+    return make_slices_engine(scene, Caster(scene), options);
 }
 
 std::unique_ptr<VisibilityEngine> make_slices_engine(const Scene& scene, const Caster& caster,
-                                                     const SlicesOptions& options, bool coverage) {
-    return std::make_unique<SlicesEngine>(scene, caster, options, coverage);
+                                                     const SlicesOptions& options) {
+    return std::make_unique<SlicesEngine>(scene, caster, options);
 }
 
 std::unique_ptr<VisibilityEngine> without_points(const VisibilityEngine& slices) {

@@ -15,14 +15,12 @@ struct SlicesOptions {
 };
 
 /// The slices engine: half-planes through the sensor, exact along each. `scene` must outlive it.
-/// `coverage`: covered_bins() will be called, so its data are made now. Throws std::runtime_error
-/// when Embree, which traces the secondary rays, cannot build its tree.
+/// Throws std::runtime_error when Embree, which traces the secondary rays, cannot build its tree.
 std::unique_ptr<VisibilityEngine> make_slices_engine(const Scene& scene,
-                                                     const SlicesOptions& options,
-                                                     bool coverage = false);
+                                                     const SlicesOptions& options);
 /// The same with a caster over the scene, whose trees engines may share.
 std::unique_ptr<VisibilityEngine> make_slices_engine(const Scene& scene, const Caster& caster,
-                                                     const SlicesOptions& options, bool coverage);
+                                                     const SlicesOptions& options);
 
 /// An engine of make_slices_engine() without `image_by_points`. It shares what that engine holds.
 std::unique_ptr<VisibilityEngine> without_points(const VisibilityEngine& slices);

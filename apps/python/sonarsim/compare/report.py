@@ -12,7 +12,7 @@ RULES = (
     ("", "degrees: level", f"the material's scattering; {BEAM}width_deg; instrument.source_level_db"),
     ("", "degrees: variation", LOOKS),
     ("", "next ping", "instrument.speckle.mode, the trajectory's motion, " + RECEIVER + "noise_db"),
-    ("", " pings", f"{BEAM}width_deg, the speed of the trajectory, {RECEIVER}gain_drift_db"),
+    ("", " pings", f"{BEAM}width_deg, the speed of the trajectory"),
     ("", "ranges", PULSE),
     ("", "beams", BEAM + "width_deg, side_lobe_db, aberration_rad; azimuth_bins"),
     ("edges", "degrees", BEAM + "width_deg, aberration_rad"),

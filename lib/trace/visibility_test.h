@@ -10,25 +10,25 @@
 
 namespace sonarsim {
 
-/// Finds which points the sonar sees.
-class SeenPoints {
+/// Finds which points are visible to the sonar.
+class VisibilityTest {
   public:
-    /// Returns the number of the question.
-    std::size_t ask(const Eigen::Vector3d& point) {
+    /// Returns the number of the point.
+    std::size_t add(const Eigen::Vector3d& point) {
         const double range = arrival_range(point.cast<float>());
         rays_.push_back({Eigen::Vector3f::Zero(), (point / range).cast<float>()});
         ranges_.push_back(range);
         return rays_.size() - 1;
     }
 
-    void answer(const VisibilityEngine& engine, const Pose& T_world_sensor) {
+    void trace(const VisibilityEngine& engine, const Pose& T_world_sensor) {
         hits_.resize(rays_.size());
         engine.intersect(T_world_sensor, rays_, hits_);
     }
 
-    bool is_seen(std::size_t question) const {
-        const Intersection& hit = hits_[question];
-        return hit.distance_m >= (1.0 - hiding_share) * ranges_[question] - hit.rounding_m;
+    bool visible(std::size_t i) const {
+        const Intersection& hit = hits_[i];
+        return hit.distance_m >= (1.0 - hiding_share) * ranges_[i] - hit.rounding_m;
     }
 
   private:

@@ -27,7 +27,7 @@ class ImageFormer {
           beams_(beams),
           context_(context),
           scene_draws_(context.draws.of_scene(Stream::scatterers)),
-          clutter_draws_(context.draws.of_scene_in_all_looks(Stream::scatterers)),
+          clutter_draws_(context.draws.of_scene_all_looks(Stream::scatterers)),
           ping_draws_(context.draws.of(Stream::speckle)),
           sonar_{traced.T_world_sensor.rotation.toRotationMatrix().cast<float>(),
                  traced.T_world_sensor.translation - context.scene.origin},
@@ -46,7 +46,7 @@ class ImageFormer {
     /// Fills the image. Numbers in the comments are sections of docs/calibrated.md.
     void form(const TracedPing& traced) {
         EchoGrid grid(model_.equation.rows, columns_of(beams_));
-        const bool of_powers = speckle_ == SpeckleMode::none;
+        const bool expected_power = speckle_ == SpeckleMode::none;
 
         // 1. Sonar equation: surface in view, surface in the guard beams, multipath.
         if (context_.terms.direct) {
@@ -57,7 +57,7 @@ class ImageFormer {
                 add_water_surface(model_, beams_, traced.water_surface, context_, speckle_,
                                   speckle_gain_, ping_.counts, grid);
             }
-            if (of_powers) {
+            if (expected_power) {
                 add_target_powers(traced.targets, grid);
                 add_particle_powers(model_, beams_, traced.particles, ping_.counts, grid);
             }
@@ -66,58 +66,38 @@ class ImageFormer {
 
         // 2. Speckle. With `speckle: scene` the amplitudes of step 1 already have it.
         if (speckle_ == SpeckleMode::ping) draw_speckle(grid, speckle_gain_, ping_draws_);
-        if (context_.terms.direct && !of_powers) {
+        if (context_.terms.direct && !expected_power) {
             add_target_amplitudes(traced.targets, grid);
             add_particle_amplitudes(model_, beams_, traced.particles, context_.draws, ping_.counts,
                                     grid);
         }
         std::optional<EchoGrid> coherent;
         if (context_.terms.direct && traced.coherent.has_echoes()) {
-            if (of_powers) coherent.emplace(grid.rows(), grid.columns());
-            add_coherent(of_powers ? *coherent : grid);
+            if (expected_power) coherent.emplace(grid.rows(), grid.columns());
+            add_coherent(expected_power ? *coherent : grid);
         }
 
         // 5. The water's volume. Bins with its echo alone count as empty.
         const bool has_water = context_.terms.direct && model_.water;
         const std::size_t seen_bins = has_water ? grid.occupied() : 0;
         if (has_water)
-            add_water_column(model_, beams_, traced, context_, of_powers, speckle_gain_, grid);
+            add_water_column(model_, beams_, traced, context_, expected_power, speckle_gain_, grid);
 
         // 3. Pulse.
         const std::size_t echo_bins =
-            grid.convolve_pulse(of_powers ? model_.power_taps : model_.amplitude_taps);
+            grid.convolve_pulse(expected_power ? model_.power_taps : model_.amplitude_taps);
         ping_.counts.occupied_bins = has_water ? seen_bins : echo_bins;
         if (coherent) {
             ping_.counts.occupied_bins = std::max<std::uint64_t>(
                 ping_.counts.occupied_bins, coherent->convolve_pulse(model_.amplitude_taps));
         }
-        if (model_.pulse_floor.share > 0.0F) {
-            add_pulse_floor(model_.pulse_floor, of_powers ? PowerForm::power : PowerForm::amplitude,
-                            pulse_floor_gain(), context_.draws.of(stream_named("pulse floor")),
-                            coherent ? &*coherent : nullptr, grid);
-        }
         // 3, 4. Beams, the receiver's noise and its gain.
-        beamform(beams_, grid, of_powers, coherent ? &*coherent : nullptr,
+        beamform(beams_, grid, expected_power, coherent ? &*coherent : nullptr,
                  context_.terms.random > 1, context_.draws.of(Stream::receiver_noise),
                  model_.row_gain, ping_.intensity);
     }
 
   private:
-    /// The far side lobes are drawn in each column, after the pulse. The amplitudes of
-    /// `speckle: ping` were drawn in each column as well, and nearly all have the right power
-    /// there.
-    float pulse_floor_gain() const {
-        switch (speckle_) {
-            case SpeckleMode::none:
-                return split_gain(beams_);
-            case SpeckleMode::ping:
-                return 1.0F;
-            case SpeckleMode::scene:
-                break;
-        }
-        return split_gain(beams_) * scalloping_gain(beams_);
-    }
-
     /// Computes the echoes of a block of patches: levels, range bins and columns of the grid.
     void find(const PatchBlock& patches) {
         const SedimentScattering* const sediment = scattering_.sediment();
@@ -158,7 +138,7 @@ class ImageFormer {
         grid.add(energy);
     }
 
-    /// Adds the echoes of plates and strips.
+    /// Adds the echoes of plates.
     void add_coherent(EchoGrid& grid) {
         ping_.counts.out_of_range +=
             add_plate_amplitudes(beams_, plates_, model_.equation, model_.limits, grid);
@@ -231,9 +211,8 @@ class ImageFormer {
         std::vector<float> phase2;  // one for each facet
         if (!shares_.are_all_one()) {
             for (const TargetFacet& facet : targets.facets)
-                phase2.push_back(facet.buried ? IncoherentShares::incoherent
-                                              : shares_.phase2(facet.instance, facet.material,
-                                                               facet.corners[0], facet.normal));
+                phase2.push_back(
+                    shares_.phase2(facet.instance, facet.material, facet.corners[0], facet.normal));
         }
         TargetPieces pieces;
         cut_targets(targets.facets, limits, slopes_, pieces, [&](TargetPieces& cut) {
@@ -271,13 +250,11 @@ class ImageFormer {
     /// exact.
     void add_multipath(const TracedPing& traced, EchoGrid& grid) {
         const std::vector<SpecularPath> paths = specular_paths(traced, context_.scene);
-        if (paths.empty() && traced.retraced.samples.empty()) return;
+        if (paths.empty()) return;
         ping_.counts.echoes += 2 * paths.size();
         const auto add_to = [&](EchoGrid& powers) {
             ping_.counts.out_of_range += add_specular_powers(
                 beams_, paths, scattering_->materials, model_.equation, model_.limits, powers);
-            const std::vector<Sample>& retraced = traced.retraced.samples;
-            add_surface_powers(model_, beams_, retraced, *scattering_, ping_.counts, powers);
         };
         if (speckle_ != SpeckleMode::scene) return add_to(grid);
         EchoGrid specular(grid.rows(), grid.columns());

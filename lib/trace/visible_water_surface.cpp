@@ -1,4 +1,4 @@
-#include "trace/seen_water_surface.h"
+#include "trace/visible_water_surface.h"
 
 #include <algorithm>
 #include <array>
@@ -15,10 +15,10 @@ namespace {
 // much range is cut in four. These numbers are chosen. With them the area in a bin is right to 1 %
 // (water_surface_test.cpp).
 constexpr double first_cell_rad = radians(2.0);
-constexpr double least_cells = 16.0;
-constexpr float most_range_share = 1.0F / 8.0F;
+constexpr double min_cells = 16.0;
+constexpr float max_range_share = 1.0F / 8.0F;
 constexpr float most_bins = 64.0F;
-constexpr int most_cuts = 7;
+constexpr int max_cuts = 7;
 
 /// A rectangle of azimuth and elevation.
 struct Cell {
@@ -54,7 +54,7 @@ class SurfaceCutter {
             for (int i = 0; i < rows; ++i) {
                 add({(2 * j + 1 - columns) * half_azimuth, (2 * i + 1 - rows) * half_elevation,
                      half_azimuth, half_elevation},
-                    most_cuts);
+                    max_cuts);
             }
         }
         return std::move(samples_);
@@ -62,7 +62,7 @@ class SurfaceCutter {
 
   private:
     static int cells_over(double angle_rad) {
-        return static_cast<int>(std::ceil(std::max(least_cells, angle_rad / first_cell_rad)));
+        return static_cast<int>(std::ceil(std::max(min_cells, angle_rad / first_cell_rad)));
     }
 
     /// The range of the surface in a direction; infinite below the horizon.
@@ -82,7 +82,7 @@ class SurfaceCutter {
             }
         }
         if (!(nearest < reach_m_)) return;
-        const float most_m = std::min(most_range_share * nearest, depth_m_);
+        const float most_m = std::min(max_range_share * nearest, depth_m_);
         if (!(farthest - nearest > most_m)) return add_sample(cell);
         if (cuts == 0) {
             // A cell that reaches to twice its nearest range, or beyond, is at the horizon. Chosen.
@@ -121,7 +121,7 @@ class SurfaceCutter {
     bool is_in_view(const Eigen::Vector3f& place) const {
         if (all_around_) return true;
         if (field_.beam(place, place.norm()) < 0.0F) return false;
-        return !guarded_ || is_reached(view_, place);
+        return !guarded_ || in_array_cones(view_, place);
     }
 
     const WaterMirror& surface_;
@@ -134,10 +134,10 @@ class SurfaceCutter {
 
 }  // namespace
 
-std::vector<Sample> seen_water_surface(const WaterMirror& surface, const View& view,
-                                       const GuardBeams& guard_beams,
-                                       const VisibilityEngine& engine, const Pose& T_world_sensor,
-                                       const PingMotion& motion) {
+std::vector<Sample> visible_water_surface(const WaterMirror& surface, const View& view,
+                                          const GuardBeams& guard_beams,
+                                          const VisibilityEngine& engine,
+                                          const Pose& T_world_sensor, const PingMotion& motion) {
     std::vector<Sample> samples =
         SurfaceCutter(surface, view, guard_beams).cut(widened_view(view, guard_beams));
     std::vector<Ray> rays;

@@ -1,4 +1,4 @@
-#include "trace/seen_water_surface.h"
+#include "trace/visible_water_surface.h"
 
 #include <doctest/doctest.h>
 
@@ -35,7 +35,7 @@ double area_between(const Scene& scene, const View& view, const Pose& pose, doub
     const auto surface = mirror_of(WaterSurface{surface_m, 1.0F, 5.0}, pose);
     REQUIRE(surface);
     double sum = 0.0;
-    for (const Sample& sample : seen_water_surface(*surface, view, {}, *engine, pose, {})) {
+    for (const Sample& sample : visible_water_surface(*surface, view, {}, *engine, pose, {})) {
         const double range = sample.position.norm();
         CHECK(sample.height_m == test::approx(surface_m - pose.translation.z()));
         CHECK(-sample.normal.dot(sample.position) == test::approx(sample.height_m).epsilon(1e-3));
