@@ -46,6 +46,7 @@ done
 for order in "1 2 3" "1 3 2" "2 1 3" "2 3 1" "3 1 2" "3 2 1"; do
     read -r -a parts <<<"$order"
     "$program" merge "${parts[@]/#/$work/part}" "$work/merged" --quiet
+    render "$work/merged"
     report_sum "$work/merged" "3 shards, merged as $order"
     rm -r "$work/merged"
 done
@@ -72,13 +73,15 @@ for ((k = 1; k <= 3; ++k)); do
         SLURM_ARRAY_TASK_MAX=3 bash "$root/scripts/slurm/shard.sbatch" "$mission" "$work/slurm" \
         "${small[@]}" 2>/dev/null
 done
-SONARSIM=$program bash "$root/scripts/slurm/merge.sbatch" "$work/slurm" 3
+SONARSIM=$program bash "$root/scripts/slurm/merge.sbatch" 3 "$mission" "$work/slurm" \
+    "${small[@]}"
 report_sum "$work/slurm" "Slurm array of 3 tasks, its variables set by hand (a real one: tests/cli/test_clusters.py)"
 
 if command -v parallel >/dev/null; then
     parallel -j2 "$program" render "$mission" "${small[@]}" --quiet --threads 1 \
         --shard '{}/4' --out "$work/gnu{}" ::: 1 2 3 4
     "$program" merge "$work"/gnu{1,2,3,4} "$work/gnu" --quiet
+    render "$work/gnu"
     report_sum "$work/gnu" "GNU parallel, 4 shards"
 else
     echo "not tried: GNU parallel (apt-get install parallel)"
