@@ -41,11 +41,12 @@ bool is_locked(const fs::path& part) {
     return locked;
 }
 
-/// True if a run that is not of the same division in `shards` writes into the folder.
-bool others_write(const fs::path& folder, int shards) {
+/// True if a run that is not of the same division in `shards` writes into the folder;
+/// `own` is the part of this run.
+bool others_write(const fs::path& folder, const fs::path& own, int shards) {
     return std::ranges::any_of(journal_parts(folder), [&](const fs::path& part) {
         const bool same_division = shards > 1 && shard_of_part(part)->second == shards;
-        return !same_division && is_locked(part);
+        return !same_division && part != own && is_locked(part);
     });
 }
 
@@ -102,7 +103,7 @@ ShardLock::~ShardLock() {
 
 bool ShardLock::take(int shards) {
     make_folder(folder_);
-    if (others_write(folder_, shards)) return false;  // before a file is made
+    if (others_write(folder_, part_, shards)) return false;  // before a file is made
     if (::mkdir(part_.parent_path().c_str(), 0777) != 0 && errno != EEXIST)
         throw_errno("cannot write", part_);
     fd_ = ::open(part_.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
@@ -116,7 +117,7 @@ bool ShardLock::take(int shards) {
         ::close(std::exchange(fd_, -1));
         return false;
     }
-    if (!others_write(folder_, shards)) return true;
+    if (!others_write(folder_, part_, shards)) return true;
     release();
     return false;
 }

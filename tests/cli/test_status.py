@@ -15,7 +15,7 @@ class Status(Sandbox):
 
     def test_shards_one_after_the_other(self):
         self.assert_renders("--shard", "2/3")
-        self.assertEqual(self.status("out"), {"mission": "mission", "state": "interrupted",
+        self.assertEqual(self.status("out"), {"mission": "box", "state": "interrupted",
                                               "pings": {"done": 2, "all": 6}})
         # Another shard in a folder of its own: both together are reported.
         self.assert_renders("--shard", "1/3", "--out", "other")
