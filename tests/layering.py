@@ -42,10 +42,8 @@ for upper in ("dataset", "checks", "job", "validation", "benchmark", "preview"):
 PARTS = {
     "dataset": [["*"], ["writers/"], ["writers"], ["layout"], ["metadata"], ["dataset_file"],
                 ["description", "object_records"], ["encode_ping", "record_objects"]],
-    "job": [["*"], ["folder_lock"], ["journal"], ["checksums"], ["folder"], ["listed_files", "resume"],
-            ["ping_files"], ["ping_cost"], ["completion", "render_pings"],
-            ["run_job", "merge", "verify", "ping_source"],
-            ["variants"], ["status", "variants_check"]],
+    "job": [["*"], ["shard_lock"], ["journal"], ["folder", "ping_files"], ["ping_cost"], ["completion", "render_pings"],
+            ["run_job", "ping_source", "finished_variants"], ["variants"], ["merge", "status", "verify"]],
     "scene": [["*"], ["images/", "meshes/"], ["heightmap/", "maps/", "seabed/"], ["gltf/", "placing/"]],
     "visibility": [["*"], ["octree/", "rays/", "slices/"], ["dense_rays"], ["auto_engine"],
                    ["make_engine"]],

@@ -8,10 +8,8 @@
 #include <vector>
 
 #include "commands.h"
-#include "job/folder_lock.h"
-#include "job/variants.h"
+#include "job/shard_lock.h"
 #include "logging.h"
-#include "mission_options.h"
 #include "progress.h"
 #include "signals.h"
 
@@ -23,7 +21,6 @@ constexpr const char* goes_on = "the same command run again goes on from there";
 
 struct MergeArguments {
     std::vector<std::filesystem::path> folders;  ///< the parts, then the output
-    int threads = 0;
     LogOptions log;
 
     const std::filesystem::path& out() const { return folders.back(); }
@@ -36,26 +33,30 @@ int merge(const MergeArguments& arguments) {
     start_logging(arguments.log);
     const std::atomic<bool>& stop =
         stop_on_signal(warning_line(arguments.log, std::string("stopped at once; ") + goes_on));
-    const bool variants = read_variants(arguments.folders.front()).has_value();
     MergeSummary summary;
     {
-        ProgressLine line(arguments.log, variants ? "variants" : "pings");
-        const auto merge_all = variants ? merge_variants : merge_datasets;
-        summary =
-            merge_all(arguments.parts(), arguments.out(), arguments.threads, line.callback(), stop);
+        ProgressLine line(arguments.log, "datasets");
+        summary = merge_parts(arguments.parts(), arguments.out(), line.callback(), stop);
     }
     if (arguments.log.json) {
         fmt::print("{}", json_line({{"pings", summary.pings},
                                     {"skipped", summary.skipped},
+                                    {"missing", summary.missing},
                                     {"complete", summary.complete}}));
     }
     if (summary.unlocked) spdlog::warn("{}", sentence(no_locks_warning(arguments.out())));
-    if (!summary.complete) {
+    if (summary.stopped) {
         spdlog::warn("stopped after {} pings; {}", summary.pings, goes_on);
         return exit_signal + signal_received();
     }
-    spdlog::info("{}: complete; {}", arguments.out().string(),
-                 made_text(summary.pings, summary.skipped, "copied"));
+    const std::string made = made_text(summary.pings, summary.skipped, "copied");
+    const std::string out = arguments.out().string();
+    if (summary.complete) {
+        spdlog::info("{}: complete; {}", out, made);
+    } else {
+        spdlog::info("{}: {}, {} are missing; sonarsim render MISSION --out {} completes it", out,
+                     made, summary.missing, out);
+    }
     return exit_done;
 }
 
@@ -63,8 +64,10 @@ int merge(const MergeArguments& arguments) {
 
 void add_merge(CLI::App& app, int& exit_code) {
     CLI::App& command = *app.add_subcommand(
-        "merge", "Joins the shards of one mission that were rendered into folders of their own");
-    add_examples(command, {"sonarsim merge out/part1 out/part2 out/hull"});
+        "merge",
+        "Copies the shards of one mission into one folder, which sonarsim render then completes");
+    add_examples(command, {"sonarsim merge out/part1 out/part2 out/hull",
+                           "sonarsim render mission.yaml --out out/hull"});
     auto arguments = std::make_shared<MergeArguments>();
     command
         .add_option("folders", arguments->folders,
@@ -72,7 +75,6 @@ void add_merge(CLI::App& app, int& exit_code) {
         ->required()
         ->expected(2, 1'000'000)
         ->type_name("PART... OUT");
-    add_threads_option(command, arguments->threads);
     add_log_options(command, arguments->log);
     command.callback([arguments, &exit_code] { exit_code = merge(*arguments); });
 }

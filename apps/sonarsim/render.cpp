@@ -15,8 +15,8 @@
 #include "commands.h"
 #include "core/error.h"
 #include "dataset/layout.h"
-#include "job/folder_lock.h"
 #include "job/run_job.h"
+#include "job/shard_lock.h"
 #include "job/variants.h"
 #include "logging.h"
 #include "mission_options.h"
@@ -128,7 +128,7 @@ void log_outcome(const RenderSummary& summary, const Mission& mission, bool file
 }
 
 /// A dataset's own mission.resolved.yaml may be rendered again; overwriting would replace it.
-void spare_mission(const std::filesystem::path& file, const Mission& mission) {
+void refuse_overwriting_mission(const std::filesystem::path& file, const Mission& mission) {
     const std::filesystem::path written = mission.output.folder / mission_name;
     std::error_code absent;
     if (!std::filesystem::equivalent(written, file, absent)) return;
@@ -197,7 +197,7 @@ int render(RenderArguments arguments) {
     const std::atomic<bool>& stop = stop_on_signal(
         warning_line(arguments.log, std::string("stopped at once; ") + goes_on_from_there));
     const Mission mission = load(arguments.mission);
-    if (arguments.render.overwrite) spare_mission(arguments.mission.file, mission);
+    if (arguments.render.overwrite) refuse_overwriting_mission(arguments.mission.file, mission);
     const std::vector<Mission> variants = load_variants(arguments.mission, mission);
     auto [summary, warnings, after] = variants.empty()
                                           ? render_one(arguments, mission, stop)
@@ -237,8 +237,8 @@ void add_render(CLI::App& app, int& exit_code) {
             "Renders the I-th of N parts, counted from 1 (default: the task of a Slurm array)")
         ->type_name("I/N");
     command.add_flag("--overwrite", arguments->render.overwrite,
-                     "Replaces another dataset in the output folder: removes the files that its dataset.json "
-                     "lists, and keeps all others");
+                     "Replaces another dataset in the output folder: removes the folders of its "
+                     "sensors and the files of the dataset next to them, and keeps all others");
     command
         .add_option("--checkpoint", arguments->render.checkpoint_s,
                     "Seconds between checkpoints, the most that a power cut costs (default: 5)")

@@ -184,9 +184,8 @@ Findings find_out(const Mission& mission, const Assembly& assembly,
     const Layout layout = make_layout(mission, writers, poses);
     protect_inputs(layout, mission);
     const nlohmann::ordered_json description = describe_dataset(mission, assembly, layout, writers);
-    const FolderState state =
-        overwrite ? FolderState::fresh
-                  : inspect_folder(layout, description, resolved_text(mission, assembly));
+    const FolderState state = inspect_folder(layout.folder, description,
+                                             resolved_text(mission, assembly), overwrite);
     require_writable(layout.folder);
     Findings findings{mission,
                       assembly,

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "job/variants.h"
 #include "logging.h"
 #include "mission_options.h"
 #include "progress.h"
@@ -30,7 +29,6 @@ void print_result(const DatasetCheck& check) {
                        {"files", check.files},
                        {"bytes", check.bytes},
                        {"errors", check.errors},
-                       {"more_errors", check.more_errors},
                        {"unknown_files", check.unknown_files}};
     fmt::print("{}", json_line(json));
 }
@@ -40,18 +38,15 @@ int verify(const VerifyArguments& arguments) {
     const std::atomic<bool>& stop =
         stop_on_signal(warning_line(arguments.log, "stopped at once; nothing was changed"));
     const std::filesystem::path& folder = arguments.folder;
-    const bool variants = read_variants(folder).has_value();
     DatasetCheck check;
     {
-        ProgressLine line(arguments.log, variants ? "variants" : "files");
-        check = variants ? verify_variants(folder, arguments.threads, line.callback(), stop)
-                         : verify_dataset(folder, arguments.threads, line.callback(), stop);
+        ProgressLine line(arguments.log, "files");
+        check = verify_folder(folder, arguments.threads, line.callback(), stop);
     }
     for (const std::string& name : check.unknown_files)
-        spdlog::warn("{}: is no file of the dataset; it does no harm", name);
+        spdlog::warn("{}: is not a file of the dataset; it does no harm", name);
     for (const std::string& error : check.errors)
         spdlog::error("{}", error);
-    if (check.more_errors > 0) spdlog::error("and more errors, which are not listed");
     if (check.stopped) {
         spdlog::warn("stopped after {} files; nothing was changed", check.files);
         return exit_signal + signal_received();

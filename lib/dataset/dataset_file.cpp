@@ -1,16 +1,12 @@
 #include "dataset/dataset_file.h"
 
-#include <limits>
-#include <set>
+#include <algorithm>
 
 #include "core/error.h"
 #include "core/file.h"
-#include "dataset/checked_json.h"
-#include "dataset/file_names.h"
-#include "dataset/layout.h"
+#include "core/json_depth.h"
 #include "dataset/metadata.h"
 #include "mission/dataset_names.h"
-#include "mission/schema.h"
 #include "trajectory/interpolate.h"
 
 namespace sonarsim {
@@ -19,135 +15,110 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t largest_description = std::size_t{1} << 28;
-constexpr auto replace_bytes = Json::error_handler_t::replace;  ///< bytes that are no text
-constexpr std::uint64_t any_count = std::numeric_limits<std::uint32_t>::max();
+constexpr const char* cure = "; copy the dataset again, or render it anew";
 
-std::string plain_name(const CheckedJson& value) {
-    std::string name = value.text();
-    if (!is_plain_name(name)) value.refuse("a name of letters, digits, '_', '-' and '.'");
-    return name;
+/// InputError with what is wrong with a dataset.json.
+[[noreturn]] void refuse(const std::string& file, const std::string& what) {
+    throw InputError({file}, what + cure);
 }
 
-/// The path of a file, or with `pattern` of a file for each ping, in the folder of a sensor.
-std::string path_in(const CheckedJson& value, const std::string& folder, bool pattern) {
-    std::string path = value.text();
-    const bool sound = pattern ? is_pattern(path) : is_inner_path(path);
-    if (!sound || !path.starts_with(folder + "/")) {
-        value.refuse("the path of a file in '" + folder + "/'" +
-                     (pattern ? " with one number as '%06d'" : ""));
-    }
+/// True if the text is one or more plain names with '/' between them.
+bool is_inner_path(std::string_view text) {
+    constexpr std::size_t longest = 1024;  // more than enough for three names
+    const std::size_t end = text.find('/');
+    return text.size() <= longest && is_plain_name(text.substr(0, end)) &&
+           (end == std::string_view::npos || is_inner_path(text.substr(end + 1)));
+}
+
+/// True if the text has "%06d", with any digit in place of the 6, once.
+bool has_number(const std::string& text) {
+    const std::size_t at = text.find('%');
+    return at != std::string::npos && text.size() >= at + 4 && text[at + 1] == '0' &&
+           text[at + 2] >= '1' && text[at + 2] <= '9' && text[at + 3] == 'd';
+}
+
+std::string path_in(const Json& value, const std::string& folder, const std::string& file) {
+    auto path = value.get<std::string>();
+    if (!path.starts_with(folder + "/") || !is_inner_path(path))
+        refuse(file, "has '" + path + "', which is not the path of a file in '" + folder + "/'");
     return path;
 }
 
-NamedTexts read_patterns(const CheckedJson& files, const std::string& folder) {
-    NamedTexts patterns;
-    for (const auto& [kind, pattern] : files.members()) {
-        if (!is_plain_name(kind)) pattern.refuse("under a name of letters, digits, '_' and '-'");
-        patterns.emplace_back(kind, path_in(pattern, folder, true));
-    }
-    return patterns;
+std::string pattern_in(const Json& value, const std::string& folder, const std::string& file) {
+    auto pattern = value.get<std::string>();
+    if (!has_number(pattern)) refuse(file, "has '" + pattern + "' without a number as '%06d'");
+    path_in(numbered(pattern, 0), folder, file);
+    return pattern;
 }
 
-/// The number of bins between the edges.
-std::uint64_t read_bins(const CheckedJson& edges) {
-    const std::vector<CheckedJson> all = edges.items();
-    for (const CheckedJson& edge : all)
-        edge.number();
-    if (all.size() < 2) edges.refuse("an array of two edges or more");
-    return all.size() - 1;
-}
-
-std::vector<std::string> read_products(const CheckedJson& json, const std::string& folder) {
-    std::vector<std::string> products;
-    const std::optional<CheckedJson> list = json.find("products");
-    if (!list) return products;
-    for (const CheckedJson& product : list->items()) {
-        if (!folder.empty()) {
-            products.push_back(path_in(product, folder, false));
-            continue;
-        }
-        products.push_back(product.text());
-        const std::string& path = products.back();
-        if (path != navigation_name && (!path.starts_with("seabed/") || !is_inner_path(path)))
-            product.refuse("navigation.tum or the path of a file in 'seabed/'");
-    }
-    return products;
-}
-
-DescribedSensor read_sensor(const CheckedJson& json, std::uint64_t poses) {
+DescribedSensor read_sensor(const Json& json, std::uint64_t poses, const std::string& file) {
     DescribedSensor sensor;
-    sensor.name = plain_name(json.at("name"));
-    json.at("kind").text();
-    sensor.every = json.at("every").whole(1, any_count);
-    const std::uint64_t pings = (poses + sensor.every - 1) / sensor.every;
-    sensor.pings = json.at("pings").whole(pings, pings);
-    const CheckedJson full_scale = json.at("full_scale");
-    sensor.full_scale = full_scale.number();
-    if (sensor.full_scale < 0.0) full_scale.refuse("a number not below 0");
-    sensor.files = read_patterns(json.at("files"), sensor.name);
-    if (const auto records = json.find("records"))
-        sensor.records = path_in(records->at("file"), sensor.name, false);
-    if (const auto labels = json.find("label_records")) {
-        for (const auto& [label, record] : labels->members()) {
-            if (!is_plain_name(label)) record.refuse("under a name of letters, digits and '_'");
-            sensor.label_records.emplace_back(label,
-                                              path_in(record.at("file"), sensor.name, false));
-        }
-    }
-    sensor.products = read_products(json, sensor.name);
-    sensor.range_bins = read_bins(json.at("range_edges_m"));
-    if (const auto edges = json.find("azimuth_edges_rad")) sensor.azimuth_bins = read_bins(*edges);
+    sensor.name = json.at("name").get<std::string>();
+    if (!is_plain_name(sensor.name))
+        refuse(file, "has a sensor '" + sensor.name + "', which is not the name of a folder");
+    sensor.every = std::max(json.at("every").get<std::uint32_t>(), 1U);
+    sensor.pings = json.at("pings").get<std::uint64_t>();
+    if (sensor.pings != (poses + sensor.every - 1) / sensor.every)
+        refuse(file, "has another number of pings of '" + sensor.name + "' than of poses");
+    for (const Json& pattern : json.at("files"))
+        sensor.files.push_back(pattern_in(pattern, sensor.name, file));
+    if (json.contains("records"))
+        sensor.records.push_back(path_in(json["records"].at("file"), sensor.name, file));
+    for (const Json& label : json.value("label_records", Json::object()))
+        sensor.records.push_back(path_in(label.at("file"), sensor.name, file));
+    for (const Json& product : json.value("products", Json::array()))
+        sensor.products.push_back(path_in(product, sensor.name, file));
     return sensor;
-}
-
-void check_version(const CheckedJson& json, const std::string& file) {
-    const CheckedJson format = json.at("format");
-    if (format.text() != dataset_format) format.refuse(dataset_format);
-    const Json version = json.at("format_version").json();
-    if (version == dataset_format_version) return;
-    throw InputError({file}, "has format_version " + version.dump(-1, ' ', true, replace_bytes) +
-                                 ", and this program knows " +
-                                 std::to_string(dataset_format_version) +
-                                 "; use the version that made the dataset");
 }
 
 }  // namespace
 
+Json read_json(const std::filesystem::path& path) {
+    constexpr std::size_t largest = std::size_t{1} << 28;
+    constexpr int deepest = 64;
+    const std::string text = read_file(path, largest);
+    if (is_nested_deeper(text, deepest)) refuse(path.string(), "is nested more than 64 deep");
+    Json json = Json::parse(text, nullptr, false);
+    if (json.is_discarded()) refuse(path.string(), "is not JSON");
+    return json;
+}
+
 std::optional<Json> read_description(const std::filesystem::path& folder) {
-    const std::string text = read_file(folder / description_name, largest_description);
+    const std::filesystem::path file = folder / description_name;
+    if (!std::filesystem::is_regular_file(file)) read_file(file, 0);  // says what it is
     try {
-        Json json = parse_json(text, description_name);
-        const bool ours = json.is_object() && json.value("format", Json()) == dataset_format;
-        if (ours) return json;
+        Json json = read_json(file);
+        if (json.is_object() && json.value("format", Json()) == dataset_format) return json;
     } catch (const InputError&) {  // NOLINT(bugprone-empty-catch): not ours
     }
     return std::nullopt;
 }
 
-DatasetFile check_description(Json json, const std::string& file) {
-    const CheckedJson root(json, file);
-    check_version(root, file);
-    DatasetFile dataset;
-    root.at("program_version").text();
-    dataset.complete = root.at("complete").flag();
-    dataset.mission = root.at("mission").text();
-    const bool fit =
-        is_folder_name(dataset.mission) && dataset.mission.find('\0') == std::string::npos;
-    if (!fit) root.at("mission").refuse("fit for the name of one folder");
-    dataset.mission_hash = root.at("mission_hash").text();
-    dataset.inputs_hash = root.at("inputs_hash").text();
-    dataset.seed = root.at("seed").whole(0, std::numeric_limits<std::uint64_t>::max());
-    dataset.poses = root.at("poses").whole(1, most_poses);
-    std::set<std::string> names;
-    for (const CheckedJson& sensor : root.at("sensors").items()) {
-        dataset.sensors.push_back(read_sensor(sensor, dataset.poses));
-        if (!names.insert(dataset.sensors.back().name).second)
-            sensor.at("name").refuse("another name than those of the other sensors");
+DatasetFile parse_description(Json json, const std::string& file) try {
+    const Json version = json.at("format_version");
+    if (version != dataset_format_version) {
+        throw InputError({file}, "has format_version " + version.dump() +
+                                     ", and this program knows " +
+                                     std::to_string(dataset_format_version) +
+                                     "; use the version that made the dataset");
     }
-    dataset.products = read_products(root, {});
+    DatasetFile dataset;
+    dataset.complete = json.at("complete").get<bool>();
+    dataset.mission = json.at("mission").get<std::string>();
+    dataset.poses = json.at("poses").get<std::uint64_t>();
+    if (dataset.poses > most_poses) refuse(file, "has more than ten million poses");
+    for (const Json& sensor : json.at("sensors"))
+        dataset.sensors.push_back(read_sensor(sensor, dataset.poses, file));
+    for (const Json& product : json.value("products", Json::array())) {
+        const bool fits = product == navigation_name;
+        dataset.products.push_back(fits ? navigation_name
+                                        : path_in(product, seabed_folder_name, file));
+    }
     dataset.json = std::move(json);
     return dataset;
+} catch (const Json::exception& fault) {
+    const std::string what = fault.what();  // "[json.exception.type_error.302] type must be ..."
+    refuse(file, "is damaged: " + what.substr(std::min(what.size(), what.find("] ") + 2)));
 }
 
 DatasetFile require_dataset(const std::filesystem::path& folder) {
@@ -157,17 +128,49 @@ DatasetFile require_dataset(const std::filesystem::path& folder) {
         throw InputError(
             {folder.string()},
             !std::filesystem::exists(folder)
-                ? "is no dataset: there is no such folder; give the output folder of a render"
+                ? "is not a dataset: there is no such folder; give the output folder of a render"
             : std::filesystem::is_regular_file(above / description_name)
-                ? "is no dataset, but a folder of one; give the folder above"
-                : "is no dataset: it has no dataset.json; give the output folder of a render");
+                ? "is not a dataset, but a folder of one; give the folder above"
+                : "is not a dataset: it has no dataset.json; give the output folder of a render");
     }
     std::optional<Json> json = read_description(folder);
     if (!json) {
         throw InputError({file.string()},
                          "is not sonarsim's, or damaged; give the output folder of a render");
     }
-    return check_description(*std::move(json), file.string());
+    return parse_description(*std::move(json), file.string());
+}
+
+std::string numbered(const std::string& pattern, std::uint64_t number) {
+    const std::size_t at = pattern.find('%');
+    std::string digits = std::to_string(number);
+    const auto width = static_cast<std::size_t>(pattern.at(at + 2) - '0');
+    digits.insert(0, std::max(width, digits.size()) - digits.size(), '0');
+    return std::string(pattern).replace(at, 4, digits);
+}
+
+std::vector<std::string> list_files(const DatasetFile& dataset) {
+    std::vector<std::string> names{description_name, mission_name, trajectory_name, journal_name};
+    const auto add = [&](const std::vector<std::string>& more) {
+        names.insert(names.end(), more.begin(), more.end());
+    };
+    for (const DescribedSensor& sensor : dataset.sensors) {
+        for (const std::string& pattern : sensor.files) {
+            for (std::uint64_t ping = 0; ping < sensor.pings; ++ping)
+                names.push_back(numbered(pattern, ping * sensor.every));
+        }
+        add(sensor.records);
+        add(sensor.products);
+    }
+    add(dataset.products);
+    return names;
+}
+
+bool is_plain_name(std::string_view text) {
+    constexpr std::string_view allowed =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+.";
+    return !text.empty() && text.front() != '.' &&
+           text.find_first_not_of(allowed) == std::string_view::npos;
 }
 
 }  // namespace sonarsim

@@ -5,53 +5,56 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 namespace sonarsim {
 
-/// Texts by name, in the order of the file.
-using NamedTexts = std::vector<std::pair<std::string, std::string>>;
-
-/// A sensor as dataset.json describes it. Every path is relative to the folder of the dataset and
-/// lies in the folder of the sensor.
+/// A sensor as dataset.json describes it. Paths are relative to the folder of the dataset and lie in
+/// the folder of the sensor.
 struct DescribedSensor {
     std::string name;
-    std::uint64_t every = 1;  ///< pings at every n-th pose
+    std::uint32_t every = 1;  ///< pings at every n-th pose
     std::uint64_t pings = 0;
-    double full_scale = 0.0;
-    NamedTexts files;  ///< patterns by kind: "polar", ...
-    std::optional<std::string> records;
-    NamedTexts label_records;  ///< files by label
+    std::vector<std::string> files;  ///< patterns of a file per ping: "fls/polar/%06d.npy"
+    std::vector<std::string> records;
     std::vector<std::string> products;
-    std::uint64_t range_bins = 0;
-    std::uint64_t azimuth_bins = 0;  ///< 0 where the kind has none
 };
 
-/// A dataset.json whose keys were checked.
+/// A dataset.json.
 struct DatasetFile {              // NOLINT(bugprone-exception-escape): moving JSON throws nothing
     nlohmann::ordered_json json;  ///< all of it
     bool complete = false;
-    std::string mission;  ///< fit for the name of a folder
-    std::string mission_hash;
-    std::string inputs_hash;
-    std::uint64_t seed = 0;
+    std::string mission;
     std::uint64_t poses = 0;
     std::vector<DescribedSensor> sensors;
     std::vector<std::string> products;  ///< products of all sensors together
 };
 
+/// The JSON of a file of a dataset. InputError when it cannot be read, is longer than a quarter of a
+/// gigabyte, is not JSON or is nested more than 64 deep.
+nlohmann::ordered_json read_json(const std::filesystem::path& path);
+
 /// The dataset.json of a folder, its keys not checked; nothing if it is not sonarsim's.
 /// InputError when it cannot be read.
 std::optional<nlohmann::ordered_json> read_description(const std::filesystem::path& folder);
 
-/// The one reader of dataset.json. `file` is for the messages. InputError, with the key and what it
-/// must be, when it is of another version of the format, when a key is missing or of
-/// another type, when a number is out of range, when a name is not plain (see dataset/file_names.h)
-/// and when a path leaves the folder of its sensor.
-DatasetFile check_description(nlohmann::ordered_json json, const std::string& file);
+/// The one reader of dataset.json; `file` is for the messages. InputError when it is of another
+/// version of the format, when a key is missing or of another type, and when a path is not that of
+/// a file in the folder of its sensor.
+DatasetFile parse_description(nlohmann::ordered_json json, const std::string& file);
 
 /// The dataset.json of a folder that must hold a dataset: else InputError.
 DatasetFile require_dataset(const std::filesystem::path& folder);
+
+/// "fls/polar/%06d.npy" with the number of a ping's pose in it.
+std::string numbered(const std::string& pattern, std::uint64_t number);
+
+/// The files that dataset.json lists, and the common ones, without SHA256SUMS.
+std::vector<std::string> list_files(const DatasetFile& dataset);
+
+/// True if the text is the name of a file or folder that lies in another one directly: letters of
+/// ASCII, digits, '_', '-', '+' and '.', the first one not a '.'.
+bool is_plain_name(std::string_view text);
 
 }  // namespace sonarsim

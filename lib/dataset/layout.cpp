@@ -1,7 +1,6 @@
 #include "dataset/layout.h"
 
 #include <algorithm>
-#include <fstream>
 
 #include "core/text.h"
 #include "dataset/shared_products.h"
@@ -117,21 +116,6 @@ std::vector<PingId> list_pings(const Mission& mission, std::size_t poses) {
 
 int shard_of(std::size_t index, int shards) {
     return static_cast<int>(index % static_cast<std::size_t>(shards));
-}
-
-bool has_gallery(const std::filesystem::path& folder) {
-    std::error_code absent;
-    const std::filesystem::path file = folder / gallery_name;
-    if (std::filesystem::symlink_status(file, absent).type() != std::filesystem::file_type::regular)
-        return false;
-    constexpr std::size_t head_bytes = 1000;
-    std::string head(head_bytes, '\0');
-    std::ifstream(file, std::ios::binary).read(head.data(), head_bytes);
-    return head.find(gallery_mark) != std::string::npos;
-}
-
-void remove_gallery(const std::filesystem::path& folder) {
-    if (has_gallery(folder)) std::filesystem::remove(folder / gallery_name);
 }
 
 }  // namespace sonarsim

@@ -76,18 +76,4 @@ std::vector<PingId> list_pings(const Mission& mission, std::size_t poses);
 /// The shard, counted from 0, that renders the ping with this index in list_pings().
 int shard_of(std::size_t index, int shards);
 
-// The page that `sonarsim gallery` puts next to the files of a dataset. It is no part of the
-// dataset: dataset.json and SHA256SUMS do not list it, and a run that replaces the dataset removes
-// it.
-
-/// A line of every such page, by which it is recognised.
-inline constexpr std::string_view gallery_mark =
-    R"(<meta name="generator" content="sonarsim gallery">)";
-
-/// True if the folder holds an index.html that is a gallery. No link is followed.
-bool has_gallery(const std::filesystem::path& folder);
-
-/// Removes the page, if the folder has a page of sonarsim's.
-void remove_gallery(const std::filesystem::path& folder);
-
 }  // namespace sonarsim

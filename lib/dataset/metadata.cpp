@@ -41,14 +41,6 @@ Json describe_scene_use(const Scene& scene) {
     return json;
 }
 
-Json describe_build() {
-    const BuildInfo build = build_info();
-    return {{"compiler", build.compiler},
-            {"flags", build.flags},
-            {"arithmetic", build.arithmetic},
-            {"png_encoder", png_encoder()}};
-}
-
 /// Describes the picture of a file of a ping, for people; null if the file is no picture.
 Json describe_picture(const PingFile& file, const Json& pattern) {
     if (file.title.empty() || pattern.is_null()) return nullptr;
@@ -141,19 +133,21 @@ Json describe_dataset(const Mission& mission, const Assembly& assembly, const La
         json["labels"] = describe_label_ids(assembly);
         json["labels"]["annotations"] = describe_annotations(assembly.objects);
     }
-    json["sensors"] = describe_sensors(assembly, layout, writers);
+    json["sensors"] = Json::array();
+    for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {
+        json["sensors"].push_back(describe_sensor(assembly.sonars[i], assembly.full_scales[i],
+                                                  layout, layout.sensors[i], writers[i]));
+    }
     if (!layout.products.empty()) json["products"] = layout.products;
     return json;
 }
 
-Json describe_sensors(const Assembly& assembly, const Layout& layout,
-                      const std::vector<Writers>& writers) {
-    Json sensors = Json::array();
-    for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {
-        sensors.push_back(describe_sensor(assembly.sonars[i], assembly.full_scales[i], layout,
-                                          layout.sensors[i], writers[i]));
-    }
-    return sensors;
+Json describe_build() {
+    const BuildInfo build = build_info();
+    return {{"compiler", build.compiler},
+            {"flags", build.flags},
+            {"arithmetic", build.arithmetic},
+            {"png_encoder", png_encoder()}};
 }
 
 std::string resolved_text(const Mission& mission, const Assembly& assembly) {

@@ -18,9 +18,8 @@ inline constexpr int dataset_format_version = 3;
 nlohmann::ordered_json describe_dataset(const Mission& mission, const Assembly& assembly,
                                         const Layout& layout, const std::vector<Writers>& writers);
 
-/// The block `sensors` of dataset.json. Only the full scales in it depend on the scene.
-nlohmann::ordered_json describe_sensors(const Assembly& assembly, const Layout& layout,
-                                        const std::vector<Writers>& writers);
+/// The block `build` of dataset.json: this program.
+nlohmann::ordered_json describe_build();
 
 /// mission.resolved.yaml: the mission with paths that start at the folder of the scene file, and
 /// the SHA-256 of what it read in comments. The same wherever mission and dataset lie.

@@ -40,7 +40,7 @@ std::string hash_of_record(std::string_view bytes) {
 }
 
 RecordFile::RecordFile(const std::filesystem::path& path, const NpyFormat& format,
-                       std::size_t records, RecordAccess access, KeepOpen keep)
+                       std::size_t records, RecordAccess access)
     : path_(path), records_(records), record_bytes_(format.type.back() - '0'), access_(access) {
     for (const std::size_t length : format.shape)
         record_bytes_ *= length;
@@ -58,14 +58,6 @@ RecordFile::RecordFile(const std::filesystem::path& path, const NpyFormat& forma
         ::close(fd_);
         throw;
     }
-    struct stat status {};
-    if (::fstat(fd_, &status) != 0) {
-        ::close(fd_);
-        throw_errno("cannot read", path);
-    }
-    device_ = status.st_dev;
-    inode_ = status.st_ino;
-    if (keep == KeepOpen::no) close();
 }
 
 /// Makes the open file one of this format and length.
@@ -89,50 +81,21 @@ RecordFile::~RecordFile() {
     if (fd_ >= 0) ::close(fd_);
 }
 
-void RecordFile::require_in_place() const {
-    struct stat named {};
-    if (::lstat(path_.c_str(), &named) == 0 && named.st_dev == device_ && named.st_ino == inode_)
-        return;
-    throw std::runtime_error(path_.string() +
-                             " was removed or replaced during the run; the same command run again "
-                             "renders what is missing");
-}
-
 void RecordFile::close() {
     if (fd_ >= 0 && ::close(std::exchange(fd_, -1)) != 0) throw_errno("cannot write", path_);
-}
-
-int RecordFile::reopen() const {
-    require_in_place();
-    const bool writes = access_ == RecordAccess::write;
-    const int fd = ::open(path_.c_str(), (writes ? O_RDWR : O_RDONLY) | O_CLOEXEC | O_NOFOLLOW);
-    if (fd < 0) throw_errno("cannot open", path_);
-    return fd;
-}
-
-template <class Use>
-void RecordFile::with_file(const char* what, const Use& use) const {
-    const int fd = fd_ >= 0 ? fd_ : reopen();
-    const bool done = use(fd);
-    const int reason = errno;
-    const bool closed = fd == fd_ || ::close(fd) == 0;
-    if (!done) errno = reason;
-    if (!done || !closed) throw_errno(what, path_);
 }
 
 void RecordFile::write(std::size_t record, std::span<const std::byte> bytes) const {
     if (record >= records_ || bytes.size() != record_bytes_) {
         throw std::logic_error("a record does not fit " + path_.string());
     }
-    with_file("cannot write", [&](int fd) {
-        return transfer_all(::pwrite, fd, bytes.data(), bytes.size(), offset(record));
-    });
+    if (!transfer_all(::pwrite, fd_, bytes.data(), bytes.size(), offset(record)))
+        throw_errno("cannot write", path_);
 }
 
 void RecordFile::read(std::size_t record, std::span<std::byte> bytes) const {
-    with_file("cannot read", [&](int fd) {
-        return transfer_all(::pread, fd, bytes.data(), bytes.size(), offset(record));
-    });
+    if (!transfer_all(::pread, fd_, bytes.data(), bytes.size(), offset(record)))
+        throw_errno("cannot read", path_);
 }
 
 std::string RecordFile::hash(std::size_t record) const {

@@ -26,13 +26,6 @@ enum class RecordAccess {
     read,   ///< opens a file that is there
 };
 
-/// Keeps a file open between calls (`yes`) or opens it for each call (`no`). A process may open
-/// only few files, often 1,024, and a mission may have thousands of sensors.
-enum class KeepOpen { yes, no };
-/// The most files of a sort (records, packs) that stay open. If there are more, all are opened for
-/// each call.
-inline constexpr std::size_t most_files_kept_open = 64;
-
 /// A NumPy file of equal records, one per ping, that is filled while the mission runs, by any
 /// thread and any process in any order. The file has its full length from the beginning. Records
 /// that are not written yet are zero and take no space on the disk.
@@ -42,7 +35,7 @@ class RecordFile {
     /// does not allow it, or when the name belongs to a symbolic link; std::runtime_error when a
     /// file to be read is not of this format and length.
     RecordFile(const std::filesystem::path& path, const NpyFormat& format, std::size_t records,
-               RecordAccess access = RecordAccess::write, KeepOpen keep = KeepOpen::yes);
+               RecordAccess access = RecordAccess::write);
     ~RecordFile();
     RecordFile(const RecordFile&) = delete;
     RecordFile& operator=(const RecordFile&) = delete;
@@ -57,10 +50,6 @@ class RecordFile {
     /// The hash of a record's bytes, as hash_of_record().
     std::string hash(std::size_t record) const;
 
-    /// std::runtime_error when the file's name has been removed or given to another file since it
-    /// was opened. Written records are lost then.
-    void require_in_place() const;
-
     /// Closes the file after the last record. std::system_error when the disk did not take all
     /// records: some file systems report this only here.
     void close();
@@ -70,19 +59,13 @@ class RecordFile {
         return header_bytes_ + record * record_bytes_;
     }
     void prepare(const std::string& header) const;
-    /// Calls `use` with the open file; std::system_error "`what` PATH" when it returns false.
-    template <class Use>
-    void with_file(const char* what, const Use& use) const;
-    int reopen() const;
 
     std::filesystem::path path_;
     std::size_t records_;
     std::size_t record_bytes_;
     std::size_t header_bytes_;
     RecordAccess access_;
-    std::uint64_t device_ = 0;  ///< identity, with inode_, of the file that was first opened
-    std::uint64_t inode_ = 0;
-    int fd_ = -1;  ///< -1 if it is opened for each call
+    int fd_ = -1;
 };
 
 }  // namespace sonarsim

@@ -7,7 +7,7 @@
 #include "core/elementary.h"
 #include "core/error.h"
 #include "core/units.h"
-#include "dataset/folded_records.h"
+#include "dataset/averaged_rows.h"
 #include "dataset/object_records.h"
 #include "mission/dataset_names.h"
 #include "product/fan_bins.h"

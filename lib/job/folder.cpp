@@ -1,8 +1,11 @@
 #include "job/folder.h"
 
+#include <unistd.h>
+
 #include <algorithm>
-#include <array>
+#include <cerrno>
 #include <optional>
+#include <set>
 
 #include "core/error.h"
 #include "core/file.h"
@@ -19,76 +22,73 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// The number at the start of a ping's file name, if the rest of it is `ending`.
-std::optional<std::uint32_t> ping_number(std::string_view name, std::string_view ending) {
-    if (!name.ends_with(ending)) return std::nullopt;
-    name.remove_suffix(ending.size());
-    const auto number = parse_unsigned(name);
-    if (!number || *number > UINT32_MAX) return std::nullopt;
-    return static_cast<std::uint32_t>(*number);
-}
+constexpr const char* or_overwrite = ", or replace it with --overwrite";
 
-/// The files in a folder that are not whole yet.
-std::vector<fs::path> temporary_files(const fs::path& folder) {
-    std::vector<fs::path> found;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-        const bool regular = entry.symlink_status().type() == fs::file_type::regular;
-        if (regular && is_temporary_name(entry.path().filename().string()))
-            found.push_back(entry.path());
-    }
-    return found;
-}
-
-void require_folder(const fs::path& path) {
-    if (!fs::is_directory(path)) throw InputError({path.string()}, "is not a folder");
-}
-
-[[noreturn]] void refuse(const fs::path& folder, const std::string& what, const char* cure) {
+[[noreturn]] void refuse(const fs::path& folder, const std::string& what, const char* cure = "") {
     throw InputError({folder.string()}, what + "; choose another output.folder" + cure);
 }
 
-constexpr const char* or_overwrite = ", or replace it with --overwrite";
-constexpr const char* or_nothing = "";
-
-Json own_description(const fs::path& folder) {
-    if (auto json = read_description(folder)) return *std::move(json);
-    refuse(folder, "holds a dataset.json that is not sonarsim's", or_nothing);
+bool is_temporary(const fs::directory_entry& entry) {
+    return entry.symlink_status().type() == fs::file_type::regular &&
+           is_temporary_name(entry.path().filename().string());
 }
 
-/// The path without links; what does not exist keeps its name.
-fs::path resolved(const fs::path& path) {
-    for (;;) {
-        std::error_code error;
-        fs::path found = fs::weakly_canonical(path, error);
-        if (!error) return found;
-        // Another run removed a folder of the path between the check and the resolution.
-        if (error != std::errc::no_such_file_or_directory)
-            throw fs::filesystem_error("cannot resolve", path, error);
+/// True if a temporary file is that of a ping in `todo`.
+bool is_of(const fs::path& file, std::uint32_t sensor, const std::vector<PingId>& todo) {
+    const std::string name = final_name(file.filename().string());
+    const auto pose = parse_unsigned(name.substr(0, name.find('.')));
+    return pose && *pose <= UINT32_MAX &&
+           std::ranges::binary_search(todo, PingId{static_cast<std::uint32_t>(*pose), sensor});
+}
+
+template <class Condition>
+void remove_temporary_files(const fs::path& folder, const Condition& condition) {
+    std::vector<fs::path> found;
+    std::error_code absent;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, absent)) {
+        if (is_temporary(entry) && condition(entry.path())) found.push_back(entry.path());
+    }
+    for (const fs::path& file : found)
+        fs::remove(file);
+}
+
+/// The names of the files and folders of a dataset in its folder, without dataset.json and the
+/// journal's folder. They may come from a dataset.json that somebody has edited.
+std::set<std::string> own_names(const Json& description) {
+    std::set<std::string> names{mission_name, trajectory_name, journal_name, checksums_name};
+    const Json none = Json::array();
+    for (const Json& sensor : description.value("sensors", none)) {
+        const Json name = sensor.is_object() ? sensor.value("name", Json()) : Json();
+        if (name.is_string() && is_plain_name(name.get<std::string>()))
+            names.insert(name.get<std::string>());
+    }
+    for (const Json& product : description.value("products", none)) {
+        if (product == navigation_name) names.insert(navigation_name);
+        if (product.is_string() && product.get<std::string>().starts_with(
+                                       std::string(seabed_folder_name) + "/"))
+            names.insert(seabed_folder_name);
+    }
+    return names;
+}
+
+/// InputError when an input of the mission is one of the names in `folder`, or lies below it.
+void spare_inputs(const fs::path& folder, const std::set<std::string>& names,
+                  const Mission& mission) {
+    const fs::path home = fs::weakly_canonical(folder);
+    for (const fs::path& input : files_of(mission)) {
+        const fs::path relative = fs::weakly_canonical(input).lexically_relative(home);
+        if (relative.empty() || !names.contains(relative.begin()->string())) continue;
+        refuse(folder, "the dataset would replace '" + input.string() +
+                           "', which the mission reads");
     }
 }
 
-/// True if the path is the folder or lies below it, links resolved.
-bool is_within(const fs::path& path, const fs::path& folder) {
-    const fs::path inner = resolved(path);
-    const fs::path outer = resolved(folder);
-    return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first ==
-           outer.end();
+Json own_description(const fs::path& folder) {
+    if (auto json = read_description(folder)) return *std::move(json);
+    refuse(folder, "holds a dataset.json that is not sonarsim's");
 }
 
 }  // namespace
-
-bool is_unused(const fs::path& folder) {
-    return std::all_of(
-        fs::directory_iterator(folder), fs::directory_iterator(),
-        [](const auto& entry) { return is_temporary_name(entry.path().filename().string()); });
-}
-
-void require_no_link(const fs::path& path, const std::string& what) {
-    if (!fs::is_symlink(path)) return;
-    throw InputError({path.string()}, "is a symbolic link, and " + what +
-                                          " is written into folders of its own; remove the link "
-                                          "or choose another output folder");
-}
 
 std::string mission_differences(const fs::path& dataset, const std::string& mission) {
     constexpr std::size_t largest_mission = std::size_t{1} << 26;
@@ -99,70 +99,103 @@ std::string mission_differences(const fs::path& dataset, const std::string& miss
     }
 }
 
-FolderState inspect_folder(const Layout& layout, const Json& description,
-                           const std::string& mission) {
-    const fs::path& folder = layout.folder;
+bool is_unused(const fs::path& folder) {
+    return std::all_of(
+        fs::directory_iterator(folder), fs::directory_iterator(), [](const auto& entry) {
+            return is_temporary(entry) || entry.path().filename() == journal_folder_name;
+        });
+}
+
+FolderState inspect_folder(const fs::path& folder, const Json& description,
+                           const std::string& mission, bool overwrite) {
     if (!fs::exists(folder)) return FolderState::fresh;
-    require_folder(folder);
+    if (!fs::is_directory(folder)) throw InputError({folder.string()}, "is not a folder");
     // Another shard may be starting. It writes dataset.json before anything else, so look for other
     // files first and for dataset.json second.
     const bool unused = is_unused(folder);
     if (!fs::exists(folder / description_name)) {
         if (unused) return FolderState::fresh;
-        refuse(folder, "holds files that are no sonarsim dataset", or_nothing);
+        refuse(folder, "holds files that are not a sonarsim dataset");
     }
     const Json found = own_description(folder);
+    if (overwrite) return FolderState::fresh;
     std::string difference = difference_between(found, description);
     if (difference == of_another_mission) difference += mission_differences(folder, mission);
     if (!difference.empty()) refuse(folder, "holds a dataset " + difference, or_overwrite);
-    const DatasetFile dataset = check_description(found, (folder / description_name).string());
-    return dataset.complete ? FolderState::complete : FolderState::unfinished;
+    return found.value("complete", Json()) == true ? FolderState::complete
+                                                   : FolderState::unfinished;
+}
+
+void require_no_link(const fs::path& path, const std::string& what) {
+    if (!fs::is_symlink(path)) return;
+    throw InputError({path.string()}, "is a symbolic link, and " + what +
+                                          " is written into folders of its own; remove the link "
+                                          "or choose another output folder");
 }
 
 void protect_inputs(const Layout& layout, const Mission& mission) {
-    std::vector<fs::path> own = layout.folders();
-    for (const fs::path& folder : own)
+    std::set<std::string> own{description_name, mission_name, trajectory_name, journal_name,
+                              checksums_name};
+    for (const fs::path& folder : layout.folders()) {
         require_no_link(folder, "a dataset");
-    for (const char* name :
-         {description_name, mission_name, trajectory_name, journal_name, checksums_name})
-        own.push_back(layout.folder / name);
-    for (const fs::path& input : files_of(mission)) {
-        if (input.empty()) continue;
-        for (const fs::path& path : own) {
-            if (!is_within(input, path)) continue;
-            throw InputError({layout.folder.string()}, "the dataset would replace '" +
-                                                           input.string() +
-                                                           "', which the mission reads; choose "
-                                                           "another output.folder");
-        }
+        own.insert(folder.lexically_relative(layout.folder).begin()->string());
     }
+    own.insert(layout.products.begin(), layout.products.end());
+    spare_inputs(layout.folder, own, mission);
 }
 
-void remove_dataset(const Layout& layout, const Mission& mission) {
-    const fs::path& folder = layout.folder;
-    if (!fs::exists(folder)) return;
-    require_folder(folder);
-    if (!fs::exists(folder / description_name)) {
-        if (is_unused(folder)) return;
-        refuse(folder, "holds files that are no sonarsim dataset", or_nothing);
-    }
-    remove_listed_files(folder, own_description(folder), files_of(mission));
+void remove_dataset(const fs::path& folder, const Mission& mission) {
+    if (!fs::exists(folder / description_name)) return;
+    std::set<std::string> own = own_names(own_description(folder));
+    spare_inputs(folder, own, mission);
+    for (const fs::path& part : journal_parts(folder))
+        part.filename() == journal_part(1, 1) ? fs::resize_file(part, 0) : void(fs::remove(part));
+    for (const std::string& name : own)
+        fs::remove_all(folder / name);
+    remove_temporary_files(folder, [](const fs::path&) { return true; });
+    sync_file_system(folder);
+    // dataset.json goes last: it marks the dataset, so that an interrupted removal can be repeated.
+    fs::remove(folder / description_name);
     sync_file_system(folder);
 }
 
-void remove_temporary_files(const fs::path& folder) {
-    if (!fs::is_directory(folder)) return;
-    for (const fs::path& file : temporary_files(folder))
-        fs::remove(file);
+bool has_files(const fs::path& folder, const DatasetFile& dataset) {
+    std::vector<std::string> names = list_files(dataset);
+    names.emplace_back(checksums_name);
+    return std::ranges::all_of(names, [&](const std::string& name) {
+        std::error_code absent;
+        return fs::symlink_status(folder / name, absent).type() == fs::file_type::regular;
+    });
 }
 
-void begin_dataset(const Layout& layout, const CommonFiles& files) {
-    fs::create_directories(layout.folder);
-    // dataset.json is written first and durably: a run refuses a folder with other files but
-    // without it.
-    write_file_durably(layout.folder / description_name, json_text(files.description));
-    // The sums are valid again only when the dataset is complete.
-    fs::remove(layout.folder / checksums_name);
+bool create_once(const fs::path& path, const std::string& text) {
+    const fs::path part = temporary_name(path);
+    write_file_durably(part, text);
+    bool created = ::link(part.c_str(), path.c_str()) == 0;
+    const int reason = created ? 0 : errno;
+    // A disk without hard links cannot tell which of two runs came first.
+    const bool no_links = reason == EPERM || reason == ENOTSUP || reason == ENOSYS;
+    if (no_links && !fs::exists(path)) {
+        fs::rename(part, path);
+        created = true;
+    } else {
+        ::unlink(part.c_str());
+    }
+    if (!created && !no_links && reason != EEXIST) {
+        errno = reason;
+        throw_errno("cannot write", path);
+    }
+    sync_file_system(path.parent_path());
+    return created;
+}
+
+FolderState claim_folder(const fs::path& folder, const CommonFiles& files) {
+    if (create_once(folder / description_name, json_text(files.description)))
+        return FolderState::fresh;
+    return inspect_folder(folder, files.description, files.mission);
+}
+
+void write_common_files(const Layout& layout, const CommonFiles& files) {
     write_file(layout.folder / mission_name, files.mission);
     write_file(layout.folder / trajectory_name, files.trajectory);
     for (const fs::path& folder : layout.folders())
@@ -171,42 +204,22 @@ void begin_dataset(const Layout& layout, const CommonFiles& files) {
         write_file(layout.folder / name, bytes);
 }
 
-bool has_common_files(const Layout& layout) {
-    std::error_code absent;
-    return std::ranges::all_of(std::array{mission_name, trajectory_name, checksums_name},
-                               [&](const char* name) {
-                                   return fs::symlink_status(layout.folder / name, absent).type() ==
-                                          fs::file_type::regular;
-                               });
-}
-
 void remove_leftovers(const Layout& layout, const std::vector<PingId>& todo, bool alone) {
+    const auto any = [](const fs::path&) { return true; };
     if (alone) {
-        remove_temporary_files(layout.folder);
-        for (const std::string& product : layout.products)
-            remove_temporary_files((layout.folder / product).parent_path());
+        remove_temporary_files(layout.folder, any);
+        for (const fs::path& folder : layout.folders())
+            remove_temporary_files(folder, any);
+        return;
     }
     for (std::uint32_t sensor = 0; sensor < layout.sensors.size(); ++sensor) {
-        if (alone) remove_temporary_files(layout.sensor_folder(sensor));
         for (const auto& part : layout.sensors[sensor].per_ping) {
             const auto* kind = std::get_if<PingFile>(&part);
             if (!kind) continue;
-            for (const fs::path& file :
-                 temporary_files(layout.sensor_folder(sensor) / kind->name)) {
-                const std::string name = final_name(file.filename().string());
-                const auto pose = ping_number(name, kind->extension);
-                if (pose && std::ranges::binary_search(todo, PingId{*pose, sensor}))
-                    fs::remove(file);
-            }
+            remove_temporary_files(layout.sensor_folder(sensor) / kind->name,
+                                   [&](const fs::path& file) { return is_of(file, sensor, todo); });
         }
     }
-}
-
-void remove_journal_parts(const Layout& layout) {
-    std::error_code ignored;  // another run may be removing them, too
-    for (const fs::path& part : journal_parts(layout.folder))
-        fs::remove(part, ignored);
-    fs::remove(layout.folder / journal_folder_name, ignored);  // stays if it holds other files
 }
 
 }  // namespace sonarsim

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "dataset/dataset_file.h"
 #include "dataset/layout.h"
 
 namespace sonarsim {
@@ -15,18 +16,29 @@ enum class FolderState {
     complete,    ///< holds all of it, by its dataset.json
 };
 
+/// The text of the files that do not belong to one ping.
+struct CommonFiles {
+    nlohmann::ordered_json description;  ///< dataset.json, not complete
+    std::string mission;                 ///< mission.resolved.yaml
+    std::string trajectory;              ///< trajectory.tum
+    /// Names relative to the folder and bytes of the shared products that are there from the
+    /// beginning.
+    std::vector<std::pair<std::string, std::string>> initial = {};
+};
+
 /// The keys in which the mission of a dataset differs from the text `mission`, for messages.
 std::string mission_differences(const std::filesystem::path& dataset, const std::string& mission);
 
-/// The state of the output folder, seen from the dataset that `description` (dataset.json) and
-/// `mission` (mission.resolved.yaml) stand for. InputError when it holds something else: other
-/// files, or a dataset of another mission, of other input files or of another version of the
-/// program.
-FolderState inspect_folder(const Layout& layout, const nlohmann::ordered_json& description,
-                           const std::string& mission);
-
 /// True if a folder holds only files of a run that was killed at its beginning.
 bool is_unused(const std::filesystem::path& folder);
+
+/// The state of a folder, seen from the dataset that `description` (dataset.json) and `mission`
+/// (mission.resolved.yaml) stand for. InputError when it holds something else: other files, or a
+/// dataset of another mission, of other input files or of another version of the program; with
+/// `overwrite` any dataset will do, and the folder counts as fresh.
+FolderState inspect_folder(const std::filesystem::path& folder,
+                           const nlohmann::ordered_json& description, const std::string& mission,
+                           bool overwrite = false);
 
 /// InputError when the path is a symbolic link. `what` is what a user writes there: "a dataset".
 void require_no_link(const std::filesystem::path& path, const std::string& what);
@@ -35,46 +47,28 @@ void require_no_link(const std::filesystem::path& path, const std::string& what)
 /// reads, or something behind a symbolic link. The folder of the dataset itself may be a link.
 void protect_inputs(const Layout& layout, const Mission& mission);
 
-/// Removes the files that the folder's dataset.json lists, and nothing else; no link is followed.
-/// The removal is durable, so that a new dataset is never found with an old journal. InputError
-/// when the folder holds files but no dataset of sonarsim, or when dataset.json lists a file that
-/// the mission reads.
-void remove_dataset(const Layout& layout, const Mission& mission);
+/// Removes the dataset in a folder: the folders of its sensors, with all that is in them, and the
+/// files of the dataset next to these. Nothing else is removed, and no link is followed. It is
+/// durable, so that a new dataset is never found with an old journal. The caller holds the lock of a
+/// whole run, which stays. InputError when a file that the mission reads would go.
+void remove_dataset(const std::filesystem::path& folder, const Mission& mission);
 
-/// Removes the files that dataset.json (`description`) lists, complete or temporary, the gallery,
-/// and the folders that are empty then. Other files stay, and so does everything behind a symbolic
-/// link. No description can make it touch a file outside `folder`. InputError, and nothing is
-/// removed, when it lists one of `inputs`, which the mission reads.
-void remove_listed_files(const std::filesystem::path& folder,
-                         const nlohmann::ordered_json& description,
-                         const std::vector<std::filesystem::path>& inputs);
+/// True if all files of a complete dataset are in the folder.
+bool has_files(const std::filesystem::path& folder, const DatasetFile& dataset);
 
-/// The text of the files that do not belong to one ping.
-struct CommonFiles {
-    nlohmann::ordered_json description;  ///< dataset.json
-    std::string mission;                 ///< mission.resolved.yaml
-    std::string trajectory;              ///< trajectory.tum
-    /// Names relative to the folder and bytes of the shared products that are there from the
-    /// beginning.
-    std::vector<std::pair<std::string, std::string>> initial = {};
-};
+/// Creates a file durably, with all of its bytes at once. Returns false and writes nothing if the name
+/// is in use: of several processes one creates it. std::system_error when the disk refuses.
+bool create_once(const std::filesystem::path& path, const std::string& text);
 
-/// Makes the folder ready for pings: common files and subfolders, dataset.json first, durably and
-/// with `complete` set to false. std::system_error when the disk does not take them.
-void begin_dataset(const Layout& layout, const CommonFiles& files);
+/// Makes dataset.json, which decides what the folder holds: of several runs one makes it, and the
+/// others find it, or InputError as inspect_folder(). Returns the state before.
+FolderState claim_folder(const std::filesystem::path& folder, const CommonFiles& files);
 
-/// True if the common files other than dataset.json and the journal are there.
-bool has_common_files(const Layout& layout);
-
-/// Removes the temporary files that lie in the folder itself, which may be missing.
-void remove_temporary_files(const std::filesystem::path& folder);
+/// Makes the folder ready for pings: subfolders, and the common files but dataset.json.
+void write_common_files(const Layout& layout, const CommonFiles& files);
 
 /// Removes the temporary files of the pings in `todo` (sorted) that an interrupted run left, and
-/// with `alone`, when no other shard may be at work, those of the common files.
+/// with `alone`, when no other shard may be at work, all others.
 void remove_leftovers(const Layout& layout, const std::vector<PingId>& todo, bool alone);
-
-/// Removes the parts of the journal, and no other file. A run that was killed just before its end
-/// leaves them.
-void remove_journal_parts(const Layout& layout);
 
 }  // namespace sonarsim

@@ -1,24 +1,18 @@
 #include "job/journal.h"
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <cmath>
 #include <fstream>
-#include <optional>
 #include <sstream>
-#include <system_error>
 
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/hash.h"
-#include "core/text.h"
 #include "dataset/layout.h"
-#include "job/folder_lock.h"
 
 namespace sonarsim {
 
@@ -28,52 +22,21 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t hash_digits = 8;
 
-/// The line with its hash and line feed.
-std::string sealed(const std::string& line) {
+std::string with_checksum(const std::string& line) {
     return line + ' ' + fnv1a_128(line).substr(0, hash_digits) + '\n';
 }
 
-/// The line without its hash; nothing if they do not agree.
-std::optional<std::string> opened(const std::string& line) {
-    const std::size_t space = line.rfind(' ');
-    if (space == std::string::npos) return std::nullopt;
-    std::string text = line.substr(0, space);
-    if (fnv1a_128(text).substr(0, hash_digits) != line.substr(space + 1)) return std::nullopt;
-    return text;
+/// The line without its hash; empty if they do not agree.
+std::string strip_checksum(const std::string& line) {
+    const std::size_t blank = line.rfind(' ');
+    if (blank == std::string::npos) return {};
+    std::string text = line.substr(0, blank);
+    return with_checksum(text) == line + '\n' ? text : "";
 }
 
-std::string ping_line(const PingId& ping, const std::vector<std::string>& fields) {
-    std::string line = "ping " + std::to_string(ping.sensor) + ' ' + std::to_string(ping.pose);
-    for (const std::string& field : fields)
-        line += ' ' + field;
-    return sealed(line);
-}
-
-void read_line(const std::string& line, JournalEntries& entries) {
-    const std::optional<std::string> text = opened(line);
-    if (!text) return;
-    std::istringstream words(*text);
-    std::string word;
-    std::uint32_t sensor = 0;
-    words >> word >> sensor;
-    if (word == "ping") {
-        PingId ping{0, sensor};
-        words >> ping.pose;
-        std::vector<std::string> fields;
-        while (words >> word)
-            fields.push_back(word);
-        entries.pings.add(ping, fields);
-    } else if (word == "product") {
-        std::uint64_t size = 0;
-        words >> word >> size;
-        entries.products[{sensor, word}] = size;
-    }
-}
-
-/// A line with the time of an event.
-std::string time_line(const char* what, double seconds) {
-    constexpr double milli = 1e3;
-    return sealed(std::string(what) + ' ' + number_text(std::round(seconds * milli) / milli));
+std::string ping_line(const PingId& ping, const std::string& fields) {
+    return with_checksum("ping " + std::to_string(ping.sensor) + ' ' + std::to_string(ping.pose) +
+                         ' ' + fields);
 }
 
 /// Reads line by line, since a part may be long.
@@ -84,16 +47,17 @@ void read_part(const fs::path& path, JournalEntries& entries) {
         if (fs::exists(path)) throw InputError({path.string()}, "cannot be read");
         return;
     }
-    for (std::string line; std::getline(lines, line);)
-        read_line(line, entries);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(strip_checksum(line));
+        std::string word;
+        PingId ping;
+        std::string fields;
+        words >> word >> ping.sensor >> ping.pose >> std::ws;
+        if (word == "ping" && std::getline(words, fields)) entries[ping] = fields;
+    }
 }
 
 }  // namespace
-
-double seconds_since_1970() {
-    return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
-        .count();
-}
 
 JournalEntries read_journal(const fs::path& folder) {
     JournalEntries entries;
@@ -101,53 +65,29 @@ JournalEntries read_journal(const fs::path& folder) {
     for (const fs::path& part : journal_parts(folder))
         read_part(part, entries);
     if (fs::is_regular_file(folder / journal_name)) read_part(folder / journal_name, entries);
-    entries.pings.sort();
     return entries;
-}
-
-JournalRun read_journal_run(const fs::path& part) {
-    JournalRun run;
-    // Opening fails if the run that completed the dataset has removed the part.
-    std::ifstream lines(part, std::ios::binary);
-    for (std::string line; std::getline(lines, line);) {
-        const std::optional<std::string> text = opened(line);
-        if (!text) continue;
-        std::istringstream words(*text);
-        std::string word;
-        std::string value;
-        words >> word >> value;
-        const double seconds = parse_number(value).value_or(0.0);
-        if (word == "run") run = {0, seconds, seconds};
-        if (word == "checkpoint") run.last_s = seconds;
-        run.pings += word == "ping";
-    }
-    return run;
 }
 
 void write_journal(const fs::path& path, const JournalEntries& entries) {
     StreamedFile file(path);
-    entries.pings.for_each([&](const PingId& ping, const std::vector<std::string>& fields) {
+    for (const auto& [ping, fields] : entries)
         file.append(ping_line(ping, fields));
-    });
-    for (const auto& [product, size] : entries.products) {
-        file.append(sealed("product " + std::to_string(product.first) + ' ' + product.second + ' ' +
-                           std::to_string(size)));
-    }
     file.finish();
 }
 
-Journal::Journal(const fs::path& folder, const std::string& name, double checkpoint_seconds)
-    : folder_(folder),
-      path_(folder / journal_folder_name / name),
-      fd_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666)),
-      start_s_(seconds_since_1970()) {
-    if (fd_ < 0) throw_errno("cannot write", path_);
-    if (!lock_file(fd_, lock_works_)) {
-        ::close(fd_);
-        refuse_second_run(folder_);
+std::vector<std::string_view> split_fields(std::string_view fields) {
+    std::vector<std::string_view> all;
+    while (!fields.empty()) {
+        const std::size_t end = std::min(fields.find(' '), fields.size());
+        all.push_back(fields.substr(0, end));
+        fields.remove_prefix(std::min(end + 1, fields.size()));
     }
+    return all;
+}
+
+Journal::Journal(const ShardLock& lock, double checkpoint_seconds) : lock_(lock) {
     // The last line of an interrupted run may be torn.
-    if (::lseek(fd_, 0, SEEK_END) > 0) pending_ = "\n";
+    if (::lseek(lock_.fd(), 0, SEEK_END) > 0) pending_ = "\n";
     thread_ = std::thread([this, checkpoint_seconds] { run(checkpoint_seconds); });
 }
 
@@ -156,10 +96,9 @@ Journal::~Journal() {
         finish();
     } catch (...) {  // NOLINT(bugprone-empty-catch): the run ends for another reason already
     }
-    if (fd_ >= 0) ::close(fd_);
 }
 
-void Journal::add(const PingId& ping, const std::vector<std::string>& fields) {
+void Journal::add(const PingId& ping, const std::string& fields) {
     const std::lock_guard lock(mutex_);
     rethrow();
     pending_ += ping_line(ping, fields);
@@ -173,7 +112,6 @@ void Journal::finish() {
     wake_.notify_one();
     if (thread_.joinable()) thread_.join();
     rethrow();
-    if (fd_ >= 0 && ::close(std::exchange(fd_, -1)) != 0) throw_errno("cannot write", path_);
 }
 
 void Journal::run(double checkpoint_seconds) {
@@ -202,20 +140,14 @@ void Journal::checkpoint() {
         lines.swap(pending_);
     }
     if (lines.empty()) return;
-    sync_file_system(folder_);
-    if (start_s_ > 0.0) {
-        // A leading line feed ends the torn line of an interrupted run.
-        const std::size_t begin = lines.front() == '\n' ? 1 : 0;
-        lines.insert(begin, time_line("run", std::exchange(start_s_, 0.0)));
-    }
-    lines += time_line("checkpoint", seconds_since_1970());
+    sync_file_system(lock_.folder());
     for (std::string_view rest = lines; !rest.empty();) {
-        const ssize_t put = ::write(fd_, rest.data(), rest.size());
+        const ssize_t put = ::write(lock_.fd(), rest.data(), rest.size());
         if (put < 0 && errno == EINTR) continue;
-        if (put < 0) throw_errno("cannot write", path_);
+        if (put < 0) throw_errno("cannot write", lock_.part());
         rest.remove_prefix(static_cast<std::size_t>(put));
     }
-    if (::fdatasync(fd_) != 0) throw_errno("cannot write", path_);
+    if (::fdatasync(lock_.fd()) != 0) throw_errno("cannot write", lock_.part());
 }
 
 void Journal::rethrow() {

@@ -12,26 +12,22 @@ namespace sonarsim {
 struct MergeSummary {
     std::uint64_t pings = 0;    ///< copied by this run
     std::uint64_t skipped = 0;  ///< there already
-    bool complete = false;
-    bool unlocked = false;  ///< the disk has no locks that would refuse a second run
+    std::uint64_t missing = 0;  ///< in none of the parts
+    bool complete = false;      ///< the result needs no render: a part was complete
+    bool stopped = false;       ///< ended early on request
+    bool unlocked = false;      ///< the disk has no locks that would refuse a second run
 };
 
-/// Joins datasets of one mission whose pings were rendered into several folders (shards of several
-/// machines, or interrupted runs) into `out`, which holds nothing or an unfinished merge of them.
-/// The result has the bytes of a single run; the files that the mission reads are not needed. Parts
-/// are only read. Every file is compared with the sum in its part's journal.
+/// Copies the pings of shards of one mission, or its variants, into one folder, which holds nothing
+/// or an unfinished merge of them. sonarsim render then renders there what is missing, and completes
+/// the dataset. The files that the mission reads are not needed; parts are only read. `progress`
+/// counts the datasets.
 ///
-/// InputError when a part is no dataset or not of the same mission, inputs, version and build as
-/// the first, when a ping is in none of them, when a file is not what its journal says, and when
-/// `out` holds something else or another run writes there; std::system_error when the disk fails.
-/// When `stop` becomes true, the copies under way are finished and the rest is left for a later
-/// run.
-MergeSummary merge_datasets(const std::vector<std::filesystem::path>& parts,
-                            const std::filesystem::path& out, int threads,
-                            const ProgressCallback& progress, const std::atomic<bool>& stop);
-
-/// InputError when `out` is one of the parts.
-void require_apart(const std::vector<std::filesystem::path>& parts,
-                   const std::filesystem::path& out);
+/// InputError when a part is not a dataset or not of the same mission, inputs, version and build as
+/// the first, and when `out` holds something else or another run writes there; std::system_error
+/// when the disk fails.
+MergeSummary merge_parts(const std::vector<std::filesystem::path>& parts,
+                         const std::filesystem::path& out, const ProgressCallback& progress,
+                         const std::atomic<bool>& stop);
 
 }  // namespace sonarsim

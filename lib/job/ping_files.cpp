@@ -1,48 +1,54 @@
 #include "job/ping_files.h"
 
+#include <sys/stat.h>
+
+#include <algorithm>
 #include <span>
-#include <utility>
+#include <stdexcept>
 
 #include "core/file.h"
 #include "core/sha256.h"
-#include "job/journal.h"
 
 namespace sonarsim {
 
 namespace {
 
-/// A ping's file is an image or JSON.
-constexpr std::size_t largest_ping_file = std::size_t{1} << 32;
+namespace fs = std::filesystem;
+
+/// The size of a regular file as text; "" for anything else.
+std::string size_of(const fs::path& path) {
+    struct stat status {};
+    if (::lstat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return "";
+    return std::to_string(status.st_size);
+}
 
 }  // namespace
 
-std::vector<std::vector<std::string>> journal_fields(std::span<const PingToList> pings) {
-    std::vector<std::vector<std::string>> fields;
-    for (const PingToList& ping : pings) {
-        std::vector<std::string>& own = fields.emplace_back();
-        for (std::size_t k = 0; k < ping.encoded.size(); ++k) {
-            const std::string& bytes = ping.encoded[k];
-            own.push_back(std::holds_alternative<PingRecord>(ping.sensor.per_ping[k])
-                              ? hash_of_record(bytes)
-                              : entry_text({bytes.size(), sha256(bytes)}));
+RecordFiles open_records(const Layout& layout, RecordAccess access) {
+    RecordFiles files(layout.sensors.size());
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const SensorLayout& sensor = layout.sensors[i];
+        for (const auto& part : sensor.per_ping) {
+            const auto* record = std::get_if<PingRecord>(&part);
+            files[i].push_back(
+                record ? std::make_unique<RecordFile>(layout.sensor_folder(i) / record->file,
+                                                      record->format, sensor.pings, access)
+                       : nullptr);
         }
     }
-    return fields;
+    return files;
 }
 
-EncodedPing read_ping(const Layout& layout, const RecordFiles& records, const PingId& ping) {
-    const SensorLayout& sensor = layout.sensors[ping.sensor];
-    EncodedPing encoded;
-    for (std::size_t k = 0; k < sensor.per_ping.size(); ++k) {
-        if (const auto* file = std::get_if<PingFile>(&sensor.per_ping[k])) {
-            encoded.push_back(read_file(layout.file(ping, *file), largest_ping_file));
-            continue;
-        }
-        const RecordFile& source = *records[ping.sensor][k];
-        std::string& bytes = encoded.emplace_back(source.record_bytes(), '\0');
-        source.read(layout.record_of(ping), std::as_writable_bytes(std::span(bytes)));
+std::string journal_fields(const SensorLayout& sensor, const EncodedPing& encoded) {
+    std::string fields;
+    for (std::size_t k = 0; k < encoded.size(); ++k) {
+        const std::string& bytes = encoded[k];
+        if (k > 0) fields += ' ';
+        fields += std::holds_alternative<PingFile>(sensor.per_ping[k])
+                      ? std::to_string(bytes.size()) + ':' + sha256(bytes)
+                      : hash_of_record(bytes);
     }
-    return encoded;
+    return fields;
 }
 
 void write_ping(const Layout& layout, const RecordFiles& records, const PingId& ping,
@@ -55,6 +61,32 @@ void write_ping(const Layout& layout, const RecordFiles& records, const PingId& 
             records[ping.sensor][k]->write(layout.record_of(ping),
                                            std::as_bytes(std::span(encoded[k])));
         }
+    }
+}
+
+bool FinishedPings::operator()(const PingId& ping) const {
+    const auto entry = entries_.find(ping);
+    if (entry == entries_.end()) return false;
+    const std::vector<std::string_view> fields = split_fields(entry->second);
+    const auto& parts = layout_.sensors[ping.sensor].per_ping;
+    if (fields.size() != parts.size()) return false;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        if (const auto* file = std::get_if<PingFile>(&parts[k])) {
+            const std::string size = size_of(layout_.file(ping, *file));
+            if (size.empty() || !fields[k].starts_with(size + ':')) return false;
+        } else if (records_[ping.sensor][k]->hash(layout_.record_of(ping)) != fields[k]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool has_pings(const Layout& layout, const std::vector<PingId>& pings) {
+    try {
+        const RecordFiles records = open_records(layout, RecordAccess::read);
+        return std::ranges::all_of(pings, FinishedPings(layout, records));
+    } catch (const std::runtime_error&) {
+        return false;  // a file of records is missing or damaged
     }
 }
 

@@ -1,33 +1,48 @@
 #pragma once
 
-#include <span>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "dataset/layout.h"
-#include "job/resume.h"
+#include "dataset/record_file.h"
+#include "job/journal.h"
 
 namespace sonarsim {
+
+/// One for each sensor and writer; null if the writer writes a file per ping.
+using RecordFiles = std::vector<std::vector<std::unique_ptr<RecordFile>>>;
+
+/// Opens the record files of a dataset, or makes them.
+RecordFiles open_records(const Layout& layout, RecordAccess access);
 
 /// The output of each writer of a sensor for a ping, in their order: the bytes of a file or record.
 using EncodedPing = std::vector<std::string>;
 
-/// A ping for the journal. The references must outlive it.
-struct PingToList {
-    const SensorLayout& sensor;
-    const EncodedPing& encoded;
-};
-/// The fields of each ping in the journal. The sums of several pings' files take less time
-/// together.
-std::vector<std::vector<std::string>> journal_fields(std::span<const PingToList> pings);
-
-/// Reads a ping that is in a dataset. InputError when a file cannot be read; std::system_error when
-/// the disk fails.
-EncodedPing read_ping(const Layout& layout, const RecordFiles& records, const PingId& ping);
+/// The fields of a ping in the journal.
+std::string journal_fields(const SensorLayout& sensor, const EncodedPing& encoded);
 
 /// Writes the files and records of a ping where the layout says. From any thread, in any order.
 /// std::system_error when the disk does not take it.
 void write_ping(const Layout& layout, const RecordFiles& records, const PingId& ping,
                 const EncodedPing& encoded);
+
+/// True for the pings that need not be rendered: the journal lists them, and their files and
+/// records are as listed. The references must outlive it.
+class FinishedPings {
+  public:
+    FinishedPings(const Layout& layout, const RecordFiles& records)
+        : layout_(layout), records_(records), entries_(read_journal(layout.folder)) {}
+
+    bool operator()(const PingId& ping) const;
+
+  private:
+    const Layout& layout_;
+    const RecordFiles& records_;
+    JournalEntries entries_;
+};
+
+/// True if all `pings` are finished. Opens no file for writing: the disk may be read-only.
+bool has_pings(const Layout& layout, const std::vector<PingId>& pings);
 
 }  // namespace sonarsim

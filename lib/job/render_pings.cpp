@@ -1,17 +1,13 @@
 #include "job/render_pings.h"
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
-#include <span>
 #include <string>
-#include <utility>
 
 #include "assembly/engine_probes.h"
 #include "core/clock.h"
 #include "core/ordered_pipeline.h"
 #include "dataset/encode_ping.h"
-#include "job/turns.h"
 
 namespace sonarsim {
 
@@ -20,9 +16,8 @@ namespace {
 /// The result of one ping besides its files.
 struct PingReport {
     PingId id;
-    EncodedPing encoded;              ///< until it is summed
-    std::vector<std::string> fields;  ///< for the journal
-    SensorSummary summary;            ///< this ping alone
+    std::string fields;     ///< for the journal
+    SensorSummary summary;  ///< this ping alone
     PingSeconds seconds;
     double encode_seconds = 0.0;
     double write_seconds = 0.0;
@@ -37,7 +32,7 @@ PingReport report_of(const RenderedPing& rendered) {
     // The estimate is NaN if the engine has none.
     summary.missed_goals = ping.estimated_l1 > sonar->settings.view.relative_l1 ? 1 : 0;
     if (!std::isnan(ping.estimated_l1)) summary.worst_l1 = ping.estimated_l1;
-    return {.id = id, .encoded = {}, .fields = {}, .summary = summary, .seconds = ping.seconds};
+    return {.id = id, .fields = {}, .summary = summary, .seconds = ping.seconds};
 }
 
 void add(RenderSummary& summary, const PingReport& report) {
@@ -55,39 +50,13 @@ void write_encoded(const Assembly& assembly, const Destination& to, const LabelP
                    const RenderedPing& rendered, PingReport& report) {
     const PingId& id = report.id;
     Stopwatch watch;
-    WrittenPing written = encode_ping(assembly, to.writers[id.sensor], labels, rendered);
+    const WrittenPing written = encode_ping(assembly, to.writers[id.sensor], labels, rendered);
     report.summary.clipped_pixels = written.clipped_pixels;
     report.encode_seconds = watch.lap();
     write_ping(to.layout, to.records, id, written.parts);
-    report.encoded = std::move(written.parts);
+    report.fields = journal_fields(to.layout.sensors[id.sensor], written.parts);
     report.write_seconds = watch.lap();
 }
-
-/// Finds the fields of pings in the journal. The files of all of them are summed together, which
-/// takes less time.
-void sum_pings(const Layout& layout, std::span<PingReport> reports) {
-    if (reports.empty()) return;
-    Stopwatch watch;
-    std::vector<PingToList> pings;
-    for (const PingReport& report : reports)
-        pings.push_back({layout.sensors[report.id.sensor], report.encoded});
-    std::vector<std::vector<std::string>> fields = journal_fields(pings);
-    for (std::size_t k = 0; k < reports.size(); ++k) {
-        reports[k].fields = std::move(fields[k]);
-        reports[k].encoded.clear();
-    }
-    reports.back().write_seconds += watch.lap();
-}
-
-std::size_t bytes_of(const EncodedPing& encoded) {
-    std::size_t bytes = 0;
-    for (const std::string& part : encoded)
-        bytes += part.size();
-    return bytes;
-}
-
-/// The pings that a thread renders before it sums their files. More would not fit into the caches.
-constexpr std::size_t pings_of_turn = 2;
 
 /// Renders pings one at a time.
 class PingRenderer {
@@ -98,30 +67,6 @@ class PingRenderer {
             labels_.push_back(plan_labels(run.mission, run.assembly, sonar));
     }
 
-    /// Renders the pings of a turn, or the first of them if the run is to stop.
-    std::vector<PingReport> render(std::span<const PingId> turn) const {
-        constexpr std::size_t most_waiting = std::size_t{1} << 23;  // bytes to sum
-        std::vector<PingReport> reports;
-        std::size_t summed = 0;
-        std::size_t waiting = 0;
-        const auto sum_waiting = [&] {
-            if (to_) sum_pings(to_->layout, std::span(reports).subspan(summed));
-            summed = reports.size();
-            waiting = 0;
-        };
-        for (const PingId& id : turn) {
-            if (!reports.empty() && run_.stop) break;
-            reports.push_back(render(id));
-            waiting += bytes_of(reports.back().encoded);
-            if (waiting > most_waiting) sum_waiting();
-        }
-        sum_waiting();
-        return reports;
-    }
-
-    const VisibilityEngine& engine() const { return *engine_; }
-
-  private:
     PingReport render(const PingId& id) const {
         const Assembly& assembly = run_.assembly;
         const RenderedPing rendered = render_at_pose(run_.mission, assembly, *engine_, id);
@@ -138,6 +83,9 @@ class PingRenderer {
         return report;
     }
 
+    const VisibilityEngine& engine() const { return *engine_; }
+
+  private:
     const RenderRun& run_;
     const Destination* to_;
     std::unique_ptr<VisibilityEngine> engine_;
@@ -151,21 +99,14 @@ void render_pings(const RenderRun& run, const std::vector<PingId>& todo, const D
     RenderSummary& summary = run.summary;
     const PingRenderer renderer(run, to);
     const auto threads = static_cast<std::size_t>(run.threads);
-    const Turns turns(todo.size(), to ? pings_of_turn : 1, threads);
     Stopwatch watch;
-    // At most twice as many turns as threads are in memory.
+    // At most twice as many pings as threads are in memory.
     ordered_pipeline(
-        turns.count(), 2 * threads, run.stop,
-        [&](std::size_t turn) {
-            const std::size_t begin = turns.begin(turn);
-            return renderer.render(std::span(todo).subspan(begin, turns.begin(turn + 1) - begin));
-        },
-        [&](const std::vector<PingReport>& reports) {
-            for (const PingReport& report : reports) {
-                add(summary, report);
-                if (to) to->journal.add(report.id, report.fields);
-                if (run.progress) run.progress(summary, todo.size());
-            }
+        todo.size(), 2 * threads, run.stop, [&](std::size_t i) { return renderer.render(todo[i]); },
+        [&](const PingReport& report) {
+            add(summary, report);
+            if (to) to->journal.add(report.id, report.fields);
+            if (run.progress) run.progress(summary, todo.size());
         });
     summary.seconds = watch.lap();
     summary.stopped = summary.pings < todo.size();

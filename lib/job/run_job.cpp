@@ -1,75 +1,33 @@
 #include "job/run_job.h"
 
-#include <algorithm>
-#include <optional>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "core/error.h"
+#include "core/file.h"
 #include "dataset/metadata.h"
+#include "dataset/ping_metadata.h"
 #include "dataset/seabed_files.h"
 #include "job/completion.h"
 #include "job/folder.h"
-#include "job/folder_lock.h"
 #include "job/journal.h"
 #include "job/ping_files.h"
 #include "job/render_pings.h"
-#include "job/resume.h"
+#include "job/shard_lock.h"
 #include "trajectory/files.h"
 
 namespace sonarsim {
 
 namespace {
 
-/// The pings that a run renders.
-struct Plan {
-    std::vector<PingId> todo;
-    std::uint64_t skipped = 0;  ///< pings of this shard with all their files
-};
-
-bool is_never_there(const PingId& /*ping*/) {
-    return false;
-}
-
-/// `shard(i)` is the shard of the ping with the index i in list_pings().
-Plan make_plan(const std::vector<PingId>& all, const RenderOptions& options,
-               const std::function<int(std::size_t)>& shard,
-               const std::function<bool(const PingId&)>& is_there) {
-    Plan plan;
+/// The pings of the shard that a run renders.
+std::vector<PingId> pings_of_shard(const std::vector<PingId>& all, const RenderOptions& options) {
+    std::vector<PingId> own;
     for (std::size_t i = 0; i < all.size(); ++i) {
-        if (shard(i) != options.shard) continue;
-        is_there(all[i]) ? void(++plan.skipped) : plan.todo.push_back(all[i]);
+        if (shard_of(i, options.shards) == options.shard) own.push_back(all[i]);
     }
-    return plan;
-}
-
-/// Makes the folder ready for pings, and returns what it held before. A shard then admits other
-/// shards; since another run may come in between, the folder is inspected once more.
-FolderState set_up(const Layout& layout, const CommonFiles& common, const Mission& mission,
-                   const RenderOptions& options, FolderLock& lock) {
-    if (options.overwrite) remove_dataset(layout, mission);
-    // Other files stay in the folder; without dataset.json it counts as fresh.
-    const FolderState state = options.overwrite
-                                  ? FolderState::fresh
-                                  : inspect_folder(layout, common.description, common.mission);
-    if (state != FolderState::complete) begin_dataset(layout, common);
-    if (options.shards == 1) return state;
-    if (!lock.share([&] { return !others_write(layout.folder, options.shards); }))
-        refuse_second_run(layout.folder);
-    return inspect_folder(layout, common.description, common.mission);
-}
-
-/// Completes a dataset that has all of its pings. Shards that come to their end at the same time do
-/// it one after the other; those that come later find it done. Returns false when `stop` becomes
-/// true while it waits.
-bool complete_once(const Layout& layout, const Mission& mission,
-                   const std::vector<Writers>& writers, RecordFiles& records,
-                   const CommonFiles& common, FolderLock& lock, const std::atomic<bool>& stop) {
-    if (!lock.take_alone([&] { return !stop; })) return false;
-    const FolderState state = inspect_folder(layout, common.description, common.mission);
-    if (state != FolderState::complete || !has_all(layout, {}))
-        complete_dataset(layout, mission, writers, records, common);
-    return true;
+    return own;
 }
 
 /// The names and bytes of the shared products that are there from the beginning.
@@ -79,6 +37,17 @@ std::vector<std::pair<std::string, std::string>> initial_files(const Assembly& a
     if (!assembly.reported.empty())
         files.emplace_back(navigation_name, write_tum(assembly.reported));
     return files;
+}
+
+/// The pings in `own` that are not finished.
+std::vector<PingId> unfinished(const Layout& layout, const RecordFiles& records,
+                               const std::vector<PingId>& own) {
+    const FinishedPings is_finished(layout, records);
+    std::vector<PingId> todo;
+    for (const PingId& ping : own) {
+        if (!is_finished(ping)) todo.push_back(ping);
+    }
+    return todo;
 }
 
 /// Renders into the folder of the mission what is missing there, and completes the dataset.
@@ -92,49 +61,51 @@ void run_in_folder(const RenderRun& run, const RenderOptions& options,
     const CommonFiles common{describe_dataset(mission, assembly, layout, writers),
                              resolved_text(mission, assembly), write_tum(assembly.trajectory),
                              initial_files(assembly)};
+    const std::vector<PingId> own = pings_of_shard(all, options);
+    const auto finished = [&](FolderState state) {
+        summary.complete =
+            state == FolderState::complete &&
+            has_files(layout.folder, parse_description(common.description, description_name)) &&
+            has_pings(layout, own);
+        if (!summary.complete) return false;
+        summary.skipped = own.size();
+        remove_journal_parts(layout.folder);  // a run was killed at its very end
+        return true;
+    };
     protect_inputs(layout, mission);
-    std::optional<FolderLock> lock = lock_for_run(layout.folder, options.shards, run.stop);
-    summary.stopped = !lock;
-    if (!lock) return;
-    summary.unlocked = !lock->works();
-    const FolderState state = set_up(layout, common, mission, options, *lock);
-    const auto shard = [&](std::size_t i) { return shard_of(i, options.shards); };
+    // Before the lock, which makes a file: the folder may not be ours, or the disk read-only.
+    if (finished(inspect_folder(layout.folder, common.description, common.mission,
+                                options.overwrite)))
+        return;
+    ShardLock lock(layout.folder, options.shard, options.shards);
+    summary.unlocked = !lock.works();
+    if (options.overwrite) remove_dataset(layout.folder, mission);
+    const FolderState state = claim_folder(layout.folder, common);
+    if (finished(state)) return;
     if (state == FolderState::complete) {
-        const std::vector<PingId> own = make_plan(all, options, shard, is_never_there).todo;
-        summary.complete = has_all(layout, own);
-        if (summary.complete) {
-            summary.skipped = own.size();
-            remove_journal_parts(layout);
-            return;
-        }
-        begin_dataset(layout, common);
+        write_file_durably(layout.folder / description_name, json_text(common.description));
+        std::filesystem::remove(layout.folder / checksums_name);
     }
-    Journal journal(layout.folder, journal_part(options.shard + 1, options.shards),
-                    options.checkpoint_s);
-    summary.unlocked = summary.unlocked || !journal.lock_works();
-    RecordFiles records = open_records(layout);
-    std::optional<FinishedPings> there(std::in_place, layout, records);
-    const Plan plan = make_plan(all, options, shard, *there);
-    summary.skipped = plan.skipped;
-    // Also in a fresh folder: a run that was killed before it had dataset.json leaves a temporary
-    // file.
-    remove_leftovers(layout, plan.todo, options.shards == 1);
-    {
-        const Destination to{layout, writers, records, journal};
-        render_pings(run, plan.todo, &to);
-    }
+    write_common_files(layout, common);
+    RecordFiles records = open_records(layout, RecordAccess::write);
+    const std::vector<PingId> todo = unfinished(layout, records, own);
+    summary.skipped = own.size() - todo.size();
+    remove_leftovers(layout, todo, options.shards == 1);
+    Journal journal(lock, options.checkpoint_s);
+    const Destination to{layout, writers, records, journal};
+    render_pings(run, todo, &to);
     journal.finish();
     if (summary.stopped) return;
-    // Files may have been removed meanwhile: check all of them again.
-    require_records(records);
-    // Only one copy of the journal is held at a time: with many pings it is long.
-    there.emplace(layout, records);
-    require_files(layout, plan.todo, *there);
-    const bool all_there = std::ranges::all_of(all, *there);
-    there.reset();
-    if (!all_there) return;
-    summary.complete = complete_once(layout, mission, writers, records, common, *lock, run.stop);
-    summary.stopped = !summary.complete;
+    if (has_pings(layout, all)) {
+        complete_dataset(layout, mission, writers, records, common);
+        lock.finish();
+        remove_journal_parts(layout.folder);
+        summary.complete = true;
+    } else if (!has_pings(layout, own)) {
+        throw std::runtime_error(layout.folder.string() +
+                                 ": files were changed or removed during the run; the same command "
+                                 "run again renders what is missing");
+    }
 }
 
 }  // namespace
@@ -161,8 +132,7 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
         if (options.files) {
             run_in_folder(run, options, all);
         } else {
-            const auto shard = [&](std::size_t i) { return static_cast<int>(i % options.shards); };
-            render_pings(run, make_plan(all, options, shard, is_never_there).todo, nullptr);
+            render_pings(run, pings_of_shard(all, options), nullptr);
         }
     });
     return summary;

@@ -27,8 +27,7 @@ void check(const RenderOptions& options);
 /// rendered again, and the bytes come out the same. If nothing is missing, nothing is done. Shards
 /// may run at the same time, in one folder or in folders that are merged later (job/merge.h);
 /// whichever run finds that no ping is missing makes the products and marks the dataset as
-/// complete. The folder is locked for the time of the run, and so is each shard's part of the
-/// journal (job/folder_lock.h).
+/// complete. Each shard holds a lock for the time of the run (job/shard_lock.h).
 ///
 /// When `stop` becomes true, pings in flight are finished and the rest is left for a later run.
 /// InputError when the folder holds something else and `overwrite` is off, when another run writes

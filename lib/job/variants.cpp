@@ -6,17 +6,13 @@
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/file.h"
-#include "core/sha256.h"
-#include "core/text.h"
-#include "dataset/checked_json.h"
-#include "dataset/description.h"
+#include "dataset/dataset_file.h"
 #include "dataset/layout.h"
 #include "dataset/metadata.h"
 #include "dataset/ping_metadata.h"
-#include "job/checksums.h"
+#include "job/finished_variants.h"
 #include "job/folder.h"
-#include "job/folder_lock.h"
-#include "job/variant_inputs.h"
+#include "job/shard_lock.h"
 #include "mission/resolved.h"
 #include "mission/variants.h"
 #include "scene/gltf/scene_files.h"
@@ -30,67 +26,50 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* variants_format = "sonarsim variants";
-constexpr std::size_t largest_index = std::size_t{1} << 30;
 
-[[noreturn]] void refuse_folder(const fs::path& folder, const std::string& what) {
+/// InputError for other variants than expected.
+[[noreturn]] void refuse_variants(const fs::path& folder, const std::string& which) {
     throw InputError({folder.string()},
-                     what + "; choose another output.folder, or --overwrite to begin anew");
+                     "holds variants of another mission, seed or version of sonarsim" + which);
 }
 
-/// Removes the dataset of a variant, and its folder if that is empty then.
-void remove_variant(const fs::path& folder, const Mission& mission) {
-    if (!fs::is_directory(folder)) return;
-    const FolderLock lock = lock_alone(folder);
-    Layout layout;
-    layout.folder = folder;
-    remove_dataset(layout, mission);
-    if (fs::is_empty(folder)) fs::remove(folder);
-}
-
-/// Removes the files that all variants share. variants.json stays: the folder is recognised by it.
-void remove_common_files(const fs::path& folder) {
-    fs::remove(folder / checksums_name);
-    remove_gallery(folder);  // it shows files that are gone
-}
-
-/// Writes a file only if it differs: the disk of a complete dataset may be read-only.
-void keep_or_write(const fs::path& file, const std::string& text) {
-    if (fs::is_regular_file(file) && read_file(file, largest_index) == text) return;
-    fs::create_directories(file.parent_path());
-    write_file_durably(file, text);
-}
-
-/// Writes variants.json and its sum.
-void write_common_files(const fs::path& folder, const Json& json) {
-    const std::string text = json_text(json);
-    keep_or_write(folder / variants_name, text);
-    keep_or_write(folder / checksums_name, checksum_line(sha256(text), variants_name));
-}
-
-/// Locks the folder of all variants for a run and prepares it. Shards share the lock; the others
-/// wait while one of them prepares the folder.
-FolderLock enter(const fs::path& folder, const Json& json, std::span<const Mission> variants,
-                 const RenderOptions& options) {
-    constexpr double longest_s = 10.0;
-    const bool alone = options.shards == 1;
-    const auto waits = [&, watch = Stopwatch(), waited_s = 0.0]() mutable {
-        return !alone && (waited_s += watch.lap()) < longest_s;
+/// " (seed: 1 there, 2 here)": what differs in two variants.json; "" if only the hash of the mission
+/// does.
+std::string variants_difference(const Json& there, const Json& here) {
+    std::string text;
+    const auto add = [&](const std::string& name, const Json& before, const Json& now) {
+        if (before == now) return;
+        text += (text.empty() ? " (" : "; ") + name + ": " + before.dump() + " there, " +
+                now.dump() + " here";
     };
-    FolderLock lock(folder);
-    const bool entered = alone ? lock.take_alone(waits) : lock.take_alone_or_share(waits);
-    if (!entered) refuse_second_run(folder);
-    begin_variants(folder, json, variants, options.overwrite);
-    // Another run may come in between, and then the folder may hold other variants.
-    if (!alone && (!lock.share(waits) || read_variants(folder) != json)) refuse_second_run(folder);
-    return lock;
+    for (const char* key : {"mission", "seed", "program_version"})
+        add(key, there.value(key, Json()), here.value(key, Json()));
+    add("variants", there.at("variants").size(), here.at("variants").size());
+    return text.empty() ? "" : text + ")";
+}
+
+/// Removes the variants that the variants.json of the folder names. It goes last: the folder is
+/// recognised by it.
+void remove_variants(const fs::path& folder, const Mission& mission) {
+    const std::optional<Json> found = read_variants(folder);
+    if (!found) return;
+    for (const fs::path& variant : folders_of_variants(folder, *found)) {
+        if (!fs::is_directory(variant)) continue;
+        {
+            const ShardLock lock(variant, 0, 1);
+            remove_dataset(variant, mission);
+        }
+        if (fs::is_empty(variant)) fs::remove(variant);
+    }
+    fs::remove(folder / variants_name);
 }
 
 void add(RenderSummary& all, const RenderSummary& one) {
     all.pings += one.pings;
     all.skipped += one.skipped;
     all.complete = all.complete && one.complete;
+    all.stopped = one.stopped;
     all.unlocked = all.unlocked || one.unlocked;
-    all.seconds += one.seconds;
     all.stages += one.stages;
     all.encode_seconds += one.encode_seconds;
     all.write_seconds += one.write_seconds;
@@ -101,19 +80,18 @@ void add(RenderSummary& all, const RenderSummary& one) {
         all.sensors[i] += one.sensors[i];
 }
 
-/// InputError for the keys of variants.json that are read; the others are only compared.
-void check_variants(const Json& json, const std::string& file) {
-    int index = 0;
-    for (const CheckedJson& variant : CheckedJson(json, file).at("variants").items()) {
-        const std::string name = variant_folder(index++);
-        if (variant.at("folder").text() != name) variant.at("folder").refuse("\"" + name + '"');
+/// InputError for a variant whose objects find no room, before any of the variants is written.
+void require_places(std::span<const Mission* const> variants) {
+    SceneFiles models;
+    for (const Mission* variant : variants) {
+        if (variant->scene.scatter.empty()) continue;
+        try {
+            check_places(*variant, models);
+        } catch (const InputError& error) {
+            throw InputError(error.what() + (" (in " + variant_folder(variant->variant.index)) +
+                             ")");
+        }
     }
-}
-
-/// Refuses links: nothing outside the folder is written or removed.
-void require_no_links(const fs::path& folder, const Json& json) {
-    for (const fs::path& one : folders_of_variants(folder, json))
-        require_no_link(one, "a variant");
 }
 
 }  // namespace
@@ -137,18 +115,17 @@ Json describe_variants(const Mission& mission, std::span<const Mission> variants
 std::optional<Json> read_variants(const fs::path& folder) {
     const fs::path file = folder / variants_name;
     if (!fs::exists(file)) return std::nullopt;
-    Json json = read_json(file, largest_index);
-    if (!json.is_object() || json.value("format", Json()) != variants_format)
+    Json json = read_json(file);
+    if (!json.is_object() || json.value("format", Json()) != variants_format ||
+        !json.value("variants", Json()).is_array())
         throw InputError({file.string()}, "is not sonarsim's, or damaged");
-    check_variants(json, file.string());
     return json;
 }
 
 std::vector<fs::path> folders_of_variants(const fs::path& folder, const Json& json) {
     std::vector<fs::path> folders;
-    const Json variants = json.value("variants", Json::array());
     // Names are not taken from the file, so it cannot name anything outside the folder.
-    for (std::size_t i = 0; i < variants.size(); ++i)
+    for (std::size_t i = 0; i < json.at("variants").size(); ++i)
         folders.push_back(folder / variant_folder(static_cast<int>(i)));
     return folders;
 }
@@ -159,14 +136,23 @@ bool is_complete(const fs::path& dataset) {
     return description && description->value("complete", Json()) == true;
 }
 
-std::optional<Json> inspect_variants(const fs::path& folder, const Json& json,
-                                     std::span<const Mission> variants, bool overwrite) {
+void require_same_variants(const fs::path& folder, const Json& json, const fs::path& first) {
+    const std::optional<Json> own = read_variants(folder);
+    if (!own) throw InputError({folder.string()}, "has no variants.json, and " + first.string() +
+                                                      " has one; give the output folders of one "
+                                                      "mission");
+    if (*own != json)
+        refuse_variants(folder, " than " + first.string() + variants_difference(*own, json));
+}
+
+void inspect_variants(const fs::path& folder, const Json& json, std::span<const Mission> variants,
+                      bool overwrite) {
     // In this order: another shard may write variants.json at any moment.
     const bool has_files = fs::exists(folder) && !is_unused(folder);
-    std::optional<Json> found = read_variants(folder);
+    const std::optional<Json> found = read_variants(folder);
     if (!found && has_files)
         throw InputError({folder.string()},
-                         "holds files that are no variants of a sonarsim mission; choose another "
+                         "holds files that are not variants of a sonarsim mission; choose another "
                          "output.folder, or remove it");
     if (found && *found != json && !overwrite) {
         std::string difference = variants_difference(*found, json);
@@ -174,48 +160,19 @@ std::optional<Json> inspect_variants(const fs::path& folder, const Json& json,
             difference =
                 mission_differences(folder / variant_folder(0),
                                     resolved_yaml(portable(variants.front()), sonar_keys()));
-        refuse_folder(
-            folder, "holds variants of another mission, seed or version of sonarsim" + difference);
+        refuse_variants(folder, difference +
+                                    "; choose another output.folder, or --overwrite to begin anew");
     }
-    if (found) require_no_links(folder, *found);
-    require_no_links(folder, json);
-    return found;
-}
-
-void begin_variants(const fs::path& folder, const Json& json, std::span<const Mission> variants,
-                    bool overwrite) {
-    const std::optional<Json> found = inspect_variants(folder, json, variants, overwrite);
-    if (found && overwrite) {
-        for (const fs::path& old : folders_of_variants(folder, *found))
-            remove_variant(old, variants.front());
-        remove_common_files(folder);
-    }
-    write_common_files(folder, json);
-}
-
-void finish_variants(const fs::path& folder, const Json& json) {
-    // Shards that began at the same time did not see each other.
-    require_same_inputs(folders_of_variants(folder, json));
-}
-
-namespace {
-
-/// InputError for a variant whose objects find no room, before any of the variants is written.
-void require_places(std::span<const Mission> variants, bool files) {
-    SceneFiles models;
-    for (const Mission& variant : variants) {
-        if (variant.scene.scatter.empty() || (files && is_complete(variant.output.folder)))
-            continue;
-        try {
-            check_places(variant, models);
-        } catch (const InputError& error) {
-            throw InputError(error.what() + (" (in " + variant_folder(variant.variant.index)) +
-                             ")");
-        }
+    for (const Json& one : {found.value_or(json), json}) {
+        for (const fs::path& variant : folders_of_variants(folder, one))
+            require_no_link(variant, "a variant");
     }
 }
 
-}  // namespace
+void claim_variants(const fs::path& folder, const Json& json) {
+    if (!create_once(folder / variants_name, json_text(json)))
+        inspect_variants(folder, json, {}, false);
+}
 
 RenderSummary run_variants(const Mission& mission, std::span<const Mission> variants,
                            const RenderOptions& options, const VariantCallback& begin,
@@ -223,56 +180,55 @@ RenderSummary run_variants(const Mission& mission, std::span<const Mission> vari
     check(options);
     const fs::path& folder = mission.output.folder;
     const Json json = describe_variants(mission, variants);
-    require_places(variants, options.files);
-    std::optional<FolderLock> lock;
+    if (options.files) inspect_variants(folder, json, variants, options.overwrite);
+    RenderSummary all;
+    FinishedVariants finished;
+    std::vector<const Mission*> todo;
+    for (std::size_t i = 0; i < variants.size(); ++i) {
+        if (shard_of(i, options.shards) != options.shard) continue;
+        const auto pings =
+            options.files && !options.overwrite ? finished(variants[i]) : std::nullopt;
+        all.skipped += pings.value_or(0);
+        if (!pings) todo.push_back(&variants[i]);
+    }
+    require_places(todo);
+    std::optional<ShardLock> lock;
+    const auto enter = [&] {
+        lock.emplace(folder, options.shard, options.shards);
+        all.unlocked = !lock->works();
+        if (options.overwrite) remove_variants(folder, variants.front());
+        claim_variants(folder, json);
+    };
     RenderOptions one_by_one = options;
     one_by_one.shard = 0;
     one_by_one.shards = 1;
-    one_by_one.overwrite = false;  // enter() has done that
-    SceneFiles models;
-    RenderSummary all;
+    one_by_one.overwrite = false;  // done above
     all.complete = options.files;
+    SceneFiles models;
     Stopwatch watch;
-    const auto is_ours = [&](std::size_t i) {
-        return static_cast<int>(i % static_cast<std::size_t>(options.shards)) == options.shard;
-    };
-    std::uint64_t total = 0;
-    for (std::size_t i = 0; i < variants.size(); ++i)
-        total += is_ours(i);
-    std::uint64_t done = 0;
-    for (std::size_t i = 0; i < variants.size() && !all.stopped; ++i) {
-        if (!is_ours(i)) continue;
-        const std::string name = variant_folder(static_cast<int>(i)) + ": ";
-        const Assembly assembly = assemble(variants[i], models);
-        if (begin) begin(variants[i], assembly);
-        if (options.files && !lock) {
-            // InputError before anything is written.
-            const std::vector<Writers> writers = make_writers(variants[i], assembly);
-            const Layout layout = make_layout(variants[i], writers, assembly.trajectory.size());
-            protect_inputs(layout, variants[i]);
-            lock.emplace(enter(folder, json, variants, options));
-            // The variants of other shards: run_job() compares those of this one.
-            require_same_inputs(folders_of_variants(folder, json),
-                                describe_dataset(variants[i], assembly, layout, writers));
-            all.unlocked = !lock->works();
-        }
-        const RenderSummary one = run_job(variants[i], assembly, one_by_one, nullptr, stop);
+    for (std::size_t k = 0; k < todo.size() && !all.stopped; ++k) {
+        const Mission& variant = *todo[k];
+        const Assembly assembly = assemble(variant, models);
+        if (begin) begin(variant, assembly);
+        if (options.files && !lock) enter();  // once the first scene has been read
+        const RenderSummary one = run_job(variant, assembly, one_by_one, nullptr, stop);
         add(all, one);
-        all.stopped = one.stopped;
         for (std::vector<Warning> found :
-             {one.warnings, image_warnings(variants[i], assembly, one.sensors)}) {
+             {one.warnings, image_warnings(variant, assembly, one.sensors)}) {
             for (Warning& warning : found) {
-                warning.about.insert(0, name);
+                warning.about.insert(0, variant_folder(variant.variant.index) + ": ");
                 all.warnings.push_back(std::move(warning));
             }
         }
-        if (progress) progress(++done, total);
+        if (progress) progress(k + 1, todo.size());
     }
-    // A shard without a variant makes its folder, too: merge takes those of all shards.
-    if (options.files && !lock) lock.emplace(enter(folder, json, variants, options));
-    for (std::size_t i = 0; i < variants.size(); ++i)
-        all.complete = all.complete && (is_ours(i) || is_complete(variants[i].output.folder));
-    if (all.complete) finish_variants(folder, json);
+    if (options.files) {
+        // A shard without a variant makes its folder, too: merge takes those of all shards.
+        if (!fs::exists(folder / variants_name)) enter();
+        remove_journal_parts(folder);  // runs were killed
+    }
+    for (const Mission& variant : variants)
+        all.complete = all.complete && is_complete(variant.output.folder);
     all.seconds = watch.lap();
     return all;
 }

@@ -4,7 +4,7 @@
 #   scripts/slurm/render.sh N mission.yaml OUT [options of sbatch] [-- options of sonarsim render]
 #
 # submits N tasks, of which the k-th renders --shard k/N into OUT.parts/k, and a job that waits for
-# all of them (afterok), merges the parts into OUT and verifies it. Prints the number of that last
+# all of them (afterok), merges the parts into OUT, completes and verifies it. Prints the number of that last
 # job. To retry, give the same command again: parts that are done are not rendered again. OUT.parts/
 # may be removed once OUT is verified. All nodes see the same folders and have the program at the same
 # place; SONARSIM names it (default: build/sonarsim of this repository, else the one in the PATH).
@@ -31,4 +31,4 @@ array=$(sbatch --parsable --array="1-$shards" --job-name="sonarsim-$(basename "$
     "$here/shard.sbatch" "$mission" "$out" "${@:2}")
 sbatch --parsable --dependency="afterok:${array%%;*}" --kill-on-invalid-dep=yes \
     --job-name="sonarsim-$(basename "$out")-merge" --output="$out.parts/merge.log" \
-    ${batch[@]+"${batch[@]}"} "$here/merge.sbatch" "$out" "$shards"
+    ${batch[@]+"${batch[@]}"} "$here/merge.sbatch" "$shards" "$mission" "$out" "${@:2}"

@@ -238,6 +238,11 @@ int rename(const char* from, const char* to) noexcept {
     return NEXT(rename)(from, to);
 }
 
+int link(const char* from, const char* to) noexcept {
+    if (is_below(to) && fails("link", to)) return -1;
+    return NEXT(link)(from, to);
+}
+
 int mkdir(const char* path, mode_t mode) noexcept {
     if (is_below(path) && fails("mkdir", path)) return -1;
     return NEXT(mkdir)(path, mode);

@@ -297,6 +297,19 @@ int rename(const char* from, const char* to) noexcept {
     return result;
 }
 
+int link(const char* from, const char* to) noexcept {
+    const std::lock_guard lock(disk().mutex);
+    if (!is_below(to)) return NEXT(link)(from, to);
+    count();
+    const int result = NEXT(link)(from, to);
+    const auto old = disk().pending.find(from);
+    if (result == 0) {
+        disk().pending[to].data_durable =
+            old == disk().pending.end() || old->second.data_durable;
+    }
+    return result;
+}
+
 int unlink(const char* path) noexcept {
     const std::lock_guard lock(disk().mutex);
     if (is_below(path)) {

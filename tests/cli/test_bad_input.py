@@ -171,7 +171,7 @@ class BadInput(Sandbox):
 class BadFolder(Sandbox):
     def test_folder_holds_something_else(self):
         kept = self.write("out/thesis.txt", "years of work")
-        self.assert_refused(self.render(), "out", "no sonarsim dataset", "another output.folder")
+        self.assert_refused(self.render(), "out", "not a sonarsim dataset", "another output.folder")
         self.assertEqual(kept.read_text(), "years of work")
         self.assertEqual([p.name for p in self.out.iterdir()], ["thesis.txt"])
 
@@ -186,7 +186,7 @@ class BadFolder(Sandbox):
 
     def test_overwrite_never_deletes_what_is_no_dataset(self):
         kept = self.write("out/thesis.txt", "years of work")
-        self.assert_refused(self.render("--overwrite"), "out", "no sonarsim dataset")
+        self.assert_refused(self.render("--overwrite"), "out", "not a sonarsim dataset")
         self.assertEqual(kept.read_text(), "years of work")
 
     def test_folder_is_a_file(self):

@@ -53,6 +53,7 @@ class Clusters(Sandbox):
             if parts:
                 result = self.run_sonarsim("merge", *parts, "merged")
                 self.assertEqual(result.returncode, 0, result.stderr)
+                self.assert_renders("--out", "merged")
         self.assertEqual(digest(self.out), self.whole)
         self.assertEqual(digest(self.folder / "merged"), self.whole)
 

@@ -122,6 +122,7 @@ class Objects(Labelled):
             self.assert_renders("--shard", f"{k}/3", "--out", f"part{k}", "-j2")
         result = self.run_sonarsim("merge", "part3", "part1", "part2", "merged")
         self.assertEqual(result.returncode, 0, result.stderr)
+        self.assert_renders("--out", "merged")
         self.assertEqual(digest(self.folder / "merged"), whole)
         for name in ("sss/objects.json", "fls/objects/000002.json"):
             (self.out / name).unlink()

@@ -102,6 +102,7 @@ class RawRecords(Sandbox):
             self.assert_renders("--shard", f"{part}/2", "--out", f"part{part}")
         merged = self.run_sonarsim("merge", "part1", "part2", "all")
         self.assertEqual(merged.returncode, 0, merged.stderr)
+        self.assert_renders("--out", "all")
         self.assertEqual(digest(self.folder / "all"), digest(self.out))
         self.assert_renders("--out", "off", "--set", "output.raw=false")
         names = digest(self.folder / "off")

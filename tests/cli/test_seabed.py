@@ -113,6 +113,7 @@ class TestSeabed(Composed):
                   for k in (1, 2)]
         self.assertEqual([one.returncode for one in shards], [0, 0], shards[0].stderr)
         self.assertEqual(self.run_sonarsim("merge", "part1", "part2", "merged").returncode, 0)
+        self.assert_renders("--out", "merged")
         self.assertEqual(digest(self.folder / "merged/seabed"), digest(self.out / "seabed"))
 
     def test_heights_are_a_heightmap(self):

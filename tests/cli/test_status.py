@@ -15,25 +15,15 @@ class Status(Sandbox):
 
     def test_shards_one_after_the_other(self):
         self.assert_renders("--shard", "2/3")
-        reported = self.status("out")
-        # Six pings, of which shard 2 of 3 has those with the indices 1 and 4.
-        self.assertEqual(reported["state"], "interrupted")
-        self.assertEqual(reported["pings"], {"done": 2, "all": 6})
-        self.assertEqual(reported["sensors"], {"fls": {"done": 2, "all": 6}})
-        self.assertEqual([(s["shard"], s["of"], s["state"], s["pings"]["done"]) for s in reported["shards"]],
-                         [(1, 3, "not begun", 0), (2, 3, "done", 2), (3, 3, "not begun", 0)])
-        self.assertIsNone(reported["seconds_left"])
+        self.assertEqual(self.status("out"), {"mission": "box", "state": "interrupted",
+                                              "pings": {"done": 2, "all": 6}})
         # Another shard in a folder of its own: both together are reported.
         self.assert_renders("--shard", "1/3", "--out", "other")
         self.assertEqual(self.status("out", "other")["pings"], {"done": 4, "all": 6})
-        text = self.run_sonarsim("status", "out", "other").stdout
-        self.assertIn("pings       4 of 6 (66.7 %)\n", text)
-        self.assertIn("shard 3/3   0 of 2, not begun\n", text)
+        self.assertIn("pings       4 of 6 (66.7 %)\n", self.run_sonarsim("status", "out", "other").stdout)
         self.assert_renders("--shard", "1/3")
         self.assert_renders("--shard", "3/3")
-        reported = self.status("out")
-        self.assertEqual((reported["state"], reported["pings"], reported["shards"]),
-                         ("complete", {"done": 6, "all": 6}, []))
+        self.assertEqual(self.status("out")["state"], "complete")
 
     def test_while_it_runs(self):
         self.write("path.csv", path_csv(200_000))
@@ -42,32 +32,31 @@ class Status(Sandbox):
                               cwd=self.folder, stdout=subprocess.DEVNULL) as process:
             try:
                 reported = {}
-                while process.poll() is None and not reported.get("pings_per_s"):
+                while process.poll() is None and not reported.get("pings", {}).get("done"):
                     time.sleep(0.1)
                     if (self.out / "dataset.json").exists():
                         reported = self.status("out")
                 self.assertEqual(reported["state"], "running")
-                self.assertGreater(reported["pings"]["done"], 0)
-                self.assertGreater(reported["seconds_left"], 0)
             finally:
                 process.terminate()
-        reported = self.status("out")
-        self.assertEqual((reported["state"], reported["pings_per_s"]), ("interrupted", 0))
+        self.assertEqual(self.status("out")["state"], "interrupted")
 
     def test_variants(self):
         mission = (self.folder / "mission.yaml").read_text()
         self.write("mission.yaml", mission + "variants: 3\nvary:\n"
                    "  - {key: sensors.fls.noise.add_sigma, uniform: [0.01, 0.02]}\n")
         self.assert_renders("--shard", "1/2")
-        self.assertEqual(self.status("out"), {"variants": 3, "complete": 2, "under_way": {}})
+        reported = self.status("out")
+        self.assertEqual((reported["state"], reported["variants"]), ("interrupted", {"done": 2, "all": 3}))
         self.assert_renders("--shard", "2/2", "--out", "part2")
-        self.assertEqual(self.status("out", "part2"), {"variants": 3, "complete": 3, "under_way": {}})
+        reported = self.status("out", "part2")
+        self.assertEqual((reported["state"], reported["variants"]), ("complete", {"done": 3, "all": 3}))
         self.assert_renders("--seed", "8", "--out", "other")
         self.assert_refused(self.run_sonarsim("status", "out", "other"), "seed: 8 there, 7 here")
-        self.assert_refused(self.run_sonarsim("status", "out", "other/variant_0000"), "no variants")
+        self.assert_refused(self.run_sonarsim("status", "out", "other/variant_0000"), "no variants.json")
 
-    def test_what_is_no_dataset(self):
-        self.assert_refused(self.run_sonarsim("status", "."), "is no dataset")
+    def test_what_is_not_a_dataset(self):
+        self.assert_refused(self.run_sonarsim("status", "."), "is not a dataset")
         self.assert_renders()
         self.assert_renders("--seed", "8", "--out", "other")
         self.assert_refused(self.run_sonarsim("status", "out", "other"), "of another mission")

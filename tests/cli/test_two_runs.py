@@ -3,7 +3,6 @@ fit together; what is there in the end is whole, and of one mission."""
 import itertools
 import os
 import random
-import resource
 import shutil
 import signal
 import subprocess
@@ -21,8 +20,7 @@ vary:
 """
 SECOND_RUN = "another run is writing into this folder"
 REFUSALS = (SECOND_RUN, "holds a dataset of another mission", "holds variants of another mission",
-            "holds files that are no sonarsim dataset", "holds files that are no variants",
-            "has no variants.json")
+            "holds files that are not a sonarsim dataset", "holds files that are not variants")
 
 
 class TwoRuns(Sandbox):
@@ -54,7 +52,7 @@ class TwoRuns(Sandbox):
         """The folder holds one of these datasets and nothing else."""
         result = self.run_sonarsim("verify", "out")
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertNotIn("is not the dataset's", result.stderr)
+        self.assertNotIn("is not a file of the dataset", result.stderr)
         self.assertIn(digest(self.out), wholes)
 
     def assert_refused_or_done(self, code, stderr):
@@ -152,6 +150,7 @@ class TwoRuns(Sandbox):
         for second, delay in itertools.product((merge, render), (0.0, 0.01)):
             with self.subTest(second=second, delay=delay):
                 self.pair(merge, second, delay)
+                self.assertEqual(self.run_sonarsim(*render).returncode, 0)
                 self.assert_whole(whole)
 
 
@@ -186,7 +185,9 @@ class HeldFolder(TwoRuns):
     def assert_second_is_refused(self, *arguments):
         before = digest(self.out)
         result = self.run_sonarsim(*arguments)
-        self.assert_refused(result, "out", SECOND_RUN)
+        # Another mission is refused without a look at who is at work.
+        other = "--seed" in arguments and "--overwrite" not in arguments or "out/variant_0000" in arguments
+        self.assert_refused(result, "out", "of another mission" if other else SECOND_RUN)
         self.assertEqual(digest(self.out), before)
 
     def test_a_whole_run(self):
@@ -266,27 +267,6 @@ class Disks(Sandbox):
         result = self.on_disk("readonly", "render", "mission.yaml")
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertIn("Read-only file system", result.stderr)
-
-
-@unittest.skipIf(os.environ["SANITIZED"] == "1", "takes minutes under a sanitizer")
-class ManySensors(Sandbox):
-    def test_files_that_are_open_at_the_same_time(self):
-        """1,500 sensors with a file of records each, and 256 files at most."""
-        sensors = "".join(
-            f"  s{k}: {{kind: echosounder, range_max_m: 6, range_bins: 4}}\n" for k in range(1500))
-        self.write("mission.yaml", "seed: 7\nscene: {file: box.gltf, materials: materials.csv}\n"
-                   "trajectory: {file: path.csv}\nsensors:\n" + sensors +
-                   "output: {folder: out, full_scale: 1}\n")
-        self.write("path.csv", path_csv(2))
-
-        def few_files():
-            resource.setrlimit(resource.RLIMIT_NOFILE, (256, 256))
-
-        for arguments in (("render", "mission.yaml"), ("merge", "out", "merged")):
-            result = self.run_sonarsim(*arguments, preexec_fn=few_files)
-            self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(digest(self.out), digest(self.folder / "merged"))
-        self.assertEqual(self.run_sonarsim("verify", "out", preexec_fn=few_files).returncode, 0)
 
 
 if __name__ == "__main__":

@@ -73,39 +73,49 @@ class Variants(Sandbox):
         self.assert_renders()
         self.assertEqual(digest(self.out), whole)
 
+    def test_finished_variants_are_skipped_without_their_scenes(self):
+        self.assert_renders()
+        whole = digest(self.out)
+
+        def again(*arguments):
+            result = self.assert_renders("--json", *arguments)
+            self.assertEqual(digest(self.out), whole)
+            return json.loads(result.stdout), result.stderr
+
+        summary, stderr = again()
+        self.assertEqual((summary["pings"], summary["skipped"], summary["complete"]), (0, 36, True))
+        self.assertIn("all of its 36 pings were there already", stderr)
+        self.assertNotIn("triangles", stderr, "no scene is read")
+        (self.out / "variant_0002/fls/polar/000003.npy").unlink()
+        shutil.rmtree(self.out / "variant_0004")
+        summary, stderr = again()
+        self.assertEqual((summary["pings"], summary["skipped"]), (7, 29))
+        self.assertIn("7 pings rendered, 29 were there already", stderr)
+        (self.out / "journal.d").mkdir()
+        (self.out / "journal.d/1-of-1.txt").touch()  # of a run that was killed
+        again()
+        # An input with other bytes is not the same mission.
+        self.edit("materials.csv", "2400", "2500")
+        self.assert_refused(self.render(), "variant_0000", "other scene, material or trajectory files")
+        self.assertEqual(digest(self.out), whole)
+
     def test_merge_and_verify(self):
         self.assert_renders()
         whole = digest(self.out)
         for k in (1, 2):
             self.assert_renders("--shard", f"{k}/2", "--out", f"part{k}")
-        result = self.run_sonarsim("merge", "part1", "joined")
-        self.assert_refused(result, "variant_0001 is in none of the parts")
-        result = self.run_sonarsim("merge", "part1", "part2", "joined")
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.run_sonarsim("merge", "part1", "joined", "--json")
+        self.assertIs(json.loads(result.stdout)["complete"], False, result.stderr)
+        result = self.run_sonarsim("merge", "part1", "part2", "joined", "--json")
+        self.assertIs(json.loads(result.stdout)["complete"], True, result.stderr)
         self.assertEqual(digest(self.folder / "joined"), whole)
         self.assertEqual(self.run_sonarsim("verify", "joined").returncode, 0)
+        self.assert_renders("--out", "joined")
+        self.assertEqual(digest(self.folder / "joined"), whole)
         (self.folder / "joined/variant_0003/fls/polar/000000.npy").write_bytes(b"spoilt")
         result = self.run_sonarsim("verify", "joined")
         self.assertEqual(result.returncode, 1)
         self.assertIn("variant_0003", result.stderr)
-
-    def test_shards_need_the_same_input_files(self):
-        materials = self.folder / "materials.csv"
-        changed = materials.read_text().replace("2400", "2500")
-        for k in (1, 2):
-            self.assert_renders("--shard", f"{k}/2", "--out", f"part{k}")
-            materials.write_text(changed)
-        self.assert_refused(self.run_sonarsim("merge", "part1", "part2", "joined"),
-                            "variant_0001", 'differs from', 'in "materials.csv"')
-        self.assertFalse((self.folder / "joined").exists())
-        self.assert_refused(self.render("--shard", "2/2", "--out", "part1"),
-                            "variant_0000", "differs from the files of this run", '"materials.csv"')
-        self.assertFalse((self.folder / "part1/variant_0001").exists())
-        # Shards that begin at the same time.
-        (self.folder / "part2/variant_0001").rename(self.folder / "part1/variant_0001")
-        for k in (3, 5):
-            shutil.move(self.folder / f"part2/variant_000{k}", self.folder / "part1")
-        self.assert_refused(self.render("--shard", "2/2", "--out", "part1"), '"materials.csv"')
 
     def test_more_shards_than_variants(self):
         self.assert_renders("--set", "variants=2")
@@ -158,7 +168,7 @@ class Variants(Sandbox):
         self.assert_refused(self.render("--seed", "9"), "holds variants of another mission",
                             "--overwrite")
         self.write("other/thesis.txt", "years of work")
-        self.assert_refused(self.render("--out", "other"), "no variants of a sonarsim mission")
+        self.assert_refused(self.render("--out", "other"), "not variants of a sonarsim mission")
 
     def test_validate_refuses_a_folder_as_render_does(self):
         self.assert_renders("--set", "variants=2")
@@ -168,7 +178,7 @@ class Variants(Sandbox):
             self.assert_refused(self.run_sonarsim(command, "mission.yaml", "--set", "variants=3"),
                                 "variants: 2 there, 3 here", "--overwrite")
             self.assert_refused(self.run_sonarsim(command, "mission.yaml", "--out", "other", "--overwrite"),
-                                "no variants of a sonarsim mission")
+                                "not variants of a sonarsim mission")
             self.assertEqual(digest(self.folder), whole)
         for arguments in (("--set", "variants=2"), ("--set", "variants=3", "--overwrite"), ("--out", "new")):
             result = self.run_sonarsim("validate", "mission.yaml", *arguments)

@@ -86,26 +86,6 @@ TEST_SUITE("dataset") {
         CHECK(read_npy(path).values == std::vector<float>(12, 0.0F));
     }
 
-    TEST_CASE("records: a file that does not stay open is the same file in each call") {
-        const TemporaryFolder folder;
-        const auto path = folder.path / "a.npy";
-        RecordFile file(path, {"<f4", {3, 4}}, 3, RecordAccess::write, KeepOpen::no);
-        const std::vector<float> ones(4, 1.0F);
-        file.write(1, bytes(ones));
-        CHECK(file.hash(1) == hash_of_record(record_bytes(ones)));
-        file.require_in_place();
-        file.close();
-        std::vector<float> expected(12, 0.0F);
-        std::fill_n(expected.begin() + 4, 4, 1.0F);
-        CHECK(read_npy(path).values == expected);
-        std::filesystem::rename(path, folder.path / "b.npy");
-        CHECK_THROWS_AS(file.write(0, bytes(ones)), std::runtime_error);
-        write_file(path, read_file(folder.path / "b.npy", 1000));
-        CHECK_THROWS_AS(file.write(0, bytes(ones)), std::runtime_error);
-        CHECK_THROWS_AS(file.require_in_place(), std::runtime_error);
-        CHECK(read_npy(path).values == expected);
-    }
-
     TEST_CASE("records: a link in the file's place is not followed") {
         const TemporaryFolder folder;
         write_file(folder.path / "other", "somebody's");

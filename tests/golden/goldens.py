@@ -135,6 +135,7 @@ class Renderer:
         for k, part in enumerate(parts):
             self.run(*self.command(name, part, "--shard", f"{k + 1}/3"))
         self.run(self.program, "merge", *parts, out)
+        self.run(*self.command(name, out))
         return self.lines(name, out)
 
     def killed(self, name):

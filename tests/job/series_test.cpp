@@ -9,7 +9,7 @@
 #include "assembly/engine_probes.h"
 #include "core/csv.h"
 #include "core/file.h"
-#include "dataset/folded_records.h"
+#include "dataset/averaged_rows.h"
 #include "dataset/writers.h"
 #include "job/run_job.h"
 #include "product/soundings.h"

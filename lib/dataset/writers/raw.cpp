@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "dataset/folded_records.h"
+#include "dataset/averaged_rows.h"
 #include "dataset/writer.h"
 #include "dataset/writers/strip_rows.h"
 #include "format/png.h"

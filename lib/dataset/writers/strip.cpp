@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "dataset/folded_records.h"
+#include "dataset/averaged_rows.h"
 #include "dataset/writer.h"
 #include "dataset/writers/strip_rows.h"
 #include "dataset/writers/swath_files.h"
@@ -43,7 +43,7 @@ class StripWriter final : public Writer {
 
     void write_products(const RecordFile& file,
                         const std::filesystem::path& folder) const override {
-        FoldedRecords records(file);
+        AveragedRows records(file);
         const double white = white_of(records);
         const auto rows = static_cast<int>(records.rows());
         const auto values = static_cast<int>(values_);

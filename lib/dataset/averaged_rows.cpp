@@ -1,4 +1,4 @@
-#include "dataset/folded_records.h"
+#include "dataset/averaged_rows.h"
 
 #include <algorithm>
 #include <span>
@@ -16,14 +16,14 @@ int picture_rows(std::size_t pings) {
     return static_cast<int>((pings + each - 1) / each);
 }
 
-FoldedRecords::FoldedRecords(const RecordFile& records)
+AveragedRows::AveragedRows(const RecordFile& records)
     : records_(records),
       fold_(pings_per_row(records.records())),
       rows_(picture_rows(records.records())),
       record_(records.record_bytes() / sizeof(float)),
       mean_(record_.size()) {}
 
-const std::vector<float>& FoldedRecords::row(std::size_t k) {
+const std::vector<float>& AveragedRows::row(std::size_t k) {
     const std::size_t first = k * fold_;
     const std::size_t last = std::min(first + fold_, records_.records());
     std::ranges::fill(mean_, 0.0F);
@@ -37,7 +37,7 @@ const std::vector<float>& FoldedRecords::row(std::size_t k) {
     return mean_;
 }
 
-double white_of(FoldedRecords& records) {
+double white_of(AveragedRows& records) {
     Gain gain;
     for (std::size_t k = 0; k < records.rows(); ++k)
         gain.add(records.row(k));

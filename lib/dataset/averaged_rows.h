@@ -18,9 +18,9 @@ std::size_t pings_per_row(std::size_t pings);
 int picture_rows(std::size_t pings);
 
 /// The float32 records of a file as the rows of a picture, each the mean of pings_per_row() pings.
-class FoldedRecords {
+class AveragedRows {
   public:
-    explicit FoldedRecords(const RecordFile& records);
+    explicit AveragedRows(const RecordFile& records);
 
     std::size_t rows() const { return rows_; }
     /// Row k; valid until the next call.
@@ -35,6 +35,6 @@ class FoldedRecords {
 };
 
 /// The intensity of the brightest colour in a picture for people.
-double white_of(FoldedRecords& records);
+double white_of(AveragedRows& records);
 
 }  // namespace sonarsim
