@@ -19,7 +19,7 @@ std::vector<SedimentPath> sediments_of(const Mission& mission, const Scene& scen
                                        const Sonar& sonar) {
     const WaterConfig& water = mission.water;
     const double frequency_hz = sonar.config.instrument.frequency_hz;
-    const WaterState state{water.temperature_c, water.salinity_psu, water.depth_m, water.ph};
+    const WaterState state{water.temperature_c, water.salinity_psu, water.depth_m};
     return sediment_paths(scene.materials, {water.density_kg_m3, water.sound_speed_m_s},
                           frequency_hz, absorption_db_per_m(frequency_hz, state));
 }

@@ -67,7 +67,6 @@ struct ScatterConfig {
     double spacing_m = 0.0;  ///< least distance between objects, seen from above
     bool align = false;
     bool buried = false;  ///< as for an object
-    int tries = 1000;     ///< number of places tried for each object
     MissionPlace place;
 
     bool operator==(const ScatterConfig&) const = default;
