@@ -12,8 +12,6 @@ SCRIPTS = pathlib.Path(__file__).parents[2] / "scripts"
 MISSION = test_mistakes.MISSION.replace("{folder: out}", "{folder: out, labels: [objects]}")
 MATERIALS = test_mistakes.MATERIALS
 DEEP = test_mistakes.bottom().replace('"nodes": [{', '"nodes": [{"translation": [0, -100, 0], ')
-CALIBRATED = MISSION.replace("    noise: {add_sigma: 0.01}\n", "    model: calibrated\n"
-                             "    instrument: {frequency_hz: 400000, beam: {width_deg: 1}}\n")
 VARIANTS = MISSION + ("variants: 3\nvary:\n"
                       "  - {key: scene.objects.0.position_m.1, uniform: [-2, 2]}\n")
 GLB = b"glTF\x02\0\0\0" + bytes(30)

@@ -52,12 +52,11 @@ def mesh(corners, faces, material):
                        "type": "SCALAR"}]})
 
 
-def bottom(scale=1.0, z_up=False):
+def bottom(scale=1.0):
     """A square of 100 m about the origin, with a ripple so that it has some height."""
     side = [-50.0, -25.0, 0.0, 25.0, 50.0]
     corners = [(scale * x, scale * y, scale * 0.02 * (i % 2)) for i, x in enumerate(side) for y in side]
-    if not z_up:
-        corners = [(x, z, -y) for x, y, z in corners]
+    corners = [(x, z, -y) for x, y, z in corners]
     quads = [5 * i + k for i in range(4) for k in range(4)]
     return mesh(corners, [f for a in quads for f in ((a, a + 5, a + 6), (a, a + 6, a + 1))], "Sand")
 
@@ -68,12 +67,12 @@ def box(half):
     return mesh(corners, [f for a, b, c, d in quads for f in ((a, b, c), (a, c, d))], "Steel")
 
 
-def path(z=5.0, unit=1.0, offset=(0.0, 0.0), turn=1.0):
+def path(z=5.0, offset=(0.0, 0.0)):
     """From west to east over the bottom and then north, ten poses."""
     rows = []
     for i in range(10):
         x, y, yaw = (-20 + 8 * i, 0, 0) if i < 5 else (20, 8 * (i - 5), 90)
-        rows.append(f"{i},{unit * x + offset[0]},{unit * y + offset[1]},{unit * z},0,0,{turn * yaw}")
+        rows.append(f"{i},{x + offset[0]},{y + offset[1]},{z},0,0,{yaw}")
     return "\n".join(["t_s,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg", *rows]) + "\n"
 
 
