@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <system_error>
 
-#include "checks/find_warnings.h"
 #include "core/error.h"
 
 namespace sonarsim {
@@ -40,11 +39,6 @@ std::string size_text(double bytes) {
     for (; size >= 1000.0 && unit + 1 < units.size(); ++unit)
         size *= 1e-3;
     return fmt::format("{:.1f} {}", size, units[unit]);
-}
-
-std::vector<Warning> disk_warnings_at(const std::filesystem::path& folder, double bytes) {
-    const auto available = static_cast<double>(std::filesystem::space(existing(folder)).available);
-    return disk_warnings(folder.string(), bytes, available);
 }
 
 }  // namespace sonarsim

@@ -37,7 +37,7 @@ std::string preset_path(const std::string& name) {
     if (std::ranges::find(known, name) != known.end()) return "sensors/" + name + ".yaml";
     throw InputError(
         Location{name},
-        "is no file, and no preset of this name came with the program" + shipped_hint(name));
+        "is not a file, and no preset of this name came with the program" + shipped_hint(name));
 }
 
 /// A mission of the preset alone, whose scene is never opened.

@@ -39,7 +39,6 @@ void write_files(const Report& report, const std::filesystem::path& folder) {
 Mission without_water_echoes(Mission mission) {
     mission.water.content = WaterContent::none;
     mission.water.scattering_db_per_m3.reset();
-    mission.water.suspended_mg_l.reset();
     mission.water.layers.clear();
     for (SonarConfig& sensor : mission.sensors)
         sensor.instrument.receiver.samples = 1;

@@ -46,21 +46,11 @@ Json json_of(const ValueRange& interval) {
     return {interval.low, interval.high};
 }
 
-/// Rounds to a tenth; -0 becomes 0.
-double round_off(double value) {
-    constexpr double tenths = 10.0;
-    return std::round(tenths * value) / tenths + 0.0;
-}
-
 }  // namespace
 
 std::string survey_text(const SonarSurvey& found, const Scene& scene) {
     const auto line = [](const std::string& text) { return result_line("", text); };
-    const ValueRange roll{round_off(found.roll_deg.low), round_off(found.roll_deg.high)};
-    const ValueRange pitch{round_off(found.pitch_deg.low), round_off(found.pitch_deg.high)};
-    std::string text =
-        line(fmt::format("altitude {}, roll {}, pitch {}", text_of(found.altitude_m, "m"),
-                         text_of(roll, "deg"), text_of(pitch, "deg")));
+    std::string text = line("altitude " + text_of(found.altitude_m, "m"));
     text += line(fmt::format("{} of {} pings tried are blind, {:.1f} % of the bins are occupied",
                              found.blind, found.pings, 100.0 * found.occupied_share));
     if (found.first_echo_m.empty()) return text;
@@ -86,8 +76,6 @@ Json survey_json(const SonarSurvey& found, const Scene& scene) {
     return {{"pings_tried", found.pings},
             {"blind", found.blind},
             {"altitude_m", json_of(found.altitude_m)},
-            {"roll_deg", json_of(found.roll_deg)},
-            {"pitch_deg", json_of(found.pitch_deg)},
             {"occupied_share", found.occupied_share},
             {"first_echo_m", json_of(found.first_echo_m)},
             {"last_echo_m", json_of(found.last_echo_m)},

@@ -49,7 +49,6 @@ struct VariantFindings {
     double seconds = 0.0;         ///< sum over all pings, if they cost what the first variant costs
     double expected_bytes = 0.0;  ///< sum, estimated in the same way
     double set_up_s = 0.0;        ///< sum, if all cost what the first variant costs
-    bool is_new = true;           ///< no variant is begun
     std::string first;            ///< text about the first
     std::vector<Warning> warnings;
 };
@@ -178,8 +177,8 @@ double common_bytes_at_most(const Mission& mission, const Assembly& assembly, co
 }
 
 /// Checks one mission against its folder.
-Findings find_out(const Mission& mission, const Assembly& assembly,
-                  const std::vector<Writers>& writers, bool overwrite) {
+Findings check_folder(const Mission& mission, const Assembly& assembly,
+                      const std::vector<Writers>& writers, bool overwrite) {
     const std::size_t poses = assembly.trajectory.size();
     const Layout layout = make_layout(mission, writers, poses);
     protect_inputs(layout, mission);
@@ -201,8 +200,8 @@ Findings find_out(const Mission& mission, const Assembly& assembly,
 }
 
 /// Casts rays: surveys the mission with its sonars, finds warnings and measures the cost of pings.
-void look_at(const Mission& mission, const Assembly& assembly, const std::vector<Writers>& writers,
-             Findings& findings) {
+void survey_mission(const Mission& mission, const Assembly& assembly,
+                    const std::vector<Writers>& writers, Findings& findings) {
     const double available = std::max(0.0, machine_memory() - resident_memory());
     findings.warnings =
         memory_warnings(assembly.sonars, tbb::info::default_concurrency(), available);
@@ -244,10 +243,10 @@ VariantFindings check_variants(const std::vector<Mission>& variants,
         const Assembly assembly = assemble(checked, models);
         const double assemble_s = watch.lap();
         const std::vector<Writers> writers = make_writers(checked, assembly);
-        Findings findings = find_out(checked, assembly, writers, arguments.overwrite);
+        Findings findings = check_folder(checked, assembly, writers, arguments.overwrite);
         if (is_first) {
             findings.set_up_s = assemble_s;
-            look_at(variant, assembly, writers, findings);
+            survey_mission(variant, assembly, writers, findings);
             all.warnings = std::move(findings.warnings);
             all.first = text_of_parts(findings);
             set_up_s = findings.set_up_s;
@@ -261,7 +260,6 @@ VariantFindings check_variants(const std::vector<Mission>& variants,
         all.bytes += findings.bytes;
         all.seconds += 3600.0 * findings.hours();
         all.expected_bytes += findings.cost(&PingCost::bytes);
-        all.is_new = all.is_new && findings.state == state_names.front();
     }
     return all;
 }
@@ -282,7 +280,7 @@ void print_variants(const Mission& mission, const VariantFindings& all, bool as_
     }
     fmt::print("{}{}{}{}{}{}{}", result_line("mission", mission.name),
                result_line("variants", std::to_string(all.variants)),
-               result_line("looked at", variant_folder(0) + ":"), all.first,
+               result_line("surveyed", variant_folder(0) + ":"), all.first,
                result_line("together", fmt::format("{} variants:", all.variants)),
                estimate_text(all.pings, all.images, all.seconds, all.set_up_s, all.expected_bytes,
                              all.bytes),
@@ -296,10 +294,7 @@ int validate(const ValidateArguments& arguments) {
     if (!variants.empty()) {
         inspect_variants(mission.output.folder, describe_variants(mission, variants), variants,
                          arguments.overwrite);
-        VariantFindings all = check_variants(variants, arguments);
-        for (Warning& warning :
-             disk_warnings_at(mission.output.folder, all.is_new ? all.expected_bytes : 0.0))
-            all.warnings.push_back(std::move(warning));
+        const VariantFindings all = check_variants(variants, arguments);
         if (arguments.log.prints_result()) print_variants(mission, all, arguments.log.json);
         return log_warnings(all.warnings) > 0 && arguments.strict ? exit_warned : exit_done;
     }
@@ -307,13 +302,9 @@ int validate(const ValidateArguments& arguments) {
     const Assembly assembly = assemble(mission);
     const double assemble_s = watch.lap();
     const std::vector<Writers> writers = make_writers(mission, assembly);
-    Findings findings = find_out(mission, assembly, writers, arguments.overwrite);
+    Findings findings = check_folder(mission, assembly, writers, arguments.overwrite);
     findings.set_up_s = assemble_s;
-    look_at(mission, assembly, writers, findings);
-    const bool is_new = findings.state == state_names.front();
-    for (Warning& warning :
-         disk_warnings_at(findings.folder, is_new ? findings.cost(&PingCost::bytes) : 0.0))
-        findings.warnings.push_back(std::move(warning));
+    survey_mission(mission, assembly, writers, findings);
     if (arguments.log.prints_result()) {
         fmt::print("{}", arguments.log.json ? json_line(json_of(findings)) : text_of(findings));
     }

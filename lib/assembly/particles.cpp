@@ -42,11 +42,6 @@ class GroupDraws {
 };
 
 std::uint32_t count_of(const ParticlesConfig& config, const GroupDraws& draws) {
-    if (config.per_m3 > 0.0) {
-        const double box_m3 = config.size_m[0] * config.size_m[1] * config.size_m[2];
-        const double share = config.region == ParticleRegion::ellipsoid ? pi / 6.0 : 1.0;
-        return static_cast<std::uint32_t>(std::lround(config.per_m3 * share * box_m3));
-    }
     const double choices = config.count[1] - config.count[0] + 1.0;
     const double more = std::floor(choices * draws.unit(0, ParticleDraw::count));
     return static_cast<std::uint32_t>(config.count[0] + more);
@@ -135,9 +130,7 @@ void require_new_name(const ParticlesConfig& config, const Scene& scene) {
 void add_group(ParticleGroup& group, Scene& scene) {
     const ParticlesConfig& config = *group.config;
     require_new_name(config, scene);
-    const bool is_single = config.instances == ParticleInstances::each ||
-                           (config.instances == ParticleInstances::automatic &&
-                            static_cast<double>(group.targets.size()) < most_single_particles);
+    const bool is_single = static_cast<double>(group.targets.size()) < most_single_particles;
     const std::uint32_t material = material_of(config.kind, scene);
     std::uint32_t instance = 0;
     if (!is_single) instance = add_instance(config, config.name, scene);
@@ -152,8 +145,7 @@ void add_group(ParticleGroup& group, Scene& scene) {
 double section_of(const ParticlesConfig& config, const DrawnParticle& drawn, const Mission& mission,
                   double frequency_hz) {
     if (config.kind == ParticleKind::points) return power_of_db(drawn.size);
-    if (config.kind == ParticleKind::fish)
-        return fish_section_m2(config.law, drawn.size, frequency_hz);
+    if (config.kind == ParticleKind::fish) return fish_section_m2(drawn.size, frequency_hz);
     const auto& surface = mission.scene.water_surface;
     const double depth_m = (surface ? surface->height_m : 0.0) - drawn.particle.start_m.z();
     return bubble_section_m2(drawn.size, depth_m, mission.water.density_kg_m3,

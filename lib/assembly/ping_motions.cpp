@@ -78,7 +78,7 @@ void add_ping_motions(const Mission& mission, const Trajectory& trajectory,
             throw InputError(
                 "sensor '" + sonar.config.name +
                 "': moves_in_ping takes speeds from successive poses, and `vary` draws "
-                "the vehicle's offset or turn anew for each; leave out one");
+                "a new offset or turn of the vehicle for each; leave out one");
         }
         std::vector<PingMotion> motions;
         for (std::size_t pose = 0; pose < trajectory.size(); ++pose)

@@ -110,16 +110,13 @@ Trajectory vehicle_poses(const Mission& mission) {
 }
 
 Trajectory navigation_poses(const Mission& mission, const Trajectory& truth) {
-    constexpr double seconds_per_hour = 3600.0;
     const NavigationConfig& config = mission.vehicle.navigation;
-    const NavigationErrors errors{
-        .position_m = config.position_m,
-        .depth_m = config.depth_m,
-        .tilt_rad = radians(config.tilt_deg),
-        .heading_rad = radians(config.heading_deg),
-        .heading_bias_rad = radians(config.heading_bias_deg),
-        .heading_drift_rad_s = radians(config.heading_drift_deg_h) / seconds_per_hour,
-        .speed_scale = config.speed_scale};
+    const NavigationErrors errors{.position_m = config.position_m,
+                                  .depth_m = config.depth_m,
+                                  .tilt_rad = radians(config.tilt_deg),
+                                  .heading_rad = radians(config.heading_deg),
+                                  .heading_bias_rad = radians(config.heading_bias_deg),
+                                  .speed_scale = config.speed_scale};
     if (!errors.is_on()) return {};
     return reported_poses(truth, errors, vehicle_key(mission, "navigation"));
 }

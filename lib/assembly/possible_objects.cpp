@@ -27,10 +27,8 @@ std::vector<NamedInstance> drawn_instances(const SceneConfig& scene) {
             drawn.push_back({scatter.name + "_" + std::to_string(k), class_of(scatter)});
     }
     for (const ParticlesConfig& particles : scene.particles) {
-        if (particles.instances != ParticleInstances::group)
-            drawn.push_back({particles.name + "_1", class_of(particles)});
-        if (particles.instances != ParticleInstances::each)
-            drawn.push_back({particles.name, class_of(particles)});
+        drawn.push_back({particles.name + "_1", class_of(particles)});
+        drawn.push_back({particles.name, class_of(particles)});
     }
     return drawn;
 }

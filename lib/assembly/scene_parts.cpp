@@ -182,7 +182,7 @@ ScatterRule rule_of(const ScatterConfig& config) {
             .bury_m = config.bury_m,
             .spacing_m = config.spacing_m,
             .align = config.align,
-            .tries = config.tries,
+            .tries = 1000,
             .place = config.place.location};
 }
 

@@ -18,6 +18,12 @@ namespace {
 
 constexpr std::size_t largest_file = std::size_t{1} << 24;
 
+/// The speed of sound at a depth below scene.water_surface.
+struct ProfilePoint {
+    double depth_m;
+    double sound_speed_m_s;
+};
+
 /// The temperature of the water at a depth.
 struct Temperature {
     double depth_m;
@@ -44,9 +50,9 @@ std::vector<Temperature> temperatures(NamedProfile named, double celsius) {
 constexpr double thermocline_step_m = 2.0;
 constexpr double deep_step_m = 500.0;
 
-std::vector<ProfilePointConfig> named_points(const SoundProfileConfig& config, WaterConfig water) {
+std::vector<ProfilePoint> named_points(const SoundProfileConfig& config, WaterConfig water) {
     const std::vector<Temperature> nodes = temperatures(config.named, water.temperature_c);
-    std::vector<ProfilePointConfig> points;
+    std::vector<ProfilePoint> points;
     for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
         const double span = nodes[k + 1].depth_m - nodes[k].depth_m;
         const bool cools = nodes[k + 1].celsius != nodes[k].celsius;
@@ -72,7 +78,7 @@ double number_of(const CsvTable& csv, const CsvRow& row, std::size_t column, con
                                                number_text(limits.high));
 }
 
-std::vector<ProfilePointConfig> points_of_file(const std::filesystem::path& file) {
+std::vector<ProfilePoint> points_of_file(const std::filesystem::path& file) {
     const CsvTable csv = read_csv(file, largest_file);
     const auto column = [&](const char* name) {
         const auto found = std::ranges::find(csv.header.fields, name);
@@ -89,7 +95,7 @@ std::vector<ProfilePointConfig> points_of_file(const std::filesystem::path& file
     };
     const std::size_t depth = column("depth_m");
     const std::size_t speed = column("sound_speed_m_s");
-    std::vector<ProfilePointConfig> points;
+    std::vector<ProfilePoint> points;
     for (const CsvRow& row : csv.rows) {
         points.push_back({number_of(csv, row, depth, between(0, 12000)),
                           number_of(csv, row, speed, profile_speeds_m_s)});
@@ -117,13 +123,12 @@ void refuse_multipath(const Mission& mission) {
 }  // namespace
 
 SoundProfile sound_profile(const SoundProfileConfig& config, const Mission& mission) {
-    std::vector<ProfilePointConfig> points = config.points;
-    if (!config.file.empty()) points = points_of_file(config.file);
-    if (config.named != NamedProfile::none) points = named_points(config, mission.water);
+    std::vector<ProfilePoint> points =
+        config.file.empty() ? named_points(config, mission.water) : points_of_file(config.file);
     SoundProfile profile;
     profile.range_speed_m_s = mission.water.sound_speed_m_s;
     std::ranges::reverse(points);
-    for (const ProfilePointConfig& point : points) {
+    for (const ProfilePoint& point : points) {
         profile.height_m.push_back(mission.scene.water_surface->height_m - point.depth_m);
         profile.speed_m_s.push_back(point.sound_speed_m_s);
     }

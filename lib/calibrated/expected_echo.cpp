@@ -89,9 +89,8 @@ ExpectedEcho expected_echo(const InstrumentConfig& instrument, const WaterConfig
     out.along = line_array(width, beam.side_lobe_db);
     out.frequency_hz = instrument.frequency_hz;
     out.wavelength_m = water.sound_speed_m_s / instrument.frequency_hz;
-    out.absorption_db_per_m =
-        absorption_db_per_m(instrument.frequency_hz,
-                            {water.temperature_c, water.salinity_psu, water.depth_m, water.ph});
+    out.absorption_db_per_m = absorption_db_per_m(
+        instrument.frequency_hz, {water.temperature_c, water.salinity_psu, water.depth_m});
     out.pulse_length_m =
         pulse_band(instrument.pulse, sample_m(view, instrument.receiver), water.sound_speed_m_s)
             .length_m;

@@ -66,11 +66,15 @@ InstrumentLevels instrument_levels(const InstrumentConfig& instrument, const Wat
     out.thermal_noise_db = thermal_noise_db(instrument.frequency_hz);
     out.wind_noise_db = wind_noise_db(instrument.frequency_hz, water.wind_m_s);
 
-    const double efficiency_db = db_of_power(receiver.efficiency);
+    // Rules of thumb for the levels that are auto.
+    constexpr double power_w = 100.0;        // electric power of the transmitter
+    constexpr double efficiency = 0.5;       // acoustic by electric power of the transducer
+    constexpr double noise_figure_db = 6.0;  // of the electronics
+    const double efficiency_db = db_of_power(efficiency);
     const double source_db =
-        watt_db + db_of_power(instrument.power_w) + efficiency_db + out.transmitting_directivity_db;
+        watt_db + db_of_power(power_w) + efficiency_db + out.transmitting_directivity_db;
     const double sea_db =
-        db_of_power(power_of_db(out.thermal_noise_db + receiver.noise_figure_db - efficiency_db) +
+        db_of_power(power_of_db(out.thermal_noise_db + noise_figure_db - efficiency_db) +
                     power_of_db(out.wind_noise_db));
     const double noise_db = sea_db + db_of_power(out.noise_hz) - out.receiving_directivity_db;
 

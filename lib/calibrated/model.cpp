@@ -130,9 +130,8 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
     model.sound_speed_m_s = water.sound_speed_m_s;
     model.water_density_kg_m3 = water.density_kg_m3;
     model.wavelength_m = water.sound_speed_m_s / instrument.frequency_hz;
-    model.absorption_db_per_m =
-        absorption_db_per_m(instrument.frequency_hz,
-                            {water.temperature_c, water.salinity_psu, water.depth_m, water.ph});
+    model.absorption_db_per_m = absorption_db_per_m(
+        instrument.frequency_hz, {water.temperature_c, water.salinity_psu, water.depth_m});
 
     model.levels = instrument_levels(instrument, water, view_of_image);
     const double noise_db = model.levels.noise_db - model.levels.source_level_db;

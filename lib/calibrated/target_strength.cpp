@@ -8,16 +8,8 @@
 
 namespace sonarsim {
 
-double fish_section_m2(FishLaw law, double length_m, double frequency_hz) {
+double fish_section_m2(double length_m, double frequency_hz) {
     const double length_db = db_of_power(100.0 * length_m);  // 10 log of centimetres
-    switch (law) {
-        case FishLaw::foote_gadoid:
-            return power_of_db(2.0 * length_db - 67.4);
-        case FishLaw::foote_clupeid:
-            return power_of_db(2.0 * length_db - 71.9);
-        case FishLaw::love:
-            break;
-    }
     return power_of_db(1.91 * length_db - 0.09 * db_of_power(1e-3 * frequency_hz) - 62.0);
 }
 

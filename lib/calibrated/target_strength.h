@@ -1,21 +1,13 @@
 #pragma once
 
-#include "mission/particles_config.h"
-
 namespace sonarsim {
 
 // Backscattering cross-sections of single targets in the water, m^2; 10 log is the target strength.
 
-/// A fish seen from above, by `law`:
-///
-///     love           TS = 19.1 log L - 0.9 log f - 62.0     L in cm, f in kHz
-///     foote_gadoid   TS = 20 log L - 67.4
-///     foote_clupeid  TS = 20 log L - 71.9
-///
-/// R. H. Love, "Dorsal-aspect target strength of an individual fish", J. Acoust. Soc. Am. 49 (1971)
-/// 816, from measurements between 15 kHz and 1 MHz; K. G. Foote, "Fish target strengths for use in
-/// echo integrator surveys", J. Acoust. Soc. Am. 82 (1987) 981, at 38 kHz.
-double fish_section_m2(FishLaw law, double length_m, double frequency_hz);
+/// A fish seen from above: TS = 19.1 log L - 0.9 log f - 62.0, L in cm, f in kHz. R. H. Love,
+/// "Dorsal-aspect target strength of an individual fish", J. Acoust. Soc. Am. 49 (1971) 816, from
+/// measurements between 15 kHz and 1 MHz.
+double fish_section_m2(double length_m, double frequency_hz);
 
 /// A bubble of air at a depth:
 ///

@@ -63,9 +63,8 @@ double volume_strength(const WaterConfig& water, double frequency_hz) {
     // A given level includes the suspended particles that are usual for `content`.
     if (water.scattering_db_per_m3) content = {power_of_db(*water.scattering_db_per_m3), 0.0};
     const double wavenumber = 2.0 * pi * frequency_hz / water.sound_speed_m_s;
-    return content.strength +
-           suspended_strength(water.suspended_mg_l.value_or(content.suspended_mg_l),
-                              water.suspended_um, wavenumber);
+    constexpr double grain_um = 50.0;  // diameter of silt
+    return content.strength + suspended_strength(content.suspended_mg_l, grain_um, wavenumber);
 }
 
 }  // namespace sonarsim

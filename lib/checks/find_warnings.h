@@ -17,27 +17,18 @@ std::vector<Warning> find_warnings(const Mission& mission, const Assembly& assem
                                    std::span<const SonarSurvey> sonars,
                                    const VisibilityEngine& rays);
 
-/// The warnings that need no ping: what reading the scene found, water, materials, angles and
-/// heights of the mission, engine and fans.
+/// The warnings that need no ping: what reading the scene found, materials and the engine.
 std::vector<Warning> warnings_before_pings(const Mission& mission, const Assembly& assembly);
 
 /// W01: the findings of reading the scene.
 std::vector<Warning> reading_warnings(const Scene& scene);
 
-/// Warnings about the size of the scene, its upward axis, and parts that it has twice.
+/// Warnings about the size of the scene and the cells of its heightmap.
 std::vector<Warning> scene_warnings(const Mission& mission, const Assembly& assembly,
                                     std::span<const SonarSurvey> sonars);
 
-/// Water and materials with values that no real water or solid has.
+/// W09: materials that reflect no sound in this water.
 std::vector<Warning> material_warnings(const WaterConfig& water, const Scene& scene);
-
-/// Values of the mission that hardly fit the rest of it: angles of sonars and objects that look
-/// like radians, unused heights, a depth far from the vehicle's.
-std::vector<Warning> mission_warnings(const Mission& mission, const Trajectory& trajectory);
-
-/// Attitudes: angles that look like radians, quaternions that look like w, x, y, z.
-std::vector<Warning> trajectory_warnings(const TrajectoryConfig& config,
-                                         const Trajectory& trajectory);
 
 /// Warnings about a sonar in a survey: blind pings and the reasons, echoes below the noise,
 /// pictures that are white or black.
@@ -55,14 +46,6 @@ std::vector<Warning> unseen_objects(const Mission& mission, const Assembly& asse
                                     std::span<const SonarSurvey> sonars,
                                     const VisibilityEngine& rays);
 
-/// W36: groups of scene.particles of which no sonar sees a target.
-std::vector<Warning> unseen_particles(const Mission& mission, const Assembly& assembly,
-                                      const VisibilityEngine& rays);
-
-/// Adds to W04, W12 and W17 a question about the unit of files whose size is about three orders of
-/// magnitude off the ranges of the sonars.
-void ask_for_units(const Mission& mission, const Scene& scene, std::vector<Warning>& warnings);
-
 /// An estimate of the memory of one ping of a sonar.
 struct PingMemory {
     double bytes = 0.0;
@@ -76,8 +59,5 @@ std::vector<Warning> memory_warnings(const std::vector<Sonar>& sonars, int threa
 
 /// True if one ping of any of the sonars takes more than the `available` bytes.
 bool exceeds_memory(const std::vector<Sonar>& sonars, double available);
-
-/// W34 if a dataset of `bytes` does not fit into the `available` bytes.
-std::vector<Warning> disk_warnings(const std::string& folder, double bytes, double available);
 
 }  // namespace sonarsim

@@ -42,12 +42,6 @@ std::vector<Warning> memory_warnings(const std::vector<Sonar>& sonars, int threa
     return out;
 }
 
-std::vector<Warning> disk_warnings(const std::string& folder, double bytes, double available) {
-    constexpr double giga = 1e9;
-    if (!(bytes > available)) return {};
-    return {make_warning(WarningCode::disk_full, folder, bytes / giga, available / giga)};
-}
-
 bool exceeds_memory(const std::vector<Sonar>& sonars, double available) {
     return std::ranges::any_of(
         sonars, [&](const Sonar& sonar) { return ping_memory(sonar).bytes > available; });

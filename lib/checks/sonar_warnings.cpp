@@ -10,8 +10,6 @@ namespace {
 constexpr double many_white = 0.05;  // a share of the occupied bins
 constexpr double faint = 0.25;       // a share of the noise's deviation
 constexpr double fewest_greys = 16.0;
-constexpr double many_lost = 0.5;   // a share of the echoes, or of the samples
-constexpr double long_noise = 0.1;  // mean shift, a share of the range
 
 /// Warns of pings that see nothing, with the reasons.
 void judge_blindness(const Sonar& sonar, const SonarSurvey& found, std::vector<Warning>& out) {
@@ -64,34 +62,13 @@ std::string cure_of_noise(const SonarConfig& config, const SonarSurvey& found) {
         return fmt::format("lower instrument.receiver.noise_db ({:.4g}) {}", *receiver.noise_db,
                            by);
     return fmt::format(
-        "raise instrument.source_level_db or instrument.power_w {}, or lower "
+        "raise instrument.source_level_db {}, or lower "
         "range_max_m; sonarsim preset prints the ranges at which the sonar sees",
         by);
 }
 
 double share(std::uint64_t part, std::uint64_t whole) {
     return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
-}
-
-/// Warns of pings of a run without echoes, and of surface that gave no echo.
-void judge_echoes(const SonarConfig& config, const SensorSummary& summary,
-                  std::vector<Warning>& out) {
-    const std::string about = about_sensor(config.name);
-    const PingCounts& counts = summary.counts;
-    const double lost = share(counts.out_of_range, counts.echoes);
-    const double range_m = config.range_max_m - config.range_min_m;
-    const double shift_m = config.noise.range_lambda_m;
-    if (shift_m > long_noise * range_m && lost >= many_lost) {
-        out.push_back(
-            make_warning(WarningCode::noise_beyond_range, about, 100.0 * lost, shift_m, range_m));
-    } else if (summary.dark_pings > 0) {
-        out.push_back(make_warning(WarningCode::blind, about, summary.dark_pings, summary.pings));
-    }
-    const std::uint64_t samples = counts.samples + counts.dropped_samples;
-    if (share(counts.dropped_samples, samples) >= many_lost) {
-        out.push_back(
-            make_warning(WarningCode::samples_dropped, about, counts.dropped_samples, samples));
-    }
 }
 
 }  // namespace
@@ -125,7 +102,10 @@ std::vector<Warning> image_warnings(const Mission& mission, const Assembly& asse
         const SensorSummary& summary = sensors[i];
         const SonarConfig& config = assembly.sonars[i].config;
         if (summary.pings == 0) continue;
-        judge_echoes(config, summary, out);
+        if (summary.dark_pings > 0) {
+            out.push_back(make_warning(WarningCode::blind, about_sensor(config.name),
+                                       summary.dark_pings, summary.pings));
+        }
         if (summary.missed_goals > 0) {
             out.push_back(make_warning(WarningCode::goal_missed, about_sensor(config.name),
                                        summary.missed_goals, summary.pings,
@@ -136,7 +116,6 @@ std::vector<Warning> image_warnings(const Mission& mission, const Assembly& asse
                          share(summary.clipped_pixels, summary.counts.occupied_bins),
                          summary.brightest, out);
     }
-    ask_for_units(mission, assembly.scene, out);
     return out;
 }
 

@@ -7,7 +7,6 @@
 #include "assembly/engine_at.h"
 #include "assembly/sample_pings.h"
 #include "checks/directions.h"
-#include "core/pose.h"
 #include "core/units.h"
 #include "scene/copies.h"
 #include "sonar/measured.h"
@@ -116,8 +115,9 @@ bool faces_up(const Scene& scene) {
 }
 
 /// Counts the pose if no vehicle can be there. docs/warnings.md gives the reasons for the limits.
-void judge_place(const Scene& scene, bool open_upwards, std::span<const Eigen::AlignedBox3d> boxes,
-                 const Pose& T_world_sensor, const Surroundings& around, SonarSurvey& out) {
+void check_position(const Scene& scene, bool open_upwards,
+                    std::span<const Eigen::AlignedBox3d> boxes, const Pose& T_world_sensor,
+                    const Surroundings& around, SonarSurvey& out) {
     std::size_t above = 0;
     std::size_t below = 0;
     std::size_t met_above = 0;
@@ -138,12 +138,6 @@ void judge_place(const Scene& scene, bool open_upwards, std::span<const Eigen::A
     if (boxes[instance].isEmpty() || holds_all(boxes[instance], scene)) return;
     ++out.enclosed;
     out.enclosed_by = scene.instances[instance];
-}
-
-void take_attitude(const Eigen::Quaterniond& rotation, SonarSurvey& out) {
-    const Rpy attitude = rpy_from_rotation(rotation);
-    out.roll_deg.take(degrees(attitude.roll));
-    out.pitch_deg.take(degrees(attitude.pitch));
 }
 
 /// Adds the surface that a ping saw, and the range of its first and last echo. Returns false if it
@@ -226,10 +220,9 @@ SonarSurvey survey_sonar(const Mission& mission, const Assembly& assembly, Sonar
         const Surroundings around = look(view, *now, T_world_sensor);
         const bool in_turn = !slow || out.pings % images_of_slow == 0;
         ++out.pings;
-        take_attitude(at.T_world_vehicle.rotation, out);
         if (const auto altitude = altitude_m(*now, T_world_sensor)) out.altitude_m.take(*altitude);
         bool is_blind = !take_samples(view, traced.samples, out);
-        judge_place(assembly.scene, open_upwards, boxes, T_world_sensor, around, out);
+        check_position(assembly.scene, open_upwards, boxes, T_world_sensor, around, out);
         if (in_turn || is_blind) {  // water and targets in it have echoes without surface
             const Ping ping = form_image(traced, then->settings, assembly.scene, key);
             is_blind = ping.counts.occupied_bins == 0;

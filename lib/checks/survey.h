@@ -50,9 +50,7 @@ struct SonarSurvey {
     std::size_t enclosed = 0;       ///< pings inside one instance, if the scene has several
     std::string enclosed_by;        ///< the last of these instances
     ValueRange altitude_m;          ///< empty if there never is surface below
-    ValueRange roll_deg;            ///< attitude of the vehicle
-    ValueRange pitch_deg;
-    ValueRange first_echo_m;  ///< one value for each ping that saw anything
+    ValueRange first_echo_m;        ///< one value for each ping that saw anything
     ValueRange last_echo_m;
     double occupied_share = 0.0;  ///< a share of the bins of all pings
     double white_share = 0.0;     ///< share of the occupied bins above the white of pictures

@@ -23,12 +23,10 @@ std::string without_figures(std::string_view format) {
 }  // namespace
 
 std::string warning_table_markdown() {
-    std::string text =
-        "| | what is found | what helps | limit | why this limit |\n|---|---|---|---|---|\n";
+    std::string text = "| | what is found | what helps | limit |\n|---|---|---|---|\n";
     for (const WarningText& row : warning_table()) {
-        text += fmt::format("| {} | {} | {} | {} | {} |\n", number_of(row.code),
-                            without_figures(row.what), without_figures(row.cure), row.limit,
-                            row.reason);
+        text += fmt::format("| {} | {} | {} | {} |\n", number_of(row.code),
+                            without_figures(row.what), without_figures(row.cure), row.limit);
     }
     return text;
 }

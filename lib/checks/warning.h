@@ -12,13 +12,7 @@ namespace sonarsim {
 /// The number of a warning: 12 is "W12". A number keeps its meaning in all versions.
 enum class WarningCode {
     reading = 1,
-    scene_huge = 2,
-    scene_tiny = 3,
     scene_out_of_scale = 4,
-    scene_on_edge = 5,
-    water_density = 6,
-    water_speed = 7,
-    material_units = 8,
     material_silent = 9,
     below_surface = 10,
     inside_object = 11,
@@ -32,28 +26,19 @@ enum class WarningCode {
     saturated = 19,
     dim = 20,
     unseen_object = 21,
-    radians = 22,
-    quaternion_order = 23,
     engine = 24,
-    doubled_triangles = 25,
     memory = 26,
     no_locks = 28,
     goal_missed = 29,
-    samples_dropped = 30,
-    noise_beyond_range = 31,
-    thin_fan = 32,
-    disk_full = 34,
-    unseen_particles = 36,
     heightmap_facets = 37,
 };
 
 /// A row of the table of all warnings. `what` and `cure` are format strings of the same figures.
 struct WarningText {
     WarningCode code;
-    const char* what;    ///< the finding
-    const char* cure;    ///< the remedy
-    const char* limit;   ///< the limit from which on the program warns
-    const char* reason;  ///< why the limit lies there
+    const char* what;   ///< the finding
+    const char* cure;   ///< the remedy
+    const char* limit;  ///< the limit from which on the program warns
 };
 
 /// All warnings in the order of their numbers. A number that is gone is not used again.

@@ -79,7 +79,7 @@ std::string draw_value(const VaryConfig& rule, std::uint64_t seed, std::uint32_t
         return std::to_string(static_cast<std::int64_t>(low) +
                               static_cast<std::int64_t>(one_of(count, share)));
     }
-    return rule.choice[one_of(static_cast<double>(rule.choice.size()), share)];
+    return rule.choice.items[one_of(static_cast<double>(rule.choice.items.size()), share)];
 }
 
 }  // namespace sonarsim

@@ -12,29 +12,29 @@ namespace sonarsim {
 /// The keys that say where an image lies.
 template <class Visitor, class Config>
 void describe_image_place(Visitor& v, Config& c) {
-    v.number_or_auto("pixel_m", c.pixel_m, above(0),
-                     "size of a pixel; `auto` takes the GeoTIFF tags or the world file, which "
-                     "pixel_m and size_m replace");
-    v.optional_numbers("size_m", c.size_m, above(0),
-                       "extent of the map along x and y, from edge to edge, instead of pixel_m");
-    v.numbers("origin_m", c.origin_m, any_position_m,
-              "the point of the map, in its own coordinates, that becomes x = 0, y = 0 of the "
-              "mission. With pixel_m or size_m they begin at the map's south-west corner");
+    v.number("pixel_m", c.pixel_m, above(0),
+             "size of a pixel; `auto` takes the GeoTIFF tags or the world file, which "
+             "pixel_m and size_m replace",
+             or_auto);
+    v.array("size_m", c.size_m, above(0),
+            "extent of the map along x and y, from edge to edge, instead of pixel_m");
+    v.array("origin_m", c.origin_m, any_position_m,
+            "the point of the map, in its own coordinates, that becomes x = 0, y = 0 of the "
+            "mission. With pixel_m or size_m they begin at the map's south-west corner");
 }
 
 template <class Visitor>
 void describe_laid_map(Visitor& v, LaidMapConfig& c) {
-    v.place(c.place);
     v.path("file", c.file, "an image, PNG, TIFF (GeoTIFF) or OpenEXR, whose first row is the north",
            required);
     describe_image_place(v, c);
-    v.texts(
+    v.text(
         "instances", c.instances,
         "names of the nodes and objects that the map is laid on; default: the heightmap or "
         "seabed, else the nodes of scene.bottom. `*` stands for any text. What moves has no map");
-    v.number_or_auto("no_data", c.no_data, {-4e38, 4e38},
-                     "value of pixels that change nothing; `auto` takes the file's. NaN and pixels "
-                     "whose alpha is 0 never change anything");
+    v.number("no_data", c.no_data, {-4e38, 4e38},
+             "value of pixels that change nothing; `auto` takes the file's. NaN and pixels "
+             "whose alpha is 0 never change anything");
     v.require(c.pixel_m == 0.0 || !c.size_m, {"pixel_m", "size_m"},
               "give pixel_m or size_m, not both");
 }
@@ -42,9 +42,9 @@ void describe_laid_map(Visitor& v, LaidMapConfig& c) {
 template <class Visitor>
 void describe(Visitor& v, SedimentMapConfig& c) {
     describe_laid_map(v, c.laid);
-    v.renaming("materials", c.materials,
-               "the material of each value, as {1: sand, 2: gravel}, or of each colour, as "
-               "{\"#c8b478\": sand}");
+    v.text("materials", c.materials,
+           "the material of each value, as {1: sand, 2: gravel}, or of each colour, as "
+           "{\"#c8b478\": sand}");
     v.require(!c.materials.empty(), {"materials"},
               "'materials' must name the material of each value of the image, as {1: sand}");
 }

@@ -86,8 +86,6 @@ enum class SampleRule { maximum, mean, rms };
 
 struct ReceiverConfig {
     std::optional<double> noise_db;  ///< noise power in a beam; empty: by instrument_levels()
-    double efficiency = 0.5;         ///< acoustic / electric power of the transducer
-    double noise_figure_db = 6.0;    ///< electronics
     double common_mode_db = -300.0;  ///< power of the noise that all elements share
     double tvg_log = 40.0;           ///< spreading factor k of k log10 r
     bool tvg_absorption = true;      ///< TVG has the term 2 alpha r
@@ -134,7 +132,6 @@ constexpr bool is_relative_source(double source_level_db) {
 struct InstrumentConfig {
     double frequency_hz = 1e6;
     std::optional<double> source_level_db;  ///< empty: by instrument_levels()
-    double power_w = 100.0;                 ///< electric power of the transmitter
     BeamConfig beam;
     PulseConfig pulse;
     SpeckleConfig speckle;

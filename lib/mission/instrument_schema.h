@@ -40,9 +40,9 @@ void describe(Visitor& v, ElementsConfig& c) {
              "standard deviation of the gains of the array's elements");
     v.number("phase_error_deg", c.phase_error_deg, between(0, 60),
              "standard deviation of their phases");
-    v.integer("serial", c.serial, between(0, 2e9),
-              "serial number of the instrument; each has errors of its own, the same in all its "
-              "datasets");
+    v.number("serial", c.serial, between(0, 2e9),
+             "serial number of the instrument; each has errors of its own, the same in all its "
+             "datasets");
 }
 
 template <class Visitor>
@@ -64,13 +64,13 @@ void describe(Visitor& v, BeamConfig& c) {
               "errors of the array's elements, half a wavelength apart; they fill the nulls of "
               "its pattern");
     if (c.aperture == Aperture::line) {
-        v.numbers("aberration_rad", c.aberration_rad, between(-100, 100),
-                  "phase error at the ends of the array: quadratic, cubic and quartic part");
+        v.array("aberration_rad", c.aberration_rad, between(-100, 100),
+                "phase error at the ends of the array: quadratic, cubic and quartic part");
         v.choice("spread", c.spread, beam_spacings,
                  "beam spacing: equal steps of the angle, or of its sine");
-        v.numbers("azimuths_deg", c.azimuths_deg, between(-90, 90),
-                  "middles of the beams, one for each of azimuth_bins, increasing from starboard "
-                  "to port, in place of `spread`");
+        v.array("azimuths_deg", c.azimuths_deg, between(-90, 90),
+                "middles of the beams, one for each of azimuth_bins, increasing from starboard "
+                "to port, in place of `spread`");
         const bool increase = std::ranges::adjacent_find(c.azimuths_deg, std::greater_equal()) ==
                               c.azimuths_deg.end();
         v.require(increase, {"azimuths_deg"}, "azimuths_deg must increase from beam to beam");
@@ -115,7 +115,7 @@ void describe(Visitor& v, PulseConfig& c) {
 template <class Visitor>
 void describe(Visitor& v, SpeckleConfig& c) {
     v.choice("mode", c.mode, speckle_modes,
-             "`scene`: scatterers stay in place in the scene; `ping`: scatterers are drawn anew "
+             "`scene`: scatterers stay in place in the scene; `ping`: scatterers are drawn "
              "for every ping, which is faster; `none`: no speckle, the mean power");
     v.number("per_cell", c.per_cell, between(0.01, 30),
              "number of scatterers in a resolution cell; below 1 they are seen one by one");
@@ -131,13 +131,13 @@ void describe(Visitor& v, SpeckleConfig& c) {
 /// The keys of a receiver besides noise, gain and companding.
 template <class Visitor>
 void describe_chain(Visitor& v, ReceiverConfig& c) {
-    v.integer("samples", c.samples, between(1, 16), "samples that become one range bin");
+    v.number("samples", c.samples, between(1, 16), "samples that become one range bin");
     v.choice("combine", c.combine, sample_rules,
              "what these become: their largest amplitude, the mean of the amplitudes, or the root "
              "of the mean power");
-    v.integer("looks", c.looks, between(1, 16),
-              "looks with independent speckle and noise whose powers are averaged, as of several "
-              "pulses or bands");
+    v.number("looks", c.looks, between(1, 16),
+             "looks with independent speckle and noise whose powers are averaged, as of several "
+             "pulses or bands");
     v.number("offset", c.offset, between(0, 0.9),
              "share of the largest value that is taken from the values of raw/; what would be "
              "negative is 0");
@@ -152,20 +152,15 @@ void describe_chain(Visitor& v, ReceiverConfig& c) {
              "standard deviation of the gains of single beams, which stay from ping to ping");
     v.number("sector_gain_db", c.sector_gain_db, between(0, 30),
              "standard deviation of the gains of sectors, which stay, too");
-    v.integer("sectors", c.sectors, between(1, 64),
-              "number of sectors, which share the beams equally");
+    v.number("sectors", c.sectors, between(1, 64),
+             "number of sectors, which share the beams equally");
 }
 
 template <class Visitor>
 void describe(Visitor& v, ReceiverConfig& c) {
-    v.number_or_auto("noise_db", c.noise_db, any_level_db,
-                     "noise level in a beam before TVG, in the unit of source_level_db; `auto` "
-                     "computes it from frequency, pulse, beam and water.wind_m_s; -300 means none");
-    v.number("efficiency", c.efficiency, between(1e-3, 1),
-             "efficiency of the transducer, for the levels that are `auto`; the default is a rule "
-             "of thumb");
-    v.number("noise_figure_db", c.noise_figure_db, between(0, 60),
-             "noise figure of the electronics, for noise_db: auto; the default is a rule of thumb");
+    v.number("noise_db", c.noise_db, any_level_db,
+             "noise level in a beam before TVG, in the unit of source_level_db; `auto` "
+             "computes it from frequency, pulse, beam and water.wind_m_s; -300 means none");
     v.number(
         "common_mode_db", c.common_mode_db, any_level_db,
         "level of the noise that all elements share, in the beam straight ahead; -300 means none");
@@ -173,17 +168,17 @@ void describe(Visitor& v, ReceiverConfig& c) {
     v.flag("tvg_absorption", c.tvg_absorption, "TVG compensates absorption");
     v.number("tvg_from_m", c.tvg_from_m, at_least(0),
              "range at which TVG starts; at shorter ranges the gain is constant");
-    v.number_or_auto("full_scale_db", c.full_scale_db, any_level_db,
-                     "echo level after TVG that becomes the largest value of raw/; with `auto` a "
-                     "bottom of sand at half of the range is a third of that value, or less if the "
-                     "noise at range_max_m would else be above two thirds");
+    v.number("full_scale_db", c.full_scale_db, any_level_db,
+             "echo level after TVG that becomes the largest value of raw/; with `auto` a "
+             "bottom of sand at half of the range is a third of that value, or less if the "
+             "noise at range_max_m would else be above two thirds");
     v.choice(
         "companding", c.companding, compandings,
         "law that turns an amplitude A into a value of raw/: A^gamma, the decibels of A, or A");
     v.number("gamma", c.gamma, between(0.1, 2), "exponent of `gamma`");
     v.number("dynamic_range_db", c.dynamic_range_db, between(10, 200),
              "decibels between the values 0 and the largest one with `log`");
-    v.integer("bits", c.bits, between(4, 16), "bits of raw/; more than 8 make 16-bit files");
+    v.number("bits", c.bits, between(4, 16), "bits of raw/; more than 8 make 16-bit files");
     describe_chain(v, c);
 }
 
@@ -200,12 +195,9 @@ void require_one_unit(Visitor& v, const InstrumentConfig& c) {
 template <class Visitor>
 void describe(Visitor& v, InstrumentConfig& c) {
     v.number("frequency_hz", c.frequency_hz, between(1e3, 1e7), "frequency of the sound");
-    v.number_or_auto("source_level_db", c.source_level_db, any_level_db,
-                     "source level, re 1 uPa at 1 m; with 0 all levels are relative to it. `auto` "
-                     "computes it from power_w; if another level is below 0 dB, it is 0");
-    v.number("power_w", c.power_w, between(1e-6, 1e9),
-             "electric power of the transmitter, for source_level_db: auto; the default is a rule "
-             "of thumb");
+    v.number("source_level_db", c.source_level_db, any_level_db,
+             "source level, re 1 uPa at 1 m; with 0 all levels are relative to it. `auto` is that "
+             "of 100 W of electric power; if another level is below 0 dB, it is 0");
     v.section("beam", c.beam, "beam pattern");
     v.section("pulse", c.pulse, "the pulse after compression");
     v.section("speckle", c.speckle, "interference of the echoes of many scatterers");

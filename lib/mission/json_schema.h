@@ -12,11 +12,4 @@ namespace sonarsim {
 /// express checks across keys; they are in the `$comment` of their section.
 nlohmann::ordered_json mission_json_schema(SonarKeyTable sonars);
 
-/// The same with notes for the tables of keys (mission/reference.h): the type of a key's value in
-/// words, and the key that selects a form of a section with several forms. A `$comment` is an
-/// array.
-nlohmann::ordered_json noted_json_schema(SonarKeyTable sonars);
-inline constexpr const char* schema_note_type = "~type";
-inline constexpr const char* schema_note_form = "~form";
-
 }  // namespace sonarsim

@@ -31,10 +31,13 @@ constexpr Limits between(double low, double high) {
 }
 inline constexpr Limits any_position_m{-furthest_m, furthest_m};
 inline constexpr Limits any_angle_deg{-360.0, 360.0};
+inline constexpr Limits any_unsigned{0.0, 18446744073709551615.0};  // 64 bits
 
-/// An optional key may be left out; its default holds then.
-enum class Presence { optional, required };
+/// An optional key may be left out; its default holds then. `automatic`: it also takes the word
+/// auto, which is kept as 0.
+enum class Presence { optional, required, automatic };
 inline constexpr Presence required = Presence::required;
+inline constexpr Presence or_auto = Presence::automatic;
 
 /// A value that is chosen by name.
 template <class T>

@@ -40,16 +40,12 @@ struct WaterConfig {
     double temperature_c = 10.0;
     double salinity_psu = 35.0;
     double depth_m = 10.0;
-    double ph = 8.0;
     // A gentle breeze. Above 100 kHz the noise of wind lies below that of heat.
     double wind_m_s = 5.0;
     WaterContent content = WaterContent::automatic;
     /// Volume backscattering strength, dB re 1 m^2 per m^3; empty: that of `content`.
     std::optional<double> scattering_db_per_m3 = {};
     std::vector<WaterLayerConfig> layers = {};  ///< their scattering is added to the above
-    /// Mineral particles; empty: by `content`.
-    std::optional<double> suspended_mg_l = {};
-    double suspended_um = 50.0;  ///< diameter of these particles
     /// RMS speed at which the scatterers drift apart; none: new scatterers in each ping.
     std::optional<double> drift_rms_m_s = {};
     std::array<double, 3> current_m_s{};             ///< velocity of all scatterers
@@ -188,8 +184,7 @@ struct OutputConfig {
     int fan_width_px = 0;     ///< 0: one pixel per range bin, at most 1024
     double full_scale = 0.0;  ///< intensity that becomes white; 0: automatic, by sonar
     std::vector<Label> labels = {};  ///< each at most once, in the order of the enumeration
-    MissionPlace labels_place = {};
-    bool raw = true;  ///< the instrument's output with the calibrated model
+    bool raw = true;                 ///< the instrument's output with the calibrated model
 
     // Products of all pings of a sonar.
     bool waterfall = true;           ///< side-scan sonars

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "mission/removed_keys.h"
+#include "mission/value_text.h"
 
 namespace sonarsim {
 
@@ -66,18 +67,77 @@ std::string read_text(const YamlNode& node, const char* key) {
     return node.text;
 }
 
+void read_value(const YamlNode& node, const char* key, const Limits& limits, double& value) {
+    value = read_number(node, key, limits);
+}
+
+void read_value(const YamlNode& node, const char* key, const Limits& limits, int& value) {
+    const std::optional<std::int64_t> number =
+        is_plain(node) ? parse_integer(node.text) : std::nullopt;
+    if (!number) refuse_type(node, key, "a whole number");
+    check_limits(node, key, static_cast<double>(*number), limits);
+    value = static_cast<int>(*number);
+}
+
+void read_value(const YamlNode& node, const char* key, const Limits& /*limits*/,
+                std::uint64_t& value) {
+    const std::optional<std::uint64_t> number =
+        is_plain(node) ? parse_unsigned(node.text) : std::nullopt;
+    if (!number) refuse_type(node, key, "a whole number from 0 to 2^64 - 1");
+    value = *number;
+}
+
+void read_value(const YamlNode& node, const char* key, const Limits& limits,
+                std::optional<double>& value) {
+    value.reset();
+    if (node.kind == YamlNode::Kind::scalar && node.text == "auto") return;
+    if (!is_plain(node) || !parse_number(node.text)) refuse_type(node, key, "auto or a number");
+    value = read_number(node, key, limits);
+}
+
+void read_value(const YamlNode& node, const char* key, const Limits& limits,
+                std::array<double, 2>& value) {
+    if (node.kind != YamlNode::Kind::list) {
+        value.fill(read_number(node, key, limits));
+        return;
+    }
+    read_numbers(node, key, value.data(), 2, limits);
+    if (value[0] <= value[1]) return;
+    refuse(node, "'" + std::string(key) + "': the first number must not be above the second, in " +
+                     yaml_text(value));
+}
+
+void read_value(const YamlNode& node, const char* key, std::string& value) {
+    value = read_text(node, key);
+}
+
+void read_value(const YamlNode& node, const char* key, std::vector<std::string>& values) {
+    if (node.kind != YamlNode::Kind::list) refuse_type(node, key, "a list of texts");
+    values.clear();
+    for (const YamlNode& item : node.items)
+        values.push_back(read_text(item, key));
+}
+
+void read_value(const YamlNode& node, const char* key, Renaming& values) {
+    if (node.kind != YamlNode::Kind::map) refuse_type(node, key, "a section of names");
+    values.clear();
+    for (const YamlNode& item : node.items)
+        values.emplace_back(item.key, read_text(item, key));
+}
+
+void read_value(const YamlNode& node, const char* key, YamlValues& values) {
+    if (node.kind != YamlNode::Kind::list || node.items.empty())
+        refuse_type(node, key, "a list of one or more values");
+    values.items.clear();
+    for (const YamlNode& item : node.items)
+        values.items.push_back(flow_text(item));
+}
+
 std::string listed(const std::vector<std::string>& names) {
     std::string out;
     for (const std::string& name : names)
         out += (out.empty() ? "" : ", ") + name;
     return out;
-}
-
-std::string listed(const double* values, std::size_t count) {
-    std::string out;
-    for (std::size_t i = 0; i < count; ++i)
-        out += (i > 0 ? ", " : "") + number_text(values[i]);
-    return "[" + out + "]";
 }
 
 std::string values_text(const KeyTexts& values, std::initializer_list<const char*> keys) {

@@ -1,13 +1,18 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "mission/document.h"
+#include "mission/ground_map_config.h"
 #include "mission/limits.h"
+#include "mission/variation_config.h"
 
 namespace sonarsim {
 
@@ -30,11 +35,26 @@ double read_number(const YamlNode& node, const char* key, const Limits& limits);
 /// Reads a text that is not empty and has no control characters.
 std::string read_text(const YamlNode& node, const char* key);
 
+// The same into a value of each type.
+
+void read_value(const YamlNode& node, const char* key, const Limits& limits, double& value);
+void read_value(const YamlNode& node, const char* key, const Limits& limits, int& value);
+void read_value(const YamlNode& node, const char* key, const Limits& limits, std::uint64_t& value);
+/// Reads `auto` as nothing.
+void read_value(const YamlNode& node, const char* key, const Limits& limits,
+                std::optional<double>& value);
+/// Reads a number, or a list of the least and the largest.
+void read_value(const YamlNode& node, const char* key, const Limits& limits,
+                std::array<double, 2>& value);
+void read_value(const YamlNode& node, const char* key, std::string& value);
+void read_value(const YamlNode& node, const char* key, std::vector<std::string>& values);
+/// Reads a map from texts to texts.
+void read_value(const YamlNode& node, const char* key, Renaming& values);
+/// Reads a list of values of any kind, which are kept as YAML.
+void read_value(const YamlNode& node, const char* key, YamlValues& values);
+
 /// "a, b, c".
 std::string listed(const std::vector<std::string>& names);
-
-/// "[1, 2]".
-std::string listed(const double* values, std::size_t count);
 
 /// Values as text, by key.
 using KeyTexts = std::vector<std::pair<std::string, std::string>>;

@@ -42,14 +42,14 @@ void describe(Visitor& v, OutputConfig& c) {
     v.flag("stages", c.stages,
            "write a fan for each stage of the echo model side by side: direct echoes, then with "
            "multipath, then with one random term after the other");
-    v.integer("fan_width_px", c.fan_width_px, between(0, 8192),
-              "width of the fan; 0 means one pixel per range bin, at most 1024");
-    v.number_or_auto("full_scale", c.full_scale, above(0),
-                     "intensity that becomes white in pictures; `auto` finds it for each sonar "
-                     "from a few pings and writes it to dataset.json");
+    v.number("fan_width_px", c.fan_width_px, between(0, 8192),
+             "width of the fan; 0 means one pixel per range bin, at most 1024");
+    v.number("full_scale", c.full_scale, above(0),
+             "intensity that becomes white in pictures; `auto` finds it for each sonar "
+             "from a few pings and writes it to dataset.json",
+             or_auto);
     v.subset("labels", c.labels, label_names,
              "labels to write for every bin: `true` for all, or a list of them");
-    v.place("labels", c.labels_place);
     v.flag("waterfall", c.waterfall, "write the waterfalls of side-scan sonars");
     v.flag("echogram", c.echogram, "write the echograms of echosounders");
     v.flag("soundings", c.soundings,

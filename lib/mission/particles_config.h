@@ -8,11 +8,7 @@
 namespace sonarsim {
 
 enum class ParticleKind { points, fish, bubbles };
-/// The target strength of a fish by its length, see calibrated/target_strength.h.
-enum class FishLaw { love, foote_gadoid, foote_clupeid };
 enum class ParticleRegion { box, ellipsoid };
-/// The part of a group that labels call one object.
-enum class ParticleInstances { automatic, each, group };
 
 /// Point targets in the water. Pairs are limits of uniform draws.
 struct ParticlesConfig {
@@ -21,16 +17,13 @@ struct ParticlesConfig {
     ParticleKind kind = ParticleKind::points;
     std::array<double, 2> target_strength_db{};  ///< for points, dB re 1 m^2
     std::array<double, 2> length_m{};            ///< for fish; 0: not given
-    FishLaw law = FishLaw::love;
-    std::array<double, 2> radius_m{};  ///< for bubbles; 0: not given
-    std::array<double, 2> count{};     ///< 0: by `per_m3`
-    double per_m3 = 0.0;
+    std::array<double, 2> radius_m{};            ///< for bubbles; 0: not given
+    std::array<double, 2> count{};
     ParticleRegion region = ParticleRegion::box;
     std::array<double, 3> position_m{};  ///< middle of the region, world
     std::array<double, 3> size_m{};      ///< from end to end along x, y and z
     std::array<double, 3> drift_m_s{};
     double rise_m_s = 0.0;  ///< for bubbles, which come back at the bottom of the region
-    ParticleInstances instances = ParticleInstances::automatic;
     MissionPlace place;
 
     bool operator==(const ParticlesConfig&) const = default;
@@ -38,7 +31,7 @@ struct ParticlesConfig {
 
 /// The most particles of a group.
 inline constexpr double most_particles = 1e6;
-/// With `instances: auto` larger groups are one object each.
+/// Larger groups are one object of the labels each.
 inline constexpr double most_single_particles = 100;
 
 }  // namespace sonarsim

@@ -13,23 +13,15 @@ namespace sonarsim {
 inline constexpr std::array particle_kinds{Choice<ParticleKind>{"points", ParticleKind::points},
                                            Choice<ParticleKind>{"fish", ParticleKind::fish},
                                            Choice<ParticleKind>{"bubbles", ParticleKind::bubbles}};
-inline constexpr std::array fish_laws{Choice<FishLaw>{"love", FishLaw::love},
-                                      Choice<FishLaw>{"foote_gadoid", FishLaw::foote_gadoid},
-                                      Choice<FishLaw>{"foote_clupeid", FishLaw::foote_clupeid}};
 inline constexpr std::array particle_regions{
     Choice<ParticleRegion>{"box", ParticleRegion::box},
     Choice<ParticleRegion>{"ellipsoid", ParticleRegion::ellipsoid}};
-inline constexpr std::array particle_instances{
-    Choice<ParticleInstances>{"auto", ParticleInstances::automatic},
-    Choice<ParticleInstances>{"each", ParticleInstances::each},
-    Choice<ParticleInstances>{"group", ParticleInstances::group}};
 
 /// From a grain of dust to a ship.
 inline constexpr Limits target_strengths_db{-200.0, 60.0};
 
 template <class Visitor>
 void describe(Visitor& v, ParticlesConfig& c) {
-    v.place(c.place);
     v.text("name", c.name,
            "name of the group; single targets are the instances NAME_1, NAME_2 and so on",
            required);
@@ -37,29 +29,21 @@ void describe(Visitor& v, ParticlesConfig& c) {
     v.choice("kind", c.kind, particle_kinds,
              "`points` have a target_strength_db, `fish` a length_m, `bubbles` a radius_m; the "
              "target strength of the last two follows from it and from the sonar's frequency");
-    v.range("target_strength_db", c.target_strength_db, target_strengths_db,
-            "target strength of points, dB re 1 m^2");
-    v.range("length_m", c.length_m, between(0, 30), "length of a fish");
-    v.choice(
-        "law", c.law, fish_laws,
-        "target strength of fish of L cm from above: `love` 19.1 log L - 0.9 log f - 62.0 at f "
-        "kHz, `foote_gadoid` 20 log L - 67.4 and `foote_clupeid` 20 log L - 71.9, which were "
-        "measured at 38 kHz");
-    v.range("radius_m", c.radius_m, between(0, 0.1), "radius of a bubble of air");
-    v.range("count", c.count, {0, most_particles}, "number of targets; or give per_m3");
-    v.number("per_m3", c.per_m3, between(0, 1e9), "number of targets in a cubic metre");
+    v.number("target_strength_db", c.target_strength_db, target_strengths_db,
+             "target strength of points, dB re 1 m^2");
+    v.number("length_m", c.length_m, between(0, 30), "length of a fish");
+    v.number("radius_m", c.radius_m, between(0, 0.1), "radius of a bubble of air");
+    v.number("count", c.count, {0, most_particles},
+             "number of targets; groups of 100 or more are one object of the labels");
     v.choice("region", c.region, particle_regions,
              "shape of the region in which the targets are at the first ping, evenly distributed");
-    v.numbers("position_m", c.position_m, any_position_m, "middle of the region in the world",
-              required);
-    v.numbers("size_m", c.size_m, any_position_m, "size of the region along x, y and z");
-    v.numbers("drift_m_s", c.drift_m_s, {-100, 100}, "velocity of all targets");
+    v.array("position_m", c.position_m, any_position_m, "middle of the region in the world",
+            required);
+    v.array("size_m", c.size_m, any_position_m, "size of the region along x, y and z");
+    v.array("drift_m_s", c.drift_m_s, {-100, 100}, "velocity of all targets");
     v.number("rise_m_s", c.rise_m_s, between(0, 10),
              "speed at which bubbles rise, in addition; at the top of the region they start again "
              "at its bottom");
-    v.choice("instances", c.instances, particle_instances,
-             "the object of labels: `each` target, or the whole `group`; `auto` takes the "
-             "group from 100 targets on");
     const bool is_fish = c.kind == ParticleKind::fish;
     const bool are_bubbles = c.kind == ParticleKind::bubbles;
     const bool are_points = c.kind == ParticleKind::points;
@@ -72,18 +56,13 @@ void describe(Visitor& v, ParticlesConfig& c) {
               "kind: points needs a target_strength_db other than 0, and no other kind has one");
     v.require(are_bubbles || c.rise_m_s == 0.0, {"kind", "rise_m_s"},
               "rise_m_s is for kind: bubbles; others have a drift_m_s");
-    v.require((c.count[1] > 0.0) != (c.per_m3 > 0.0), {"count", "per_m3"},
-              "give either 'count' or 'per_m3', above 0");
+    v.require(c.count[1] > 0.0, {"count"}, "'count' must be above 0");
     v.require(c.count[0] == std::floor(c.count[0]) && c.count[1] == std::floor(c.count[1]),
               {"count"}, "'count' must be a whole number or two of them");
     v.require(c.size_m[0] >= 0.0 && c.size_m[1] >= 0.0 && c.size_m[2] >= 0.0, {"size_m"},
               "size_m must not be negative");
     v.require(c.rise_m_s == 0.0 || c.size_m[2] > 0.0, {"rise_m_s", "size_m"},
               "bubbles that rise need a region with a height: size_m");
-    v.require(c.per_m3 == 0.0 || c.size_m[0] * c.size_m[1] * c.size_m[2] > 0.0,
-              {"per_m3", "size_m"}, "per_m3 needs a region with a volume: size_m");
-    v.require(c.per_m3 * c.size_m[0] * c.size_m[1] * c.size_m[2] <= most_particles,
-              {"per_m3", "size_m"}, "these are more than a million targets; lower per_m3");
 }
 
 }  // namespace sonarsim

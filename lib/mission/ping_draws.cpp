@@ -25,8 +25,8 @@ struct NumberList {
         list.emplace_back(prefix + key, &value);
     }
     template <std::size_t N>
-    void numbers(const char* key, std::array<double, N>& values, const Limits&,
-                 const char* /*meaning*/) {
+    void array(const char* key, std::array<double, N>& values, const Limits&,
+               const char* /*meaning*/) {
         for (std::size_t k = 0; k < N; ++k)
             list.emplace_back(prefix + key + "." + std::to_string(k), &values[k]);
     }
@@ -112,7 +112,7 @@ void check_key_of_pings(const Mission& mission, const VaryConfig& rule) {
                              keys.substr(0, keys.size() - 2));
     }
     const auto is_number = [](const std::string& text) { return parse_number(text).has_value(); };
-    if (!std::ranges::all_of(rule.choice, is_number)) {
+    if (!std::ranges::all_of(rule.choice.items, is_number)) {
         throw InputError(rule.place.location,
                          "'choice' for every ping takes numbers for '" + rule.key + "'");
     }
@@ -124,7 +124,7 @@ void check_key_of_pings(const Mission& mission, const VaryConfig& rule) {
 }
 
 std::vector<std::string> extremes_of(const VaryConfig& rule) {
-    if (!rule.choice.empty()) return rule.choice;
+    if (!rule.choice.items.empty()) return rule.choice.items;
     for (const auto& range : {rule.uniform, rule.log_uniform, rule.whole, rule.within}) {
         if (range) return {number_text((*range)[0]), number_text((*range)[1])};
     }

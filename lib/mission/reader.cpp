@@ -68,8 +68,8 @@ const YamlNode* MissionReader::find(const char* key, Presence presence) {
     return found_node;
 }
 
-const SonarKeys& MissionReader::sonar_kind(const char* key, SonarConfig& value,
-                                           const char* /*meaning*/) {
+const SonarKeys& MissionReader::one_of(const char* key, SonarConfig& value,
+                                       const char* /*meaning*/) {
     std::vector<std::string> names;
     for (const SonarKeys& one : sonars_)
         names.emplace_back(one.name);
@@ -80,57 +80,11 @@ const SonarKeys& MissionReader::sonar_kind(const char* key, SonarConfig& value,
     return keys;
 }
 
-void MissionReader::number(const char* key, double& value, const Limits& limits,
-                           const char* /*meaning*/, Presence presence) {
-    read_key(key, presence, [&](const YamlNode& node) { value = read_number(node, key, limits); });
-    note(key, number_text(value));
-}
-
-void MissionReader::number_or_auto(const char* key, double& value, const Limits& limits,
-                                   const char* /*meaning*/) {
-    read_key(key, Presence::optional, [&](const YamlNode& node) {
-        if (node.kind == YamlNode::Kind::scalar && node.text == "auto") {
-            value = 0.0;
-            return;
-        }
-        const bool is_number = is_plain(node) && parse_number(node.text);
-        if (!is_number) refuse_type(node, key, "auto or a number");
-        value = read_number(node, key, limits);
-    });
-}
-
-void MissionReader::number_or_auto(const char* key, std::optional<double>& value,
-                                   const Limits& limits, const char* /*meaning*/) {
-    read_key(key, Presence::optional, [&](const YamlNode& node) {
-        if (node.kind == YamlNode::Kind::scalar && node.text == "auto") {
-            value.reset();
-            return;
-        }
-        const bool is_number = is_plain(node) && parse_number(node.text);
-        if (!is_number) refuse_type(node, key, "auto or a number");
-        value = read_number(node, key, limits);
-    });
-}
-
-void MissionReader::integer(const char* key, int& value, const Limits& limits,
-                            const char* /*meaning*/) {
-    read_key(key, Presence::optional, [&](const YamlNode& node) {
-        const std::optional<std::int64_t> number =
-            is_plain(node) ? parse_integer(node.text) : std::nullopt;
-        if (!number) refuse_type(node, key, "a whole number");
-        check_limits(node, key, static_cast<double>(*number), limits);
-        value = static_cast<int>(*number);
-    });
-    note(key, std::to_string(value));
-}
-
-void MissionReader::integer(const char* key, std::uint64_t& value, const char* /*meaning*/) {
-    read_key(key, Presence::optional, [&](const YamlNode& node) {
-        const std::optional<std::uint64_t> number =
-            is_plain(node) ? parse_unsigned(node.text) : std::nullopt;
-        if (!number) refuse_type(node, key, "a whole number from 0 to 2^64 - 1");
-        value = *number;
-    });
+void MissionReader::read_or_auto(const YamlNode& node, const char* key, const Limits& limits,
+                                 double& value) {
+    std::optional<double> number;
+    read_value(node, key, limits, number);
+    value = number.value_or(0.0);
 }
 
 void MissionReader::flag(const char* key, bool& value, const char* /*meaning*/) {
@@ -145,65 +99,12 @@ void MissionReader::flag(const char* key, bool& value, const char* /*meaning*/) 
     });
 }
 
-void MissionReader::text(const char* key, std::string& value, const char* /*meaning*/,
-                         Presence presence) {
-    read_key(key, presence, [&](const YamlNode& node) { value = read_text(node, key); });
-}
-
-void MissionReader::numbers(const char* key, std::vector<double>& values, const Limits& limits,
-                            const char* /*meaning*/) {
+void MissionReader::array(const char* key, std::vector<double>& values, const Limits& limits,
+                          const char* /*meaning*/) {
     read_key(key, Presence::optional, [&](const YamlNode& node) {
         if (node.kind != YamlNode::Kind::list) refuse_type(node, key, "a list of numbers");
         values.resize(node.items.size());
         read_numbers(node, key, values.data(), values.size(), limits);
-    });
-}
-
-void MissionReader::texts(const char* key, std::vector<std::string>& values,
-                          const char* /*meaning*/) {
-    read_key(key, Presence::optional, [&](const YamlNode& node) {
-        if (node.kind != YamlNode::Kind::list) refuse_type(node, key, "a list of texts");
-        values.clear();
-        for (const YamlNode& item : node.items)
-            values.push_back(read_text(item, key));
-    });
-}
-
-void MissionReader::renaming(const char* key,
-                             std::vector<std::pair<std::string, std::string>>& values,
-                             const char* /*meaning*/) {
-    read_key(key, Presence::optional, [&](const YamlNode& node) {
-        if (node.kind != YamlNode::Kind::map) refuse_type(node, key, "a section of names");
-        values.clear();
-        for (const YamlNode& item : node.items)
-            values.emplace_back(item.key, read_text(item, key));
-    });
-}
-
-void MissionReader::values(const char* key, std::vector<std::string>& values,
-                           const char* /*meaning*/) {
-    read_key(key, Presence::optional, [&](const YamlNode& node) {
-        if (node.kind != YamlNode::Kind::list || node.items.empty())
-            refuse_type(node, key, "a list of one or more values");
-        values.clear();
-        for (const YamlNode& item : node.items)
-            values.push_back(flow_text(item));
-    });
-}
-
-void MissionReader::range(const char* key, std::array<double, 2>& value, const Limits& limits,
-                          const char* /*meaning*/) {
-    read_key(key, Presence::optional, [&](const YamlNode& node) {
-        if (node.kind != YamlNode::Kind::list) {
-            value.fill(read_number(node, key, limits));
-            return;
-        }
-        read_numbers(node, key, value.data(), 2, limits);
-        if (value[0] > value[1])
-            refuse(node, "'" + std::string(key) +
-                             "': the first number must not be above the second, "
-                             "in " +
-                             listed(value.data(), 2));
     });
 }
 
@@ -212,8 +113,8 @@ void MissionReader::path(const char* key, std::filesystem::path& value, const ch
     read_key(key, presence, [&](const YamlNode& node) { value = path_of(node, key); });
 }
 
-void MissionReader::paths(const char* key, std::vector<std::filesystem::path>& values,
-                          const char* /*meaning*/, Presence presence) {
+void MissionReader::path(const char* key, std::vector<std::filesystem::path>& values,
+                         const char* /*meaning*/, Presence presence) {
     read_key(key, presence, [&](const YamlNode& node) {
         values.clear();
         if (node.kind != YamlNode::Kind::list) {
@@ -312,7 +213,8 @@ void MissionReader::require(bool holds, std::initializer_list<const char*> keys,
 void MissionReader::finish() {
     for (const YamlNode& item : node_.items) {
         if (std::ranges::find(known_, item.key) != known_.end()) continue;
-        const std::string removed = instead_of_removed(name_, item.key);
+        const std::string removed =
+            instead_of_removed(std::string_view(name_).substr(0, name_.find('.')), item.key);
         if (!removed.empty()) {
             errors_.add(InputError(item.key_place.location(), removed));
             continue;

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <filesystem>
 #include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -17,6 +17,7 @@
 #include "mission/limits.h"
 #include "mission/node_values.h"
 #include "mission/sonar_keys.h"
+#include "mission/value_text.h"
 
 namespace sonarsim {
 
@@ -30,53 +31,49 @@ class MissionReader {
     MissionReader(const YamlNode& node, std::string name, const std::filesystem::path& base_folder,
                   SonarKeyTable sonars, ErrorList& errors);
 
-    void number(const char* key, double& value, const Limits& limits, const char* meaning,
-                Presence presence = Presence::optional);
-    /// Reads `auto` as 0.
-    void number_or_auto(const char* key, double& value, const Limits& limits, const char* meaning);
-    /// Reads `auto` as nothing.
-    void number_or_auto(const char* key, std::optional<double>& value, const Limits& limits,
-                        const char* meaning);
-    void integer(const char* key, int& value, const Limits& limits, const char* meaning);
-    void integer(const char* key, std::uint64_t& value, const char* meaning);
+    template <class T>
+    void number(const char* key, T& value, const Limits& limits, const char* /*meaning*/,
+                Presence presence = Presence::optional) {
+        read_key(key, presence, [&](const YamlNode& node) {
+            if constexpr (std::is_same_v<T, double>) {
+                if (presence == or_auto) return read_or_auto(node, key, limits, value);
+            }
+            read_value(node, key, limits, value);
+        });
+        note(key, yaml_text(value));
+    }
+
     void flag(const char* key, bool& value, const char* meaning);
-    void text(const char* key, std::string& value, const char* meaning,
-              Presence presence = Presence::optional);
-    /// Reads a list of texts.
-    void texts(const char* key, std::vector<std::string>& values, const char* meaning);
-    /// Reads a map from texts to texts.
-    void renaming(const char* key, std::vector<std::pair<std::string, std::string>>& values,
-                  const char* meaning);
-    /// Reads a list of values of any kind, which are kept as YAML.
-    void values(const char* key, std::vector<std::string>& values, const char* meaning);
-    /// Reads a number, or a list of the least and the largest.
-    void range(const char* key, std::array<double, 2>& value, const Limits& limits,
-               const char* meaning);
+
+    template <class T>
+    void text(const char* key, T& value, const char* /*meaning*/,
+              Presence presence = Presence::optional) {
+        read_key(key, presence, [&](const YamlNode& node) { read_value(node, key, value); });
+    }
+
     void path(const char* key, std::filesystem::path& value, const char* meaning,
               Presence presence = Presence::optional);
     /// Reads one path, or a list of one or more.
-    void paths(const char* key, std::vector<std::filesystem::path>& values, const char* meaning,
-               Presence presence);
+    void path(const char* key, std::vector<std::filesystem::path>& values, const char* meaning,
+              Presence presence);
 
     template <std::size_t N>
-    void numbers(const char* key, std::array<double, N>& values, const Limits& limits,
-                 const char* /*meaning*/, Presence presence = Presence::optional) {
+    void array(const char* key, std::array<double, N>& values, const Limits& limits,
+               const char* /*meaning*/, Presence presence = Presence::optional) {
         read_key(key, presence,
                  [&](const YamlNode& node) { read_numbers(node, key, values.data(), N, limits); });
-        note(key, listed(values.data(), N));
+        note(key, yaml_text(values));
     }
-
-    /// Reads a list of any number of numbers.
-    void numbers(const char* key, std::vector<double>& values, const Limits& limits,
-                 const char* meaning);
-
     template <std::size_t N>
-    void optional_numbers(const char* key, std::optional<std::array<double, N>>& values,
-                          const Limits& limits, const char* /*meaning*/) {
+    void array(const char* key, std::optional<std::array<double, N>>& values, const Limits& limits,
+               const char* /*meaning*/) {
         read_key(key, Presence::optional, [&](const YamlNode& node) {
             read_numbers(node, key, values.emplace().data(), N, limits);
         });
     }
+    /// Reads a list of any number of numbers.
+    void array(const char* key, std::vector<double>& values, const Limits& limits,
+               const char* meaning);
 
     template <class T, std::size_t N>
     void choice(const char* key, T& value, const std::array<Choice<T>, N>& choices,
@@ -99,16 +96,6 @@ class MissionReader {
         });
     }
 
-    /// Sets `value` to the place of the section.
-    void place(MissionPlace& value) const { value.location = node_.place.location(); }
-    /// Sets `value` to the place of a key's value, if there is one.
-    void place(const char* key, MissionPlace& value) const {
-        if (const YamlNode* node = node_.find(key)) value.location = node->place.location();
-    }
-
-    /// Reads the kind of a sonar and fills in its defaults, except for the name.
-    const SonarKeys& sonar_kind(const char* key, SonarConfig& value, const char* meaning);
-
     template <class T>
     void section(const char* key, T& value, const char* /*meaning*/,
                  Presence presence = Presence::optional) {
@@ -116,15 +103,15 @@ class MissionReader {
     }
 
     template <class T>
-    void optional_section(const char* key, std::optional<T>& value, const char* /*meaning*/) {
+    void section(const char* key, std::optional<T>& value, const char* /*meaning*/) {
         read_key(key, Presence::optional,
                  [&](const YamlNode& node) { read(node, key, value.emplace()); });
     }
 
     /// Reads a list of at least `fewest` sections. If `fewest` is 0, the key is optional.
     template <class T>
-    void list(const char* key, std::vector<T>& values, std::size_t fewest,
-              const char* /*meaning*/) {
+    void list_of(const char* key, std::vector<T>& values, std::size_t fewest,
+                 const char* /*meaning*/) {
         attempt(key, [&] {
             for (const YamlNode& item : list_items(key, fewest)) {
                 std::string item_name = key + ("." + std::to_string(values.size()));
@@ -155,6 +142,9 @@ class MissionReader {
         (std::index_sequence_for<T...>{});
     }
 
+    /// Reads the kind of a sonar and fills in its defaults, except for the name.
+    const SonarKeys& one_of(const char* key, SonarConfig& value, const char* meaning);
+
     /// Checks a condition on several keys. A failure is reported at the last of `keys` in the file,
     /// with the values of those that are numbers.
     /// The check is skipped if one of the keys is faulty; if it fails, all of them are faulty.
@@ -168,6 +158,9 @@ class MissionReader {
     void read(const YamlNode& node, std::string name, T& value) {
         errors_.attempt([&] {
             MissionReader reader(node, std::move(name), base_folder_, sonars_, errors_);
+            if constexpr (requires { value.place; }) value.place.location = node.place.location();
+            if constexpr (requires { value.laid; })
+                value.laid.place.location = node.place.location();
             describe(reader, value);
             reader.finish();
         });
@@ -192,6 +185,8 @@ class MissionReader {
     /// Keeps the value of a key, given or default, for messages of require().
     void note(const char* key, std::string value) { values_.emplace_back(key, std::move(value)); }
 
+    static void read_or_auto(const YamlNode& node, const char* key, const Limits& limits,
+                             double& value);
     const YamlNode* find(const char* key, Presence presence);
     std::filesystem::path path_of(const YamlNode& node, const char* key) const;
     std::size_t index_of_present(const std::vector<std::string>& keys) const;

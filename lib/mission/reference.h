@@ -32,6 +32,24 @@ struct SectionReference {
     std::vector<std::string> checks;  ///< conditions on several keys
 };
 
+/// The sections of a mission while its keys are visited: a sonar once for each kind and model, a
+/// trajectory once for each form.
+class KeyTables {
+  public:
+    /// Adds a key after the one that was added before. `kind`: the kind of the visited sonar. A key
+    /// that the section has gets the default of this kind.
+    void add(const std::string& path, const std::string& form, const std::string& kind,
+             KeyReference key, const std::string& default_text);
+    void add_check(const std::string& path, const std::string& form, const std::string& check);
+
+    std::vector<SectionReference> sections;
+
+  private:
+    SectionReference& section(const std::string& path, const std::string& form);
+
+    std::string last_key_;
+};
+
 /// All keys of a mission, as mission/schema.h describes them.
 std::vector<SectionReference> mission_reference(SonarKeyTable sonars);
 

@@ -51,6 +51,21 @@ inline constexpr RemovedKey removed_keys[] = {
     {"receiver", "interference", "add it to the images where they are used"},
     {"multipath", "retraced", "echoes end at the second surface; leave it out"},
     {"multipath", "retraced_loss_db", "echoes end at the second surface; leave it out"},
+    {"water", "ph", "leave it out: the acidity of the water is 8"},
+    {"water", "suspended_mg_l", "write water.content or water.scattering_db_per_m3"},
+    {"water", "suspended_um", "write water.content or water.scattering_db_per_m3"},
+    {"profile", "points", "write them into a CSV, and give its path as 'file'"},
+    {"assumed_profile", "points", "write them into a CSV, and give its path as 'file'"},
+    {"scatter", "tries", "leave it out: 1,000 places are tried for each object"},
+    {"particles", "law",
+     "fish follow Love's law; for another, give kind: points a "
+     "target_strength_db"},
+    {"particles", "per_m3", "write count: this density times the volume of the region"},
+    {"particles", "instances", "leave it out: groups of 100 targets or more are one object"},
+    {"navigation", "heading_drift_deg_h", "write heading_bias_deg"},
+    {"instrument", "power_w", "write instrument.source_level_db"},
+    {"receiver", "efficiency", "write instrument.source_level_db and receiver.noise_db"},
+    {"receiver", "noise_figure_db", "write receiver.noise_db"},
     {"labels", "semantic", "write labels: [class], whose files hold the same ids"},
 };
 

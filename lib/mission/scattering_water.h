@@ -10,8 +10,7 @@ namespace sonarsim {
 inline bool scatters(const WaterConfig& water) {
     const bool has_content =
         water.content != WaterContent::none && water.content != WaterContent::automatic;
-    return has_content || water.scattering_db_per_m3 || !water.layers.empty() ||
-           water.suspended_mg_l.value_or(0.0) > 0.0;
+    return has_content || water.scattering_db_per_m3 || !water.layers.empty();
 }
 
 /// True if the water scatters sound back to some sonar.

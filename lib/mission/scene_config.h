@@ -65,7 +65,6 @@ struct ScatterConfig {
     std::array<double, 2> bury_m{};
     double spacing_m = 0.0;  ///< least distance between objects, seen from above
     bool align = false;
-    int tries = 1000;  ///< number of places tried for each object
     MissionPlace place;
 
     bool operator==(const ScatterConfig&) const = default;

@@ -35,16 +35,15 @@ void describe_mesh(Visitor& v, MeshConfig& c) {
     v.choice(
         "up", c.up, up_axes,
         "axis of the file that points up; glTF says y, and STL, PLY and OBJ files often have z");
-    v.renaming("materials_map", c.materials_map,
-               "materials of the file that have another name in the CSV, as {\"0137_Black\": "
-               "rubber}");
-    v.texts("exclude", c.exclude,
-            "names of nodes that are left out; `*` stands for any text and `?` for any one byte");
+    v.text("materials_map", c.materials_map,
+           "materials of the file that have another name in the CSV, as {\"0137_Black\": "
+           "rubber}");
+    v.text("exclude", c.exclude,
+           "names of nodes that are left out; `*` stands for any text and `?` for any one byte");
 }
 
 template <class Visitor>
 void describe(Visitor& v, ObjectConfig& c) {
-    v.place(c.place);
     v.text("name", c.name,
            "name of the one instance that all nodes of the file form; without it each node is an "
            "instance of its own");
@@ -52,10 +51,10 @@ void describe(Visitor& v, ObjectConfig& c) {
            required);
     v.text("class", c.class_name,
            "class of the object, for labels; default: the class in the file");
-    v.numbers("position_m", c.position_m, any_position_m,
-              "position of the file's origin in the world; an object on the bottom uses x and y "
-              "only; for a moving object it is relative to the trajectory");
-    v.numbers("rpy_deg", c.rpy_deg, any_angle_deg, "roll, pitch and yaw of the object");
+    v.array("position_m", c.position_m, any_position_m,
+            "position of the file's origin in the world; an object on the bottom uses x and y "
+            "only; for a moving object it is relative to the trajectory");
+    v.array("rpy_deg", c.rpy_deg, any_angle_deg, "roll, pitch and yaw of the object");
     v.number("scale", c.scale, {1.0 / largest_scale, largest_scale},
              "factor that enlarges the object");
     v.text("material", c.mesh.material,
@@ -67,9 +66,9 @@ void describe(Visitor& v, ObjectConfig& c) {
              "depth to which an object on the bottom is buried; a negative one raises it above the "
              "bottom");
     v.flag("align", c.align, "an object on the bottom stands upright on the slope below it");
-    v.optional_section("trajectory", c.trajectory,
-                       "trajectory of a moving object, written like the vehicle's. Waypoints and a "
-                       "lawnmower begin with the first ping; a file has its own times");
+    v.section("trajectory", c.trajectory,
+              "trajectory of a moving object, written like the vehicle's. Waypoints and a "
+              "lawnmower begin with the first ping; a file has its own times");
     v.require(c.place_on == ObjectPlace::on_bottom || (c.bury_m == 0.0 && !c.align),
               {"place", "bury_m", "align"}, "bury_m and align need place: on_bottom");
     v.require(!c.trajectory || c.place_on == ObjectPlace::free, {"place", "trajectory"},
@@ -80,28 +79,27 @@ void describe(Visitor& v, ObjectConfig& c) {
 
 template <class Visitor>
 void describe(Visitor& v, ScatterConfig& c) {
-    v.place(c.place);
     v.text("name", c.name, "the objects are the instances NAME_1, NAME_2 and so on", required);
-    v.paths("files", c.files,
-            "a file of a mesh as in `objects`, or a list of them, each equally likely", required);
+    v.path("files", c.files,
+           "a file of a mesh as in `objects`, or a list of them, each equally likely", required);
     v.text("class", c.class_name, "class of the objects, for labels; default: NAME");
-    v.range("count", c.count, {0, 1e5}, "number of objects");
-    v.numbers("area_min_m", c.area_min_m, any_position_m,
-              "corner of the area with the least x and y; objects lie wholly within", required);
-    v.numbers("area_max_m", c.area_max_m, any_position_m,
-              "corner of the area with the largest x and y", required);
-    v.range("yaw_deg", c.yaw_deg, any_angle_deg, "heading of an object");
-    v.range("roll_deg", c.roll_deg, any_angle_deg, "roll of an object");
-    v.range("pitch_deg", c.pitch_deg, any_angle_deg, "pitch of an object");
-    v.range("scale", c.scale, {1.0 / largest_scale, largest_scale},
-            "factor that enlarges an object");
+    v.number("count", c.count, {0, 1e5}, "number of objects");
+    v.array("area_min_m", c.area_min_m, any_position_m,
+            "corner of the area with the least x and y; objects lie wholly within", required);
+    v.array("area_max_m", c.area_max_m, any_position_m,
+            "corner of the area with the largest x and y", required);
+    v.number("yaw_deg", c.yaw_deg, any_angle_deg, "heading of an object");
+    v.number("roll_deg", c.roll_deg, any_angle_deg, "roll of an object");
+    v.number("pitch_deg", c.pitch_deg, any_angle_deg, "pitch of an object");
+    v.number("scale", c.scale, {1.0 / largest_scale, largest_scale},
+             "factor that enlarges an object");
     v.text("material", c.mesh.material, "material of the objects; default: the files' materials");
     describe_mesh(v, c.mesh);
-    v.range("bury_m", c.bury_m, any_position_m, "depth to which an object is buried in the bottom");
+    v.number("bury_m", c.bury_m, any_position_m,
+             "depth to which an object is buried in the bottom");
     v.number("spacing_m", c.spacing_m, at_least(0),
              "least distance between two objects, seen from above");
     v.flag("align", c.align, "objects stand upright on the slope below them");
-    v.integer("tries", c.tries, between(1, 1e6), "number of places that are tried for each object");
     v.require(c.area_min_m[0] < c.area_max_m[0] && c.area_min_m[1] < c.area_max_m[1],
               {"area_min_m", "area_max_m"}, "area_min_m must be below area_max_m in x and in y");
     v.require(c.count[0] == std::floor(c.count[0]) && c.count[1] == std::floor(c.count[1]),
@@ -110,7 +108,6 @@ void describe(Visitor& v, ScatterConfig& c) {
 
 template <class Visitor>
 void describe(Visitor& v, HeightmapConfig& c) {
-    v.place(c.place);
     v.path("file", c.file,
            "an image of one channel, PNG, TIFF (GeoTIFF) or OpenEXR, whose pixels are heights and "
            "whose first row is the north",
@@ -120,9 +117,9 @@ void describe(Visitor& v, HeightmapConfig& c) {
              "metres for each step of the pixels' values; -1 for depths");
     v.number("height_offset_m", c.height_offset_m, any_position_m,
              "height of the value 0 in the world");
-    v.number_or_auto("no_data", c.no_data, {-4e38, 4e38},
-                     "value of pixels without a height, which become holes; `auto` takes the "
-                     "file's, and NaN always is one");
+    v.number("no_data", c.no_data, {-4e38, 4e38},
+             "value of pixels without a height, which become holes; `auto` takes the "
+             "file's, and NaN always is one");
     v.text("material", c.material, "material of the bottom; default: scene.material_default");
     v.text("class", c.class_name, "class of the bottom, for labels");
     v.require(c.pixel_m == 0.0 || !c.size_m, {"pixel_m", "size_m"},
@@ -150,7 +147,6 @@ inline bool names_ground(const SceneConfig& c) {
 
 template <class Visitor>
 void describe(Visitor& v, SceneConfig& c) {
-    v.place(c.place);
     v.path("file", c.file,
            "the scene, a .glb, .gltf, .obj, .stl or .ply file; optional if there are objects, a "
            "heightmap or a seabed");
@@ -160,28 +156,26 @@ void describe(Visitor& v, SceneConfig& c) {
            "material of surfaces whose material the CSV lacks or the file does not name; without "
            "it they are an error");
     describe_mesh(v, c.mesh);
-    v.texts(
-        "bottom", c.bottom,
-        "nodes of `file` that objects rest on; default: the heightmap or seabed, else all nodes "
-        "of `file`, else the first object");
-    v.optional_section("heightmap", c.heightmap, "an image of heights, which is the bottom");
-    v.optional_section("sediment_map", c.sediment_map,
-                       "an image whose pixels are materials of the ground");
-    v.optional_section("backscatter_map", c.backscatter_map,
-                       "an image of decibels that are added to the strength of the ground");
-    v.optional_section("seabed", c.seabed,
-                       "a bottom that is made from these numbers and the mission's seed");
-    v.list("objects", c.objects, 0, "files that are placed in the scene one by one");
-    v.list("scatter", c.scatter, 0, "files that are placed on the bottom at random");
-    v.list("particles", c.particles, 0,
-           "groups of point targets in the water, for the calibrated model: fish, bubbles and "
-           "others");
+    v.text("bottom", c.bottom,
+           "nodes of `file` that objects rest on; default: the heightmap or seabed, else all nodes "
+           "of `file`, else the first object");
+    v.section("heightmap", c.heightmap, "an image of heights, which is the bottom");
+    v.section("sediment_map", c.sediment_map, "an image whose pixels are materials of the ground");
+    v.section("backscatter_map", c.backscatter_map,
+              "an image of decibels that are added to the strength of the ground");
+    v.section("seabed", c.seabed,
+              "a bottom that is made from these numbers and the mission's seed");
+    v.list_of("objects", c.objects, 0, "files that are placed in the scene one by one");
+    v.list_of("scatter", c.scatter, 0, "files that are placed on the bottom at random");
+    v.list_of("particles", c.particles, 0,
+              "groups of point targets in the water, for the calibrated model: fish, bubbles and "
+              "others");
     v.choice("repeats", c.repeats, repeated_files,
              "how a file that is used several times is stored: `copied` repeats its triangles; "
              "`shared` keeps them once, which only named objects that do not move can have and "
              "only the rays see; `auto` shares when the copies have more than four million "
              "triangles and the engine can be rays");
-    v.optional_section(
+    v.section(
         "water_surface", c.water_surface,
         "the surface of the water: it reflects multipath and, with `scatters`, is seen itself");
     v.require(!c.file.empty() || c.heightmap || c.seabed || !c.objects.empty(), {},

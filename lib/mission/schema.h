@@ -4,7 +4,6 @@
 #include <array>
 #include <string_view>
 
-#include "core/input_limits.h"
 #include "mission/dataset_names.h"
 #include "mission/limits.h"
 #include "mission/mission.h"
@@ -44,8 +43,8 @@ inline constexpr Limits volume_strengths_db{-200.0, 0.0};
 
 template <class Visitor>
 void describe(Visitor& v, WaterLayerConfig& c) {
-    v.numbers("depth_m", c.depth_m, between(0, 12000),
-              "top and bottom of the layer, below scene.water_surface", required);
+    v.array("depth_m", c.depth_m, between(0, 12000),
+            "top and bottom of the layer, below scene.water_surface", required);
     v.require(c.depth_m[0] < c.depth_m[1], {"depth_m"},
               "'depth_m' is the top and the bottom of a layer; the first must be below the second");
     v.number("scattering_db_per_m3", c.scattering_db_per_m3, volume_strengths_db,
@@ -55,50 +54,44 @@ void describe(Visitor& v, WaterLayerConfig& c) {
 
 template <class Visitor>
 void describe(Visitor& v, WaterConfig& c) {
-    v.number("density_kg_m3", c.density_kg_m3, between(least_medium, largest_medium),
-             "density of the water");
-    v.number_or_auto("sound_speed_m_s", c.sound_speed_m_s, between(least_medium, largest_medium),
-                     "speed of sound in the water; `auto` computes it from temperature, salinity "
-                     "and depth by Mackenzie's formula");
+    v.number("density_kg_m3", c.density_kg_m3, between(900, 1300), "density of the water");
+    v.number("sound_speed_m_s", c.sound_speed_m_s, between(1000, 2000),
+             "speed of sound in the water; `auto` computes it from temperature, salinity "
+             "and depth by Mackenzie's formula",
+             or_auto);
     v.number(
         "temperature_c", c.temperature_c, between(-2, 40),
         "temperature, for the absorption of the calibrated model and for sound_speed_m_s: auto");
     v.number("salinity_psu", c.salinity_psu, between(0, 45), "salinity, for the same");
     v.number("depth_m", c.depth_m, between(0, 12000), "depth below the surface, for the same");
-    v.number("ph", c.ph, between(6, 9), "acidity, for the absorption of the calibrated model");
     v.number("wind_m_s", c.wind_m_s, between(0, 100),
              "speed of the wind, for the noise of the sea in receiver.noise_db: auto");
     v.choice(
         "content", c.content, water_contents,
         "content of the water that scatters sound, for the calibrated model: `none` nothing, "
         "`clear` -90 dB, `coastal` -75 dB, `plankton` -65 dB, `plume` -55 dB re 1 m^2 per m^3, "
-        "each with its suspended_mg_l; `auto` is the usual_water of each instrument");
-    v.number_or_auto("scattering_db_per_m3", c.scattering_db_per_m3, volume_strengths_db,
-                     "volume backscattering strength of the water, dB re 1 m^2 per m^3, for the "
-                     "calibrated model; `auto` takes that of `content`");
-    v.number_or_auto("suspended_mg_l", c.suspended_mg_l, between(0, 1e5),
-                     "mineral particles in the water, for the calibrated model, whose scattering "
-                     "adds to that of the other keys; `auto` is 0.5 for `clear` and 20 for "
-                     "`coastal` and `plankton`, and 0 with a scattering_db_per_m3");
-    v.number("suspended_um", c.suspended_um, between(1, 2000), "diameter of these particles");
-    v.number_or_auto("drift_rms_m_s", c.drift_rms_m_s, between(0, 100),
-                     "RMS speed at which the water's scatterers drift apart, one component: pings "
-                     "close in time from one place keep a part of the water's speckle; with "
-                     "`auto`, and with `speckle: ping` of the sonar, each ping has its own");
-    v.numbers("current_m_s", c.current_m_s, between(-100, 100),
-              "velocity of the water in the world, which carries its speckle past the sonar");
+        "each with its mineral particles; `auto` is the usual_water of each instrument");
+    v.number("scattering_db_per_m3", c.scattering_db_per_m3, volume_strengths_db,
+             "volume backscattering strength of the water, dB re 1 m^2 per m^3, for the "
+             "calibrated model; `auto` takes that of `content`");
+    v.number("drift_rms_m_s", c.drift_rms_m_s, between(0, 100),
+             "RMS speed at which the water's scatterers drift apart, one component: pings "
+             "close in time from one place keep a part of the water's speckle; with "
+             "`auto`, and with `speckle: ping` of the sonar, each ping has its own");
+    v.array("current_m_s", c.current_m_s, between(-100, 100),
+            "velocity of the water in the world, which carries its speckle past the sonar");
     v.require(c.drift_rms_m_s || c.current_m_s == std::array<double, 3>{},
               {"current_m_s", "drift_rms_m_s"},
               "current_m_s needs a drift_rms_m_s: without it each ping has speckle of its own");
-    v.list("layers", c.layers, 0,
-           "layers of the water that scatter more; they need "
-           "scene.water_surface");
-    v.optional_section("profile", c.profile,
-                       "speed of sound by depth below scene.water_surface: sound bends, and a "
-                       "range is half of sound_speed_m_s times the time");
-    v.optional_section("assumed_profile", c.assumed_profile,
-                       "the profile that profiling sonars believe in when they make soundings; "
-                       "default: sound_speed_m_s at all depths");
+    v.list_of("layers", c.layers, 0,
+              "layers of the water that scatter more; they need "
+              "scene.water_surface");
+    v.section("profile", c.profile,
+              "speed of sound by depth below scene.water_surface: sound bends, and a "
+              "range is half of sound_speed_m_s times the time");
+    v.section("assumed_profile", c.assumed_profile,
+              "the profile that profiling sonars believe in when they make soundings; "
+              "default: sound_speed_m_s at all depths");
     v.require(!c.assumed_profile || c.profile, {"assumed_profile", "profile"},
               "assumed_profile needs the true 'profile'");
 }
@@ -113,9 +106,9 @@ void describe(Visitor& v, AccuracyConfig& c) {
 template <class Visitor>
 void describe(Visitor& v, OctreeConfig& c) {
     // Leaves below a millimetre are finer than any sonar's bins.
-    v.number_or_auto("leaf_m", c.leaf_m, between(1e-3, 1e3),
-                     "edge of the octree's leaves; `auto` derives it from accuracy.relative_l1");
-    v.integer(
+    v.number("leaf_m", c.leaf_m, between(1e-3, 1e3),
+             "edge of the octree's leaves; `auto` derives it from accuracy.relative_l1", or_auto);
+    v.number(
         "memory_mb", c.memory_mb, between(1, 1e6),
         "memory limit; above it the octree drops the nodes that have not been seen for longest");
     v.flag("literal", c.literal, "use the octree exactly as the paper prints it, as a baseline");
@@ -123,7 +116,7 @@ void describe(Visitor& v, OctreeConfig& c) {
 
 template <class Visitor>
 void describe(Visitor& v, SlicesConfig& c) {
-    v.integer(
+    v.number(
         "per_beam", c.per_beam, between(0, 64),
         "slices per beam, one of them on its border; 0 derives the number from "
         "accuracy.relative_l1. Wide beams, the sides of a side-scan sonar and cones have more");
@@ -131,7 +124,6 @@ void describe(Visitor& v, SlicesConfig& c) {
 
 template <class Visitor>
 void describe(Visitor& v, ClassConfig& c) {
-    v.place(c.place);
     v.text("nodes", c.nodes,
            "names of nodes of the scene; `*` stands for any text and `?` for any one byte");
     v.text("class", c.name, "class of these nodes");
@@ -144,12 +136,11 @@ void describe(Visitor& v, ClassConfig& c) {
 
 template <class Visitor>
 void describe(Visitor& v, LabelConfig& c) {
-    v.place(c.place);
-    v.texts(
-        "background", c.background,
-        "classes that are no objects and have no contrast, shadow or visible share. `auto` stands "
-        "for the classes of the nodes that scene.bottom names and for the class of the largest "
-        "surface; `none` for no class");
+    v.text("background", c.background,
+           "background classes, which are not objects and have no contrast, shadow or visible "
+           "share. `auto` stands "
+           "for the classes of the nodes that scene.bottom names and for the class of the largest "
+           "surface; `none` for no class");
     v.require(!c.background.empty(), {"background"},
               "'background' names classes, auto or none; with [none] all classes are objects");
 }
@@ -159,7 +150,7 @@ void describe(Visitor& v, Mission& c) {
     v.text("name", c.name, "name of the dataset; default: the name of the mission's file");
     v.require(is_folder_name(c.name), {"name"},
               "'name' names a folder: at most 200 bytes, without '/', not SHA256SUMS");
-    v.integer("seed", c.seed, "seed of all random draws; 0 is a seed like any other");
+    v.number("seed", c.seed, any_unsigned, "seed of all random draws; 0 is a seed like any other");
     v.section("water", c.water, "the water");
     v.section("scene", c.scene, "what the sonars look at", required);
     v.section("trajectory", c.trajectory, "path of the vehicle; exactly one of the three forms",
@@ -195,16 +186,16 @@ void describe(Visitor& v, Mission& c) {
              "degrees of elevation or opening");
     v.section("octree", c.octree, "settings of the octree");
     v.section("slices", c.slices, "settings of the slices");
-    v.list("classes", c.classes, 0,
-           "rules that give nodes of the scene a class, for labels; the first rule that fits a "
-           "node applies");
+    v.list_of("classes", c.classes, 0,
+              "rules that give nodes of the scene a class, for labels; the first rule that fits a "
+              "node applies");
     v.section("labels", c.labels,
               "which objects are annotated in COCO files and for YOLO, and how");
     v.section("output", c.output, "files to write, and their folder");
-    v.integer("variants", c.variants, between(0, 1e6),
-              "number of variants of the mission, each a dataset with a seed of its own; 0 renders "
-              "the mission as it stands");
-    v.list("vary", c.vary, 0, "keys that are drawn at random");
+    v.number("variants", c.variants, between(0, 1e6),
+             "number of variants of the mission, each a dataset with a seed of its own; 0 renders "
+             "the mission as it stands");
+    v.list_of("vary", c.vary, 0, "keys that are drawn at random");
     const auto is_of_pings = [](const VaryConfig& rule) { return rule.per == VaryPer::ping; };
     v.require(c.variants > 0 || std::ranges::all_of(c.vary, is_of_pings), {"vary", "variants"},
               "'vary' needs 'variants', the number of variants to draw, or per: ping in each of "

@@ -47,11 +47,11 @@ template <class Visitor>
 void describe(Visitor& v, BedRockConfig& c) {
     v.number("density_per_m2", c.density_per_m2, between(0, 1e4),
              "mean number per square metre, as in a Poisson process", required);
-    v.numbers("diameter_m", c.diameter_m, between(1e-3, 1e3),
-              "least and largest diameter of the ball around a rock", required);
+    v.array("diameter_m", c.diameter_m, between(1e-3, 1e3),
+            "least and largest diameter of the ball around a rock", required);
     v.number("exponent", c.exponent, between(0.1, 20),
              "exponent q of the power law: rocks above the diameter D are as frequent as D^-q");
-    v.range("buried", c.buried, between(0, 0.95), "share of a rock's height below the bed");
+    v.number("buried", c.buried, between(0, 0.95), "share of a rock's height below the bed");
     v.text("material", c.material,
            "material of the rocks; default: that of the bed, or of its first "
            "sediment");
@@ -62,32 +62,30 @@ void describe(Visitor& v, BedRockConfig& c) {
 
 template <class Visitor>
 void describe(Visitor& v, SeabedConfig& c) {
-    v.place(c.place);
     v.path("preset", c.preset,
            "YAML file with keys of this section, such as those of configs/seabeds; keys given here "
            "override those of the file");
-    v.optional_numbers("size_m", c.size_m, above(0),
-                       "extent along x and y; without it the bed has no end. In both cases no more "
-                       "of it is made than the sonars reach and objects need");
+    v.array("size_m", c.size_m, above(0),
+            "extent along x and y; without it the bed has no end. In both cases no more "
+            "of it is made than the sonars reach and objects need");
     v.number("cell_m", c.cell_m, between(1e-3, 1e3), "distance between neighbouring heights",
              required);
-    v.numbers(
-        "origin_m", c.origin_m, any_position_m,
-        "the point of the bed that becomes x = 0, y = 0 of the mission. The south-west corner "
-        "of a bed of a size is its (0, 0)");
+    v.array("origin_m", c.origin_m, any_position_m,
+            "the point of the bed that becomes x = 0, y = 0 of the mission. The south-west corner "
+            "of a bed of a size is its (0, 0)");
     v.number("z_m", c.z_m, any_position_m, "mean height of the bed at x = 0, y = 0 of the mission");
     v.number("slope_deg", c.slope_deg, between(0, 60), "slope of the whole bed");
     v.number("uphill_deg", c.uphill_deg, any_angle_deg,
              "direction in which it rises, from x towards y");
     v.text("material", c.material, "material of the bed; default: scene.material_default");
     v.text("class", c.class_name, "class of the bed, for labels");
-    v.optional_section("roughness", c.roughness, "random heights of all wavelengths");
-    v.optional_section("ripples", c.ripples, "sand ripples");
-    v.list("sediments", c.sediments, 0,
-           "materials in patches; each borders on those before and after it in the list");
+    v.section("roughness", c.roughness, "random heights of all wavelengths");
+    v.section("ripples", c.ripples, "sand ripples");
+    v.list_of("sediments", c.sediments, 0,
+              "materials in patches; each borders on those before and after it in the list");
     v.number("patch_m", c.patch_m, above(0), "size of the patches of sediments");
     v.number("border_m", c.border_m, above(0), "size of the bays of their borders");
-    v.optional_section("rocks", c.rocks, "rocks that lie on the bed, each an object");
+    v.section("rocks", c.rocks, "rocks that lie on the bed, each an object");
     v.require(!c.ripples || c.ripples->length_m >= 4.0 * c.cell_m, {"cell_m", "ripples"},
               "ripples need 4 cells from crest to crest; lower cell_m");
     v.require(c.material.empty() || c.sediments.empty(), {"material", "sediments"},

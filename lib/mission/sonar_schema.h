@@ -24,9 +24,9 @@ inline constexpr std::array shutter_orders{
 
 template <class Visitor>
 void describe(Visitor& v, ShutterConfig& c) {
-    v.integer("groups", c.groups, between(1, 64),
-              "number of groups in which the beams transmit, one after the other; a ping takes "
-              "nearly that many times as long to render");
+    v.number("groups", c.groups, between(1, 64),
+             "number of groups in which the beams transmit, one after the other; a ping takes "
+             "nearly that many times as long to render");
     v.choice("order", c.order, shutter_orders,
              "`in_turn`: a group is a part of the sector, from starboard to port; `interleaved`: "
              "every n-th beam");
@@ -36,10 +36,9 @@ void describe(Visitor& v, ShutterConfig& c) {
 
 template <class Visitor>
 void describe(Visitor& v, MountConfig& c) {
-    v.numbers("translation_m", c.translation_m, any_position_m,
-              "position of the sonar in the vehicle's frame");
-    v.numbers("rpy_deg", c.rpy_deg, any_angle_deg,
-              "roll, pitch and yaw on top of the default mount");
+    v.array("translation_m", c.translation_m, any_position_m,
+            "position of the sonar in the vehicle's frame");
+    v.array("rpy_deg", c.rpy_deg, any_angle_deg, "roll, pitch and yaw on top of the default mount");
 }
 
 template <class Visitor>
@@ -47,13 +46,13 @@ void describe(Visitor& v, MultipathConfig& c) {
     v.choice("method", c.method, multipath_methods,
              "multipath via a second surface: `cluster` traces one ray for a cluster of samples, "
              "`exact` one for every sample");
-    v.integer("epsilon_bins", c.epsilon_bins, between(0, 8192),
-              "size of a cluster in range, azimuth and elevation bins");
+    v.number("epsilon_bins", c.epsilon_bins, between(0, 8192),
+             "size of a cluster in range, azimuth and elevation bins");
     v.number("delta_deg", c.delta_deg, between(0, 180),
              "largest angle between the normals within a cluster");
-    v.integer("columns_per_beam", c.columns_per_beam, between(1, 16),
-              "number of narrower beams that each beam of a fan is traced as: more echoes of small "
-              "facets are found, and a ping takes that many times as long");
+    v.number("columns_per_beam", c.columns_per_beam, between(1, 16),
+             "number of narrower beams that each beam of a fan is traced as: more echoes of small "
+             "facets are found, and a ping takes that many times as long");
 }
 
 /// Checks that a table of beams fits the other keys of a sonar.
@@ -117,12 +116,12 @@ void describe_motion(Visitor& v, SonarConfig& c) {
 
 template <class Visitor>
 void describe(Visitor& v, SonarConfig& c) {
-    const SonarKeys& keys = v.sonar_kind("kind", c, "the kind of sonar");
+    const SonarKeys& keys = v.one_of("kind", c, "the kind of sonar");
     v.path("preset", c.preset,
            "YAML file with keys of this section, such as those of configs/sensors; keys given here "
            "override those of the file");
     v.section("mount", c.mount, "where the sonar sits on the vehicle");
-    v.integer("every", c.every, at_least(1), "the sonar pings at every n-th pose");
+    v.number("every", c.every, at_least(1), "the sonar pings at every n-th pose");
     describe_motion(v, c);
     if (keys.opening)
         v.number("opening_deg", c.opening_deg, between(1e-3, 180), "full angle of the cone");
@@ -143,10 +142,10 @@ void describe(Visitor& v, SonarConfig& c) {
     v.number("range_min_m", c.range_min_m, at_least(0), "nearest slant range, one way");
     v.number("range_max_m", c.range_max_m, above(0), "farthest slant range, one way");
     // 8192 x 8192 bins are 2^26, the largest image that is rendered.
-    v.integer("range_bins", c.range_bins, between(1, 8192),
-              "number of range bins of a ping; for a side-scan sonar, of each side");
+    v.number("range_bins", c.range_bins, between(1, 8192),
+             "number of range bins of a ping; for a side-scan sonar, of each side");
     if (keys.azimuth_bins)
-        v.integer("azimuth_bins", c.azimuth_bins, between(1, 8192), "number of beams of a ping");
+        v.number("azimuth_bins", c.azimuth_bins, between(1, 8192), "number of beams of a ping");
     v.section("multipath", c.multipath, "multipath via a second surface");
     v.require((!keys.opening && c.kind != SonarKind::sidescan) || c.multipath.columns_per_beam == 1,
               {"multipath"}, "multipath.columns_per_beam is for the beams of a fan: it must be 1");

@@ -61,7 +61,6 @@ struct NavigationConfig {
     double tilt_deg = 0.0;
     double heading_deg = 0.0;
     double heading_bias_deg = 0.0;
-    double heading_drift_deg_h = 0.0;
     double speed_scale = 0.0;
 
     bool operator==(const NavigationConfig&) const = default;

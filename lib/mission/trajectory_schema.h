@@ -18,24 +18,24 @@ void describe(Visitor& v, FileTrajectoryConfig& c) {
 
 template <class Visitor>
 void describe(Visitor& v, WaypointConfig& c) {
-    v.numbers("position_m", c.position_m, any_position_m, "x, y, z in the world", required);
-    v.numbers("rpy_deg", c.rpy_deg, any_angle_deg, "roll, pitch and yaw of the vehicle");
+    v.array("position_m", c.position_m, any_position_m, "x, y, z in the world", required);
+    v.array("rpy_deg", c.rpy_deg, any_angle_deg, "roll, pitch and yaw of the vehicle");
 }
 
 template <class Visitor>
 void describe(Visitor& v, WaypointTrajectoryConfig& c) {
-    v.list("waypoints", c.waypoints, 2,
-           "poses in the order of the trajectory, joined by straight legs");
+    v.list_of("waypoints", c.waypoints, 2,
+              "poses in the order of the trajectory, joined by straight legs");
     v.number("speed_m_s", c.speed_m_s, above(0), "speed along the legs");
     v.number("rate_hz", c.rate_hz, above(0), "poses per second");
 }
 
 template <class Visitor>
 void describe(Visitor& v, LawnmowerTrajectoryConfig& c) {
-    v.numbers("area_min_m", c.area_min_m, any_position_m,
-              "corner of the rectangle with the least x and y", required);
-    v.numbers("area_max_m", c.area_max_m, any_position_m,
-              "corner of the rectangle with the largest x and y", required);
+    v.array("area_min_m", c.area_min_m, any_position_m,
+            "corner of the rectangle with the least x and y", required);
+    v.array("area_max_m", c.area_max_m, any_position_m,
+            "corner of the rectangle with the largest x and y", required);
     v.number("z_m", c.z_m, any_position_m,
              "height of the vehicle in the world; negative below a surface at 0", required);
     v.number("heading_deg", c.heading_deg, any_angle_deg,
@@ -62,9 +62,9 @@ template <class Visitor>
 void describe(Visitor& v, MotionConfig& c) {
     constexpr Limits deviation_m{0.0, 100.0};
     constexpr Limits deviation_deg{0.0, 45.0};
-    v.numbers("position_m", c.position_m, deviation_m,
-              "standard deviations of surge (ahead), sway (to port) and heave (up)");
-    v.numbers("turn_deg", c.turn_deg, deviation_deg, "standard deviations of roll, pitch and yaw");
+    v.array("position_m", c.position_m, deviation_m,
+            "standard deviations of surge (ahead), sway (to port) and heave (up)");
+    v.array("turn_deg", c.turn_deg, deviation_deg, "standard deviations of roll, pitch and yaw");
     v.number("period_s", c.period_s, between(0.1, 1000),
              "period of the strongest waves; the spectrum is that of Pierson and Moskowitz");
     v.number("lag_s", c.lag_s, between(0, 1000),
@@ -79,20 +79,18 @@ void describe(Visitor& v, NavigationConfig& c) {
     v.number("tilt_deg", c.tilt_deg, between(0, 45), "of roll and of pitch, drawn for every pose");
     v.number("heading_deg", c.heading_deg, between(0, 180), "of the heading, drawn for every pose");
     v.number("heading_bias_deg", c.heading_bias_deg, between(0, 180),
-             "of a constant error of the heading; like the next two it also bends the track, "
+             "of a constant error of the heading; like the next one it also bends the track, "
              "which is summed from the steps of a velocity log");
-    v.number("heading_drift_deg_h", c.heading_drift_deg_h, at_least(0),
-             "of the heading's drift, degrees per hour");
     v.number("speed_scale", c.speed_scale, between(0, 0.5),
              "of a constant relative error of the speed");
 }
 
 template <class Visitor>
 void describe(Visitor& v, VehicleConfig& c) {
-    v.numbers("offset_m", c.offset_m, any_position_m,
-              "added to the position of every pose: x, y, z in the world");
-    v.numbers("turn_deg", c.turn_deg, any_angle_deg,
-              "roll, pitch and yaw that are added to every pose, in the vehicle's own frame");
+    v.array("offset_m", c.offset_m, any_position_m,
+            "added to the position of every pose: x, y, z in the world");
+    v.array("turn_deg", c.turn_deg, any_angle_deg,
+            "roll, pitch and yaw that are added to every pose, in the vehicle's own frame");
     v.section("motion", c.motion, "movements by waves that are added to the trajectory");
     v.section("navigation", c.navigation,
               "errors of the poses that the vehicle reports, as standard deviations; images do not "

@@ -87,7 +87,7 @@ class VariantMaker {
 std::vector<std::string> choices_of_objects(const VaryConfig& rule) {
     const bool is_of_objects = rule.key.starts_with("scene") || rule.key.starts_with("classes");
     if (!is_of_objects || rule.per != VaryPer::variant) return {};
-    if (!rule.whole) return rule.choice;
+    if (!rule.whole) return rule.choice.items;
     return {std::to_string(static_cast<std::int64_t>((*rule.whole)[1]))};
 }
 

@@ -10,6 +10,13 @@
 
 namespace sonarsim {
 
+/// Values of any kind, as YAML.
+struct YamlValues {
+    std::vector<std::string> items;
+
+    bool operator==(const YamlValues&) const = default;
+};
+
 /// When a key is drawn: for each variant, once for all variants, or for every ping.
 enum class VaryPer { variant, dataset, ping };
 
@@ -22,7 +29,7 @@ struct VaryConfig {
     std::optional<std::array<double, 2>> whole;        ///< whole numbers, both ends included
     std::optional<std::array<double, 2>> normal;       ///< mean and standard deviation
     std::optional<std::array<double, 2>> within;       ///< limits of a normal draw
-    std::vector<std::string> choice;                   ///< YAML texts, all equally likely
+    YamlValues choice;                                 ///< all equally likely
     MissionPlace place;
 
     bool operator==(const VaryConfig&) const = default;

@@ -17,7 +17,6 @@ inline constexpr std::array vary_pers{Choice<VaryPer>{"variant", VaryPer::varian
 template <class Visitor>
 void describe(Visitor& v, VaryConfig& c) {
     constexpr Limits any{-1e18, 1e18};
-    v.place(c.place);
     v.text("key", c.key,
            "a key of the mission, as --set takes it: sensors.fls.noise.add_sigma, "
            "scene.objects.0.position_m.2",
@@ -26,18 +25,17 @@ void describe(Visitor& v, VaryConfig& c) {
              "when the key is drawn: for every variant, once for all variants (`dataset`), or for "
              "every ping. Keys that may vary per ping are a sensor's mount, the numbers of its "
              "noise and streaks, and the offset of the vehicle");
-    v.optional_numbers("uniform", c.uniform, any, "the least and the largest number");
-    v.optional_numbers("log_uniform", c.log_uniform, any,
-                       "the least and the largest number; each decade is equally likely");
-    v.optional_numbers("whole", c.whole, any, "the least and the largest whole number");
-    v.optional_numbers("normal", c.normal, any, "mean and standard deviation");
-    v.optional_numbers("within", c.within, any,
-                       "limits of a normal draw; a draw outside them is repeated");
-    v.values("choice", c.choice, "values of any kind, each equally likely");
+    v.array("uniform", c.uniform, any, "the least and the largest number");
+    v.array("log_uniform", c.log_uniform, any,
+            "the least and the largest number; each decade is equally likely");
+    v.array("whole", c.whole, any, "the least and the largest whole number");
+    v.array("normal", c.normal, any, "mean and standard deviation");
+    v.array("within", c.within, any, "limits of a normal draw; a draw outside them is repeated");
+    v.text("choice", c.choice, "values of any kind, each equally likely");
     const auto rises = [](const auto& pair) { return !pair || (*pair)[0] <= (*pair)[1]; };
     v.require(
         c.uniform.has_value() + c.log_uniform.has_value() + c.whole.has_value() +
-                c.normal.has_value() + !c.choice.empty() ==
+                c.normal.has_value() + !c.choice.items.empty() ==
             1,
         {}, "a key that varies needs exactly one of: uniform, log_uniform, whole, normal, choice");
     v.require(rises(c.uniform) && rises(c.log_uniform) && rises(c.whole) && rises(c.within),

@@ -1,7 +1,10 @@
 #include "preview/drawing.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "core/text.h"
 
@@ -12,15 +15,8 @@ namespace {
 constexpr int least_left_margin = 56;
 constexpr int bottom_margin = 20;
 
-}  // namespace
-
-void tint(Picture& picture, int x, int y, Rgb colour, float share) {
-    if (x < 0 || y < 0 || x >= picture.width || y >= picture.height) return;
-    Rgb& pixel = picture.row(y)[x];
-    const Rgb ends[] = {pixel, colour};
-    pixel = blend(ends, share);
-}
-
+/// The part of the line from + t way, t in [0, 1], that lies within a rectangle of this size at the
+/// origin, by its first and last t (Liang and Barsky); nothing if no part does.
 std::optional<std::pair<double, double>> part_within(const Eigen::Vector2d& size,
                                                      const Eigen::Vector2d& from,
                                                      const Eigen::Vector2d& way) {
@@ -38,6 +34,15 @@ std::optional<std::pair<double, double>> part_within(const Eigen::Vector2d& size
     }
     if (!(begin <= end)) return std::nullopt;
     return std::pair(begin, end);
+}
+
+}  // namespace
+
+void tint(Picture& picture, int x, int y, Rgb colour, float share) {
+    if (x < 0 || y < 0 || x >= picture.width || y >= picture.height) return;
+    Rgb& pixel = picture.row(y)[x];
+    const Rgb ends[] = {pixel, colour};
+    pixel = blend(ends, share);
 }
 
 void draw_line(Picture& picture, Eigen::Vector2d from, Eigen::Vector2d to, Rgb colour,
@@ -69,15 +74,32 @@ void draw_dot(Picture& picture, const Eigen::Vector2d& at, int half, Rgb colour)
          static_cast<int>(std::floor(at.y())) - half, 2 * half + 1, 2 * half + 1, colour);
 }
 
-void paste(Drawing& drawing, const Drawing& part, int x, int y) {
+void label(Picture& picture, int x, int y, std::string text, Align align, Rgb colour) {
+    constexpr int half_height = 3;
+    const auto is_letter = [&](std::size_t k) {
+        return k < text.size() &&
+               (text[k] == '_' || std::isalpha(static_cast<unsigned char>(text[k])));
+    };
+    // A small m is the sign of metres; within words it is a capital.
+    for (std::size_t k = 0; k < text.size(); ++k) {
+        if (text[k] == 'm' && (is_letter(k + 1) || (k > 0 && is_letter(k - 1)))) text[k] = 'M';
+    }
+    write(picture, x, y - half_height, text, align, colour);
+}
+
+void outlined_label(Picture& picture, int x, int y, const std::string& text, Align align,
+                    Rgb colour) {
+    for (int j = -1; j <= 1; ++j) {
+        for (int i = -1; i <= 1; ++i)
+            label(picture, x + i, y + j, text, align, backdrop);
+    }
+    label(picture, x, y, text, align, colour);
+}
+
+void paste(Picture& picture, const Picture& part, int x, int y) {
     for (int row = 0; row < part.height; ++row) {
         const auto from = part.pixels.begin() + static_cast<std::ptrdiff_t>(row) * part.width;
-        std::copy_n(from, part.width, drawing.row(y + row) + x);
-    }
-    for (PictureText text : part.texts) {
-        text.x += x;
-        text.y += y;
-        drawing.texts.push_back(std::move(text));
+        std::copy_n(from, part.width, picture.row(y + row) + x);
     }
 }
 
@@ -101,13 +123,6 @@ int left_margin(const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
 
 }  // namespace
 
-int fitting_height(int width, const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
-    const int plot_width = width - left_margin(low, high) - 1;
-    const Eigen::Vector2d extent = (high - low).cwiseMax(1e-3);
-    const double rows = std::min(extent.y() / extent.x(), 10.0) * plot_width;
-    return static_cast<int>(std::ceil(rows)) + bottom_margin;
-}
-
 PlaneFrame plane_frame(int width, int height, const Eigen::Vector2d& low,
                        const Eigen::Vector2d& high) {
     PlaneFrame frame;
@@ -124,7 +139,7 @@ PlaneFrame plane_frame(int width, int height, const Eigen::Vector2d& low,
     return frame;
 }
 
-void draw_axes(Drawing& tile, const PlaneFrame& frame) {
+void draw_axes(Picture& tile, const PlaneFrame& frame) {
     const int bottom = frame.top + frame.plot_height;
     fill(tile, 0, 0, frame.left, frame.height, backdrop);
     fill(tile, 0, bottom, frame.width, frame.height - bottom, backdrop);
@@ -142,14 +157,14 @@ void draw_axes(Drawing& tile, const PlaneFrame& frame) {
         const int half = text_width(number) / 2;
         constexpr int blank_px = 6;
         if (at - half <= last || at + half >= tile.width) continue;
-        tile.texts.push_back({at, bottom + 12, number, Align::middle});
+        label(tile, at, bottom + 12, number, Align::middle);
         last = at + half + blank_px;
     }
     for (const double y : axis_marks(frame.low.y(), high.y(), 5.0)) {
         const int at = static_cast<int>(frame.pixel({frame.low.x(), y}).y());
         fill(tile, frame.left - 5, at, 4, 1, ink);
-        tile.texts.push_back({frame.left - 8, std::clamp(at, 6, tile.height - 6),
-                              number_text(y) + " m", Align::right});
+        label(tile, frame.left - 8, std::clamp(at, 6, tile.height - 6), number_text(y) + " m",
+              Align::right);
     }
 }
 

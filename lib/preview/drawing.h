@@ -1,22 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <string>
-#include <utility>
 
-#include "preview/labels.h"
+#include "product/picture.h"
 
 namespace sonarsim {
 
 /// Blends a colour over a pixel with the weight `share`. Pixels outside the picture are ignored.
 void tint(Picture& picture, int x, int y, Rgb colour, float share);
-
-/// The part of the line from + t way, t in [0, 1], that lies within a rectangle of this size at the
-/// origin, by its first and last t (Liang and Barsky); nothing if no part does.
-std::optional<std::pair<double, double>> part_within(const Eigen::Vector2d& size,
-                                                     const Eigen::Vector2d& from,
-                                                     const Eigen::Vector2d& way);
 
 /// Draws a straight line, one pixel wide, between two points in pixels, clipped to the picture.
 void draw_line(Picture& picture, Eigen::Vector2d from, Eigen::Vector2d to, Rgb colour,
@@ -25,8 +17,15 @@ void draw_line(Picture& picture, Eigen::Vector2d from, Eigen::Vector2d to, Rgb c
 /// Draws a square of 2 `half` + 1 pixels around a point.
 void draw_dot(Picture& picture, const Eigen::Vector2d& at, int half, Rgb colour);
 
-/// Copies a drawing into another one, which must be large enough.
-void paste(Drawing& drawing, const Drawing& part, int x, int y);
+/// Writes a text whose middle is at the height y.
+void label(Picture& picture, int x, int y, std::string text, Align align, Rgb colour = ink);
+
+/// The same with a dark outline.
+void outlined_label(Picture& picture, int x, int y, const std::string& text, Align align,
+                    Rgb colour);
+
+/// Copies a picture into another one, which must be large enough.
+void paste(Picture& picture, const Picture& part, int x, int y);
 
 /// The mapping of a plane to a tile: metres to pixels, with the same scale on both axes and margins
 /// for the numbers of the axes.
@@ -49,10 +48,7 @@ struct PlaneFrame {
 PlaneFrame plane_frame(int width, int height, const Eigen::Vector2d& low,
                        const Eigen::Vector2d& high);
 
-/// The height of a tile of this width that has no empty space above or below `low` to `high`.
-int fitting_height(int width, const Eigen::Vector2d& low, const Eigen::Vector2d& high);
-
 /// Darkens the margins and writes the numbers of both axes there.
-void draw_axes(Drawing& tile, const PlaneFrame& frame);
+void draw_axes(Picture& tile, const PlaneFrame& frame);
 
 }  // namespace sonarsim

@@ -7,6 +7,8 @@
 #include "core/elementary.h"
 #include "core/text.h"
 #include "core/units.h"
+#include "preview/drawing.h"
+#include "product/colour_map.h"
 
 namespace sonarsim {
 
@@ -46,10 +48,9 @@ float cover(double pixels) {
     return line_share * static_cast<float>(std::max(0.0, 1.0 - std::fabs(pixels)));
 }
 
-void mark_lines(FanStyle& style, const View& view) {
+void draw_lines(Picture& picture, const FanFrame& frame, const View& view) {
     const std::vector<double> ranges = ring_ranges(view);
     const std::vector<double> bearings = bearings_deg(view);
-    const FanFrame& frame = style.frame;
     for (int row = 0; row < frame.height; ++row) {
         for (int column = 0; column < frame.width; ++column) {
             const FanPlace place = fan_place(frame, view.range_max_m, column, row);
@@ -62,8 +63,7 @@ void mark_lines(FanStyle& style, const View& view) {
                 if (off.cos > 0.0)
                     share = std::max(share, cover(place.range_m * off.sin / frame.pixel_m));
             }
-            if (share > 0.0F)
-                style.marks.push_back({row * frame.width + column, mark_colour, share});
+            if (share > 0.0F) tint(picture, column, row, mark_colour, share);
         }
     }
 }
@@ -79,63 +79,42 @@ Pixel pixel_of(const FanFrame& frame, const View& view, double range_m, double a
             static_cast<int>(std::floor((view.range_max_m - range_m * at.cos) / frame.pixel_m))};
 }
 
-PictureText number_at(const Pixel& at, const std::string& text) {
-    return {at.x, at.y, text, Align::middle, mark_colour, true};
+/// Writes a number within the picture.
+void write_number(Picture& picture, const Pixel& at, const std::string& text) {
+    const int half = text_width(text) / 2 + 1;
+    const int x = std::clamp(at.x, half, std::max(half, picture.width - half));
+    const int y = std::clamp(at.y, 5, std::max(5, picture.height - 5));
+    outlined_label(picture, x, y, text, Align::middle, mark_colour);
 }
 
-PictureText range_number(const FanFrame& frame, const View& view, double range_m) {
+void write_numbers(Picture& picture, const FanFrame& frame, const View& view) {
     const bool wide = view.azimuth_rad > pi;
-    const std::string text = number_text(range_m) + " m";
-    Pixel at = pixel_of(frame, view, range_m, wide ? 0.0 : -0.5 * view.azimuth_rad);
-    at.x += 5 + text_width(text) / 2;
-    at.y += wide ? 6 : 2;
-    return number_at(at, text);
-}
-
-PictureText bearing_number(const FanFrame& frame, const View& view, double bearing_deg) {
+    for (const double range_m : ring_ranges(view)) {
+        if (range_m > 0.97 * view.range_max_m) continue;  // the outermost bearing has its number
+        const std::string text = number_text(range_m) + " m";
+        Pixel at = pixel_of(frame, view, range_m, wide ? 0.0 : -0.5 * view.azimuth_rad);
+        at.x += 5 + text_width(text) / 2;
+        at.y += wide ? 6 : 2;
+        write_number(picture, at, text);
+    }
     const double in_m = 14.0 * frame.pixel_m;
-    const Pixel at = pixel_of(frame, view, view.range_max_m - in_m, radians(bearing_deg));
-    const char* side = "";
-    if (bearing_deg > 0.0 && bearing_deg < 180.0) side = "P";
-    if (bearing_deg < 0.0) side = "S";
-    return number_at(at, number_text(std::fabs(bearing_deg)) + side);
+    for (const double bearing : bearings_deg(view)) {
+        const char* side = bearing > 0.0 && bearing < 180.0 ? "P" : bearing < 0.0 ? "S" : "";
+        write_number(picture, pixel_of(frame, view, view.range_max_m - in_m, radians(bearing)),
+                     number_text(std::fabs(bearing)) + side);
+    }
 }
 
 }  // namespace
 
-std::vector<PictureText> fan_numbers(const Sonar& sonar, const FanFrame& frame) {
-    std::vector<PictureText> numbers;
-    const View& view = sonar.settings.view;
-    if (std::min(frame.width, frame.height) < least_px) return numbers;
-    for (const double range : ring_ranges(view)) {
-        // The outermost bearing has its number there.
-        if (range <= 0.97 * view.range_max_m) numbers.push_back(range_number(frame, view, range));
-    }
-    for (const double bearing : bearings_deg(view))
-        numbers.push_back(bearing_number(frame, view, bearing));
-    for (PictureText& one : numbers) {
-        const int half = text_width(one.text) / 2 + 1;
-        one.x = std::clamp(one.x, half, std::max(half, frame.width - half));
-        one.y = std::clamp(one.y, 5, std::max(5, frame.height - 5));
-    }
-    return numbers;
-}
-
-FanStyle make_fan_style(const Sonar& sonar, const FanFrame& frame) {
-    FanStyle style{frame, colour_table(FanColours::amber), {}};
-    mark_lines(style, sonar.settings.view);
-    return style;
-}
-
-Picture styled_fan(const FanStyle& style, std::span<const std::uint8_t> grey) {
-    Picture picture(style.frame.width, style.frame.height, backdrop);
+Picture styled_fan(const Sonar& sonar, const FanFrame& frame, std::span<const std::uint8_t> grey) {
+    Picture picture(frame.width, frame.height, backdrop);
     for (std::size_t k = 0; k < grey.size(); ++k)
-        picture.pixels[k] = style.colours[grey[k]];
-    for (const FanStyle::Mark& mark : style.marks) {
-        Rgb& pixel = picture.pixels[static_cast<std::size_t>(mark.index)];
-        const Rgb ends[] = {pixel, mark.colour};
-        pixel = blend(ends, mark.share);
-    }
+        picture.pixels[k] =
+            blend(stops_of(FanColours::amber), static_cast<float>(grey[k]) / 255.0F);
+    const View& view = sonar.settings.view;
+    draw_lines(picture, frame, view);
+    if (std::min(frame.width, frame.height) >= least_px) write_numbers(picture, frame, view);
     return picture;
 }
 

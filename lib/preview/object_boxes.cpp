@@ -39,20 +39,16 @@ AlignedBox2d box_in_plan(const PlaneFrame& frame, const AlignedBox3d& box) {
     return pixels.extend(frame.pixel(box.max().head<2>()));
 }
 
-/// The box of a name next to that of its object: on its right, on its left, above or below.
-AlignedBox2d box_of_name(const AlignedBox2d& object, int width, int side) {
+/// The box of a name on the right or on the left of its object.
+AlignedBox2d box_of_name(const AlignedBox2d& object, int width, bool left) {
     constexpr double height = 11.0;  // seven pixels and a dark outline
-    const Vector2d size(width, height);
-    const Vector2d middle = object.center() - 0.5 * size;
-    Vector2d low = middle;
-    if (side == 0) low.x() = object.max().x() + 4.0;
-    if (side == 1) low.x() = object.min().x() - 4.0 - size.x();
-    if (side == 2) low.y() = object.min().y() - 2.0 - size.y();
-    if (side == 3) low.y() = object.max().y() + 2.0;
-    return {low, low + size};
+    constexpr double gap = 4.0;
+    const double x = left ? object.min().x() - gap - width : object.max().x() + gap;
+    const Vector2d low(x, object.center().y() - 0.5 * height);
+    return {low, low + Vector2d(width, height)};
 }
 
-void draw_box(Drawing& tile, const AlignedBox2d& box) {
+void draw_box(Picture& tile, const AlignedBox2d& box) {
     using Box = AlignedBox2d;
     constexpr float share = 0.55F;
     const std::pair<Box::CornerType, Box::CornerType> sides[] = {
@@ -83,7 +79,8 @@ std::vector<ObjectBox> object_boxes(const Assembly& assembly, std::uint32_t pose
     return boxes;
 }
 
-void draw_objects(Drawing& tile, const PlaneFrame& frame, const std::vector<ObjectBox>& objects) {
+std::vector<AlignedBox2d> draw_objects(Picture& tile, const PlaneFrame& frame,
+                                       const std::vector<ObjectBox>& objects) {
     const Vector2d corner(frame.left, frame.top);
     const AlignedBox2d plot(corner, corner + Vector2d(frame.plot_width, frame.plot_height));
     std::vector<std::pair<AlignedBox2d, const ObjectBox*>> shown;
@@ -98,24 +95,20 @@ void draw_objects(Drawing& tile, const PlaneFrame& frame, const std::vector<Obje
         draw_box(tile, one.first);
     std::vector<AlignedBox2d> taken;
     for (const auto& one : shown) {
-        const int width = text_width(one.second->name);
-        const auto is_free = [&](const AlignedBox2d& name, bool over_objects) {
+        for (const bool left : {false, true}) {
+            const AlignedBox2d name = box_of_name(one.first, text_width(one.second->name), left);
             const auto overlaps = [&](const AlignedBox2d& other) { return name.intersects(other); };
-            const auto hides = [&](const auto& other) { return name.intersects(other.first); };
-            return plot.contains(name) && std::ranges::none_of(taken, overlaps) &&
-                   (over_objects || std::ranges::none_of(shown, hides));
-        };
-        // Tries the four sides clear of other objects, then the four sides over them.
-        for (int k = 0; k < 8 && taken.size() < most_names; ++k) {
-            const AlignedBox2d name = box_of_name(one.first, width, k % 4);
-            if (!is_free(name, k >= 4)) continue;
+            if (taken.size() == most_names || !plot.contains(name) ||
+                std::ranges::any_of(taken, overlaps))
+                continue;
             taken.push_back(name);
             const Vector2d at = name.center();
-            tile.texts.push_back({static_cast<int>(at.x()), static_cast<int>(at.y()),
-                                  one.second->name, Align::middle, ink, true});
+            outlined_label(tile, static_cast<int>(at.x()), static_cast<int>(at.y()),
+                           one.second->name, Align::middle, ink);
             break;
         }
     }
+    return taken;
 }
 
 }  // namespace sonarsim

@@ -20,7 +20,9 @@ struct ObjectBox {
 std::vector<ObjectBox> object_boxes(const Assembly& assembly, std::uint32_t pose);
 
 /// Draws the boxes in a plan of x and y, without those that fill most of it, and the names for
-/// which there is room, those of large objects first. No name lies over another one.
-void draw_objects(Drawing& tile, const PlaneFrame& frame, const std::vector<ObjectBox>& objects);
+/// which there is room, those of large objects first. Returns the boxes of the names in pixels,
+/// which do not overlap.
+std::vector<Eigen::AlignedBox2d> draw_objects(Picture& tile, const PlaneFrame& frame,
+                                              const std::vector<ObjectBox>& objects);
 
 }  // namespace sonarsim

@@ -8,9 +8,9 @@
 
 namespace sonarsim {
 
-/// Draws one picture of a mission at a pose of its trajectory: each sonar's image, a plan of scene,
-/// trajectory and footprints, and sections along and across the heading with the beams. `pose` must
-/// be less than the number of poses. Throws std::runtime_error when memory does not suffice.
+/// Draws one picture of a mission at a pose of its trajectory: each sonar's image, and a plan of
+/// scene, trajectory and footprints. `pose` must be less than the number of poses. Throws
+/// std::runtime_error when memory does not suffice.
 Picture draw_preview(const Mission& mission, const Assembly& assembly, std::uint32_t pose);
 
 }  // namespace sonarsim

@@ -6,7 +6,6 @@
 #include "core/units.h"
 #include "preview/drawing.h"
 #include "preview/object_boxes.h"
-#include "preview/scene_raster.h"
 #include "product/colour_map.h"
 #include "visibility/angles.h"
 
@@ -17,9 +16,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr int least_section_px = 180;
 constexpr Rgb path_colour{255, 255, 255};
-constexpr Rgb surface_colour{205, 195, 170};
 
 struct Box2 {
     Vector2d low = Vector2d::Constant(1e300);
@@ -29,7 +26,6 @@ struct Box2 {
         low = low.cwiseMin(at);
         high = high.cwiseMax(at);
     }
-    Vector2d size() const { return high - low; }
 
     /// Enlarges the area on all sides by a share of its longer side, at least by a metre.
     Box2 padded(double share) const {
@@ -38,15 +34,17 @@ struct Box2 {
     }
 };
 
+Vector2d flat(const Vector3d& p) {
+    return p.head<2>();
+}
+
 /// Draws faint lines from the sonar to the edge of its view, and the edge.
-template <class Project>
-void draw_beam(Picture& tile, const PlaneFrame& frame, const BeamOutline& beam,
-               const Project& project) {
+void draw_beam(Picture& tile, const PlaneFrame& frame, const BeamOutline& beam) {
     constexpr float ray_share = 0.12F;
-    const Vector2d from = frame.pixel(project(beam.origin));
+    const Vector2d from = frame.pixel(flat(beam.origin));
     for (std::size_t k = 0; k < beam.ends.size(); ++k) {
-        const Vector2d here = frame.pixel(project(beam.ends[k]));
-        const Vector2d next = frame.pixel(project(beam.ends[(k + 1) % beam.ends.size()]));
+        const Vector2d here = frame.pixel(flat(beam.ends[k]));
+        const Vector2d next = frame.pixel(flat(beam.ends[(k + 1) % beam.ends.size()]));
         draw_line(tile, from, here, beam.colour, ray_share);
         draw_line(tile, here, next, beam.colour);
     }
@@ -86,10 +84,6 @@ Vector2d heading_of(const Pose& T_world_vehicle) {
     return bow.head<2>().norm() < 1e-6 ? Vector2d(1.0, 0.0) : Vector2d(bow.head<2>().normalized());
 }
 
-Vector2d flat(const Vector3d& p) {
-    return p.head<2>();
-}
-
 /// The area that the plan shows.
 Box2 plan_box(const Moment& moment) {
     Box2 box;
@@ -108,42 +102,6 @@ Box2 plan_box(const Moment& moment) {
         box.add(scene_low);
         box.add(scene_high);
     }
-    return box;
-}
-
-/// The upright plane of a section.
-struct SectionPlane {
-    Vector3d origin;  ///< position of the vehicle
-    Vector2d axis;    ///< to the right in the picture
-
-    Vector2d project(const Vector3d& p) const {
-        return {axis.dot(p.head<2>() - origin.head<2>()), p.z()};
-    }
-};
-
-SectionPlane section_plane(const Moment& moment, bool across) {
-    const Pose& now = moment.assembly.trajectory[moment.pose].T_world_vehicle;
-    const Vector2d ahead = heading_of(now);
-    // The axis across points to starboard, so that port is on the left as seen from astern.
-    return {now.translation, across ? Vector2d(ahead.y(), -ahead.x()) : ahead};
-}
-
-Box2 section_box(const Moment& moment, const SectionPlane& plane) {
-    Box2 beams;
-    beams.add(plane.project(plane.origin));
-    for (const BeamOutline& beam : moment.beams) {
-        for (const Vector3d& end : beam.ends)
-            beams.add(plane.project(end));
-    }
-    Box2 box = beams.padded(0.08);
-    // The longer side does not decide on the room above and below.
-    const double above = std::max(0.5, 0.15 * (beams.high - beams.low).y());
-    box.low.y() = beams.low.y() - above;
-    box.high.y() = beams.high.y() + above;
-    // For a narrow beam the section shows ground on both sides, so that it is as wide as high.
-    const double missing_m = std::max(0.0, box.size().y() - box.size().x());
-    box.low.x() -= 0.5 * missing_m;
-    box.high.x() += 0.5 * missing_m;
     return box;
 }
 
@@ -195,54 +153,45 @@ BeamOutline beam_outline(const Sonar& sonar, const VisibilityEngine& engine,
     return outline;
 }
 
-double plan_shape(const Moment& moment) {
-    const Vector2d size = plan_box(moment).size();
-    return size.y() / size.x();
+std::vector<float> heights_below(const VisibilityEngine& engine, const Vector3d& vehicle,
+                                 const PlaneFrame& frame) {
+    std::vector<Ray> rays;
+    for (int row = 0; row < frame.plot_height; ++row) {
+        for (int column = 0; column < frame.plot_width; ++column) {
+            const Vector2d at = frame.metres(column, row) - flat(vehicle);
+            rays.push_back(
+                {Vector3d(at.x(), at.y(), 0.0).cast<float>(), -Eigen::Vector3f::UnitZ()});
+        }
+    }
+    std::vector<Intersection> met(rays.size());
+    engine.intersect({Eigen::Quaterniond::Identity(), vehicle}, rays, met);
+    std::vector<float> heights;
+    for (const Intersection& one : met) {
+        heights.push_back(std::isfinite(one.distance_m)
+                              ? static_cast<float>(vehicle.z()) - one.distance_m
+                              : std::nanf(""));
+    }
+    return heights;
 }
 
-double section_shape(const Moment& moment, bool across) {
-    const Vector2d size = section_box(moment, section_plane(moment, across)).size();
-    return size.y() / size.x();
-}
-
-Drawing draw_plan(const Moment& moment, int width, int height) {
+Picture draw_plan(const Moment& moment, int width, int height) {
     const Trajectory& trajectory = moment.assembly.trajectory;
     const Box2 box = plan_box(moment);
     const PlaneFrame frame = plane_frame(width, height, box.low, box.high);
-    Drawing tile(width, height, backdrop);
+    Picture tile(width, height, backdrop);
     const Pose& now = trajectory[moment.pose].T_world_vehicle;
-    draw_heights(tile, frame, heights_below(moment.assembly, moment.pose, frame));
+    draw_heights(tile, frame, heights_below(moment.engine, now.translation, frame));
     for (std::size_t k = 1; k < trajectory.size(); ++k) {
         draw_line(tile, frame.pixel(flat(trajectory[k - 1].T_world_vehicle.translation)),
                   frame.pixel(flat(trajectory[k].T_world_vehicle.translation)), path_colour, 0.7F);
     }
     for (const BeamOutline& beam : moment.beams)
-        draw_beam(tile, frame, beam, flat);
+        draw_beam(tile, frame, beam);
     const Vector2d here = frame.pixel(flat(now.translation));
     const Vector2d ahead = heading_of(now);
     draw_line(tile, here, here + 18.0 * Vector2d(ahead.x(), -ahead.y()), path_colour);
     draw_dot(tile, here, 2, path_colour);
     draw_objects(tile, frame, object_boxes(moment.assembly, moment.pose));
-    draw_axes(tile, frame);
-    return tile;
-}
-
-Drawing draw_section(const Moment& moment, bool across, int width, int most_height) {
-    const SectionPlane plane = section_plane(moment, across);
-    const auto project = [&](const Vector3d& p) { return plane.project(p); };
-    const Box2 box = section_box(moment, plane);
-    const int height =
-        std::clamp(fitting_height(width, box.low, box.high), least_section_px, most_height);
-    const PlaneFrame frame = plane_frame(width, height, box.low, box.high);
-    Drawing tile(width, height, backdrop);
-    for (const BeamOutline& beam : moment.beams)
-        draw_beam(tile, frame, beam, project);
-    for_each_cut(moment.assembly, moment.pose, plane.origin, plane.axis,
-                 [&](const Vector3d& a, const Vector3d& b) {
-                     draw_line(tile, frame.pixel(project(a)), frame.pixel(project(b)),
-                               surface_colour);
-                 });
-    draw_dot(tile, frame.pixel(project(plane.origin)), 2, path_colour);
     draw_axes(tile, frame);
     return tile;
 }

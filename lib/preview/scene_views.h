@@ -5,7 +5,7 @@
 
 #include "assembly/assemble.h"
 #include "ping/sonar.h"
-#include "preview/labels.h"
+#include "preview/drawing.h"
 #include "visibility/engine.h"
 
 namespace sonarsim {
@@ -24,24 +24,18 @@ BeamOutline beam_outline(const Sonar& sonar, const VisibilityEngine& engine,
 /// A mission at one pose of its trajectory.
 struct Moment {
     const Assembly& assembly;
+    const VisibilityEngine& engine;  ///< the scene at that time
     std::uint32_t pose;
     std::vector<BeamOutline> beams;  ///< one per sonar
 };
 
-/// Height by width of what draw_plan() shows.
-double plan_shape(const Moment& moment);
-
-/// Height by width of what draw_section() shows.
-double section_shape(const Moment& moment, bool across);
+/// The height (world z) of the highest surface below the vehicle in each pixel of a plot of the
+/// world's x and y, row by row from the top; NaN where there is no surface.
+std::vector<float> heights_below(const VisibilityEngine& engine, const Eigen::Vector3d& vehicle,
+                                 const PlaneFrame& frame);
 
 /// Draws a plan, north (y) up: the height of the highest surface below the vehicle, dark where
 /// there is none, the trajectory, the footprints of the sonars and the boxes and names of objects.
-Drawing draw_plan(const Moment& moment, int width, int height);
-
-/// Draws a section along or across the vehicle's heading: the surface in the vertical plane through
-/// the vehicle, and the beams of all sonars seen from the side. The horizontal axis counts from the
-/// vehicle, ahead or to starboard; the vertical axis is world z. The drawing is lower than
-/// `most_height` if the beams need less.
-Drawing draw_section(const Moment& moment, bool across, int width, int most_height);
+Picture draw_plan(const Moment& moment, int width, int height);
 
 }  // namespace sonarsim

@@ -5,6 +5,7 @@
 
 #include "core/in_parallel.h"
 #include "core/text.h"
+#include "preview/drawing.h"
 #include "preview/fan_style.h"
 #include "product/colour_map.h"
 #include "product/gain.h"
@@ -48,12 +49,7 @@ SonarPanel draw_fan(const Sonar& sonar, const Ping& ping, int width, int height)
     const FanMap map = make_fan_map(sonar, fits);
     Gain gain;
     gain.add(ping.intensity);
-    const FanStyle style = make_fan_style(sonar, map.frame);
-    const Picture fan = styled_fan(style, render_fan(map, ping, gain.white()));
-    Drawing drawing(fan.width, fan.height, backdrop);
-    drawing.pixels = fan.pixels;
-    drawing.texts = fan_numbers(sonar, map.frame);
-    return {std::move(drawing), gain.white()};
+    return {styled_fan(sonar, map.frame, render_fan(map, ping, gain.white())), gain.white()};
 }
 
 SonarPanel draw_scan(const Sonar& sonar, std::uint32_t pose, const RenderPing& render, int width,
@@ -130,15 +126,14 @@ SonarPanel draw_rows(const Sonar& sonar, const RecordShape& shape, const Series&
         const std::vector<float> row = record_values(shape, config, ping.intensity, 0.0F);
         values.value.insert(values.value.end(), row.begin(), row.end());
     }
-    Drawing picture(width, height, backdrop);
+    Picture picture(width, height, backdrop);
     const int bottom = height - axis_px;
     draw_values(picture, 0, width, bottom, values, series.white, stops_of(FanColours::copper));
     const auto mark_at = [&](double range, int x) {
         fill(picture, x, bottom, 1, 4, ink);
         const std::string text = number_text(range) + " m";
         const int half = text_width(text) / 2 + 1;
-        if (x >= half && x + half < width)
-            picture.texts.push_back({x, bottom + 12, text, Align::middle});
+        if (x >= half && x + half < width) label(picture, x, bottom + 12, text, Align::middle);
     };
     if (shape.two_sides) {
         const double px_per_m = 0.5 * width / config.range_max_m;
@@ -148,8 +143,8 @@ SonarPanel draw_rows(const Sonar& sonar, const RecordShape& shape, const Series&
             for (const double side : {-1.0, 1.0})
                 mark_at(range, static_cast<int>(0.5 * width + side * range * px_per_m));
         }
-        picture.texts.push_back({18, 10, "port", Align::left, mark_colour, true});
-        picture.texts.push_back({width - 18, 10, "starboard", Align::right, mark_colour, true});
+        outlined_label(picture, 18, 10, "port", Align::left, mark_colour);
+        outlined_label(picture, width - 18, 10, "starboard", Align::right, mark_colour);
     } else {
         const double px_per_m = width / (config.range_max_m - config.range_min_m);
         for (const double range : axis_marks(config.range_min_m, config.range_max_m, 8.0))
@@ -174,7 +169,7 @@ SonarPanel draw_columns(const Sonar& sonar, const RecordShape& shape, const Seri
         for (std::size_t i = 0; i < column.size(); ++i)
             values.value[i * columns + k] = column[i];
     }
-    Drawing picture(width, height, backdrop);
+    Picture picture(width, height, backdrop);
     const int left = number_px;
     draw_values(picture, left, width - left, height, values, series.white,
                 stops_of(FanColours::sea));
@@ -182,8 +177,8 @@ SonarPanel draw_columns(const Sonar& sonar, const RecordShape& shape, const Seri
     for (const double range : axis_marks(config.range_min_m, config.range_max_m, 8.0)) {
         const int y = static_cast<int>((range - config.range_min_m) * px_per_m);
         fill(picture, left - 5, y, 5, 1, ink);
-        picture.texts.push_back(
-            {left - 8, std::clamp(y, 6, height - 6), number_text(range) + " m", Align::right});
+        label(picture, left - 8, std::clamp(y, 6, height - 6), number_text(range) + " m",
+              Align::right);
     }
     const int x = left + static_cast<int>((series.here + 0.5) * (width - left) / columns);
     fill(picture, x, 0, 1, 14, mark_colour);

@@ -4,14 +4,14 @@
 #include <vector>
 
 #include "assembly/assemble.h"
-#include "preview/labels.h"
+#include "product/picture.h"
 #include "trace/ping.h"
 
 namespace sonarsim {
 
 /// A sonar's picture around a ping.
 struct SonarPanel {
-    Drawing picture;
+    Picture picture;
     double white;  ///< intensity of the brightest colour
 };
 

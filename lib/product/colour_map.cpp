@@ -27,12 +27,4 @@ std::span<const Rgb> stops_of(FanColours colours) {
     return grey_stops;
 }
 
-ColourTable colour_table(FanColours colours) {
-    const std::span<const Rgb> stops = stops_of(colours);
-    ColourTable table;
-    for (std::size_t grey = 0; grey < table.size(); ++grey)
-        table[grey] = blend(stops, static_cast<float>(grey) / 255.0F);
-    return table;
-}
-
 }  // namespace sonarsim

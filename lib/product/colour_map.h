@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <span>
 
 #include "product/picture.h"
@@ -11,9 +10,5 @@ enum class FanColours { grey, copper, amber, sea };
 
 /// The equally spaced stops of a colour map, for blend(). Brightness grows from stop to stop.
 std::span<const Rgb> stops_of(FanColours colours);
-
-/// The colours of the 256 grey values.
-using ColourTable = std::array<Rgb, 256>;
-ColourTable colour_table(FanColours colours);
 
 }  // namespace sonarsim

@@ -9,8 +9,8 @@
 #include "core/error.h"
 #include "sonar/kinds.h"
 #include "sonar/sonar.h"
-#include "support/statistics.h"
 #include "support/shapes.h"
+#include "support/statistics.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -109,14 +109,5 @@ TEST_SUITE("assembly") {
         ParticlesConfig taken = school(ParticleRegion::box, 3.0);
         taken.name = "floor";
         CHECK_THROWS_WITH_AS(draw(taken, 5), doctest::Contains("'floor'"), InputError);
-    }
-
-    // 20 x 10 x 4 m^3, of which an ellipsoid fills pi / 6: 0.5 in a cubic metre are 400 and 209.
-    TEST_CASE("particles: by density") {
-        ParticlesConfig config = school(ParticleRegion::box, 0.0);
-        config.per_m3 = 0.5;
-        CHECK(draw(config, 5).particles().all.size() == 400);
-        config.region = ParticleRegion::ellipsoid;
-        CHECK(draw(config, 5).particles().all.size() == 209);
     }
 }

@@ -42,9 +42,9 @@ SoundProfile profile_of_file(const std::filesystem::path& file) {
 
 TEST_SUITE("assembly") {
     TEST_CASE("sound profiles: depths count from the water's surface, times become ranges") {
-        SoundProfileConfig config;
-        config.points = {{0.0, 1520.0}, {10.0, 1500.0}};
-        const SoundProfile profile = profile_of(config);
+        const test::TemporaryFolder folder;
+        write_file(folder.path / "two.csv", "depth_m,sound_speed_m_s\n0,1520\n10,1500\n");
+        const SoundProfile profile = profile_of_file(folder.path / "two.csv");
         CHECK(profile.speed_at(3.0) == 1520.0);
         CHECK(profile.speed_at(-2.0) == test::approx(1510.0));
         CHECK(profile.speed_at(-7.0) == 1500.0);

@@ -1,7 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <limits>
-
 #include "checks/find_warnings.h"
 #include "sonar/kinds.h"
 #include "sonar/sonar.h"
@@ -55,15 +53,5 @@ TEST_SUITE("checks") {
         CHECK(sentence(found[0]).starts_with("W26 sensor 'fls': a ping takes about"));
         CHECK(found[0].cure.starts_with("lower range_bins"));
         CHECK(exceeds_memory(sonars, 0.9 * one));
-    }
-
-    TEST_CASE("disk: W34 where the dataset does not fit") {
-        CHECK(disk_warnings("out", 1e9, 1e9).empty());
-        const std::vector<Warning> found = disk_warnings("out", 4070e9, 78e9);
-        REQUIRE(found.size() == 1);
-        CHECK(sentence(found[0]).starts_with(
-            "W34 out: the dataset takes about 4070.0 GB, and its disk has 78.0 GB free"));
-        const double unknown = std::numeric_limits<double>::quiet_NaN();
-        CHECK(disk_warnings("out", unknown, 78e9).empty());
     }
 }

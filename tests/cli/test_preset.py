@@ -36,8 +36,8 @@ class Preset(Sandbox):
 
     def test_more_source_level_and_less_noise_reach_farther(self):
         base = self.reported("gemini_720is")
-        for setting, key, by in (("instrument.power_w=1000", "source_level_db", 10.0),
-                                 ("instrument.receiver.noise_figure_db=3", "noise_db", -3.0)):
+        for key, name, by in (("source_level_db", "source_level_db", 10.0), ("noise_db", "receiver.noise_db", -3.0)):
+            setting = f"instrument.{name}={base[key] + by}"
             other = self.reported("gemini_720is", "--set", f"sensors.sonar.{setting}")
             self.assertAlmostEqual(other[key] - base[key], by, places=1)
             self.assertGreater(other["noise_range_m"]["sand"], base["noise_range_m"]["sand"])
@@ -96,9 +96,9 @@ class Preset(Sandbox):
         self.assertRegex(text, r"W18.*lower instrument.receiver.noise_db \(-20\) by \d+ dB")
 
     def test_with_auto_it_is_the_source(self):
-        self.calibrated("{power_w: 1.0e-6, receiver: {noise_figure_db: 60}}")
+        self.calibrated("{source_level_db: 121}")
         text = self.run_sonarsim("validate", "mission.yaml").stderr
-        self.assertRegex(text, r"W18.*raise instrument.source_level_db or instrument.power_w by \d+ dB")
+        self.assertRegex(text, r"W18.*raise instrument.source_level_db by \d+ dB")
 
 
 if __name__ == "__main__":

@@ -207,7 +207,7 @@ def scene(draw, size, at):
 def medium(draw, keys):
     """A density or a speed of sound."""
     density = next(key for key in keys["water"] if key["name"] == "density_kg_m3")
-    return number(draw, {**density, "default": 2000.0}, 0.3)
+    return number(draw, {**density, "low": 1e-9, "high": 1e9, "default": 2000.0}, 0.3)
 
 
 def write_mission(draw, keys, folder):

@@ -11,8 +11,8 @@ TEST_CASE("an unknown key is refused with the key that is near, or with all that
           "m.yaml:6:1: unknown key 'waters' (did you mean 'water'?)");
     CHECK(refusal(smallest_mission + "water: {colour: 35}\n") ==
           "m.yaml:6:9: unknown key 'colour'; known here: density_kg_m3, sound_speed_m_s, "
-          "temperature_c, salinity_psu, depth_m, ph, wind_m_s, content, scattering_db_per_m3, "
-          "suspended_mg_l, suspended_um, drift_rms_m_s, current_m_s, layers, profile, "
+          "temperature_c, salinity_psu, depth_m, wind_m_s, content, scattering_db_per_m3, "
+          "drift_rms_m_s, current_m_s, layers, profile, "
           "assumed_profile");
     CHECK(refusal(smallest_mission + "    noise:\n      add_sigm: 0.1\n") ==
           "m.yaml:7:7: unknown key 'add_sigm' (did you mean 'add_sigma'?)");

@@ -20,18 +20,16 @@ TEST_SUITE_BEGIN("mission");
 
 TEST_CASE("particles: the keys, and their resolved form") {
     const std::string text = with_particles(
-        "class: cod, kind: fish, length_m: [0.3, 0.5], law: foote_gadoid, count: 7, region: "
-        "ellipsoid, size_m: [4, 5, 6], drift_m_s: [0.1, 0, 0], instances: group");
+        "class: cod, kind: fish, length_m: [0.3, 0.5], count: 7, region: "
+        "ellipsoid, size_m: [4, 5, 6], drift_m_s: [0.1, 0, 0]");
     const Mission mission = parse(text);
     REQUIRE(mission.scene.particles.size() == 1);
     const ParticlesConfig& fish = mission.scene.particles[0];
     CHECK(fish.class_name == "cod");
     CHECK(fish.kind == ParticleKind::fish);
-    CHECK(fish.law == FishLaw::foote_gadoid);
     CHECK(fish.length_m == std::array{0.3, 0.5});
     CHECK(fish.count == std::array{7.0, 7.0});
     CHECK(fish.region == ParticleRegion::ellipsoid);
-    CHECK(fish.instances == ParticleInstances::group);
     CHECK(parse(text, {"scene.particles.0.count=9"}).scene.particles[0].count[1] == 9.0);
 }
 
@@ -43,12 +41,10 @@ TEST_CASE("particles: what is refused, and where") {
         CHECK(message.find("m.yaml:5") != std::string::npos);
     };
     is_refused("kind: fish, count: 3", "length_m above 0");
-    is_refused("target_strength_db: -40", "either 'count' or 'per_m3'");
-    is_refused("target_strength_db: -40, count: 3, per_m3: 1", "either 'count' or 'per_m3'");
+    is_refused("target_strength_db: -40", "'count' must be above 0");
+    is_refused("kind: fish, length_m: 0.3, count: 3, law: love", "'law' is no longer there");
     is_refused("kind: bubbles, radius_m: 0.001, length_m: 0.2, count: 3", "no other kind has one");
     is_refused("target_strength_db: -40, count: 3, rise_m_s: 1", "rise_m_s is for kind: bubbles");
-    is_refused("target_strength_db: -40, per_m3: 1", "region with a volume");
-    is_refused("target_strength_db: -40, per_m3: 1e6, size_m: [10, 10, 10]", "a million");
     is_refused("target_strength_db: -40, count: 3, buried: true", "leave it out");
     CHECK(refusal(with_particles("target_strength_db: -40, count: 3")).empty());
     CHECK(

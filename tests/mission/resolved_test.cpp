@@ -80,12 +80,9 @@ water:
   temperature_c: 10
   salinity_psu: 35
   depth_m: 10
-  ph: 8
   wind_m_s: 5
   content: auto
   scattering_db_per_m3: auto
-  suspended_mg_l: auto
-  suspended_um: 50
   drift_rms_m_s: auto
   current_m_s: [0, 0, 0]
   layers: []
@@ -115,7 +112,6 @@ vehicle:
     tilt_deg: 0
     heading_deg: 0
     heading_bias_deg: 0
-    heading_drift_deg_h: 0
     speed_scale: 0
 sensors:
   "fls":

@@ -86,7 +86,7 @@ TEST_CASE("draws: whole numbers and choices are equally likely, both ends includ
     VaryConfig whole;
     whole.whole = {-1.5, 2.0};
     VaryConfig choice;
-    choice.choice = {"a", "b", "c", "d"};
+    choice.choice.items = {"a", "b", "c", "d"};
     std::map<double, int> numbers;
     std::map<std::string, int> names;
     for (std::uint32_t k = 0; k < draws; ++k) {
@@ -154,7 +154,7 @@ TEST_CASE("variants: the keys of targets in the water and of its surface vary") 
         "  particles:\n    - {name: p, kind: points, target_strength_db: -40, count: 7, "
         "position_m: [1, 2, 3], size_m: [4, 5, 6], drift_m_s: [0, 0, 0]}\n"
         "    - {name: q, kind: fish, length_m: 0.3, count: 7, position_m: [1, 2, 3]}\n"
-        "    - {name: r, kind: bubbles, radius_m: 0.001, per_m3: 2, position_m: [1, 2, 3], "
+        "    - {name: r, kind: bubbles, radius_m: 0.001, count: 7, position_m: [1, 2, 3], "
         "size_m: [4, 5, 6]}\n"
         "trajectory: {file: a.tum}\nsensors:\n  fls: {kind: imaging, model: calibrated}\n"
         "output: {folder: /out}\nvariants: 3\nvary:\n";
@@ -166,11 +166,8 @@ TEST_CASE("variants: the keys of targets in the water and of its surface vary") 
                                          "particles.0.position_m.2, uniform: [-9, 9]",
                                          "particles.0.size_m, choice: [[1, 1, 1], [2, 2, 2]]",
                                          "particles.0.drift_m_s.0, uniform: [-1, 1]",
-                                         "particles.0.instances, choice: [each, group]",
                                          "particles.1.length_m, uniform: [0.1, 0.5]",
-                                         "particles.1.law, choice: [love, foote_clupeid]",
                                          "particles.2.radius_m, log_uniform: [1e-4, 1e-2]",
-                                         "particles.2.per_m3, uniform: [1, 3]",
                                          "particles.2.rise_m_s, uniform: [0.1, 0.3]",
                                          "particles, choice: [[]]",
                                          "water_surface.height_m, uniform: [0, 1]",

@@ -62,7 +62,7 @@ TEST_SUITE("preview") {
     TEST_CASE("axes: the marks are at the pixels of their numbers") {
         // -20 to 20 m has about six marks, every 5 or 10 m, with 0 among them.
         const PlaneFrame frame = plane_frame(400, 300, {-20.0, -10.0}, {20.0, 10.0});
-        Drawing tile(400, 300, red);
+        Picture tile(400, 300, red);
         draw_axes(tile, frame);
         const int bottom = frame.top + frame.plot_height;
         const Vector2d zero = frame.pixel({0.0, 0.0});

@@ -70,22 +70,15 @@ TEST_SUITE("preview") {
             objects.push_back({"object number " + std::to_string(k),
                                {Vector3d(x, y, 0.0), Vector3d(x + 1.0, y + 1.0, 1.0)}});
         }
-        Drawing tile(600, 420, backdrop);
-        draw_objects(tile, frame, objects);
-        CHECK(tile.texts.size() == 20);
-        for (std::size_t k = 0; k < tile.texts.size(); ++k) {
-            const PictureText& text = tile.texts[k];
-            CHECK(text.text != "floor");
-            const int half = text_width(text.text) / 2;
-            CHECK(text.x - half >= frame.left - 1);
-            CHECK(text.x + half <= frame.left + frame.plot_width + 1);
-            for (std::size_t other = 0; other < k; ++other) {
-                const PictureText& next = tile.texts[other];
-                const int apart = text_width(next.text) / 2 + half;
-                constexpr int height = 9;  // seven pixels and an outline
-                CHECK((std::abs(text.y - next.y) >= height ||
-                       std::abs(text.x - next.x) >= apart - 2));
-            }
+        Picture tile(600, 420, backdrop);
+        const std::vector<Eigen::AlignedBox2d> names = draw_objects(tile, frame, objects);
+        CHECK(names.size() == 20);
+        for (std::size_t k = 0; k < names.size(); ++k) {
+            CHECK(names[k].min().x() >= frame.left);
+            CHECK(names[k].max().x() <= frame.left + frame.plot_width);
+            CHECK(names[k].sizes().x() >= text_width("object number 1"));
+            for (std::size_t other = 0; other < k; ++other)
+                CHECK_FALSE(names[k].intersects(names[other]));
         }
     }
 }
