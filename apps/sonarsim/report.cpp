@@ -14,6 +14,7 @@
 #include "core/text.h"
 #include "logging.h"
 #include "mission_options.h"
+#include "validation/measured_error.h"
 
 namespace sonarsim {
 
@@ -32,18 +33,6 @@ void write_files(const Report& report, const std::filesystem::path& folder) {
     std::filesystem::create_directories(folder);
     write_file(folder / "report.json", report_json(report));
     write_file(folder / "report.md", report_markdown(report));
-}
-
-/// The mission without the water's echoes, which no engine finds, and with one sample per range
-/// bin, since several samples do not add up.
-Mission without_water_echoes(Mission mission) {
-    mission.water.content = WaterContent::none;
-    mission.water.scattering_db_per_m3.reset();
-    mission.water.suspended_mg_l.reset();
-    mission.water.layers.clear();
-    for (SonarConfig& sensor : mission.sensors)
-        sensor.instrument.receiver.samples = 1;
-    return mission;
 }
 
 /// The settings to measure: the requested engines that support the mission's scene.

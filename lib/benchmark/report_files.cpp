@@ -23,9 +23,8 @@ Json json_of(const ReportRow& row) {
             {"pings_per_s", row.pings_per_s},
             {"relative_l1", row.relative_l1},
             {"worst_relative_l1", row.worst_relative_l1},
-            {"promise", row.promise()},
+            {"goal", row.goal()},
             {"miss_rate", row.miss_rate},
-            {"false_rate", row.false_rate},
             {"samples_per_ping", row.samples_per_ping},
             {"ms_131k_rays", row.ms_rays}};
 }
@@ -143,9 +142,8 @@ std::string report_markdown(const Report& report) {
                        {"pings_per_s", "pings/s"},
                        {"relative_l1", "relative L1, %"},
                        {"worst_relative_l1", "worst pose, %"},
-                       {"promise", "goal"},
+                       {"goal", "goal"},
                        {"miss_rate", "missed bins, %"},
-                       {"false_rate", "false bins, %"},
                        {"samples_per_ping", "samples"}});
         text += table(json["multipath_rows"], reference.sensor,
                       {{"method", "multipath"},

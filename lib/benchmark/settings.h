@@ -20,9 +20,9 @@ struct Setting {
     bool current = false;      ///< the mission's own setting
     SlicesConfig slices = {};  ///< for the slices
 
-    /// True if the engine promises an error of at most relative_l1 on every ping: rays, auto, and
-    /// slices unless the mission sets their number.
-    bool promises() const {
+    /// True if relative_l1 sets the sampling: rays, auto, and slices unless the mission sets their
+    /// number.
+    bool has_goal() const {
         return kind == EngineKind::rays || kind == EngineKind::automatic ||
                (kind == EngineKind::slices && slices.per_beam == 0);
     }

@@ -126,11 +126,6 @@ std::vector<Warning> image_warnings(const Mission& mission, const Assembly& asse
         const SonarConfig& config = assembly.sonars[i].config;
         if (summary.pings == 0) continue;
         judge_echoes(config, summary, out);
-        if (summary.missed_goals > 0) {
-            out.push_back(make_warning(WarningCode::goal_missed, about_sensor(config.name),
-                                       summary.missed_goals, summary.pings,
-                                       mission.accuracy.relative_l1, summary.worst_l1));
-        }
         if (summary.missed_multipath > 0) {
             out.push_back(make_warning(WarningCode::multipath_missed, about_sensor(config.name),
                                        summary.missed_multipath, summary.pings,

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <span>
 #include <string>
 #include <utility>
 
-#include "assembly/engine_probes.h"
 #include "core/clock.h"
 #include "core/ordered_pipeline.h"
 #include "dataset/encode_ping.h"
@@ -94,8 +92,8 @@ constexpr std::size_t pings_of_turn = 2;
 /// Renders pings one at a time.
 class PingRenderer {
   public:
-    PingRenderer(const RenderRun& run, const Destination* to)
-        : run_(run), to_(to), engine_(make_engine(run.mission, run.assembly)) {
+    PingRenderer(const RenderRun& run, const VisibilityEngine& engine, const Destination* to)
+        : run_(run), to_(to), engine_(engine) {
         for (const Sonar& sonar : run.assembly.sonars)
             labels_.push_back(plan_labels(run.mission, run.assembly, sonar));
     }
@@ -121,12 +119,10 @@ class PingRenderer {
         return reports;
     }
 
-    const VisibilityEngine& engine() const { return *engine_; }
-
   private:
     PingReport render(const PingId& id) const {
         const Assembly& assembly = run_.assembly;
-        const RenderedPing rendered = render_at_pose(run_.mission, assembly, *engine_, id);
+        const RenderedPing rendered = render_at_pose(run_.mission, assembly, engine_, id);
         PingReport report = report_of(rendered);
         const LabelPlan& plan = labels_[report.id.sensor];
         if (to_) {
@@ -142,16 +138,17 @@ class PingRenderer {
 
     const RenderRun& run_;
     const Destination* to_;
-    std::unique_ptr<VisibilityEngine> engine_;
+    const VisibilityEngine& engine_;
     std::vector<LabelPlan> labels_;
 };
 
 }  // namespace
 
-void render_pings(const RenderRun& run, const std::vector<PingId>& todo, const Destination* to) {
+void render_pings(const RenderRun& run, const VisibilityEngine& engine,
+                  const std::vector<PingId>& todo, const Destination* to) {
     if (todo.empty()) return;
     RenderSummary& summary = run.summary;
-    const PingRenderer renderer(run, to);
+    const PingRenderer renderer(run, engine, to);
     const auto threads = static_cast<std::size_t>(run.threads);
     const Turns turns(todo.size(), to ? pings_of_turn : 1, threads);
     Stopwatch watch;
@@ -171,7 +168,7 @@ void render_pings(const RenderRun& run, const std::vector<PingId>& todo, const D
         });
     summary.seconds = watch.lap();
     summary.stopped = summary.pings < todo.size();
-    for (const std::string& warning : renderer.engine().warnings())
+    for (const std::string& warning : engine.warnings())
         summary.warnings.push_back(make_warning(WarningCode::engine, "engine", warning));
 }
 

@@ -1,12 +1,16 @@
 #include "job/run_job.h"
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "assembly/engine_probes.h"
 #include "core/error.h"
+#include "core/file.h"
 #include "dataset/metadata.h"
+#include "dataset/ping_metadata.h"
 #include "dataset/seabed_files.h"
 #include "job/completion.h"
 #include "job/folder.h"
@@ -16,10 +20,16 @@
 #include "job/render_pings.h"
 #include "job/resume.h"
 #include "trajectory/files.h"
+#include "validation/measured_error.h"
 
 namespace sonarsim {
 
 namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* error_key = "measured_error";
 
 /// The pings that a run renders.
 struct Plan {
@@ -43,15 +53,39 @@ Plan make_plan(const std::vector<PingId>& all, const RenderOptions& options,
     return plan;
 }
 
+/// Takes over the measured error that the folder's dataset.json has, if any.
+void keep_measured_error(const fs::path& folder, Json& description) {
+    if (!fs::exists(folder / description_name)) return;
+    const std::optional<Json> found = read_description(folder);
+    if (found && found->contains(error_key)) description[error_key] = (*found)[error_key];
+}
+
+/// Measures the error of the sonars and adds it to dataset.json. Of several shards the first does
+/// so; of variants the first stands for all.
+void add_measured_error(const RenderRun& run, const VisibilityEngine& engine, const Layout& layout,
+                        Json& description) {
+    keep_measured_error(layout.folder, description);
+    if (description.contains(error_key) || run.mission.variant.index > 0) return;
+    const std::vector<std::optional<MeasuredError>> errors =
+        measure_errors(run.mission, run.assembly, engine);
+    Json& by_sensor = description[error_key] = Json::object();
+    for (std::size_t i = 0; i < errors.size(); ++i)
+        by_sensor[run.mission.sensors[i].name] = errors[i] ? json_of(*errors[i]) : Json();
+    write_file_durably(layout.folder / description_name, json_text(description));
+    for (Warning& warning : error_warnings(run.mission, errors))
+        run.summary.warnings.push_back(std::move(warning));
+}
+
 /// Makes the folder ready for pings, and returns what it held before. A shard then admits other
 /// shards; since another run may come in between, the folder is inspected once more.
-FolderState set_up(const Layout& layout, const CommonFiles& common, const Mission& mission,
+FolderState set_up(const Layout& layout, CommonFiles& common, const Mission& mission,
                    const RenderOptions& options, FolderLock& lock) {
     if (options.overwrite) remove_dataset(layout, mission);
     // Other files stay in the folder; without dataset.json it counts as fresh.
     const FolderState state = options.overwrite
                                   ? FolderState::fresh
                                   : inspect_folder(layout, common.description, common.mission);
+    keep_measured_error(layout.folder, common.description);
     if (state != FolderState::complete) begin_dataset(layout, common);
     if (options.shards == 1) return state;
     if (!lock.share([&] { return !others_write(layout.folder, options.shards); }))
@@ -89,9 +123,9 @@ void run_in_folder(const RenderRun& run, const RenderOptions& options,
     RenderSummary& summary = run.summary;
     const std::vector<Writers> writers = make_writers(mission, assembly);
     const Layout layout = make_layout(mission, writers, assembly.trajectory.size());
-    const CommonFiles common{describe_dataset(mission, assembly, layout, writers),
-                             resolved_text(mission, assembly), write_tum(assembly.trajectory),
-                             initial_files(assembly)};
+    CommonFiles common{describe_dataset(mission, assembly, layout, writers),
+                       resolved_text(mission, assembly), write_tum(assembly.trajectory),
+                       initial_files(assembly)};
     protect_inputs(layout, mission);
     std::optional<FolderLock> lock = lock_for_run(layout.folder, options.shards, run.stop);
     summary.stopped = !lock;
@@ -119,9 +153,11 @@ void run_in_folder(const RenderRun& run, const RenderOptions& options,
     // Also in a fresh folder: a run that was killed before it had dataset.json leaves a temporary
     // file.
     remove_leftovers(layout, plan.todo, options.shards == 1);
+    const std::unique_ptr<VisibilityEngine> engine = make_engine(mission, assembly);
+    add_measured_error(run, *engine, layout, common.description);
     {
         const Destination to{layout, writers, records, journal};
-        render_pings(run, plan.todo, &to);
+        render_pings(run, *engine, plan.todo, &to);
     }
     journal.finish();
     if (summary.stopped) return;
@@ -162,7 +198,8 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
             run_in_folder(run, options, all);
         } else {
             const auto shard = [&](std::size_t i) { return static_cast<int>(i % options.shards); };
-            render_pings(run, make_plan(all, options, shard, is_never_there).todo, nullptr);
+            render_pings(run, *make_engine(mission, assembly),
+                         make_plan(all, options, shard, is_never_there).todo, nullptr);
         }
     });
     return summary;

@@ -174,7 +174,7 @@ GhostError ghost_error(const Ghost& ghost, const View& view, int columns_per_bea
     PaperModel{}.form(
         traced, {.view = view, .scene = ghost.scene, .draws = {}, .terms = multipath_alone}, ping);
     const ImageError error = image_error(ping.intensity, reference);
-    return {error.miss_rate, error.false_rate, error.relative_l1, traced.missed_multipath};
+    return {error.miss_rate, image_error(reference, ping.intensity).miss_rate, error.relative_l1, traced.missed_multipath};
 }
 
 }  // namespace sonarsim::test
