@@ -91,7 +91,6 @@ int report(const ReportArguments& arguments) {
     const std::vector<Setting> settings = settings_of(arguments, mission, assembly);
     Report result = make_report(mission, assembly, settings, options, progress);
     result.multipath = measure_multipath(mission, assembly, options, progress);
-    result.labels = measure_labels(mission, assembly, options, progress);
     if (!arguments.mission.out.empty()) write_files(result, mission.output.folder);
     if (!arguments.json_file.empty()) write_file(arguments.json_file, report_json(result));
     if (!arguments.log.quiet) fmt::print("{}", report_markdown(result));
@@ -122,9 +121,9 @@ void add_report(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     command
         .add_option("--engines", arguments->engines,
-                    "Engines to measure, separated by commas: rays, slices, octree, literal, auto")
+                    "Engines to measure, separated by commas: rays, slices, octree, auto")
         ->delimiter(',')
-        ->check(CLI::IsMember({"rays", "slices", "octree", "literal", "auto"}))
+        ->check(CLI::IsMember({"rays", "slices", "octree", "auto"}))
         ->type_name("NAMES");
     add_threads_option(command, arguments->report.threads,
                        "Threads for pings/s (default: one per core)");

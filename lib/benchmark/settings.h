@@ -11,8 +11,7 @@ namespace sonarsim {
 
 /// One engine with one resolution.
 struct Setting {
-    /// "rays", "slices", "octree", "literal" for the octree as in the paper, or "auto".
-    std::string engine;
+    std::string engine;  ///< "rays", "slices", "octree" or "auto"
     std::string name;  ///< the mission's key and value, "relative_l1=0.03"
     EngineKind kind = EngineKind::rays;
     OctreeConfig octree;       ///< for the octree
@@ -28,8 +27,8 @@ struct Setting {
     }
 };
 
-/// The settings of a report: rays and slices by error goal, the octree and the literal octree by
-/// leaf size, each from coarse to fine, and `auto` at the mission's goal. Leaves finer than a
+/// The settings of a report: rays and slices by error goal and the octree by leaf size, each from
+/// coarse to fine, and `auto` at the mission's goal. Leaves finer than a
 /// quarter of the finest range bin are omitted: they cost much and improve nothing. The mission's
 /// own setting is included and marked.
 std::vector<Setting> make_settings(const Mission& mission, bool quick);

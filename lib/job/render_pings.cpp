@@ -168,8 +168,6 @@ void render_pings(const RenderRun& run, const VisibilityEngine& engine,
         });
     summary.seconds = watch.lap();
     summary.stopped = summary.pings < todo.size();
-    for (const std::string& warning : engine.warnings())
-        summary.warnings.push_back(make_warning(WarningCode::engine, "engine", warning));
 }
 
 }  // namespace sonarsim
