@@ -91,7 +91,6 @@ int report(const ReportArguments& arguments) {
     const std::vector<Setting> settings = settings_of(arguments, mission, assembly);
     Report result = make_report(mission, assembly, settings, options, progress);
     result.multipath = measure_multipath(mission, assembly, options, progress);
-    result.labels = measure_labels(mission, assembly, options, progress);
     if (!arguments.mission.out.empty()) write_files(result, mission.output.folder);
     if (!arguments.json_file.empty()) write_file(arguments.json_file, report_json(result));
     if (!arguments.log.quiet) fmt::print("{}", report_markdown(result));

@@ -55,14 +55,6 @@ struct MultipathRow {
     double times_without = 0.0;  ///< a multiple of the time of a ping without multipath
 };
 
-/// One sonar with one kind of label.
-struct LabelRow {
-    std::string sensor;
-    std::string label;
-    double ms = 0.0;          ///< CPU time of finding the label; median over the poses
-    double times_ping = 0.0;  ///< CPU time of a ping with the label / without it
-};
-
 /// The convergence of a sonar's reference images.
 struct ReferenceQuality {
     std::string sensor;
@@ -88,7 +80,6 @@ struct Report {
     std::vector<ReportRow> rows;
     std::vector<ReferenceQuality> references;  ///< one per sonar
     std::vector<MultipathRow> multipath;       ///< only for sonars that have it
-    std::vector<LabelRow> labels;              ///< only for missions that ask for labels
 };
 
 /// Reports progress.
@@ -110,12 +101,6 @@ std::vector<MultipathConfig> multipath_settings(const MultipathConfig& own);
 std::vector<MultipathRow> measure_multipath(const Mission& mission, const Assembly& assembly,
                                             const ReportOptions& options,
                                             const ReportProgress& progress);
-
-/// Measures every sonar with each kind of label alone and with all of them, with the engine and the
-/// error goal of the mission. `height` is omitted for a mission without scene.bottom. The kinds take
-/// turns. Masks, boxes and files are not included. Empty for a mission without labels.
-std::vector<LabelRow> measure_labels(const Mission& mission, const Assembly& assembly,
-                                     const ReportOptions& options, const ReportProgress& progress);
 
 /// The report as JSON, and as Markdown tables.
 std::string report_json(const Report& report);

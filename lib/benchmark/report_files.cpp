@@ -51,13 +51,6 @@ Json json_of(const ReferenceQuality& reference) {
             {"rays_per_bin_mean", reference.rays_per_bin}};
 }
 
-Json json_of(const LabelRow& row) {
-    return {{"sensor", row.sensor},
-            {"label", row.label},
-            {"ms", row.ms},
-            {"times_ping", row.times_ping}};
-}
-
 template <class Row>
 Json list_of(const std::vector<Row>& rows) {
     Json list = Json::array();
@@ -72,7 +65,6 @@ Json json_of(const Report& report) {
     json["rows"] = list_of(report.rows);
     json["reference"] = list_of(report.references);
     json["multipath_rows"] = list_of(report.multipath);
-    json["label_rows"] = list_of(report.labels);
     return json;
 }
 
@@ -155,8 +147,6 @@ std::string report_markdown(const Report& report) {
                        {"ms_multipath", "ms"},
                        {"ms_per_ping", "ms per ping"},
                        {"times_without", "times the ping without"}});
-        text += table(json["label_rows"], reference.sensor,
-                      {{"label", "label"}, {"ms", "ms"}, {"times_ping", "times the ping"}});
     }
     return text;
 }

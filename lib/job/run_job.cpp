@@ -9,6 +9,7 @@
 #include "assembly/engine_probes.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "dataset/dataset_file.h"
 #include "dataset/metadata.h"
 #include "dataset/ping_metadata.h"
 #include "dataset/seabed_files.h"
