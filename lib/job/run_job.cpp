@@ -61,8 +61,8 @@ void keep_measured_error(const fs::path& folder, Json& description) {
     if (found && found->contains(error_key)) description[error_key] = (*found)[error_key];
 }
 
-/// Measures the error of the sonars and adds it to dataset.json. Of several shards the first does
-/// so; of variants the first stands for all.
+/// Measures the error of the sonars and adds it to dataset.json. The first of several shards does
+/// so, and the first of several variants stands for all.
 void add_measured_error(const RenderRun& run, const VisibilityEngine& engine, const Layout& layout,
                         Json& description) {
     keep_measured_error(layout.folder, description);

@@ -16,7 +16,7 @@ namespace sonarsim {
 struct PingError {
     std::uint32_t pose = 0;
     double relative_l1 = 0.0;
-    double noise = 0.0;  ///< that of the reference, a part of `relative_l1`
+    double noise = 0.0;  ///< noise of the reference, a part of `relative_l1`
 
     /// The least error that the reference's noise leaves to the image.
     double without_noise() const { return relative_l1 - noise; }
