@@ -63,7 +63,7 @@ class Octree {
         std::uint8_t octants = 0;    ///< bit i: octant i has surface
         std::uint64_t last_use = 0;  ///< number of the ping
         std::vector<std::uint32_t> triangles;
-        std::shared_ptr<const std::vector<TileLeaf>> leaves;  ///< of a tile; null: not made
+        std::shared_ptr<const std::vector<TileLeaf>> leaves;  ///< null: not made, or not a tile
     };
 
     Cube cube(const CubeIndex& index) const;
@@ -82,12 +82,12 @@ class Octree {
     const Caster& caster_;
     double leaf_m_;
     int leaf_level_ = 0;
-    double edge_m_ = 0.0;  ///< of the whole scene's cube
+    double edge_m_ = 0.0;  ///< edge of the cube around the scene
     Eigen::Vector3d min_;
     std::mutex growing_;
     std::deque<Node> nodes_;
     std::uint64_t pings_ = 0;
-    std::size_t bytes_ = 0;  ///< of the leaves of all tiles
+    std::size_t bytes_ = 0;  ///< memory of all leaves
 };
 
 }  // namespace sonarsim
