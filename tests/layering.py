@@ -34,7 +34,7 @@ ALLOWED = {
                  "labels", "product", "sonar"},
     "format": {"core"},
 }
-for upper in ("dataset", "checks", "job", "validation", "benchmark", "preview"):
+for upper in ("dataset", "checks", "validation", "job", "benchmark", "preview"):
     ALLOWED[upper] = set(ALLOWED)
 
 # The parts of the folders that have subfolders, from the bottom up; those in one row do not know

@@ -14,6 +14,7 @@
 #include "core/text.h"
 #include "logging.h"
 #include "mission_options.h"
+#include "validation/measured_error.h"
 
 namespace sonarsim {
 
@@ -32,17 +33,6 @@ void write_files(const Report& report, const std::filesystem::path& folder) {
     std::filesystem::create_directories(folder);
     write_file(folder / "report.json", report_json(report));
     write_file(folder / "report.md", report_markdown(report));
-}
-
-/// The mission without the water's echoes, which no engine finds, and with one sample per range
-/// bin, since several samples do not add up.
-Mission without_water_echoes(Mission mission) {
-    mission.water.content = WaterContent::none;
-    mission.water.scattering_db_per_m3.reset();
-    mission.water.layers.clear();
-    for (SonarConfig& sensor : mission.sensors)
-        sensor.instrument.receiver.samples = 1;
-    return mission;
 }
 
 /// The settings to measure: the requested engines that support the mission's scene.
@@ -101,7 +91,6 @@ int report(const ReportArguments& arguments) {
     const std::vector<Setting> settings = settings_of(arguments, mission, assembly);
     Report result = make_report(mission, assembly, settings, options, progress);
     result.multipath = measure_multipath(mission, assembly, options, progress);
-    result.labels = measure_labels(mission, assembly, options, progress);
     if (!arguments.mission.out.empty()) write_files(result, mission.output.folder);
     if (!arguments.json_file.empty()) write_file(arguments.json_file, report_json(result));
     if (!arguments.log.quiet) fmt::print("{}", report_markdown(result));
@@ -132,9 +121,9 @@ void add_report(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     command
         .add_option("--engines", arguments->engines,
-                    "Engines to measure, separated by commas: rays, slices, octree, literal, auto")
+                    "Engines to measure, separated by commas: rays, slices, octree, auto")
         ->delimiter(',')
-        ->check(CLI::IsMember({"rays", "slices", "octree", "literal", "auto"}))
+        ->check(CLI::IsMember({"rays", "slices", "octree", "auto"}))
         ->type_name("NAMES");
     add_threads_option(command, arguments->report.threads,
                        "Threads for pings/s (default: one per core)");

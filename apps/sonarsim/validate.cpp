@@ -9,9 +9,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <variant>
 
+#include "assembly/engine_probes.h"
 #include "checks/find_warnings.h"
 #include "commands.h"
 #include "core/clock.h"
@@ -27,6 +29,7 @@
 #include "mission_options.h"
 #include "progress.h"
 #include "survey_report.h"
+#include "validation/measured_error.h"
 #include "visibility/make_engine.h"
 
 namespace sonarsim {
@@ -68,6 +71,7 @@ struct Findings {
     double set_up_s = 0.0;                 ///< before the first ping: reading, tables, the engine
     std::vector<PingCost> costs = {};      ///< per sonar
     std::vector<SonarSurvey> sonars = {};  ///< per sonar
+    std::vector<std::optional<MeasuredError>> errors = {};  ///< per sonar
     std::vector<Warning> warnings = {};
 
     std::size_t all_pings() const { return std::reduce(pings.begin(), pings.end()); }
@@ -93,6 +97,8 @@ nlohmann::ordered_json json_of(const Findings& f) {
                                          {"seconds_per_ping", f.costs[i].seconds},
                                          {"bytes_per_ping", f.costs[i].bytes}};
         sensor["survey"] = survey_json(f.sonars[i], f.assembly.scene);
+        sensor["measured_error"] =
+            f.errors[i] ? json_of(*f.errors[i]) : nlohmann::ordered_json();
         sensors[f.assembly.sonars[i].config.name] = std::move(sensor);
     }
     nlohmann::ordered_json json{{"mission", f.mission.name},
@@ -109,6 +115,19 @@ nlohmann::ordered_json json_of(const Findings& f) {
                                 {"bytes_at_most", f.bytes},
                                 {"warnings", warnings_json(f.warnings)}};
     return json;
+}
+
+std::string error_line(const std::optional<MeasuredError>& error, const Scene& scene, double goal) {
+    if (!error)
+        return scene.sound_profile
+                   ? result_line("", "error not measured: water.profile bends the sound")
+                   : "";
+    const PingError& worst = error->worst();
+    return result_line("", fmt::format("error {:.2g} % on average and {:.2g} % at worst in {} "
+                                       "pings, of a goal of {:.4g} %; the reference's own noise "
+                                       "is {:.2g} % of that",
+                                       100.0 * error->mean(), 100.0 * worst.relative_l1,
+                                       error->pings.size(), 100.0 * goal, 100.0 * worst.noise));
 }
 
 /// The lines about the scene, the trajectory and the sonars.
@@ -135,6 +154,7 @@ std::string text_of_parts(const Findings& f) {
                             fmt::format("{} x {} bins, {} pings", sonar.config.range_bins,
                                         sonar.settings.view.beams, f.pings[i]));
         text += survey_text(f.sonars[i], scene);
+        text += error_line(f.errors[i], scene, f.mission.accuracy.relative_l1);
     }
     return text;
 }
@@ -213,9 +233,13 @@ void survey_mission(const Mission& mission, const Assembly& assembly,
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     if (exceeds_memory(assembly.sonars, available)) {
         findings.costs.assign(assembly.sonars.size(), {unknown, unknown});
-    } else {
-        findings.costs = measure_pings(mission, assembly, writers, findings.set_up_s);
+        findings.errors.resize(assembly.sonars.size());
+        return;
     }
+    findings.costs = measure_pings(mission, assembly, writers, findings.set_up_s);
+    findings.errors = measure_errors(mission, assembly, *make_engine(mission, assembly));
+    for (Warning& warning : error_warnings(mission, findings.errors))
+        findings.warnings.push_back(std::move(warning));
 }
 
 /// The variant as it is assembled to be checked. The white of a new dataset's pictures need not be

@@ -272,7 +272,7 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
     Brightness brightness = find_full_scales(mission, assembly.scene, assembly.trajectory,
                                              assembly.motions, assembly.sonars);
     assembly.full_scales = std::move(brightness.full_scales);
-    // The octree has trees of its own.
+    // The octree makes a caster of its own.
     if (settings.type != EngineKind::octree) assembly.caster = std::move(brightness.caster);
     return assembly;
 }

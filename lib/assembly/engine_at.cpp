@@ -5,12 +5,8 @@
 namespace sonarsim {
 
 std::shared_ptr<const VisibilityEngine> engine_at(const VisibilityEngine& engine,
-                                                  std::span<const Trajectory> motions, double t_s,
-                                                  std::span<const Sight> sights) {
+                                                  std::span<const Trajectory> motions, double t_s) {
     if (!motions.empty()) return engine.at(poses_at(motions, t_s));
-    if (!sights.empty()) {
-        if (std::shared_ptr<const VisibilityEngine> ready = engine.prepared(sights)) return ready;
-    }
     return {std::shared_ptr<const VisibilityEngine>(), &engine};  // owns nothing
 }
 

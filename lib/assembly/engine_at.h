@@ -8,10 +8,9 @@
 
 namespace sonarsim {
 
-/// The engine for a ping at a time of the trajectory, with the scene's bodies at their poses then,
-/// and ready for the ping's `sights`, which may be omitted. It must not outlive `engine`.
+/// The engine for a ping at a time of the trajectory, with the scene's bodies at their poses then.
+/// It must not outlive `engine`.
 std::shared_ptr<const VisibilityEngine> engine_at(const VisibilityEngine& engine,
-                                                  std::span<const Trajectory> motions, double t_s,
-                                                  std::span<const Sight> sights = {});
+                                                  std::span<const Trajectory> motions, double t_s);
 
 }  // namespace sonarsim

@@ -74,7 +74,7 @@ void measure_sonar(const PingSet& pings, const Sonar& sonar, const VisibilityEng
         row.exact_bins = std::ranges::count_if(truth, [](float x) { return x > 0.0F; });
         row.relative_l1 = error.relative_l1;
         row.recall = 1.0 - error.miss_rate;
-        row.precision = 1.0 - error.false_rate;
+        row.precision = 1.0 - image_error(truth, trials[k].echoes).miss_rate;
         row.ms_multipath = over_poses(trials[k].poses, &PoseTimes::multipath_ms);
         row.ms_per_ping = over_poses(trials[k].poses, &PoseTimes::ping_ms);
         row.times_without =

@@ -11,9 +11,8 @@
 #include "core/clock.h"
 #include "core/in_parallel.h"
 #include "scene/copies.h"
-#include "validation/energy_reference.h"
 #include "validation/image_error.h"
-#include "validation/reference.h"
+#include "validation/measured_error.h"
 #include "visibility/local_pose.h"
 
 namespace sonarsim {
@@ -85,14 +84,10 @@ std::vector<Reference> cast_references(const Comparison& comparison, const Sonar
                              comparison.options.reference_rays};
     std::vector<Reference> references(pings.poses.size());
     in_parallel(references.size(), [&](std::size_t p) {
-        const PingSettings& settings = sonar.settings;
-        const Pose T_world_sensor =
-            sensor_pose(*pings.at_pose(sonar, p), pings.poses[p], pings.indices[p]);
-        references[p] = settings.model->energies_add()
-                            ? cast_energy_reference(comparison.caster, pings.scene, settings,
-                                                    T_world_sensor, goal)
-                            : cast_reference(comparison.caster, pings.scene, settings.view,
-                                             T_world_sensor, goal);
+        const SonarAtPose then = pings.at_pose(sonar, p);
+        references[p] =
+            cast_reference(comparison.caster, pings.scene, *then,
+                           sensor_pose(*then, pings.poses[p], pings.indices[p]), goal);
     });
     const auto most = std::ranges::max_element(references, {}, &Reference::moved);
     report.references.push_back({sonar.config.name, mean_over(references, &Reference::moved),
@@ -105,22 +100,19 @@ void measure_errors(const PingSet& pings, const Trial& trial,
     const std::size_t poses = references.size();
     std::vector<ImageError> errors(poses);
     std::vector<double> samples(poses);
-    std::vector<double> estimated_l1(poses);
     in_parallel(poses, [&](std::size_t p) {
-        Sonar sonar = *pings.at_pose(trial.sonar, p);
-        sonar.settings.coherent = nullptr;  // the reference has no coherent echoes
-        const Ping ping = render_ping(sonar, pings.scene, *trial.engine, pings.poses[p],
-                                      pings.key(p), direct_echoes_alone);
-        errors[p] = image_error(ping.intensity, references[p].intensity);
+        const SonarAtPose then = pings.at_pose(trial.sonar, p);
+        const Ping ping =
+            direct_image(*then, pings.scene, *trial.engine,
+                         sensor_pose(*then, pings.poses[p], pings.indices[p]));
+        errors[p] =
+            image_error(ping.intensity, references[p].intensity, references[p].scored);
         samples[p] = static_cast<double>(ping.counts.samples);
-        estimated_l1[p] = ping.estimated_l1;
     });
-    row.warned = std::ranges::max(estimated_l1) > trial.sonar.settings.view.relative_l1;
     row.relative_l1 = mean_over(errors, &ImageError::relative_l1);
     row.worst_relative_l1 =
         std::ranges::max_element(errors, {}, &ImageError::relative_l1)->relative_l1;
     row.miss_rate = mean_over(errors, &ImageError::miss_rate);
-    row.false_rate = mean_over(errors, &ImageError::false_rate);
     row.samples_per_ping = mean_of(samples);
 }
 

@@ -24,22 +24,18 @@ struct ReportRow {
     double ms_per_ping = 0.0;  ///< noise on, one thread; median over the poses
     double pings_per_s = 0.0;  ///< noise on, all threads
     /// Noise off; means over the poses, and the error of the worst pose.
-    double relative_l1 = 0.0, worst_relative_l1 = 0.0, miss_rate = 0.0, false_rate = 0.0;
+    double relative_l1 = 0.0, worst_relative_l1 = 0.0, miss_rate = 0.0;
     double samples_per_ping = 0.0;
-    bool warned = false;  ///< the engine warned at one of the poses
     /// Embree alone, with view_rays_count rays over the view, and a ping as a multiple of it. Both
     /// are CPU times, measured in turns at each pose; medians over the poses.
     double ms_rays = 0.0;
     double times_rays = 0.0;
     bool on_front = false;  ///< no setting of this sonar is both faster and more accurate
 
-    /// The result of the setting's promise: "met" if it holds at the worst pose, too, "warned" if
-    /// the engine warned that it does not hold, "missed" if it did not warn; "-" if there is no
-    /// promise.
-    const char* promise() const {
-        if (!setting.promises()) return "-";
-        if (worst_relative_l1 <= setting.relative_l1) return "met";
-        return warned ? "warned" : "missed";
+    /// "met" if the setting's goal holds at the worst pose, too, else "missed"; "-" without a goal.
+    const char* goal() const {
+        if (!setting.has_goal()) return "-";
+        return worst_relative_l1 <= setting.relative_l1 ? "met" : "missed";
     }
 };
 
@@ -57,14 +53,6 @@ struct MultipathRow {
     double ms_multipath = 0.0;   ///< time of this stage, one thread; median over the poses
     double ms_per_ping = 0.0;    ///< noise on, one thread; median over the poses
     double times_without = 0.0;  ///< a multiple of the time of a ping without multipath
-};
-
-/// One sonar with one kind of label.
-struct LabelRow {
-    std::string sensor;
-    std::string label;
-    double ms = 0.0;          ///< CPU time of finding the label; median over the poses
-    double times_ping = 0.0;  ///< CPU time of a ping with the label / without it
 };
 
 /// The convergence of a sonar's reference images.
@@ -92,7 +80,6 @@ struct Report {
     std::vector<ReportRow> rows;
     std::vector<ReferenceQuality> references;  ///< one per sonar
     std::vector<MultipathRow> multipath;       ///< only for sonars that have it
-    std::vector<LabelRow> labels;              ///< only for missions that ask for labels
 };
 
 /// Reports progress.
@@ -114,12 +101,6 @@ std::vector<MultipathConfig> multipath_settings(const MultipathConfig& own);
 std::vector<MultipathRow> measure_multipath(const Mission& mission, const Assembly& assembly,
                                             const ReportOptions& options,
                                             const ReportProgress& progress);
-
-/// Measures every sonar with each kind of label alone and with all of them, with the engine and the
-/// error goal of the mission. `height` is omitted for a mission without scene.bottom. The kinds take
-/// turns. Masks, boxes and files are not included. Empty for a mission without labels.
-std::vector<LabelRow> measure_labels(const Mission& mission, const Assembly& assembly,
-                                     const ReportOptions& options, const ReportProgress& progress);
 
 /// The report as JSON, and as Markdown tables.
 std::string report_json(const Report& report);

@@ -23,9 +23,8 @@ Json json_of(const ReportRow& row) {
             {"pings_per_s", row.pings_per_s},
             {"relative_l1", row.relative_l1},
             {"worst_relative_l1", row.worst_relative_l1},
-            {"promise", row.promise()},
+            {"goal", row.goal()},
             {"miss_rate", row.miss_rate},
-            {"false_rate", row.false_rate},
             {"samples_per_ping", row.samples_per_ping},
             {"ms_131k_rays", row.ms_rays}};
 }
@@ -52,13 +51,6 @@ Json json_of(const ReferenceQuality& reference) {
             {"rays_per_bin_mean", reference.rays_per_bin}};
 }
 
-Json json_of(const LabelRow& row) {
-    return {{"sensor", row.sensor},
-            {"label", row.label},
-            {"ms", row.ms},
-            {"times_ping", row.times_ping}};
-}
-
 template <class Row>
 Json list_of(const std::vector<Row>& rows) {
     Json list = Json::array();
@@ -73,7 +65,6 @@ Json json_of(const Report& report) {
     json["rows"] = list_of(report.rows);
     json["reference"] = list_of(report.references);
     json["multipath_rows"] = list_of(report.multipath);
-    json["label_rows"] = list_of(report.labels);
     return json;
 }
 
@@ -143,9 +134,8 @@ std::string report_markdown(const Report& report) {
                        {"pings_per_s", "pings/s"},
                        {"relative_l1", "relative L1, %"},
                        {"worst_relative_l1", "worst pose, %"},
-                       {"promise", "goal"},
+                       {"goal", "goal"},
                        {"miss_rate", "missed bins, %"},
-                       {"false_rate", "false bins, %"},
                        {"samples_per_ping", "samples"}});
         text += table(json["multipath_rows"], reference.sensor,
                       {{"method", "multipath"},
@@ -157,8 +147,6 @@ std::string report_markdown(const Report& report) {
                        {"ms_multipath", "ms"},
                        {"ms_per_ping", "ms per ping"},
                        {"times_without", "times the ping without"}});
-        text += table(json["label_rows"], reference.sensor,
-                      {{"label", "label"}, {"ms", "ms"}, {"times_ping", "times the ping"}});
     }
     return text;
 }

@@ -20,22 +20,18 @@ Setting with_goal(EngineKind kind, const char* engine, double goal) {
             .relative_l1 = goal};
 }
 
-/// `leaf_m` 0: automatic.
-Setting octree_with(double leaf_m, bool literal, const Mission& mission) {
-    OctreeConfig octree = mission.octree;
-    octree.leaf_m = leaf_m;
-    octree.literal = literal;
-    return {.engine = literal ? "literal" : "octree",
-            .name = "leaf_m=" + (leaf_m > 0.0 ? number_text(leaf_m) : std::string("auto")),
+Setting octree_with(double leaf_m, double goal) {
+    return {.engine = "octree",
+            .name = "leaf_m=" + number_text(leaf_m),
             .kind = EngineKind::octree,
-            .octree = octree,
-            .relative_l1 = mission.accuracy.relative_l1};
+            .octree = {leaf_m},
+            .relative_l1 = goal};
 }
 
 Setting own_setting(const Mission& mission) {
     const double goal = mission.accuracy.relative_l1;
     if (mission.engine == EngineKind::octree)
-        return octree_with(mission.octree.leaf_m, mission.octree.literal, mission);
+        return octree_with(mission.octree.leaf_m, goal);
     if (mission.engine == EngineKind::rays) return with_goal(EngineKind::rays, "rays", goal);
     if (mission.engine == EngineKind::automatic)
         return with_goal(EngineKind::automatic, "auto", goal);
@@ -66,14 +62,10 @@ std::vector<Setting> make_settings(const Mission& mission, bool quick) {
         settings.push_back(with_goal(EngineKind::rays, "rays", goal));
     for (const double goal : goals)
         settings.push_back(with_goal(EngineKind::slices, "slices", goal));
-    for (const bool literal : {true, false}) {
-        for (const double leaf : leaves) {
-            if (leaf >= 0.25 * finest_bin_m(mission)) {
-                settings.push_back(octree_with(leaf, literal, mission));
-            }
-        }
+    for (const double leaf : leaves) {
+        if (leaf >= 0.25 * finest_bin_m(mission))
+            settings.push_back(octree_with(leaf, mission.accuracy.relative_l1));
     }
-    settings.push_back(octree_with(0.0, false, mission));
     settings.push_back(with_goal(EngineKind::automatic, "auto", mission.accuracy.relative_l1));
     Setting own = own_setting(mission);
     own.current = true;

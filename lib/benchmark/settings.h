@@ -11,8 +11,7 @@ namespace sonarsim {
 
 /// One engine with one resolution.
 struct Setting {
-    /// "rays", "slices", "octree", "literal" for the octree as in the paper, or "auto".
-    std::string engine;
+    std::string engine;  ///< "rays", "slices", "octree" or "auto"
     std::string name;  ///< the mission's key and value, "relative_l1=0.03"
     EngineKind kind = EngineKind::rays;
     OctreeConfig octree;       ///< for the octree
@@ -20,16 +19,16 @@ struct Setting {
     bool current = false;      ///< the mission's own setting
     SlicesConfig slices = {};  ///< for the slices
 
-    /// True if the engine promises an error of at most relative_l1 on every ping: rays, auto, and
-    /// slices unless the mission sets their number.
-    bool promises() const {
+    /// True if relative_l1 sets the sampling: rays, auto, and slices unless the mission sets their
+    /// number.
+    bool has_goal() const {
         return kind == EngineKind::rays || kind == EngineKind::automatic ||
                (kind == EngineKind::slices && slices.per_beam == 0);
     }
 };
 
-/// The settings of a report: rays and slices by error goal, the octree and the literal octree by
-/// leaf size, each from coarse to fine, and `auto` at the mission's goal. Leaves finer than a
+/// The settings of a report: rays and slices by error goal and the octree by leaf size, each from
+/// coarse to fine, and `auto` at the mission's goal. Leaves finer than a
 /// quarter of the finest range bin are omitted: they cost much and improve nothing. The mission's
 /// own setting is included and marked.
 std::vector<Setting> make_settings(const Mission& mission, bool quick);

@@ -106,11 +106,6 @@ std::vector<Warning> image_warnings(const Mission& mission, const Assembly& asse
             out.push_back(make_warning(WarningCode::blind, about_sensor(config.name),
                                        summary.dark_pings, summary.pings));
         }
-        if (summary.missed_goals > 0) {
-            out.push_back(make_warning(WarningCode::goal_missed, about_sensor(config.name),
-                                       summary.missed_goals, summary.pings,
-                                       mission.accuracy.relative_l1, summary.worst_l1));
-        }
         if (summary.dark_pings == summary.pings) continue;
         judge_brightness(mission.output, about_sensor(config.name), assembly.full_scales[i],
                          share(summary.clipped_pixels, summary.counts.occupied_bins),

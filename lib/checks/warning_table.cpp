@@ -94,12 +94,9 @@ constexpr std::array table{
                 "start only one", "the file system refuses flock"},
     WarningText{
         WarningCode::goal_missed,
-        "{0} of {1} pings miss accuracy.relative_l1 of {2:.4g}, the worst with an "
-        "estimated {3:.2g}: there is more detail between neighbouring beams or rays than the "
-        "engine can follow, or surface that only just reaches into a bin",
-        "raise accuracy.relative_l1, or use the engine with the least error in "
-        "`sonarsim report`",
-        "one ping whose estimated error is above the goal"},
+        "its images are off by {0:.2g} % on average over the pings that were measured, and by "
+        "{1:.2g} % at pose {2}; accuracy.relative_l1 asks for {3:.4g} %",
+        "{4:s}", "the error of one measured ping, less the reference's own noise, above the goal"},
     WarningText{
         WarningCode::heightmap_facets,
         "its cells of {0:.3g} m are {2:.0f} times as long as the range bins of {1:.3g} m, "

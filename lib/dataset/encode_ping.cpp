@@ -40,11 +40,8 @@ RenderedPing render_at_pose(const Mission& mission, const Assembly& assembly,
                             const VisibilityEngine& engine, const PingId& id) {
     const TimedPose& at = assembly.trajectory[id.pose];
     const SonarAtPose sonar(mission, assembly.sonars[id.sensor], id.pose);
-    const std::vector<Sight> sights_of_ping =
-        sights(sonar->settings.view, sonar->settings.guard_beams,
-               sensor_pose(*sonar, at.T_world_vehicle, id.pose));
     const std::shared_ptr<const VisibilityEngine> now =
-        engine_at(engine, assembly.motions, at.t_s, sights_of_ping);
+        engine_at(engine, assembly.motions, at.t_s);
     TracedPing traced = trace(*sonar, assembly.scene, *now, at.T_world_vehicle, id.pose);
     Ping ping = form_image(traced, sonar->settings, assembly.scene, {mission.seed, id.pose});
     return {id, sonar, now, std::move(traced), std::move(ping)};

@@ -1,10 +1,8 @@
 #include "job/render_pings.h"
 
 #include <cmath>
-#include <memory>
 #include <string>
 
-#include "assembly/engine_probes.h"
 #include "core/clock.h"
 #include "core/ordered_pipeline.h"
 #include "dataset/encode_ping.h"
@@ -61,15 +59,15 @@ void write_encoded(const Assembly& assembly, const Destination& to, const LabelP
 /// Renders pings one at a time.
 class PingRenderer {
   public:
-    PingRenderer(const RenderRun& run, const Destination* to)
-        : run_(run), to_(to), engine_(make_engine(run.mission, run.assembly)) {
+    PingRenderer(const RenderRun& run, const VisibilityEngine& engine, const Destination* to)
+        : run_(run), to_(to), engine_(engine) {
         for (const Sonar& sonar : run.assembly.sonars)
             labels_.push_back(plan_labels(run.mission, run.assembly, sonar));
     }
 
     PingReport render(const PingId& id) const {
         const Assembly& assembly = run_.assembly;
-        const RenderedPing rendered = render_at_pose(run_.mission, assembly, *engine_, id);
+        const RenderedPing rendered = render_at_pose(run_.mission, assembly, engine_, id);
         PingReport report = report_of(rendered);
         const LabelPlan& plan = labels_[report.id.sensor];
         if (to_) {
@@ -83,21 +81,20 @@ class PingRenderer {
         return report;
     }
 
-    const VisibilityEngine& engine() const { return *engine_; }
-
   private:
     const RenderRun& run_;
     const Destination* to_;
-    std::unique_ptr<VisibilityEngine> engine_;
+    const VisibilityEngine& engine_;
     std::vector<LabelPlan> labels_;
 };
 
 }  // namespace
 
-void render_pings(const RenderRun& run, const std::vector<PingId>& todo, const Destination* to) {
+void render_pings(const RenderRun& run, const VisibilityEngine& engine,
+                  const std::vector<PingId>& todo, const Destination* to) {
     if (todo.empty()) return;
     RenderSummary& summary = run.summary;
-    const PingRenderer renderer(run, to);
+    const PingRenderer renderer(run, engine, to);
     const auto threads = static_cast<std::size_t>(run.threads);
     Stopwatch watch;
     // At most twice as many pings as threads are in memory.
@@ -110,8 +107,6 @@ void render_pings(const RenderRun& run, const std::vector<PingId>& todo, const D
         });
     summary.seconds = watch.lap();
     summary.stopped = summary.pings < todo.size();
-    for (const std::string& warning : renderer.engine().warnings())
-        summary.warnings.push_back(make_warning(WarningCode::engine, "engine", warning));
 }
 
 }  // namespace sonarsim

@@ -30,6 +30,7 @@ struct Destination {
 
 /// Renders `todo`, several pings at a time. Without a destination nothing is written, but labels
 /// are found.
-void render_pings(const RenderRun& run, const std::vector<PingId>& todo, const Destination* to);
+void render_pings(const RenderRun& run, const VisibilityEngine& engine,
+                  const std::vector<PingId>& todo, const Destination* to);
 
 }  // namespace sonarsim

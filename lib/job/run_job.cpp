@@ -1,11 +1,15 @@
 #include "job/run_job.h"
 
+#include <memory>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "assembly/engine_probes.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "dataset/dataset_file.h"
 #include "dataset/metadata.h"
 #include "dataset/ping_metadata.h"
 #include "dataset/seabed_files.h"
@@ -16,10 +20,36 @@
 #include "job/render_pings.h"
 #include "job/shard_lock.h"
 #include "trajectory/files.h"
+#include "validation/measured_error.h"
 
 namespace sonarsim {
 
 namespace {
+
+constexpr const char* error_key = "measured_error";
+
+/// Adds the measured error of the sonars to dataset.json: that of the folder's dataset.json, else it
+/// is measured, which gives the same values in every shard. The first of several variants stands for
+/// all.
+void add_measured_error(const RenderRun& run, const VisibilityEngine& engine,
+                        const std::filesystem::path& folder, nlohmann::ordered_json& description) {
+    if (run.mission.variant.index > 0) return;
+    if (std::filesystem::exists(folder / description_name)) {
+        const auto found = read_description(folder);
+        if (found && found->contains(error_key)) {
+            description[error_key] = (*found)[error_key];
+            return;
+        }
+    }
+    const std::vector<std::optional<MeasuredError>> errors =
+        measure_errors(run.mission, run.assembly, engine);
+    nlohmann::ordered_json& by_sensor = description[error_key] = nlohmann::ordered_json::object();
+    for (std::size_t i = 0; i < errors.size(); ++i)
+        by_sensor[run.mission.sensors[i].name] =
+            errors[i] ? json_of(*errors[i]) : nlohmann::ordered_json();
+    for (Warning& warning : error_warnings(run.mission, errors))
+        run.summary.warnings.push_back(std::move(warning));
+}
 
 /// The pings of the shard that a run renders.
 std::vector<PingId> pings_of_shard(const std::vector<PingId>& all, const RenderOptions& options) {
@@ -58,9 +88,9 @@ void run_in_folder(const RenderRun& run, const RenderOptions& options,
     RenderSummary& summary = run.summary;
     const std::vector<Writers> writers = make_writers(mission, assembly);
     const Layout layout = make_layout(mission, writers, assembly.trajectory.size());
-    const CommonFiles common{describe_dataset(mission, assembly, layout, writers),
-                             resolved_text(mission, assembly), write_tum(assembly.trajectory),
-                             initial_files(assembly)};
+    CommonFiles common{describe_dataset(mission, assembly, layout, writers),
+                       resolved_text(mission, assembly), write_tum(assembly.trajectory),
+                       initial_files(assembly)};
     const std::vector<PingId> own = pings_of_shard(all, options);
     const auto finished = [&](FolderState state) {
         summary.complete =
@@ -80,6 +110,8 @@ void run_in_folder(const RenderRun& run, const RenderOptions& options,
     ShardLock lock(layout.folder, options.shard, options.shards);
     summary.unlocked = !lock.works();
     if (options.overwrite) remove_dataset(layout.folder, mission);
+    const std::unique_ptr<VisibilityEngine> engine = make_engine(mission, assembly);
+    add_measured_error(run, *engine, layout.folder, common.description);
     const FolderState state = claim_folder(layout.folder, common);
     if (finished(state)) return;
     if (state == FolderState::complete) {
@@ -93,7 +125,7 @@ void run_in_folder(const RenderRun& run, const RenderOptions& options,
     remove_leftovers(layout, todo, options.shards == 1);
     Journal journal(lock, options.checkpoint_s);
     const Destination to{layout, writers, records, journal};
-    render_pings(run, todo, &to);
+    render_pings(run, *engine, todo, &to);
     journal.finish();
     if (summary.stopped) return;
     if (has_pings(layout, all)) {
@@ -132,7 +164,7 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
         if (options.files) {
             run_in_folder(run, options, all);
         } else {
-            render_pings(run, pings_of_shard(all, options), nullptr);
+            render_pings(run, *make_engine(mission, assembly), pings_of_shard(all, options), nullptr);
         }
     });
     return summary;

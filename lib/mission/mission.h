@@ -139,9 +139,7 @@ struct SlicesConfig {
 };
 
 struct OctreeConfig {
-    double leaf_m = 0.0;   ///< edge of the leaves; 0: derived from accuracy.relative_l1
-    int memory_mb = 512;   ///< above it the least recently used nodes are dropped
-    bool literal = false;  ///< exactly as the paper prints it, as a baseline
+    double leaf_m = 0.02;  ///< edge of the leaves
 
     bool operator==(const OctreeConfig&) const = default;
 };

@@ -13,6 +13,8 @@ struct RemovedKey {
 };
 
 inline constexpr RemovedKey removed_keys[] = {
+    {"octree", "literal", "leave it out: the octree is always the paper's"},
+    {"octree", "memory_mb", "leave it out: the octree takes up to 512 MB for what is out of view"},
     {"labels", "min_pixels", "give it to the export: sonarsim export --min-pixels"},
     {"labels", "min_visible_share", "give it to the export: sonarsim export --min-visible-share"},
     {"labels", "min_contrast_db", "give it to the export: sonarsim export --min-contrast-db"},

@@ -107,11 +107,7 @@ template <class Visitor>
 void describe(Visitor& v, OctreeConfig& c) {
     // Leaves below a millimetre are finer than any sonar's bins.
     v.number("leaf_m", c.leaf_m, between(1e-3, 1e3),
-             "edge of the octree's leaves; `auto` derives it from accuracy.relative_l1", or_auto);
-    v.number(
-        "memory_mb", c.memory_mb, between(1, 1e6),
-        "memory limit; above it the octree drops the nodes that have not been seen for longest");
-    v.flag("literal", c.literal, "use the octree exactly as the paper prints it, as a baseline");
+             "edge of the octree's leaves; the octree is the paper's, a baseline");
 }
 
 template <class Visitor>
@@ -182,8 +178,7 @@ void describe(Visitor& v, Mission& c) {
     v.choice("engine", c.engine, engine_kinds,
              "method that finds the visible surface. `auto` takes the slices; it takes the rays "
              "for a sonar with multipath, where they meet the error goal with less work, where "
-             "objects move, and over more than two million triangles. The octree sees up to 160 "
-             "degrees of elevation or opening");
+             "objects move, and over more than two million triangles");
     v.section("octree", c.octree, "settings of the octree");
     v.section("slices", c.slices, "settings of the slices");
     v.list_of("classes", c.classes, 0,

@@ -5,9 +5,7 @@ namespace sonarsim {
 EngineSettings engine_settings(EngineKind kind, const OctreeConfig& octree,
                                const SlicesConfig& slices) {
     return {.type = kind,
-            .octree = {.leaf_m = octree.leaf_m,
-                       .memory_mb = static_cast<std::size_t>(octree.memory_mb),
-                       .literal = octree.literal},
+            .octree = {.leaf_m = octree.leaf_m},
             .slices = {.per_beam = slices.per_beam}};
 }
 

@@ -29,8 +29,7 @@ View widened_view(const View& view, const GuardBeams& guard_beams);
 /// The widened view with the beams in which an engine traces it.
 View traced_view(const View& view, const GuardBeams& guard_beams);
 
-/// The views that visible_surface() asks the engine for: VisibilityEngine::prepared() makes them
-/// ready.
+/// The views that visible_surface() traces.
 std::vector<Sight> sights(const View& view, const GuardBeams& guard_beams,
                           const Pose& T_world_sensor);
 

@@ -1,13 +1,14 @@
 #include "validation/energy_reference.h"
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <stdexcept>
 
 #include "trace/target_surface.h"
 #include "trace/visible_surface.h"
 #include "visibility/intersect.h"
 #include "visibility/local_pose.h"
-#include "visibility/reference_cast.h"
+#include "validation/reference_cast.h"
 
 namespace sonarsim {
 
@@ -41,15 +42,17 @@ class EnergyImage {
           settings_(settings),
           pose_(local_pose(T_world_sensor, scene.origin)),
           R_sensor_local_(pose_.rotation.transpose()),
-          sum_(static_cast<std::size_t>(settings.view.range_bins) * settings.view.beams) {
+          sum_(static_cast<std::size_t>(settings.view.range_bins) * settings.view.beams),
+          area_m2_(sum_.size()) {
         traced_.T_world_sensor = T_world_sensor;
         traced_.targets = targets;
     }
 
     void add(const SurfacePoint& point) {
-        if (traced_.targets.has(point.facet.instance)) return;
         const auto range = static_cast<float>(point.range_m);
         const Eigen::Vector3f position = range * (R_sensor_local_ * point.direction);
+        add_area(position, point);
+        if (traced_.targets.has(point.facet.instance)) return;
         if (settings_.guard_beams.count > 0 && !in_array_cones(settings_.view, position)) return;
         Sample& sample = traced_.samples.items.emplace_back();
         sample.position = position;
@@ -73,9 +76,19 @@ class EnergyImage {
     }
 
     std::uint64_t hits() const { return hits_; }
+    /// The visible surface in the bins where it lies, whatever beams receive it.
+    const std::vector<double>& area_m2() const { return area_m2_; }
 
   private:
     static constexpr std::size_t at_once = 1U << 20U;
+
+    void add_area(const Eigen::Vector3f& position, const SurfacePoint& point) {
+        const View& view = settings_.view;
+        const int beam = beam_of(view, position);
+        const double bin = std::floor((point.range_m - view.range_min_m) / view.bin_m());
+        if (beam < 0 || !(bin >= 0.0 && bin < view.range_bins)) return;
+        area_m2_[static_cast<std::size_t>(bin) * view.beams + beam] += point.area_m2;
+    }
 
     void form() {
         const auto count = static_cast<std::uint32_t>(traced_.samples.items.size());
@@ -98,6 +111,7 @@ class EnergyImage {
     Eigen::Matrix3f R_sensor_local_;
     TracedPing traced_;
     std::vector<double> sum_;
+    std::vector<double> area_m2_;
     std::uint64_t hits_ = 0;
 };
 
@@ -126,8 +140,11 @@ Reference cast_energy_reference(const Caster& caster, const Scene& scene,
             cast.hits += image.hits();
             (start == 0 ? cast.lattice : cast.scattered).assign(sum.begin(), sum.end());
             mean.resize(sum.size());
-            for (std::size_t k = 0; k < sum.size(); ++k)
+            cast.area_m2.resize(sum.size());
+            for (std::size_t k = 0; k < sum.size(); ++k) {
                 mean[k] += 0.5 * sum[k];
+                cast.area_m2[k] += 0.5 * image.area_m2()[k];
+            }
         }
         cast.both.assign(mean.begin(), mean.end());
         return cast;

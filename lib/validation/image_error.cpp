@@ -15,29 +15,22 @@ double share(double a, double b) {
 
 }  // namespace
 
-ImageError image_error(std::span<const float> image, std::span<const float> truth) {
+ImageError image_error(std::span<const float> image, std::span<const float> truth,
+                       std::span<const std::uint8_t> scored) {
     double difference = 0.0;
-    double square = 0.0;
     double truth_sum = 0.0;
-    double truth_square = 0.0;
     double missed = 0.0;
-    double invented = 0.0;
-    double image_bins = 0.0;
-    double truth_bins = 0.0;
+    double occupied = 0.0;
     for (std::size_t k = 0; k < truth.size(); ++k) {
+        if (!scored.empty() && scored[k] == 0) continue;
         const double a = image[k];
         const double b = truth[k];
         difference += std::fabs(a - b);
-        square += (a - b) * (a - b);
         truth_sum += b;
-        truth_square += b * b;
-        image_bins += a > 0.0;
-        truth_bins += b > 0.0;
         missed += b > 0.0 && !(a > 0.0);
-        invented += a > 0.0 && !(b > 0.0);
+        occupied += b > 0.0;
     }
-    return {share(difference, truth_sum), std::sqrt(share(square, truth_square)),
-            share(missed, truth_bins), share(invented, image_bins)};
+    return {share(difference, truth_sum), share(missed, occupied)};
 }
 
 }  // namespace sonarsim

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "validation/image_error.h"
-#include "visibility/reference_cast.h"
+#include "validation/reference_cast.h"
 
 namespace sonarsim {
 
@@ -55,21 +55,36 @@ SurfaceSums together(SurfaceSums a, const SurfaceSums& b) {
     return a;
 }
 
+/// Rays per column of the first cast: fewer than usual where already these would be too many.
+int first_count(const View& view, int per_beam, const ReferenceGoal& goal) {
+    constexpr int usual = 256;
+    constexpr int fewest = 16;
+    constexpr double rays_per_direction = 3.0;  // two starts, and points for half as many rays
+    const double columns = static_cast<double>(view.beams) * per_beam;
+    const double most = static_cast<double>(goal.rays_max) / (rays_per_direction * columns);
+    return static_cast<int>(std::clamp(most, double{fewest}, double{usual}));
+}
+
 }  // namespace
 
 Reference settled(const View& view, const ReferenceGoal& goal,
                   const std::function<CastResult(int per_beam, int count)>& cast) {
     const std::size_t bins = static_cast<std::size_t>(view.range_bins) * view.beams;
-    Reference reference{view.range_bins, view.beams, std::vector<float>(bins, 0.0F)};
+    Reference reference{view.range_bins, view.beams, std::vector<float>(bins, 0.0F), {}};
     int per_beam = view.shape == ViewShape::fan ? 1 : 16;
-    int count = 256;  // per column
+    int count = first_count(view, per_beam, goal);
     double last_moved = 1.0;
     for (bool wider = false;; wider = !wider) {
         CastResult now = cast(per_beam, count);
-        reference.apart = std::max(image_error(now.lattice, now.both).relative_l1,
-                                   image_error(now.scattered, now.both).relative_l1);
+        reference.scored.resize(bins);
+        std::ranges::transform(now.area_m2, reference.scored.begin(),
+                               [&](double area) { return area >= goal.cell_m2; });
+        const auto error = [&](const std::vector<float>& image) {
+            return image_error(image, now.both, reference.scored).relative_l1;
+        };
+        reference.apart = std::max(error(now.lattice), error(now.scattered));
         // The two directions are doubled in turn; the image has settled when neither changes it.
-        const double moved = image_error(reference.intensity, now.both).relative_l1;
+        const double moved = error(reference.intensity);
         reference.moved = std::max({moved, std::exchange(last_moved, moved), reference.apart});
         const auto occupied = std::ranges::count_if(now.both, [](float x) { return x > 0.0F; });
         reference.rays_per_bin =
@@ -95,7 +110,10 @@ Reference cast_reference(const Caster& caster, const Scene& scene, const View& v
         const SurfaceSums lattice = sums_over_surface(looking, {per_beam, count, 0});
         const SurfaceSums scattered = sums_over_surface(looking, {per_beam, count, 1});
         const SurfaceSums both = together(lattice, scattered);
-        return {image_of(lattice), image_of(scattered), image_of(both), both.rays, both.hits};
+        std::vector<double> area_m2(both.area.size());
+        std::ranges::transform(both.area, area_m2.begin(), [](double sum) { return 0.5 * sum; });
+        return {image_of(lattice), image_of(scattered), image_of(both), std::move(area_m2),
+                both.rays, both.hits};
     });
 }
 

@@ -43,8 +43,7 @@ struct Samples {
     std::vector<Sample> items;
     std::vector<std::uint32_t> beam_begin;  ///< beams + 1 offsets into `items`
     /// Number of patches in view that were dropped. Rays: patches that are edge-on to within
-    /// rounding, or at zero distance. Octree: parts of leaves that are smaller than rounding, or
-    /// whose azimuth is lost in rounding near the sensor's z axis.
+    /// rounding, or at zero distance.
     std::uint64_t dropped = 0;
     /// The engine's estimate of the relative L1 of the noise-free image; NaN if it has none.
     double estimated_l1 = std::numeric_limits<double>::quiet_NaN();
@@ -109,15 +108,6 @@ class VisibilityEngine {
     /// The poses of Scene::bodies that at() was given; empty without them. World.
     virtual std::span<const Pose> body_poses() const { return {}; }
 
-    /// An engine that holds everything that visible_surface() needs for these sights, so that these
-    /// calls take no locks. It must not outlive this engine. Null if there is nothing to make
-    /// ready.
-    virtual std::unique_ptr<VisibilityEngine> prepared(std::span<const Sight> /*sights*/) const {
-        return nullptr;
-    }
-
-    /// Warnings about the results so far: sentences that name the keys to change.
-    virtual std::vector<std::string> warnings() const { return {}; }
 };
 
 }  // namespace sonarsim

@@ -1,20 +1,11 @@
 #include "visibility/make_engine.h"
 
-#include <cmath>
-
-#include "core/text.h"
-#include "core/units.h"
-#include "visibility/octree/leaf_size.h"
 #include "visibility/octree/tree.h"
 #include "visibility/rays/rays_engine.h"
 
 namespace sonarsim {
 
 namespace {
-
-/// Rows of the octree's depth buffer have equal steps of the tangent of elevation, which is
-/// infinite at 90 degrees.
-constexpr double widest_octree_deg = 160.0;
 
 /// The error of the slices in cones, for the calibrated model.
 constexpr double least_error_in_cones = 0.01;
@@ -48,26 +39,15 @@ std::string unsupported(const EngineSettings& settings, const Scene& scene) {
                " does not support copies of shared meshes; use engine: auto or engine: rays, or "
                "scene.repeats: copied";
     }
-    if (settings.type != EngineKind::octree) return "";
-    const double length_m = (scene.bounds_max - scene.bounds_min).maxCoeff();
-    const double longest_m = longest_octree_scene_m(settings.octree);
-    if (length_m <= longest_m) return "";
-    const double leaf_m = settings.octree.leaf_m;
-    return (leaf_m > 0.0 ? "octree.leaf_m of " + number_text(leaf_m)
-                         : std::string("engine: octree")) +
-           " takes scenes up to " + number_text(std::floor(longest_m)) + " m long, not " +
-           number_text(std::ceil(length_m)) + "; use engine: rays" +
-           (leaf_m > 0.0 ? " or larger leaves" : "");
+    if (!is_octree) return "";
+    return too_small_leaves((scene.bounds_max - scene.bounds_min).maxCoeff(),
+                            settings.octree.leaf_m);
 }
 
 std::string unsupported(const EngineSettings& settings, const View& view) {
-    if (settings.type != EngineKind::octree) return "";
-    const double width_deg = std::round(1e9 * degrees(view.elevation_rad)) / 1e9;
-    if (width_deg <= widest_octree_deg) return "";
-    return std::string("engine: octree takes ") +
-           (view.shape == ViewShape::cone ? "opening_deg" : "elevation_deg") + " up to " +
-           number_text(widest_octree_deg) + ", not " + number_text(width_deg) +
-           "; use engine: rays";
+    if (settings.type != EngineKind::octree || !view.energies_add) return "";
+    return "engine: octree has votes in place of areas, and model: calibrated needs areas; use "
+           "engine: auto";
 }
 
 std::string accuracy_warning(const EngineSettings& settings, const View& view, bool multipath,
@@ -89,14 +69,7 @@ std::string accuracy_warning(const EngineSettings& settings, const View& view, b
         return "engine: slices is off by up to 1 % in a cone with the calibrated model, more than "
                "accuracy.relative_l1; use engine: auto or engine: rays";
     }
-    if (settings.type != EngineKind::octree || settings.octree.literal) return "";
-    const double error = estimated_octree_error(view, settings.octree.leaf_m);
-    if (error <= view.relative_l1) return "";
-    const auto percent = [](double x) { return number_text(std::ceil(1e3 * x) / 10.0) + " %"; };
-    return "engine: octree will be off by about " + percent(error) +
-           " in this view, more than accuracy.relative_l1 (" + percent(view.relative_l1) +
-           "); use engine: rays" +
-           (settings.octree.leaf_m > 0.0 ? " or a smaller octree.leaf_m" : "");
+    return "";
 }
 
 }  // namespace sonarsim

@@ -19,6 +19,12 @@ class ViewVolume {
         return of_sensor_frame(R_sensor_local_ * centre, radius);
     }
 
+    /// The same for a cube, by the ball around it: slightly more than half its diagonal, for
+    /// rounding.
+    Containment of_cube(const Eigen::Vector3f& centre, float edge) const {
+        return containment(centre, 0.8661F * edge + rounding_m());
+    }
+
     /// The same with `centre` in the sensor frame.
     Containment of_sensor_frame(const Eigen::Vector3f& centre, float radius) const;
 

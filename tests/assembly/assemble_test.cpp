@@ -144,21 +144,16 @@ TEST_SUITE("assembly") {
         CHECK(model.scattering.materials.size() == assembly.scene.materials.size());
     }
 
-    TEST_CASE("assemble: the octree refuses a view that its cells cannot hold") {
+    TEST_CASE("assemble: the octree refuses the calibrated model") {
         const MissionOnDisk disk;
         Mission mission = disk.load("{file: poses.csv}");
-        mission.sensors[0].elevation_deg = 180.0;
-        CHECK_NOTHROW(assemble(mission));
         mission.engine = EngineKind::octree;
-        CHECK_THROWS_WITH_AS(assemble(mission),
-                             "sensor 'fls': engine: octree takes elevation_deg up to 160, not 180; "
-                             "use engine: rays",
-                             InputError);
-        mission.sensors[0] = default_sonar(SonarKind::echosounder);
-        mission.sensors[0].name = "sounder";
         CHECK_NOTHROW(assemble(mission));
-        mission.sensors[0].opening_deg = 170.0;
-        CHECK_THROWS_AS(assemble(mission), InputError);
+        mission.sensors[0].model = ModelKind::calibrated;
+        CHECK_THROWS_WITH_AS(assemble(mission),
+                             "sensor 'fls': engine: octree has votes in place of areas, and model: "
+                             "calibrated needs areas; use engine: auto",
+                             InputError);
     }
 
     TEST_CASE("assemble: errors in files name the file") {

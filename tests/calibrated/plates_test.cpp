@@ -149,7 +149,7 @@ TEST_SUITE("calibrated") {
     TEST_CASE("plates: by every engine alike, and smooth as the sonar passes") {
         const Sonar sonar = plate_sonar(SonarKind::imaging);
         const double by_rays = peak_db(image_of(sonar, scene_of_plate(0.01)));
-        for (const EngineKind type : {EngineKind::slices, EngineKind::octree})
+        for (const EngineKind type : {EngineKind::slices})
             CHECK(std::fabs(peak_db(image_of(sonar, scene_of_plate(0.01), type)) - by_rays) < 0.1);
         double before = peak_db(image_of(sonar, scene_of_plate(-0.01)));
         for (double turned = -0.009; turned < 0.0101; turned += 0.001) {
@@ -193,7 +193,7 @@ TEST_SUITE("calibrated") {
         constexpr SonarKind kinds[] = {SonarKind::imaging, SonarKind::echosounder,
                                        SonarKind::scanning, SonarKind::sidescan,
                                        SonarKind::profiling};
-        constexpr EngineKind engines[] = {EngineKind::rays, EngineKind::slices, EngineKind::octree,
+        constexpr EngineKind engines[] = {EngineKind::rays, EngineKind::slices,
                                           EngineKind::automatic};
         for (int trial = 0; trial < 20; ++trial) {
             const SonarKind kind = kinds[trial % 5];

@@ -14,8 +14,7 @@ namespace sonarsim::test {
 
 inline constexpr double slope_deg = 5.0;
 
-inline constexpr EngineKind engine_kinds[] = {EngineKind::rays, EngineKind::slices,
-                                              EngineKind::octree, EngineKind::automatic};
+inline constexpr EngineKind engine_kinds[] = {EngineKind::rays, EngineKind::slices, EngineKind::automatic};
 
 inline double total(const std::vector<float>& image) {
     return std::accumulate(image.begin(), image.end(), 0.0);

@@ -84,16 +84,6 @@ TEST_SUITE("checks") {
         CHECK(run.warnings().empty());
     }
 
-    TEST_CASE("image warnings: goals that were missed") {
-        Run run;
-        run.sensors[0].missed_goals = 3;
-        run.sensors[0].worst_l1 = 0.25;
-        const Sentences found = run.warnings();
-        REQUIRE(found.size() == 1);
-        CHECK(found[0].starts_with(
-            "W29 sensor 'front': 3 of 10 pings miss accuracy.relative_l1 of "));
-    }
-
     TEST_CASE("image warnings: a full scale far above or below what is seen") {
         Run run;
         run.mission.output.full_scale = 1e6;

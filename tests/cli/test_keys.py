@@ -35,7 +35,7 @@ class Keys(unittest.TestCase):
         self.assertEqual(sections["trajectory", "waypoints"]["speed_m_s"]["default"], 1)
         self.assertFalse(sections["trajectory", "waypoints"]["speed_m_s"]["low_allowed"])
         self.assertIs(sections["output", ""]["fan"]["default"], True)
-        self.assertEqual(sections["octree", ""]["leaf_m"]["choices"], ["auto"])
+        self.assertEqual(sections["octree", ""]["leaf_m"]["default"], 0.02)
 
 
 if __name__ == "__main__":

@@ -76,7 +76,7 @@ class Render(Sandbox):
     def test_a_mission_written_as_json(self):
         """JSON is YAML, and its writers quote every text."""
         mission = {
-            "name": "box", "seed": 7, "engine": "rays", "octree": {"leaf_m": "auto"},
+            "name": "box", "seed": 7, "engine": "rays", "octree": {"leaf_m": 0.02},
             "scene": {"file": "box.gltf", "materials": "materials.csv"},
             "trajectory": {"file": "path.csv"},
             "sensors": {"fls": {

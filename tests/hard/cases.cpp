@@ -75,8 +75,6 @@ struct Standard {
 Standard standard_of(const HardCase& hard, EngineKind engine) {
     const HardBounds& bounds = hard.bounds;
     switch (engine) {
-        case EngineKind::octree:
-            return {"octree", bounds.octree, hard.known.octree};
         case EngineKind::slices:
             return {"slices", bounds.slices < 0.0 ? bounds.rays : bounds.slices, hard.known.slices};
         default:
@@ -100,13 +98,6 @@ HardResult run(const HardCase& hard, const Scene& scene, EngineKind engine_kind,
     for (const KindOfSonar& sonar_kind : kinds_of_sonar()) {
         const SonarKind kind = sonar_kind.keys.kind;
         const HardTrial trial = with_model(hard.trial(kind), model.value);
-        const std::string refused = unsupported(settings, trial.sonar.settings.view);
-        if (!refused.empty()) {
-            result.refused = refused;
-            if (engine_kind != EngineKind::octree || !hard.octree_may_refuse)
-                result.broken = "refused: " + refused;
-            continue;
-        }
         Stopwatch watch;
         const Ping ping = render_ping(trial.sonar, scene, *engine, trial.T_world_vehicle, {1, 0});
         const double ms = 1e3 * watch.lap();
@@ -130,7 +121,6 @@ HardResult run(const HardCase& hard, const Scene& scene, EngineKind engine_kind,
 }
 
 std::string verdict(const HardResult& result) {
-    if (result.holds() && !result.refused.empty()) return "refused: " + result.refused;
     if (result.holds()) return result.known_fault.empty() ? "holds" : "holds, though known to fail";
     if (!result.known_fault.empty()) return "known fault: " + result.known_fault;
     return result.broken.empty() ? "FAILS" : "FAILS: " + result.broken;
@@ -168,7 +158,7 @@ std::vector<HardResult> run_hard_case(const HardCase& hard) {
     const Scene scene = hard.scene();
     std::vector<HardResult> results;
     for (const Choice<ModelKind>& model : echo_models) {
-        for (const EngineKind engine : {EngineKind::rays, EngineKind::octree, EngineKind::slices}) {
+        for (const EngineKind engine : {EngineKind::rays, EngineKind::slices}) {
             // The invariants of a model do not depend on the engine.
             const bool is_compared = model.value == ModelKind::paper || hard.truth_of_any_model;
             if (is_compared || engine == EngineKind::rays)
@@ -194,12 +184,10 @@ std::string hard_table(const std::vector<HardResult>& results) {
         results, [](const HardResult& r) { return !r.holds() && r.known_fault.empty(); });
     const auto known = std::ranges::count_if(
         results, [](const HardResult& r) { return !r.holds() && !r.known_fault.empty(); });
-    const auto refused = std::ranges::count_if(
-        results, [](const HardResult& r) { return r.holds() && !r.refused.empty(); });
     return text + fmt::format(
-                      "{} verdicts: {} fail, {} are known faults, {} refused. An error is the "
-                      "worst of all sonars, sum |A - B| / sum B.\n",
-                      results.size(), failed, known, refused);
+                      "{} verdicts: {} fail, {} are known faults. An error is the worst of all "
+                      "sonars, sum |A - B| / sum B.\n",
+                      results.size(), failed, known);
 }
 
 }  // namespace sonarsim

@@ -40,14 +40,12 @@ inline constexpr float unchecked = -1.0F;
 /// The largest permitted error of each engine.
 struct HardBounds {
     double rays = 0.0;
-    double octree = 0.0;
     double slices = -1.0;  ///< below 0: the same as for rays
 };
 
 /// Descriptions of known faults; empty: none.
 struct KnownFaults {
     std::string rays;
-    std::string octree;
     std::string slices = {};
 };
 
@@ -66,8 +64,6 @@ struct HardCase {
     bool noisy = false;      ///< may be brighter than the brightest material
     double brightest = 0.0;  ///< limit of all pixels; 0: the largest reflection of the scene
     KnownFaults known = {};
-    /// True if a mission may refuse the octree here; otherwise it must render.
-    bool octree_may_refuse = false;
 };
 
 /// One case with one engine and one echo model; the worst of the sonars.
@@ -80,7 +76,6 @@ struct HardResult {
     double slowest_ms = 0.0;          ///< slowest of the pings
     std::string broken = {};          ///< the broken invariant; empty: none
     std::string known_fault = {};
-    std::string refused = {};  ///< why a mission would refuse these sonars with this engine
 
     bool holds() const { return broken.empty() && error <= bound; }
 };
@@ -101,9 +96,8 @@ HardTrial with_model(HardTrial trial, ModelKind model);
 /// The terms of an echo model in an image that is compared with an expected one.
 Terms compared_terms(ModelKind model);
 
-/// Runs a case with the rays, the octree and the slices, and with every echo model; a model for
-/// which the case has no expected image runs with the rays alone. A combination that a mission
-/// would refuse is refused by the same check and not rendered. Invariants of every image: no pixel
+/// Runs a case with the rays and the slices, and with every echo model; a model for
+/// which the case has no expected image runs with the rays alone. Invariants of every image: no pixel
 /// is NaN, infinite, negative or brighter than physics allows.
 std::vector<HardResult> run_hard_case(const HardCase& hard);
 

@@ -119,8 +119,7 @@ Apart compare(const Scene& moved, const Pose& motion, EngineKind engine) {
 void check(const std::string& what, const Scene& moved, const Pose& motion, EngineKind engine,
            const Apart& bound) {
     const Apart apart = compare(moved, motion, engine);
-    const std::string name = what + (engine == EngineKind::rays ? ", rays" : ", octree");
-    MESSAGE(name << ": largest difference of a pixel " << apart.largest << ", relative "
+    MESSAGE(what << ": largest difference of a pixel " << apart.largest << ", relative "
                  << apart.relative);
     CHECK(apart.largest <= bound.largest);
     CHECK(apart.relative <= bound.relative);
@@ -140,9 +139,6 @@ TEST_CASE("glTF scene under a node at UTM coordinates: the image at the origin")
         // The error of a range is some 6e-8 of 10 m, and a bin is 2e-2 m: 3e-5 of an echo may fall
         // into another bin.
         check("UTM", scene, motion, EngineKind::rays, {1e-4, 2e-5});
-        // Off the grid of 10 m vertices round to other floats; somewhere a cell of the octree then
-        // sees past an edge that hid it before.
-        if (!test::sanitized) check("UTM", scene, motion, EngineKind::octree, {0.05, 5e-4});
     }
 }
 
@@ -154,7 +150,6 @@ TEST_CASE("glTF scene of millimetres under a node scaled by 1e-3: the same image
     const Scene scene = file.load();
     CHECK((scene.bounds_max - Eigen::Vector3d(4, 3, 3)).norm() < 1e-5);
     check("millimetres", scene, nowhere, EngineKind::rays, {1e-4, 2e-5});
-    check("millimetres", scene, nowhere, EngineKind::octree, {1e-4, 1e-6});
 }
 
 TEST_CASE("glTF scene under a rotated node, and the trajectory with it: the same image" *
@@ -164,8 +159,6 @@ TEST_CASE("glTF scene under a rotated node, and the trajectory with it: the same
     file.wrap(node_of(motion));
     const Scene scene = file.load();
     check("rotated", scene, motion, EngineKind::rays, {1e-3, 1e-4});
-    // The lattice of the octree is rotated against the scene; see "rigid motion" in the catalogue.
-    check("rotated", scene, motion, EngineKind::octree, {1.0, 0.20});
 }
 
 TEST_CASE("glTF vertices at UTM coordinates are off by up to 0.25 m, and the scene says so") {

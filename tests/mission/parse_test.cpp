@@ -63,7 +63,7 @@ sensors:
     kind: imaging
 accuracy: {relative_l1: 0.1}
 engine: octree
-octree: {leaf_m: 0.05, memory_mb: 100, literal: true}
+octree: {leaf_m: 0.05}
 output:
   folder: ../o
   polar: false
@@ -95,7 +95,7 @@ output:
     CHECK(mission.sensors[1].name == "2");
     CHECK(mission.accuracy == AccuracyConfig{0.1});
     CHECK(mission.engine == EngineKind::octree);
-    CHECK(mission.octree == OctreeConfig{0.05, 100, true});
+    CHECK(mission.octree == OctreeConfig{0.05});
     CHECK(mission.output == OutputConfig{"/o", false, false, false, false, false, 300, 0.25});
 }
 

@@ -41,7 +41,7 @@ TEST_CASE("the reference knows limits, units and defaults by the kind of sonar")
     CHECK(key_of(sections, "sensors.NAME", "kind").required);
     CHECK(key_of(sections, "sensors.NAME.noise", "scatterer_m").defaults.size() == 5);
     CHECK(key_of(sections, "water", "density_kg_m3").unit == "kg/m^3");
-    CHECK(key_of(sections, "octree", "leaf_m").defaults == Defaults{{"", "auto"}});
+    CHECK(key_of(sections, "octree", "leaf_m").defaults == Defaults{{"", "0.02"}});
     // One section, three forms.
     CHECK(key_of(sections, "trajectory", "rate_hz", "file").defaults == Defaults{{"", "0"}});
     CHECK(key_of(sections, "trajectory", "rate_hz", "waypoints").defaults == Defaults{{"", "10"}});

@@ -36,7 +36,7 @@ Mission unusual_mission() {
     mission.sensors[1].name = "-";
     mission.accuracy = {0.0123};
     mission.engine = EngineKind::octree;
-    mission.octree = {0.0234, 77, true};
+    mission.octree = {0.0234};
     mission.output = {.folder = "/o",
                       .polar = false,
                       .image = true,
@@ -153,9 +153,7 @@ accuracy:
   relative_l1: 0.03
 engine: auto
 octree:
-  leaf_m: auto
-  memory_mb: 512
-  literal: false
+  leaf_m: 0.02
 slices:
   per_beam: 0
 classes: []

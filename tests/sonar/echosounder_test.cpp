@@ -11,7 +11,6 @@
 #include "support/scenes.h"
 #include "validation/image_error.h"
 #include "validation/reference.h"
-#include "visibility/octree/octree_engine.h"
 #include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
@@ -71,8 +70,6 @@ TEST_CASE("echosounder: both engines see all of the cone") {
         return sum;
     };
     CHECK(seen_m2(*make_rays_engine(scene)) == test::approx(pi * radius * radius).epsilon(0.02));
-    CHECK(seen_m2(*make_octree_engine(scene, {})) ==
-          test::approx(pi * radius * radius).epsilon(0.02));
 }
 
 TEST_CASE("echosounder: the cone has an edge") {

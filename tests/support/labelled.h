@@ -9,7 +9,7 @@
 
 namespace sonarsim::test {
 
-inline constexpr std::array engine_types{EngineKind::rays, EngineKind::octree, EngineKind::slices};
+inline constexpr std::array engine_types{EngineKind::rays, EngineKind::slices};
 inline constexpr LabelRequest everything{.objects = true,
                                          .shares = true,
                                          .classes = true,

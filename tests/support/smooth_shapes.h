@@ -16,8 +16,7 @@ namespace sonarsim::test {
 inline constexpr SonarKind kinds_before_shapes[] = {SonarKind::imaging, SonarKind::sidescan,
                                                     SonarKind::echosounder, SonarKind::scanning,
                                                     SonarKind::profiling};
-inline constexpr EngineKind engines_before_shapes[] = {EngineKind::rays, EngineKind::slices,
-                                                       EngineKind::octree, EngineKind::automatic};
+inline constexpr EngineKind engines_before_shapes[] = {EngineKind::rays, EngineKind::slices, EngineKind::automatic};
 
 /// A sonar whose bins are 10 cm long, and the direction in which it looks.
 struct Looking {

@@ -169,7 +169,6 @@ TEST_SUITE("lay maps") {
             const Pose pose = above_floor(side ? 0.0 : 20.0);
             const FactorsOfBins factors = factors_of_bins(sonar, scene, pose, side);
             for (const EngineKind type : engine_types) {
-                if (!side && type == EngineKind::octree) continue;
                 CAPTURE(side);
                 CAPTURE(static_cast<int>(type));
                 const std::vector<float> image = clean_image(sonar, scene, type, pose);

@@ -2,14 +2,14 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <utility>
+#include <vector>
 
 namespace sonarsim {
 
 namespace {
 
-constexpr int most_facets = 6;
+constexpr std::size_t most_groups = 6;
 constexpr double same_direction = 0.85;  // cosine
 
 /// Keeps the part of a polygon with x[axis] >= bound, or the part with x[axis] < bound.
@@ -40,96 +40,39 @@ bool is_real(double part, const Triangle& t) {
 
 /// Surface of one direction and material inside a cube.
 struct Group {
-    Moments moments;
+    double area;
     Eigen::Vector3d normal;  ///< sum of area times normal
     double largest;          ///< area of the largest polygon
-    std::uint32_t triangle;  ///< index of the triangle with the largest polygon
+    Leaf leaf;
     std::uint32_t material;
 };
 
-class FacetGroups {
-  public:
-    void add(const Moments& moments, const Facet& facet, std::uint32_t triangle) {
-        const Eigen::Vector3d normal = facet.normal.cast<double>();
-        Group* home = group_.data();
-        double best = -2.0;
-        for (int i = 0; i < count_; ++i) {
-            Group& group = group_[i];
-            double alike = group.normal.dot(normal) / group.normal.norm();
-            if (group.material != facet.material) alike -= 1.0;
-            if (alike > best) {
-                best = alike;
-                home = &group;
-            }
-        }
-        if (best < same_direction && count_ < most_facets) {
-            group_[count_++] = {moments, moments.area * normal, moments.area, triangle,
-                                facet.material};
-            return;
-        }
-        home->moments.area += moments.area;
-        home->moments.first += moments.first;
-        home->moments.second += moments.second;
-        // The last group takes all directions. Opposite normals are not added, so that the sum
-        // stays away from zero.
-        home->normal += moments.area * (best < 0.0 ? Eigen::Vector3d::Zero().eval() : normal);
-        if (moments.area > home->largest) {
-            home->largest = moments.area;
-            home->triangle = triangle;
-            home->material = facet.material;
+void add_to_groups(double area, const Facet& facet, std::uint32_t triangle,
+                   std::vector<Group>& groups) {
+    const Eigen::Vector3d normal = facet.normal.cast<double>();
+    Group* home = nullptr;
+    double best = -2.0;
+    for (Group& group : groups) {
+        double alike = group.normal.dot(normal) / group.normal.norm();
+        if (group.material != facet.material) alike -= 1.0;
+        if (alike > best) {
+            best = alike;
+            home = &group;
         }
     }
-
-    std::span<Group> by_area() {
-        const std::span<Group> groups(group_.data(), count_);
-        std::stable_sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) {
-            return a.moments.area > b.moments.area;
-        });
-        return groups;
+    if (!home || (best < same_direction && groups.size() < most_groups)) {
+        groups.push_back({area, area * normal, area, {{}, triangle}, facet.material});
+        return;
     }
-
-  private:
-    std::array<Group, most_facets> group_;
-    int count_ = 0;
-};
-
-LeafFacet facet_of(const Group& group, const Eigen::Vector3d& relative_to) {
-    const Moments& m = group.moments;
-    const Eigen::Vector3d centre = m.first / m.area;
-    const Eigen::Matrix3d covariance = m.second / m.area - centre * centre.transpose();
-    const Eigen::Vector3d n = group.normal.normalized();
-    // In-plane axes follow those of the cube where possible: the cube's section by a plane parallel
-    // to an axis is a square, whose second moments do not define its rotation.
-    int axis = 0;
-    n.cwiseAbs().minCoeff(&axis);
-    const Eigen::Vector3d p = (Eigen::Vector3d::Unit(axis) - n[axis] * n).normalized();
-    const Eigen::Vector3d q = n.cross(p);
-    const double pp = p.dot(covariance * p);
-    const double qq = q.dot(covariance * q);
-    const double pq = p.dot(covariance * q);
-    const double mean = 0.5 * (pp + qq);
-    const double half = 0.5 * (pp - qq);
-    const double split = std::sqrt(half * half + pq * pq);
-    Eigen::Vector3d major = p;
-    double high = pp;
-    double low = qq;
-    if (split > 1e-3 * mean) {
-        high = mean + split;
-        low = mean - split;
-        // There are two expressions for the eigenvector; the larger one is more accurate.
-        major = half > 0.0 ? ((half + split) * p + pq * q).normalized()
-                           : (pq * p + (split - half) * q).normalized();
+    home->area += area;
+    // The last group takes all directions. Opposite normals are not added, so that the sum stays
+    // away from zero.
+    if (best >= 0.0) home->normal += area * normal;
+    if (area > home->largest) {
+        home->largest = area;
+        home->leaf.triangle = triangle;
+        home->material = facet.material;
     }
-    const Eigen::Vector3d minor = n.cross(major);
-    LeafFacet facet;
-    facet.centre = (relative_to + centre).cast<float>();
-    facet.normal = n.cast<float>();
-    facet.edge_u = (std::sqrt(3.0 * std::max(high, 0.0)) * major).cast<float>();
-    facet.edge_v = (std::sqrt(3.0 * std::max(low, 0.0)) * minor).cast<float>();
-    facet.area_m2 = static_cast<float>(m.area);
-    facet.thickness_m = static_cast<float>(std::sqrt(3.0 * std::max(n.dot(covariance * n), 0.0)));
-    facet.triangle = group.triangle;
-    return facet;
 }
 
 }  // namespace
@@ -166,53 +109,36 @@ Polygon clip(const Triangle& triangle, const Cube& cube) {
     return polygon;
 }
 
-Moments moments(const Polygon& polygon, const Eigen::Vector3d& relative_to) {
-    Moments sum;
-    if (polygon.corners < 3) return sum;
-    const Eigen::Vector3d a = polygon.corner[0] - relative_to;
+double area_m2(const Polygon& polygon) {
+    double sum = 0.0;
     for (int i = 1; i + 1 < polygon.corners; ++i) {
-        const Eigen::Vector3d b = polygon.corner[i] - relative_to;
-        const Eigen::Vector3d c = polygon.corner[i + 1] - relative_to;
-        const double area = 0.5 * (b - a).cross(c - a).norm();
-        const Eigen::Vector3d s = a + b + c;
-        sum.area += area;
-        sum.first += (area / 3.0) * s;
-        sum.second += (area / 12.0) * (a * a.transpose() + b * b.transpose() + c * c.transpose() +
-                                       s * s.transpose());
+        sum += 0.5 * (polygon.corner[i] - polygon.corner[0])
+                         .cross(polygon.corner[i + 1] - polygon.corner[0])
+                         .norm();
     }
     return sum;
 }
 
-bool is_flat_rectangle(const LeafFacet& facet) {
-    const float longest = std::max(facet.edge_u.norm(), facet.edge_v.norm());
-    const float rectangle = 4.0F * facet.edge_u.norm() * facet.edge_v.norm();
-    return facet.thickness_m < 1e-3F * longest &&
-           std::fabs(facet.area_m2 - rectangle) < 1e-3F * rectangle;
+Triangle triangle_of(const Scene& scene, std::uint32_t index) {
+    const auto& [a, b, c] = scene.triangles[index];
+    return {scene.vertices[a].cast<double>(), scene.vertices[b].cast<double>(),
+            scene.vertices[c].cast<double>()};
 }
 
-Triangle LeafMaker::triangle(std::uint32_t index) const {
-    const auto& corners = scene_->triangles[index];
-    return {scene_->vertices[corners[0]].cast<double>(),
-            scene_->vertices[corners[1]].cast<double>(),
-            scene_->vertices[corners[2]].cast<double>()};
-}
-
-int LeafMaker::append(const Cube& cube, std::span<const std::uint32_t> triangles,
-                      std::vector<LeafFacet>& facets) const {
-    const Eigen::Vector3d centre = cube.min.array() + 0.5 * cube.edge;
+std::optional<Leaf> leaf_of(const Cube& cube, std::span<const std::uint32_t> triangles,
+                            const Scene& scene, const Caster& caster) {
     const double sliver = 1e-12 * cube.edge * cube.edge;
-    FacetGroups groups;
+    std::vector<Group> groups;
     for (const std::uint32_t index : triangles) {
-        const Triangle whole = triangle(index);
-        const Moments m = moments(clip(whole, cube), centre);
-        if (m.area > sliver || (m.area > 0.0 && is_real(m.area, whole))) {
-            groups.add(m, caster_->facet(index), index);
-        }
+        const Triangle whole = triangle_of(scene, index);
+        const double area = area_m2(clip(whole, cube));
+        if (area > sliver || (area > 0.0 && is_real(area, whole)))
+            add_to_groups(area, caster.facet(index), index, groups);
     }
-    const std::span<Group> found = groups.by_area();
-    for (const Group& group : found)
-        facets.push_back(facet_of(group, centre));
-    return static_cast<int>(found.size());
+    if (groups.empty()) return std::nullopt;
+    Group& largest = *std::ranges::max_element(groups, {}, &Group::area);
+    largest.leaf.normal = largest.normal.normalized().cast<float>();
+    return largest.leaf;
 }
 
 }  // namespace sonarsim

@@ -1,138 +1,150 @@
 #include "visibility/octree/octree_engine.h"
 
 #include <algorithm>
-#include <cmath>
-#include <mutex>
-#include <optional>
-#include <string>
-#include <utility>
+#include <cstdint>
 #include <vector>
 
-#include "core/text.h"
+#include "core/elementary.h"
 #include "visibility/caster.h"
-#include "visibility/image_change.h"
 #include "visibility/intersect.h"
-#include "visibility/octree/goal_check.h"
-#include "visibility/octree/leaf_samples.h"
 #include "visibility/octree/tree.h"
 
 namespace sonarsim {
 
 namespace {
 
-/// The relative L1 of an image, as a share of its change when leaves are twice as large. Measured
-/// on five scenes with leaves from 1 to 8 cm, as means over eight poses: 0.39 to 0.76, the least on
-/// a sphere; for single pings 0.25 to 1.56.
-constexpr double error_per_change = 0.7;
+/// The gap of ranges that ends a cluster.
+constexpr float gap_leaves = 4.0F;
 
-/// A prepared ping, which does not change.
-struct ReadyPing {
-    Sight sight;
-    PreparedView leaves;
-    std::optional<PreparedView> coarse;  ///< leaves twice as large, if the error is estimated
-    std::shared_ptr<double> error;       ///< the place for the estimate
+struct Vote {
+    std::uint64_t pixel;  ///< index of azimuth and elevation, azimuth first
+    int beam;
+    float range_m;
+    Eigen::Vector3f centre;  ///< sensor frame
+    Eigen::Vector3f normal;
+    std::uint32_t triangle;
 };
 
-bool same_pose(const Pose& a, const Pose& b) {
-    return a.rotation.coeffs() == b.rotation.coeffs() && a.translation == b.translation;
-}
-
-/// The parts that an engine shares with the engines of its prepared().
-struct OctreeParts {
-    OctreeParts(const Scene& of_scene, const OctreeOptions& with)
-        : scene(of_scene), options(with), caster(scene), tree(scene, caster, options) {}
-
-    const Scene& scene;
-    OctreeOptions options;
-    Caster caster;
-    std::mutex preparing;  ///< guards changes of the tree and of the goal check; pings only read
-    Octree tree;
-    GoalCheck goal_check;
-};
-
-class OctreeEngineWithPings final : public OctreeEngine {
+/// The leaves in view.
+class Votes {
   public:
-    OctreeEngineWithPings(std::shared_ptr<OctreeParts> parts, std::vector<ReadyPing> pings)
-        : parts_(std::move(parts)), pings_(std::move(pings)) {}
-
-    /// Takes no locks for the pings that are ready.
-    Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
-        const auto ping = std::ranges::find_if(pings_, [&](const ReadyPing& one) {
-            return one.sight.view == view && same_pose(one.sight.T_world_sensor, T_world_sensor);
-        });
-        return see(ping != pings_.end() ? *ping : ready({view, T_world_sensor}));
+    Votes(const View& view, const ViewVolume& volume, double leaf_m)
+        : view_(view), volume_(volume), leaf_m_(static_cast<float>(leaf_m)) {
+        // A leaf at half the greatest range.
+        const auto middle = static_cast<float>(0.5 * view.range_max_m);
+        row_height_ = static_cast<double>(leaf_m_ / middle);
     }
 
-    std::unique_ptr<VisibilityEngine> prepared(std::span<const Sight> sights) const override {
-        std::vector<ReadyPing> pings;
-        for (const Sight& sight : sights)
-            pings.push_back(ready(sight));
-        return std::make_unique<OctreeEngineWithPings>(parts_, std::move(pings));
+    void add(const TileInView& tile) {
+        for (const TileLeaf& one : *tile.leaves) {
+            const Eigen::Vector3f at(one.x, one.y, one.z);
+            const Eigen::Vector3f centre = tile.corner.array() + leaf_m_ * (at.array() + 0.5F);
+            const bool may_be_outside = tile.containment != Containment::inside;
+            if (may_be_outside && volume_.of_cube(centre, leaf_m_) == Containment::outside)
+                continue;
+            add(one.leaf, volume_.R_sensor_local() * centre);
+        }
+    }
+
+    /// The leaves of the first cluster of each pixel.
+    Samples samples(const Scene& scene) {
+        std::stable_sort(votes_.begin(), votes_.end(), [](const Vote& a, const Vote& b) {
+            return a.pixel != b.pixel ? a.pixel < b.pixel : a.range_m < b.range_m;
+        });
+        Samples samples;
+        samples.dropped = dropped_;
+        samples.beam_begin.assign(view_.beams + 1, 0);
+        bool visible = false;
+        for (std::size_t k = 0; k < votes_.size(); ++k) {
+            const Vote& vote = votes_[k];
+            const bool first = k == 0 || votes_[k - 1].pixel != vote.pixel;
+            visible = first ||
+                      (visible && vote.range_m - votes_[k - 1].range_m <= gap_leaves * leaf_m_);
+            if (!visible) continue;
+            samples.items.push_back(sample_of(vote, scene));
+            ++samples.beam_begin[vote.beam + 1];
+        }
+        for (int b = 0; b < view_.beams; ++b)
+            samples.beam_begin[b + 1] += samples.beam_begin[b];
+        return samples;
+    }
+
+  private:
+    /// `centre` is in the sensor frame.
+    void add(const Leaf& leaf, const Eigen::Vector3f& centre) {
+        const double range = centre.norm();
+        if (!(range > 0.0)) {
+            ++dropped_;  // the leaf's centre is at the sonar and has no direction
+            return;
+        }
+        const int beam = beam_of(view_, centre);
+        if (beam < 0) return;
+        const double azimuth = arctan2(centre.y(), centre.x()) + 0.5 * view_.azimuth_rad;
+        const double elevation = arcsin(centre.z() / range) + 0.5 * view_.elevation_rad;
+        // A pixel is as wide as a beam of a fan; the wide beams of other views are divided.
+        const auto column = view_.shape == ViewShape::fan
+                                ? beam
+                                : static_cast<int>(std::max(azimuth, 0.0) / row_height_);
+        const auto row = static_cast<int>(std::max(elevation, 0.0) / row_height_);
+        const Eigen::Vector3f normal = volume_.R_sensor_local() * leaf.normal;
+        votes_.push_back(
+            {static_cast<std::uint64_t>(column) << 32U | static_cast<std::uint64_t>(row), beam,
+             static_cast<float>(range), centre,
+             normal.dot(centre) > 0.0F ? Eigen::Vector3f(-normal) : normal, leaf.triangle});
+    }
+
+    static Sample sample_of(const Vote& vote, const Scene& scene) {
+        Sample sample;
+        sample.position = vote.centre;
+        sample.edge_u = sample.edge_v = Eigen::Vector3f::Zero();
+        sample.normal = vote.normal;
+        sample.height_m = -vote.normal.dot(vote.centre);
+        sample.area_m2 = 1.0F;
+        sample.material = scene.triangle_material[vote.triangle];
+        sample.instance = scene.triangle_instance[vote.triangle];
+        return sample;
+    }
+
+    const View& view_;
+    const ViewVolume& volume_;
+    float leaf_m_;
+    double row_height_;
+    std::vector<Vote> votes_;
+    std::uint64_t dropped_ = 0;
+};
+
+class OctreeEngine final : public VisibilityEngine {
+  public:
+    OctreeEngine(const Scene& scene, const OctreeOptions& options)
+        : scene_(scene),
+          caster_(scene),
+          tree_(scene, caster_, options.leaf_m) {}
+
+    Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
+        const ViewVolume volume(
+            view, {T_world_sensor.rotation, T_world_sensor.translation - scene_.origin});
+        Votes votes(view, volume, tree_.leaf_m());
+        for (const TileInView& tile : tree_.tiles_in_view(volume))
+            votes.add(tile);
+        return votes.samples(scene_);
     }
 
     void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
                    std::span<Intersection> intersections) const override {
-        intersect_rays(parts_->caster, parts_->scene.origin, T_world_sensor, rays, intersections);
-    }
-
-    std::vector<std::string> warnings() const override {
-        const std::scoped_lock alone(parts_->preparing);
-        std::vector<std::string> all = parts_->goal_check.warnings(parts_->options.leaf_m);
-        const double needed_mb =
-            std::ceil(static_cast<double>(parts_->tree.statistics().ping_bytes) /
-                      static_cast<double>(1U << 20U));
-        const std::size_t memory_mb = parts_->options.memory_mb;
-        if (needed_mb <= static_cast<double>(memory_mb)) return all;
-        all.push_back(
-            "octree.memory_mb: " + std::to_string(memory_mb) + " is too little: one ping needs " +
-            number_text(needed_mb) +
-            " MB, so its tiles are dropped before the next ping can use them; set it to " +
-            number_text(needed_mb) + " or more");
-        return all;
-    }
-
-    OctreeStatistics statistics() const override {
-        const std::scoped_lock alone(parts_->preparing);
-        return parts_->tree.statistics();
+        intersect_rays(caster_, scene_.origin, T_world_sensor, rays, intersections);
     }
 
   private:
-    ReadyPing ready(const Sight& sight) const {
-        auto& [scene, options, caster, preparing, tree, goal_check] = *parts_;
-        const Pose T_local_sensor{sight.T_world_sensor.rotation,
-                                  sight.T_world_sensor.translation - scene.origin};
-        const LeafSize leaf_size(sight.view, options.leaf_m);
-        const std::scoped_lock alone(preparing);
-        ReadyPing ping{sight, tree.prepare(sight.view, T_local_sensor, leaf_size), {}, {}};
-        if (options.literal) return ping;
-        ping.error = goal_check.place_for(sight.view, sight.T_world_sensor);
-        if (ping.error) ping.coarse = tree.prepare(sight.view, T_local_sensor, leaf_size.twice());
-        return ping;
-    }
-
-    Samples see(const ReadyPing& ping) const {
-        const Scene& scene = parts_->scene;
-        const Octree& tree = parts_->tree;
-        if (parts_->options.literal) return literal_samples(tree, scene, ping.leaves);
-        Samples samples = leaf_samples(tree, parts_->caster, scene, ping.leaves);
-        if (ping.coarse) {
-            const View& view = ping.sight.view;
-            const Samples coarse = leaf_samples(tree, parts_->caster, scene, *ping.coarse);
-            *ping.error = error_per_change * image_change(mean_echoes(scene, view, coarse),
-                                                          mean_echoes(scene, view, samples));
-        }
-        return samples;
-    }
-
-    std::shared_ptr<OctreeParts> parts_;
-    std::vector<ReadyPing> pings_;
+    const Scene& scene_;
+    Caster caster_;
+    mutable Octree tree_;  ///< grows, which changes no result
 };
 
 }  // namespace
 
-std::unique_ptr<OctreeEngine> make_octree_engine(const Scene& scene, const OctreeOptions& options) {
-    return std::make_unique<OctreeEngineWithPings>(std::make_shared<OctreeParts>(scene, options),
-                                                   std::vector<ReadyPing>{});
+std::unique_ptr<VisibilityEngine> make_octree_engine(const Scene& scene,
+                                                     const OctreeOptions& options) {
+    return std::make_unique<OctreeEngine>(scene, options);
 }
 
 }  // namespace sonarsim

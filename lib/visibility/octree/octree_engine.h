@@ -4,19 +4,19 @@
 
 #include "scene/scene.h"
 #include "visibility/engine.h"
-#include "visibility/octree/options.h"
 
 namespace sonarsim {
 
-/// The octree engine. The tree grows as pings are prepared; the result of a ping does not depend on
-/// earlier pings.
-class OctreeEngine : public VisibilityEngine {
-  public:
-    virtual OctreeStatistics statistics() const = 0;
+struct OctreeOptions {
+    double leaf_m = 0.02;  ///< edge of the leaves
 };
 
-/// Makes the engine; `scene` must outlive it. Throws InputError when `leaf_m` is negative or so
-/// small that the scene is more than 2^30 leaves long.
-std::unique_ptr<OctreeEngine> make_octree_engine(const Scene& scene, const OctreeOptions& options);
+/// Makes the paper's octree as printed, the baseline of comparisons: every leaf in view stands for
+/// its surface with its cube's centre and one vote. In every pixel of azimuth and elevation the
+/// leaves are sorted by range, and the first cluster, which ends at a gap of more than four leaves,
+/// hides the others. The tree grows as pings come; a ping does not depend on earlier ones. `scene`
+/// must outlive the engine. InputError with too_small_leaves().
+std::unique_ptr<VisibilityEngine> make_octree_engine(const Scene& scene,
+                                                     const OctreeOptions& options);
 
 }  // namespace sonarsim

@@ -1,4 +1,4 @@
-#include "visibility/reference_cast.h"
+#include "validation/reference_cast.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

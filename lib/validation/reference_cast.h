@@ -9,7 +9,7 @@
 #include "scene/scene.h"
 #include "visibility/caster.h"
 #include "visibility/local_pose.h"
-#include "visibility/surface_points.h"
+#include "validation/surface_points.h"
 #include "visibility/view.h"
 
 namespace sonarsim {

@@ -1,4 +1,4 @@
-#include "visibility/surface_points.h"
+#include "validation/surface_points.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
