@@ -47,7 +47,7 @@ PARTS = {
             ["run_job", "merge", "verify", "ping_source"],
             ["variants"], ["status", "variants_check"]],
     "scene": [["*"], ["images/", "meshes/"], ["heightmap/", "maps/", "seabed/"], ["gltf/", "placing/"]],
-    "visibility": [["*"], ["octree/", "rays/", "slices/"], ["dense_rays"], ["auto_engine"],
+    "visibility": [["*"], ["octree/", "rays/", "slices/"], ["auto_engine"],
                    ["make_engine"]],
 }
 # These folders work with what was traced, and take its ranges from arrivals.

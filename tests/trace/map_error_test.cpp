@@ -48,41 +48,6 @@ TEST_SUITE("map error") {
         }
     }
 
-    TEST_CASE("an engine's estimate grows with the maps" * doctest::skip(test::sanitized)) {
-        // On cells of 20 cm, strengths in texels of 10 cm make more of the same
-        // misplaced surface. A side-scan keeps the images of its checks.
-        Draws draws(23);
-        Scene scene = rough_floor();
-        const auto engine = make_engine(scene, {.type = EngineKind::slices, .octree = {}});
-        const Sonar sonar = sidescan(ModelKind::paper);
-        const auto traced = [&](double goal, double yaw_deg) {
-            TraceSettings settings = sonar.settings;
-            settings.view.relative_l1 = goal;
-            return trace_ping(settings, scene, *engine, sensor_pose(sonar, above_floor(yaw_deg), 0),
-                              direct_echoes_alone);
-        };
-        double grown = 0.0, plain = 0.0;
-        for (int draw = 0; draw < 4; ++draw) {
-            const auto yaw_deg = static_cast<double>(draws.between(0, 90));
-            scene.maps = nullptr;
-            plain += traced(0.03, yaw_deg).samples.estimated_l1;
-            lay(scene, {}, strengths(square_frame(280, 28.0), [&](int, int) {
-                    return static_cast<float>(
-                        std::pow(10.0, 0.1 * static_cast<double>(draws.between(-6, 6))));
-                }));
-            const TracedPing usual = traced(0.03, yaw_deg);
-            const TracedPing fine = traced(0.001, yaw_deg);
-            const View& view = sonar.settings.view;
-            const double error = image_change(mean_echoes(scene, view, usual.samples),
-                                              mean_echoes(scene, view, fine.samples));
-            CAPTURE(error);
-            CHECK(usual.samples.estimated_l1 > 1.3 * error);
-            CHECK(usual.samples.estimated_l1 < 6.0 * error);
-            grown += usual.samples.estimated_l1;
-        }
-        CHECK(grown > 1.2 * plain);
-    }
-
     TEST_CASE("the estimated error of maps covers that of chequered maps at any heading") {
         // A side-scan meets few borders: an estimate from a part of its samples would miss them.
         Draws draws(22);
