@@ -45,7 +45,7 @@ PARTS = {
     "job": [["*"], ["shard_lock"], ["journal"], ["folder", "ping_files"], ["ping_cost"], ["completion", "render_pings"],
             ["run_job", "ping_source", "finished_variants"], ["variants"], ["merge", "status", "verify"]],
     "scene": [["*"], ["images/", "meshes/"], ["heightmap/", "maps/", "seabed/"], ["gltf/", "placing/"]],
-    "visibility": [["*"], ["octree/", "rays/", "slices/"], ["dense_rays"], ["auto_engine"],
+    "visibility": [["*"], ["octree/", "rays/", "slices/"], ["auto_engine"],
                    ["make_engine"]],
 }
 # These folders work with what was traced, and take its ranges from arrivals.

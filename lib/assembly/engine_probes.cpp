@@ -1,6 +1,5 @@
 #include "assembly/engine_probes.h"
 
-#include "assembly/sample_pings.h"
 #include "core/units.h"
 #include "ping/sonar.h"
 #include "sonar/engine_settings.h"
@@ -9,8 +8,6 @@
 namespace sonarsim {
 
 namespace {
-
-constexpr std::size_t most_probes = 3;  // per sonar
 
 // Slices meet at the sonar's z axis, so all of them hold the surface near it.
 constexpr double widest_slices_rad = 0.5 * pi;
@@ -27,12 +24,12 @@ RaysNeed rays_need(const Sonar& sonar) {
     return {.goal = by_rays ? view.relative_l1 : 0.0};
 }
 
-/// The views that an engine is chosen for.
-std::vector<Sight> chosen_for(const Sonar& sonar, const Pose& T_world_sensor) {
+/// The views that the trace of a sonar's pings has.
+std::vector<Sight> traced_sights(const Sonar& sonar) {
     const View& view = sonar.settings.view;
     const GuardBeams& guards = sonar.settings.guard_beams;
-    if (view.elevation_rad > widest_slices_rad) return sights(view, guards, T_world_sensor);
-    return {{traced_view(view, guards), T_world_sensor}};
+    if (view.elevation_rad > widest_slices_rad) return sights(view, guards, Pose{});
+    return {{traced_view(view, guards), Pose{}}};
 }
 
 }  // namespace
@@ -41,13 +38,8 @@ EngineSettings engine_settings(const Mission& mission, const Assembly& assembly)
     EngineSettings settings = engine_settings(mission);
     if (settings.type != EngineKind::automatic) return settings;
     for (const Sonar& sonar : assembly.sonars) {
-        for (const std::uint32_t pose :
-             sample_pings(assembly.trajectory.size(), sonar.config.every, most_probes)) {
-            const Pose T_world_sensor =
-                sensor_pose(sonar, assembly.trajectory[pose].T_world_vehicle, pose);
-            for (const Sight& sight : chosen_for(sonar, T_world_sensor))
-                settings.probes.push_back({sight.view, sight.T_world_sensor, rays_need(sonar)});
-        }
+        for (const Sight& sight : traced_sights(sonar))
+            settings.probes.push_back({sight.view, sight.T_world_sensor, rays_need(sonar)});
     }
     return settings;
 }

@@ -6,9 +6,8 @@
 
 namespace sonarsim {
 
-/// The settings of a mission's engine. For `engine: auto` they hold the views that the choice is
-/// based on: every sonar at a few poses spread over the whole trajectory, whichever part is
-/// rendered.
+/// The settings of a mission's engine. For `engine: auto` they hold the views of every sonar and
+/// the rays that each needs.
 EngineSettings engine_settings(const Mission& mission, const Assembly& assembly);
 
 /// The engine of a mission, over the trees that its assembly has made. The assembly must outlive

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <span>
-
 #include "core/pose.h"
 #include "visibility/view.h"
 
@@ -20,17 +17,5 @@ struct Probe {
     Pose T_world_sensor;
     RaysNeed rays = {};
 };
-
-/// The finest goal and the most columns of rays that the probes of a view require; a goal of 0 if
-/// no probe requires rays.
-inline RaysNeed required_rays(const View& view, std::span<const Probe> probes) {
-    RaysNeed need;
-    for (const Probe& probe : probes) {
-        if (probe.view != view || probe.rays.goal == 0.0) continue;
-        need.goal = need.goal == 0.0 ? probe.rays.goal : std::min(need.goal, probe.rays.goal);
-        need.columns = std::max(need.columns, probe.rays.columns);
-    }
-    return need;
-}
 
 }  // namespace sonarsim

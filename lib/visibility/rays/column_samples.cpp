@@ -141,24 +141,10 @@ void cut_off(const Context& context, const RayColumn& column, const CastRay& ray
     segment.to = end;
 }
 
-/// Samples of one continuous surface along a column.
-struct Run {
-    std::size_t first_sample;  ///< index into the sets of the beam
-    int rays = 0;              ///< rays that met it before gaps were split
-    bool odd = false;          ///< the ray that met it, or the nearest one, has an odd number
-};
-
-/// Surface that only one of two neighbouring rays met belongs to that ray's set.
-void divide(const Run& run, std::vector<RaySet>& sets) {
-    if (run.rays > 1) return;
-    for (std::size_t k = run.first_sample; k < sets.size(); ++k)
-        if (sets[k] == RaySet::both) sets[k] = run.odd ? RaySet::second : RaySet::first;
-}
-
-/// Adds the samples of one column and the rays that they come from. `narrowed` marks the rays of a
+/// Adds the samples of one column. `narrowed` marks the rays of a
 /// whole column that keep only its middle strip; null for an edge strip.
 void collect(const Context& context, const RayColumn& column, const std::uint8_t* narrowed,
-             std::vector<Sample>& items, std::vector<RaySet>& sets) {
+             std::vector<Sample>& items) {
     const int n = context.sampling.rays;
     const float first = column.along_min + context.sampling.inset * column.step;
     const auto sides_at = [&](float half_width) -> ColumnSides {
@@ -169,31 +155,20 @@ void collect(const Context& context, const RayColumn& column, const std::uint8_t
     const ColumnSides middle = sides_at(column.half_width * (1.0F - 2.0F * edge_strip_share));
     Segment segment{};
     segment.from = border(context, column, CastRay::none, column.first);
-    const std::size_t samples_before = items.size() - sets.size();
-    Run run{.first_sample = sets.size()};
     for (int i = column.first; i != CastRay::none; i = context.columns.rays[i].next) {
         const CastRay& ray = context.columns.rays[i];
         segment.to = border(context, column, i, ray.next);
-        if (!segment.from.continuous) run = {.first_sample = sets.size()};
         if (!ray.missed() && !ray.fine) {
             const int at = static_cast<int>((ray.along - first) / column.step + 0.5F);
             const bool strip = !column.whole || narrowed[std::clamp(at, 0, n - 1)];
             const ColumnSides& sides = column.whole && strip ? middle : full;
-            const RaySet narrow = column.whole ? RaySet::middle_strip : RaySet::edge_strips;
-            const RaySet set = strip ? narrow : RaySet::both;
             segment.may_end_across =
                 strip || !segment.from.continuous || !segment.to.continuous ||
                 segment.to.along - segment.from.along < short_segment * column.step;
-            if (too_long(segment.from.above_m, segment.to.below_m)) {
+            if (too_long(segment.from.above_m, segment.to.below_m))
                 cut_off(context, column, ray, sides, segment, items);
-                sets.resize(items.size() - samples_before, set);
-            }
             items.push_back(piece(context, ray, sides, segment));
-            sets.push_back(set);
-            run.rays += i < context.columns.first_split ? 1 : 0;
-            run.odd = at % 2 != 0;
         }
-        if (!segment.to.continuous || ray.next == CastRay::none) divide(run, sets);
         segment.from = segment.to;
     }
 }
@@ -201,31 +176,26 @@ void collect(const Context& context, const RayColumn& column, const std::uint8_t
 }  // namespace
 
 void add_column_samples(const View& view, const Sampling& sampling, const RayColumns& columns,
-                        BeamRange beams, const Samples& fine, SetComparison& comparison,
-                        Samples& samples) {
+                        BeamRange beams, const Samples& fine, Samples& samples) {
     const Context context{view.shape, sampling, columns};
     samples.dropped += columns.dropped;
     if (samples.items.empty()) samples.items.reserve(columns.rays.size());
-    std::vector<RaySet> sets;  // one for each sample of a beam
     samples.beam_begin.resize(view.beams + 1);
     std::size_t column = 0;
     std::size_t strip = columns.whole_columns;
     for (int j = beams.begin; j < beams.end; ++j) {
         for (; column < columns.whole_columns && columns.columns[column].beam == j; ++column) {
             collect(context, columns.columns[column],
-                    columns.narrowed.data() + column * sampling.rays, samples.items, sets);
+                    columns.narrowed.data() + column * sampling.rays, samples.items);
         }
         for (; strip < columns.columns.size() && columns.columns[strip].beam == j; ++strip) {
-            collect(context, columns.columns[strip], nullptr, samples.items, sets);
+            collect(context, columns.columns[strip], nullptr, samples.items);
         }
         if (!fine.items.empty()) {
             const std::span<const Sample> pieces = fine.beam(j);
             samples.items.insert(samples.items.end(), pieces.begin(), pieces.end());
-            sets.resize(sets.size() + pieces.size(), RaySet::both);
         }
         samples.beam_begin[j + 1] = static_cast<std::uint32_t>(samples.items.size());
-        comparison.add_beam(j, samples.beam(j), sets);
-        sets.clear();
     }
 }
 

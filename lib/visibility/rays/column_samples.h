@@ -2,7 +2,6 @@
 
 #include "visibility/engine.h"
 #include "visibility/rays/ray_columns.h"
-#include "visibility/rays/set_disagreement.h"
 
 namespace sonarsim {
 
@@ -10,10 +9,8 @@ namespace sonarsim {
 /// flat patch of the plane that it met. If the surface is continuous from one ray to the next,
 /// their patches meet where the two planes do, so faceted surface is reproduced exactly; otherwise
 /// they end half way. Appends the samples of `beams` to `samples`, which holds those of the earlier
-/// beams, and adds each of these beams to `comparison`. `fine` are the pieces of fine surface, for
-/// which rays leave out that surface.
+/// beams. `fine` are the pieces of fine surface, which rays leave out.
 void add_column_samples(const View& view, const Sampling& sampling, const RayColumns& columns,
-                        BeamRange beams, const Samples& fine, SetComparison& comparison,
-                        Samples& samples);
+                        BeamRange beams, const Samples& fine, Samples& samples);
 
 }  // namespace sonarsim

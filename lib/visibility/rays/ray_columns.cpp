@@ -93,7 +93,6 @@ class ColumnCaster {
 
     /// Splits the gaps between neighbouring rays until each is certain enough.
     void split_gaps() {
-        out_.first_split = static_cast<int>(out_.rays.size());
         std::vector<Gap> gaps;
         const auto estimate_above = [&](int column, int below) {
             const int above = out_.rays[below].next;

@@ -36,7 +36,6 @@ struct RayColumns {
     /// strip.
     std::vector<std::uint8_t> narrowed;
     std::size_t whole_columns = 0;
-    int first_split = 0;        ///< index of the first ray that splits a gap; none lie before it
     std::uint64_t dropped = 0;  ///< as in Samples
 };
 

@@ -14,21 +14,18 @@
 #include "visibility/rays/column_samples.h"
 #include "visibility/rays/fine_surface.h"
 #include "visibility/rays/ray_columns.h"
-#include "visibility/rays/set_disagreement.h"
-#include "visibility/rays/surface_probes.h"
 
 namespace sonarsim {
 
 namespace {
 
-// The number of rays of a ping per probe of the estimate: the probes take about a hundredth of the
-// time of the ping.
-constexpr std::size_t rays_per_probe = 128;
-constexpr std::size_t fewest_probes = 100;
-
 // The number of rays, before gaps are split, that are cast together if the rays are dense. Over
 // rough ground splitting makes up to ten times as many, 64 bytes each: 40 MB.
 constexpr int most_rays_together = 1 << 16;
+
+// Columns of a side-scan where energies add, per column that resolves surface. Fitted: at a goal of
+// 3 % the median error over sand, gravel and a wreck is 2.4 to 2.8 %.
+constexpr int columns_along_track = 4;
 
 // A bent ray is cast as chords that are off by this share of a bin at most.
 constexpr double sag_by_bin = 0.25;
@@ -42,46 +39,31 @@ struct LazyFineSurface {
 
 class RaysEngine final : public VisibilityEngine {
   public:
-    RaysEngine(const Scene& scene, Caster caster, std::span<const Pose> T_world_body,
-               const RaysExcess& excess,
+    RaysEngine(const Scene& scene, Caster caster, std::span<const Pose> T_world_body, int density,
                std::shared_ptr<LazyFineSurface> fine = std::make_shared<LazyFineSurface>())
         : scene_(&scene),
           caster_(std::move(caster)),
           T_world_body_(T_world_body.begin(), T_world_body.end()),
-          excess_(excess),
+          density_(density),
           fine_(std::move(fine)) {}
 
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
         const Sampling sampling = denser_sampling(view);
         const LocalPose pose = local_pose(T_world_sensor, scene_->origin);
-        SetComparison comparison(view, scene_->materials);
         Samples samples;
         const FineSurface* const fine = fine_surface(view);
         // More columns than the goal asks for resolve no more.
         const RaySpacing spacing = spacing_of(view, sampling_for(view));
         const Samples pieces =
             fine ? fine->seen(caster_, view, T_world_sensor, spacing) : Samples{};
-        std::size_t rays = 0;
         const int together = beams_together(view, sampling);
         for (int begin = 0; begin < view.beams; begin += together) {
             const BeamRange beams{begin, std::min(begin + together, view.beams)};
             const RayColumns columns =
                 cast_ray_columns(caster_, view, pose, sampling, beams,
                                  water(sag_by_bin * view.bin_m()), fine, spacing);
-            add_column_samples(view, sampling, columns, beams, pieces, comparison, samples);
-            rays += columns.rays.size();
+            add_column_samples(view, sampling, columns, beams, pieces, samples);
         }
-        const SetDisagreement& image = comparison.result();
-        // Probes are straight rays.
-        if (scene_->sound_profile) {
-            samples.estimated_l1 = image.error();
-            return samples;
-        }
-        const std::size_t probes = std::max(rays / rays_per_probe, fewest_probes);
-        // Surface that is thinner than a few beams may lie between those that are compared.
-        const SetDisagreement probed = image.signal == 0.0 ? of_all_beams(view, samples) : image;
-        samples.estimated_l1 =
-            image.error() + share_of_dark_bins(*scene_, caster_, view, pose, probed, probes);
         return samples;
     }
 
@@ -103,7 +85,7 @@ class RaysEngine final : public VisibilityEngine {
         for (Pose& pose : T_local_body)
             pose.translation -= scene_->origin;
         return std::make_unique<RaysEngine>(*scene_, caster_.moved(T_local_body), T_world_body,
-                                            excess_, fine_);
+                                            density_, fine_);
     }
 
     std::span<const Pose> body_poses() const override { return T_world_body_; }
@@ -118,17 +100,19 @@ class RaysEngine final : public VisibilityEngine {
     }
 
     Sampling denser_sampling(View view) const {
-        view.relative_l1 /= excess_.density;
+        view.relative_l1 /= density_;
         Sampling sampling = sampling_for(view);
-        sampling.columns *= excess_.density;
-        if (excess_.columns > 1) sampling.columns = excess_.columns * sampling.columns | 1;
+        sampling.columns *= density_;
+        // The beam of a side-scan receives most from its middle, so a column must lie there.
+        if (view.energies_add && view.shape == ViewShape::port_starboard)
+            sampling.columns = columns_along_track * sampling.columns | 1;
         return sampling;
     }
 
     /// The number of beams that are cast together: all, or if the rays are dense, as many as
     /// bounded memory allows.
     int beams_together(const View& view, const Sampling& sampling) const {
-        if (excess_.density == 1) return std::max(view.beams, 1);
+        if (density_ == 1) return std::max(view.beams, 1);
         return std::max(most_rays_together / (sampling.columns * sampling.rays), 1);
     }
 
@@ -139,7 +123,7 @@ class RaysEngine final : public VisibilityEngine {
     const Scene* scene_;
     Caster caster_;
     std::vector<Pose> T_world_body_;
-    RaysExcess excess_;
+    int density_;
     std::shared_ptr<LazyFineSurface> fine_;
 };
 
@@ -150,8 +134,8 @@ std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene) {
 }
 
 std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene, const Caster& caster,
-                                                   const RaysExcess& excess) {
-    return std::make_unique<RaysEngine>(scene, caster, std::span<const Pose>(), excess);
+                                                   int density) {
+    return std::make_unique<RaysEngine>(scene, caster, std::span<const Pose>(), density);
 }
 
 }  // namespace sonarsim

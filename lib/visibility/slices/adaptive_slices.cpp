@@ -13,6 +13,9 @@ namespace {
 // only this gap fills it counts in full, since a sliver makes a bin as bright as a wall does.
 constexpr float mean_of_difference = 0.33F;
 
+// The share of the allowance left by earlier beams that a beam may use.
+constexpr double carry_over_share = 0.25;
+
 // A gap is split slightly off its middle, so that slices do not run along edges that are parallel
 // to the sonar's axes.
 constexpr float split_share = 0.4937F;
@@ -65,7 +68,7 @@ AdaptiveSlices::AdaptiveSlices(const View& view, std::span<const Material> mater
     move_ends(first.slice, first.spans, scan_.frame().beam_u.front(), first.low);
 }
 
-bool AdaptiveSlices::scan_next(const SliceErrorLimit& most) {
+bool AdaptiveSlices::scan_next(double max_share) {
     const SliceFrame& frame = scan_.frame();
     const std::uint32_t gaps = frame.gaps();
     if (next_gap_ == gaps) return false;
@@ -84,7 +87,7 @@ bool AdaptiveSlices::scan_next(const SliceErrorLimit& most) {
         scan_gap(gap);
         split_where_requested(gap);
     }
-    refine(most);
+    refine(max_share);
     collect_done();
     return true;
 }
@@ -136,10 +139,10 @@ const std::vector<Candidate>& AdaptiveSlices::candidates(std::uint32_t gap) {
     return around.all;
 }
 
-void AdaptiveSlices::refine(const SliceErrorLimit& most) {
+void AdaptiveSlices::refine(double max_share) {
     times_ += 1.0;
     const double carry_over =
-        most.carry_over * std::max(most.share * sum_.signal - sum_.difference, 0.0);
+        carry_over_share * std::max(max_share * sum_.signal - sum_.difference, 0.0);
     while (true) {
         SliceError beam;
         std::size_t worst = subgaps_.size();
@@ -152,8 +155,7 @@ void AdaptiveSlices::refine(const SliceErrorLimit& most) {
         }
         // The mean lets a dim beam have a larger relative error than a bright one.
         const double mean = 0.5 * (beam.signal + (sum_.signal + beam.signal) / times_);
-        if (beam.difference <= most.share * mean + carry_over || worst == subgaps_.size()) {
-            last_difference_ = beam.difference;
+        if (beam.difference <= max_share * mean + carry_over || worst == subgaps_.size()) {
             sum_.difference += beam.difference;
             sum_.signal += beam.signal;
             return;

@@ -5,11 +5,8 @@
 
 namespace sonarsim {
 
-BeamCutter::BeamCutter(const SliceFrame& frame, StripQuads& quads, BeamErrors& errors,
-                       Samples& samples)
-    : frame_(frame), quads_(quads), errors_(errors), samples_(samples) {
-    errors_.begin_beam(frame_.first_beam);
-}
+BeamCutter::BeamCutter(const SliceFrame& frame, StripQuads& quads, Samples& samples)
+    : frame_(frame), quads_(quads), samples_(samples) {}
 
 void BeamCutter::add(const SliceResult& result) {
     if (beam_ + 1 == static_cast<int>(frame_.beam_u.size())) return;  // no width is left
@@ -28,7 +25,6 @@ void BeamCutter::end_beam() {
     quads_.end_beam();
     samples_.beam_begin[frame_.first_beam + ++beam_] =
         static_cast<std::uint32_t>(samples_.items.size());
-    if (beam_ + 1 < std::ssize(frame_.beam_u)) errors_.begin_beam(frame_.first_beam + beam_);
 }
 
 }  // namespace sonarsim

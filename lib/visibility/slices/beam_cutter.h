@@ -1,7 +1,6 @@
 #pragma once
 
 #include "visibility/engine.h"
-#include "visibility/slices/beam_errors.h"
 #include "visibility/slices/frame_scan.h"
 #include "visibility/slices/strip_quads.h"
 
@@ -11,7 +10,7 @@ namespace sonarsim {
 class BeamCutter {
   public:
     /// All arguments must outlive it.
-    BeamCutter(const SliceFrame& frame, StripQuads& quads, BeamErrors& errors, Samples& samples);
+    BeamCutter(const SliceFrame& frame, StripQuads& quads, Samples& samples);
 
     /// Adds the samples of a strip. Strips must be added from low u to high, without gaps.
     void add(const SliceResult& result);
@@ -21,7 +20,6 @@ class BeamCutter {
 
     const SliceFrame& frame_;
     StripQuads& quads_;
-    BeamErrors& errors_;
     Samples& samples_;
     MovedEnds at_border_[2];
     int beam_ = 0;  ///< beam of the frame in which the next strip begins

@@ -5,11 +5,9 @@
 #include <bit>
 #include <functional>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "core/groups.h"
-#include "visibility/slices/merge_triangles.h"
 
 namespace sonarsim {
 
@@ -230,11 +228,9 @@ void add_cluster(const Scene& scene, const std::uint32_t* triangles, std::uint32
 
 }  // namespace
 
-ClusterMesh make_clusters(const Scene& whole) {
+ClusterMesh make_clusters(const Scene& scene) {
     ClusterMesh mesh;
-    const std::vector<std::uint32_t> vertex = welded(whole);
-    const std::optional<Scene> merged = with_flat_faces_merged(whole, vertex);
-    const Scene& scene = merged ? *merged : whole;
+    const std::vector<std::uint32_t> vertex = welded(scene);
     const std::vector<std::uint32_t> order = along_morton_curve(scene);
     mesh.corners.reserve(order.size());
     mesh.facets.reserve(order.size());

@@ -27,7 +27,7 @@ struct TriangleCluster {
     std::uint32_t triangles;
 };
 
-/// A scene's triangles, with flat faces merged, sorted along a Morton curve through their centres
+/// A scene's triangles, sorted along a Morton curve through their centres
 /// and divided into clusters. Corner indices count from the cluster's first vertex.
 struct ClusterMesh {
     static constexpr std::uint32_t most_triangles = 64;

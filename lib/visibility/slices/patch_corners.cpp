@@ -9,10 +9,6 @@ namespace {
 // Rounding margin for the area of a quadrilateral that is narrow in the picture.
 constexpr float area_rounding = 1.01F;
 
-// Surface at a smaller cosine to the line of sight is grazing: so dark that it dims a bin of other
-// surface by its area alone. Chosen.
-constexpr float grazing_cosine = 0.1F;
-
 Vectors8 operator+(const Vectors8& a, const Vectors8& b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
@@ -82,17 +78,6 @@ Vectors8 centroids(const PatchCorners& quads, const Vectors8& middle) {
     return where(one + other > 0.0F, per_weight * sum, middle);
 }
 
-struct Extents {
-    Floats8 before, after;
-};
-
-/// As extent_of(); `e2_d2` is the squared edge less the squared depth.
-Extents extents_of(Floats8 e2_d2, Floats8 depth, Floats8 r) {
-    const Floats8 bend = greatest(e2_d2, 0.0F) / (2.0F * r);
-    const Floats8 before_foot = 0.25F * depth * depth / bend;
-    return {where(depth >= 2.0F * bend, depth - bend, before_foot), depth + bend};
-}
-
 /// Fits parallelograms to the ranges of their corners, so that they fill the bins that the surface
 /// fills, and no others. The deeper edge is lengthened or shortened, and the parallelogram is moved
 /// along it, each by at most half of that edge.
@@ -122,10 +107,6 @@ void fit_range(const PatchCorners& quads, Parallelograms& out) {
     out.position = out.position + move * where(by_u, out.edge_u, out.edge_v);
     out.edge_u = where(by_u, stretch, 1.0F) * out.edge_u;
     out.edge_v = where(by_u, 1.0F, stretch) * out.edge_v;
-    const Extents along_u = extents_of(bend_u, depth_u, r);
-    const Extents along_v = extents_of(bend_v, depth_v, r);
-    out.nearest_m = where(fits, nearest, r - along_u.before - along_v.before);
-    out.farthest_m = where(fits, farthest, r + along_u.after + along_v.after);
 }
 
 }  // namespace
@@ -156,26 +137,6 @@ PatchCorners corners_of(const std::array<Quad, lanes>& quads) {
             nearest_m,
             farthest_m,
             height_m};
-}
-
-/// The sag along w is below the limit of QuadSampler::cut_along(): the foot of the perpendicular is
-/// not farther than the nearest point, h <= r, which is at least 0.9 of the nearest corner.
-Mask8 is_small(const PatchCorners& quads, const PatchLimits& limits) {
-    const auto& [a, b, c, d] = quads.corners;
-    const Floats8 nearest = nearest_corner(quads);
-    const Vectors8 length = 0.5F * (c.at + d.at) - 0.5F * (a.at + b.at);
-    return (farthest_corner(quads) <= limits.range_max_m) &
-           (dot(length, length) <= least(7.0F * limits.sag_m * nearest, 0.01F * nearest * nearest));
-}
-
-Floats8 patches_across(const PatchCorners& quads, const PatchLimits& limits) {
-    const auto& [a, b, c, d] = quads.corners;
-    const Floats8 farthest = farthest_corner(quads);
-    const Floats8 length = farthest - nearest_corner(quads);
-    const Mask8 grazing =
-        (quads.height_m < grazing_cosine * farthest) & (length > limits.long_grazing_m);
-    const Floats8 wedge = absolute(absolute(d.range - a.range) - absolute(c.range - b.range));
-    return where(grazing, wedge / limits.grazing_wedge_m);
 }
 
 Parallelograms fit_parallelograms(const PatchCorners& quads, const Eigen::Matrix3f& R_sensor_frame,

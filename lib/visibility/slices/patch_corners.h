@@ -4,7 +4,6 @@
 #include <array>
 
 #include "core/lanes.h"
-#include "visibility/slices/patch_limits.h"
 #include "visibility/slices/quad.h"
 
 namespace sonarsim {
@@ -32,21 +31,11 @@ struct PatchCorners {
 
 PatchCorners corners_of(const std::array<Quad, lanes>& quads);
 
-/// True where a quadrilateral need not be cut along w, by a cheap bound.
-Mask8 is_small(const PatchCorners& quads, const PatchLimits& limits);
-
-/// The number of patches into which long grazing quadrilaterals are divided across, so that both
-/// sides of each patch span similar ranges. Not rounded; 1 or less: not divided. Others need no
-/// division: if r0 to r3 are the ranges of the corners, the ranges of a parallelogram through the
-/// middles of the edges span the greater of |r2 - r0| and |r3 - r1|, no more than the corners do.
-Floats8 patches_across(const PatchCorners& quads, const PatchLimits& limits);
-
 /// Parallelograms that stand for quadrilaterals, in the sensor frame.
 struct Parallelograms {
     Vectors8 position;
-    Vectors8 edge_u, edge_v;        ///< half an edge
-    Floats8 nearest_m, farthest_m;  ///< range
-    Floats8 area_m2;                ///< area of the quadrilateral; may be 0
+    Vectors8 edge_u, edge_v;  ///< half an edge
+    Floats8 area_m2;          ///< area of the quadrilateral; may be 0
 };
 
 /// Parallelograms whose ranges are those of the corners of the quadrilaterals, where neither edge

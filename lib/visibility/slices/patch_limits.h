@@ -29,4 +29,12 @@ struct PatchLimits {
 
 PatchLimits patch_limits(const View& view);
 
+/// The number of slices for an error goal.
+struct SliceDensity {
+    int per_beam;       ///< before gaps are split
+    double difference;  ///< neighbours are split until they differ by at most this share
+};
+
+SliceDensity slice_density(const View& view);
+
 }  // namespace sonarsim

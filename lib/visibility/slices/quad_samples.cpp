@@ -11,6 +11,10 @@ namespace {
 // Largest number of parts across a patch.
 constexpr float most_parts = 8.0F;
 
+// Surface at a smaller cosine to the line of sight is grazing: so dark that it dims a bin of other
+// surface by its area alone. Chosen.
+constexpr float grazing_cosine = 0.1F;
+
 // Towards the line in which all slices meet, a patch is divided into narrower ones down to this
 // share of its width. The rest has a four-hundredth of the area.
 constexpr float least_width_share = 0.05F;
@@ -35,63 +39,29 @@ RangeLine range_line(const Eigen::Vector3f& from, const Eigen::Vector3f& to) {
 
 }  // namespace
 
-QuadSampler::QuadSampler(const FrameScan& scan, std::span<const Material> materials,
-                         const PatchLimits& limits, BeamSums& sums, std::vector<Sample>& out)
+QuadSampler::QuadSampler(const FrameScan& scan, const PatchLimits& limits, std::vector<Sample>& out)
     : scan_(scan),
-      materials_(materials),
-      sums_(sums),
       limits_(limits),
       any_width_(!scan.frame().meridians || limits.widest_ratio == unbounded),
       out_(out),
       R_sensor_frame_(scan.frame().R_frame_sensor.transpose()) {}
 
 void QuadSampler::add(const Quad& quad) {
-    if (any_width_) {
-        add(whole, quad);
+    if (any_width_ && is_small(quad)) {
+        divide_across(quad);
     } else {
         cut_along(quad);
     }
 }
 
-void QuadSampler::flush() {
-    flush(whole);
-    flush_after(whole);
-}
-
-void QuadSampler::add(Stage stage, const Quad& quad) {
-    Waiting& waiting = waiting_[stage];
-    waiting.quads[waiting.count++] = quad;
-    if (waiting.count == lanes) flush(stage);
-}
-
-/// Adds the samples of the quadrilaterals that wait, and divides those that are not nearly
-/// parallelograms. Samples are in the order of the quadrilaterals: each waits until the parts of
-/// those before it are added.
-void QuadSampler::flush(Stage stage) {
-    Waiting& waiting = waiting_[stage];
-    const int count = std::exchange(waiting.count, 0);
-    if (count == 0) return;
-    const PatchCorners corners = corners_of(waiting.quads);
-    const Parallelograms patches = fit_parallelograms(corners, R_sensor_frame_, !any_width_);
-    const unsigned small = is_small(corners, limits_).bits();
-    const Floats8 parts = patches_across(corners, limits_);
-    for (int k = 0; k < count; ++k) {
-        if (stage == whole && (small >> k & 1U) == 0) {
-            cut_along(waiting.quads[k]);
-        } else if (stage != across_done && parts[k] > 1.0F) {
-            if (stage == whole) flush(along_done);
-            divide_across(waiting.quads[k], parts[k]);
-        } else {
-            flush_after(stage);
-            add_sample(waiting.quads[k], patches, k);
-        }
-    }
-    flush_after(stage);
-}
-
-void QuadSampler::flush_after(Stage stage) {
-    for (int later = stage + 1; later < stage_count; ++later)
-        flush(static_cast<Stage>(later));
+/// True if cut_along() would not cut the quadrilateral. The foot of the perpendicular is not
+/// farther than the nearest point, h <= r, which is at least 0.9 of the nearest corner.
+bool QuadSampler::is_small(const Quad& quad) const {
+    const QuadPoints corners = quad.corners(quad.low, quad.high);
+    const float nearest = corners.range.minCoeff();
+    const float length2 = (corners.middle(2, 3) - corners.middle(0, 1)).squaredNorm();
+    return corners.range.maxCoeff() <= limits_.range_max_m &&
+           length2 <= std::min(7.0F * limits_.sag_m * nearest, 0.01F * nearest * nearest);
 }
 
 /// Cuts a quadrilateral along w into parts whose range bends little.
@@ -196,22 +166,42 @@ void QuadSampler::add_part(const Quad& quad, float from, float to) {
     Quad out = quad;
     out.low = part(quad.low);
     out.high = part(quad.high);
-    add(along_done, out);
+    divide_across(out);
 }
 
-/// Divides a quadrilateral across into equal parts, since its ranges are not those of a
-/// parallelogram.
-void QuadSampler::divide_across(const Quad& quad, float parts) {
-    const int count = static_cast<int>(std::min(std::ceil(parts), most_parts));
+/// Divides a quadrilateral of long, grazing surface across into equal parts, since its ranges are
+/// not those of a parallelogram.
+void QuadSampler::divide_across(const Quad& quad) {
+    if (limits_.long_grazing_m == unbounded) return push(quad);
+    const Eigen::Array4f r = quad.corners(quad.low, quad.high).range;
+    const float farthest = r.maxCoeff();
+    const bool is_long = farthest - r.minCoeff() > limits_.long_grazing_m;
+    const float wedge = std::fabs(std::fabs(r[3] - r[0]) - std::fabs(r[2] - r[1]));
+    if (!is_long || !(quad.height_m < grazing_cosine * farthest)) return push(quad);
+    const float parts = std::clamp(std::ceil(wedge / limits_.grazing_wedge_m), 1.0F, most_parts);
     Quad part = quad;
-    for (int i = 1; i <= count; ++i) {
-        const float share = static_cast<float>(i) / static_cast<float>(count);
+    for (int i = 1; i <= static_cast<int>(parts); ++i) {
+        const float share = static_cast<float>(i) / parts;
         const auto between = [&](float x, float y) { return x + share * (y - x); };
         part.high = {between(quad.low.u, quad.high.u), between(quad.low.low, quad.high.low),
                      between(quad.low.high, quad.high.high)};
-        add(across_done, part);
+        push(part);
         part.low = part.high;
     }
+}
+
+void QuadSampler::push(const Quad& quad) {
+    queue_[waiting_++] = quad;
+    if (waiting_ == lanes) flush();
+}
+
+void QuadSampler::flush() {
+    if (waiting_ == 0) return;
+    const Parallelograms patches =
+        fit_parallelograms(corners_of(queue_), R_sensor_frame_, !any_width_);
+    const int count = std::exchange(waiting_, 0);
+    for (int k = 0; k < count; ++k)
+        add_sample(queue_[k], patches, k);
 }
 
 void QuadSampler::add_sample(const Quad& quad, const Parallelograms& patches, int k) {
@@ -219,8 +209,6 @@ void QuadSampler::add_sample(const Quad& quad, const Parallelograms& patches, in
     if (!(area > 0.0F)) return;
     const FrontFacet& seen = scan_.scene().facets[quad.facet_index];
     const SliceFacet& facet = scan_.mesh().facets[seen.facet];
-    sums_.add({patches.nearest_m[k], patches.farthest_m[k]}, area, seen.height_m,
-              materials_[facet.material].reflection);
     Sample& sample = out_.emplace_back();
     sample.position = patches.position.at(k);
     sample.edge_u = patches.edge_u.at(k);

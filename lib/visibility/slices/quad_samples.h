@@ -1,12 +1,9 @@
 #pragma once
 
 #include <array>
-#include <span>
 #include <vector>
 
-#include "scene/scene.h"
 #include "visibility/engine.h"
-#include "visibility/slices/beam_sums.h"
 #include "visibility/slices/frame_scan.h"
 #include "visibility/slices/patch_corners.h"
 #include "visibility/slices/patch_limits.h"
@@ -25,12 +22,11 @@ struct RangeLine {
     float near2, far2;  ///< squared ranges, m^2
 };
 
-/// Converts quadrilaterals of the picture plane to samples, and adds them to `sums`.
+/// Converts quadrilaterals of the picture plane to samples.
 class QuadSampler {
   public:
     /// All arguments must outlive it.
-    QuadSampler(const FrameScan& scan, std::span<const Material> materials,
-                const PatchLimits& limits, BeamSums& sums, std::vector<Sample>& out);
+    QuadSampler(const FrameScan& scan, const PatchLimits& limits, std::vector<Sample>& out);
 
     void add(const Quad& quad);
 
@@ -38,33 +34,23 @@ class QuadSampler {
     void flush();
 
   private:
-    /// The division of quadrilaterals that is already done.
-    enum Stage { whole, along_done, across_done, stage_count };
-
-    struct Waiting {
-        std::array<Quad, lanes> quads{};
-        int count = 0;
-    };
-
-    void add(Stage stage, const Quad& quad);
-    void flush(Stage stage);
-    void flush_after(Stage stage);
+    bool is_small(const Quad& quad) const;
     void cut_along(const Quad& quad);
     void find_cuts(const RangeLine& line);
     void cut_narrow(const Quad& quad, float from, float to);
     void add_part(const Quad& quad, float from, float to);
-    void divide_across(const Quad& quad, float parts);
+    void divide_across(const Quad& quad);
+    void push(const Quad& quad);
     void add_sample(const Quad& quad, const Parallelograms& patches, int k);
 
     const FrameScan& scan_;
-    const std::span<const Material> materials_;
-    BeamSums& sums_;
     const PatchLimits limits_;
     const bool any_width_;
     std::vector<Sample>& out_;
     const Eigen::Matrix3f R_sensor_frame_;
     std::vector<float> cuts_;
-    std::array<Waiting, stage_count> waiting_;
+    std::array<Quad, lanes> queue_{};
+    int waiting_ = 0;
 };
 
 }  // namespace sonarsim

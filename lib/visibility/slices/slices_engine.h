@@ -10,8 +10,6 @@ namespace sonarsim {
 
 struct SlicesOptions {
     int per_beam = 0;  ///< slices per beam; 0: the view's error goal determines them
-    /// Images of few bins are compared with an image by rays to random points.
-    bool image_by_points = true;
 };
 
 /// The slices engine: half-planes through the sensor, exact along each. `scene` must outlive it.
@@ -21,8 +19,5 @@ std::unique_ptr<VisibilityEngine> make_slices_engine(const Scene& scene,
 /// The same with a caster over the scene, whose trees engines may share.
 std::unique_ptr<VisibilityEngine> make_slices_engine(const Scene& scene, const Caster& caster,
                                                      const SlicesOptions& options);
-
-/// An engine of make_slices_engine() without `image_by_points`. It shares what that engine holds.
-std::unique_ptr<VisibilityEngine> without_points(const VisibilityEngine& slices);
 
 }  // namespace sonarsim

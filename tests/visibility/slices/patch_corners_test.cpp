@@ -50,13 +50,6 @@ Surface surface_of(const Quad& quad) {
     return out;
 }
 
-constexpr PatchLimits limits{.sag_m = 0.01F,
-                             .shortest_m = 0.01F,
-                             .most_wedge_m = 0.1F,
-                             .grazing_wedge_m = 0.1F,
-                             .long_grazing_m = 0.1F,
-                             .range_max_m = 100.0F};
-
 }  // namespace
 
 TEST_CASE("slices: eight quadrilaterals together have the corners of each alone") {
@@ -89,8 +82,13 @@ TEST_CASE("slices: a parallelogram has the area and the range of its quadrilater
         for (int lane = 0; lane < lanes; ++lane) {
             const Surface surface = surface_of(quads[lane]);
             CHECK(patches.area_m2[lane] == test::approx(surface.area_m2).epsilon(1e-3));
-            CHECK(patches.nearest_m[lane] == test::approx(surface.nearest_m).epsilon(2e-3));
-            CHECK(patches.farthest_m[lane] == test::approx(surface.farthest_m).epsilon(2e-3));
+            // The range of a parallelogram that bends little, from its edges.
+            const Eigen::Vector3f at = patches.position.at(lane);
+            const float half_m = (std::fabs(at.dot(patches.edge_u.at(lane))) +
+                                  std::fabs(at.dot(patches.edge_v.at(lane)))) /
+                                 at.norm();
+            CHECK(at.norm() - half_m == test::approx(surface.nearest_m).epsilon(5e-3));
+            CHECK(at.norm() + half_m == test::approx(surface.farthest_m).epsilon(5e-3));
         }
     }
 }
@@ -106,18 +104,12 @@ TEST_CASE("slices: a patch does not depend on those beside it") {
     std::ranges::reverse(quads);
     const PatchCorners after = corners_of(quads);
     const Parallelograms reversed = fit_parallelograms(after, Eigen::Matrix3f::Identity(), true);
-    const unsigned small = is_small(before, limits).bits();
-    const unsigned small_reversed = is_small(after, limits).bits();
     for (const int lane : {0, 1, 3, 4, 6, 7}) {
         const int other = lanes - 1 - lane;
         CHECK(patches.position.at(lane) == reversed.position.at(other));
         CHECK(patches.edge_u.at(lane) == reversed.edge_u.at(other));
         CHECK(patches.edge_v.at(lane) == reversed.edge_v.at(other));
-        CHECK(patches.nearest_m[lane] == reversed.nearest_m[other]);
-        CHECK(patches.farthest_m[lane] == reversed.farthest_m[other]);
         CHECK(patches.area_m2[lane] == reversed.area_m2[other]);
-        CHECK((small >> lane & 1U) == (small_reversed >> other & 1U));
-        CHECK(patches_across(before, limits)[lane] == patches_across(after, limits)[other]);
     }
 }
 

@@ -46,10 +46,9 @@ Quad grazing_quad(float w) {
 
 /// Passes quadrilaterals on together, or each by itself.
 std::vector<Sample> samples_of(const std::vector<Quad>& quads, const FrameScan& scan,
-                               const Scene& scene, const View& view, bool together) {
-    BeamSums sums(view);
+                               const View& view, bool together) {
     std::vector<Sample> out;
-    QuadSampler sampler(scan, scene.materials, patch_limits(view), sums, out);
+    QuadSampler sampler(scan, patch_limits(view), out);
     for (const Quad& quad : quads) {
         sampler.add(quad);
         if (!together) sampler.flush();
@@ -78,8 +77,8 @@ TEST_CASE("slices: samples of many quadrilaterals are those of each, in their or
                 if (k % 3 == 0) quad = grazing_quad(0.001F * static_cast<float>(k));
                 quads.push_back(quad);
             }
-            const std::vector<Sample> alone = samples_of(quads, scan, scene, view, false);
-            const std::vector<Sample> together = samples_of(quads, scan, scene, view, true);
+            const std::vector<Sample> alone = samples_of(quads, scan, view, false);
+            const std::vector<Sample> together = samples_of(quads, scan, view, true);
             REQUIRE(alone.size() == together.size());
             CHECK(alone.size() >= quads.size());
             for (std::size_t k = 0; k < alone.size(); ++k) {
