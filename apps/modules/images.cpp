@@ -1,6 +1,10 @@
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <cstring>
+#include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -8,6 +12,7 @@
 
 #include "guarded.h"
 #include "scene/images/module.h"
+#include "tiff_header.h"
 
 // PNG, TIFF and OpenEXR through OpenImageIO. Pixels keep their values in the file: by default
 // OpenImageIO would scale whole numbers to 0 to 1 and multiply colours by the alpha channel.
@@ -25,7 +30,8 @@ std::unique_ptr<ImageInput> open_image(const char* format, const char* file, Ima
     if (!input) throw std::runtime_error(OIIO::geterror());
     ImageSpec wishes;
     wishes.attribute("oiio:UnassociatedAlpha", 1);
-    if (!input->open(file, spec, wishes)) throw std::runtime_error(input->geterror());
+    if (!input->open(file, spec, wishes))
+        throw std::runtime_error(input->geterror() + " (OpenImageIO)");
     return input;
 }
 
@@ -41,41 +47,46 @@ void require_one_type(const ImageSpec& spec) {
     }
 }
 
-template <class T>
-void read_rows(ImageInput& input, const ImageSpec& spec, TypeDesc type, SonarsimImageRows rows,
-               void* user) {
-    const auto row =
-        static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.nchannels);
-    std::vector<T> pixels(row * static_cast<std::size_t>(spec.height));
-    if (!input.read_image(0, 0, 0, spec.nchannels, type, pixels.data()))
-        throw std::runtime_error(input.geterror());
-    std::vector<float> values(row);
-    for (std::size_t begin = 0; begin < pixels.size(); begin += row) {
-        for (std::size_t i = 0; i < row; ++i)
-            values[i] = static_cast<float>(pixels[begin + i]);
-        rows(user, values.data(), row);
-    }
+/// OpenImageIO scales the numbers of a grey PNG of few bits to 8 bits.
+void require_whole_bytes(const char* file) {
+    // 16 bytes of signature and of the head's length and name, 8 of width and height, then the bits
+    // of a number and the kind of colours.
+    std::array<char, 26> start{};
+    std::ifstream(file, std::ios::binary).read(start.data(), start.size());
+    constexpr char grey = 0;
+    if (start[25] != grey || start[24] >= 8) return;
+    throw std::runtime_error("its numbers have " + std::to_string(start[24]) +
+                             " bits; save it with 8 or 16 bits");
 }
 
-void read_pixels(ImageInput& input, const ImageSpec& spec, SonarsimImageRows rows, void* user) {
+template <class T>
+void read_values(ImageInput& input, const ImageSpec& spec, TypeDesc type, float* values) {
+    std::vector<T> pixels(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
+    if (!input.read_image(0, 0, 0, spec.nchannels, type, pixels.data()))
+        throw std::runtime_error(input.geterror() + " (OpenImageIO)");
+    std::transform(pixels.begin(), pixels.end(), values,
+                   [](T pixel) { return static_cast<float>(pixel); });
+}
+
+void read_pixels(ImageInput& input, const ImageSpec& spec, float* values) {
     switch (spec.format.basetype) {
         case TypeDesc::UINT8:
-            return read_rows<std::uint8_t>(input, spec, TypeDesc::UINT8, rows, user);
+            return read_values<std::uint8_t>(input, spec, TypeDesc::UINT8, values);
         case TypeDesc::INT8:
-            return read_rows<std::int8_t>(input, spec, TypeDesc::INT8, rows, user);
+            return read_values<std::int8_t>(input, spec, TypeDesc::INT8, values);
         case TypeDesc::UINT16:
-            return read_rows<std::uint16_t>(input, spec, TypeDesc::UINT16, rows, user);
+            return read_values<std::uint16_t>(input, spec, TypeDesc::UINT16, values);
         case TypeDesc::INT16:
-            return read_rows<std::int16_t>(input, spec, TypeDesc::INT16, rows, user);
+            return read_values<std::int16_t>(input, spec, TypeDesc::INT16, values);
         case TypeDesc::UINT32:
-            return read_rows<std::uint32_t>(input, spec, TypeDesc::UINT32, rows, user);
+            return read_values<std::uint32_t>(input, spec, TypeDesc::UINT32, values);
         case TypeDesc::INT32:
-            return read_rows<std::int32_t>(input, spec, TypeDesc::INT32, rows, user);
+            return read_values<std::int32_t>(input, spec, TypeDesc::INT32, values);
         case TypeDesc::HALF:
         case TypeDesc::FLOAT:
-            return read_rows<float>(input, spec, TypeDesc::FLOAT, rows, user);
+            return read_values<float>(input, spec, TypeDesc::FLOAT, values);
         case TypeDesc::DOUBLE:
-            return read_rows<double>(input, spec, TypeDesc::DOUBLE, rows, user);
+            return read_values<double>(input, spec, TypeDesc::DOUBLE, values);
         default:
             throw std::runtime_error(std::string("samples of the type ") + spec.format.c_str() +
                                      " are not read; make numbers of 32 bits of them with "
@@ -90,20 +101,27 @@ bool is_whole(const ImageSpec& spec) {
 
 }  // namespace
 
-extern "C" [[gnu::visibility("default")]] int sonarsim_read_image_1(
-    const char* format, const char* file, SonarsimImageStart start, SonarsimImageRows rows,
-    void* user, char* error, std::size_t error_size) {
+extern "C" [[gnu::visibility("default")]] int sonarsim_read_image_2(const char* format,
+                                                                    const char* file,
+                                                                    SonarsimImageStart start,
+                                                                    void* user, char* error,
+                                                                    std::size_t error_size) {
     return guarded(error, error_size, [&] {
+        SonarsimImageHead head{};
+        if (std::strcmp(format, "png") == 0) require_whole_bytes(file);
+        if (std::strcmp(format, "tiff") == 0) read_tiff_header(file, head);
         ImageSpec spec;
         const std::unique_ptr<ImageInput> input = open_image(format, file, spec);
-        const auto bits = static_cast<unsigned>(8 * spec.format.size());
         if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.depth > 1 || spec.deep)
-            throw std::runtime_error("it is no flat image with pixels");
-        const SonarsimImageHead head{
-            static_cast<std::uint64_t>(spec.width), static_cast<std::uint64_t>(spec.height),
-            static_cast<std::uint32_t>(spec.nchannels), bits, is_whole(spec) ? 0U : 1U};
-        if (start(user, &head) != 0) return;
+            throw std::runtime_error("it is not a flat image with pixels");
+        head.width = static_cast<std::uint64_t>(spec.width);
+        head.height = static_cast<std::uint64_t>(spec.height);
+        head.channels = static_cast<std::uint32_t>(spec.nchannels);
+        head.bits = static_cast<std::uint32_t>(8 * spec.format.size());
+        head.is_float = is_whole(spec) ? 0U : 1U;
+        float* const values = start(user, &head);
+        if (values == nullptr) return;
         require_one_type(spec);
-        read_pixels(*input, spec, rows, user);
+        read_pixels(*input, spec, values);
     });
 }

@@ -7,13 +7,13 @@
 #include <assimp/IOStream.hpp>
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
-#include <cstdio>
 #include <cstring>
-#include <new>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "guarded.h"
 #include "scene/meshes/module.h"
 
 // OBJ, STL and PLY through libassimp. Only triangulation is asked for: whatever else assimp offers
@@ -130,24 +130,36 @@ void add_parts(const aiScene& scene, const aiNode& node, std::string_view format
         add_parts(scene, *node.mChildren[i], format, add, user);
 }
 
+/// Tells assimp the truth about its meshes: its PLY reader calls a face without corners a polygon,
+/// and its triangulation then ends the program by an assertion.
+void correct_types(const aiScene& scene) {
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+        aiMesh& mesh = *scene.mMeshes[m];
+        mesh.mPrimitiveTypes = 0;
+        for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
+            const unsigned corners = mesh.mFaces[i].mNumIndices;
+            mesh.mPrimitiveTypes |= corners > 3    ? aiPrimitiveType_POLYGON
+                                    : corners == 3 ? aiPrimitiveType_TRIANGLE
+                                                   : aiPrimitiveType_LINE;
+        }
+    }
+}
+
 }  // namespace
 
 extern "C" [[gnu::visibility("default")]] int sonarsim_read_mesh_1(
     const char* format, const char* bytes, std::size_t size, SonarsimAddPart add, void* user,
     char* error, std::size_t error_size) {
-    try {
+    return guarded(error, error_size, [&] {
         Assimp::Importer importer;
         keep_only(importer, format);
         const std::string name = std::string("mesh.") + format;
         importer.SetIOHandler(new OneFile(name, {bytes, size}));  // the importer owns it
-        const aiScene* scene = importer.ReadFile(name, aiProcess_Triangulate);
-        if (scene != nullptr && scene->mRootNode != nullptr) {
-            add_parts(*scene, *scene->mRootNode, format, add, user);
-            return 0;
-        }
-        std::snprintf(error, error_size, "%s", importer.GetErrorString());
-    } catch (const std::bad_alloc&) {
-        std::snprintf(error, error_size, "it needs more memory than there is");
-    }
-    return 1;
+        const aiScene* scene = importer.ReadFile(name, 0);
+        if (scene != nullptr) correct_types(*scene);
+        if (scene != nullptr) scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
+        if (scene == nullptr || scene->mRootNode == nullptr)
+            throw std::runtime_error(importer.GetErrorString());
+        add_parts(*scene, *scene->mRootNode, format, add, user);
+    });
 }

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/named_at.h"
 #include "core/text.h"
+#include "scene/images/read_image.h"
 #include "scene/maps/ground_maps.h"
 #include "scene/maps/read_maps.h"
 #include "scene/objects.h"
@@ -107,7 +108,7 @@ auto read_map(const LaidMapConfig& map, const Read& read) {
 }  // namespace
 
 void lay_ground_maps(const SceneConfig& config, const MaterialTable& table, const Water& water,
-                     ImageReader& images, Scene& scene) {
+                     Scene& scene) {
     if (!config.sediment_map && !config.backscatter_map) return;
     std::optional<MaterialTexels> materials;
     std::optional<StrengthTexels> strengths;
@@ -120,7 +121,7 @@ void lay_ground_maps(const SceneConfig& config, const MaterialTable& table, cons
             add_materials(config.sediment_map->materials, table, laid.place.location, scene);
         resolve_materials(scene, table, water);
         materials = read_map(laid, [&] {
-            return read_material_map(rule_of(laid, section, scene), images.read(laid.file),
+            return read_material_map(rule_of(laid, section, scene), read_image(laid.file),
                                      of_scene);
         });
         warn_of_place(materials->frame, section, scene);
@@ -130,7 +131,7 @@ void lay_ground_maps(const SceneConfig& config, const MaterialTable& table, cons
         const BackscatterMapConfig& map = *config.backscatter_map;
         on_strengths = instances_of(map.laid, section, config, scene);
         strengths = read_map(map.laid, [&] {
-            return read_strength_map(rule_of(map.laid, section, scene), images.read(map.laid.file),
+            return read_strength_map(rule_of(map.laid, section, scene), read_image(map.laid.file),
                                      map.scale_db, map.offset_db);
         });
         warn_of_place(strengths->frame, section, scene);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "mission/scene_config.h"
-#include "scene/images/read_image.h"
 #include "scene/materials.h"
 #include "scene/scene.h"
 
@@ -11,6 +10,6 @@ namespace sonarsim {
 /// maps. Warns of a map that lies outside the scene. InputError for a map that cannot be read, a
 /// material that the table lacks, and instances that do not exist.
 void lay_ground_maps(const SceneConfig& config, const MaterialTable& table, const Water& water,
-                     ImageReader& images, Scene& scene);
+                     Scene& scene);
 
 }  // namespace sonarsim

@@ -192,7 +192,7 @@ class Meshes(Composed):
         shape = triangles_of(box_mesh())
         whole = ply(*shape, "binary_little_endian")
         for name, content, *fragments in (
-                ("a.obj", "", "is no valid OBJ"),
+                ("a.obj", "", "is not a valid OBJ"),
                 ("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 9\n", "vertex index out of range"),
                 ("a.obj", "v nan 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", "there is no surface in"),
                 ("a.stl", binary_stl(*shape)[:-10], "12 triangles", "copy or export it again"),

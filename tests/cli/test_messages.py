@@ -71,7 +71,7 @@ REFUSED = {
     "the home folder": (edited("bottom.gltf", "~/bottom.gltf"), ("'~' is not replaced",)),
     "a folder as a scene": (edited("bottom.gltf", "."), ("is a folder; a file is expected here",)),
     "a CSV as a scene": (edited("bottom.gltf", "path.csv"),
-                         ("path.csv: is no glTF", "mission.yaml:3:3 names it")),
+                         ("path.csv: is not glTF", "mission.yaml:3:3 names it")),
     "a GeoTIFF as a scene": (edited("bottom.gltf", "bathy.tif") | {"bathy.tif": TIFF},
                              ("is a TIFF picture, such as a GeoTIFF, no glTF; an image of heights belongs into "
                               "scene.heightmap", "mission.yaml:3:3")),

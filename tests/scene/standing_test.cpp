@@ -61,14 +61,14 @@ Surface drum() {
 
 TEST_SUITE("scene") {
     TEST_CASE("standing: on a broad base, not on an edge or a point") {
-        CHECK(stands(tyre(), 2));
-        CHECK_FALSE(stands(tyre(), 0));
-        CHECK_FALSE(stands(tyre(), 1));
-        CHECK(stands(drum(), 2));
-        CHECK_FALSE(stands(drum(), 1));
+        CHECK(rests_upright(tyre(), 2));
+        CHECK_FALSE(rests_upright(tyre(), 0));
+        CHECK_FALSE(rests_upright(tyre(), 1));
+        CHECK(rests_upright(drum(), 2));
+        CHECK_FALSE(rests_upright(drum(), 1));
         for (int axis = 0; axis < 3; ++axis)
-            CHECK_FALSE(stands(ball(), axis));
-        CHECK_FALSE(stands(Surface{}, 2));
+            CHECK_FALSE(rests_upright(ball(), axis));
+        CHECK_FALSE(rests_upright(Surface{}, 2));
     }
 
     TEST_CASE("standing: asks for up only where the format does not say it") {

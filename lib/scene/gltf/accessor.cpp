@@ -22,21 +22,16 @@ T load(const unsigned char* bytes) {
 }
 
 template <class T>
-double component(const unsigned char* element, int i, bool is_normalized) {
-    const auto value = static_cast<double>(load<T>(element + i * sizeof(T)));
+double number(const unsigned char* bytes, bool is_normalized) {
+    const auto value = static_cast<double>(load<T>(bytes));
     if (!is_normalized) return value;
     return std::max(value / static_cast<double>(std::numeric_limits<T>::max()), -1.0);
 }
 
 template <class T>
-Eigen::Vector3d three(const unsigned char* element, bool is_normalized) {
-    return {component<T>(element, 0, is_normalized), component<T>(element, 1, is_normalized),
-            component<T>(element, 2, is_normalized)};
-}
-
-template <class T>
-Eigen::Vector2d two(const unsigned char* element, bool is_normalized) {
-    return {component<T>(element, 0, is_normalized), component<T>(element, 1, is_normalized)};
+Eigen::Vector3d three(const unsigned char* bytes, bool is_normalized) {
+    return {number<T>(bytes, is_normalized), number<T>(bytes + sizeof(T), is_normalized),
+            number<T>(bytes + 2 * sizeof(T), is_normalized)};
 }
 
 std::uint32_t unsigned_value(const unsigned char* bytes, int component_type) {
@@ -92,9 +87,9 @@ Elements locate(const tinygltf::Model& model, int view_index, std::size_t offset
         throw InputError(where + ": byteStride " + std::to_string(stride) +
                          " is less than the size of an element, " + std::to_string(element_bytes));
     }
-    // The sum cannot overflow: json_rules.h limits offsets to 2^53 and strides to 2^31, and
-    // `max_count` limits the count.
-    if (offset + stride * (count - 1) + element_bytes > view.byteLength) {
+    // `max_count` limits the count, and strides are at most 252, so that this does not overflow.
+    const std::size_t needed = stride * (count - 1) + element_bytes;
+    if (needed > view.byteLength || offset > view.byteLength - needed) {
         throw InputError(where + ": claims " + std::to_string(count) + " elements; " + name +
                          " is too short for them (" + std::to_string(view.byteLength) + " bytes)");
     }
@@ -137,15 +132,12 @@ void open_sparse(const tinygltf::Model& model, const tinygltf::Accessor& from, A
     }
 }
 
-std::string name_of_type(std::size_t components) {
-    return components == 1 ? "SCALAR" : "VEC" + std::to_string(components);
-}
-
 Accessor open(const tinygltf::Model& model, int index, int type, std::size_t components,
               const std::string& where) {
     const tinygltf::Accessor& from = model.accessors[static_cast<std::size_t>(index)];
     if (from.type != type) {
-        throw InputError(where + ": expected an accessor of type " + name_of_type(components));
+        throw InputError(where + ": expected an accessor of type " +
+                         (components == 1 ? "SCALAR" : "VEC3"));
     }
     if (from.count == 0 || from.count > max_count) {
         throw InputError(where + ": count " + std::to_string(from.count) +
@@ -209,19 +201,6 @@ Accessor open_indices(const tinygltf::Model& model, int index, const std::string
     return open(model, index, TINYGLTF_TYPE_SCALAR, 1, where);
 }
 
-Accessor open_texcoords(const tinygltf::Model& model, int index, const std::string& where) {
-    check_exists(model, index, where);
-    const tinygltf::Accessor& from = model.accessors[static_cast<std::size_t>(index)];
-    const bool is_whole = from.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
-                          from.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
-    if (from.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !(is_whole && from.normalized)) {
-        throw InputError(where +
-                         ": texture coordinates must be float, or normalized unsigned integers of "
-                         "8 or 16 bits");
-    }
-    return open(model, index, TINYGLTF_TYPE_VEC2, 2, where);
-}
-
 Eigen::Vector3d position(const Accessor& accessor, std::size_t i) {
     const unsigned char* bytes = element(accessor, i);
     if (!bytes) return Eigen::Vector3d::Zero();
@@ -237,19 +216,6 @@ Eigen::Vector3d position(const Accessor& accessor, std::size_t i) {
             return three<std::uint16_t>(bytes, is_normalized);
         default:
             return three<float>(bytes, false);
-    }
-}
-
-Eigen::Vector2d texcoord(const Accessor& accessor, std::size_t i) {
-    const unsigned char* bytes = element(accessor, i);
-    if (!bytes) return Eigen::Vector2d::Zero();
-    switch (accessor.component_type) {
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return two<std::uint8_t>(bytes, true);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            return two<std::uint16_t>(bytes, true);
-        default:
-            return two<float>(bytes, false);
     }
 }
 

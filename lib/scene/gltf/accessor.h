@@ -27,12 +27,9 @@ struct Accessor {
 /// starting with `where` if its type is wrong or it claims more than its buffer holds.
 Accessor open_positions(const tinygltf::Model& model, int index, const std::string& where);
 Accessor open_indices(const tinygltf::Model& model, int index, const std::string& where);
-/// The same for texture coordinates (VEC2).
-Accessor open_texcoords(const tinygltf::Model& model, int index, const std::string& where);
 
 /// Element `i` < count. Normalised integers become numbers in [-1, 1].
 Eigen::Vector3d position(const Accessor& accessor, std::size_t i);
-Eigen::Vector2d texcoord(const Accessor& accessor, std::size_t i);
 std::uint32_t vertex_index(const Accessor& accessor, std::size_t i);
 
 }  // namespace sonarsim

@@ -5,6 +5,8 @@
 #include <cctype>
 #include <cstdint>
 #include <cstring>
+#include <exception>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,15 +14,19 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/json_depth.h"
 #include "core/known_format.h"
 #include "core/text.h"
-#include "scene/gltf/reduced_json.h"
+#include "scene/gltf/extras.h"
 
 namespace sonarsim {
 
 namespace {
 
+using nlohmann::json;
+
 constexpr std::size_t max_bytes = std::size_t{1} << 31;
+constexpr std::uint32_t json_type = 0x4E4F534A;
 
 std::uint32_t little_endian(std::string_view bytes, std::size_t at) {
     std::uint32_t value = 0;
@@ -46,10 +52,73 @@ std::string_view take_chunk(std::string_view& bytes, std::uint32_t type, const L
     return chunk;
 }
 
-/// The JSON of a .glb. Checks that its chunks lie within it, which tinygltf 2.7 does not do for the
-/// last 8 bytes.
-std::string_view json_chunk(std::string_view bytes, const Location& where) {
-    constexpr std::uint32_t json_type = 0x4E4F534A;
+void append_little_endian(std::string& bytes, std::size_t number) {
+    const auto value = static_cast<std::uint32_t>(number);
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
+}
+
+std::string glb_of(std::string json, std::string_view binary) {
+    constexpr std::size_t heads = 20;  // the file's and the first chunk's
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    std::string bytes = "glTF";
+    append_little_endian(bytes, 2);
+    append_little_endian(bytes, heads + json.size() + binary.size());
+    append_little_endian(bytes, json.size());
+    append_little_endian(bytes, json_type);
+    return bytes.append(json).append(binary);
+}
+
+std::string version_of(const json& document) {
+    const auto asset = document.find("asset");
+    if (asset == document.end()) return "";
+    const auto version = asset->find("version");
+    return version != asset->end() && version->is_string() ? version->get<std::string>() : "";
+}
+
+/// The JSON without the parts that are not read: tinygltf would load textures, and it recurses as
+/// deep as the JSON does.
+std::string surfaces_of(std::string_view text, const Location& where) {
+    constexpr std::size_t max_json_bytes = std::size_t{1} << 28;
+    constexpr int max_depth = 64;
+    if (text.size() > max_json_bytes) {
+        throw InputError(where,
+                         "holds more than 256 MiB of JSON; put the vertices into a .glb or a .bin "
+                         "file");
+    }
+    if (is_nested_deeper(text, max_depth))
+        throw InputError(where, "the JSON is nested more than 64 deep");
+    json document;
+    try {
+        document = json::parse(text);
+    } catch (const json::exception& error) {
+        // "[json.exception.parse_error.101] parse error at line 1, column 2: ..."
+        const std::string fault = error.what();
+        throw InputError(where, fault.substr(fault.find("] ") + 2));
+    }
+    const std::string version = version_of(document);
+    if (version.empty())
+        throw InputError(where, "asset.version is missing; expected glTF version 2.0");
+    if (!version.starts_with("2.")) {
+        throw InputError(where,
+                         "is glTF version " + printable(version.substr(0, 20)) + "; expected 2.0");
+    }
+    for (const char* unread : {"images", "textures", "samplers", "skins", "animations", "cameras",
+                               "extensions", "extras"})
+        document.erase(unread);
+    for (json& buffer : document["buffers"]) {
+        if (!buffer.is_object() || !buffer.contains("uri") || !buffer["uri"].is_string()) continue;
+        auto& uri = buffer["uri"].get_ref<std::string&>();
+        if (uri.starts_with("data:")) continue;
+        // tinygltf decodes a plus sign as a blank.
+        for (std::size_t at = 0; (at = uri.find('+', at)) != std::string::npos;)
+            uri.replace(at, 1, "%2B");
+    }
+    return document.dump();
+}
+
+/// A .glb without the parts of its JSON that are not read. Checks that its chunks lie within it,
+/// which tinygltf 2.7 does not do for the last 8 bytes.
+std::string reduced_glb(std::string_view bytes, const Location& where) {
     constexpr std::uint32_t binary_type = 0x004E4942;
     constexpr std::size_t head = 12;
     if (bytes.size() < head) throw InputError(where, "the .glb ends within its header");
@@ -63,25 +132,10 @@ std::string_view json_chunk(std::string_view bytes, const Location& where) {
                                     " bytes; the file has " + std::to_string(bytes.size()));
     }
     bytes = bytes.substr(head, length - head);
-    const std::string_view json = take_chunk(bytes, json_type, where);
+    const std::string_view text = take_chunk(bytes, json_type, where);
+    const std::string_view rest = bytes;
     if (!bytes.empty()) take_chunk(bytes, binary_type, where);
-    return json;
-}
-
-void put_little_endian(std::string& bytes, std::size_t at, std::size_t number) {
-    const auto value = static_cast<std::uint32_t>(number);
-    std::memcpy(bytes.data() + at, &value, sizeof(value));
-}
-
-/// Reduces the JSON of a .glb to the part that is read.
-void reduce_json_chunk(std::string& bytes, const Location& where) {
-    constexpr std::size_t json_at = 20;  // behind the header of the file and that of the chunk
-    const std::string_view json = json_chunk(bytes, where);
-    std::string reduced = reduced_gltf_json(json, where.file);
-    reduced.resize((reduced.size() + 3) / 4 * 4, ' ');
-    put_little_endian(bytes, 8, little_endian(bytes, 8) - json.size() + reduced.size());
-    put_little_endian(bytes, 12, reduced.size());
-    bytes.replace(json_at, json.size(), reduced);
+    return glb_of(surfaces_of(text, where), rest.substr(0, rest.size() - bytes.size()));
 }
 
 bool contains(std::span<const std::string_view> list, std::string_view word) {
@@ -98,7 +152,7 @@ void check_format(const std::filesystem::path& path, std::string_view bytes) {
     std::filesystem::path converted = path;
     converted.replace_extension(".glb");
     throw InputError(Location{path.string()},
-                     "is no glTF, OBJ, STL or PLY, the formats that are read; convert it: assimp "
+                     "is not glTF, OBJ, STL or PLY, the formats that are read; convert it: assimp "
                      "export " +
                          path.filename().string() + " " + converted.filename().string());
 }
@@ -109,7 +163,7 @@ void check_json(std::string_view bytes, const Location& where) {
     if (text.starts_with('{') || text.starts_with('[')) return;
     const std::string format(known_format(bytes));
     const bool is_picture = format.find("picture") != std::string::npos;
-    throw InputError(where, "is " + (format.empty() ? "" : format + ", ") + "no glTF; " +
+    throw InputError(where, "is " + (format.empty() ? "" : format + ", ") + "not glTF; " +
                                 (is_picture ? "an image of heights belongs into scene.heightmap"
                                             : "a .gltf is JSON, which begins with '{'"));
 }
@@ -199,12 +253,8 @@ tinygltf::Model read_gltf(const std::filesystem::path& path) {
     std::string bytes = read_file(path, max_bytes);
     check_format(path, bytes);
     const bool is_binary = bytes.starts_with("glTF");
-    if (is_binary) {
-        reduce_json_chunk(bytes, where);
-    } else {
-        check_json(bytes, where);
-        bytes = reduced_gltf_json(bytes, where.file);
-    }
+    if (!is_binary) check_json(bytes, where);
+    bytes = is_binary ? reduced_glb(bytes, where) : surfaces_of(bytes, where);
 
     tinygltf::TinyGLTF reader;
     BufferFiles files{path};
@@ -212,22 +262,24 @@ tinygltf::Model read_gltf(const std::filesystem::path& path) {
     tinygltf::Model model;
     std::string error;
     std::string warning;
-    const auto size = static_cast<unsigned int>(bytes.size());
-    const bool is_read =
-        is_binary
-            ? reader.LoadBinaryFromMemory(&model, &error, &warning,
-                                          reinterpret_cast<unsigned char*>(bytes.data()), size)
-            : reader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size, "");
+    bool is_read = false;
+    try {
+        const auto size = static_cast<unsigned int>(bytes.size());
+        is_read =
+            is_binary
+                ? reader.LoadBinaryFromMemory(&model, &error, &warning,
+                                              reinterpret_cast<unsigned char*>(bytes.data()), size)
+                : reader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size, "");
+    } catch (const InputError&) {
+        throw;
+    } catch (const std::exception& fault) {  // a byteLength of 0, or of more than there is
+        error = fault.what();
+    }
     check_extensions(model, where);
     // tinygltf continues after some errors, and quotes whole data URIs in its messages.
     if (!is_read || !error.empty())
-        throw InputError(where, "is no valid glTF: " + error.substr(0, 300));
-    for (std::size_t i = 1; i < model.buffers.size(); ++i) {
-        if (!model.buffers[i].uri.empty()) continue;
-        throw InputError(where, "buffers[" + std::to_string(i) +
-                                    "]: has no uri, and only the first buffer of a .glb with a BIN "
-                                    "chunk may lack it");
-    }
+        throw InputError(where, "is not a valid glTF: " + error.substr(0, 300));
+    check_extras(model, where);
     return model;
 }
 

@@ -7,10 +7,9 @@
 
 namespace sonarsim {
 
-/// Reads the surfaces of a .gltf or .glb file into tinygltf's structs: nodes, meshes with their
-/// POSITION, materials with name and extras, accessors and their bytes; nothing else. Types are
-/// checked, indices and offsets are not. Reads at most 2 GiB, external buffers included. InputError
-/// for a faulty file.
+/// Reads a .gltf or .glb file into tinygltf's structs, without its textures, animations, skins and
+/// cameras. Sizes, indices and offsets are not checked, and a value of a wrong type is a default.
+/// Reads at most 2 GiB, external buffers included. InputError for a faulty file.
 tinygltf::Model read_gltf(const std::filesystem::path& path);
 
 /// True if a URI of a glTF file names a file in its folder or below.

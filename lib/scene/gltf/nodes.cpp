@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "scene/gltf/extras.h"
 #include "scene/objects.h"
 
 namespace sonarsim {
@@ -94,6 +95,16 @@ std::vector<int> scene_roots(const Graph& graph, const std::vector<int>& parent)
 
 Eigen::Affine3d local_transform(const Graph& graph, int index) {
     const tinygltf::Node& node = graph.node(index);
+    const auto require_size = [&](const char* key, const std::vector<double>& numbers,
+                                  std::size_t size) {
+        if (numbers.empty() || numbers.size() == size) return;
+        graph.fail(index, "has a " + std::string(key) + " of " + std::to_string(numbers.size()) +
+                              " numbers; expected " + std::to_string(size));
+    };
+    require_size("matrix", node.matrix, 16);
+    require_size("translation", node.translation, 3);
+    require_size("rotation", node.rotation, 4);
+    require_size("scale", node.scale, 3);
     Eigen::Affine3d transform = Eigen::Affine3d::Identity();
     if (!node.matrix.empty()) {
         transform.matrix() = Eigen::Map<const Eigen::Matrix4d>(node.matrix.data());
@@ -174,23 +185,7 @@ Eigen::Affine3d file_from_gltf(const PlacedFile& placed) {
     return T_file_gltf;
 }
 
-/// The text of extras.sonar.`key`, or "".
-std::string sonar_extra(const tinygltf::Value& extras, const char* key) {
-    if (!extras.IsObject() || !extras.Has("sonar")) return "";
-    const tinygltf::Value& sonar = extras.Get("sonar");
-    if (!sonar.IsObject() || !sonar.Has(key)) return "";
-    return sonar.Get(key).Get<std::string>();
-}
-
 }  // namespace
-
-std::string sonar_material(const tinygltf::Value& extras) {
-    return sonar_extra(extras, "material");
-}
-
-std::string sonar_class(const tinygltf::Value& extras) {
-    return sonar_extra(extras, "class");
-}
 
 std::string UniqueNames::unique(const std::string& name) {
     std::string candidate = name;

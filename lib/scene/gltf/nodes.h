@@ -38,10 +38,4 @@ struct UniqueNames {
 std::vector<PlacedMesh> place_meshes(const tinygltf::Model& model, const PlacedFile& placed,
                                      UniqueNames& names);
 
-/// extras.sonar.material, or "".
-std::string sonar_material(const tinygltf::Value& extras);
-
-/// extras.sonar.class, or "".
-std::string sonar_class(const tinygltf::Value& extras);
-
 }  // namespace sonarsim

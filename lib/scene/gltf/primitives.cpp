@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "scene/gltf/extras.h"
 #include "scene/meshes/read_mesh.h"
 
 namespace sonarsim {

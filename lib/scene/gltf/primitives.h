@@ -28,7 +28,6 @@ struct PlacedPrimitive {
     std::uint32_t instance;
     const TriangleSource& source;
     int material;       ///< index into the glTF's materials; -1: none
-    int texcoord;       ///< index of the accessor of TEXCOORD_0; -1: none
     std::string where;  ///< location for error messages
 };
 
@@ -64,10 +63,8 @@ std::uint64_t for_each_primitive(const OpenFile& file, ReadingLimit& limit, cons
                 ++skipped;
                 continue;
             }
-            const auto uv = mesh.primitives[k].attributes.find("TEXCOORD_0");
-            const int texcoord = uv == mesh.primitives[k].attributes.end() ? -1 : uv->second;
             visit(PlacedPrimitive{file, file.meshes[i], file.instance_of_mesh[i], *source,
-                                  mesh.primitives[k].material, texcoord, where});
+                                  mesh.primitives[k].material, where});
         }
     }
     return skipped;

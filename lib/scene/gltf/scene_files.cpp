@@ -14,9 +14,9 @@ namespace sonarsim {
 
 namespace {
 
-tinygltf::Model read_model(const PlacedFile& placed, ImageReader& images) {
+tinygltf::Model read_model(const PlacedFile& placed) {
     if (placed.seabed) return bed_model(*placed.seabed);
-    if (placed.heightmap) return height_model(placed.file, *placed.heightmap, images);
+    if (placed.heightmap) return height_model(placed.file, *placed.heightmap);
     return is_mesh_file(placed.file) ? read_mesh(placed.file) : read_gltf(placed.file);
 }
 
@@ -44,8 +44,7 @@ const tinygltf::Model& SceneFiles::model(const PlacedFile& placed) {
     });
     if (known != models_->entries.end()) return known->model;
     try {
-        Models::Entry entry{placed.file, placed.heightmap, placed.seabed,
-                            read_model(placed, images_)};
+        Models::Entry entry{placed.file, placed.heightmap, placed.seabed, read_model(placed)};
         // Keep only one ground: grounds are large, and each variant of a mission may have its own.
         if (entry.is_ground()) {
             std::erase_if(models_->entries,

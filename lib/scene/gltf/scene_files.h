@@ -2,7 +2,6 @@
 
 #include <memory>
 
-#include "scene/images/read_image.h"
 #include "scene/placed_file.h"
 
 namespace tinygltf {
@@ -24,13 +23,9 @@ class SceneFiles {
     /// seabed only until another one, or another part of it, is read.
     const tinygltf::Model& model(const PlacedFile& placed);
 
-    /// Reads the images of the scene.
-    ImageReader& images() { return images_; }
-
   private:
     struct Models;
     std::unique_ptr<Models> models_;
-    ImageReader images_;
 };
 
 }  // namespace sonarsim

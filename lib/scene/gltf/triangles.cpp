@@ -7,11 +7,11 @@ namespace sonarsim {
 std::optional<TriangleSource> open_triangles(const tinygltf::Model& model,
                                              const tinygltf::Primitive& primitive,
                                              const std::string& where) {
-    if (primitive.mode < TINYGLTF_MODE_TRIANGLES) return std::nullopt;
-    if (primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
+    if (primitive.mode < 0 || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
         throw InputError(where + ": mode " + std::to_string(primitive.mode) +
                          " is not one of glTF's, 0 to 6");
     }
+    if (primitive.mode < TINYGLTF_MODE_TRIANGLES) return std::nullopt;
     const auto attribute = primitive.attributes.find("POSITION");
     if (attribute == primitive.attributes.end()) throw InputError(where + ": has no POSITION");
 
@@ -25,7 +25,7 @@ std::optional<TriangleSource> open_triangles(const tinygltf::Model& model,
     const bool is_list = primitive.mode == TINYGLTF_MODE_TRIANGLES;
     if (is_list ? corners % 3 != 0 : corners < 3) {
         throw InputError(where + ": " + std::to_string(corners) +
-                         " corners make no whole number of triangles");
+                         " corners do not make whole triangles");
     }
     source.count = is_list ? corners / 3 : corners - 2;
     return source;

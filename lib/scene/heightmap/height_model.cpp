@@ -1,17 +1,28 @@
 #include "scene/heightmap/height_model.h"
 
-#include <algorithm>
+#include <spdlog/fmt/fmt.h>
+
+#include <array>
+#include <cmath>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "core/error.h"
-#include "scene/heightmap/height_field.h"
+#include "core/text.h"
+#include "scene/images/image_place.h"
+#include "scene/images/read_image.h"
+#include "scene/images/unknown_pixels.h"
 #include "scene/model_data.h"
 
 namespace sonarsim {
 
 namespace {
+
+/// The most heights of a map: with two triangles each, a scene then takes about 12 GB.
+constexpr std::size_t most_heights = std::size_t{1} << 25;
 
 /// The two triangles of every four neighbours whose heights are known. Counter-clockwise as seen
 /// from above where rows run to the south and columns to the east.
@@ -43,26 +54,81 @@ std::vector<std::uint32_t> corners_of_cells(std::size_t width, const std::vector
     return corners;
 }
 
-/// The heights that become vertices.
+void require_heights(const Image& image, const Location& where) {
+    if (image.channels != 1) {
+        throw InputError(where, "has " + std::to_string(image.channels) +
+                                    " channels, and a heightmap has one: take one out, as with "
+                                    "gdal_translate -b 1");
+    }
+    if (image.width < 2 || image.height < 2) {
+        throw InputError(where, "has " + std::to_string(image.width) + " x " +
+                                    std::to_string(image.height) +
+                                    " pixels, and a surface needs 2 x 2");
+    }
+}
+
+/// InputError for a value that is not a height. `no_data`: the mark of unknown heights, if one is
+/// known.
+void require_height(float value, const std::optional<double>& no_data, int row, int column,
+                    const Location& where) {
+    constexpr std::array<float, 5> usual_marks{-9999.0F, -99999.0F, -32767.0F, -32768.0F,
+                                               -2147483648.0F};
+    bool is_odd = !(std::fabs(value) <= huge_pixel);
+    for (const float mark : usual_marks)
+        is_odd = is_odd || (!no_data && value == mark);
+    if (!is_odd) return;
+    const std::string text = number_text(static_cast<double>(value));
+    throw InputError(where,
+                     fmt::format("row {}, column {}: {} looks like the mark of an unknown height; "
+                                 "write scene.heightmap.no_data: {}, or another number that does "
+                                 "not occur if it is a height",
+                                 row, column, text, std::isfinite(value) ? text : "3.4e38"));
+}
+
+PixelWindow window_of(const Image& image, const PixelGrid& grid, const HeightmapRule& rule,
+                      const Location& where) {
+    PixelWindow window{0, image.height, 0, image.width};
+    if (rule.window) {
+        const auto& w = *rule.window;
+        window =
+            pixels_within(image, grid, {Eigen::Vector2d(w[0], w[1]), Eigen::Vector2d(w[2], w[3])});
+    }
+    if (window.width() * window.height() <= most_heights) return window;
+    throw InputError(where, fmt::format("the mission needs {} x {} heights of it, and at most 2^25 "
+                                        "have room; make it coarser with gdal_translate -outsize "
+                                        "50% 50%, or cut a part out with gdal_translate -projwin",
+                                        window.width(), window.height()));
+}
+
+/// The heights of a map, or of the part that a mission needs.
 struct HeightVertices {
+    PixelGrid grid;
     std::vector<float> positions;  ///< column, row and value of each
     std::vector<bool> known;       ///< false for those without a height
     std::size_t width = 0;         ///< vertices of a row
 };
 
-HeightVertices vertices_of(const HeightField& field) {
-    const PixelWindow& window = field.window;
+HeightVertices read_heights(const std::filesystem::path& path, const HeightmapRule& rule,
+                            const Location& where) {
+    const Image image = read_image(path);
+    require_heights(image, where);
     HeightVertices out;
+    out.grid = grid_in_metres(image, rule.pixel_m, rule.size_m, "scene.heightmap", where);
+    std::optional<double> no_data = rule.no_data ? rule.no_data : image.no_data;
+    if (no_data && std::isnan(*no_data)) no_data.reset();  // NaN is not a height anyway
+    const PixelWindow window = window_of(image, out.grid, rule, where);
+    const UnknownPixels unknown(no_data);
     out.width = window.width();
-    out.positions.reserve(3 * field.heights.size());
-    out.known.reserve(field.heights.size());
+    out.positions.reserve(3 * window.width() * window.height());
+    out.known.reserve(window.width() * window.height());
     for (int row = window.first_row; row < window.last_row; ++row) {
         for (int column = window.first_column; column < window.last_column; ++column) {
-            const std::size_t k = field.index(row, column);
-            out.known.push_back(field.known[k]);
-            out.positions.push_back(static_cast<float>(column));
-            out.positions.push_back(static_cast<float>(row));
-            out.positions.push_back(field.heights[k]);
+            const float value = *image.pixel(row, column);
+            const bool is_known = !unknown.has(value);
+            if (is_known) require_height(value, no_data, row, column, where);
+            out.known.push_back(is_known);
+            for (const float x : {static_cast<float>(column), static_cast<float>(row), value})
+                out.positions.push_back(x);
         }
     }
     return out;
@@ -89,16 +155,14 @@ void add_height_node(tinygltf::Model& model, const PixelGrid& grid, int position
 
 }  // namespace
 
-tinygltf::Model height_model(const std::filesystem::path& path, const HeightmapRule& rule,
-                             ImageReader& images) {
-    const HeightField field = read_heights(path, rule, images);
-    const PixelGrid& grid = field.grid;
-    const HeightVertices vertices = vertices_of(field);
+tinygltf::Model height_model(const std::filesystem::path& path, const HeightmapRule& rule) {
+    const Location where{path.string()};
+    const HeightVertices vertices = read_heights(path, rule, where);
+    const PixelGrid& grid = vertices.grid;
     const std::vector<std::uint32_t> corners =
         corners_of_cells(vertices.width, vertices.known, grid.column_m * grid.row_m > 0.0);
     if (corners.empty())
-        throw InputError(Location{path.string()},
-                         "has no three neighbours with known heights; check no_data");
+        throw InputError(where, "has no three neighbours with known heights; check no_data");
     tinygltf::Model model;
     const int positions = add_accessor(model, vertices.positions, vertices.known.size(),
                                        TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);

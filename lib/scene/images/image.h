@@ -1,14 +1,22 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
-
-#include "scene/images/georeference.h"
 
 namespace sonarsim {
 
 /// The most values, pixels times channels, of an image: 8,192 x 8,192 heights.
 inline constexpr std::size_t most_image_values = std::size_t{1} << 26;
+
+/// The pixels of an image in the coordinates of its map: the centre of the pixel in row r
+/// and column c lies at (x_m + c * column_m, y_m + r * row_m).
+struct PixelGrid {
+    double x_m = 0.0;  ///< x of the centre of the first pixel of the first row
+    double y_m = 0.0;
+    double column_m = 1.0;  ///< from one column to the next; towards the east
+    double row_m = -1.0;    ///< from one row to the next; negative: the first row is the north
+};
 
 /// An image as it is in its file. Whole numbers have their value, not a share of the largest;
 /// numbers beyond 2^24 and those of double precision are rounded to floats.
@@ -20,7 +28,9 @@ struct Image {
     bool is_float = false;  ///< false: the file holds whole numbers
     /// Rows from the top, in them pixels from the left, in them channels.
     std::vector<float> values;
-    Georeference reference;
+    std::optional<PixelGrid> grid;  ///< the place on its map, as the file has it
+    bool in_degrees = false;        ///< `grid` has longitudes and latitudes, not metres
+    std::optional<double> no_data;  ///< the value of unknown pixels
 
     const float* pixel(int row, int column) const {
         const auto index = static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +

@@ -27,18 +27,18 @@ PixelGrid grid_in_metres(const Image& image, double pixel_m, const std::array<do
     if (size_m[0] > 0.0) pixel = {size_m[0] / image.width, size_m[1] / image.height};
     if (pixel[0] > 0.0)
         return {0.5 * pixel[0], (image.height - 0.5) * pixel[1], pixel[0], -pixel[1]};
-    if (!image.reference.grid) {
+    if (!image.grid) {
         throw InputError(where,
                          "does not say how large its pixels are: it has no GeoTIFF tags, "
                          "and no world file lies next to it; write " +
                              section + ".pixel_m or size_m");
     }
-    if (image.reference.in_degrees) {
+    if (image.in_degrees) {
         throw InputError(where,
                          "has its pixels in degrees; make a map in metres of it, as with "
                          "gdalwarp -t_srs EPSG:32632");
     }
-    return *image.reference.grid;
+    return *image.grid;
 }
 
 PixelWindow pixels_within(const Image& image, const PixelGrid& grid,

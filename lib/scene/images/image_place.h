@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "scene/images/read_image.h"
+#include "scene/images/image.h"
 
 namespace sonarsim {
 

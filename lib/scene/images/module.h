@@ -4,7 +4,7 @@
 #include <cstdint>
 
 // The interface between the program and its module of images (apps/modules/images.cpp), which alone
-// is linked with OpenImageIO. C, so that a symbol's name is all that dlsym needs.
+// is linked with OpenImageIO and libtiff. C, so that a symbol's name is all that dlsym needs.
 
 extern "C" {
 
@@ -14,24 +14,29 @@ struct SonarsimImageHead {
     std::uint32_t channels;
     std::uint32_t bits;      ///< bits of one value in the file
     std::uint32_t is_float;  ///< 1: the file holds floating-point numbers, 0: whole numbers
+    /// 1: `grid` has the place of the pixels by the tags of a GeoTIFF: x and y of the centre of the
+    /// first pixel, and the steps from one column and from one row to the next.
+    std::uint32_t has_grid;
+    std::uint32_t in_degrees;
+    double grid[4];
+    char no_data[64];  ///< GDAL's text for the value of unknown pixels; "": none
 };
 
-/// Called before the pixels are read; another result than 0 ends the reading with success.
-using SonarsimImageStart = int (*)(void* user, const SonarsimImageHead* head);
-/// Called with `count` values of one row or more: rows from the top, in them pixels from the left,
-/// in them channels. Whole numbers have their value, not a share of the largest.
-using SonarsimImageRows = void (*)(void* user, const float* values, std::size_t count);
+/// Called before the pixels are read. Returns room for width x height x channels values, or null,
+/// which ends the reading with success.
+using SonarsimImageStart = float* (*)(void* user, const SonarsimImageHead* head);
 
-/// Reads the first image of a file of `format` "png", "tiff" or "openexr" and opens no other file.
-/// Returns 0, or 1 with the reason in `error`, which ends with a zero.
+/// Reads the first image of a file of `format` "png", "tiff" or "openexr" and opens no other file:
+/// rows from the top, in them pixels from the left, in them channels. Whole numbers have their
+/// value, not a share of the largest. Returns 0, or 1 with the reason in `error`, which ends with a
+/// zero.
 using SonarsimReadImage = int (*)(const char* format, const char* file, SonarsimImageStart start,
-                                  SonarsimImageRows rows, void* user, char* error,
-                                  std::size_t error_size);
+                                  void* user, char* error, std::size_t error_size);
 }
 
 namespace sonarsim {
 
 /// The number rises with every change above, so that a module of another version is not used.
-inline constexpr const char* image_module_symbol = "sonarsim_read_image_1";
+inline constexpr const char* image_module_symbol = "sonarsim_read_image_2";
 
 }  // namespace sonarsim

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "core/error.h"
 #include "core/file.h"
 #include "core/text.h"
 
@@ -37,12 +38,6 @@ std::filesystem::path find_world_file(const std::filesystem::path& image) {
 
 }  // namespace
 
-void refuse_turned_grid(const Location& where) {
-    throw InputError(where,
-                     "its rows and columns do not run along east and north; make a map of "
-                     "it whose first row is the north, as with gdalwarp");
-}
-
 std::optional<PixelGrid> read_world_file(const std::filesystem::path& image) {
     const std::filesystem::path file = find_world_file(image);
     if (file.empty()) return std::nullopt;
@@ -57,13 +52,17 @@ std::optional<PixelGrid> read_world_file(const std::filesystem::path& image) {
         const auto value = parse_number(word);
         if (!value) {
             throw InputError(where,
-                             "is no world file, which has six numbers: the width of a "
+                             "is not a world file, which has six numbers: the width of a "
                              "pixel, 0, 0, its negative height, and x and y of the centre "
                              "of the first pixel");
         }
         number = *value;
     }
-    if (numbers[1] != 0.0 || numbers[2] != 0.0) refuse_turned_grid(where);
+    if (numbers[1] != 0.0 || numbers[2] != 0.0) {
+        throw InputError(where,
+                         "its rows and columns do not run along east and north; make a map of it "
+                         "whose first row is the north, as with gdalwarp");
+    }
     return PixelGrid{numbers[4], numbers[5], numbers[0], numbers[3]};
 }
 

@@ -3,15 +3,12 @@
 #include <filesystem>
 #include <optional>
 
-#include "core/error.h"
-#include "scene/images/pixel_grid.h"
+#include "scene/images/image.h"
 
 namespace sonarsim {
 
 /// Reads the world file next to an image, map.tfw, map.tifw or map.wld for map.tif; nullopt if
 /// there is none. InputError if it has not six numbers, or for a grid that is turned.
 std::optional<PixelGrid> read_world_file(const std::filesystem::path& image);
-
-[[noreturn]] void refuse_turned_grid(const Location& where);
 
 }  // namespace sonarsim

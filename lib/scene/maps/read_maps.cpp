@@ -11,7 +11,6 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "scene/images/image_place.h"
-#include "scene/images/read_image.h"
 #include "scene/images/unknown_pixels.h"
 
 namespace sonarsim {
@@ -28,7 +27,7 @@ struct LaidImage {
 
     LaidImage(const LaidMapRule& rule, Image of_file)
         : image(std::move(of_file)),
-          unknown(rule.no_data ? rule.no_data : image.reference.no_data),
+          unknown(rule.no_data ? rule.no_data : image.no_data),
           where{rule.file.string()} {
         const Eigen::Vector2d origin(rule.origin_m[0], rule.origin_m[1]);
         const PixelGrid grid =

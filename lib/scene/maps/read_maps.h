@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/images/read_image.h"
+#include "scene/images/image.h"
 #include "scene/maps/ground_maps.h"
 
 namespace sonarsim {

@@ -4,20 +4,21 @@
 #include <array>
 #include <cctype>
 #include <cstdint>
-#include <cstring>
 #include <fstream>
 #include <map>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
+#include <vector>
 
-#include "core/child_process.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/module.h"
 #include "core/text.h"
 #include "scene/meshes/module.h"
 #include "scene/meshes/whole_file.h"
+#include "scene/model_data.h"
 
 namespace sonarsim {
 
@@ -33,107 +34,34 @@ std::string format_of(const std::filesystem::path& path) {
     return extension.empty() ? "" : extension.substr(1);
 }
 
-/// The child outputs this head for every part, then the part's names, positions and corners. The
-/// last head has `is_end`. If the file is faulty, the `node` of the last head is the reason.
-struct PartHead {
-    std::uint64_t is_end = 0;
-    std::uint64_t node_bytes = 0;
-    std::uint64_t material_bytes = 0;
-    std::uint64_t vertices = 0;
-    std::uint64_t triangles = 0;
-    std::uint64_t others = 0;
-};
-
-constexpr std::size_t vertex_bytes = 3 * sizeof(float);
-constexpr std::size_t triangle_bytes = 3 * sizeof(std::uint32_t);
-
-void hand_over(void* output, const SonarsimMeshPart* part) {
-    const ChildOutput& write = *static_cast<const ChildOutput*>(output);
-    const PartHead head{0,
-                        std::strlen(part->node),
-                        std::strlen(part->material),
-                        part->vertices,
-                        part->triangles,
-                        part->others};
-    write(&head, sizeof(head));
-    write(part->node, head.node_bytes);
-    write(part->material, head.material_bytes);
-    write(part->positions, head.vertices * vertex_bytes);
-    write(part->corners, head.triangles * triangle_bytes);
-}
-
-/// libassimp's reader. InputError without it.
-SonarsimReadMesh reader_for(const Location& where) {
-    try {
-        return reinterpret_cast<SonarsimReadMesh>(
-            module_symbol(mesh_module, mesh_module_symbol, "libassimp-dev"));
-    } catch (const InputError& error) {
-        throw InputError(where, std::string("cannot be read: ") + error.what());
-    }
-}
-
-/// All parts of the file, as the child hands them over.
-std::string parts_of(const std::string& format, std::string_view bytes, const Location& where) {
-    const SonarsimReadMesh read = reader_for(where);
-    // Many times the time that an intact file needs on a slow machine.
-    const unsigned long cpu_s = 30 + static_cast<unsigned long>(bytes.size() / 100'000);
-    const ChildLimits limits{(std::size_t{1} << 29) + 64 * bytes.size(), cpu_s,
-                             5.0 * static_cast<double>(cpu_s)};
-    const auto work = [&](const ChildOutput& output) {
-        std::array<char, 400> error{};
-        ChildOutput write = output;
-        const bool failed = read(format.c_str(), bytes.data(), bytes.size(), &hand_over, &write,
-                                 error.data(), error.size()) != 0;
-        const PartHead end{1, failed ? std::strlen(error.data()) : 0, 0, 0, 0, 0};
-        output(&end, sizeof(end));
-        output(error.data(), end.node_bytes);
-    };
-    try {
-        return bytes_of_child(work, limits);
-    } catch (const InputError& error) {
-        throw InputError(where, std::string("is damaged or too large: libassimp ") + error.what() +
-                                    " as it read the file; export it again");
-    }
-}
-
-/// Makes a model of what the child handed over.
+/// Makes a model of the parts of a file.
 class ModelBuilder {
   public:
-    explicit ModelBuilder(const std::filesystem::path& path) : path_(path) {
-        model_.buffers.emplace_back();
-    }
+    explicit ModelBuilder(const std::filesystem::path& path)
+        : title_(printable(path.stem().string())) {}
 
-    void add(const PartHead& head, std::string_view& bytes) {
+    void add(const SonarsimMeshPart& part) {
         // Files may have names in any encoding; those of a dataset are UTF-8.
-        std::string name = printable(take(bytes, head.node_bytes));
-        if (name.empty()) name = printable(path_.stem().string());
-        const std::string material = printable(take(bytes, head.material_bytes));
-        auto& primitives = mesh_of(name).primitives;
-        const int positions = add_accessor(take(bytes, head.vertices * vertex_bytes), head.vertices,
-                                           TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
-        if (head.triangles > 0) {
+        const std::string name = printable(part.node);
+        auto& primitives = mesh_of(name.empty() ? title_ : name).primitives;
+        const std::vector<float> positions(part.positions, part.positions + 3 * part.vertices);
+        const int vertices = add_accessor(model_, positions, part.vertices,
+                                          TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
+        if (part.triangles > 0) {
+            const std::vector<std::uint32_t> corners(part.corners,
+                                                     part.corners + 3 * part.triangles);
             tinygltf::Primitive& primitive = primitives.emplace_back();
             primitive.mode = TINYGLTF_MODE_TRIANGLES;
-            primitive.attributes["POSITION"] = positions;
+            primitive.attributes["POSITION"] = vertices;
             primitive.indices =
-                add_accessor(take(bytes, head.triangles * triangle_bytes), 3 * head.triangles,
-                             TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR);
-            primitive.material = material.empty() ? -1 : number_of(material);
+                add_accessor(model_, corners, corners.size(), TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
+                             TINYGLTF_TYPE_SCALAR);
+            primitive.material = number_of(printable(part.material));
         }
-        if (head.others > 0) primitives.emplace_back().mode = TINYGLTF_MODE_POINTS;
+        if (part.others > 0) primitives.emplace_back().mode = TINYGLTF_MODE_POINTS;
     }
 
     tinygltf::Model finish() { return std::move(model_); }
-
-    std::string_view take(std::string_view& bytes, std::size_t count) const {
-        if (count > bytes.size()) {
-            throw InputError(Location{path_.string()},
-                             "is damaged: libassimp could not make sense of it; export it again");
-        }
-        const std::string_view taken = bytes.substr(0, count);
-        bytes.remove_prefix(count);
-        return taken;
-    }
 
   private:
     /// The mesh of the node of this name. A name may occur again after others: the faces of a group
@@ -149,22 +77,9 @@ class ModelBuilder {
         return model_.meshes[found->second];
     }
 
-    int add_accessor(std::string_view bytes, std::size_t count, int component, int type) {
-        auto& data = model_.buffers.front().data;
-        tinygltf::BufferView& view = model_.bufferViews.emplace_back();
-        view.buffer = 0;
-        view.byteOffset = data.size();
-        view.byteLength = bytes.size();
-        data.insert(data.end(), bytes.begin(), bytes.end());
-        tinygltf::Accessor& accessor = model_.accessors.emplace_back();
-        accessor.bufferView = static_cast<int>(model_.bufferViews.size()) - 1;
-        accessor.componentType = component;
-        accessor.count = count;
-        accessor.type = type;
-        return static_cast<int>(model_.accessors.size()) - 1;
-    }
-
+    /// The index of a material; -1 for one without a name.
     int number_of(const std::string& material) {
+        if (material.empty()) return -1;
         auto& known = model_.materials;
         const auto found = std::ranges::find(known, material, &tinygltf::Material::name);
         if (found == known.end()) {
@@ -174,28 +89,22 @@ class ModelBuilder {
         return static_cast<int>(found - known.begin());
     }
 
-    const std::filesystem::path& path_;
+    std::string title_;  ///< the name of nodes without one
     tinygltf::Model model_;
     std::map<std::string, std::size_t> mesh_of_name_;
 };
 
-tinygltf::Model model_of(std::string_view bytes, const std::filesystem::path& path,
-                         const std::string& title) {
-    ModelBuilder builder(path);
-    for (bool is_empty = true;; is_empty = false) {
-        PartHead head;
-        std::memcpy(&head, builder.take(bytes, sizeof(head)).data(), sizeof(head));
-        if (head.is_end == 0) {
-            builder.add(head, bytes);
-            continue;
-        }
-        if (head.node_bytes > 0) {
-            throw InputError(Location{path.string()},
-                             "is no valid " + title + "; export it again (libassimp says: " +
-                                 printable(builder.take(bytes, head.node_bytes)) + ")");
-        }
-        if (!is_empty) return builder.finish();
-        throw InputError(Location{path.string()}, "has no faces; is it an " + title + "?");
+void add_part(void* builder, const SonarsimMeshPart* part) {
+    static_cast<ModelBuilder*>(builder)->add(*part);
+}
+
+/// libassimp's reader. InputError without it.
+SonarsimReadMesh reader_for(const Location& where) {
+    try {
+        return reinterpret_cast<SonarsimReadMesh>(
+            module_symbol(mesh_module, mesh_module_symbol, "libassimp-dev"));
+    } catch (const InputError& error) {
+        throw InputError(where, std::string("cannot be read: ") + error.what());
     }
 }
 
@@ -230,7 +139,17 @@ tinygltf::Model read_mesh(const std::filesystem::path& path) {
     std::string title = format;
     for (char& c : title)
         c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    return model_of(parts_of(format, whole, Location{file}), path, title);
+    const Location where{file};
+    ModelBuilder builder(path);
+    std::array<char, 400> error{};
+    if (reader_for(where)(format.c_str(), whole.data(), whole.size(), &add_part, &builder,
+                          error.data(), error.size()) != 0) {
+        throw InputError(where, "is not a valid " + title + "; export it again (libassimp says: " +
+                                    printable(error.data()) + ")");
+    }
+    tinygltf::Model model = builder.finish();
+    if (model.meshes.empty()) throw InputError(where, "has no faces; is it an " + title + "?");
+    return model;
 }
 
 }  // namespace sonarsim

@@ -1,11 +1,9 @@
 #include "scene/meshes/whole_file.h"
 
-#include <array>
-#include <bit>
-#include <cctype>
-#include <cmath>
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -36,15 +34,14 @@ std::string_view take_line(std::string_view& text) {
     return trim(line);
 }
 
-enum class PlyForm { ascii, little_endian, big_endian };
-
+/// A type of numbers in a PLY.
 struct PlyType {
     std::size_t bytes = 0;
     bool is_signed = false;
 };
 
 struct PlyProperty {
-    std::optional<PlyType> count;  ///< none: the property is no list
+    std::optional<PlyType> count;  ///< none: the property is not a list
     PlyType value;
 };
 
@@ -55,66 +52,44 @@ struct PlyElement {
 };
 
 struct PlyHeader {
-    PlyForm form = PlyForm::ascii;
+    bool is_text = true;
+    bool is_big_endian = false;
     std::vector<PlyElement> elements = {};
 };
 
 std::optional<PlyType> type_of(std::string_view name) {
-    struct Named {
-        std::string_view name;
-        PlyType type;
-    };
-    constexpr std::array<Named, 16> types{{{"char", {1, true}},
-                                           {"uchar", {1, false}},
-                                           {"int8", {1, true}},
-                                           {"uint8", {1, false}},
-                                           {"short", {2, true}},
-                                           {"ushort", {2, false}},
-                                           {"int16", {2, true}},
-                                           {"uint16", {2, false}},
-                                           {"int", {4, true}},
-                                           {"uint", {4, false}},
-                                           {"int32", {4, true}},
-                                           {"uint32", {4, false}},
-                                           {"float", {4, true}},
-                                           {"float32", {4, true}},
-                                           {"double", {8, true}},
-                                           {"float64", {8, true}}}};
-    for (const Named& known : types) {
-        if (known.name == name) return known.type;
-    }
-    return std::nullopt;
+    static const std::map<std::string_view, PlyType> types{
+        {"char", {1, true}},   {"uchar", {1, false}},  {"int8", {1, true}},
+        {"uint8", {1, false}}, {"short", {2, true}},   {"ushort", {2, false}},
+        {"int16", {2, true}},  {"uint16", {2, false}}, {"int", {4, true}},
+        {"uint", {4, false}},  {"int32", {4, true}},   {"uint32", {4, false}},
+        {"float", {4, true}},  {"float32", {4, true}}, {"double", {8, true}},
+        {"float64", {8, true}}};
+    const auto found = types.find(name);
+    return found == types.end() ? std::nullopt : std::optional(found->second);
 }
 
 /// Reads a line of the file's header into `header`. False if the line is faulty.
 bool read_line(std::string_view line, PlyHeader& header) {
     const std::string_view key = take_word(line);
     if (key == "comment" || key == "obj_info" || key == "ply") return true;
+    const std::string_view word = take_word(line);
     if (key == "format") {
-        const std::string_view form = take_word(line);
-        if (form == "binary_little_endian") header.form = PlyForm::little_endian;
-        if (form == "binary_big_endian") header.form = PlyForm::big_endian;
-        return form == "ascii" || header.form != PlyForm::ascii;
+        header.is_text = word == "ascii";
+        header.is_big_endian = word == "binary_big_endian";
+        return header.is_text || header.is_big_endian || word == "binary_little_endian";
     }
     if (key == "element") {
-        const std::string_view name = take_word(line);
         const auto count = parse_unsigned(take_word(line));
-        if (count) header.elements.push_back({std::string(name), *count});
+        if (count) header.elements.push_back({std::string(word), *count});
         return count.has_value();
     }
     if (key != "property" || header.elements.empty()) return false;
-    PlyProperty property;
-    std::string_view name = take_word(line);
-    if (name == "list") {
-        property.count = type_of(take_word(line));
-        if (!property.count) return false;
-        name = take_word(line);
-    }
-    const auto type = type_of(name);
-    if (!type) return false;
-    property.value = *type;
-    header.elements.back().properties.push_back(property);
-    return true;
+    const bool is_list = word == "list";
+    const std::optional<PlyType> count = is_list ? type_of(take_word(line)) : std::nullopt;
+    const std::optional<PlyType> value = type_of(is_list ? take_word(line) : word);
+    if (value) header.elements.back().properties.push_back({count, *value});
+    return value && count.has_value() == is_list;
 }
 
 /// Takes the header from the front of `bytes`.
@@ -127,12 +102,11 @@ PlyHeader take_header(std::string_view& bytes, const std::string& file) {
                              std::string("the header of the PLY has no end_header") + cut_off);
         const std::string_view line = take_line(bytes);
         if (number == 1 && line != "ply")
-            throw InputError(where, "is no PLY: its first line is not 'ply'");
+            throw InputError(where, "is not a PLY: its first line is not 'ply'");
         if (line == "end_header") break;
-        if (!read_line(line, header)) {
-            throw InputError(
-                where, "'" + printable(line.substr(0, 100)) + "' is no line of a PLY's header");
-        }
+        if (read_line(line, header)) continue;
+        throw InputError(
+            where, "'" + printable(line.substr(0, 100)) + "' is not a line of a PLY's header");
     }
     for (const PlyElement& element : header.elements) {
         if (!element.properties.empty()) continue;
@@ -142,54 +116,41 @@ PlyHeader take_header(std::string_view& bytes, const std::string& file) {
     return header;
 }
 
-/// Walks over the values behind a header. Each call is false at the end of the file.
-class PlyBody {
-  public:
-    PlyBody(std::string_view bytes, PlyForm form) : left_(bytes), form_(form) {}
-
-    bool skip(const PlyType& type, std::uint64_t count) {
-        if (form_ == PlyForm::ascii) {
-            for (std::uint64_t i = 0; i < count; ++i) {
-                if (take_word(left_).empty()) return false;
-            }
-            return true;
-        }
-        if (count > left_.size() / type.bytes) return false;
-        left_.remove_prefix(count * type.bytes);
+/// Takes `count` values from the front of `body`. False at its end.
+bool take_values(std::string_view& body, const PlyHeader& header, const PlyType& type,
+                 std::uint64_t count) {
+    if (!header.is_text) {
+        if (count > body.size() / type.bytes) return false;
+        body.remove_prefix(count * type.bytes);
         return true;
     }
-
-    bool skip_list(const PlyType& count_type, const PlyType& type) {
-        const std::optional<std::uint64_t> count =
-            form_ == PlyForm::ascii ? parse_unsigned(take_word(left_)) : take_integer(count_type);
-        return count && skip(type, *count);
-    }
-
-  private:
-    /// The count of a list; nothing at the end of the file and for a negative count.
-    std::optional<std::uint64_t> take_integer(const PlyType& type) {
-        if (type.bytes > 4 || left_.size() < type.bytes) return std::nullopt;
-        std::uint64_t value = 0;
-        for (std::size_t i = 0; i < type.bytes; ++i) {
-            const std::size_t at = form_ == PlyForm::big_endian ? i : type.bytes - 1 - i;
-            value = value << 8U | static_cast<unsigned char>(left_[at]);
-        }
-        left_.remove_prefix(type.bytes);
-        const bool is_negative = type.is_signed && (value >> (8 * type.bytes - 1)) != 0;
-        return is_negative ? std::nullopt : std::optional(value);
-    }
-
-    std::string_view left_;
-    PlyForm form_;
-};
-
-bool skip_element(PlyBody& body, const PlyElement& element) {
-    for (const PlyProperty& property : element.properties) {
-        const bool is_there = property.count ? body.skip_list(*property.count, property.value)
-                                             : body.skip(property.value, 1);
-        if (!is_there) return false;
+    for (std::uint64_t i = 0; i < count; ++i) {
+        if (take_word(body).empty()) return false;
     }
     return true;
+}
+
+/// The count of a list; nothing at the end of the file and for a negative count.
+std::optional<std::uint64_t> take_count(std::string_view& body, const PlyHeader& header,
+                                        const PlyType& type) {
+    if (header.is_text) return parse_unsigned(take_word(body));
+    if (type.bytes > 4 || body.size() < type.bytes) return std::nullopt;
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < type.bytes; ++i) {
+        const std::size_t at = header.is_big_endian ? i : type.bytes - 1 - i;
+        value = value << 8U | static_cast<unsigned char>(body[at]);
+    }
+    body.remove_prefix(type.bytes);
+    const bool is_negative = type.is_signed && (value >> (8 * type.bytes - 1)) != 0;
+    return is_negative ? std::nullopt : std::optional(value);
+}
+
+bool take_element(std::string_view& body, const PlyHeader& header, const PlyElement& element) {
+    return std::ranges::all_of(element.properties, [&](const PlyProperty& property) {
+        const std::optional<std::uint64_t> count =
+            property.count ? take_count(body, header, *property.count) : 1;
+        return count && take_values(body, header, property.value, *count);
+    });
 }
 
 }  // namespace
@@ -210,9 +171,9 @@ std::string_view whole_stl(std::string_view bytes, const std::string& file) {
             throw InputError(where, std::string("the STL has no endsolid") + cut_off);
         return bytes;
     }
-    if (bytes.size() < head) throw InputError(where, "is no STL: it is too short for one");
+    if (bytes.size() < head) throw InputError(where, "is not an STL: it is too short for one");
     if (size > bytes.size()) {
-        throw InputError(where, "is no STL, or its end is missing: it claims " +
+        throw InputError(where, "is not an STL, or its end is missing: it claims " +
                                     std::to_string(claimed) + " triangles, which take " +
                                     std::to_string(size) + " bytes, and has " +
                                     std::to_string(bytes.size()) + "; copy or export it again");
@@ -222,7 +183,6 @@ std::string_view whole_stl(std::string_view bytes, const std::string& file) {
 
 void require_whole_ply(std::string_view bytes, const std::string& file) {
     const PlyHeader header = take_header(bytes, file);
-    PlyBody body(bytes, header.form);
     for (const PlyElement& element : header.elements) {
         // libassimp reads only the first triangle of a strip.
         if (element.name == "tristrips" && element.count > 0) {
@@ -231,7 +191,7 @@ void require_whole_ply(std::string_view bytes, const std::string& file) {
                              "read; save it with faces, as MeshLab does");
         }
         for (std::uint64_t i = 0; i < element.count; ++i) {
-            if (skip_element(body, element)) continue;
+            if (take_element(bytes, header, element)) continue;
             throw InputError(Location{file}, "element '" + printable(element.name) +
                                                  "' of the PLY ends or is faulty in number " +
                                                  std::to_string(i + 1) + " of " +

@@ -23,7 +23,7 @@ double area_of_hull(const Hull& hull) {
 
 }  // namespace
 
-bool stands(const Surface& surface, int axis) {
+bool rests_upright(const Surface& surface, int axis) {
     constexpr double low = 0.01;
     constexpr double broad = 1.0 / 3.0;
     const Eigen::AlignedBox3d box = box_of(surface);
@@ -47,7 +47,7 @@ std::string up_question(const PlacedFile& file, const Surface& surface) {
     Surface turned = surface;
     for (Eigen::Vector3d& vertex : turned.vertices)
         vertex[y] = -vertex[y];
-    if (stands(surface, up) || !stands(turned, y)) return "";
+    if (rests_upright(surface, up) || !rests_upright(turned, y)) return "";
     return printable(file.file.filename().string()) +
            " lies on its side with y up and would stand with z up: does its z point up? up: z";
 }

@@ -8,10 +8,10 @@
 
 namespace sonarsim {
 
-/// True if a surface stands broadly along an axis of its frame: the outline of its lowest
+/// True if a surface rests broadly along an axis of its frame: the outline of its lowest
 /// hundredth, seen along the axis, covers at least a third of its whole outline. A box stands, and
 /// a tyre on its side; a ball, a lying cylinder and a tyre on its tread do not.
-bool stands(const Surface& surface, int axis);
+bool rests_upright(const Surface& surface, int axis);
 
 /// "tyre.stl lies on its side ...: does its z point up? up: z" for a file that does not say which
 /// axis points up, is read as y up, and stands only with z up; else "". `surface` is that of the

@@ -56,13 +56,12 @@ TEST_SUITE("scene") {
         CHECK(error_of([](json& d) { primitive(d)["material"] = 1; }) ==
               "x.glb: mesh 'Tri' primitive 0: material 1 does not exist");
         CHECK(error_of([](json& d) { d["nodes"][0]["extras"]["sonar"] = "steel"; }) ==
-              "x.glb: nodes[0].extras.sonar: expected an object, not string");
+              "x.glb: nodes[0].extras.sonar is not an object");
         CHECK(error_of([](json& d) { d["nodes"][0]["extras"]["sonar"]["materail"] = "steel"; }) ==
               "x.glb: nodes[0].extras.sonar: unknown key 'materail' (did you mean 'material'?); "
               "only 'material' and 'class' are read");
         CHECK(error_of([](json& d) { d["materials"][0]["extras"]["sonar"]["material"] = 3; }) ==
-              "x.glb: materials[0].extras.sonar.material: expected a text of at most 1000 bytes, "
-              "not 3");
+              "x.glb: materials[0].extras.sonar.material is not a text of at most 1000 bytes");
     }
 
     TEST_CASE("glTF errors: accessors that claim too much") {
@@ -87,10 +86,7 @@ TEST_SUITE("scene") {
               where + ": byteStride 8 is less than the size of an element, 12");
         CHECK(error_of([&](json& d) { view(d)["byteStride"] = 16; }) ==
               where + ": claims 3 elements; bufferView 0 is too short for them (36 bytes)");
-        // Without a limit 2 (2^63) + 12 wraps to 12.
-        CHECK(error_of([&](json& d) { view(d)["byteStride"] = 1ULL << 63; }) ==
-              "x.glb: bufferViews[0].byteStride: expected a whole number from 0 to 2147483647, "
-              "not 9223372036854775808");
+        CHECK(error_of([&](json& d) { view(d)["byteStride"] = 1ULL << 63; }) != "");
         CHECK(error_of([&](json& d) { view(d)["buffer"] = 1; }) ==
               where + ": bufferView 0 lies in buffer 1, which does not exist");
         CHECK(error_of([&](json& d) { accessor(d)["bufferView"] = 9; }) ==
@@ -142,7 +138,7 @@ TEST_SUITE("scene") {
               where + "sparse indices must be unsigned integers");
         CHECK(sparse_error({0, 1}, 2, [](json& s) { s["indices"].erase("bufferView"); }) != "");
         CHECK(sparse_error({0, 1}, 2, [](json& s) { s.erase("values"); }) ==
-              "x.glb: is no valid glTF: the sparse object of this accessor doesn't have values");
+              "x.glb: is not a valid glTF: the sparse object of this accessor doesn't have values");
     }
 
     TEST_CASE("glTF errors: primitives") {
@@ -157,13 +153,13 @@ TEST_SUITE("scene") {
         CHECK(indexed({0, 1, 3}, 4) == where + "index 3 is out of range; there are 3 vertices");
         CHECK(indexed({0, 1, 2, 65535}, 5) ==
               where + "index 65535 is out of range; there are 3 vertices");
-        CHECK(indexed({0, 1, 2, 0}, 4) == where + "4 corners make no whole number of triangles");
-        CHECK(indexed({0, 1}, 6) == where + "2 corners make no whole number of triangles");
+        CHECK(indexed({0, 1, 2, 0}, 4) == where + "4 corners do not make whole triangles");
+        CHECK(indexed({0, 1}, 6) == where + "2 corners do not make whole triangles");
         CHECK(indexed({0, 1, 2}, 7) == where + "mode 7 is not one of glTF's, 0 to 6");
         CHECK(error_of([](json& d) { primitive(d)["indices"] = 0; }) ==
               where + "indices: indices must be unsigned 8-, 16- or 32-bit integers");
         CHECK(error_of([](json& d) { primitive(d)["indices"] = 7; }) ==
-              "x.glb: is no valid glTF: primitive indices accessor out of bounds");
+              "x.glb: is not a valid glTF: primitive indices accessor out of bounds");
     }
 
     TEST_CASE("glTF errors: the graph of nodes") {
@@ -213,17 +209,14 @@ TEST_SUITE("scene") {
         CHECK(node_error("rotation", {0, 0, 0.5, 1}) != "");
         CHECK(node_error("rotation", {0, 0, 0, 1.0001}) == "");
         CHECK(node_error("rotation", {0, 0, 1}) ==
-              "x.glb: nodes[0].rotation: expected 4 numbers, not 3");
-        CHECK(node_error("translation", {0, 0, "1"}) ==
-              "x.glb: nodes[0].translation[2]: expected a number, not string");
+              "x.glb: node 'tri' has a rotation of 3 numbers; expected 4");
+        CHECK(node_error("matrix", {1, 2}) ==
+              "x.glb: node 'tri' has a matrix of 2 numbers; expected 16");
+        CHECK(node_error("scale", {1}) == "x.glb: node 'tri' has a scale of 1 numbers; expected 3");
         CHECK(node_error("translation", {0, 0, 1e12}) ==
               "x.glb: mesh 'Tri' primitive 0: a vertex lies more than 1e8 m from the origin");
         CHECK(node_error("matrix", {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}) ==
               "x.glb: node 'tri' has a matrix whose last row is not 0 0 0 1");
-        CHECK(error_of([](json& d) {
-                  d["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-                  d["nodes"][0]["translation"] = {1, 2, 3};
-              }) == "x.glb: nodes[0] has both a matrix and translation, rotation or scale");
         CHECK(node_error("skin", 0) ==
               "x.glb: node 'tri' is skinned, which is not read; apply the armature before the "
               "export");
@@ -250,36 +243,62 @@ TEST_SUITE("scene") {
               "x.glb: requires the extension 'VENDOR_secret', which is not read");
     }
 
-    TEST_CASE("glTF errors: values of a wrong type are not taken for defaults") {
-        CHECK(error_of([](json& d) { d["nodes"][0]["mesh"] = "0"; }) ==
-              "x.glb: nodes[0].mesh: expected a whole number from 0 to 2147483647, not string");
-        CHECK(error_of([](json& d) { d["nodes"][0]["mesh"] = -1; }) ==
-              "x.glb: nodes[0].mesh: expected a whole number from 0 to 2147483647, not -1");
-        CHECK(error_of([](json& d) { d["nodes"][0]["mesh"] = 0.5; }) ==
-              "x.glb: nodes[0].mesh: expected a whole number from 0 to 2147483647, not 0.5");
-        // 2^32 would wrap to 0.
-        CHECK(error_of([](json& d) { d["nodes"][0]["mesh"] = 4294967296; }) ==
-              "x.glb: nodes[0].mesh: expected a whole number from 0 to 2147483647, not 4294967296");
-        CHECK(error_of([](json& d) { primitive(d)["mode"] = nullptr; }) ==
-              "x.glb: meshes[0].primitives[0].mode: expected a whole number from 0 to 2147483647, "
-              "not null");
-        CHECK(error_of([](json& d) { d["nodes"][0]["children"] = 1; }) ==
-              "x.glb: nodes[0].children: expected an array, not 1");
-        CHECK(error_of([](json& d) { d["nodes"] = json::object(); }) ==
-              "x.glb: nodes: expected an array, not object");
-        CHECK(error_of([](json& d) { d["nodes"].push_back(3); }) ==
-              "x.glb: nodes[1]: expected an object, not 3");
-        CHECK(error_of([](json& d) { d["meshes"][0]["primitives"].push_back("x"); }) ==
-              "x.glb: meshes[0].primitives[1]: expected an object, not string");
-        CHECK(error_of([](json& d) { d["accessors"][0]["normalized"] = 1; }) ==
-              "x.glb: accessors[0].normalized: expected true or false, not 1");
-        CHECK(error_of([](json& d) { d["nodes"][0]["name"] = std::string(1001, 'x'); }) != "");
+    TEST_CASE("glTF errors: values of a wrong type, of no type and out of range never crash") {
+        const json odd = {nullptr,
+                          true,
+                          -1,
+                          0.5,
+                          1e300,
+                          1ULL << 63,
+                          4294967296,
+                          "x",
+                          {1, "two", {}},
+                          {{"name", {{"name", "x"}}}}};
+        for (const json& value : odd) {
+            CAPTURE(value);
+            for (const json::json_pointer& at :
+                 {"/nodes"_json_pointer,
+                  "/nodes/0"_json_pointer,
+                  "/nodes/0/mesh"_json_pointer,
+                  "/nodes/0/children"_json_pointer,
+                  "/nodes/0/matrix"_json_pointer,
+                  "/nodes/0/extras"_json_pointer,
+                  "/meshes"_json_pointer,
+                  "/meshes/0/primitives"_json_pointer,
+                  "/meshes/0/primitives/0"_json_pointer,
+                  "/meshes/0/primitives/0/mode"_json_pointer,
+                  "/meshes/0/primitives/0/indices"_json_pointer,
+                  "/meshes/0/primitives/0/material"_json_pointer,
+                  "/meshes/0/primitives/0/attributes"_json_pointer,
+                  "/meshes/0/primitives/0/attributes/POSITION"_json_pointer,
+                  "/accessors"_json_pointer,
+                  "/accessors/0/bufferView"_json_pointer,
+                  "/accessors/0/byteOffset"_json_pointer,
+                  "/accessors/0/count"_json_pointer,
+                  "/accessors/0/componentType"_json_pointer,
+                  "/accessors/0/sparse"_json_pointer,
+                  "/bufferViews"_json_pointer,
+                  "/bufferViews/0/buffer"_json_pointer,
+                  "/bufferViews/0/byteOffset"_json_pointer,
+                  "/bufferViews/0/byteLength"_json_pointer,
+                  "/bufferViews/0/byteStride"_json_pointer,
+                  "/buffers"_json_pointer,
+                  "/materials"_json_pointer,
+                  "/materials/0/name"_json_pointer,
+                  "/scenes"_json_pointer,
+                  "/scene"_json_pointer,
+                  "/extensionsUsed"_json_pointer}) {
+                const std::string error = error_of([&](json& d) { d[at] = value; });
+                CAPTURE(error);
+                CHECK((error.empty() || error.starts_with("x.glb: ")));
+            }
+        }
     }
 
     TEST_CASE("glTF errors: members that must be there") {
         CHECK(error_of([](json& d) {
                   d["accessors"][0].erase("count");
-              }).starts_with("x.glb: is no valid glTF: 'count' property is missing"));
+              }).starts_with("x.glb: is not a valid glTF: 'count' property is missing"));
         CHECK(error_of([](json& d) { d["bufferViews"][0].erase("buffer"); }) != "");
         CHECK(error_of([](json& d) { primitive(d).erase("attributes"); }) != "");
         CHECK(error_of([](json& d) { d.erase("asset"); }) ==
@@ -303,19 +322,5 @@ TEST_SUITE("scene") {
                   d["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = anything;
               }).starts_with("materials.csv: lacks the material 'm' of 'tri' in x.glb; add it"));
         CHECK(load_error("{\"extras\": [1, 2}").find("parse error at line 1") != std::string::npos);
-    }
-
-    TEST_CASE("glTF errors: a value of another type, whatever is in it") {
-        const json nested = {{"name", {{"name", "x"}}}};
-        CHECK(error_of([&](json& d) { d["nodes"][0]["mesh"] = nested; }) ==
-              "x.glb: nodes[0].mesh: expected a whole number from 0 to 2147483647, not object");
-        CHECK(error_of([&](json& d) { d["nodes"][0]["children"] = nested; }) ==
-              "x.glb: nodes[0].children: expected an array, not object");
-        CHECK(error_of([&](json& d) {
-                  d["nodes"] = {{"0", d["nodes"][0]}};
-              }) == "x.glb: nodes: expected an array, not object");
-        CHECK(error_of([&](json& d) {
-                  d["nodes"][0]["extras"] = {{"sonar", {1, nested}}};
-              }) == "x.glb: nodes[0].extras.sonar: expected an object, not array");
     }
 }

@@ -81,15 +81,15 @@ TEST_CASE("a map that we write reads back as the same numbers in the same place"
     CHECK(image.is_float);
     CHECK(image.values == numbers());
     CHECK(*image.pixel(2, 3) == numbers()[2 * columns + 3]);
-    REQUIRE(image.reference.grid);
+    REQUIRE(image.grid);
     // The tie point is the outer corner of the first pixel.
-    CHECK(image.reference.grid->x_m == 500005);
-    CHECK(image.reference.grid->y_m == 5600295);
-    CHECK(image.reference.grid->column_m == 10);
-    CHECK(image.reference.grid->row_m == -10);
-    CHECK(!image.reference.in_degrees);
-    REQUIRE(image.reference.no_data);
-    CHECK(*image.reference.no_data != *image.reference.no_data);  // NaN
+    CHECK(image.grid->x_m == 500005);
+    CHECK(image.grid->y_m == 5600295);
+    CHECK(image.grid->column_m == 10);
+    CHECK(image.grid->row_m == -10);
+    CHECK(!image.in_degrees);
+    REQUIRE(image.no_data);
+    CHECK(*image.no_data != *image.no_data);  // NaN
 }
 
 TEST_CASE("files of every type, packing and byte order hold the same numbers as for GDAL") {
@@ -102,10 +102,10 @@ TEST_CASE("files of every type, packing and byte order hold the same numbers as 
         const Image image = read_image(translated(path, options, name));
         CHECK(image.values == numbers());
         CHECK(image.width == columns);
-        REQUIRE(image.reference.grid);
-        CHECK(image.reference.grid->x_m == 500005);
-        CHECK(image.reference.grid->y_m == 5600295);
-        CHECK(image.reference.grid->row_m == -10);
+        REQUIRE(image.grid);
+        CHECK(image.grid->x_m == 500005);
+        CHECK(image.grid->y_m == 5600295);
+        CHECK(image.grid->row_m == -10);
     };
     same("-ot Byte -a_nodata 255", "a.tif");
     same("-ot UInt16 -a_nodata none -co COMPRESS=LZW -co PREDICTOR=2", "b.tif");
@@ -126,8 +126,8 @@ TEST_CASE("a tie point belongs to the corner of a pixel, or to its centre") {
     write_geotiff(path, numbers(), columns, {.west_m = 500000, .north_m = 5600300, .cell_m = 10});
     // GDAL moves the tie point by half a pixel as it says that it belongs to the centre.
     const auto point = translated(path, "-a_srs EPSG:32632 -mo AREA_OR_POINT=Point", "point.tif");
-    CHECK(read_image(point).reference.grid->x_m == 500005);
-    CHECK(read_image(point).reference.grid->y_m == 5600295);
+    CHECK(read_image(point).grid->x_m == 500005);
+    CHECK(read_image(point).grid->y_m == 5600295);
     // GTRasterTypeGeoKey, in the file itself, one value: 2, the centre. It becomes 1, the corner.
     std::string bytes = read_file(point, 1'000'000);
     const std::string key("\x01\x04\0\0\x01\0\x02\0", 8);
@@ -135,8 +135,8 @@ TEST_CASE("a tie point belongs to the corner of a pixel, or to its centre") {
     REQUIRE(at != std::string::npos);
     bytes[at + 6] = '\1';
     write_file(point, bytes);
-    CHECK(read_image(point).reference.grid->x_m == 500010);
-    CHECK(read_image(point).reference.grid->y_m == 5600290);
+    CHECK(read_image(point).grid->x_m == 500010);
+    CHECK(read_image(point).grid->y_m == 5600290);
 }
 
 TEST_CASE("feet become metres, degrees are reported, a map that is turned is refused") {
@@ -144,23 +144,23 @@ TEST_CASE("feet become metres, degrees are reported, a map that is turned is ref
     const TemporaryFolder folder;
     const auto path = folder.path / "map.tif";
     write_geotiff(path, numbers(), columns, {.west_m = 10, .north_m = 50, .cell_m = 0.25});
-    const auto feet = read_image(translated(path, "-a_srs EPSG:2263", "feet.tif")).reference;
+    const auto feet = read_image(translated(path, "-a_srs EPSG:2263", "feet.tif"));
     CHECK(feet.grid->column_m == test::approx(0.25 * 1200.0 / 3937.0).epsilon(1e-12));
-    const auto degrees = read_image(translated(path, "-a_srs EPSG:4326", "deg.tif")).reference;
+    const auto degrees = read_image(translated(path, "-a_srs EPSG:4326", "deg.tif"));
     CHECK(degrees.in_degrees);
     CHECK(degrees.grid->column_m == 0.25);
     const auto turned = translated(path, "-co PROFILE=BASELINE", "turned.tif");
     write_file(folder.path / "turned.tfw", "1\n0.5\n0.5\n-1\n0\n0\n");
     CHECK(tells(error_of_image(turned), "turned.tfw: its rows and columns do not run along east"));
     write_file(folder.path / "turned.tfw", "1 0 0 -1 0");
-    CHECK(tells(error_of_image(turned), "turned.tfw: is no world file, which has six numbers"));
+    CHECK(tells(error_of_image(turned), "turned.tfw: is not a world file, which has six numbers"));
     const auto marked = translated(path, "-a_nodata -9999", "marked.tif");
     std::string bytes = read_file(marked, 1'000'000);
     bytes.replace(bytes.find("-9999"), 5, "-99,9");
     write_file(marked, bytes);
-    CHECK(tells(error_of_image(marked), "pixels '-99,9' (GDAL_NODATA), which is no number"));
+    CHECK(tells(error_of_image(marked), "pixels '-99,9' (GDAL_NODATA), which is not a number"));
     std::filesystem::rename(folder.path / "turned.tfw", folder.path / "turned.TFW");
-    CHECK(tells(error_of_image(turned), "turned.TFW: is no world file, which has six numbers"));
+    CHECK(tells(error_of_image(turned), "turned.TFW: is not a world file, which has six numbers"));
 }
 
 TEST_CASE("a mask of unknown pixels is refused, unless a value marks them, too") {
@@ -179,7 +179,7 @@ TEST_CASE("a mask of unknown pixels is refused, unless a value marks them, too")
     std::memset(&plain[10 + 12 * 12], 0, 12);
     write_file(path, plain);
     CHECK(error_of_image(path).empty());
-    CHECK(tells(with_mask(plain, 12), "marks unknown pixels by a mask"));
+    CHECK(tells(with_mask(plain, 12), "it marks unknown pixels by a mask"));
     CHECK(with_mask(geotiff_bytes(numbers(), columns, {}), 13).empty());  // NaN is its mark
 }
 
@@ -189,7 +189,7 @@ TEST_CASE("images that cannot be read are refused with the reason") {
     CHECK(tells(error_of_image(path), "map.tif: no such file"));
     CHECK(tells(error_of_image(folder.path), "is not a regular file"));
     write_file(path, "x,y\n1,2\n");
-    CHECK(tells(error_of_image(path), "is no image; PNG, TIFF and OpenEXR are read"));
+    CHECK(tells(error_of_image(path), "is not an image; PNG, TIFF and OpenEXR are read"));
     CHECK(!is_image_file(path));
     write_geotiff(path, numbers(), columns, {});
     const std::string whole = read_file(path, 1'000'000);
@@ -216,11 +216,11 @@ TEST_CASE("files that OpenImageIO reads wrongly are refused") {
         CHECK(tells(error_of_image(translated(path, options, "other.tif")), reason));
     };
     refused("-co COMPRESS=DEFLATE -co PREDICTOR=3 -co ENDIANNESS=BIG",
-            "is big-endian with the predictor of floats");
-    refused("-ot Float64 -co TILED=YES", "has tiles of 64-bit numbers");
+            "it is big-endian with the predictor of floats");
+    refused("-ot Float64 -co TILED=YES", "it has tiles of 64-bit numbers");
     write_geotiff(path, std::vector<float>(1200, 0.0F), columns, {});
     refused("-ot Byte -a_nodata 0 -co SPARSE_OK=YES -co TILED=YES -co COMPRESS=LZW",
-            "has tiles that were never written");
+            "it has empty tiles or strips");
 }
 
 TEST_CASE("no byte of a damaged image makes the program end") {
@@ -229,7 +229,7 @@ TEST_CASE("no byte of a damaged image makes the program end") {
     write_geotiff(path, std::vector<float>(64, 1.0F), 8, {});
     const std::string whole = read_file(path, 1'000'000);
     int refused = 0;
-    for (std::size_t at = 0; at < 200; at += 17) {  // 0.15 s each
+    for (std::size_t at = 0; at < 200; at += 17) {
         std::string damaged = whole;
         damaged[at] = static_cast<char>(~damaged[at]);
         write_file(path, damaged);
@@ -251,7 +251,7 @@ TEST_CASE("an OpenEXR file holds its floats, and damaged ones are refused") {
     CHECK(image.bits == 32);
     CHECK(image.is_float);
     CHECK(image.values == numbers());
-    CHECK(!image.reference.grid);
+    CHECK(!image.grid);
     for (const std::size_t size : {9UL, 200UL, 400UL, whole.size() - 10}) {
         CAPTURE(size);
         write_file(path, whole.substr(0, size));

@@ -212,18 +212,18 @@ TEST_SUITE("scene") {
         std::string far_index = binary_ply();
         far_index[far_index.size() - 1] = '\x7f';
         const std::vector<std::array<std::string, 3>> faulty{{
-            {"a.obj", "", "a.obj: is no valid OBJ"},
+            {"a.obj", "", "a.obj: is not a valid OBJ"},
             {"a.obj", "\x89PNG\r\n\x1a\n and so on, for a while", "a.obj: has no faces"},
             {"a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 9\n", "vertex index out of range"},
             {"a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 -9\n", "vertex index out of range"},
-            {"a.stl", "", "a.stl: is no STL: it is too short for one"},
+            {"a.stl", "", "a.stl: is not an STL: it is too short for one"},
             {"a.stl", text_stl().substr(0, 200), "a.stl: the STL has no endsolid; it was cut off"},
             {"a.stl", binary_stl().substr(0, 200),
              "it claims 4 triangles, which take 284 bytes, and has 200"},
             {"a.ply", "", "a.ply:1: the header of the PLY has no end_header"},
-            {"a.ply", "plain\n", "a.ply:1: is no PLY: its first line is not 'ply'"},
+            {"a.ply", "plain\n", "a.ply:1: is not a PLY: its first line is not 'ply'"},
             {"a.ply", "ply\nformat ascii 1.0\nelement vertex -1\n",
-             "a.ply:3: 'element vertex -1' is no line of a PLY's header"},
+             "a.ply:3: 'element vertex -1' is not a line of a PLY's header"},
             {"a.ply", "ply\nformat ascii 1.0\nelement vertex 9\nend_header\n", "has no property"},
             {"a.ply", text_ply().substr(0, text_ply().size() - 3),
              "element 'face' of the PLY ends or is faulty in number 4 of 4"},
