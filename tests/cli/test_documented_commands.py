@@ -40,7 +40,7 @@ INSTEAD = {
         f"./scripts/render.sh configs/detection.yaml --set variants=2 --set trajectory.rate_hz=0.5 {TINY}"
         # Sixty fields of ten images.
         " && grep -q '^variants: 60$' configs/detection.yaml && sonarsim validate configs/detection.yaml "
-        "--set variants=1 --out out/sixty --json | grep '\"pings\":10,'",
+        f"--set variants=1 --out out/sixty --json {TINY} | grep '\"pings\":10,'",
     "build/sonarsim validate hull.yaml && build/sonarsim render hull.yaml":
         f"build/sonarsim validate hull.yaml {FEW} && build/sonarsim render hull.yaml {FEW}",
     "sonarsim render /usr/share/sonarsim/configs/tank_imaging.yaml":
