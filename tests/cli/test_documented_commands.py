@@ -10,7 +10,7 @@ import tempfile
 import unittest
 
 import clean_clone
-from sandbox import IN_MEMORY, MATERIALS, MISSION, SONARSIM, box_gltf, python_with
+from sandbox import IN_MEMORY, MATERIALS, MISSION, SONARSIM, box_gltf, path_csv, python_with
 
 PAGES = ("README.md", "docs/tutorial.md", "docs/running.md")
 
@@ -97,6 +97,8 @@ def fill(folder, clone):
     (folder / "hull.yaml").write_text(re.search(r"```yaml\n(.*?)```", readme, re.DOTALL).group(1))
     (folder / "materials.csv").write_text(MATERIALS + re.search(r"\n    (Hull,.*\n)", readme).group(1))
     (folder / "mission.yaml").write_text(MISSION.replace("  folder: out\n", ""))
+    (folder / "box.gltf").write_text(box_gltf())
+    (folder / "path.csv").write_text(path_csv(16))
     (folder / "hull.glb").write_text(box_gltf(material="Hull"))
 
 
