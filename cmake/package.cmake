@@ -61,7 +61,7 @@ made again to the byte, on the processor alone.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libsonarsim-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    "libeigen3-dev, libembree-dev, libtbb-dev, libspdlog-dev, libyaml-cpp-dev, nlohmann-json3-dev, libtinygltf-dev, zlib1g-dev")
+    "libeigen3-dev, libembree-dev, libtbb-dev, libspdlog-dev, libyaml-cpp-dev, nlohmann-json3-dev, libtinygltf-dev, libdeflate-dev, nettle-dev")
 # The modules that the library loads come with the program.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS sonarsim)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "simulator of sonars, as a library

@@ -31,7 +31,7 @@ case $preset in
 esac
 install g++ cmake ninja-build ccache make pkg-config python3 \
     libeigen3-dev libembree-dev libtbb-dev librandom123-dev libtinygltf-dev \
-    libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libspdlog-dev zlib1g-dev libassimp-dev \
+    libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libspdlog-dev libdeflate-dev nettle-dev libassimp-dev \
     libopenimageio-dev "$@"
 case $preset in
     asan | tsan)

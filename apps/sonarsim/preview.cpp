@@ -8,7 +8,7 @@
 #include "checks/find_warnings.h"
 #include "commands.h"
 #include "core/error.h"
-#include "format/image_file.h"
+#include "format/png.h"
 #include "logging.h"
 #include "mission_options.h"
 

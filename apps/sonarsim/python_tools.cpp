@@ -47,7 +47,7 @@ std::filesystem::path package_folder() {
     const std::filesystem::path beside =
         std::filesystem::read_symlink("/proc/self/exe").parent_path();
     for (const auto& folder : {beside / "python", beside.parent_path() / "lib/sonarsim/python"}) {
-        if (std::filesystem::exists(folder / "sonarsim/need.py")) return folder;
+        if (std::filesystem::exists(folder / "sonarsim/command.py")) return folder;
     }
     throw InputError("the Python package of sonarsim does not lie beside the program in " +
                      beside.string() + "; build or install sonarsim again");

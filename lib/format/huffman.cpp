@@ -11,52 +11,42 @@ namespace {
 /// A symbol, or two joined nodes.
 struct Node {
     std::uint64_t count;
-    int left;   ///< -1 in a symbol
-    int right;  ///< the number of a symbol
+    std::size_t symbol;
+    std::size_t parent = 0;
+    std::uint8_t depth = 0;
 };
 
-/// The nodes of the tree; each node comes after its children.
-std::vector<Node> tree_of(std::span<const std::uint32_t> counts) {
-    // Sorted by count and symbol.
-    std::vector<std::uint64_t> sorted;
-    for (std::uint64_t symbol = 0; symbol < counts.size(); ++symbol) {
-        if (counts[symbol] > 0) sorted.push_back(std::uint64_t{counts[symbol]} << 32 | symbol);
-    }
-    std::ranges::sort(sorted);
+/// The depth of each symbol in the Huffman tree of its counts; 0 if it does not occur.
+std::vector<std::uint8_t> tree_depths(std::span<const std::uint32_t> counts) {
     std::vector<Node> nodes;
-    nodes.reserve(2 * sorted.size());
-    for (const std::uint64_t entry : sorted)
-        nodes.push_back({entry >> 32, -1, static_cast<int>(entry)});
-    // Joined nodes are created in ascending order, so that the rarest node is at the front of one
-    // of two queues: symbols and joined nodes.
+    nodes.reserve(2 * counts.size());
+    for (std::size_t symbol = 0; symbol < counts.size(); ++symbol) {
+        if (counts[symbol] > 0) nodes.push_back({counts[symbol], symbol});
+    }
+    std::ranges::stable_sort(nodes, {}, &Node::count);
+    // Joined nodes come in ascending order, so the rarest node is at the front of one of two queues.
     const std::size_t symbols = nodes.size();
-    std::size_t symbol = 0;
-    std::size_t joined = symbols;
-    const auto take = [&] {
-        const bool from_symbols = symbol < symbols && (joined >= nodes.size() ||
-                                                       nodes[symbol].count <= nodes[joined].count);
-        return static_cast<int>(from_symbols ? symbol++ : joined++);
+    std::size_t next_symbol = 0;
+    std::size_t next_joined = symbols;
+    const auto join_rarest = [&](std::size_t parent) {
+        const bool is_symbol =
+            next_symbol < symbols && (next_joined >= nodes.size() ||
+                                      nodes[next_symbol].count <= nodes[next_joined].count);
+        Node& node = nodes[is_symbol ? next_symbol++ : next_joined++];
+        node.parent = parent;
+        return node.count;
     };
-    for (std::size_t k = 1; k < symbols; ++k) {
-        const int left = take();
-        const int right = take();
-        nodes.push_back({nodes[left].count + nodes[right].count, left, right});
+    for (std::size_t parent = symbols; parent + 1 < 2 * symbols; ++parent) {
+        const std::uint64_t first = join_rarest(parent);
+        nodes.push_back({first + join_rarest(parent), 0});
     }
-    return nodes;
-}
-
-std::vector<std::uint8_t> lengths_in(const std::vector<Node>& nodes, std::size_t symbols) {
-    std::vector<std::uint8_t> lengths(symbols, 0);
-    std::vector<std::uint8_t> depth(nodes.size(), 0);
+    std::vector<std::uint8_t> depths(counts.size(), 0);
     for (std::size_t k = nodes.size(); k-- > 0;) {
-        const Node& node = nodes[k];
-        if (node.left < 0) {
-            lengths[node.right] = std::max<std::uint8_t>(depth[k], 1);
-        } else {
-            depth[node.left] = depth[node.right] = static_cast<std::uint8_t>(depth[k] + 1);
-        }
+        if (k + 1 < nodes.size())
+            nodes[k].depth = static_cast<std::uint8_t>(nodes[nodes[k].parent].depth + 1);
+        if (k < symbols) depths[nodes[k].symbol] = std::max<std::uint8_t>(nodes[k].depth, 1);
     }
-    return lengths;
+    return depths;
 }
 
 }  // namespace
@@ -64,11 +54,11 @@ std::vector<std::uint8_t> lengths_in(const std::vector<Node>& nodes, std::size_t
 std::vector<std::uint8_t> huffman_lengths(std::span<const std::uint32_t> counts, int longest) {
     // Halved counts give a flatter tree; with equal counts it is within every limit used here.
     std::vector<std::uint32_t> flatter(counts.begin(), counts.end());
-    std::vector<std::uint8_t> lengths = lengths_in(tree_of(flatter), flatter.size());
+    std::vector<std::uint8_t> lengths = tree_depths(flatter);
     while (*std::ranges::max_element(lengths) > longest) {
         for (std::uint32_t& count : flatter)
             count = (count + 1) / 2;
-        lengths = lengths_in(tree_of(flatter), flatter.size());
+        lengths = tree_depths(flatter);
     }
     return lengths;
 }

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/file.h"
-#include "core/sha256_of_all.h"
+#include "core/sha256.h"
 #include "job/journal.h"
 
 namespace sonarsim {
@@ -17,24 +17,14 @@ constexpr std::size_t largest_ping_file = std::size_t{1} << 32;
 }  // namespace
 
 std::vector<std::vector<std::string>> journal_fields(std::span<const PingToList> pings) {
-    const auto is_record = [](const PingToList& ping, std::size_t k) {
-        return std::holds_alternative<PingRecord>(ping.sensor.per_ping[k]);
-    };
-    std::vector<std::string_view> files;
-    for (const PingToList& ping : pings) {
-        for (std::size_t k = 0; k < ping.encoded.size(); ++k) {
-            if (!is_record(ping, k)) files.push_back(ping.encoded[k]);
-        }
-    }
-    std::vector<std::string> sums = sha256_of_all(files);
     std::vector<std::vector<std::string>> fields;
-    std::size_t file = 0;
     for (const PingToList& ping : pings) {
         std::vector<std::string>& own = fields.emplace_back();
         for (std::size_t k = 0; k < ping.encoded.size(); ++k) {
             const std::string& bytes = ping.encoded[k];
-            own.push_back(is_record(ping, k) ? hash_of_record(bytes)
-                                             : entry_text({bytes.size(), std::move(sums[file++])}));
+            own.push_back(std::holds_alternative<PingRecord>(ping.sensor.per_ping[k])
+                              ? hash_of_record(bytes)
+                              : entry_text({bytes.size(), sha256(bytes)}));
         }
     }
     return fields;

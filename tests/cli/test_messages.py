@@ -1,15 +1,11 @@
 """The words of messages: each says where the mistake is and what would be right."""
 import json
-import os
-import pathlib
 import shutil
-import subprocess
 import unittest
 
 import test_mistakes
-from sandbox import Sandbox, python_with
+from sandbox import Sandbox
 
-SCRIPTS = pathlib.Path(__file__).parents[2] / "scripts"
 MISSION = test_mistakes.MISSION.replace("{folder: out}", "{folder: out, labels: [objects]}")
 MATERIALS = test_mistakes.MATERIALS
 DEEP = test_mistakes.bottom().replace('"nodes": [{', '"nodes": [{"translation": [0, -100, 0], ')
@@ -240,23 +236,6 @@ class Messages(Sandbox):
 
     def test_a_mission_without_a_subcommand(self):
         self.assert_refused(self.run_sonarsim("mission.yaml"), "sonarsim render mission.yaml")
-
-    def test_scripts(self):
-        python = python_with("PIL") and python_with("numpy")
-        if not python:
-            self.skipTest("no numpy or PIL")
-
-        def draw(*arguments):
-            return subprocess.run([python, SCRIPTS / "draw_labels.py", *arguments], cwd=self.folder,
-                                  env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"}, text=True,
-                                  capture_output=True, check=False)
-        result = draw(".", "drawn")
-        self.assertEqual(result.returncode, 2)
-        self.assertIn(".: nothing to draw", result.stderr)
-        self.assert_renders("--out", "labelled")
-        result = draw("labelled", "drawn")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertGreater(len(list((self.folder / "drawn").iterdir())), 0)
 
 
 if __name__ == "__main__":

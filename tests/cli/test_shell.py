@@ -69,7 +69,7 @@ class Python(Sandbox):
         *words, folders = result.stdout.splitlines()
         self.assertEqual(words, ["<-m>", "<sonarsim.import_holoocean>", "<--help>", "<two words>", "<-->", "<-q>"])
         package, other = folders.split(":")
-        self.assertTrue((pathlib.Path(package) / "sonarsim/need.py").is_file())
+        self.assertTrue((pathlib.Path(package) / "sonarsim/command.py").is_file())
         self.assertEqual(other, "/elsewhere")
         self.assertEqual(self.run_tool("kill -TERM $$\n", "export").returncode, -15)
 
@@ -83,7 +83,7 @@ class Python(Sandbox):
         result = self.run_sonarsim("export", env={**os.environ, "SONARSIM_PYTHON": "/nowhere/python3"})
         self.assertEqual(result.returncode, 2)
         self.assertIn("cannot run /nowhere/python3: No such file or directory; install python3", result.stderr)
-        need = "import sys; sys.argv = ['sonarsim/export.py']; from sonarsim.need import need; need('json', 'PIL', 'nothing')"
+        need = "from sonarsim.command import need; need('export', 'json', 'PIL', 'nothing')"
         result = self.run_tool(f'exec /usr/bin/python3 -SIc "import sys; sys.path.append(\'${{PYTHONPATH%%:*}}\'); {need}"\n',
                                "export")
         self.assertEqual(result.returncode, 2)

@@ -11,6 +11,7 @@ import unittest
 import unittest.mock
 
 import numpy as np
+from scipy import special
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.append(str(ROOT / "apps" / "python"))
@@ -101,7 +102,7 @@ def recording_of(amplitude, gamma=0.5, range_db=None, full=255):
     share = 1.0 + 20.0 * np.log10(amplitude) / range_db if range_db else amplitude**gamma
     values = np.clip(np.floor(full * share + 0.5), 0.0, full).astype(np.float32)
     return Recording(kind="imaging", law=Law("gamma", full_value=full), name="made", values=values, range_step_m=STEP_M,
-                     first_range_m=FIRST_M, bearing_rad=np.arcsin(SINES), times_s=np.arange(float(len(values))))
+                     first_range_m=FIRST_M, bearing_rad=np.arcsin(SINES))
 
 
 def noise_of(draws, tvg=20.0, level_db=-32.0, **shape):
@@ -177,14 +178,22 @@ class Fits(unittest.TestCase):
         texture = np.kron(cells, np.ones((edge, edge)))[:, 3:3 + RANGES, 2:2 + BEAMS]
         logs = np.log(texture) + 2.0 * np.log(np.abs(speckle(draws, 8)))
         patches, one = Patches(logs, np.inf, lambda ping: ping), LogStatistics(1)
-        of_beams = correlations.predicted_correlations({"width_deg": 1.0, "side_lobe_db": -20.0}, SINES, one)
-        share, edge_m, bins = correlations.fit_texture(
-            patches, np.arange(len(patches.place)), correlations.Pulse(SINGLE, -30.0, "noise"), (1.0, 1.0), of_beams)
-        self.assert_within(share, correlations.texture_share({"clutter_shape": shape}, one))
-        self.assert_within(edge_m, edge)
+        share, bins = correlations.fit_texture(patches, np.arange(len(patches.place)),
+                                               correlations.Pulse(SINGLE, -30.0, "noise"))
+        texture = special.polygamma(1, shape)       # the variance of the logarithm of its strengths
+        self.assert_within(share, texture / (texture + one.variance))
         self.assert_within(bins, 1.8)
-        self.assertAlmostEqual(correlations.shape_of_share(
-            correlations.texture_share({"clutter_shape": shape}, one), one), shape, 6)
+        plain = Patches(2.0 * np.log(np.abs(speckle(draws, 8))), np.inf, lambda ping: ping)
+        self.assertIsNone(correlations.fit_texture(plain, np.arange(len(plain.place)),
+                                                   correlations.Pulse(SINGLE, -30.0, "noise")))
+
+    def test_a_logarithm_that_cuts_off_noise(self):
+        for seed in range(4):
+            draws = np.random.default_rng(50 + seed)
+            range_db = draws.uniform(50.0, 57.0)
+            pings = recording_of(noise_of(draws, 20.0, -45.0, pings=10), range_db=range_db, full=4095).values
+            self.assertGreater((pings == 0.0).mean(), 0.01)
+            self.assert_within(law.fit_law(pings, 4095.0, LogStatistics(1)).scale, range_db)
 
     def test_soundings(self):
         draws = np.random.default_rng(40)
@@ -203,10 +212,11 @@ class Fits(unittest.TestCase):
 
     def test_split(self):
         pings = recording_of(np.ones((7, 24, BEAMS)))
+        pings.values[:] = np.arange(7.0)[:, None, None]
         sizes = [[len(part) for part in command.split(pings, share, back)]
                  for share, back in ((0.5, False), (0.3, True), (0.01, False), (0.99, False))]
         self.assertEqual(sizes, [[4, 3], [5, 2], [6, 1], [1, 6]])
-        self.assertEqual(command.split(pings, 0.3, True)[1].times_s[0], 0.0)
+        self.assertEqual(command.split(pings, 0.3, True)[1].values[0, 0, 0], 0.0)
 
     def test_text_of_a_preset(self):
         text = preset.with_key(START, "instrument.receiver.gamma", "0.5", "fit", "x")

@@ -32,8 +32,7 @@ def drawn(seed, level_db=-20.0, is_k=False, mixture=0.0, shape=(6, 128, 64)):
     if is_k:
         values *= 0.5 * random.standard_exponential((*shape, 2)).sum(axis=-1)
     return Recording(law=Law("power", full_value=1.0), first_range_m=1.0, range_step_m=0.01,
-                     bearing_rad=0.01 * np.arange(shape[2]), values=values.astype(np.float32),
-                     times_s=np.arange(float(shape[0])))
+                     bearing_rad=0.01 * np.arange(shape[2]), values=values.astype(np.float32))
 
 
 def figure(of, name):
@@ -262,9 +261,9 @@ class CommandTest(unittest.TestCase):
                                     ((folder / "1", folder / "broken"), "is no recording"),
                                     ((folder / "1", folder / "file"), "needs keys"), ((folder / "1",), "simulated"),
                                     ((folder / "1", folder / "2", "--out", folder / "file" / "a"), "Not a directory"),
-                                    ((folder / "1", folder / "2", "--pings", "0"), "is no number")):
+                                    ((folder / "1", folder / "2", "--pings", "0"), "is not a number")):
                 done = self.run_compare(*arguments)
-                self.assertEqual((done.returncode, done.stdout), (2, ""), arguments)
+                self.assertEqual((done.returncode, done.stdout), (1 if what == "Not a directory" else 2, ""), arguments)
                 self.assertIn(what, done.stderr)
                 self.assertNotIn("Traceback", done.stderr)
 

@@ -9,6 +9,8 @@ import os
 import re
 import sys
 
+from .command import replaced, run
+
 NUMBER, NOT_IN_NAMES = (int, float), r"[^A-Za-z0-9_-]"
 CALLED = {dict: "an object", list: "a list", str: "text", bool: "true or false", NUMBER: "a number"}
 # The kind of HoloOcean, that of sonarsim, and the keys that it lacks. HoloOcean 2.4 has three forms of each.
@@ -171,6 +173,23 @@ def yaml_lines(items, indent=""):
             yield f"{indent}{key}: {json.dumps(value)}"     # JSON is YAML
 
 
+def convert(arguments):
+    out = arguments.out
+    try:
+        with open(arguments.scenario, encoding="utf-8") as file:
+            top = json.load(file)
+    except (ValueError, RecursionError) as fault:
+        raise ValueError(f"{arguments.scenario} is not JSON: {fault}") from fault
+    text = "\n".join([*yaml_lines(mission_of(top if isinstance(top, dict) else {}, arguments)), ""])
+    if not out:
+        print(text, end="")
+    elif os.path.exists(out):
+        raise ValueError(f"{out} is there already: name another file, or remove it")
+    else:
+        with replaced(out) as part:
+            part.write_text(text, "utf-8")
+
+
 def main():
     parser = argparse.ArgumentParser("sonarsim import-holoocean", description=__doc__.splitlines()[0].split(": ")[1])
     parser.add_argument("scenario", help="the scenario, a JSON file")
@@ -178,23 +197,8 @@ def main():
     parser.add_argument("--scene", metavar="FILE", default="scene.glb", help="the scene of the mission")
     parser.add_argument("--materials", metavar="FILE", default="materials.csv", help="a CSV; HoloOcean's own is one")
     arguments = parser.parse_args()
-    out, part = arguments.out, f"{arguments.out}.{os.getpid()}.tmp"
-    try:
-        with open(arguments.scenario, encoding="utf-8") as file:
-            top = json.load(file)
-        text = "\n".join([*yaml_lines(mission_of(top if isinstance(top, dict) else {}, arguments)), ""])
-        if out and os.path.exists(out):
-            wrong(f"{out} is there already: name another file, or remove it")
-        with open(part if out else os.dup(1), "w", encoding="utf-8") as file:
-            file.write(text)
-        if out:
-            os.rename(part, out)
-    except (OSError, ValueError, RecursionError) as error:
-        if os.path.exists(part):
-            os.unlink(part)
-        wrong(f"{error.filename or part}: {error.strerror}" if isinstance(error, OSError) else
-              f"{arguments.scenario} is not JSON: {error}")
+    return run("import-holoocean", convert, arguments)
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -30,7 +30,7 @@ class Tally:
             counts["annotations"] += 1
             counts["objects"].add((dataset, one["id"]))
             for key, edges in EDGES.items():
-                if one[key] is not None:
+                if one.get(key) is not None:
                     counts[key][bisect.bisect_right(edges, one[key])] += 1
 
     def as_json(self):

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "dataset/writers/label_writers.h"
-#include "format/id_png.h"
 #include "format/png.h"
 #include "product/scan.h"
 
@@ -155,8 +154,8 @@ class LabelImageWriter final : public Writer {
         }
         if (file_.floats_of)
             return npy_bytes_of_columns(file_.floats_of(labels), view_.range_bins, view_.beams);
-        return id_png_bytes(rows_of_range(file_.ids_of(labels), labels), view_.beams,
-                            view_.range_bins);
+        return png_bytes(rows_of_range(file_.ids_of(labels), labels), view_.beams, view_.range_bins,
+                         PngFilter::up);
     }
 
     std::optional<PingNumbers> numbers(const FinishedPing& finished) const override {
@@ -189,7 +188,7 @@ class LabelFanWriter final : public Writer {
     }
 
     std::string encode(const FinishedPing& finished) const override {
-        return id_png_bytes(pixels(finished), frame_.width, frame_.height);
+        return png_bytes(pixels(finished), frame_.width, frame_.height, PngFilter::up);
     }
 
     std::optional<PingNumbers> numbers(const FinishedPing& finished) const override {

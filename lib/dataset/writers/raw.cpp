@@ -5,7 +5,6 @@
 #include "dataset/folded_records.h"
 #include "dataset/writer.h"
 #include "dataset/writers/strip_rows.h"
-#include "format/image_file.h"
 #include "format/png.h"
 #include "product/scan.h"
 

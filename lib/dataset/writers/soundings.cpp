@@ -13,7 +13,6 @@
 #include "dataset/ping_metadata.h"
 #include "dataset/writer.h"
 #include "format/geotiff.h"
-#include "format/image_file.h"
 #include "format/png.h"
 #include "product/bathymetry.h"
 

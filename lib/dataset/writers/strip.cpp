@@ -4,7 +4,6 @@
 #include "dataset/writer.h"
 #include "dataset/writers/strip_rows.h"
 #include "dataset/writers/swath_files.h"
-#include "format/image_file.h"
 #include "format/png.h"
 #include "product/gain.h"
 

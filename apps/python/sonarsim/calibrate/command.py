@@ -1,12 +1,11 @@
 """The command `sonarsim calibrate`."""
 import argparse
+import contextlib
 import json
 import math
-import os
-import pathlib
-import sys
 
-from ..recording import RecordingError, open_recording
+from ..command import replaced, run
+from ..recording import open_recording
 from .image import fit_image
 from .judge import figures_of
 from .law import full_value_of
@@ -113,18 +112,17 @@ def calibrate(recording, preset, judged_share=0.5, is_reversed=False, slope_rad=
                     "# All others are those of the start, whose own head follows.\n#\n" + text)
 
 
-def write(path, text):
-    """Writes a file under a temporary name first, so that nothing half-written is left."""
-    path = pathlib.Path(path)
-    temporary = path.parent / f".{path.name}.{os.getpid()}"
-    if path.exists() and not path.is_file():
-        raise CalibrationError(f"{path}: is no regular file, so it cannot be replaced")
-    try:
-        temporary.write_text(text, encoding="utf-8")
-        temporary.replace(path)
-    except OSError as fault:
-        temporary.unlink(missing_ok=True)
-        raise CalibrationError(f"{path}: cannot be written: {fault.strerror}") from fault
+def fit_preset(options):
+    """Fits a preset, writes it, and prints the result."""
+    recording = open_recording(options.recording, sensor=options.sensor)
+    result, text = calibrate(recording, options.preset, options.judge, options.reverse,
+                             math.radians(options.slope_deg), options.settings)
+    with contextlib.ExitStack() as files:
+        files.enter_context(replaced(options.out)).write_text(text, "utf-8")
+        if options.report:
+            files.enter_context(replaced(options.report)).write_text(json.dumps(result) + "\n", "utf-8")
+    if options.json or not options.quiet:
+        print(json.dumps(result) if options.json else table_of(result))
 
 
 def main(arguments=None):
@@ -143,17 +141,4 @@ def main(arguments=None):
         help="sets a key of the water, as water.temperature_c=20")
     add("--json", action="store_true", help="prints JSON instead of text")
     add("-q", "--quiet", action="store_true", help="prints no table")
-    options = parser.parse_args(arguments)
-    try:
-        recording = open_recording(options.recording, sensor=options.sensor)
-        result, text = calibrate(recording, options.preset, options.judge, options.reverse,
-                                 math.radians(options.slope_deg), options.settings)
-        write(options.out, text)
-        if options.report:
-            write(options.report, json.dumps(result) + "\n")
-    except (RecordingError, CalibrationError) as fault:
-        print(f"sonarsim calibrate: {fault}", file=sys.stderr)
-        return 2
-    if options.json or not options.quiet:
-        print(json.dumps(result) if options.json else table_of(result))
-    return 0
+    return run("calibrate", fit_preset, parser.parse_args(arguments))

@@ -6,7 +6,7 @@ import dataclasses
 import functools
 
 import numpy as np
-from scipy import interpolate, linalg, optimize, special
+from scipy import interpolate, linalg, optimize
 
 from .statistics import LAGS, Bounded, bootstrap, sampled_correlations, sampled_statistics
 
@@ -16,7 +16,7 @@ CHI2_95 = 3.84          # chi^2 of one degree of freedom stays below it in 95 of
 # Of correlations: the error of the model between the columns of its grid, the least that shows a pulse, and the most
 # that a texture may leave unexplained.
 MODEL_ERROR, LEAST_CORRELATION, MOST_LEFT = 0.002, 0.04, 0.05
-EDGES, HALF_PATCH = 24, 12.0    # tried edges of its squares, from 1 to 12 bins
+SIZES = 24          # tried sizes of its squares, from 2 to 12 bins
 
 
 def pattern(pedestal, t):
@@ -126,58 +126,26 @@ def fit_pulse(patches, chosen, pulse):
     return found.widened((0.01 if pulse.receiver["samples"] == 1 else 0.025) * found.value)
 
 
-# A texture as speckle.clutter_shape and clutter_m make it: gamma distributed strengths in squares of the scene. ln P
-# is the sum of the logarithms of speckle and strength; the texture has the share trigamma(shape) / (trigamma(shape) +
-# the variance of speckle) of its variance, and places a distance d apart lie in one square of the edge e in a share
-# 1 - d / e of all cases.
-
-def texture_share(speckle, statistics):
-    own = special.polygamma(1, speckle["clutter_shape"]) if speckle["clutter_shape"] > 0.0 else 0.0
-    return own / (own + statistics.variance)
-
-
-def shape_of_share(share, statistics):
-    """The shape that gives a texture this share."""
-    share = min(max(share, 0.001), 0.95)
-    return float(np.exp(optimize.brentq(
-        lambda x: texture_share({"clutter_shape": np.exp(x)}, statistics) - share, -7.0, 9.0)))
-
-
-def steps_on_ground(recording, patches, echoes):
-    """The mean distances of bins and of beams on a flat bottom at the recording's altitude."""
-    if not len(echoes):
-        return recording.range_step_m, 0.0
-    at = recording.first_range_m + (patches.row[echoes] + 0.5 * patches.shape[0]) * recording.range_step_m
-    # Straight below no length of the ground belongs to a bin.
-    stretch = np.mean(np.maximum(1.0 - ((recording.altitude_m or 0.0) / at) ** 2, 0.1) ** -0.5)
-    sines = np.zeros(1) if recording.bearing_rad is None else np.sin(recording.bearing_rad)
-    return recording.range_step_m * stretch, at.mean() * np.ptp(sines) / max(len(sines) - 1, 1)
-
-
-def fit_texture(patches, echoes, pulse, steps_m, of_beams):
-    """(share, edge in m, pulse in bins) by least squares over a grid of edges and pulses; None where the share lies
-    less than 3.3 standard errors off 0, or where the correlations are not those of a texture."""
+def fit_texture(patches, echoes, pulse):
+    """(share of the variance of ln P, pulse in bins) where echoes have a texture besides speckle: strengths in squares of
+    one size, of which a share 1 - lag / size of all bins that far apart lies in one. By least squares over a grid of
+    squares and pulses; None if the share lies less than 3.3 standard errors off 0, or if the correlations are others."""
     bins, rows = (of[::5] for of in pulse.table)
-    edges = steps_m[0] * np.linspace(1.0, HALF_PATCH, EDGES)
-    axes = 2 if steps_m[1] > 0.0 else 1
-    squares = np.maximum(1.0 - np.outer(steps_m[:axes], np.arange(1, LAGS + 1)) / edges[:, None, None], 0.0)
-    own = np.hstack([rows, np.broadcast_to(of_beams, rows.shape)][:axes])
-    t = (squares.reshape(EDGES, 1, -1) - own).reshape(-1, axes * LAGS)       # [edge and pulse, lag]
-    own, norm = np.tile(own, (EDGES, 1)), (t**2).sum(axis=1, keepdims=True)
-    correlations = patches.correlations(echoes)
+    squares = np.maximum(1.0 - np.arange(1, LAGS + 1) / np.linspace(2.0, 12.0, SIZES)[:, None], 0.0)
+    own = np.tile(rows, (SIZES, 1))
+    t = np.repeat(squares, len(rows), axis=0) - own       # [size and pulse, lag]
+    norm, correlations = np.maximum((t**2).sum(axis=1, keepdims=True), 1e-6), patches.correlations(echoes)
 
     def estimate(weights):
         # Least squares of seen - own = share (squares - own), with own the speckle's correlation.
-        seen = correlations(weights)[:, :axes].reshape(len(weights), -1).T
-        ty = t @ seen - (t * own).sum(axis=1, keepdims=True)
-        share = np.maximum(ty / norm, 0.0)
-        error = (seen**2).sum(axis=0) - 2.0 * own @ seen + (own**2).sum(axis=1, keepdims=True) - share * ty
+        seen = correlations(weights)[:, 0].T
+        share = np.maximum((t @ seen - (t * own).sum(axis=1, keepdims=True)) / norm, 0.0)
+        error = (seen**2).sum(axis=0) - 2.0 * own @ seen + (own**2).sum(axis=1, keepdims=True) - share**2 * norm
         best, draw = error.argmin(axis=0), np.arange(len(weights))
-        left = np.sqrt(np.maximum(error[best, draw], 0.0) / (axes * LAGS))
-        return np.stack([share[best, draw], edges[best // len(bins)], bins[best % len(bins)], left], axis=1)
-    found = bootstrap(patches.places, estimate, [0.0, edges[1] - edges[0], bins[1] - bins[0], 0.0])
-    share, left = found[0], found[3]
-    return None if share.value < 3.3 * share.half_width / 1.96 or left.value > MOST_LEFT else found[:3]
+        left = np.sqrt(np.maximum(error[best, draw], 0.0) / LAGS)
+        return np.stack([share[best, draw], bins[best % len(bins)], left], axis=1)
+    share, width, left = bootstrap(patches.places, estimate, [0.0, bins[1] - bins[0], 0.0])
+    return None if share.value < 3.3 * share.half_width / 1.96 or left.value > MOST_LEFT else (share, width)
 
 
 def beam_correlation(pedestal, t):

@@ -4,8 +4,7 @@ import dataclasses
 
 import numpy as np
 
-from .correlations import (bins_of, fit_array, fit_pulse, fit_texture, predicted_correlations, pulse_of, shape_of_share,
-                           steps_on_ground)
+from .correlations import bins_of, fit_array, fit_pulse, fit_texture, pulse_of
 from .judge import classified
 from .law import Law, fit_law, full_value_of
 from .noise import Noise, find_noise
@@ -20,6 +19,7 @@ class Fit:
     level_db: float             # of the noise, re full scale
     law: Law | None = None
     noise: Noise | None = None
+    texture: float = 0.0        # share of the variance of echoes
     estimates: dict = dataclasses.field(default_factory=dict)   # key -> Bounded or a word
     notes: list = dataclasses.field(default_factory=list)
 
@@ -40,9 +40,11 @@ def fit_image(recording, start):
     texture = fit_pulse_and_beams(recording, fit)
     if texture and of_echoes:
         # The law took the variance of the texture for speckle.
-        factor = np.sqrt(1.0 - min(texture[0].value, 0.9))
+        fit.texture = min(texture.value, 0.9)
+        factor = np.sqrt(1.0 - fit.texture)
         scale = fit.law.scale.scaled(1.0 / factor if fit.law.is_log else factor)
-        fit.law.scale = scale.widened(0.5 * texture[0].half_width / factor**2 * scale.value)
+        fit.law.scale = scale.widened(0.5 * texture.half_width / factor**2 * scale.value)
+        fit.notes.append(f"a texture of the bottom makes {fit.texture:.0%} of the variance of echoes")
         find()
     bits = np.log2(recording.law.full_value + 1.0)
     if bits in range(8, 17):
@@ -79,7 +81,7 @@ def fit_laws(recording, fit, find):
 
 
 def fit_pulse_and_beams(recording, fit):
-    """Sets pulse, beams and texture, and returns the texture or None."""
+    """Sets pulse and beams, and returns the share of a texture or None."""
     patches, noise, echoes = classified(recording, fit.law, fit.noise)
     of_echoes, texture = len(noise) < LEAST_PATCHES, None
     chosen = echoes if of_echoes else noise
@@ -95,26 +97,21 @@ def fit_pulse_and_beams(recording, fit):
         width = Bounded(width.value, min(width.low, other.low), max(width.high, other.high))
         fit.notes.append("pulse.resolution_m: no rows show noise alone, so the interval holds pulses of both")
     beams = fit.instrument["beam"] if recording.bearing_rad is not None and len(recording.bearing_rad) > LAGS else None
-    statistics, of_beams = fit.law.statistics, np.zeros(LAGS)
     if beams:
-        found = fit_array(*patches.beam_covariance(chosen, not of_echoes), np.sin(recording.bearing_rad), statistics)
+        found = fit_array(*patches.beam_covariance(chosen, not of_echoes), np.sin(recording.bearing_rad),
+                          fit.law.statistics)
         for key, number in zip(("beam.width_deg", "beam.side_lobe_db"), found or ()):
             fit.set(key, number)
         if found is None:
             fit.notes.append("beams: too few places of even echoes; width and taper are those of the start")
         elif found[1].high - found[1].low > 8.0:
             fit.notes.append("beam.width_deg and side_lobe_db can hardly be separated: the two belong together")
-        of_beams = predicted_correlations(beams, np.sin(recording.bearing_rad), statistics)
-    # If pulse and law are fitted to noise, the texture of the bottom does not affect them.
+    # If pulse and law are fitted to noise, a texture does not affect them.
     if width and fit.noise and of_echoes:
-        texture = fit_texture(patches, echoes, pulse, steps_on_ground(recording, patches, echoes), of_beams)
-    if texture:
-        fit.set("speckle.clutter_shape", Bounded(*(shape_of_share(texture[0][k], statistics) for k in (0, 2, 1))))
-        fit.set("speckle.clutter_m", texture[1])
-        fit.notes.append("speckle.clutter_shape and clutter_m are those of this bottom, not of the sonar")
+        texture = fit_texture(patches, echoes, pulse)
     if width:
-        fit.set("pulse.resolution_m", (texture[2] if texture else width).scaled(recording.range_step_m))
-    return texture
+        fit.set("pulse.resolution_m", (texture[1] if texture else width).scaled(recording.range_step_m))
+    return texture and texture[0]
 
 
 def set_levels(start, fit):

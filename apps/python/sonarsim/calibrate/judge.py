@@ -3,11 +3,11 @@ import typing
 
 import numpy as np
 
-from .correlations import bins_of, predicted_correlations, pulse_of, steps_on_ground, texture_share
+from .correlations import bins_of, predicted_correlations, pulse_of
 from .law import full_value_of, stated_law
 from .noise import ROWS, Noise, noise_blocks
 from .patches import Patches
-from .statistics import DB_OF_E, LAGS, Bounded, amplitude_variation, bootstrap
+from .statistics import DB_OF_E, LAGS, Bounded, bootstrap
 
 LEAST_PATCHES, LEAST_ECHO_DB, DRAWS = 12, 6.0, 40
 
@@ -54,7 +54,7 @@ def figures_of(recording, instrument, level_db, start, fit):
                   start.absorption_db_per_m if receiver["tvg_absorption"] else 0.0,
                   fit.noise and fit.noise.used, fit.noise and fit.noise.ahead)
     patches, of_noise, echoes = classified(recording, law, noise)
-    steps_m, to_shape, out = steps_on_ground(recording, patches, echoes), 2.0 * np.pi / np.sqrt(6.0), []
+    to_shape, out = 2.0 * np.pi / np.sqrt(6.0), []
     of = Patches(recording.values, law.full_value, lambda ping: np.exp(
         0.5 * (law.log_power(ping) - noise.at(recording.ranges_m)[:, None] / DB_OF_E)))
     columns = np.ones(len(patches.place)), np.sqrt(of.variance) / of.mean, patches.variance
@@ -62,12 +62,10 @@ def figures_of(recording, instrument, level_db, start, fit):
         if len(chosen) < LEAST_PATCHES:
             continue
         pulse, sums = pulse_of(instrument, kind), patches.sums(chosen, *columns)
-        statistics, speckle = pulse.statistics(bins), instrument["speckle"]
-        share = texture_share(speckle, statistics) if kind == "echo" else 0.0
-        variation = statistics.variation
-        if share > 0.0:     # the mean squares of independent factors multiply
-            of_texture = amplitude_variation(speckle["clutter_shape"])
-            variation = np.sqrt((1.0 + variation**2) * (1.0 + of_texture**2) - 1.0)
+        statistics, share = pulse.statistics(bins), fit.texture if kind == "echo" else 0.0
+        # The mean squares of independent factors multiply; the logarithm of a texture is taken as normal.
+        of_texture = np.exp(0.25 * statistics.variance * share / (1.0 - share))
+        variation = np.sqrt((1.0 + statistics.variation**2) * of_texture - 1.0)
 
         def distribution(weights, sums=sums):
             count, coefficient, variance = (weights @ sums).T
@@ -80,12 +78,9 @@ def figures_of(recording, instrument, level_db, start, fit):
         predicted = [pulse.correlations(bins)]
         if recording.bearing_rad is not None and len(recording.bearing_rad) > LAGS:
             predicted.append(predicted_correlations(instrument["beam"], np.sin(recording.bearing_rad), statistics))
-        for axis, of_speckle in enumerate(predicted):
-            for lag in (1, 2, 4):
-                square = max(1.0 - lag * steps_m[axis] / speckle["clutter_m"], 0.0)
-                out.append(Figure(f"{where}: correlation {lag} {('bins', 'beams')[axis]} apart", "correlation",
-                                  float((1.0 - share) * of_speckle[lag - 1] + share * square),
-                                  measured[axis * LAGS + lag - 1]))
+        for axis, of_speckle in enumerate(predicted if share == 0.0 else ()):
+            out += [Figure(f"{where}: correlation {lag} {('bins', 'beams')[axis]} apart", "correlation",
+                           float(of_speckle[lag - 1]), measured[axis * LAGS + lag - 1]) for lag in (1, 2, 4)]
         if kind == "noise":
             out += noise_levels(recording, law, noise)
     return [figure for figure in out if np.isfinite(figure.measured.value)]

@@ -9,6 +9,7 @@ from .patches import Patches
 from .statistics import DB_OF_E, Bounded, CalibrationError, LogStatistics, bootstrap
 
 LEAST_PATCHES, LEAST_SPREAD_OF_LEVELS = 8, 0.1  # patches of about one level do not determine the slope
+MOST_ZEROS = 0.02               # share of values at a place that a logarithm may cut off; their variance is known
 LEAST_ERROR = 0.01              # that finite patches, their trend and the steps of the values leave
 # If a share p of the powers becomes 0, the variance of the logarithm lacks p (0.8 - 2 ln p): half a per cent here.
 MOST_CUT_OFF = 5e-4
@@ -56,33 +57,43 @@ def fit_law(values, full_value, statistics, places=None, offset=0.0, is_log=None
     CalibrationError if the values are not speckle. A known kind of law is not fitted."""
     plain = Patches(values, full_value, lambda ping: ping)
     logs = Patches(values, full_value, lambda ping: np.log(floored(ping, full_value, offset)))
-    even = logs.even(places)    # in logarithms no law makes strong patches uneven
-    if len(even) < LEAST_PATCHES:
-        raise CalibrationError("fewer than 8 even patches of speckle, of 24 bins and 24 beams (96 bins of a sonar with "
-                               "few beams), between the ends of the scale: record longer pings, or with another gain")
-    found = []      # (standard deviation, skewness) of either
-    for of in (logs, plain):
-        sums = of.sums(even, np.ones(len(of.place)), of.variance, of.third)
-
-        def moments(weights, sums=sums):
-            count, variance, third = (weights @ sums).T
-            return np.stack([np.sqrt(variance / count), third / count / (variance / count) ** 1.5], axis=1)
-        found.append(bootstrap(of.places, moments))
-    skewness = [of[1] for of in found]
-    check_speckle(logs, even, skewness, statistics.skewness)
-    level = np.log(plain.mean_value[even])
-    if is_log is None and level.std() > LEAST_SPREAD_OF_LEVELS:
+    # In logarithms no law makes strong patches uneven. Only a logarithm cuts off as much as `loose` allows.
+    strict, loose = logs.even(places), logs.even(places, MOST_ZEROS)
+    even = loose if is_log or len(strict) < LEAST_PATCHES else strict
+    require_patches(even)
+    if is_log is None:
+        skewness = [moments_of(of, even)[1] for of in (logs, plain)]
+        check_speckle(logs, even, skewness, statistics.skewness)
+        level = np.log(plain.mean_value[even])
         # The slope of log standard deviation against log mean is 1 for a power, 0 for a logarithm.
-        is_log = bool(np.polyfit(level, 0.5 * np.log(plain.variance[even]), 1)[0] <= 0.5)
-    elif is_log is None:
+        slope = np.polyfit(level, 0.5 * np.log(plain.variance[even]), 1)[0] if level.std() > LEAST_SPREAD_OF_LEVELS else None
         off = [abs(s.value - statistics.skewness) for s in skewness]
-        is_log = bool(off[1] <= off[0])
-    deviation, sigma = found[is_log][0], np.sqrt(statistics.variance)
-    scale = deviation.scaled(2.0 / sigma)
+        is_log = bool(off[1] <= off[0] if slope is None else slope <= 0.5)
+    require_patches(loose if is_log else strict)
+    sigma = np.sqrt(statistics.variance)
+    scale = moments_of(logs, even)[0].scaled(2.0 / sigma)
     if is_log:
+        deviation = moments_of(plain, loose, statistics.cut_variance(plain.zeros))[0]
         scale = Bounded(*(full_value * DB_OF_E * sigma / x for x in (deviation.value, deviation.high, deviation.low)))
     least = LEAST_ERROR * scale.value * (2.0 if statistics.excess.any() else 1.0)   # drawn statistics have errors
     return Law(full_value, is_log, scale.widened(least), offset, statistics)
+
+
+def require_patches(chosen):
+    if len(chosen) < LEAST_PATCHES:
+        raise CalibrationError("fewer than 8 even patches of speckle, of 24 bins and 24 beams (96 bins of a sonar with "
+                               "few beams), between the ends of the scale: record longer pings, or with another gain")
+
+
+def moments_of(patches, chosen, left=1.0):
+    """The standard deviation and the skewness of patches, of whose variances these shares are left."""
+    ones = np.ones(len(patches.place))
+    sums = patches.sums(chosen, ones, left * ones, patches.variance, patches.third)
+
+    def moments(weights):
+        count, left, variance, third = (weights @ sums).T
+        return np.stack([np.sqrt(variance / left), third / count / (variance / count) ** 1.5], axis=1)
+    return bootstrap(patches.places, moments)
 
 
 def check_speckle(logs, even, skewness, of_start):

@@ -23,6 +23,11 @@ class Patches:
         parts = [self.moments(ping, scaled(ping)) for ping in values]
         for name in parts[0]:
             setattr(self, name, np.concatenate([part[name] for part in parts]))
+        # A gain that grows with range changes the values half a patch apart: the same in all patches of these ranges.
+        slope = np.bincount(self.row, self.slope) / np.maximum(np.bincount(self.row), 1)
+        self.variance = np.maximum(self.variance - 0.5 * slope[self.row] ** 2, 0.0)
+        # Of all pings at a place: a patch chosen by its own few zeros would lack low values by chance.
+        self.zeros = np.bincount(self.place, self.at_zero, self.places)[self.place] / pings
 
     def moments(self, ping, scaled):
         (rows, columns), (values, x) = self.shape, (self.grid.cut(np.asarray(one, float)) for one in (ping, scaled))
@@ -30,16 +35,16 @@ class Patches:
         quarters = [x[:, a, b].mean(axis=(1, 2)) for a in (slice(middle), slice(middle, None))
                     for b in (slice(half), slice(half, None)) if x[:, a, b].size]
         variance = structure(x, rows // 2, columns // 2)
-        at_end = np.maximum((values <= 0.0).mean(axis=(1, 2)), (values >= self.full_value).mean(axis=(1, 2)))
-        return {"mean_value": values.mean(axis=(1, 2)), "at_end": at_end, "mean": x.mean(axis=(1, 2)),
-                "variance": variance, "third": third_moment(x),
+        return {"mean_value": values.mean(axis=(1, 2)), "mean": x.mean(axis=(1, 2)),
+                "at_zero": (values <= 0.0).mean(axis=(1, 2)), "at_full": (values >= self.full_value).mean(axis=(1, 2)),
+                "variance": variance, "slope": slope_of(x, rows // 2), "third": third_moment(x),
                 "along_range": np.stack([structure(x, lag, 0) for lag in range(1, LAGS + 1)], axis=1),
                 "along_beams": np.stack([structure(x, 0, lag) for lag in range(1, LAGS + 1)], axis=1),
                 "unevenness": np.var(quarters, axis=0) / np.maximum(variance, 1e-30)}
 
-    def even(self, places=None):
+    def even(self, places=None, most_zeros=MOST_AT_AN_END):
         """The numbers of the more even half of the patches without clipped and missing values, at some places."""
-        good = (self.at_end <= MOST_AT_AN_END) & (self.variance > 0.0)
+        good = (self.zeros <= most_zeros) & (self.at_full <= MOST_AT_AN_END) & (self.variance > 0.0)
         if self.full_value > 15.0:
             good &= self.mean_value >= LEAST_MEAN_VALUE
         if places is not None:
@@ -82,6 +87,11 @@ def structure(x, rows, columns):
     off = x[:, rows:, columns:] - x[:, :down, :across]
     other = x[:, rows:, :across] - x[:, :down, columns:]
     return 0.25 * ((off**2).mean(axis=(1, 2)) + (other**2).mean(axis=(1, 2)))
+
+
+def slope_of(x, rows):
+    """The mean difference of values `rows` apart."""
+    return (x[:, rows:] - x[:, :x.shape[1] - rows]).mean(axis=(1, 2))
 
 
 def third_moment(x):

@@ -17,7 +17,7 @@ LARGEST_PRESET = 1 << 20
 DEFAULTS = {
     "beam": {"width_deg": 1.0, "side_lobe_db": -13.3},
     "pulse": {"resolution_m": 0.0, "side_lobe_db": -30.0},
-    "speckle": {"mode": "scene", "clutter_shape": 0.0, "clutter_m": 0.1},
+    "speckle": {"mode": "scene"},
     "receiver": {"tvg_log": 40.0, "tvg_absorption": True, "tvg_from_m": 0.0, "companding": "gamma", "gamma": 0.5,
                  "dynamic_range_db": 60.0, "samples": 1, "combine": "max", "looks": 1, "offset": 0.0},
 }

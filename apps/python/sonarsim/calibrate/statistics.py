@@ -59,8 +59,16 @@ class LogStatistics:
         self.mean = special.digamma(looks) - np.log(looks)
         self.variance = special.polygamma(1, looks)
         self.skewness = special.polygamma(2, looks) / self.variance**1.5
-        self.variation = amplitude_variation(looks)
+        # Of the root of a gamma distributed power: 0.5227 for one look.
+        self.variation = np.sqrt(looks * np.exp(2.0 * (special.gammaln(looks) - special.gammaln(looks + 0.5))) - 1.0)
         self.excess = np.zeros(2)   # of the correlation at even steps of k2, where samples are combined
+        self.sorted = np.log(special.gammaincinv(looks, (np.arange(4000) + 0.5) / 4000) / looks)    # ln P, evenly likely
+
+    def cut_variance(self, shares):
+        """The share of the variance that is left where the lowest values, these shares of all, become one value."""
+        known = np.linspace(0.0, 0.2, 41)
+        left = [np.maximum(self.sorted, np.quantile(self.sorted, share)).var() for share in known]
+        return np.interp(shares, known, np.array(left) / left[0])
 
     def correlation(self, k2):
         """The correlation of ln P where complex amplitudes have the squared correlation k2. Laguerre polynomials
@@ -76,11 +84,6 @@ class LogStatistics:
         return covariance / special.polygamma(1, self.looks) + excess
 
 
-def amplitude_variation(shape):
-    """The coefficient of variation of the root of a gamma distributed power: 0.5227 for shape 1."""
-    return np.sqrt(shape * np.exp(2.0 * (special.gammaln(shape) - special.gammaln(shape + 0.5))) - 1.0)
-
-
 # Several correlated samples that become one value have no closed form: a result is that of single samples plus a drawn
 # difference between combined and single ones. `amplitude(lag)` is the correlation of complex amplitudes, in samples.
 
@@ -91,6 +94,7 @@ def sampled_statistics(receiver, amplitude, count=120000):
         return out
     one, other = (drawn(receiver, amplitude, 1, count, seed) for seed in (1, 2))
     (whole,), (single,) = pair = combined(receiver, one)
+    out.sorted = np.sort(whole)[::10]
     out.mean += whole.mean() - single.mean()
     out.variance += whole.var() - single.var()
     out.skewness += np.subtract(*(((x - x.mean()) ** 3).mean() / x.std() ** 3 for x in pair))

@@ -8,9 +8,9 @@ import signal
 import sys
 from concurrent.futures.process import BrokenProcessPool
 
-from ..need import need
+from ..command import need, run
 
-need("numpy", "PIL")
+need("export", "numpy", "PIL")
 
 from . import formats, split
 from .destination import destination
@@ -85,6 +85,8 @@ def prepare_all(pictures, numbers, options):
                 some = pictures[begin:begin + BATCH]
                 yield from pool.map(prepare, some, [numbers[one.dataset] for one in some], [options] * len(some),
                                     chunksize=16)
+        except BrokenProcessPool as fault:      # killed, mostly for its memory
+            raise MemoryError from fault
         finally:
             pool.shutdown(cancel_futures=True)
 
@@ -128,19 +130,7 @@ def no_pictures(picture, tile_px):
 def main(arguments):
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda number, _: sys.exit(128 + number))
-    options = parse(arguments)
-    try:
-        export(options)
-    except ValueError as fault:
-        print(f"sonarsim export: {fault}", file=sys.stderr)
-        return 2
-    except (OSError, BrokenProcessPool, MemoryError) as fault:
-        # Of a copy that fails, the second name is that of the file that is written.
-        file = getattr(fault, "filename2", None) or getattr(fault, "filename", None) or options.dest
-        what = getattr(fault, "strerror", None) or str(fault) or "out of memory"
-        print(f"sonarsim export: {file}: {what}", file=sys.stderr)
-        return 1
-    return 0
+    return run("export", export, parse(arguments))
 
 
 if __name__ == "__main__":

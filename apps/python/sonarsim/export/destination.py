@@ -2,7 +2,8 @@
 import contextlib
 import os
 import pathlib
-import shutil
+
+from ..command import new_folder
 
 
 @contextlib.contextmanager
@@ -14,15 +15,6 @@ def destination(dest, sources):
             raise ValueError(f"{dest}: lies in the dataset; choose a folder outside of it")
     if dest.is_symlink() or dest.exists() and not (dest.is_dir() and not any(dest.iterdir())):
         raise ValueError(f"{dest}: holds something already; choose another folder, or remove it")
-    part = dest.with_name(dest.name + ".part")
-    try:
-        part.mkdir(parents=True)
-    except FileExistsError:
-        raise ValueError(f"{part}: another export writes it, or was killed; if none is running, remove it") from None
-    try:
+    with new_folder(dest) as part:
         yield part
         os.sync()
-        part.rename(dest)
-    except BaseException:
-        shutil.rmtree(part, ignore_errors=True)
-        raise

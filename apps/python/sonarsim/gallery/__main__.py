@@ -8,97 +8,155 @@ import re
 import shutil
 import sys
 
-from ..need import need
+from ..command import need, new_folder, replaced, run
 
-need("numpy")
+need("gallery", "numpy")
 
 from .. import data
 from ..tally import EDGES, Tally
-from .dataset import PINGS_PER_CHUNK, Shown, short
 
 PAGE = pathlib.Path(__file__).parent / "page"
 SCRIPTS = ("data.js", "picture.js", "objects.js", "statistics.js", "controls.js")
 MARK = b'<meta name="generator" content="sonarsim gallery">'
-FILES = "index_files"
-OWN_FILE = re.compile(r"index\.html|page\.(css|js)|\d+(_\d+_\d+)?\.js")
+OWN_FILE = re.compile(r"page\.(css|js)|\d+(_\d+_\d+)?\.js")
+PINGS_PER_CHUNK = 250
 
 
-def members_of(out):
-    """The datasets by their folders, what was drawn for each, and the number of variants that are missing."""
-    if (out / "dataset.json").is_file():
-        return {"": data.open_dataset(out)}, {}, 0
-    found = {path.parent.name: data.open_dataset(path.parent) for path in sorted(out.glob("*/dataset.json"))
-             if not path.parent.is_symlink()}
+def facts_of(content, *without):
+    """The texts and numbers, also those in sections, with six digits."""
+    facts = {f"{key}.{part}": one for key, value in content.items() if isinstance(value, dict)
+             for part, one in value.items()} | content
+    return {key: float(f"{value:.6g}") if isinstance(value, float) else value for key, value in facts.items()
+            if isinstance(value, (str, int, float)) and key not in without}
+
+
+def shape_of(box, x, y, mask="", shadow=None):
+    """[left, top, right, bottom, mask, box of the shadow or 0]."""
+    (left, right), (top, bottom) = box[x], box[y]
+    return [*map(int, (left, top, right, bottom)), str(mask or ""), shape_of(shadow, x, y)[:4] if shadow else 0]
+
+
+def facts_of_ping(meta):
+    """When and where a ping was, and what it measured."""
+    return facts_of(dict(zip("xyz", meta["T_world_vehicle"]["position_m"]), time_s=meta["time_s"],
+                         estimated_error=meta.get("estimated_error")) | meta.get("measured", {}))
+
+
+class Shown:
+    """A dataset as the page shows it; `totals` are the tallies of all datasets, by sensor."""
+
+    def __init__(self, dataset, classes, totals):
+        self.dataset, self.classes, self.totals = dataset, classes, totals
+        self.labels = [[str(dataset.instances[one]), classes.index(dataset.classes[number])]
+                       for one, number in dataset.class_of.items()]
+        self.label_of = {one: label for label, one in enumerate(dataset.class_of)}
+        self.background = [k for k, name in enumerate(classes) if name in dataset.background]
+
+    def entries(self, content, tallies):
+        """[label, facts, shape in the image of bins or in the record, shape in the fan or 0] of each object."""
+        entries, counted = [], []
+        for seen in content["objects"]:
+            label, shadow, fan = self.label_of[seen["id"]], seen.get("shadow") or {}, seen.get("fan")
+            facts = facts_of({key: value for key, value in seen.items() if "box" not in key and key != "fan"},
+                             "id", "name", "class", "mask")
+            own = (seen["box_px"], "x", "y") if "box_px" in seen else (seen["box_bins"], "beam", "range")
+            shape = shape_of(*own, seen.get("mask"), seen.get("shadow_box_px") or shadow.get("box_bins"))
+            entries.append([label, facts, shape, fan and shape_of(fan["box_px"], "x", "y", fan.get("mask"),
+                                                                  fan.get("shadow_box_px"))])
+            if self.labels[label][1] not in self.background:
+                area = facts.get("area_px", facts.get("area_bins"))
+                counted.append({**facts, "area": area, "id": seen["id"], "class": self.labels[label][1] + 1, "iscrowd": 0})
+        for tally in tallies:
+            tally.add(self.dataset.folder, counted)
+        return entries
+
+    def contents(self, pattern, numbers, taken):
+        """(number, what `taken` makes of its content) of the files that are there; an error within names the file."""
+        for number in numbers:
+            name = pattern % number if "%" in pattern else pattern
+            if os.path.lexists(self.dataset.folder / name):
+                with data.reading(data.own_file(self.dataset.folder, name)) as path:
+                    yield number, taken(data.read_json(path.read_bytes()))
+
+    def sensor(self, sensor):
+        """A sensor for the page, and its chunks: {number: {ping: {"objects": entries, "meta": facts}}}."""
+        own, files, seen, pictures, chunks = sensor.description, sensor.description["files"], {}, {}, {}
+        tallies = Tally(self.classes), self.totals[sensor.name]
+        # The place of shapes in an entry, and the size of the picture that is labelled.
+        shapes = {"fan": (3, *(own.get("fan", {}).get(key) for key in ("width_px", "height_px"))),
+                  "bins": (2, *(len(edges) - 1 for edges in (sensor.azimuth_edges_rad, sensor.range_edges_m)
+                                if edges is not None))}
+        views = [view | dict(zip(("part", "width", "height"), shapes.get(view.get("boxes_of"), (2,))))
+                 for view in own["pictures"]]
+        if any(data.is_behind_link(sensor.folder, view["file"]) for view in views):
+            raise ValueError(f"a picture of {sensor.name} lies behind a link")
+        for view in [one for one in views if one["per"] == "sweep" or "pings_along" in one][:1]:
+            is_sweep, pings = view["per"] == "sweep", data.whole(view.get("pings", max(len(sensor), 1)), 1, "pings")
+            for number, (view["width"], view["height"], pictures[number]) in self.contents(
+                    f"{sensor.name}/objects{'_%04d' if is_sweep else ''}.json", range(-(-len(sensor) // pings)),
+                    lambda content: (int(content["width"]), int(content["height"]), self.entries(content, tallies))):
+                for label, _, box, _ in pictures[number]:
+                    ends = (0, 0) if is_sweep else box["xy".index(view["pings_along"]):4:2]
+                    ping = number * pings + int(sum(ends) / 2 * view.get("pings_per_pixel", 1))
+                    seen.setdefault(label, set()).add(min(ping, len(sensor) - 1))
+        for kind in sorted({"objects", "meta"} & files.keys()):
+            taken = (lambda content: self.entries(content, tallies)) if kind == "objects" else facts_of_ping
+            for pose, found in self.contents(files[kind], sensor.pings, taken):
+                ping = pose // sensor.pings.step
+                chunks.setdefault(ping // PINGS_PER_CHUNK, {}).setdefault(ping, {})[kind] = found
+                for entry in found if kind == "objects" else ():
+                    seen.setdefault(entry[0], set()).add(ping)
+        return {"name": sensor.name, "kind": sensor.kind, "every": sensor.pings.step, "pings": len(sensor), "views": views,
+                "meta": files.get("meta", ""), "pictures": pictures, "chunks": sorted(chunks),
+                "statistics": tallies[0].as_json(), "seen": {label: sorted(pings) for label, pings in seen.items()}}, chunks
+
+    def write(self, files, k):
+        """Writes the k-th dataset: JSON as text within scripts, so that no name in it means anything to JavaScript."""
+        def write(key, value):
+            text = json.dumps(json.dumps(value, separators=(",", ":"), allow_nan=False))
+            (files / f"{key}.js").write_text(f'take("{key}",{text})\n', "utf-8")
+        # As text, since JavaScript rounds whole numbers from 2^53 on.
+        about = {key: str(self.dataset.description.get(key)) for key in ("program_version", "seed", "poses")} | {
+            "complete": self.dataset.complete is True, "labels": self.labels, "background": self.background, "sensors": []}
+        for s, one in enumerate(self.dataset.sensors.values()):
+            sensor, chunks = self.sensor(one)
+            about["sensors"].append(sensor)
+            for c, chunk in chunks.items():
+                write(f"{k}_{s}_{c}", chunk)
+        write(k, about)
+
+
+def write_page(out, is_quiet):
+    """Writes the page, whole or not at all."""
+    found = [""] if (out / "dataset.json").is_file() else sorted(
+        path.parent.name for path in out.glob("*/dataset.json") if not path.parent.is_symlink())
     if not found:
         raise ValueError(f"{out}: is no dataset and holds none; a dataset's folder has a dataset.json")
-    variants = data.read_variants(out) if (out / "variants.json").is_file() else {}
-    with data.reading(out / "variants.json"):
-        drawn = {name: {str(key): str(short(value)) for key, value in one.get("drawn", {}).items()}
-                 for name, one in variants.items()}
-    return found, drawn, len(variants.keys() - found.keys())
-
-
-def require_ours(out):
-    """Refuses to replace what another program wrote."""
-    page = out / "index.html"
-    if os.path.lexists(page) and (page.is_symlink() or MARK not in page.read_bytes()[:1000]):
-        raise ValueError(f"{page}: is not of sonarsim's making, and would be replaced; move it away")
-    for folder in (out / FILES, out / f"{FILES}.tmp"):
-        if os.path.lexists(folder) and (folder.is_symlink() or not folder.is_dir() or
-                                        not all(OWN_FILE.fullmatch(name) for name in os.listdir(folder))):
-            raise ValueError(f"{folder}: is not of sonarsim's making, and would be replaced; move it away")
-
-
-def write_chunk(files, key, value):
-    """JSON as text within a script, so that no name in it means anything to JavaScript."""
-    text = json.dumps(json.dumps(value, separators=(",", ":"), allow_nan=False))
-    (files / f"{key}.js").write_text(f'take("{key}",{text})\n', "utf-8")
-
-
-def write_dataset(files, k, shown):
-    """The files of a dataset. Returns its number of pings."""
-    description, sensors = shown.dataset.description, []
-    for s, one in enumerate(shown.dataset.sensors.values()):
-        sensor, chunks = shown.sensor(one)
-        sensors.append(sensor)
-        for c, chunk in chunks.items():
-            write_chunk(files, f"{k}_{s}_{c}", chunk)
-    # As text, since JavaScript rounds whole numbers from 2^53 on.
-    about = {key: str(description.get(key)) for key in ("program_version", "seed", "poses")}
-    write_chunk(files, k, about | {"complete": description.get("complete") is True, "labels": shown.labels,
-                                   "sensors": sensors, "background": shown.background})
-    return sum(sensor["pings"] for sensor in sensors)
-
-
-def write_page(out):
-    """Writes the page, whole or not at all. Returns the numbers of datasets and pings, and the bytes."""
-    datasets, drawn, missing = members_of(out)
-    require_ours(out)
-    files, partial = out / FILES, out / f"{FILES}.tmp"
-    shutil.rmtree(partial, ignore_errors=True)
-    partial.mkdir()
-    try:
-        classes = list(dict.fromkeys(one.classes[k] for one in datasets.values() for k in one.class_of.values()))
-        totals, pings = collections.defaultdict(lambda: Tally(classes)), 0
-        for k, dataset in enumerate(datasets.values()):
+    datasets = [data.open_dataset(out / name) for name in found]
+    variants = data.read_variants(out) if found[0] and (out / "variants.json").is_file() else {}
+    page, files = out / "index.html", out / "index_files"
+    for path, is_ours in ((page, lambda: MARK in page.read_bytes()[:1000]),
+                          (files, lambda: all(map(OWN_FILE.fullmatch, os.listdir(files))))):
+        if os.path.lexists(path) and (path.is_symlink() or not is_ours()):
+            raise ValueError(f"{path}: is not of sonarsim's making, and would be replaced; move it away")
+    with new_folder(files) as partial, replaced(page) as index:
+        classes = list(dict.fromkeys(one.classes[k] for one in datasets for k in one.class_of.values()))
+        totals = collections.defaultdict(lambda: Tally(classes))
+        for k, dataset in enumerate(datasets):
             with data.reading(dataset.folder / "dataset.json"):
-                pings += write_dataset(partial, k, Shown(dataset, classes, totals))
-        about = {"name": out.resolve().name, "missing": missing, "classes": classes, "chunk": PINGS_PER_CHUNK,
-                 "edges": EDGES, "datasets": [(name, drawn.get(name, {})) for name in datasets],
+                Shown(dataset, classes, totals).write(partial, k)
+        with data.reading(out / "variants.json"):
+            drawn = {name: {str(key): str(value) for key, value in facts_of(one.get("drawn", {})).items()}
+                     for name, one in variants.items()}
+        about = {"name": out.resolve().name, "classes": classes, "chunk": PINGS_PER_CHUNK, "edges": EDGES,
+                 "datasets": [(name, drawn.get(name, {})) for name in found],
                  "statistics": {sensor: tally.as_json() for sensor, tally in totals.items()}}
-        page = (PAGE / "page.html").read_text("utf-8")
-        page = page.replace("<!--data-->", json.dumps(about).replace("<", "\\u003c"))
-        (partial / "index.html").write_text(page, "utf-8")
+        text = (PAGE / "page.html").read_text("utf-8").replace("<!--data-->", json.dumps(about).replace("<", "\\u003c"))
+        index.write_text(text, "utf-8")
         (partial / "page.js").write_bytes(b"".join((PAGE / name).read_bytes() for name in SCRIPTS))
         shutil.copyfile(PAGE / "page.css", partial / "page.css")
-        size = sum(file.stat().st_size for file in partial.iterdir())
-        shutil.rmtree(files, ignore_errors=True)
-        partial.rename(files)
-        (files / "index.html").replace(out / "index.html")
-    except BaseException:
-        shutil.rmtree(partial, ignore_errors=True)
-        raise
-    return len(datasets), pings, size
+    if not is_quiet:
+        print(f"{page}: {len(datasets)} datasets; open it in a browser")
 
 
 def main():
@@ -108,18 +166,7 @@ def main():
                         help="the folder of a dataset, of the variants of a mission, or of several datasets")
     parser.add_argument("-q", "--quiet", action="store_true", help="print only errors")
     arguments = parser.parse_args()
-    try:
-        datasets, pings, size = write_page(arguments.folder)
-    except ValueError as error:
-        print(f"sonarsim gallery: {error}", file=sys.stderr)
-        return 2
-    except OSError as error:
-        print(f"sonarsim gallery: {error.filename or arguments.folder}: {error.strerror}", file=sys.stderr)
-        return 1
-    if not arguments.quiet:
-        print(f"{arguments.folder / 'index.html'}: {datasets} datasets, {pings} pings, {size / 1e6:.1f} MB; "
-              "open it in a browser")
-    return 0
+    return run("gallery", write_page, arguments.folder, arguments.quiet)
 
 
 if __name__ == "__main__":

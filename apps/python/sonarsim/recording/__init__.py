@@ -4,7 +4,6 @@
     recording.values                        # float32 [ping, range, beam], as the instrument delivers them
     recording.powers()                      # the same, as powers by the law of the recording
 """
-import math
 import pathlib
 
 from .arrays import read_arrays
@@ -24,7 +23,6 @@ def open_recording(path, sensor=None, pings=None):
     if file.exists():
         own = read_description(file)
         recording = (read_arrays if own.source in ("files", "soundings") else read_files)(own, most_pings)
-        recording.pitch_rad = None if own.pitch_deg is None else math.radians(own.pitch_deg)
     elif (path / "dataset.json").exists():
         recording = read_dataset(path, sensor, most_pings)
     else:

@@ -67,21 +67,9 @@ def bearings_of(own, beams):
     return np.arcsin(np.clip(even, -1.0, 1.0)) if is_sine else even
 
 
-def set_times(own, recording, are_needed=True):
-    """Times and directions of the head from the keys of recording.yaml."""
-    count = len(recording)
-    if own.times_s and len(own.times_s) < count:
-        own.refuse(f"times_s has {len(own.times_s)} times for {count} pings")
-    if are_needed and not own.times_s and not own.rate_hz and count > 1:
-        own.refuse("lacks the key 'rate_hz' or 'times_s': there are several pings")
-    recording.times_s = np.array(own.times_s[:count]) if own.times_s else np.arange(count) / (own.rate_hz or 1.0)
-    recording.head_rad = np.radians(own.head_first_deg + np.arange(count) * own.head_step_deg)
-
-
 def read_arrays(own, most_pings):
     """The recording in the arrays of `files` or `soundings`."""
-    recording = Recording(own.kind, own.law, "", own.sound_speed_m_s, own.first_range_m or 0.0, own.range_step_m or 0.0,
-                          frequency_hz=own.frequency_hz, altitude_m=own.altitude_m)
+    recording = Recording(own.kind, own.law, "", own.sound_speed_m_s, own.first_range_m or 0.0, own.range_step_m or 0.0)
     if own.source == "soundings":
         arrays = [read_array(path) for path in own.files]
         for array, path in zip(arrays, own.files):
@@ -101,5 +89,4 @@ def read_arrays(own, most_pings):
         recording.values = np.concatenate(arrays)
     if own.kind == "imaging":
         recording.bearing_rad = bearings_of(own, recording.values.shape[2])
-    set_times(own, recording)
     return recording

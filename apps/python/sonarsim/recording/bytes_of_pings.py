@@ -3,7 +3,6 @@
 A reader takes the bytes of a file, the number of pings to read and the recording.yaml, and returns a Recording. It raises
 ValueError with a sentence that lacks its subject, the file. struct.error means that the file is cut off."""
 import dataclasses
-import datetime
 import struct
 
 import numpy as np
@@ -42,14 +41,6 @@ def pings_among(data, mark, header, most_pings, length_of, pings_of):
     if (is_cut_off or at >= 0) and len(found) < most_pings:
         raise ValueError("is cut off within a message")
     return found
-
-
-def days_since_1970(year, month, day):
-    """None if there is no such day."""
-    try:
-        return (datetime.date(year, month, day) - datetime.date(1970, 1, 1)).days
-    except (ValueError, OverflowError):
-        return None
 
 
 def stacked(pings):

@@ -45,8 +45,6 @@ def recording_of(folder, sensor, most_pings):
     if recording.kind == "soundings":
         recording.soundings = soundings_of(folder, sensor, recording)
         recording.values = recording.bearing_rad = None
-    # Times stand in the metadata of each ping; figures need only the order.
-    recording.times_s, recording.head_rad = np.arange(pings, dtype=float), np.zeros(pings)
     return recording
 
 
@@ -101,7 +99,7 @@ def soundings_of(folder, sensor, recording):
 
 
 def set_facts(folder, sensor, is_raw, recording):
-    """The law, the speed of sound and the frequency."""
+    """The law and the speed of sound."""
     path = folder / "mission.resolved.yaml"
     mission = read_yaml(path, LARGEST_MISSION)
     def section(keys):
@@ -110,7 +108,6 @@ def set_facts(folder, sensor, is_raw, recording):
     recording.law = Law("amplitude", full_value=float(sensor.description["full_scale"]))
     if "instrument" in sensor.description:      # the calibrated model
         recording.law = Law("power", full_value=1.0)
-        recording.frequency_hz = instrument.number("frequency_hz", 1.0, 1e9)
     if is_raw:
         receiver = section(instrument.keys["receiver"])
         kind = {"gamma": "gamma", "log": "decibel"}.get(receiver.keys.get("companding", "gamma"), "amplitude")

@@ -15,10 +15,9 @@ SOURCES = {"files": KINDS[:4], "xtf": ("sidescan", "soundings"), "oculus": ("ima
 ANGLE = (-360.0, 360.0)
 NUMBERS = {     # key: least, greatest, default
     "sound_speed_m_s": (300.0, 1e4), "first_range_m": (0.0, 1e6), "range_step_m": (0.0, 1e4),
-    "bearing_first_deg": (*ANGLE, 0.0), "bearing_last_deg": (*ANGLE, 0.0), "head_first_deg": (*ANGLE, 0.0),
-    "head_step_deg": (*ANGLE, 0.0), "frequency_hz": (1e3, 1e8), "altitude_m": (0.0, 1e5), "pitch_deg": (-180.0, 180.0),
-    "rate_hz": (0.0, 1e6)}
-LISTS = {"bearings_deg": ANGLE, "times_s": (-1e12, 1e12)}
+    "bearing_first_deg": (*ANGLE, 0.0), "bearing_last_deg": (*ANGLE, 0.0), "frequency_hz": (1e3, 1e8)}
+# Keys that describe a recording to its readers. No figure needs them.
+NOTES = ("rate_hz", "times_s", "head_first_deg", "head_step_deg", "altitude_m", "pitch_deg")
 LAW_NUMBERS = {"exponent": (0.1, 2.0, 0.5), "range_db": (0.0, 300.0, 0.0), "full_value": (0.0, 1e30, 255.0),
                "offset": (0.0, 0.9, 0.0)}
 SOUNDING_FILES = ("range_m", "angle_rad", "intensity")
@@ -86,7 +85,8 @@ def read_yaml(path, largest):
 def read_description(path):
     """The recording.yaml at a path as a namespace: a name for each key, None where it is missing and has no default; and
     `source`, the key that names the files, `files`, `full_value_is_auto` and `refuse`."""
-    section = Section(path, read_yaml(path, LARGEST_FILE), ["kind", *SOURCES, "law", "spread", *NUMBERS, *LISTS])
+    section = Section(path, read_yaml(path, LARGEST_FILE), ["kind", *SOURCES, "law", "spread", *NUMBERS, "bearings_deg",
+                                                           *NOTES])
     kind, named = section.choice("kind", KINDS), [key for key in SOURCES if section.keys.get(key)]
     if len(named) != 1 or kind not in SOURCES[named[0]]:
         section.refuse(f"of the kind {kind} needs one of the keys {', '.join(k for k in SOURCES if kind in SOURCES[k])}, "
@@ -94,8 +94,8 @@ def read_description(path):
     own = types.SimpleNamespace(
         refuse=section.refuse, kind=kind, source=named[0], files=section.files(named[0]), law=None,
         spread=section.choice("spread", ("angle", "sine"), "angle"), full_value_is_auto=False,
-        **{key: section.number(key, *limits) for key, limits in NUMBERS.items()},
-        **{key: section.numbers(key, *limits) for key, limits in LISTS.items()})
+        bearings_deg=section.numbers("bearings_deg", *ANGLE),
+        **{key: section.number(key, *limits) for key, limits in NUMBERS.items()})
     if section.keys.get("law") is not None:
         law = Section(path, section.keys["law"], ["kind", *LAW_NUMBERS])
         own.full_value_is_auto = law.keys.get("full_value") in (None, "auto")

@@ -5,7 +5,7 @@ DIDSON follow Echoview's formula ("DIDSON data files"): the begin of the window 
 is not taken out."""
 import numpy as np
 
-from .bytes_of_pings import FASTEST_SOUND_M_S, days_since_1970, decibel_law, field, frames, law_of, timed_recording
+from .bytes_of_pings import FASTEST_SOUND_M_S, decibel_law, field, frames, law_of, timed_recording
 
 ARIS = b"DDF\x05"
 HEADERS = {b"DDF\x03": (512, 256), b"DDF\x04": (1024, 1024), ARIS: (1024, 1024)}    # of the file and of a frame
@@ -32,7 +32,7 @@ def read(data, most_pings, own):
 
 
 def facts_of_aris(data, found, own):
-    """Ranges, speed of sound, law and times of frames."""
+    """Ranges, speed of sound and law of frames."""
     if any(field(frame, "I", 468) != field(data, "I", 24) for frame in found):
         raise ValueError("changes its number of samples; split the file there")
     if any(field(frame, "I", 516) != 1 for frame in found):
@@ -42,22 +42,19 @@ def facts_of_aris(data, found, own):
         raise ValueError("has a frame without a speed of sound")
     times = [(1e-6 * field(frame, "I", 476), 1e-6 * field(frame, "I", 452)) for frame in found]     # delay, period
     return {"ranges_s": [(delay + 0.5 * period, period) for delay, period in times], "speed_m_s": speed,
-            "law": law_of(own), "times_s": np.array([1e-6 * field(frame, "Q", 20) for frame in found])}
+            "law": law_of(own)}
 
 
 def facts_of_didson(data, found, own):
-    """The same; the speed of sound is that of recording.yaml, and times are of the computer that recorded."""
+    """The same; the speed of sound is that of recording.yaml."""
     is_fine, rate_hz, serial = field(data, "i", 12), field(data, "f", 20), field(data, "i", 44)
     if not 0.0 < rate_hz < 1e9:
         raise ValueError("has no rate of samples")
-    ranges_s, times_s = [], []
+    ranges_s = []
     for frame in found:
         is_classic, periods = serial <= LAST_CLASSIC_SERIAL or field(frame, "i", 192) & 1, field(frame, "i", 52)
-        days = days_since_1970(*(field(frame, "i", at) for at in (20, 24, 28)))
-        if not 0 <= periods < MOST_PERIODS or days is None:
-            raise ValueError("has a frame without a window of range, or without a date")
+        if not 0 <= periods < MOST_PERIODS:
+            raise ValueError("has a frame without a window of range")
         window = (1 if is_fine else 2) * (CLASSIC_PERIOD_S if is_classic else EXTENDED_PERIOD_S) * periods
         ranges_s.append((window + 0.5 / rate_hz, 1.0 / rate_hz))
-        clock = [field(frame, "i", at) for at in (32, 36, 40, 44)]
-        times_s.append(86400.0 * days + np.dot(clock, (3600.0, 60.0, 1.0, 0.01)))
-    return {"ranges_s": ranges_s, "law": decibel_law(own, 90.0, 255.0), "times_s": np.array(times_s)}
+    return {"ranges_s": ranges_s, "law": decibel_law(own, 90.0, 255.0)}

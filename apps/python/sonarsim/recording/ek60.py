@@ -11,7 +11,6 @@ from .bytes_of_pings import FASTEST_SOUND_M_S, decibel_law, field, timed_recordi
 DATA_AT = 84
 DB_PER_STEP = 10.0 * math.log10(2.0) / 256.0
 RANGE_DB = 200.0
-S_FROM_1601_TO_1970 = 11644473600.0
 
 
 def read(data, most_pings, own):
@@ -23,13 +22,11 @@ def read(data, most_pings, own):
     if not near or len(near) > 1 and not own.frequency_hz:
         raise ValueError(f"has channels of {', '.join(f'{one:.0f}' for one in all_hz)} Hz; choose one of them with "
                          "`frequency_hz`")
-    frequency = near[0]
-    pings = [ping for ping in pings if ping["frequency_hz"] == frequency][:most_pings]
+    pings = [ping for ping in pings if ping["frequency_hz"] == near[0]][:most_pings]
     recording = timed_recording(
         "echosounder", [ping["steps"][:, None] for ping in pings], own,
         [(ping["offset"] * ping["sample_s"], ping["sample_s"]) for ping in pings], pings[0]["sound_speed_m_s"],
-        law=decibel_law(own, RANGE_DB, RANGE_DB), frequency_hz=frequency,
-        times_s=np.array([ping["time_s"] for ping in pings]))
+        law=decibel_law(own, RANGE_DB, RANGE_DB))
     recording.values = np.maximum(np.float32(DB_PER_STEP) * recording.values + np.float32(RANGE_DB), np.float32(0.0))
     return recording
 
@@ -58,6 +55,5 @@ def power_of(datagram):
         return []
     if count > (len(datagram) - DATA_AT) // 2:
         raise ValueError("has more samples than their datagram")
-    return [{"time_s": field(datagram, "Q", 4) / 1e7 - S_FROM_1601_TO_1970, "frequency_hz": frequency,
-             "sample_s": sample_s, "sound_speed_m_s": speed, "offset": offset,
+    return [{"frequency_hz": frequency, "sample_s": sample_s, "sound_speed_m_s": speed, "offset": offset,
              "steps": np.frombuffer(datagram, "<i2", count, DATA_AT)}]

@@ -5,7 +5,7 @@ import struct
 import numpy as np
 
 from . import didson, ek60, oculus, ping360, xtf
-from .arrays import bearings_of, set_times
+from .arrays import bearings_of
 from .recording import MOST_VALUES, RecordingError, Soundings
 
 LARGEST_FILE = 1 << 31
@@ -28,18 +28,11 @@ def read_files(own, most_pings):
             raise RecordingError(f"{path}: makes more than {MOST_VALUES} values in all; take fewer pings")
         parts.append(part)
     recording = joined(own, parts)
-    # What the format lacks is taken from recording.yaml.
-    recording.frequency_hz = own.frequency_hz or recording.frequency_hz
-    recording.altitude_m = own.altitude_m or recording.altitude_m
     if own.kind == "imaging" and recording.bearing_rad is None:
         if not own.bearings_deg and own.bearing_first_deg == own.bearing_last_deg:
             own.refuse("lacks 'bearing_first_deg' and 'bearing_last_deg', or 'bearings_deg': this format has no "
                        "bearings")
         recording.bearing_rad = bearings_of(own, recording.values.shape[2])
-    heads = np.zeros(len(recording)) if recording.head_rad is None else recording.head_rad
-    if recording.times_s is None:
-        set_times(own, recording, own.kind == "imaging")
-    recording.head_rad = np.radians(own.head_first_deg) + heads
     return recording
 
 
@@ -66,7 +59,7 @@ def joined(own, parts):
     """The recordings of several files as one; RecordingError if one has other ranges, beams or levels than the first."""
     first = parts[0]
     # Sonars round these; chosen.
-    shares = {"frequency_hz": 0.01, "first_range_m": 0.01, "range_step_m": 0.01 if own.source == "xtf" else 1e-4}
+    shares = {"first_range_m": 0.01, "range_step_m": 0.01 if own.source == "xtf" else 1e-4}
     for path, part in zip(own.files, parts if first.values is not None else ()):
         others = [name for name, share in shares.items()
                   if not math.isclose(getattr(part, name) or 0.0, getattr(first, name) or 0.0, rel_tol=share)]
@@ -76,7 +69,6 @@ def joined(own, parts):
             raise RecordingError(f"{path}: has another {others[0]} than the first file; split the recording there")
     if first.soundings:
         first.soundings = Soundings.of([ping for part in parts for ping in zip(*vars(part.soundings).values())])
-    for name in ("values", "times_s", "head_rad"):
-        if getattr(first, name) is not None:
-            setattr(first, name, np.concatenate([getattr(part, name) for part in parts]))
+    else:
+        first.values = np.concatenate([part.values for part in parts])
     return first

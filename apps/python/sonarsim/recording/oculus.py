@@ -11,10 +11,10 @@ MARK = b"SO"
 HEADER = 16
 PING_RESULT = 0x23
 FLAGS_AT, SENDS_GAIN = 20, 4
-# The offsets of frequency, speed of sound, step of range, size of a value, ranges, beams, image, its bytes, and bearings.
-FIRST = (61, 85, 98, 97, 106, 108, 110, 114, 122)
-SECOND = (97, 145, 162, 161, 170, 172, 190, 194, 202)
-LAYOUTS = "dddBHHII"
+# The offsets of speed of sound, step of range, size of a value, ranges, beams, image, its bytes, and bearings.
+FIRST = (85, 98, 97, 106, 108, 110, 114, 122)
+SECOND = (145, 162, 161, 170, 172, 190, 194, 202)
+LAYOUTS = "ddBHHII"
 TYPES = {0: "<u1", 1: "<u2", 3: "<u4"}
 
 
@@ -24,20 +24,20 @@ def read(data, most_pings, own):
     pings = pings_among(data, MARK, HEADER, most_pings, length_of, lambda message: [ping_of(message)])
     if not pings:
         raise ValueError("has no ping result of an Oculus")
-    frequency, speed, step, image, bearings = pings[0]
-    if any(abs(ping[2] - step) > 1e-4 * step for ping in pings):
+    speed, step, image, bearings = pings[0]
+    if any(abs(ping[1] - step) > 1e-4 * step for ping in pings):
         raise ValueError("changes its range; split the file there")
     return Recording("imaging", law_of(own, float(np.iinfo(image.dtype).max)), sound_speed_m_s=own.sound_speed_m_s or speed,
-                     first_range_m=0.5 * step, range_step_m=step, bearing_rad=bearings, frequency_hz=frequency,
-                     values=stacked([ping[3] for ping in pings]))
+                     first_range_m=0.5 * step, range_step_m=step, bearing_rad=bearings,
+                     values=stacked([ping[2] for ping in pings]))
 
 
 def ping_of(message):
-    """(frequency, speed of sound, step of range, image [range, beam], bearings) of a whole message."""
+    """(speed of sound, step of range, image [range, beam], bearings) of a whole message."""
     at = SECOND if field(message, "H", 8) == 2 else FIRST
     if field(message, "B", FLAGS_AT) & SENDS_GAIN:
         raise ValueError("has pings with a gain for each range, which are not read; record without `send gain`")
-    frequency, speed, step, size, ranges, beams, image_at, image_bytes = map(
+    speed, step, size, ranges, beams, image_at, image_bytes = map(
         lambda layout, offset: field(message, layout, offset), LAYOUTS, at)
     if size not in TYPES:
         raise ValueError("has values of 24 bits or of no known size")
@@ -47,4 +47,4 @@ def ping_of(message):
         raise ValueError("has a ping whose image does not fit its message")
     image = np.frombuffer(message, dtype, ranges * beams, image_at).reshape(ranges, beams)
     # The message's bearings are hundredths of a degree, negative to the left.
-    return frequency, speed, step, image, -np.radians(0.01 * np.frombuffer(message, "<i2", beams, bearings_at))
+    return speed, step, image, -np.radians(0.01 * np.frombuffer(message, "<i2", beams, bearings_at))

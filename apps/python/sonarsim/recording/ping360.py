@@ -9,7 +9,6 @@ MARK = b"BR"
 HEADER = 8
 SAMPLES_AT = {2300: 14, 2301: 20}   # in the payload, by the message's number
 PERIOD_S = 25e-9
-GRADIAN = np.pi / 200.0
 
 
 def read(data, most_pings, own):
@@ -18,14 +17,12 @@ def read(data, most_pings, own):
     pings = pings_among(data, MARK, HEADER, most_pings, length_of, pings_of)
     if not pings:
         raise ValueError("is no .raw of an EK60, no .ddf and no .aris, and has no pings of a Ping360")
-    # Heads turn clockwise from above.
-    return timed_recording("scanning", [ping[3][:, None] for ping in pings], own,
-                           [(0.5 * PERIOD_S * ping[1], PERIOD_S * ping[1]) for ping in pings], law=law_of(own),
-                           frequency_hz=1e3 * pings[0][2], head_rad=np.array([-GRADIAN * ping[0] for ping in pings]))
+    return timed_recording("scanning", [samples[:, None] for _, samples in pings], own,
+                           [(0.5 * PERIOD_S * periods, PERIOD_S * periods) for periods, _ in pings], law=law_of(own))
 
 
 def pings_of(message):
-    """The (gradians, period, kHz, samples) of a message in a list, which is empty if it has no samples; None if its sum is
+    """The (periods of a sample, samples) of a message in a list, which is empty if it has no samples; None if its sum is
     wrong."""
     if sum(message[:-2]) & 0xFFFF != field(message, "H", len(message) - 2):
         return None
@@ -33,5 +30,4 @@ def pings_of(message):
     count = field(payload, "H", samples_at - 2)
     if count > len(payload) - samples_at:
         raise ValueError("has a ping with more samples than their message")
-    return [(*(field(payload, "H", at) for at in (2, 6, 8)), np.frombuffer(payload, np.uint8, count, samples_at))
-            ] if count else []
+    return [(field(payload, "H", 6), np.frombuffer(payload, np.uint8, count, samples_at))] if count else []

@@ -72,15 +72,10 @@ class Recording:
     first_range_m: float = 0.0              # slant range of the middle of the first sample
     range_step_m: float = 0.0
     bearing_rad: np.ndarray | None = None   # of each beam of the kind imaging, positive to port
-    frequency_hz: float | None = None
-    altitude_m: float | None = None
-    pitch_rad: float | None = None          # of the mount; positive turns the axis down
     # float32 [ping, range, beam] as delivered, the law not undone; side-scan: 2 beams, port first;
     # scanning and echosounder: 1 beam; soundings: None.
     values: np.ndarray | None = None
     soundings: Soundings | None = None      # of the kind soundings alone
-    times_s: np.ndarray | None = None       # of each ping; of a dataset the number of the ping
-    head_rad: np.ndarray | None = None      # direction of the head of a scanning sonar in each ping
 
     def __len__(self):
         """The number of pings."""
@@ -97,11 +92,9 @@ class Recording:
 
     def part(self, pings):
         """The recording of some of the pings: a slice, or an array of their numbers or of booleans."""
-        def of(array):
-            return None if array is None else array[pings]
-        soundings = self.soundings and Soundings(*map(of, vars(self.soundings).values()))
-        return dataclasses.replace(self, values=of(self.values), soundings=soundings, times_s=of(self.times_s),
-                                   head_rad=of(self.head_rad))
+        if self.soundings:
+            return dataclasses.replace(self, soundings=Soundings(*(of[pings] for of in vars(self.soundings).values())))
+        return dataclasses.replace(self, values=self.values[pings])
 
     def check(self, source):
         """RecordingError unless there are pings, and each value can be one of the law."""

@@ -3,11 +3,10 @@
 Of each ping the first port channel and the first starboard channel are read. Samples are unsigned 8, 16 or 32 bits or
 IEEE floats, times 2 to the power of minus the channel's weight."""
 import itertools
-import math
 
 import numpy as np
 
-from .bytes_of_pings import days_since_1970, field, law_of, stacked
+from .bytes_of_pings import field, law_of, stacked
 from .recording import Recording, Soundings
 
 FILE_HEADER, CHANNEL_INFO, PING_HEADER, CHANNEL_HEADER = 1024, 128, 256, 64
@@ -23,33 +22,31 @@ SOUNDING = np.dtype({"names": ["intensity", "two_way_s", "angle_deg"], "formats"
 
 def read_sides(data, most_pings, own):
     """The side-scan pings; those that lack a side are left out."""
-    channels, pings, times = channels_of(data), [], []
+    channels, pings = channels_of(data), []
     first = full_value = 0.0
     for record in records(data, len(channels), SIDE_SCAN):
         sides = sides_of(record, channels)
         if len(sides) < 2:
             continue
         first = first or (record, *sides[PORT])
-        for samples, range_m, _, largest in sides.values():
+        for samples, range_m, largest in sides.values():
             full_value = max(full_value, largest)
             if len(samples) != len(first[1]) or abs(range_m - first[2]) > 0.01 * first[2]:
                 raise ValueError(f"ping {len(pings)} has {len(samples)} samples over {range_m:g} m, the first ping "
                                  f"{len(first[1])} over {first[2]:g} m; split the file where the range changes")
         pings.append(np.stack([sides[PORT][0][::-1], sides[STARBOARD][0]], axis=1))     # port ends at nadir
-        times.append(time_s(record))
         if len(pings) == most_pings:
             break
     if not pings:
         raise ValueError("has no side-scan pings")
-    step, altitude = first[2] / len(first[1]), field(first[0], "f", 196)
+    step = first[2] / len(first[1])
     speed = own.sound_speed_m_s or sound_speed(first[0]) or 1500.0      # ranges do not need it
     return Recording("sidescan", law_of(own, full_value), sound_speed_m_s=speed, first_range_m=0.5 * step, range_step_m=step,
-                     values=stacked(pings), times_s=np.array(times), frequency_hz=first[3] or None,
-                     altitude_m=altitude if 0.0 < altitude < math.inf else None)
+                     values=stacked(pings))
 
 
 def read_soundings(data, most_pings, own):
-    pings, times, speeds = [], [], []
+    pings, speeds = [], []
     for record in itertools.islice(records(data, len(channels_of(data)), MULTIBEAM), most_pings):
         count = field(record, "H", 4)
         if PING_HEADER + count * SOUNDING.itemsize > len(record):
@@ -63,11 +60,9 @@ def read_soundings(data, most_pings, own):
         if not speeds[-1]:
             raise ValueError("has no speed of sound; add `sound_speed_m_s` to recording.yaml")
         pings.append((0.5 * speeds[-1] * beams["two_way_s"], np.radians(beams["angle_deg"]), beams["intensity"]))
-        times.append(time_s(record))
     if not pings:
         raise ValueError("has no pings with soundings (records of the type 28)")
-    return Recording("soundings", law_of(own), sound_speed_m_s=speeds[0], soundings=Soundings.of(pings),
-                     times_s=np.array(times))
+    return Recording("soundings", law_of(own), sound_speed_m_s=speeds[0], soundings=Soundings.of(pings))
 
 
 def channels_of(data):
@@ -102,7 +97,7 @@ def records(data, channels, kind):
 
 
 def sides_of(record, channels):
-    """(samples, range in metres, frequency, largest value that samples can hold) of either side that a ping has."""
+    """(samples, range in metres, largest value that samples can hold) of either side that a ping has."""
     sides, at = {}, PING_HEADER
     for _ in range(field(record, "H", 4)):
         number = field(record, "H", at)
@@ -116,15 +111,8 @@ def sides_of(record, channels):
         if kind in (PORT, STARBOARD) and kind not in sides and count and 0.0 < range_m < LONGEST_RANGE_M:
             factor = 2.0 ** -max(-64, min(64, weight))
             samples = np.float32(factor) * np.frombuffer(record, dtype, count, begin).astype(np.float32)
-            sides[kind] = (samples, range_m, 1e3 * field(record, "H", begin - CHANNEL_HEADER + 26),
-                           factor * np.iinfo(dtype).max if dtype.kind == "u" else 0.0)
+            sides[kind] = samples, range_m, factor * np.iinfo(dtype).max if dtype.kind == "u" else 0.0
     return sides
-
-
-def time_s(record):
-    """Seconds since 1970; of the day alone where there is no date."""
-    days = days_since_1970(field(record, "H", 14), record[16], record[17]) or 0
-    return 86400.0 * days + 3600.0 * record[18] + 60.0 * record[19] + record[20] + 0.01 * record[21]
 
 
 def sound_speed(record):

@@ -2,7 +2,6 @@
 const maps = {
   'as in the file': [],
   copper: ['0 .31 .62 .94 1', '0 .2 .39 .59 .78', '0 .12 .25 .37 .5'],
-  sea: ['0 0 .05 .4 .95', '0 .2 .45 .75 1', '0 .3 .6 .85 1'],
   viridis: ['.27 .23 .13 .37 .99', '0 .32 .57 .79 .91', '.33 .55 .55 .38 .14'],
   inverted: ['1 0', '1 0', '1 0'],
 };
@@ -59,8 +58,7 @@ function show_dataset() {
   data.background.forEach(number => state.known.add(number));
   document.body.hidden = false;
   $('about').textContent = `${data.poses} poses, seed ${data.seed}, sonarsim ${data.program_version}` +
-    (data.complete ? '' : ', not complete when this page was made') +
-    (page.missing ? `; ${page.missing} variants were not begun when this page was made` : '');
+    (data.complete ? '' : ', not complete when this page was made');
   state.sensor = Math.min(state.sensor, data.sensors.length - 1);
   show_legend();
   choose_sensor(state.sensor);
@@ -91,7 +89,6 @@ function choose_map() {
 function toggle_statistics() {
   const are_shown = $('statistics').hidden;
   [$('statistics').hidden, $('pings').hidden] = [!are_shown, are_shown];
-  $('switch').className = are_shown ? 'on' : '';
   show();
 }
 

@@ -1,6 +1,6 @@
 'use strict';
 // The data: the element #page, and files that are loaded when they are needed, index_files/K.js of dataset K and
-// K_S_C.js of the C-th part of its sensor S; see dataset.py.
+// K_S_C.js of the C-th part of its sensor S; see Shown.
 
 const $ = id => document.getElementById(id);
 const page = JSON.parse($('page').textContent);
@@ -62,13 +62,8 @@ function entries_of(shown, ping) {
   return (own || []).filter(entry => entry[shown.part] && !state.hidden.has(class_of(entry[0])));
 }
 
-// The pings of the sensor that show an object; they are stored as first, end, first, end and so on.
-function pings_of(label, one = sensor()) {
-  const [ranges, pings] = [one.seen[label] || [], []];
-  for (let k = 0; k < ranges.length; k += 2)
-    for (let ping = ranges[k]; ping < ranges[k + 1]; ++ping) pings.push(ping);
-  return pings;
-}
+// The pings of the sensor that show an object.
+const pings_of = label => sensor().seen[label] || [];
 
 // A path from the folder of the page; names may have any letters.
 function url_of(pattern, number) {

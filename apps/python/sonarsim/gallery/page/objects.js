@@ -4,7 +4,6 @@ const most_rows = 300;  // of the list: more would make the page slow
 const sightings = count => count ? `${count} ${count === 1 ? 'sighting' : 'sightings'}` : 'not seen';
 
 function show_legend() {
-  const of_class = page.classes.map((_, k) => data.labels.filter(label => label[1] === k).length);
   $('legend').replaceChildren(...page.classes.map((name, k) => {
     const box = Object.assign(element('input', ''), {type: 'checkbox', checked: !state.hidden.has(k)});
     box.onchange = () => {
@@ -14,7 +13,7 @@ function show_legend() {
       show();
     };
     const row = element('label', '');
-    row.append(box, swatch(colours[k % colours.length]), `${name} `, element('small', `${of_class[k]}`));
+    row.append(box, swatch(colours[k % colours.length]), `${name} `);
     return row;
   }));
 }
@@ -39,7 +38,7 @@ function select(label) {
   const shows = one => one.seen[label];
   if (!shows(sensor()) && data.sensors.some(shows)) choose_sensor(data.sensors.findIndex(shows));
   if (shows(sensor()) && view() && !view().width) choose_view(sensor().views.findIndex(one => one.width));
-  const is_here = !(view() && 'along' in view()) && entries_of(view(), state.ping).some(entry => entry[0] === label);
+  const is_here = !(view() && 'pings_along' in view()) && entries_of(view(), state.ping).some(entry => entry[0] === label);
   if (shows(sensor()) && !is_here)
     state.ping = pings_of(label).reduce((a, b) => Math.abs(b - state.ping) < Math.abs(a - state.ping) ? b : a);
   show_objects();

@@ -91,13 +91,14 @@ function draw_mark(context, shown, image) {
   if (shown.per === 'sweep') {
     const angle = (known_of(state.ping).meta || {}).head_angle_rad;
     if (angle === undefined) return;
-    const [x, y] = [image.naturalWidth / 2, shown.radius * image.naturalWidth];
+    const [x, y] = [image.naturalWidth / 2, shown.radius_px / shown.width_px * image.naturalWidth];
     context.moveTo(x, y);
     context.lineTo(x - y * Math.sin(angle), y - y * Math.cos(angle));
-  } else if ('along' in shown) {
-    const way = shown.origin_px[shown.along] + (state.ping + 0.5) / shown.pings_per_pixel * shown.pixel_px[shown.along];
-    context.moveTo(shown.along ? 0 : way, shown.along ? way : 0);
-    context.lineTo(shown.along ? image.naturalWidth : way, shown.along ? way : image.naturalHeight);
+  } else if ('pings_along' in shown) {
+    const along = 'xy'.indexOf(shown.pings_along);
+    const way = shown.origin_px[along] + (state.ping + 0.5) / shown.pings_per_pixel * shown.pixel_px[along];
+    context.moveTo(along ? 0 : way, along ? way : 0);
+    context.lineTo(along ? image.naturalWidth : way, along ? way : image.naturalHeight);
   }
   context.stroke();
 }
@@ -110,7 +111,7 @@ function place_picture(image, shown, frame) {
   area.scale = fit * area.zoom;
   area.matrix = new DOMMatrix().translate(frame.clientWidth / 2, frame.clientHeight / 2).scale(area.scale)
     .translate(-area.x * width, -area.y * height);
-  if (shown.turned) area.matrix = area.matrix.translate(width, height).scale(-1, -1);
+  if (shown.ahead === 'down') area.matrix = area.matrix.translate(width, height).scale(-1, -1);
   image.style.transform = area.matrix.toString();
   image.style.imageRendering = area.scale < 2 ? 'auto' : 'pixelated';
 }
