@@ -1,14 +1,18 @@
-"""Every file and every heading that a page names exists, a function that it links to stands in that
+"""Every file, heading, key and option that a page names exists, a function that it links to stands in that
 file, and code that it quotes stands there word by word.
 
     python3 tests/docs.py <root of the repository>
 
-A block of C++ or of a patch follows a line <!-- from FILE -->. The rule for it is first tried on made-up pages.
+A block of C++ or of a patch follows a line <!-- from FILE -->. The keys of blocks of YAML, and dotted keys in the
+text, stand in the tables of docs/mission.md; python3-yaml reads the blocks, and without it they are left out. The
+rules for code and keys are first tried on made-up pages.
 """
+import importlib.util
 import pathlib
 import re
 import sys
 import tempfile
+import textwrap
 
 FOLDERS = "apps|configs|docs|lib|scenes|scripts|tests|trajectories"
 # A path from the root of the repository, wherever it stands; patterns with * are not paths.
@@ -16,6 +20,11 @@ PATH = re.compile(rf"(?<![\w./*-])(?:\.\./|\./)?((?:{FOLDERS})/[\w./-]*[\w/])(?!
 LINK = re.compile(r"\[([^\]]*)\]\(([^)\s]+)\)")
 BLOCK = re.compile(r"(?:^<!-- from (\S+) -->\n)?^```(?:cpp|diff)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 MADE_LATER = ("scenes/generated/",)  # by scripts/make_scenes.py
+# A command of the program in a block of commands, and a key with a dot in the text.
+FILES = ("py", "h", "cpp", "md", "json", "txt", "csv", "npy", "tif", "png", "tum")
+COMMAND = re.compile(r"^ {4}(?:build/)?sonarsim ([a-z][a-z-]*)(.*)$", re.MULTILINE)
+DOTTED = re.compile(r"`([a-z_]+(?:\.[A-Za-z_0-9]+)+)`")
+YAML = re.compile(r"^```yaml\n(.*?)^```$|^((?: {4}.*\n|\n(?= {4}))+)", re.MULTILINE | re.DOTALL)
 
 
 def anchors_of(page: pathlib.Path) -> set[str]:
@@ -45,7 +54,71 @@ def faults_in_api(root: pathlib.Path) -> list[str]:
     return [f"docs/development.md and tests/consumer disagree on {header}" for header in sorted(listed ^ used)]
 
 
-def try_the_rule():
+def keys_of(root: pathlib.Path) -> set[str]:
+    """The keys of docs/mission.md as paths, without numbers of items and names of sensors: scene.objects.file."""
+    keys, section = set(), ""
+    for line in (root / "docs/mission.md").read_text().splitlines():
+        if line.startswith("### "):
+            named = re.match(r"### `([\w.]+)`", line)
+            section = re.sub(r"\.(?:0|NAME)\b", "", named.group(1)) + "." if named else ""
+        elif row := re.match(r"\| `([\w.]+)` \|", line):
+            keys.add(section + row.group(1))
+    return keys
+
+
+def paths_in(value, path: str, keys: set[str]):
+    """The paths of the keys in a block of YAML; the names of sensors are left out."""
+    if isinstance(value, list):
+        for item in value:
+            yield from paths_in(item, path, keys)
+    elif isinstance(value, dict) and any(key.startswith(path + ".") for key in keys):
+        for name, inner in value.items():
+            below = path if path == "sensors" else f"{path}.{name}".lstrip(".")
+            yield from () if below == path else (below,)
+            yield from paths_in(inner, below, keys)
+
+
+def faults_in_keys(page: pathlib.Path, root: pathlib.Path, keys: set[str]) -> list[str]:
+    """Keys that no mission has: in blocks that begin with a section of the mission or of a scene or sensor."""
+    text = page.read_text()
+    where = page.relative_to(root)
+    sections = {key.rsplit(".", 1)[0] for key in keys if "." in key}
+    last = {part for section in sections for part in section.split(".")}
+    faults = [f"{where}: no mission has a key {name}" for name in DOTTED.findall(text)
+              if name.split(".")[0] in last and name.rsplit(".", 1)[1] not in FILES
+              and not any(f".{key}".endswith("." + re.sub(r"\.\d+\b", "", name).replace(".NAME", "")) for key in keys)]
+    if importlib.util.find_spec("yaml") is None:
+        return faults
+    import yaml
+    for block in YAML.finditer(text):
+        body = textwrap.dedent(block.group(1) or block.group(2))
+        first = re.match(r"(\w+):(?: |$)", body.split("\n")[0])
+        above = next((section for section in ("", "scene.", "sensors.")
+                      if first and section + first.group(1) in keys), None)
+        if above is None:
+            continue
+        try:
+            paths = set(paths_in(yaml.safe_load(body), above.rstrip("."), keys))
+        except yaml.YAMLError:
+            continue  # commands may stand in the same block
+        faults += [f"{where}: no mission has a key {path}" for path in sorted(paths - keys)]
+    return faults
+
+
+def faults_in_commands(page: pathlib.Path, root: pathlib.Path) -> list[str]:
+    """Commands and options of the program that its sources do not name."""
+    program = "".join(file.read_text() for folder in ("apps/sonarsim", "apps/python/sonarsim")
+                      for file in (root / folder).rglob("*") if file.suffix in (".cpp", ".h", ".py"))
+    faults = []
+    for command, rest in COMMAND.findall(page.read_text().replace("\\\n", "")):
+        unknown = [option for option in re.findall(r"(?<=\s)--[a-z][a-z-]*", re.split(r"\s{2,}#| # ", rest)[0])
+                   if f'"{option}"' not in program and f",{option}" not in program]
+        unknown += [] if f'"{command}"' in program else [command]
+        faults += [f"{page.relative_to(root)}: sonarsim {command} does not have {name}" for name in unknown]
+    return faults
+
+
+def try_the_rules():
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
         (root / "a.cpp").write_text("int a;\nint b;\n")
@@ -57,6 +130,14 @@ def try_the_rule():
             page.write_text(text)
             found = faults_in_quotes(page, root)
             assert [line[:len(fault)] for line in found] == [fault] * bool(fault), (text, found)
+        keys = {"seed", "scene", "scene.objects", "scene.objects.file", "sensors", "sensors.noise", "sensors.noise.gain"}
+        for text, faults in (("`scene.objects.0.file` and `noise.gain`, `scene.file`\n", 1), ("`numpy.array`\n", 0),
+                             ("    objects:\n      - {file: a.glb, of: 1}\n", 1), ("    sonarsim render\n", 0),
+                             ("```yaml\nsensors: {fls: {noise: {gain: 1}}}\n```\n", 0)):
+            page.write_text(text)
+            found = faults_in_keys(page, root, keys)
+            if faults == 0 or text.startswith("`") or importlib.util.find_spec("yaml"):
+                assert len(found) == faults, (text, found)
 
 
 def faults_of(page: pathlib.Path, root: pathlib.Path) -> list[str]:
@@ -82,10 +163,12 @@ def faults_of(page: pathlib.Path, root: pathlib.Path) -> list[str]:
 
 
 def main(root: pathlib.Path) -> int:
-    try_the_rule()
+    try_the_rules()
+    keys = keys_of(root)
     pages = sorted((root / "docs").rglob("*.md")) + sorted(root.glob("*.md"))
     faults = [fault for page in pages for fault in faults_of(page, root) + faults_in_quotes(page, root)]
-    faults += faults_in_api(root)
+    faults += [fault for page in pages for fault in faults_in_keys(page, root, keys) if page.name != "CHANGELOG.md"]
+    faults += [fault for page in pages for fault in faults_in_commands(page, root)] + faults_in_api(root)
     print("\n".join(faults) if faults else f"{len(pages)} pages name nothing that is not there")
     return 1 if faults else 0
 

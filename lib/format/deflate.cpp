@@ -20,7 +20,7 @@ using Bytes = std::span<const std::uint8_t>;
 
 constexpr std::size_t end_symbol = 256;
 constexpr std::size_t symbols_known = 286;
-constexpr int max_code_bits = 14;  // of 15, so that four codes fit one put()
+constexpr int max_code_bits = 14;  // DEFLATE allows 15; with 14 four codes fit one put()
 
 constexpr std::size_t min_run = 4;
 constexpr std::size_t max_run = 258;

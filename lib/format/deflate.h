@@ -25,7 +25,7 @@ class ZlibPacker {
 
   private:
     int pixel_bytes_;
-    std::string out_;           ///< what was not taken yet
+    std::string out_;           ///< bytes that were not taken yet
     std::uint64_t buffer_ = 0;  ///< bits that fill no byte yet
     unsigned held_ = 0;         ///< their number, less than 8
     std::uint32_t adler_ = 1;

@@ -14,7 +14,7 @@ namespace sonarsim {
 
 enum class PixelKind { grey8, grey16, rgb8 };
 
-/// How a row is stored: as it is, or each byte as its difference from the pixel to the left (noise,
+/// The storage of a row: as it is, or each byte as its difference from the pixel to the left (noise,
 /// colours) or above (areas of one value, such as ids).
 enum class PngFilter : std::uint8_t { none = 0, left = 1, up = 2 };
 

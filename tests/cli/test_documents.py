@@ -38,7 +38,7 @@ class Documents(Sandbox):
         self.assertIn("\nvariants: 60\n", (ROOT / "configs/detection.yaml").read_text())
 
     def test_error_and_speed_of_the_readme_are_those_of_the_table(self):
-        table = (ROOT / "docs/performance.md").read_text().split("<!-- report tank -->")[1]
+        table = (ROOT / "docs/accuracy.md").read_text().split("<!-- report tank -->")[1]
         row = re.search(r"^\| slices \| relative_l1=0.03 \|(.*)$", table, re.MULTILINE).group(1)
         _, _, rate, error, *_ = [float(cell) for cell in re.findall(r"[\d.]+", row)]
         words = " ".join(README.split())

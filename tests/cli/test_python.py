@@ -290,7 +290,7 @@ class Use(Package):
         np.testing.assert_array_equal(again.image, image)
 
     def test_the_first_program_of_the_page(self):
-        program = (ROOT / "docs/python.md").read_text().split("```python\n")[1].split("```")[0]
+        program = (ROOT / "docs/dataset.md").read_text().split("<!-- pings in memory -->\n```python\n")[1].split("```")[0]
         lines = self.run_page(program)
         self.assertEqual((lines[0], len(lines)), ("(256, 256)", 4 + 90))
 
@@ -396,13 +396,8 @@ class Torch(Package):
         self.assertEqual(text, '{"ping": 3, "objects": []}')
 
     @unittest.skipIf(torch is None, "needs torch")
-    def test_the_boxes_of_the_page(self):
-        page = (ROOT / "docs/python.md").read_text()
-        self.assertGreater(len(self.run_page(page.split("<!-- boxes on the fly -->\n```python\n")[1].split("```")[0])), 10)
-
-    @unittest.skipIf(torch is None, "needs torch")
     def test_the_training_loop_of_the_page(self):
-        page = (ROOT / "docs/python.md").read_text()
+        page = (ROOT / "docs/dataset.md").read_text()
         loop = page.split("<!-- training loop -->\n```python\n")[1].split("```")[0]
         self.assertLessEqual(len(loop.splitlines()), 35)
         lines = self.run_page(loop)

@@ -1,4 +1,4 @@
-"""Checks the examples of docs/add_*.md: what one adds to lib, and how few files it touches.
+"""Checks the examples of docs/development.md: what one adds to lib, and how few files it touches.
 
     python3 tests/examples/check_examples.py <root of the repository> <compiler> <include folders>
 

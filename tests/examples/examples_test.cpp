@@ -13,7 +13,7 @@
 #include "support/scenes.h"
 #include "visibility/rays/rays_engine.h"
 
-// Runs the files that the examples of docs/add_*.md add. check_examples.py compiles them together
+// Runs the files that the examples of docs/development.md add. check_examples.py compiles them together
 // with the lines that the examples change in lib.
 
 namespace sonarsim {

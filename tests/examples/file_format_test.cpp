@@ -1,4 +1,4 @@
-// The example of docs/add_a_file_format.md.
+// The example of docs/development.md, "Add a file format".
 #include <doctest/doctest.h>
 #include <spdlog/fmt/fmt.h>
 

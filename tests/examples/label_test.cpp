@@ -1,4 +1,4 @@
-// The example of docs/add_a_label.md.
+// The example of docs/development.md, "Add a label".
 #include <doctest/doctest.h>
 
 #include <cmath>

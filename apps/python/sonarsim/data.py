@@ -13,7 +13,7 @@
 
     python3 -m sonarsim.data OUT               # says what is in a dataset
 
-A sample has the names of docs/dataset.md and docs/labels.md: 'polar', 'image', 'fan', 'meta' and labels; sonars that are
+A sample has the names of docs/dataset.md: 'polar', 'image', 'fan', 'meta' and labels; sonars that are
 written as records have their rows: 'waterfall', 'echogram', 'scan', 'soundings'.
 """
 import collections.abc

@@ -1,4 +1,4 @@
-"""Compares two recordings figure by figure (docs/compare.md)."""
+"""Compares two recordings figure by figure (docs/calibrate.md)."""
 import dataclasses
 
 import numpy as np

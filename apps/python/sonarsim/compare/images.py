@@ -112,7 +112,7 @@ class Zones:
 
 
 def zones_of(mean_powers):
-    """The zones of the mean powers of ranges (docs/compare.md)."""
+    """The zones of the mean powers of ranges (docs/calibrate.md)."""
     count, at = len(mean_powers), np.arange(len(mean_powers))
     half = count // SMOOTHED_SHARE // 2
     low, high = np.maximum(at - half, 0), np.minimum(at + half + 1, count)

@@ -1,4 +1,4 @@
-"""All figures of the images of a recording (docs/compare.md)."""
+"""All figures of the images of a recording (docs/calibrate.md)."""
 import collections
 import functools
 

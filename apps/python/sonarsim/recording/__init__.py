@@ -1,6 +1,6 @@
 """Recordings of real sonars and of datasets, as arrays of numpy.
 
-    recording = open_recording("pings")     # a folder with recording.yaml (docs/compare.md), or a dataset
+    recording = open_recording("pings")     # a folder with recording.yaml (docs/calibrate.md), or a dataset
     recording.values                        # float32 [ping, range, beam], as the instrument delivers them
     recording.powers()                      # the same, as powers by the law of the recording
 """
@@ -26,7 +26,7 @@ def open_recording(path, sensor=None, pings=None):
     elif (path / "dataset.json").exists():
         recording = read_dataset(path, sensor, most_pings)
     else:
-        raise RecordingError(f"{path}: is no recording: there is neither {FILE_NAME} (docs/compare.md) nor dataset.json")
+        raise RecordingError(f"{path}: is no recording: there is neither {FILE_NAME} (docs/calibrate.md) nor dataset.json")
     recording.check(path)
     # It stands in tables, in JSON and in a comment of a preset.
     recording.name = "".join(c if c.isprintable() else "?" for c in str(path))

@@ -1,4 +1,4 @@
-"""recording.yaml, which describes a folder of arrays or of an instrument's files (docs/compare.md)."""
+"""recording.yaml, which describes a folder of arrays or of an instrument's files (docs/calibrate.md)."""
 import difflib
 import math
 import types

@@ -45,7 +45,7 @@ def read_file(path, own, most_pings):
         read = {"xtf": of_xtf, "oculus": oculus.read}.get(own.source) or next(
             (reader for (at, mark), reader in READERS.items() if content.startswith(mark, at)), ping360.read)
         if isinstance(read, str):
-            raise ValueError(f"is {read} file, which is not read; write its pings as arrays (docs/compare.md)")
+            raise ValueError(f"is {read} file, which is not read; write its pings as arrays (docs/calibrate.md)")
         return read(content, most_pings, own)
     except OSError as fault:
         raise RecordingError(f"{path}: cannot be read: {fault.strerror}") from fault
