@@ -193,6 +193,7 @@ struct OutputConfig {
     bool xtf = false;                ///< side-scan sonars: the waterfall as XTF
     bool mosaic = false;             ///< side-scan sonars: the waterfall georeferenced
     double mosaic_cell_m = 0.0;      ///< 0: from the distance between pings
+    MissionPlace place = {};
 
     bool operator==(const OutputConfig&) const = default;
 };

@@ -39,7 +39,6 @@ std::vector<Sonar> measured_sonars(const Mission& mission, const Assembly& assem
             make_sonar(mission.sensors[i], mission.accuracy, mission.water));
         const PingSettings& own = assembly.sonars[i].settings;
         sonar.settings.targets = own.targets;
-        sonar.settings.buried = own.buried;
         if (auto prepared = sonar.settings.model->prepared(assembly.scene))
             sonar.settings.model = std::move(prepared);
     }
@@ -91,7 +90,6 @@ const PingError& MeasuredError::worst() const {
 Mission without_water_echoes(Mission mission) {
     mission.water.content = WaterContent::none;
     mission.water.scattering_db_per_m3.reset();
-    mission.water.suspended_mg_l.reset();
     mission.water.layers.clear();
     for (SonarConfig& sensor : mission.sensors)
         sensor.instrument.receiver.samples = 1;

@@ -61,7 +61,7 @@ void add_to_groups(double area, const Facet& facet, std::uint32_t triangle,
         }
     }
     if (!home || (best < same_direction && groups.size() < most_groups)) {
-        groups.push_back({area, area * normal, area, {{}, triangle}, facet.material});
+        groups.push_back({area, area * normal, area, {Eigen::Vector3f::Zero(), triangle}, facet.material});
         return;
     }
     home->area += area;
