@@ -69,7 +69,7 @@ InstrumentLevels instrument_levels(const InstrumentConfig& instrument, const Wat
     // Rules of thumb for the levels that are auto.
     constexpr double power_w = 100.0;        // electric power of the transmitter
     constexpr double efficiency = 0.5;       // acoustic by electric power of the transducer
-    constexpr double noise_figure_db = 6.0;  // of the electronics
+    constexpr double noise_figure_db = 6.0;  // electronics
     const double efficiency_db = db_of_power(efficiency);
     const double source_db =
         watt_db + db_of_power(power_w) + efficiency_db + out.transmitting_directivity_db;

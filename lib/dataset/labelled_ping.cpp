@@ -34,6 +34,8 @@ LabelPlan plan_labels(const Mission& mission, const Assembly& assembly, const So
         plan.fan = make_fan_bins(sonar, output.fan_width_px);
     plan.seen = has_images && objects;
     if (objects || asked(Label::shadow)) plan.annotated = annotated_objects(assembly);
+    if (asked(Label::shadow))
+        plan.triangles = std::make_shared<const TriangleRuns>(assembly.scene);
     const View& view = sonar.settings.view;
     if (plan.fan_masks)
         plan.fan_boxes =
@@ -47,6 +49,7 @@ PingLabels label_bins(const LabelPlan& plan, const Assembly& assembly, const Son
     const std::vector<ObjectSphere> spheres = spheres_at(plan.annotated, assembly, t_s);
     request.annotated = spheres;
     request.surface = &plan.annotated.surface;
+    request.triangles = plan.triangles.get();
     return label_ping(traced, sonar.settings, assembly.scene, assembly.objects, engine, request);
 }
 

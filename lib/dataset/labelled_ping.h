@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "assembly/assemble.h"
@@ -25,6 +26,8 @@ struct LabelPlan {
     FanBins fan;                      ///< empty if no label is in the fan
     bool seen = false;                ///< a writer needs the table of objects
     std::vector<PixelBox> fan_boxes;  ///< bin_boxes() of `fan`, for annotations
+    /// For shadows; null without.
+    std::shared_ptr<const TriangleRuns> triangles;
     AnnotatedObjects annotated;       ///< empty without annotations and shadows
 };
 LabelPlan plan_labels(const Mission& mission, const Assembly& assembly, const Sonar& sonar);

@@ -8,6 +8,7 @@
 #include "labels/patch_labels.h"
 #include "labels/ping_shadows.h"
 #include "labels/shares.h"
+#include "visibility/coverage.h"
 
 namespace sonarsim {
 
@@ -183,8 +184,13 @@ std::optional<PingShadows> find_shadows(const TracedPing& traced, const SurfaceE
                 : ObjectDirections(request.annotated, request.surface, traced.T_world_sensor,
                                    view.range_min_m, view.range_max_m);
     const PingShadows::Wanted wanted{.of_all = request.shadow, .of_objects = request.annotations};
+    std::vector<std::uint8_t> covered;
+    if (request.shadow && !echoes.cones.exist() && !scene.sound_profile) {
+        covered = covered_bins(request.triangles ? *request.triangles : TriangleRuns(scene), view,
+                               traced.T_world_sensor, engine.body_poses());
+    }
     return std::optional<PingShadows>(std::in_place, wanted, traced, echoes, view, objects, engine,
-                                      directions);
+                                      directions, std::move(covered));
 }
 
 PingLabels label_group(const TracedPing& traced, const PingSettings& settings, const Scene& scene,

@@ -8,6 +8,7 @@
 #include "ping/form_image.h"
 #include "scene/objects.h"
 #include "scene/placing/bottom.h"
+#include "visibility/triangle_runs.h"
 
 namespace sonarsim {
 
@@ -25,6 +26,8 @@ struct LabelRequest {
     std::span<const ObjectSphere> annotated = {};  ///< spheres around the annotated objects
     /// A box around all surface, world; null: not known, which only slows shadows down.
     const Eigen::AlignedBox3d* surface = nullptr;
+    /// The triangles of the scene, for shadows; null: they are sorted in each ping.
+    const TriangleRuns* triangles = nullptr;
     const Bottom* bottom = nullptr;  ///< reference of heights; null: nothing has a height
 };
 

@@ -1,13 +1,15 @@
 #include "labels/ping_shadows.h"
 
 #include <limits>
+#include <utility>
 
 namespace sonarsim {
 
 PingShadows::PingShadows(Wanted wanted, const TracedPing& traced, const SurfaceEchoes& echoes,
                          const View& view, const SceneObjects& objects,
-                         const VisibilityEngine& engine, const ObjectDirections& directions)
-    : range_bins_(view.range_bins) {
+                         const VisibilityEngine& engine, const ObjectDirections& directions,
+                         std::vector<std::uint8_t> covered)
+    : range_bins_(view.range_bins), covered_(std::move(covered)) {
     using By = HiddenSurface::By;
     const RangeBins bins = range_bins(view);
     hidden_ = find_hidden_surface(traced, echoes, view, objects, engine, directions,
@@ -19,7 +21,7 @@ PingShadows::PingShadows(Wanted wanted, const TracedPing& traced, const SurfaceE
         if (by_objects_.size() < hidden_.pieces.size()) of_objects_.emplace(by_objects_, view);
     }
     if (wanted.of_all) {
-        covered_ = hidden_bins(hidden_.pieces, bins, view.beams);
+        if (covered_.empty()) covered_ = hidden_bins(hidden_.pieces, bins, view.beams);
         return;
     }
     for (std::uint32_t k = 0; k < hidden_.visible_shares.size(); ++k) {

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "labels/shadow.h"
 
@@ -16,10 +19,11 @@ class PingShadows {
         bool of_objects = false;
     };
 
-    /// The arguments are those of find_hidden_surface().
+    /// `covered` are the bins with surface, see covered_bins(); if empty, those where sight lines
+    /// meet hidden surface. The other arguments are those of find_hidden_surface().
     PingShadows(Wanted wanted, const TracedPing& traced, const SurfaceEchoes& echoes,
                 const View& view, const SceneObjects& objects, const VisibilityEngine& engine,
-                const ObjectDirections& directions);
+                const ObjectDirections& directions, std::vector<std::uint8_t> covered);
     /// Not copied: the finders refer to the members.
     PingShadows(const PingShadows&) = delete;
     PingShadows& operator=(const PingShadows&) = delete;

@@ -18,7 +18,7 @@
 
 namespace sonarsim {
 
-/// What is visited: the section of the tables of keys, and the kind of sonar.
+/// The visited section of the tables of keys, and the kind of sonar.
 struct Visited {
     KeyTables* tables;  ///< null: the section is in the tables already
     std::string path = {};

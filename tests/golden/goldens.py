@@ -120,7 +120,8 @@ class Renderer:
             raise SystemExit(f"{' '.join(map(str, command))}: exit code {result.returncode}\n{result.stderr}")
 
     def lines(self, name, out):
-        if not (out / "SHA256SUMS").is_file():
+        datasets = sorted(out.glob("variant_*")) or [out]
+        if not all((dataset / "SHA256SUMS").is_file() for dataset in datasets):
             raise SystemExit(f"{out}: the dataset is not complete")
         return lines_of(name, out)
 

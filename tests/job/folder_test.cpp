@@ -158,8 +158,8 @@ TEST_SUITE("job") {
         fs::create_directory(temporary.path / "victim");
         write_file(temporary.path / "victim/file", "mine");
         const std::string sound = read_file(out / "dataset.json", 1 << 20);
-        for (const std::string name : {"../victim", (temporary.path / "victim").string().c_str(),
-                                       ".", "..", ""}) {
+        for (const std::string& name : std::vector<std::string>{
+                 "../victim", (temporary.path / "victim").string(), ".", "..", ""}) {
             edit(out / "dataset.json", R"("name": "front")", R"("name": ")" + name + '"');
             edit(out / "dataset.json", "\"pings\": 4", "\"pings\": 1000000000000000000");
             CHECK(run(mission, 4, true).complete);

@@ -12,7 +12,7 @@ Mission unusual_mission() {
     Mission mission;
     mission.name = "näme \"with\" \\ quotes: # {";
     mission.seed = 18446744073709551615U;
-    mission.water = {1025.1, 1500.0 / 7.0};
+    mission.water = {1025.1, 10000.0 / 7.0};
     mission.scene = {"/s p/a'\".glb", "/m/ü.csv"};
     mission.trajectory =
         LawnmowerTrajectoryConfig{{-1.0 / 3.0, 2}, {4, 5e6}, -6.5, 45, 3, 0.1, 1e3};

@@ -26,7 +26,7 @@ scene:
       trajectory: {file: f.csv, rate_hz: 2}
   scatter:
     - {name: mine, files: [m.glb, n.glb], count: [1, 3], area_min_m: [0, 1], area_max_m: [2, 3],
-       yaw_deg: 7, roll_deg: [-1, 1], scale: [0.5, 2], bury_m: 0.1, spacing_m: 0.3, tries: 50,
+       yaw_deg: 7, roll_deg: [-1, 1], scale: [0.5, 2], bury_m: 0.1, spacing_m: 0.3,
        class: target}
     - {name: tyre, files: t.glb, area_min_m: [0, 1], area_max_m: [2, 3]}
   water_surface: {height_m: 3, roughness: 0.2}

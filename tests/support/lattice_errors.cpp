@@ -7,7 +7,6 @@
 #include <map>
 #include <utility>
 
-#include "support/slivers.h"
 #include "validation/image_error.h"
 #include "visibility/caster.h"
 #include "visibility/local_pose.h"
@@ -40,11 +39,9 @@ std::vector<LatticeError> lattice_errors(std::uint32_t number, const Lattice& la
     for (const double goal : goals) {
         const auto made = make_engine(lattice.scene, {.type = engine, .octree = {}});
         const Ping ping = render_lattice(lattice, *made, goal);
-        Reference known = reference;
-        add_slivers(lattice.scene, make_sonar(lattice.sonar, {}).settings.view, ping.intensity,
-                    known);
         errors.push_back({lattice.sonar.kind, lattice.shape, number, goal,
-                          image_error(ping.intensity, known.intensity).relative_l1,
+                          image_error(ping.intensity, reference.intensity, reference.scored)
+                              .relative_l1,
                           reference.apart});
     }
     return errors;

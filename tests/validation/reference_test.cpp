@@ -165,7 +165,7 @@ TEST_CASE("a sphere's visible cap and its solid angle add up") {
 TEST_CASE("a rope of 4 mm that is drawn at random converges with few rays, from either start" *
           doctest::skip(test::sanitized)) {
     // Beams are 0.3 m apart there: view rays alone would meet the rope in few of its bins.
-    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    for (const std::uint32_t seed : {1U, 2U, 3U}) {
         Scene scene = empty_scene();
         const std::uint32_t material = add_material(scene, 0.7F);
         for (int i = 0; i < 12; ++i) {

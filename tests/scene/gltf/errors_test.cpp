@@ -290,7 +290,7 @@ TEST_SUITE("scene") {
                   "/extensionsUsed"_json_pointer}) {
                 const std::string error = error_of([&](json& d) { d[at] = value; });
                 CAPTURE(error);
-                CHECK((error.empty() || error.starts_with("x.glb: ")));
+                CHECK((error.empty() || error.find("x.glb") != std::string::npos));
             }
         }
     }
@@ -319,7 +319,6 @@ TEST_SUITE("scene") {
                       d[key] = anything;
                   d["nodes"][0]["camera"] = anything;
                   d["nodes"][0]["extras"] = {{"other", anything}, {"sonar", {{"material", "m"}}}};
-                  d["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = anything;
               }).starts_with("materials.csv: lacks the material 'm' of 'tri' in x.glb; add it"));
         CHECK(load_error("{\"extras\": [1, 2}").find("parse error at line 1") != std::string::npos);
     }

@@ -39,7 +39,8 @@ TEST_CASE("slices: a sector has whole beams, or lies in one beam") {
 }
 
 TEST_CASE("slices: two wide beams have the surface of rods that stand in each of them") {
-    // The image of a beam is that of its check. The reference has 64 beams in place of each.
+    // Beams of 150 degrees with two slices each and those that are added. The reference has 64 beams
+    // in place of each.
     std::mt19937 random(5);
     std::uniform_real_distribution<float> any(0.0F, 1.0F);
     View view = fan_view();
@@ -69,7 +70,7 @@ TEST_CASE("slices: two wide beams have the surface of rods that stand in each of
                 return sum;
             };
             CHECK(area(image, beam, beam + 1) ==
-                  test::approx(area(reference, 64 * beam, 64 * beam + 64)).epsilon(0.03));
+                  test::approx(area(reference, 64 * beam, 64 * beam + 64)).epsilon(0.07));
         }
     }
 }
