@@ -115,10 +115,10 @@ class BadObjects(Composed):
         self.write("crate.gltf", gltf([{"name": "crate", "mesh": 0}], [box_mesh(0.0004)]))
         self.objects(["{name: a, file: crate.gltf, position_m: [5, 0, 1]}"])
         self.warned("crate.gltf is 0.0008 m long", "units: mm")
-        # A unit that is proposed is one that is taken.
+        # A proposed unit is one that is accepted.
         self.write("floor.gltf", gltf([{"name": "floor", "mesh": 0}], [floor_mesh(0.02)]))
         self.scene("  file: floor.gltf\n  materials: materials.csv\n")
-        self.warned("write scene.units: km or in; else lower")
+        self.warned("check its units (scene.units: mm, cm, km, in)")
         self.edit("mission.yaml", "materials.csv\n", "materials.csv\n  units: in\n")
         self.assertEqual(self.run_sonarsim("validate", "mission.yaml").returncode, 0)
 

@@ -92,7 +92,7 @@ class Report(Sandbox):
         coarse = ("--set", "sensors.fls.range_bins=8", "--engines", "octree", *QUICK)
         self.assert_refused(self.run_sonarsim("report", "mission.yaml", *coarse), "--engines: no setting")
         bent = ("--set", "scene.water_surface={height_m: 5}", "--set",
-                "water.profile={points: [{depth_m: 0, sound_speed_m_s: 1500}]}")
+                "water.profile={named: summer}")
         self.assert_refused(self.run_sonarsim("report", "mission.yaml", *bent, *QUICK), "water.profile")
         self.assert_refused(self.run_sonarsim("report", "none.yaml"), "none.yaml")
         self.assertEqual(self.run_sonarsim("report", "mission.yaml", "--poses", "0").returncode, 2)
