@@ -169,7 +169,15 @@ bool has_files(const fs::path& folder, const DatasetFile& dataset) {
 }
 
 bool create_once(const fs::path& path, const std::string& text) {
-    const fs::path part = temporary_name(path);
+    struct Removed {
+        fs::path path;
+        ~Removed() {
+            std::error_code absent;
+            fs::remove(path, absent);
+        }
+    };
+    const Removed temporary{temporary_name(path)};
+    const fs::path& part = temporary.path;
     write_file_durably(part, text);
     bool created = ::link(part.c_str(), path.c_str()) == 0;
     const int reason = created ? 0 : errno;
@@ -178,8 +186,6 @@ bool create_once(const fs::path& path, const std::string& text) {
     if (no_links && !fs::exists(path)) {
         fs::rename(part, path);
         created = true;
-    } else {
-        ::unlink(part.c_str());
     }
     if (!created && !no_links && reason != EEXIST) {
         errno = reason;

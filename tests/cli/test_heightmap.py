@@ -219,15 +219,14 @@ class Heightmap(Composed):
         self.assertLess(off[len(off) // 2], 0.02)
 
     def test_depths(self):
-        """Depths that are read as heights put the vehicle below the bottom: the question comes."""
+        """Depths that are read as heights put the vehicle below the bottom: a warning says so."""
         self.mission(MAP % ("bed.png", ", pixel_m: 0.25, height_scale: 0.002"))
         self.edit("mission.yaml", "[1, 4.5, 3]", "[5, 4.5, -2]")
         self.edit("mission.yaml", "[2, 5, 3]", "[6, 5, -2]")
         result = self.run_sonarsim("validate", "mission.yaml")
-        self.assertIn("the heights of bed.png are all above 0: are they depths? write "
-                      "scene.heightmap.height_scale: -0.002", result.stdout + result.stderr)
+        self.assertIn("a heightmap of depths needs height_scale: -1", result.stdout + result.stderr)
         self.edit("mission.yaml", "height_scale: 0.002", "height_scale: -0.002")
-        self.assertNotIn("are they depths", self.run_sonarsim("validate", "mission.yaml").stdout)
+        self.assertNotIn("a heightmap of depths", self.run_sonarsim("validate", "mission.yaml").stdout)
 
     def test_refused(self):
         for options, fragments in (

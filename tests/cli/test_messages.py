@@ -73,7 +73,7 @@ REFUSED = {
     "a CSV as a scene": (edited("bottom.gltf", "path.csv"),
                          ("path.csv: is not glTF", "mission.yaml:3:3 names it")),
     "a GeoTIFF as a scene": (edited("bottom.gltf", "bathy.tif") | {"bathy.tif": TIFF},
-                             ("is a TIFF picture, such as a GeoTIFF, no glTF; an image of heights belongs into "
+                             ("is a TIFF picture, such as a GeoTIFF, not glTF; an image of heights belongs into "
                               "scene.heightmap", "mission.yaml:3:3")),
     "a GeoTIFF as materials": (edited("materials.csv", "bathy.tif") | {"bathy.tif": TIFF},
                                ("is a TIFF picture, such as a GeoTIFF, not a CSV",)),

@@ -96,7 +96,7 @@ class Preset(Sandbox):
         self.assertRegex(text, r"W18.*lower instrument.receiver.noise_db \(-20\) by \d+ dB")
 
     def test_with_auto_it_is_the_source(self):
-        self.calibrated("{source_level_db: 121}")
+        self.calibrated("{source_level_db: 120, frequency_hz: 2.5e6}")
         text = self.run_sonarsim("validate", "mission.yaml").stderr
         self.assertRegex(text, r"W18.*raise instrument.source_level_db by \d+ dB")
 

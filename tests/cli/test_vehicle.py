@@ -59,6 +59,7 @@ class Vehicle(Sandbox):
             self.assert_renders("--shard", f"{part}/2", "--out", f"part{part}")
         result = self.run_sonarsim("merge", "part1", "part2", "merged")
         self.assertEqual(result.returncode, 0, result.stderr)
+        self.assert_renders("--out", "merged")
         merged = digest(self.folder / "merged")
         self.assertEqual(merged["navigation.tum"], whole["navigation.tum"])
 
