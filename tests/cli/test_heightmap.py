@@ -226,7 +226,7 @@ class Heightmap(Composed):
         result = self.run_sonarsim("validate", "mission.yaml")
         self.assertIn("W12 sensor 'fls': 4 of 4 pings are blind", result.stderr)
         self.edit("mission.yaml", "height_scale: 0.002", "height_scale: -0.002")
-        self.assertNotIn("W12", self.run_sonarsim("validate", "mission.yaml").stderr)
+        self.assertNotIn("4 of 4 pings are blind", self.run_sonarsim("validate", "mission.yaml").stderr)
 
     def test_refused(self):
         for options, fragments in (
