@@ -97,8 +97,7 @@ nlohmann::ordered_json json_of(const Findings& f) {
                                          {"seconds_per_ping", f.costs[i].seconds},
                                          {"bytes_per_ping", f.costs[i].bytes}};
         sensor["survey"] = survey_json(f.sonars[i], f.assembly.scene);
-        sensor["measured_error"] =
-            f.errors[i] ? json_of(*f.errors[i]) : nlohmann::ordered_json();
+        sensor["measured_error"] = f.errors[i] ? json_of(*f.errors[i]) : nlohmann::ordered_json();
         sensors[f.assembly.sonars[i].config.name] = std::move(sensor);
     }
     nlohmann::ordered_json json{{"mission", f.mission.name},
@@ -123,11 +122,11 @@ std::string error_line(const std::optional<MeasuredError>& error, const Scene& s
                    ? result_line("", "error not measured: water.profile bends the sound")
                    : "";
     const PingError& worst = error->worst();
-    return result_line("", fmt::format("error {:.2g} % on average and {:.2g} % at worst in {} "
-                                       "pings, of a goal of {:.4g} %; the reference's own noise "
-                                       "is {:.2g} % of that",
-                                       100.0 * error->mean(), 100.0 * worst.relative_l1,
-                                       error->pings.size(), 100.0 * goal, 100.0 * worst.noise));
+    return result_line(
+        "", fmt::format("error {:.2g} % on average and {:.2g} % at worst in {} "
+                        "pings, goal {:.4g} %; noise of the reference itself {:.2g} %",
+                        100.0 * error->mean(), 100.0 * worst.relative_l1, error->pings.size(),
+                        100.0 * goal, 100.0 * worst.noise));
 }
 
 /// The lines about the scene, the trajectory and the sonars.
@@ -203,8 +202,8 @@ Findings check_folder(const Mission& mission, const Assembly& assembly,
     const Layout layout = make_layout(mission, writers, poses);
     protect_inputs(layout, mission);
     const nlohmann::ordered_json description = describe_dataset(mission, assembly, layout, writers);
-    const FolderState state = inspect_folder(layout.folder, description,
-                                             resolved_text(mission, assembly), overwrite);
+    const FolderState state =
+        inspect_folder(layout.folder, description, resolved_text(mission, assembly), overwrite);
     require_writable(layout.folder);
     Findings findings{mission,
                       assembly,

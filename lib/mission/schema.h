@@ -177,8 +177,9 @@ void describe(Visitor& v, Mission& c) {
     v.section("accuracy", c.accuracy, "error goal of the images");
     v.choice("engine", c.engine, engine_kinds,
              "method that finds the visible surface. `auto` takes the slices; it takes the rays "
-             "for a sonar with multipath, where they meet the error goal with less work, where "
-             "objects move, and over more than two million triangles");
+             "for a sonar with multipath or more than 90 degrees of elevation, for side-scan sonars "
+             "and cones of the calibrated model, where objects move or sound bends, and over more "
+             "than half a million triangles");
     v.section("octree", c.octree, "settings of the octree");
     v.section("slices", c.slices, "settings of the slices");
     v.list_of("classes", c.classes, 0,

@@ -20,8 +20,7 @@ class AutoEngine final : public VisibilityEngine {
     AutoEngine(const Scene& scene, const Caster& caster, const SlicesOptions& options,
                std::span<const Probe> probes)
         : is_large_(scene.triangles.size() > many_triangles),
-          others_(is_large_ ? make_rays_engine(scene, caster, density_over_many_triangles)
-                            : make_slices_engine(scene, caster, options)),
+          others_(make_others(scene, caster, options)),
           rays_(make_rays_engine(scene, caster)) {
         for (const Probe& probe : probes)
             if (probe.rays.goal > 0.0) by_rays_.push_back(probe.view);
@@ -39,6 +38,14 @@ class AutoEngine final : public VisibilityEngine {
     }
 
   private:
+    static std::unique_ptr<VisibilityEngine> make_others(const Scene& scene, const Caster& caster,
+                                                         const SlicesOptions& options) {
+        const std::size_t triangles = scene.triangles.size();
+        if (triangles <= slices_triangles_max) return make_slices_engine(scene, caster, options);
+        return make_rays_engine(scene, caster,
+                                triangles > many_triangles ? density_over_many_triangles : 1);
+    }
+
     bool is_large_;
     std::unique_ptr<VisibilityEngine> others_, rays_;
     std::vector<View> by_rays_;

@@ -12,10 +12,13 @@
 
 namespace sonarsim {
 
-/// With more triangles than this `auto` takes rays for every view, dense ones where a bin holds a
-/// mean. A ping of the slices needs up to
-/// 600 bytes for each triangle in view: measured over rough ground, 5 GB and 60 s for 8.4 million.
+/// With more triangles than this rays are dense where a bin holds a mean.
 constexpr std::size_t many_triangles = std::size_t{1} << 21;
+
+/// With more triangles than this `auto` takes rays, whose time hardly depends on their number: over
+/// a sea floor of a million 0.56 of the time of slices at an error of 1.9 instead of 1.5 %, over a
+/// wreck of 175,000 an error of 5.2 instead of 2.9 %.
+constexpr std::size_t slices_triangles_max = std::size_t{1} << 19;
 
 /// Traces each view by slices or by rays. Rays: scenes with bodies or copies, scenes of many
 /// triangles, and views for which one of `probes` requires rays. `scene` must outlive the engine.
