@@ -51,13 +51,21 @@ std::string pattern_in(const Json& value, const std::string& folder, const std::
     return pattern;
 }
 
+/// A number of things. JSON may hold one that no integer does.
+std::uint64_t count_in(const Json& value, const std::string& file) {
+    if (!value.is_number_integer() || value < 0)
+        refuse(file, "has " + value.dump() + " in place of a whole number");
+    return value.get<std::uint64_t>();
+}
+
 DescribedSensor read_sensor(const Json& json, std::uint64_t poses, const std::string& file) {
     DescribedSensor sensor;
     sensor.name = json.at("name").get<std::string>();
     if (!is_plain_name(sensor.name))
         refuse(file, "has a sensor '" + sensor.name + "', which is not the name of a folder");
-    sensor.every = std::max(json.at("every").get<std::uint32_t>(), 1U);
-    sensor.pings = json.at("pings").get<std::uint64_t>();
+    sensor.every = static_cast<std::uint32_t>(
+        std::clamp<std::uint64_t>(count_in(json.at("every"), file), 1, UINT32_MAX));
+    sensor.pings = count_in(json.at("pings"), file);
     if (sensor.pings != (poses + sensor.every - 1) / sensor.every)
         refuse(file, "has another number of pings of '" + sensor.name + "' than of poses");
     for (const Json& pattern : json.at("files"))
@@ -105,7 +113,7 @@ DatasetFile parse_description(Json json, const std::string& file) try {
     DatasetFile dataset;
     dataset.complete = json.at("complete").get<bool>();
     dataset.mission = json.at("mission").get<std::string>();
-    dataset.poses = json.at("poses").get<std::uint64_t>();
+    dataset.poses = count_in(json.at("poses"), file);
     if (dataset.poses > most_poses) refuse(file, "has more than ten million poses");
     for (const Json& sensor : json.at("sensors"))
         dataset.sensors.push_back(read_sensor(sensor, dataset.poses, file));

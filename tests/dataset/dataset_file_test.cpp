@@ -105,7 +105,7 @@ TEST_SUITE("dataset") {
         };
         const Case cases[] = {
             {"/complete", "true", "is damaged: type must be boolean"},
-            {"/poses", "7", "is damaged: type must be number"},
+            {"/poses", "7", "in place of a whole number"},
             {"/poses", 100'000'000, "more than ten million poses"},
             {"/format_version", 2, "has format_version 2, and this program knows 3"},
             {"/sensors", 5, "is damaged"},

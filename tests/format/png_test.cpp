@@ -67,8 +67,6 @@ TEST_SUITE("format") {
         // One block of 128 KiB, more than one, and rows longer than a block.
         for (const auto& [width, height] :
              {std::pair(1, 1), {3, 2}, {37, 11}, {257, 300}, {700, 401}, {140'000, 3}}) {
-            CAPTURE(width);
-            CAPTURE(height);
             const std::size_t count = static_cast<std::size_t>(width) * height;
             for (const unsigned bits : {1U, 4U, 8U, 16U}) {
                 for (const unsigned longest : {1U, 5U, 900U}) {
