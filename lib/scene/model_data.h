@@ -21,7 +21,9 @@ int add_accessor(tinygltf::Model& model, const std::vector<T>& values, std::size
     view.byteOffset = data.size();
     view.byteLength = values.size() * sizeof(T);
     data.resize(data.size() + view.byteLength);
-    std::memcpy(data.data() + view.byteOffset, values.data(), view.byteLength);
+    // memcpy takes no null pointer, which an empty vector may have.
+    if (!values.empty())
+        std::memcpy(data.data() + view.byteOffset, values.data(), view.byteLength);
     model.bufferViews.push_back(std::move(view));
     tinygltf::Accessor accessor;
     accessor.bufferView = static_cast<int>(model.bufferViews.size()) - 1;
