@@ -34,7 +34,7 @@ std::optional<std::uint64_t> FinishedVariants::operator()(const Mission& variant
         const fs::path file = home_of(variant) / input.at("file").get<std::string>();
         const auto [sum, is_new] = sums_.try_emplace(file);
         if (is_new) sum->second = sha256_of_file(file);
-        if (sum->second != input.at("sha256")) return std::nullopt;
+        if (sum->second != input.at("sha256").get<std::string>()) return std::nullopt;
     }
     if (!has_files(folder, found)) return std::nullopt;
     std::uint64_t pings = 0;
