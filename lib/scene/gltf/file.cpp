@@ -105,6 +105,17 @@ std::string surfaces_of(std::string_view text, const Location& where) {
     for (const char* unread : {"images", "textures", "samplers", "skins", "animations", "cameras",
                                "extensions", "extras"})
         document.erase(unread);
+    for (json& material : document["materials"]) {
+        if (!material.is_object()) continue;  // tinygltf refuses it
+        for (const char* unread : {"pbrMetallicRoughness", "normalTexture", "occlusionTexture",
+                                   "emissiveTexture", "emissiveFactor", "extensions"})
+            material.erase(unread);
+    }
+    for (const json& mesh : document["meshes"]) {
+        // tinygltf takes an object for an array of none.
+        if (mesh.is_object() && mesh.contains("primitives") && !mesh["primitives"].is_array())
+            throw InputError(where, "the primitives of a mesh are not an array");
+    }
     for (json& buffer : document["buffers"]) {
         if (!buffer.is_object() || !buffer.contains("uri") || !buffer["uri"].is_string()) continue;
         auto& uri = buffer["uri"].get_ref<std::string&>();
