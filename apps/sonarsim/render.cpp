@@ -222,7 +222,7 @@ int render(RenderArguments arguments) {
 
 void add_render(CLI::App& app, int& exit_code) {
     CLI::App& command = *app.add_subcommand(
-        "render", "Renders a mission into its dataset, or goes on with an interrupted one");
+        "render", "Renders a mission into its dataset, or resumes an interrupted one");
     add_examples(
         command,
         {"sonarsim render mission.yaml",

@@ -12,16 +12,22 @@ double head_angle_rad(const Sonar& sonar, std::uint32_t pose) {
     return sonar.head_angles_rad[ping % sonar.head_angles_rad.size()];
 }
 
-double column_at(const Sonar& sonar, double azimuth_rad) {
-    const View& view = sonar.settings.view;
-    if (sonar.equal_azimuth)
+ColumnFinder::ColumnFinder(const Sonar& sonar) : sonar_(sonar) {
+    for (const double edge_rad : sonar.azimuth_edges_rad)
+        sines_.push_back(sincos(edge_rad).sin);
+}
+
+double ColumnFinder::operator()(double azimuth_rad) const {
+    const View& view = sonar_.settings.view;
+    if (sonar_.equal_azimuth)
         return 0.5 * (1.0 + azimuth_rad / (0.5 * view.azimuth_rad)) * view.beams;
-    const std::vector<double>& edges = sonar.azimuth_edges_rad;
+    const std::vector<double>& edges = sonar_.azimuth_edges_rad;
     const auto above = std::upper_bound(edges.begin() + 1, edges.end() - 1, azimuth_rad);
+    const auto column = static_cast<std::size_t>(above - edges.begin() - 1);
     // The beams of a line array are about equally spaced in sine.
-    const double low = sincos(above[-1]).sin;
-    const double share = (sincos(azimuth_rad).sin - low) / (sincos(above[0]).sin - low);
-    return static_cast<double>(above - edges.begin()) - 1.0 + share;
+    const double low = sines_[column];
+    const double share = (sincos(azimuth_rad).sin - low) / (sines_[column + 1] - low);
+    return static_cast<double>(column) + share;
 }
 
 Pose sensor_pose(const Sonar& sonar, const Pose& T_world_vehicle, std::uint32_t pose) {

@@ -35,8 +35,17 @@ struct Sonar {
 /// The angle of the head at the pose with this index on the trajectory; 0 for a fixed sonar.
 double head_angle_rad(const Sonar& sonar, std::uint32_t pose);
 
-/// The column of the image, from 0 to the number of columns, in which an azimuth of the fan lies.
-double column_at(const Sonar& sonar, double azimuth_rad);
+/// Finds the column of the image, from 0 to the number of columns, in which an azimuth of the fan
+/// lies. The sonar must outlive it.
+class ColumnFinder {
+  public:
+    explicit ColumnFinder(const Sonar& sonar);
+    double operator()(double azimuth_rad) const;
+
+  private:
+    const Sonar& sonar_;
+    std::vector<double> sines_;  ///< of the beams' edges
+};
 
 /// T_world_sensor at that pose.
 Pose sensor_pose(const Sonar& sonar, const Pose& T_world_vehicle, std::uint32_t pose);

@@ -142,6 +142,7 @@ FanMap make_fan_map(const Sonar& sonar, int width_px) {
         return std::min({map.frame.pixel_m * beams_per_rad / range_m, most_bins,
                          static_cast<double>(view.beams)});
     };
+    const ColumnFinder column_at(sonar);
     const double nearest_m = std::max(view.range_min_m - map.frame.pixel_m, 0.0);
     double extent = 1.0;
     for (std::size_t k = 0; k <= ring_of(beams_across(nearest_m)); ++k, extent *= ring_step)
@@ -158,7 +159,7 @@ FanMap make_fan_map(const Sonar& sonar, int width_px) {
             if (covered == 0) continue;
             // The centre of a pixel on the edge may lie outside the sector.
             const double bins = (place.range_m - view.range_min_m) / view.bin_m();
-            const double beams = column_at(sonar, place.azimuth_rad);
+            const double beams = column_at(place.azimuth_rad);
             FanMap::Ring& ring = map.rings[ring_of(beams_across(place.range_m))];
             add_pixel(ring,
                       pixel_at(map, ring, view.beams,

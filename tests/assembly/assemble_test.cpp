@@ -128,9 +128,9 @@ TEST_SUITE("assembly") {
         CHECK(sonar.azimuth_edges_rad[3] == test::approx(radians(30.0)));
         CHECK(sonar.beam_azimuths_rad[2] == test::approx(radians(20.0)));
         // Beams are drawn where they lie: column_at() is linear in the sine between their edges.
-        CHECK(column_at(sonar, sonar.azimuth_edges_rad[2]) == test::approx(2.0));
-        CHECK(column_at(sonar, std::asin(0.5 * (std::sin(between) + 0.5))) == test::approx(2.5));
-        CHECK(column_at(sonar, radians(30.0)) == test::approx(3.0));
+        CHECK(ColumnFinder(sonar)(sonar.azimuth_edges_rad[2]) == test::approx(2.0));
+        CHECK(ColumnFinder(sonar)(std::asin(0.5 * (std::sin(between) + 0.5))) == test::approx(2.5));
+        CHECK(ColumnFinder(sonar)(radians(30.0)) == test::approx(3.0));
     }
 
     TEST_CASE("assemble: calibrated sonars know the scene's materials before the first ping") {

@@ -55,7 +55,7 @@ int direct_grey(const Sonar& sonar, const FanMap& map, const Ping& ping, std::si
     const KernelTable across = make_kernel(extent, 4);
     const KernelTable along = make_kernel(std::min(map.frame.pixel_m / view.bin_m(), 128.0), 1);
     const KernelPlace bin = kernel_place((place.range_m - view.range_min_m) / view.bin_m());
-    const KernelPlace beam = kernel_place(column_at(sonar, place.azimuth_rad));
+    const KernelPlace beam = kernel_place(ColumnFinder(sonar)(place.azimuth_rad));
     double mean = 0.0;
     for (int k = 0; k < along.taps; ++k) {
         for (int b = 0; b < across.taps; ++b) {
