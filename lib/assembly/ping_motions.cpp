@@ -93,15 +93,4 @@ void add_ping_motions(const Mission& mission, const Trajectory& trajectory,
     }
 }
 
-void leave_out_glints(std::span<Sonar> sonars, Scene& scene) {
-    for (Sonar& sonar : sonars) {
-        if (!sonar.motions || !sonar.settings.coherent) continue;
-        sonar.settings.coherent = nullptr;
-        scene.warnings.push_back(
-            "sensors." + sonar.config.name +
-            ".moves_in_ping: the coherent echo of smooth faces (materials with roughness_m) "
-            "supports only a sonar at rest, so they scatter incoherently");
-    }
-}
-
 }  // namespace sonarsim

@@ -1,8 +1,7 @@
 #include <algorithm>
-#include <optional>
+#include <iterator>
 
 #include "calibrated/form_look.h"
-#include "calibrated/plate_image.h"
 #include "calibrated/scatterer_search.h"
 #include "calibrated/speckle.h"
 #include "calibrated/specular_echoes.h"
@@ -35,11 +34,6 @@ class ImageFormer {
           slopes_(slopes_of(context.scene.materials)),
           speckle_(context.terms.random > 0 ? model.speckle : SpeckleMode::none),
           view_(widened_view(context.view, model.guard)),
-          plates_{.surface = traced.coherent,
-                  .materials = context.scene.materials,
-                  .view = view_,
-                  .wavelength_m = model.wavelength_m},
-          shares_(traced.coherent.faces, context.scene.materials, model.wavelength_m),
           speckle_gain_(model.amplitude_taps.scalloping_gain * scalloping_gain(beams)),
           ping_(ping) {}
 
@@ -71,11 +65,6 @@ class ImageFormer {
             add_particle_amplitudes(model_, beams_, traced.particles, context_.draws, ping_.counts,
                                     grid);
         }
-        std::optional<EchoGrid> coherent;
-        if (context_.terms.direct && traced.coherent.has_echoes()) {
-            if (expected_power) coherent.emplace(grid.rows(), grid.columns());
-            add_coherent(expected_power ? *coherent : grid);
-        }
 
         // 5. The water's volume. Bins with its echo alone count as empty.
         const bool has_water = context_.terms.direct && model_.water;
@@ -87,14 +76,9 @@ class ImageFormer {
         const std::size_t echo_bins =
             grid.convolve_pulse(expected_power ? model_.power_taps : model_.amplitude_taps);
         ping_.counts.occupied_bins = has_water ? seen_bins : echo_bins;
-        if (coherent) {
-            ping_.counts.occupied_bins = std::max<std::uint64_t>(
-                ping_.counts.occupied_bins, coherent->convolve_pulse(model_.amplitude_taps));
-        }
         // 3, 4. Beams, the receiver's noise and its gain.
-        beamform(beams_, grid, expected_power, coherent ? &*coherent : nullptr,
-                 context_.terms.random > 1, context_.draws.of(Stream::receiver_noise),
-                 model_.row_gain, ping_.intensity);
+        beamform(beams_, grid, expected_power, context_.terms.random > 1,
+                 context_.draws.of(Stream::receiver_noise), model_.row_gain, ping_.intensity);
     }
 
   private:
@@ -138,28 +122,14 @@ class ImageFormer {
         grid.add(energy);
     }
 
-    /// Adds the echoes of plates.
-    void add_coherent(EchoGrid& grid) {
-        ping_.counts.out_of_range +=
-            add_plate_amplitudes(beams_, plates_, model_.equation, model_.limits, grid);
-    }
-
-    /// Adds the incoherent echoes of a surface without its targets.
+    /// Adds the echoes of a surface without its targets.
     void add_surface(std::span<const Sample> surface, const TargetSurface& targets,
                      EchoGrid& grid) {
-        if (targets.instances.empty() && shares_.are_all_one()) return add_surface(surface, grid);
+        if (targets.instances.empty()) return add_surface(surface, grid);
         std::vector<Sample> left;
         left.reserve(surface.size());
-        for (const Sample& sample : surface) {
-            if (targets.has(sample.instance)) continue;
-            left.push_back(sample);
-            if (shares_.are_all_one()) continue;
-            const float phase2 =
-                shares_.phase2(sample.instance, sample.material, sample.position, sample.normal);
-            if (phase2 == IncoherentShares::incoherent) continue;
-            const float sine = sample.height_m / arrival_range(sample.position);
-            left.back().area_m2 *= IncoherentShares::at(phase2, sine);
-        }
+        std::ranges::copy_if(surface, std::back_inserter(left),
+                             [&](const Sample& sample) { return !targets.has(sample.instance); });
         add_surface(left, grid);
     }
 
@@ -187,17 +157,6 @@ class ImageFormer {
         });
     }
 
-    /// Reduces the areas of pieces by their coherent share. `phase2`: by facet.
-    static void keep_incoherent(std::span<const float> phase2, TargetPieces& pieces) {
-        PatchBlock& points = pieces.points;
-        for (int k = 0; k < points.count; ++k) {
-            const float of_facet = phase2[pieces.facet[k]];
-            if (of_facet == IncoherentShares::incoherent) continue;
-            const float range = piece_range(points.x[k], points.y[k], points.z[k]);
-            points.area_m2[k] *= IncoherentShares::at(of_facet, points.height_m[k] / range);
-        }
-    }
-
     /// Hands the echoes of targets to `use`, a block of pieces at a time.
     template <class Use>
     void find_targets(const TargetSurface& targets, Use use) {
@@ -208,15 +167,8 @@ class ImageFormer {
                 ? model_.limits
                 : PointLimits{cells.depth_m, cells.sine_y,
                               cells.sine_z > 0.0F ? cells.sine_z : model_.limits.elevation_sine};
-        std::vector<float> phase2;  // one for each facet
-        if (!shares_.are_all_one()) {
-            for (const TargetFacet& facet : targets.facets)
-                phase2.push_back(
-                    shares_.phase2(facet.instance, facet.material, facet.corners[0], facet.normal));
-        }
         TargetPieces pieces;
         cut_targets(targets.facets, limits, slopes_, pieces, [&](TargetPieces& cut) {
-            if (!phase2.empty()) keep_incoherent(phase2, cut);
             ping_.counts.echoes += cut.points.count;
             ping_.counts.out_of_range +=
                 apply_sonar_equation(cut.points, *scattering_, model_.equation, echoes_);
@@ -271,9 +223,7 @@ class ImageFormer {
     ScatteringOfScene scattering_;
     std::vector<float> slopes_;
     SpeckleMode speckle_;
-    View view_;  ///< with the guard beams
-    PlateScene plates_;
-    IncoherentShares shares_;
+    View view_;           ///< with the guard beams
     float speckle_gain_;  ///< restores the mean power where the grid's cells draw the speckle
     PointEchoes echoes_;
     Ping& ping_;

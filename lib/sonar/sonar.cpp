@@ -6,7 +6,6 @@
 #include "mission/ping_draws.h"
 #include "sonar/kinds.h"
 #include "sonar/setup.h"
-#include "trace/find_coherent_faces.h"
 
 namespace sonarsim {
 
@@ -37,11 +36,8 @@ void find_targets(std::span<Sonar> sonars, const Scene& scene) {
     const auto needs = [](const Sonar& sonar) { return sonar.settings.model->energies_add(); };
     if (std::ranges::none_of(sonars, needs)) return;
     const std::shared_ptr<const TargetShapes> targets = find_target_shapes(scene);
-    const std::shared_ptr<const CoherentFaces> coherent = find_coherent_faces(scene);
     for (Sonar& sonar : sonars) {
-        if (!needs(sonar)) continue;
-        sonar.settings.targets = targets;
-        sonar.settings.coherent = coherent;
+        if (needs(sonar)) sonar.settings.targets = targets;
     }
 }
 

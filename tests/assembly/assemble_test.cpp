@@ -212,7 +212,6 @@ TEST_SUITE("assembly") {
         CHECK(changed([](Assembly& a) { a.scene.materials[0].density_kg_m3 += 1.0; }));
         CHECK(changed([](Assembly& a) { a.scene.materials[0].sound_speed_m_s += 1.0; }));
         CHECK(changed([](Assembly& a) { a.scene.materials[0].grain_phi = 1.5; }));
-        CHECK(changed([](Assembly& a) { a.scene.materials[0].roughness_m = 0.0; }));
         CHECK(changed([](Assembly& a) { a.scene.instances[0] += "x"; }));
         CHECK(changed([](Assembly& a) { a.trajectory[6].t_s += 1e-6; }));
         const auto profile = [](double speed_m_s) {
