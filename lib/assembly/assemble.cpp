@@ -15,7 +15,6 @@
 #include "assembly/possible_objects.h"
 #include "assembly/scene_parts.h"
 #include "assembly/sound_profiles.h"
-#include "assembly/water_ages.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/named_at.h"
@@ -245,7 +244,6 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
     add_water_surface(mission, assembly);
     add_particles(mission, assembly.trajectory, assembly.scene, assembly.sonars);
     add_sound_profiles(mission, assembly.scene, assembly.sonars);
-    add_water_ages(mission, assembly.trajectory, assembly.sonars);
     warn_of_empty_scatter(mission, assembly.scene);
     if (!mission.output.labels.empty() || !mission.classes.empty()) {
         std::vector<ClassRule> rules;

@@ -159,8 +159,8 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
                                                      beam.elevation_side_lobe_db, beam.elements)};
     model.water = water_column(water_of(water, instrument), instrument.frequency_hz,
                                widened_view(view, model.guard), model.beams, model.equation);
-    model.cells = scatterer_cells(instrument.speckle.per_cell, std::max(resolution_m, 0.5 * bin_m),
-                                  radians(beam.width_deg), view.range_min_m, model.wavelength_m);
+    model.cells = scatterer_cells(std::max(resolution_m, 0.5 * bin_m), radians(beam.width_deg),
+                                  view.range_min_m, model.wavelength_m);
     model.target_cells =
         target_cells(beam, std::max(resolution_m, 0.5 * bin_m), model.wavelength_m);
     model.row_gain = row_gains(receiver, model.levels, view, model.absorption_db_per_m, raised_db);

@@ -86,7 +86,6 @@ void CalibratedModel::describe(nlohmann::ordered_json& sensor) const {
         {"sound_speed_m_s", sound_speed_m_s},
         {"wavelength_m", wavelength_m}};
     if (receiver.tvg_from_m > 0.0) sensor["instrument"]["tvg_from_m"] = receiver.tvg_from_m;
-    if (receiver.tvg_step_db > 0.0) sensor["instrument"]["tvg_step_db"] = receiver.tvg_step_db;
 }
 
 std::span<const float> CalibratedModel::mean_noise() const {

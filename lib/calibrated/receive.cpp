@@ -46,7 +46,6 @@ void CalibratedModel::form(const TracedPing& traced, const FormContext& context,
     // Faults belong to the receiver's noise, the last of the random terms.
     if (context.terms.random > 1 && has_faults(receiver))
         add_faults(receiver, rows, context.draws, ping.intensity);
-    if (receiver.blanking_m > 0.0) blank(receiver, rows, ping.intensity);
     ping.seconds.accumulate = watch.lap();
 }
 

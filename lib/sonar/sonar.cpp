@@ -23,11 +23,7 @@ Sonar make_sonar(const KindOfSonar& kind, const SonarConfig& config, const Accur
     settings.view.energies_add = settings.model->energies_add();
     settings.guard_beams = settings.model->guard_beams();
     // Multipath starts at the samples, so it needs those of every beam.
-    if (settings.multipath.on) {
-        settings.guard_beams.joined = 1;
-        if (settings.view.shape == ViewShape::fan)
-            settings.guard_beams.divided = config.multipath.columns_per_beam;
-    }
+    if (settings.multipath.on) settings.guard_beams.joined = 1;
     settings.multipath.scattered = settings.model->needs_scattered_paths();
     return sonar;
 }
@@ -62,8 +58,6 @@ TracedPing trace_at(const Sonar& sonar, const Scene& scene, const VisibilityEngi
                     const Pose& T_world_sensor, std::uint32_t pose, const PingMotion& motion,
                     const Terms& terms) {
     TracedPing traced = trace_ping(sonar.settings, scene, engine, T_world_sensor, terms, motion);
-    if (sonar.water_ages && pose < sonar.water_ages->size())
-        traced.water_age = (*sonar.water_ages)[pose];
     if (const auto& particles = sonar.settings.particles) {
         const double time_s = pose < particles->time_s.size() ? particles->time_s[pose] : 0.0;
         traced.particles =

@@ -40,8 +40,6 @@ struct TracedPing {
     SeenParticles particles;
     std::vector<Sample> water_surface;  ///< material and instance are 0
     std::vector<BouncePath> bounces;    ///< multipath paths from `samples`
-    /// The age of the water's speckle; none: each ping draws its own speckle.
-    std::optional<double> water_age;
     /// The group in which each beam transmits, and the traces of all groups after the first, whose
     /// trace is this one. Empty: all beams transmit at once.
     std::vector<int> group_of_beam;
