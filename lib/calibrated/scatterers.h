@@ -22,8 +22,6 @@ struct ScattererCells {
     float width_rad = 0.0F;            ///< width of a resolution cell
     int levels = 1;
     double turns_per_m = 0.0;  ///< two-way phase: 2 / wavelength
-
-    float edge_of(int level) const { return min_edge_m * static_cast<float>(1 << level); }
 };
 
 /// Four cells to a resolution cell of `resolution_m` in range and `width_rad` across, but no longer

@@ -26,7 +26,7 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
     traced.counts.dropped_samples = traced.samples.dropped;
     if (scene.maps) {
         lay_maps(*scene.maps, settings.view, T_world_sensor, traced.samples, traced.outside_sector,
-                 1.0, scene.sound_profile.get());
+                 scene.sound_profile.get());
     }
     move_in_ping(motion, settings.view, traced.samples, traced.outside_sector);
     if (settings.targets) {
