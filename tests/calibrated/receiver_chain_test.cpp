@@ -111,19 +111,9 @@ AmplitudeShape shape_of_largest(int n) {
 }  // namespace
 
 TEST_SUITE("calibrated") {
-    // 16,000 draws: the coefficient of variation is known to about 0.7 %, the shape to 0.8 %.
-    TEST_CASE("receiver: one look has Rayleigh's amplitudes") {
-        const AmplitudeShape one = shape_of(noise_powers({}));
-        CHECK(one.variation == test::approx(0.5227).epsilon(0.025));
-        CHECK(one.weibull == test::approx(2.0).epsilon(0.03));
-        const AmplitudeShape closed = shape_of_largest(1);
-        CHECK(closed.variation == test::approx(0.5227).epsilon(1e-3));
-        CHECK(closed.weibull == test::approx(2.0));
-    }
-
     // The largest of n exponential powers lies below x with the probability (1 - exp(-x))^n.
     TEST_CASE("receiver: the largest of several samples follows order statistics") {
-        for (const int n : {2, 3}) {
+        for (const int n : {1, 2, 3}) {
             ReceiverConfig chain;
             chain.samples = n;
             const std::vector<double> powers = noise_powers(chain);
