@@ -56,9 +56,9 @@ struct CalibratedModel final : EchoModel {
     std::optional<SedimentScattering> sediment;
     WindSurface water_surface;  ///< its table, if the model was prepared for it
 
-    Scattering scattering_of(std::span<const Material> materials) const;
-    std::optional<SedimentScattering> sediment_of(std::span<const Material> materials,
-                                                  const Scattering& whole) const;
+    /// True if the model has the data that depend on this scene.
+    bool is_prepared_for(const Scene& scene) const;
+    std::shared_ptr<const CalibratedModel> prepared_for(const Scene& scene) const;
 
     std::shared_ptr<const EchoModel> prepared(const Scene& scene) const override;
     void form(const TracedPing& traced, const FormContext& context, Ping& ping) const override;
@@ -87,31 +87,5 @@ struct BeamSines {
 /// Sets up the instrument of a sonar with this view; only a line array needs `sines`.
 CalibratedModel calibrated_model(const InstrumentConfig& instrument, const WaterConfig& water,
                                  const View& view, const BeamSines& sines);
-
-/// The scattering of a scene's materials: that of the model if it was prepared for them, else one
-/// of its own.
-class ScatteringOfScene {
-  public:
-    ScatteringOfScene(const CalibratedModel& model, const Scene& scene)
-        : own_(model.prepared_materials == scene.materials ? Scattering{}
-                                                           : model.scattering_of(scene.materials)),
-          own_sediment_(own_.materials.empty() ? std::nullopt
-                                               : model.sediment_of(scene.materials, own_)),
-          used_(own_.materials.empty() ? &model.scattering : &own_),
-          sediment_(own_.materials.empty() ? &model.sediment : &own_sediment_) {}
-    ScatteringOfScene(const ScatteringOfScene&) = delete;
-    ScatteringOfScene& operator=(const ScatteringOfScene&) = delete;
-
-    const Scattering& operator*() const { return *used_; }
-    const Scattering* operator->() const { return used_; }
-    /// The sediment below sea beds; null: all echoes come from surfaces.
-    const SedimentScattering* sediment() const { return *sediment_ ? &**sediment_ : nullptr; }
-
-  private:
-    Scattering own_;
-    std::optional<SedimentScattering> own_sediment_;
-    const Scattering* used_;
-    const std::optional<SedimentScattering>* sediment_;
-};
 
 }  // namespace sonarsim

@@ -18,26 +18,29 @@ constexpr int columns_along_track = 4;
 
 }  // namespace
 
-Scattering CalibratedModel::scattering_of(std::span<const Material> materials) const {
-    return sonarsim::scattering_of(materials, instrument.frequency_hz,
-                                   {water_density_kg_m3, sound_speed_m_s});
+bool CalibratedModel::is_prepared_for(const Scene& scene) const {
+    const bool has_wind = scene.water_surface && scene.water_surface->wind_m_s;
+    return prepared_materials == scene.materials &&
+           (!has_wind || water_surface.wind_m_s == *scene.water_surface->wind_m_s);
 }
 
-std::optional<SedimentScattering> CalibratedModel::sediment_of(std::span<const Material> materials,
-                                                               const Scattering& whole) const {
-    if (!instrument.below_bottom) return std::nullopt;
-    return sediment_scattering(materials, instrument.frequency_hz,
-                               {water_density_kg_m3, sound_speed_m_s}, equation.bin_m, whole);
-}
-
-std::shared_ptr<const EchoModel> CalibratedModel::prepared(const Scene& scene) const {
+std::shared_ptr<const CalibratedModel> CalibratedModel::prepared_for(const Scene& scene) const {
+    const Water water{water_density_kg_m3, sound_speed_m_s};
     auto out = std::make_shared<CalibratedModel>(*this);
     out->prepared_materials = scene.materials;
-    out->scattering = scattering_of(scene.materials);
-    out->sediment = sediment_of(scene.materials, out->scattering);
+    out->scattering = scattering_of(scene.materials, instrument.frequency_hz, water);
+    out->sediment.reset();
+    if (instrument.below_bottom) {
+        out->sediment = sediment_scattering(scene.materials, instrument.frequency_hz, water,
+                                            equation.bin_m, out->scattering);
+    }
     if (scene.water_surface && scene.water_surface->wind_m_s)
         out->water_surface = wind_surface(*scene.water_surface->wind_m_s, instrument.frequency_hz);
     return out;
+}
+
+std::shared_ptr<const EchoModel> CalibratedModel::prepared(const Scene& scene) const {
+    return prepared_for(scene);
 }
 
 std::span<const std::string_view> CalibratedModel::random_terms() const {

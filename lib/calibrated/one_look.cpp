@@ -30,7 +30,6 @@ class ImageFormer {
           ping_draws_(context.draws.of(Stream::speckle)),
           sonar_{traced.T_world_sensor.rotation.toRotationMatrix().cast<float>(),
                  traced.T_world_sensor.translation - context.scene.origin},
-          scattering_(model, context.scene),
           slopes_(slopes_of(context.scene.materials)),
           speckle_(context.terms.random > 0 ? model.speckle : SpeckleMode::none),
           view_(widened_view(context.view, model.guard)),
@@ -46,7 +45,7 @@ class ImageFormer {
         if (context_.terms.direct) {
             add_surface(traced.samples.items, traced.targets, grid);
             add_surface(traced.outside_sector, traced.targets, grid);
-            if (scattering_.sediment() != nullptr) add_sediment(traced, grid);
+            if (model_.sediment) add_sediment(traced, grid);
             if (!traced.water_surface.empty()) {
                 add_water_surface(model_, beams_, traced.water_surface, context_, speckle_,
                                   speckle_gain_, ping_.counts, grid);
@@ -84,11 +83,10 @@ class ImageFormer {
   private:
     /// Computes the echoes of a block of patches: levels, range bins and columns of the grid.
     void find(const PatchBlock& patches) {
-        const SedimentScattering* const sediment = scattering_.sediment();
         ping_.counts.echoes += patches.count;
-        ping_.counts.out_of_range +=
-            apply_sonar_equation(patches, sediment != nullptr ? sediment->surface : *scattering_,
-                                 model_.equation, echoes_);
+        ping_.counts.out_of_range += apply_sonar_equation(
+            patches, model_.sediment ? model_.sediment->surface : model_.scattering,
+            model_.equation, echoes_);
         ping_.counts.out_of_range += find_columns(beams_, patches, echoes_);
         if (speckle_ != SpeckleMode::none)
             add_clutter(patches, model_.clutter, sonar_, clutter_draws_, echoes_);
@@ -96,7 +94,7 @@ class ImageFormer {
 
     /// Adds the echoes of the sediment below sea beds. Their amplitudes are drawn for each ping.
     void add_sediment(const TracedPing& traced, EchoGrid& grid) {
-        const SedimentScattering& sediment = *scattering_.sediment();
+        const SedimentScattering& sediment = *model_.sediment;
         std::vector<Sample> beds;
         const auto keep = [&](const Sample& sample) {
             if (sediment.has[sample.material] && !traced.targets.has(sample.instance))
@@ -171,7 +169,7 @@ class ImageFormer {
         cut_targets(targets.facets, limits, slopes_, pieces, [&](TargetPieces& cut) {
             ping_.counts.echoes += cut.points.count;
             ping_.counts.out_of_range +=
-                apply_sonar_equation(cut.points, *scattering_, model_.equation, echoes_);
+                apply_sonar_equation(cut.points, model_.scattering, model_.equation, echoes_);
             use(cut);
         });
     }
@@ -205,8 +203,14 @@ class ImageFormer {
         if (paths.empty()) return;
         ping_.counts.echoes += 2 * paths.size();
         const auto add_to = [&](EchoGrid& powers) {
-            ping_.counts.out_of_range += add_specular_powers(
-                beams_, paths, scattering_->materials, model_.equation, model_.limits, powers);
+            std::uint64_t outside_beams = 0;
+            const std::uint64_t outside_range = find_specular_echoes(
+                paths, model_.scattering.materials, model_.equation, model_.limits,
+                [&](const SpecularBlock& block) {
+                    outside_beams += find_columns(beams_, block.places, block.echoes);
+                    add_bistatic_powers(beams_, block.out, {block.places, block.echoes}, powers);
+                });
+            ping_.counts.out_of_range += outside_range + outside_beams;
         };
         if (speckle_ != SpeckleMode::scene) return add_to(grid);
         EchoGrid specular(grid.rows(), grid.columns());
@@ -220,7 +224,6 @@ class ImageFormer {
     const FormContext& context_;
     PhiloxKey scene_draws_, clutter_draws_, ping_draws_;
     SonarInScene sonar_;
-    ScatteringOfScene scattering_;
     std::vector<float> slopes_;
     SpeckleMode speckle_;
     View view_;           ///< with the guard beams

@@ -32,6 +32,8 @@ void form_looks(const CalibratedModel& model, const TracedPing& traced, const Fo
 }  // namespace
 
 void CalibratedModel::form(const TracedPing& traced, const FormContext& context, Ping& ping) const {
+    if (!is_prepared_for(context.scene))
+        return prepared_for(context.scene)->form(traced, context, ping);
     Stopwatch watch;
     const ReceiverConfig& receiver = instrument.receiver;
     if (receiver.samples == 1 && receiver.looks == 1)

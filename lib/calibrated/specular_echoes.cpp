@@ -125,25 +125,4 @@ std::uint64_t find_specular_echoes(std::span<const SpecularPath> paths,
     return outside + use_block(equation, block, use);
 }
 
-template <class Beams>
-std::uint64_t add_specular_powers(const Beams& beams, std::span<const SpecularPath> pieces,
-                                  std::span<const Backscatter> materials,
-                                  const SonarEquation& equation, const PointLimits& limits,
-                                  EchoGrid& grid) {
-    std::uint64_t outside_beams = 0;
-    const std::uint64_t outside_range =
-        find_specular_echoes(pieces, materials, equation, limits, [&](const SpecularBlock& block) {
-            outside_beams += find_columns(beams, block.places, block.echoes);
-            add_bistatic_powers(beams, block.out, {block.places, block.echoes}, grid);
-        });
-    return outside_range + outside_beams;
-}
-
-template std::uint64_t add_specular_powers(const TransducerBeams&, std::span<const SpecularPath>,
-                                           std::span<const Backscatter>, const SonarEquation&,
-                                           const PointLimits&, EchoGrid&);
-template std::uint64_t add_specular_powers(const ArrayBeams&, std::span<const SpecularPath>,
-                                           std::span<const Backscatter>, const SonarEquation&,
-                                           const PointLimits&, EchoGrid&);
-
 }  // namespace sonarsim

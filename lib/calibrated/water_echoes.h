@@ -112,12 +112,7 @@ void add_water_surface(const CalibratedModel& model, const Beams& beams,
                        std::span<const Sample> surface, const FormContext& context,
                        SpeckleMode speckle, float speckle_gain, PingCounts& counts,
                        EchoGrid& grid) {
-    const double wind_m_s = context.scene.water_surface->wind_m_s.value_or(0.0);
-    WindSurface own;
-    if (model.water_surface.wind_m_s != wind_m_s)
-        own = wind_surface(wind_m_s, model.instrument.frequency_hz);
-    const Scattering& scattering =
-        own.scattering.materials.empty() ? model.water_surface.scattering : own.scattering;
+    const Scattering& scattering = model.water_surface.scattering;
     if (speckle != SpeckleMode::scene) {
         add_surface_powers(model, beams, surface, scattering, counts, grid);
         return;

@@ -19,7 +19,7 @@ class CoveredCells {
 
     void add(std::span<const Sample> surface) {
         for (const Sample& sample : surface) {
-            const auto [range, departure, direction] = arrival_of(sample.position);
+            const auto [range, direction] = arrival_of(sample.position);
             if (!(range > 0.0F)) continue;
             const int rows = cells_.spanned(sample.edge_u, direction, range);
             const int columns = cells_.spanned(sample.edge_v, direction, range);

@@ -93,11 +93,10 @@ class GroundMapApplier {
 
     /// The extent of an edge over the greatest extent of a piece.
     float size_of(const Eigen::Vector3f& half_edge, const Arrival& at) const {
-        const float depth = half_edge.dot(at.direction);
+        const auto [depth, y, z] = extents_of(half_edge, at.direction);
         const float across = 2.0F / at.range_m;
-        return std::max({2.0F * std::fabs(depth) / depth_m_,
-                         across * std::fabs(half_edge.y() - depth * at.direction.y()) / sine_y_,
-                         across * std::fabs(half_edge.z() - depth * at.direction.z()) / sine_z_});
+        return std::max({2.0F * std::fabs(depth) / depth_m_, across * std::fabs(y) / sine_y_,
+                         across * std::fabs(z) / sine_z_});
     }
 
     void cut(MapPiece piece, int halvings, std::vector<Sample>& out) {
