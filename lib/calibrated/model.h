@@ -42,8 +42,7 @@ struct CalibratedModel final : EchoModel {
     /// [range bins of the image] The value of the receiver's mean noise.
     std::vector<float> noise_values;
     std::optional<WaterColumn> water;  ///< its volume scattering; nothing: none
-    GuardBeams guard;
-    ConeBeams cones;  ///< the beams of a line array
+    ConeBeams cones;                   ///< the beams of a line array
     SpeckleMode speckle = SpeckleMode::scene;
     double sound_speed_m_s = 0.0;
     double absorption_db_per_m = 0.0;
@@ -64,19 +63,10 @@ struct CalibratedModel final : EchoModel {
     void form(const TracedPing& traced, const FormContext& context, Ping& ping) const override;
     SurfaceEchoes surface_echoes(const TracedPing& traced, const View& view, const Scene& scene,
                                  bool patches) const override;
-    std::span<const std::string_view> random_terms() const override;
-    GuardBeams guard_beams() const override { return guard; }
-    bool needs_scattered_paths() const override { return true; }
-    RaysNeed rays_need(const View& view) const override;
-    bool energies_add() const override { return true; }
-    bool is_slow() const override { return true; }
-    double working_bytes(bool multipath) const override;
     SignalAndNoise signal_and_noise(float clean, float noisy, int range_bin,
                                     int beam) const override;
     void describe(nlohmann::ordered_json& sensor) const override;
-    int raw_bits() const override { return instrument.receiver.bits; }
     std::vector<std::uint16_t> raw(const Ping& ping) const override;
-    std::span<const float> mean_noise() const override;
 };
 
 /// The sines of the azimuths of a fan's beams, and of the edges between them.

@@ -32,7 +32,7 @@ class ImageFormer {
                  traced.T_world_sensor.translation - context.scene.origin},
           slopes_(slopes_of(context.scene.materials)),
           speckle_(context.terms.random > 0 ? model.speckle : SpeckleMode::none),
-          view_(widened_view(context.view, model.guard)),
+          view_(widened_view(context.view, model.info.guard_beams)),
           speckle_gain_(model.amplitude_taps.scalloping_gain * scalloping_gain(beams)),
           ping_(ping) {}
 

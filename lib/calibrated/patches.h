@@ -48,6 +48,19 @@ inline int patches_along(const Eigen::Vector3f& half_edge, const Eigen::Vector3f
     return static_cast<int>(std::ceil(std::min(wanted, most)));
 }
 
+/// Calls use(s, t) for the middles of the pieces of a footprint that is cut into rows along one
+/// half edge and columns along the other: places in half edges from its centre.
+template <class Use>
+void for_each_middle(int rows, int columns, Use use) {
+    const auto place = [](int at, int of) {
+        return (2.0F * static_cast<float>(at) + 1.0F) / static_cast<float>(of) - 1.0F;
+    };
+    for (int i = 0; i < rows; ++i) {
+        for (int j = 0; j < columns; ++j)
+            use(place(i, rows), place(j, columns));
+    }
+}
+
 /// Cuts samples into pieces and hands these to `use`, a block at a time. With the shape of the
 /// view, pieces have shares of the area by the widths of the footprint.
 template <class Use>

@@ -109,18 +109,13 @@ std::uint64_t find_specular_echoes(std::span<const SpecularPath> paths,
         const float power = materials[path.material].between(path.sine_of_point, path.sine_of_image,
                                                              path.sine_between) *
                             path.reflection * path.area_m2 / static_cast<float>(rows * columns);
-        for (int i = 0; i < rows; ++i) {
-            const float s = (2.0F * static_cast<float>(i) + 1.0F) / static_cast<float>(rows) - 1.0F;
-            for (int j = 0; j < columns; ++j) {
-                const float t =
-                    (2.0F * static_cast<float>(j) + 1.0F) / static_cast<float>(columns) - 1.0F;
-                put_place(block.points, block.count, path.point, s, t);
-                put_place(block.images, block.count, path.image_source, s, t);
-                block.path[block.count] = number;
-                block.power[block.count] = power;
-                if (++block.count == PatchBlock::most) outside += use_block(equation, block, use);
-            }
-        }
+        for_each_middle(rows, columns, [&](float s, float t) {
+            put_place(block.points, block.count, path.point, s, t);
+            put_place(block.images, block.count, path.image_source, s, t);
+            block.path[block.count] = number;
+            block.power[block.count] = power;
+            if (++block.count == PatchBlock::most) outside += use_block(equation, block, use);
+        });
     }
     return outside + use_block(equation, block, use);
 }

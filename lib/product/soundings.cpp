@@ -75,8 +75,8 @@ std::vector<Sounding> find_soundings(const Sonar& sonar, const Pose& T_world_veh
     const ViewShape shape = sonar.settings.view.shape;
     const TruePlaces reported{T_world_sensor, sonar.assumed_profile.get(), motion, shape};
     const TruePlaces true_places{T_world_sensor, sonar.true_profile.get(), motion, shape};
-    const std::span<const float> growth = sonar.settings.model->noise_growth();
-    const std::span<const float> noise = sonar.settings.model->mean_noise();
+    const std::span<const float> growth = sonar.settings.model->info.noise_growth;
+    const std::span<const float> noise = sonar.settings.model->info.mean_noise;
     std::vector<Sounding> soundings(ping.beams);
     std::vector<double> beam(ping.range_bins);
     for (int j = 0; j < ping.beams; ++j) {

@@ -20,16 +20,16 @@ Sonar make_sonar(const KindOfSonar& kind, const SonarConfig& config, const Accur
     if (kind.finish) kind.finish(sonar);
     PingSettings& settings = sonar.settings;
     settings.model = make_echo_model(sonar, kind, water);
-    settings.view.energies_add = settings.model->energies_add();
-    settings.guard_beams = settings.model->guard_beams();
+    settings.view.energies_add = settings.model->info.energies_add;
+    settings.guard_beams = settings.model->info.guard_beams;
     // Multipath starts at the samples, so it needs those of every beam.
     if (settings.multipath.on) settings.guard_beams.joined = 1;
-    settings.multipath.scattered = settings.model->needs_scattered_paths();
+    settings.multipath.scattered = settings.model->info.needs_scattered_paths;
     return sonar;
 }
 
 void find_targets(std::span<Sonar> sonars, const Scene& scene) {
-    const auto needs = [](const Sonar& sonar) { return sonar.settings.model->energies_add(); };
+    const auto needs = [](const Sonar& sonar) { return sonar.settings.model->info.energies_add; };
     if (std::ranges::none_of(sonars, needs)) return;
     const std::shared_ptr<const TargetShapes> targets = find_target_shapes(scene);
     for (Sonar& sonar : sonars) {
@@ -110,7 +110,7 @@ Ping render_ping(const Sonar& sonar, const Scene& scene, const VisibilityEngine&
 }
 
 std::size_t stage_count(const Sonar& sonar) {
-    return 2 + sonar.settings.model->random_terms().size();
+    return 2 + sonar.settings.model->info.random_terms.size();
 }
 
 std::vector<Ping> form_stages(const TracedPing& traced, const Sonar& sonar, const Scene& scene,

@@ -66,7 +66,7 @@ PingError measure(const Mission& mission, const Assembly& assembly, const Caster
         placed, scene, *sonar, T_world_sensor,
         {.moved = 0.1 * goal,
          .rays_per_bin = 16.0,
-         .rays_max = sonar->settings.model->energies_add() ? energy_rays_max : mean_rays_max});
+         .rays_max = sonar->settings.model->info.energies_add ? energy_rays_max : mean_rays_max});
     const Ping ping =
         direct_image(*sonar, scene, *engine_at(engine, assembly.motions, at.t_s), T_world_sensor);
     return {pose, image_error(ping.intensity, truth.intensity, truth.scored).relative_l1,
@@ -99,7 +99,7 @@ Reference cast_reference(const Caster& caster, const Scene& scene, const Sonar& 
                          const Pose& T_world_sensor, ReferenceGoal goal) {
     goal.cell_m2 = cell_m2_of(sonar.config);
     const PingSettings& settings = sonar.settings;
-    return settings.model->energies_add()
+    return settings.model->info.energies_add
                ? cast_energy_reference(caster, scene, settings, T_world_sensor, goal)
                : cast_reference(caster, scene, settings.view, T_world_sensor, goal);
 }
