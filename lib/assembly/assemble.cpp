@@ -15,7 +15,6 @@
 #include "assembly/possible_objects.h"
 #include "assembly/scene_parts.h"
 #include "assembly/sound_profiles.h"
-#include "assembly/water_ages.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/named_at.h"
@@ -245,7 +244,6 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
     add_water_surface(mission, assembly);
     add_particles(mission, assembly.trajectory, assembly.scene, assembly.sonars);
     add_sound_profiles(mission, assembly.scene, assembly.sonars);
-    add_water_ages(mission, assembly.trajectory, assembly.sonars);
     warn_of_empty_scatter(mission, assembly.scene);
     if (!mission.output.labels.empty() || !mission.classes.empty()) {
         std::vector<ClassRule> rules;
@@ -261,11 +259,7 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
         if (auto prepared = sonar.settings.model->prepared(assembly.scene))
             sonar.settings.model = std::move(prepared);
     }
-    if (assembly.scene.sound_profile)
-        warn_of_lost_glints(assembly.sonars, assembly.scene);
-    else
-        find_targets(assembly.sonars, assembly.scene);
-    leave_out_glints(assembly.sonars, assembly.scene);
+    if (!assembly.scene.sound_profile) find_targets(assembly.sonars, assembly.scene);
     assembly.inputs = inputs_of(mission);
     Brightness brightness = find_full_scales(mission, assembly.scene, assembly.trajectory,
                                              assembly.motions, assembly.sonars);
@@ -295,8 +289,7 @@ std::string inputs_hash(const Assembly& assembly) {
               std::pair{"loss_parameter", material.loss_parameter},
               std::pair{"spectral_strength_cm4", material.spectral_strength_cm4},
               std::pair{"spectral_exponent", material.spectral_exponent},
-              std::pair{"volume_parameter", material.volume_parameter},
-              std::pair{"roughness_m", material.roughness_m}}) {
+              std::pair{"volume_parameter", material.volume_parameter}}) {
             if (value) text += std::string(" ") + name + " " + number_text(*value);
         }
     }

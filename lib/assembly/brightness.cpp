@@ -54,7 +54,7 @@ std::vector<std::uint8_t> bins_with_surface(const TracedPing& traced, const Ping
     const RangeBins bins = range_bins(settings.view);
     const auto beams = static_cast<std::size_t>(settings.view.beams);
     // Models that average over a bin give 0 without surface, so all their bins may count.
-    const bool all = settings.view.shape == ViewShape::cone || !settings.model->energies_add();
+    const bool all = settings.view.shape == ViewShape::cone || !settings.model->info.energies_add;
     std::vector<std::uint8_t> out(beams * static_cast<std::size_t>(bins.count), all ? 1 : 0);
     if (all) return out;
     std::vector<std::uint8_t> column;
@@ -82,7 +82,7 @@ double find_full_scale(const Mission& mission, const Scene& scene, const Traject
     View& view = sonar.settings.view;
     view.relative_l1 = std::max(view.relative_l1, coarse_l1);
     const auto bins = static_cast<std::size_t>(view.range_bins) * view.beams;
-    const std::size_t most = sonar.settings.model->is_slow() ? most_slow : max_pings_for_white;
+    const std::size_t most = sonar.settings.model->info.is_slow ? most_slow : max_pings_for_white;
     const std::size_t probes = std::clamp<std::size_t>(most_bins / bins, 1, most);
     std::vector<float> occupied;
     for (const std::uint32_t pose : sample_pings(trajectory.size(), sonar.config.every, probes)) {

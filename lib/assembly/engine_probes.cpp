@@ -15,8 +15,8 @@ constexpr double widest_slices_rad = 0.5 * pi;
 /// The rays that a sonar needs; a goal of 0: slices suffice.
 RaysNeed rays_need(const Sonar& sonar) {
     const View& view = sonar.settings.view;
-    const RaysNeed of_model = sonar.settings.model->rays_need(view);
-    if (of_model.goal > 0.0) return of_model;
+    const int columns = sonar.settings.model->info.ray_columns;
+    if (columns > 0) return {.goal = view.relative_l1, .columns = columns};
     // Multipath continues from the middle of each sample, and a sample of the slices may be as long
     // as a beam is high.
     const bool by_rays = sonar.config.multipath.method != MultipathMethod::none ||

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "calibrated/pulse_band.h"
 #include "core/elementary.h"
 #include "core/error.h"
 #include "mission/ping_draws.h"
@@ -44,24 +43,6 @@ PingMotion motion_at(const Trajectory& trajectory, std::size_t pose, const Sonar
             sound_speed_m_s};
 }
 
-double swept_hz(const SonarConfig& config, double sound_speed_m_s) {
-    // A pulse without resolution_m is as long as a sample, of which a bin may have several.
-    const double samples = 1.0 * config.range_bins * config.instrument.receiver.samples;
-    const double sample_m = (config.range_max_m - config.range_min_m) / samples;
-    return pulse_band(config.instrument.pulse, sample_m, sound_speed_m_s).sweep_hz;
-}
-
-/// Range shift over speed, f T / B, of a pulse that sweeps over B in T. A shift of 2 v f / c in
-/// frequency makes the matched filter of an up-sweep respond earlier by this shift over B / T. 0
-/// without a sweep.
-double doppler_of(const SonarConfig& config, double sound_speed_m_s) {
-    const PulseConfig& pulse = config.instrument.pulse;
-    if (config.model != ModelKind::calibrated || pulse.sweep == Sweep::none) return 0.0;
-    const double shift_s =
-        config.instrument.frequency_hz * pulse.duration_s / swept_hz(config, sound_speed_m_s);
-    return pulse.sweep == Sweep::up ? shift_s : -shift_s;
-}
-
 }  // namespace
 
 void add_ping_motions(const Mission& mission, const Trajectory& trajectory,
@@ -85,22 +66,9 @@ void add_ping_motions(const Mission& mission, const Trajectory& trajectory,
             motions.push_back(motion_at(
                 trajectory, pose, *SonarAtPose(mission, sonar, static_cast<std::uint32_t>(pose)),
                 sound_speed_m_s));
-        for (PingMotion& motion : motions) {
-            motion.doppler_s = doppler_of(sonar.config, sound_speed_m_s);
+        for (PingMotion& motion : motions)
             motion.measures_direction = sonar.head_angles_rad.empty();
-        }
         sonar.motions = std::make_shared<const std::vector<PingMotion>>(std::move(motions));
-    }
-}
-
-void leave_out_glints(std::span<Sonar> sonars, Scene& scene) {
-    for (Sonar& sonar : sonars) {
-        if (!sonar.motions || !sonar.settings.coherent) continue;
-        sonar.settings.coherent = nullptr;
-        scene.warnings.push_back(
-            "sensors." + sonar.config.name +
-            ".moves_in_ping: the coherent echo of smooth faces (materials with roughness_m) "
-            "supports only a sonar at rest, so they scatter incoherently");
     }
 }
 

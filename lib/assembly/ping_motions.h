@@ -13,8 +13,4 @@ namespace sonarsim {
 void add_ping_motions(const Mission& mission, const Trajectory& trajectory,
                       std::span<Sonar> sonars);
 
-/// The coherent echo of smooth faces supports only a sonar at rest: removes it from sonars that
-/// move in a ping, and adds a warning to the scene.
-void leave_out_glints(std::span<Sonar> sonars, Scene& scene);
-
 }  // namespace sonarsim

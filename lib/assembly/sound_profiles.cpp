@@ -10,7 +10,6 @@
 #include "core/text.h"
 #include "mission/sound_profile_schema.h"
 #include "mission/sound_speed.h"
-#include "trace/find_coherent_faces.h"
 
 namespace sonarsim {
 
@@ -149,16 +148,6 @@ void add_sound_profiles(const Mission& mission, Scene& scene, std::span<Sonar> s
         sonar.true_profile = scene.sound_profile;
         sonar.assumed_profile = assumed;
     }
-}
-
-void warn_of_lost_glints(std::span<const Sonar> sonars, Scene& scene) {
-    const auto adds = [](const Sonar& sonar) { return sonar.settings.model->energies_add(); };
-    const auto coherent = find_coherent_faces(scene);
-    if (std::ranges::none_of(sonars, adds) || !coherent || coherent->plates.empty()) return;
-    scene.warnings.push_back(
-        "water.profile bends sound, and the coherent echo of smooth faces (materials with "
-        "roughness_m) needs straight paths: they scatter incoherently. Leave out "
-        "roughness_m, or water.profile where bending does not matter");
 }
 
 }  // namespace sonarsim

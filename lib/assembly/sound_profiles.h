@@ -16,8 +16,4 @@ SoundProfile sound_profile(const SoundProfileConfig& config, const Mission& miss
 /// InputError if the mission has a key that requires straight paths of sound.
 void add_sound_profiles(const Mission& mission, Scene& scene, std::span<Sonar> sonars);
 
-/// Adds a warning to the scene if the coherent echo of smooth faces is lost: where sound bends,
-/// only the engine samples small and smooth objects.
-void warn_of_lost_glints(std::span<const Sonar> sonars, Scene& scene);
-
 }  // namespace sonarsim

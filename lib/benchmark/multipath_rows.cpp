@@ -12,7 +12,7 @@ namespace {
 /// The exact method ignores epsilon and delta, so one setting stands for all of them.
 MultipathConfig canonical(const MultipathConfig& config) {
     if (config.method != MultipathMethod::exact) return config;
-    return {MultipathMethod::exact, 0, 0.0, config.columns_per_beam};
+    return {MultipathMethod::exact, 0, 0.0};
 }
 
 /// A sonar with one multipath method, its multipath echoes alone of all poses one after the other,
@@ -77,19 +77,17 @@ void measure_sonar(const PingSet& pings, const Sonar& sonar, const VisibilityEng
         row.precision = 1.0 - image_error(truth, trials[k].echoes).miss_rate;
         row.ms_multipath = over_poses(trials[k].poses, &PoseTimes::multipath_ms);
         row.ms_per_ping = over_poses(trials[k].poses, &PoseTimes::ping_ms);
-        row.times_without =
-            row.ms_per_ping / over_poses(trials.back().poses, &PoseTimes::ping_ms);
+        row.times_without = row.ms_per_ping / over_poses(trials.back().poses, &PoseTimes::ping_ms);
     }
 }
 
 }  // namespace
 
 std::vector<MultipathConfig> multipath_settings(const MultipathConfig& own) {
-    std::vector<MultipathConfig> settings{
-        {MultipathMethod::exact, 0, 0.0, own.columns_per_beam}};
+    std::vector<MultipathConfig> settings{{MultipathMethod::exact, 0, 0.0}};
     for (const int epsilon : {1, 3, 5, 9}) {
         for (const double delta : {5.0, 15.0, 30.0})
-            settings.push_back({MultipathMethod::cluster, epsilon, delta, own.columns_per_beam});
+            settings.push_back({MultipathMethod::cluster, epsilon, delta});
     }
     if (std::ranges::find(settings, canonical(own)) == settings.end()) settings.push_back(own);
     return settings;

@@ -158,10 +158,10 @@ void add_amplitudes(const ArrayBeams& /*beams*/, const PatchBlock& /*pieces*/,
         targets.add_shared(k, alternating(amplitudes.re[k], amplitudes.im[k]), first, stride);
 }
 
-void beamform(const ArrayBeams& beams, const EchoGrid& grid, bool powers, const EchoGrid* coherent,
-              bool noisy, PhiloxKey key, std::span<const float> row_gain, std::span<float> image) {
+void beamform(const ArrayBeams& beams, const EchoGrid& grid, bool powers, bool noisy, PhiloxKey key,
+              std::span<const float> row_gain, std::span<float> image) {
     if (powers) form_beams(beams.powers, &grid, nullptr, row_gain, image, false);
-    const EchoGrid* const amplitudes = powers ? coherent : &grid;
+    const EchoGrid* const amplitudes = powers ? nullptr : &grid;
     if (noisy) {
         ElementNoiseOfPing noise = beams.amplitudes.noise_of_ping(beams.noise, key);
         form_beams(beams.amplitudes, amplitudes, &noise, row_gain, image, powers);

@@ -53,10 +53,9 @@ inline void add_bistatic_powers(const ArrayBeams& beams, const PathEndpoint& /*o
     add_powers(beams, back.places, back.echoes, grid);
 }
 
-/// Fills the image [bins, beams] with the powers of the beams. The grid holds powers or amplitudes;
-/// `coherent` may hold amplitudes in addition to the powers, else null. The noise of an element
-/// depends on the bin, the element and the key alone.
-void beamform(const ArrayBeams& beams, const EchoGrid& grid, bool powers, const EchoGrid* coherent,
-              bool noisy, PhiloxKey key, std::span<const float> row_gain, std::span<float> image);
+/// Fills the image [bins, beams] with the powers of the beams. The grid holds `powers` or
+/// amplitudes. The noise of an element depends on the bin, the element and the key alone.
+void beamform(const ArrayBeams& beams, const EchoGrid& grid, bool powers, bool noisy, PhiloxKey key,
+              std::span<const float> row_gain, std::span<float> image);
 
 }  // namespace sonarsim

@@ -20,12 +20,10 @@ struct HalfExtents {
 /// columns, at a place that is seen along `at`.
 inline HalfExtents half_extents(const Eigen::Vector3f& edge_u, const Eigen::Vector3f& edge_v,
                                 const Arrival& at, float rows = 1.0F, float columns = 1.0F) {
-    const Eigen::Vector3f& direction = at.direction;
-    const auto across = [&](const Eigen::Vector3f& edge) {
-        return std::fabs(edge.y() - direction.y() * direction.dot(edge)) / at.range_m;
-    };
-    return {std::fabs(direction.dot(edge_u)) / rows + std::fabs(direction.dot(edge_v)) / columns,
-            across(edge_u) / rows + across(edge_v) / columns};
+    const EdgeExtents u = extents_of(edge_u, at.direction);
+    const EdgeExtents v = extents_of(edge_v, at.direction);
+    return {std::fabs(u.depth) / rows + std::fabs(v.depth) / columns,
+            std::fabs(u.y) / at.range_m / rows + std::fabs(v.y) / at.range_m / columns};
 }
 
 /// A sample as subdivide() cuts it.

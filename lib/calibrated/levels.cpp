@@ -22,10 +22,9 @@ std::vector<float> row_gains(const ReceiverConfig& receiver, const InstrumentLev
     std::vector<float> out;
     for (int i = 0; i < view.range_bins; ++i) {
         const double range = view.range_min_m + (i + 0.5) * view.bin_m();
-        const double smooth_db = tvg_db(receiver, absorption_db_per_m, range);
-        const double step_db = receiver.tvg_step_db;
-        const double tvg = step_db > 0.0 ? step_db * std::floor(smooth_db / step_db) : smooth_db;
-        const double gain_db = levels.source_level_db + tvg - levels.full_scale_db - raised_db;
+        const double gain_db = levels.source_level_db +
+                               tvg_db(receiver, absorption_db_per_m, range) - levels.full_scale_db -
+                               raised_db;
         out.push_back(static_cast<float>(power_of_db(std::min(gain_db, max_gain_db))));
     }
     return out;

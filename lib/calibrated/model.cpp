@@ -1,7 +1,10 @@
 #include "calibrated/model.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
+#include <variant>
 
 #include "calibrated/beamformer.h"
 #include "calibrated/decibel.h"
@@ -22,7 +25,13 @@ constexpr float max_sine_by_step = 1.1F;
 // As a share of the half-power width, within which the pattern bends.
 constexpr double max_by_width = 0.1;
 
-constexpr double no_common_mode_db = -300.0;
+constexpr double no_level_db = -300.0;  // docs/mission.md
+
+// In the order in which they enter an image.
+constexpr std::array<std::string_view, 2> calibrated_terms{"speckle", "receiver_noise"};
+
+// Columns of rays across a side-scan's beam, which is narrower than one column of the goal.
+constexpr int columns_along_track = 4;
 
 /// The number of beams that may be traced as one: two if the array does not resolve them. More than
 /// two save hardly any time.
@@ -108,6 +117,30 @@ std::vector<float> noise_values(const std::vector<float>& row_gain, double noise
     return out;
 }
 
+/// Sets the properties of the model but for its guard beams.
+void set_info(ViewShape shape, CalibratedModel& model) {
+    const ReceiverConfig& receiver = model.instrument.receiver;
+    EchoModelInfo& info = model.info;
+    info.random_terms = calibrated_terms;
+    info.needs_scattered_paths = true;
+    // In a cone slices are off by up to 1 %; rays are as fast and have a third of that error.
+    if (shape == ViewShape::port_starboard) info.ray_columns = columns_along_track;
+    if (shape == ViewShape::cone) info.ray_columns = 1;
+    info.energies_add = true;
+    info.is_slow = true;
+    const int columns =
+        std::visit([](const auto& of_model) { return columns_of(of_model); }, model.beams);
+    const double of_grid = 2.0 * columns * model.equation.rows * sizeof(float);
+    // Multipath has a grid of its own, sediment has two. Several samples or looks are images.
+    const bool several = receiver.samples > 1 || receiver.looks > 1;
+    info.working_bytes =
+        (1.0 + (model.instrument.below_bottom ? 2.0 : 0.0) + (several ? 1.0 : 0.0)) * of_grid;
+    info.multipath_bytes = of_grid;
+    if (model.levels.noise_db > no_level_db || receiver.common_mode_db > no_level_db)
+        info.mean_noise = model.noise_values;
+    info.raw_bits = receiver.bits;
+}
+
 }  // namespace
 
 CalibratedModel calibrated_model(const InstrumentConfig& instrument, const WaterConfig& water,
@@ -135,7 +168,7 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
 
     model.levels = instrument_levels(instrument, water, view_of_image);
     const double noise_db = model.levels.noise_db - model.levels.source_level_db;
-    const bool has_common_mode = receiver.common_mode_db > no_common_mode_db;
+    const bool has_common_mode = receiver.common_mode_db > no_level_db;
     const double common_mode_db =
         has_common_mode ? receiver.common_mode_db - model.levels.source_level_db : noise_db;
     const double raised_db = float_headroom_db(noise_db, common_mode_db);
@@ -144,7 +177,7 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
     if (beam.aperture == Aperture::line) {
         model.beams = array_beams(beam, sines.middles, noise, common_mode, of_noise);
         model.cones = ConeBeams(sines.edges);
-        model.guard = guard_beams_of(beam, view);
+        model.info.guard_beams = guard_beams_of(beam, view);
     } else {
         model.beams =
             transducer_beams(beam, view, model.wavelength_m, noise + common_mode, of_noise);
@@ -157,14 +190,16 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
                       .ln_headroom = static_cast<float>(0.1 * ln_10 * raised_db),
                       .elevation = elevation_pattern(radians(beam.elevation_width_deg),
                                                      beam.elevation_side_lobe_db, beam.elements)};
-    model.water = water_column(water_of(water, instrument), instrument.frequency_hz,
-                               widened_view(view, model.guard), model.beams, model.equation);
-    model.cells = scatterer_cells(instrument.speckle.per_cell, std::max(resolution_m, 0.5 * bin_m),
-                                  radians(beam.width_deg), view.range_min_m, model.wavelength_m);
+    model.water =
+        water_column(water_of(water, instrument), instrument.frequency_hz,
+                     widened_view(view, model.info.guard_beams), model.beams, model.equation);
+    model.cells = scatterer_cells(std::max(resolution_m, 0.5 * bin_m), radians(beam.width_deg),
+                                  view.range_min_m, model.wavelength_m);
     model.target_cells =
         target_cells(beam, std::max(resolution_m, 0.5 * bin_m), model.wavelength_m);
     model.row_gain = row_gains(receiver, model.levels, view, model.absorption_db_per_m, raised_db);
     model.noise_values = noise_values(model.row_gain, noise + common_mode, receiver.samples);
+    set_info(view.shape, model);
     return model;
 }
 

@@ -42,8 +42,7 @@ struct CalibratedModel final : EchoModel {
     /// [range bins of the image] The value of the receiver's mean noise.
     std::vector<float> noise_values;
     std::optional<WaterColumn> water;  ///< its volume scattering; nothing: none
-    GuardBeams guard;
-    ConeBeams cones;  ///< the beams of a line array
+    ConeBeams cones;                   ///< the beams of a line array
     SpeckleMode speckle = SpeckleMode::scene;
     double sound_speed_m_s = 0.0;
     double absorption_db_per_m = 0.0;
@@ -56,27 +55,18 @@ struct CalibratedModel final : EchoModel {
     std::optional<SedimentScattering> sediment;
     WindSurface water_surface;  ///< its table, if the model was prepared for it
 
-    Scattering scattering_of(std::span<const Material> materials) const;
-    std::optional<SedimentScattering> sediment_of(std::span<const Material> materials,
-                                                  const Scattering& whole) const;
+    /// True if the model has the data that depend on this scene.
+    bool is_prepared_for(const Scene& scene) const;
+    std::shared_ptr<const CalibratedModel> prepared_for(const Scene& scene) const;
 
     std::shared_ptr<const EchoModel> prepared(const Scene& scene) const override;
     void form(const TracedPing& traced, const FormContext& context, Ping& ping) const override;
     SurfaceEchoes surface_echoes(const TracedPing& traced, const View& view, const Scene& scene,
                                  bool patches) const override;
-    std::span<const std::string_view> random_terms() const override;
-    GuardBeams guard_beams() const override { return guard; }
-    bool needs_scattered_paths() const override { return true; }
-    RaysNeed rays_need(const View& view) const override;
-    bool energies_add() const override { return true; }
-    bool is_slow() const override { return true; }
-    double working_bytes(bool multipath) const override;
     SignalAndNoise signal_and_noise(float clean, float noisy, int range_bin,
                                     int beam) const override;
     void describe(nlohmann::ordered_json& sensor) const override;
-    int raw_bits() const override { return instrument.receiver.bits; }
     std::vector<std::uint16_t> raw(const Ping& ping) const override;
-    std::span<const float> mean_noise() const override;
 };
 
 /// The sines of the azimuths of a fan's beams, and of the edges between them.
@@ -87,31 +77,5 @@ struct BeamSines {
 /// Sets up the instrument of a sonar with this view; only a line array needs `sines`.
 CalibratedModel calibrated_model(const InstrumentConfig& instrument, const WaterConfig& water,
                                  const View& view, const BeamSines& sines);
-
-/// The scattering of a scene's materials: that of the model if it was prepared for them, else one
-/// of its own.
-class ScatteringOfScene {
-  public:
-    ScatteringOfScene(const CalibratedModel& model, const Scene& scene)
-        : own_(model.prepared_materials == scene.materials ? Scattering{}
-                                                           : model.scattering_of(scene.materials)),
-          own_sediment_(own_.materials.empty() ? std::nullopt
-                                               : model.sediment_of(scene.materials, own_)),
-          used_(own_.materials.empty() ? &model.scattering : &own_),
-          sediment_(own_.materials.empty() ? &model.sediment : &own_sediment_) {}
-    ScatteringOfScene(const ScatteringOfScene&) = delete;
-    ScatteringOfScene& operator=(const ScatteringOfScene&) = delete;
-
-    const Scattering& operator*() const { return *used_; }
-    const Scattering* operator->() const { return used_; }
-    /// The sediment below sea beds; null: all echoes come from surfaces.
-    const SedimentScattering* sediment() const { return *sediment_ ? &**sediment_ : nullptr; }
-
-  private:
-    Scattering own_;
-    std::optional<SedimentScattering> own_sediment_;
-    const Scattering* used_;
-    const std::optional<SedimentScattering>* sediment_;
-};
 
 }  // namespace sonarsim

@@ -1,4 +1,3 @@
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -8,59 +7,29 @@
 
 namespace sonarsim {
 
-namespace {
-
-// In the order in which they enter an image.
-constexpr std::array<std::string_view, 2> calibrated_terms{"speckle", "receiver_noise"};
-
-// Columns of rays across a side-scan's beam, which is narrower than one column of the goal.
-constexpr int columns_along_track = 4;
-
-}  // namespace
-
-Scattering CalibratedModel::scattering_of(std::span<const Material> materials) const {
-    return sonarsim::scattering_of(materials, instrument.frequency_hz,
-                                   {water_density_kg_m3, sound_speed_m_s});
+bool CalibratedModel::is_prepared_for(const Scene& scene) const {
+    const bool has_wind = scene.water_surface && scene.water_surface->wind_m_s;
+    return prepared_materials == scene.materials &&
+           (!has_wind || water_surface.wind_m_s == *scene.water_surface->wind_m_s);
 }
 
-std::optional<SedimentScattering> CalibratedModel::sediment_of(std::span<const Material> materials,
-                                                               const Scattering& whole) const {
-    if (!instrument.below_bottom) return std::nullopt;
-    return sediment_scattering(materials, instrument.frequency_hz,
-                               {water_density_kg_m3, sound_speed_m_s}, equation.bin_m, whole);
-}
-
-std::shared_ptr<const EchoModel> CalibratedModel::prepared(const Scene& scene) const {
+std::shared_ptr<const CalibratedModel> CalibratedModel::prepared_for(const Scene& scene) const {
+    const Water water{water_density_kg_m3, sound_speed_m_s};
     auto out = std::make_shared<CalibratedModel>(*this);
     out->prepared_materials = scene.materials;
-    out->scattering = scattering_of(scene.materials);
-    out->sediment = sediment_of(scene.materials, out->scattering);
+    out->scattering = scattering_of(scene.materials, instrument.frequency_hz, water);
+    out->sediment.reset();
+    if (instrument.below_bottom) {
+        out->sediment = sediment_scattering(scene.materials, instrument.frequency_hz, water,
+                                            equation.bin_m, out->scattering);
+    }
     if (scene.water_surface && scene.water_surface->wind_m_s)
         out->water_surface = wind_surface(*scene.water_surface->wind_m_s, instrument.frequency_hz);
     return out;
 }
 
-std::span<const std::string_view> CalibratedModel::random_terms() const {
-    return calibrated_terms;
-}
-
-RaysNeed CalibratedModel::rays_need(const View& view) const {
-    if (view.shape == ViewShape::port_starboard)
-        return {.goal = view.relative_l1, .columns = columns_along_track};
-    // In a cone slices are off by up to 1 %, which their estimate does not include; rays are as
-    // fast and have a third of that error.
-    return {.goal = view.shape == ViewShape::cone ? view.relative_l1 : 0.0};
-}
-
-double CalibratedModel::working_bytes(bool multipath) const {
-    const auto columns =
-        std::visit([](const auto& of_model) { return columns_of(of_model); }, beams);
-    // Multipath has a grid of its own, sediment has two.
-    const double grids = 1.0 + (multipath ? 1.0 : 0.0) + (instrument.below_bottom ? 2.0 : 0.0);
-    // Several samples or looks are images of their own.
-    const bool several = instrument.receiver.samples > 1 || instrument.receiver.looks > 1;
-    const double images = several ? 2.0 * columns * equation.rows * sizeof(float) : 0.0;
-    return grids * columns * equation.rows * sizeof(float) * 2.0 + images;
+std::shared_ptr<const EchoModel> CalibratedModel::prepared(const Scene& scene) const {
+    return prepared_for(scene);
 }
 
 EchoModel::SignalAndNoise CalibratedModel::signal_and_noise(float clean, float noisy,
@@ -86,14 +55,6 @@ void CalibratedModel::describe(nlohmann::ordered_json& sensor) const {
         {"sound_speed_m_s", sound_speed_m_s},
         {"wavelength_m", wavelength_m}};
     if (receiver.tvg_from_m > 0.0) sensor["instrument"]["tvg_from_m"] = receiver.tvg_from_m;
-    if (receiver.tvg_step_db > 0.0) sensor["instrument"]["tvg_step_db"] = receiver.tvg_step_db;
-}
-
-std::span<const float> CalibratedModel::mean_noise() const {
-    constexpr double none_db = -300.0;  // docs/mission.md
-    const bool has_noise =
-        levels.noise_db > none_db || instrument.receiver.common_mode_db > none_db;
-    return has_noise ? std::span<const float>(noise_values) : std::span<const float>();
 }
 
 std::vector<std::uint16_t> CalibratedModel::raw(const Ping& ping) const {

@@ -1,8 +1,7 @@
 #include <algorithm>
-#include <optional>
+#include <iterator>
 
 #include "calibrated/form_look.h"
-#include "calibrated/plate_image.h"
 #include "calibrated/scatterer_search.h"
 #include "calibrated/speckle.h"
 #include "calibrated/specular_echoes.h"
@@ -31,15 +30,9 @@ class ImageFormer {
           ping_draws_(context.draws.of(Stream::speckle)),
           sonar_{traced.T_world_sensor.rotation.toRotationMatrix().cast<float>(),
                  traced.T_world_sensor.translation - context.scene.origin},
-          scattering_(model, context.scene),
           slopes_(slopes_of(context.scene.materials)),
           speckle_(context.terms.random > 0 ? model.speckle : SpeckleMode::none),
-          view_(widened_view(context.view, model.guard)),
-          plates_{.surface = traced.coherent,
-                  .materials = context.scene.materials,
-                  .view = view_,
-                  .wavelength_m = model.wavelength_m},
-          shares_(traced.coherent.faces, context.scene.materials, model.wavelength_m),
+          view_(widened_view(context.view, model.info.guard_beams)),
           speckle_gain_(model.amplitude_taps.scalloping_gain * scalloping_gain(beams)),
           ping_(ping) {}
 
@@ -52,7 +45,7 @@ class ImageFormer {
         if (context_.terms.direct) {
             add_surface(traced.samples.items, traced.targets, grid);
             add_surface(traced.outside_sector, traced.targets, grid);
-            if (scattering_.sediment() != nullptr) add_sediment(traced, grid);
+            if (model_.sediment) add_sediment(traced, grid);
             if (!traced.water_surface.empty()) {
                 add_water_surface(model_, beams_, traced.water_surface, context_, speckle_,
                                   speckle_gain_, ping_.counts, grid);
@@ -71,11 +64,6 @@ class ImageFormer {
             add_particle_amplitudes(model_, beams_, traced.particles, context_.draws, ping_.counts,
                                     grid);
         }
-        std::optional<EchoGrid> coherent;
-        if (context_.terms.direct && traced.coherent.has_echoes()) {
-            if (expected_power) coherent.emplace(grid.rows(), grid.columns());
-            add_coherent(expected_power ? *coherent : grid);
-        }
 
         // 5. The water's volume. Bins with its echo alone count as empty.
         const bool has_water = context_.terms.direct && model_.water;
@@ -87,24 +75,18 @@ class ImageFormer {
         const std::size_t echo_bins =
             grid.convolve_pulse(expected_power ? model_.power_taps : model_.amplitude_taps);
         ping_.counts.occupied_bins = has_water ? seen_bins : echo_bins;
-        if (coherent) {
-            ping_.counts.occupied_bins = std::max<std::uint64_t>(
-                ping_.counts.occupied_bins, coherent->convolve_pulse(model_.amplitude_taps));
-        }
         // 3, 4. Beams, the receiver's noise and its gain.
-        beamform(beams_, grid, expected_power, coherent ? &*coherent : nullptr,
-                 context_.terms.random > 1, context_.draws.of(Stream::receiver_noise),
-                 model_.row_gain, ping_.intensity);
+        beamform(beams_, grid, expected_power, context_.terms.random > 1,
+                 context_.draws.of(Stream::receiver_noise), model_.row_gain, ping_.intensity);
     }
 
   private:
     /// Computes the echoes of a block of patches: levels, range bins and columns of the grid.
     void find(const PatchBlock& patches) {
-        const SedimentScattering* const sediment = scattering_.sediment();
         ping_.counts.echoes += patches.count;
-        ping_.counts.out_of_range +=
-            apply_sonar_equation(patches, sediment != nullptr ? sediment->surface : *scattering_,
-                                 model_.equation, echoes_);
+        ping_.counts.out_of_range += apply_sonar_equation(
+            patches, model_.sediment ? model_.sediment->surface : model_.scattering,
+            model_.equation, echoes_);
         ping_.counts.out_of_range += find_columns(beams_, patches, echoes_);
         if (speckle_ != SpeckleMode::none)
             add_clutter(patches, model_.clutter, sonar_, clutter_draws_, echoes_);
@@ -112,7 +94,7 @@ class ImageFormer {
 
     /// Adds the echoes of the sediment below sea beds. Their amplitudes are drawn for each ping.
     void add_sediment(const TracedPing& traced, EchoGrid& grid) {
-        const SedimentScattering& sediment = *scattering_.sediment();
+        const SedimentScattering& sediment = *model_.sediment;
         std::vector<Sample> beds;
         const auto keep = [&](const Sample& sample) {
             if (sediment.has[sample.material] && !traced.targets.has(sample.instance))
@@ -138,28 +120,14 @@ class ImageFormer {
         grid.add(energy);
     }
 
-    /// Adds the echoes of plates.
-    void add_coherent(EchoGrid& grid) {
-        ping_.counts.out_of_range +=
-            add_plate_amplitudes(beams_, plates_, model_.equation, model_.limits, grid);
-    }
-
-    /// Adds the incoherent echoes of a surface without its targets.
+    /// Adds the echoes of a surface without its targets.
     void add_surface(std::span<const Sample> surface, const TargetSurface& targets,
                      EchoGrid& grid) {
-        if (targets.instances.empty() && shares_.are_all_one()) return add_surface(surface, grid);
+        if (targets.instances.empty()) return add_surface(surface, grid);
         std::vector<Sample> left;
         left.reserve(surface.size());
-        for (const Sample& sample : surface) {
-            if (targets.has(sample.instance)) continue;
-            left.push_back(sample);
-            if (shares_.are_all_one()) continue;
-            const float phase2 =
-                shares_.phase2(sample.instance, sample.material, sample.position, sample.normal);
-            if (phase2 == IncoherentShares::incoherent) continue;
-            const float sine = sample.height_m / arrival_range(sample.position);
-            left.back().area_m2 *= IncoherentShares::at(phase2, sine);
-        }
+        std::ranges::copy_if(surface, std::back_inserter(left),
+                             [&](const Sample& sample) { return !targets.has(sample.instance); });
         add_surface(left, grid);
     }
 
@@ -187,17 +155,6 @@ class ImageFormer {
         });
     }
 
-    /// Reduces the areas of pieces by their coherent share. `phase2`: by facet.
-    static void keep_incoherent(std::span<const float> phase2, TargetPieces& pieces) {
-        PatchBlock& points = pieces.points;
-        for (int k = 0; k < points.count; ++k) {
-            const float of_facet = phase2[pieces.facet[k]];
-            if (of_facet == IncoherentShares::incoherent) continue;
-            const float range = piece_range(points.x[k], points.y[k], points.z[k]);
-            points.area_m2[k] *= IncoherentShares::at(of_facet, points.height_m[k] / range);
-        }
-    }
-
     /// Hands the echoes of targets to `use`, a block of pieces at a time.
     template <class Use>
     void find_targets(const TargetSurface& targets, Use use) {
@@ -208,18 +165,11 @@ class ImageFormer {
                 ? model_.limits
                 : PointLimits{cells.depth_m, cells.sine_y,
                               cells.sine_z > 0.0F ? cells.sine_z : model_.limits.elevation_sine};
-        std::vector<float> phase2;  // one for each facet
-        if (!shares_.are_all_one()) {
-            for (const TargetFacet& facet : targets.facets)
-                phase2.push_back(
-                    shares_.phase2(facet.instance, facet.material, facet.corners[0], facet.normal));
-        }
         TargetPieces pieces;
         cut_targets(targets.facets, limits, slopes_, pieces, [&](TargetPieces& cut) {
-            if (!phase2.empty()) keep_incoherent(phase2, cut);
             ping_.counts.echoes += cut.points.count;
             ping_.counts.out_of_range +=
-                apply_sonar_equation(cut.points, *scattering_, model_.equation, echoes_);
+                apply_sonar_equation(cut.points, model_.scattering, model_.equation, echoes_);
             use(cut);
         });
     }
@@ -253,8 +203,14 @@ class ImageFormer {
         if (paths.empty()) return;
         ping_.counts.echoes += 2 * paths.size();
         const auto add_to = [&](EchoGrid& powers) {
-            ping_.counts.out_of_range += add_specular_powers(
-                beams_, paths, scattering_->materials, model_.equation, model_.limits, powers);
+            std::uint64_t outside_beams = 0;
+            const std::uint64_t outside_range = find_specular_echoes(
+                paths, model_.scattering.materials, model_.equation, model_.limits,
+                [&](const SpecularBlock& block) {
+                    outside_beams += find_columns(beams_, block.places, block.echoes);
+                    add_bistatic_powers(beams_, block.out, {block.places, block.echoes}, powers);
+                });
+            ping_.counts.out_of_range += outside_range + outside_beams;
         };
         if (speckle_ != SpeckleMode::scene) return add_to(grid);
         EchoGrid specular(grid.rows(), grid.columns());
@@ -268,12 +224,9 @@ class ImageFormer {
     const FormContext& context_;
     PhiloxKey scene_draws_, clutter_draws_, ping_draws_;
     SonarInScene sonar_;
-    ScatteringOfScene scattering_;
     std::vector<float> slopes_;
     SpeckleMode speckle_;
-    View view_;  ///< with the guard beams
-    PlateScene plates_;
-    IncoherentShares shares_;
+    View view_;           ///< with the guard beams
     float speckle_gain_;  ///< restores the mean power where the grid's cells draw the speckle
     PointEchoes echoes_;
     Ping& ping_;

@@ -38,19 +38,27 @@ struct PointLimits {
 inline int patches_along(const Eigen::Vector3f& half_edge, const Eigen::Vector3f& direction,
                          float range_m, const PointLimits& limits) {
     constexpr float most = 256.0F;
-    const float depth = half_edge.dot(direction);
+    const auto [depth, y, z] = extents_of(half_edge, direction);
     float wanted = 1.0F;
     const float per_range = 2.0F / range_m;
     if (limits.depth_m > 0.0F) wanted = std::max(wanted, 2.0F * std::fabs(depth) / limits.depth_m);
-    if (limits.sine > 0.0F) {
-        const float across = std::fabs(half_edge.y() - depth * direction.y());
-        wanted = std::max(wanted, across * per_range / limits.sine);
-    }
-    if (limits.elevation_sine > 0.0F) {
-        const float up = std::fabs(half_edge.z() - depth * direction.z());
-        wanted = std::max(wanted, up * per_range / limits.elevation_sine);
-    }
+    if (limits.sine > 0.0F) wanted = std::max(wanted, std::fabs(y) * per_range / limits.sine);
+    if (limits.elevation_sine > 0.0F)
+        wanted = std::max(wanted, std::fabs(z) * per_range / limits.elevation_sine);
     return static_cast<int>(std::ceil(std::min(wanted, most)));
+}
+
+/// Calls use(s, t) for the middles of the pieces of a footprint that is cut into rows along one
+/// half edge and columns along the other: places in half edges from its centre.
+template <class Use>
+void for_each_middle(int rows, int columns, Use use) {
+    const auto place = [](int at, int of) {
+        return (2.0F * static_cast<float>(at) + 1.0F) / static_cast<float>(of) - 1.0F;
+    };
+    for (int i = 0; i < rows; ++i) {
+        for (int j = 0; j < columns; ++j)
+            use(place(i, rows), place(j, columns));
+    }
 }
 
 /// Cuts samples into pieces and hands these to `use`, a block at a time. With the shape of the
@@ -61,7 +69,7 @@ void subdivide(std::span<const Sample> samples, std::optional<ViewShape> shape,
     pieces.count = 0;
     for (std::uint32_t number = 0; number < samples.size(); ++number) {
         const Sample& sample = samples[number];
-        const auto [range, departure, direction] = arrival_of(sample.position);
+        const auto [range, direction] = arrival_of(sample.position);
         if (!(range > 0.0F)) continue;
         const int by_u = patches_along(sample.edge_u, direction, range, limits);
         const int by_v = patches_along(sample.edge_v, direction, range, limits);

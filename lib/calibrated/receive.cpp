@@ -32,6 +32,8 @@ void form_looks(const CalibratedModel& model, const TracedPing& traced, const Fo
 }  // namespace
 
 void CalibratedModel::form(const TracedPing& traced, const FormContext& context, Ping& ping) const {
+    if (!is_prepared_for(context.scene))
+        return prepared_for(context.scene)->form(traced, context, ping);
     Stopwatch watch;
     const ReceiverConfig& receiver = instrument.receiver;
     if (receiver.samples == 1 && receiver.looks == 1)
@@ -46,7 +48,6 @@ void CalibratedModel::form(const TracedPing& traced, const FormContext& context,
     // Faults belong to the receiver's noise, the last of the random terms.
     if (context.terms.random > 1 && has_faults(receiver))
         add_faults(receiver, rows, context.draws, ping.intensity);
-    if (receiver.blanking_m > 0.0) blank(receiver, rows, ping.intensity);
     ping.seconds.accumulate = watch.lap();
 }
 

@@ -50,8 +50,7 @@ void add_ringing(const ReceiverConfig& receiver, const ImageRows& rows, std::spa
 void apply_beam_gains(const ReceiverConfig& receiver, const ImageRows& rows, const PingDraws& draws,
                       std::span<float> image) {
     for (int beam = 0; beam < rows.beams; ++beam) {
-        const auto gain =
-            static_cast<float>(power_of_db(beam_gain_db(receiver, beam, rows.beams, draws)));
+        const auto gain = static_cast<float>(power_of_db(beam_gain_db(receiver, beam, draws)));
         for (auto k = static_cast<std::size_t>(beam); k < image.size(); k += rows.beams)
             image[k] = std::min(gain * image[k], max_value);
     }
@@ -60,8 +59,7 @@ void apply_beam_gains(const ReceiverConfig& receiver, const ImageRows& rows, con
 }  // namespace
 
 bool has_faults(const ReceiverConfig& receiver) {
-    return receiver.ring_down_db > 0.0 || receiver.beam_gain_db > 0.0 ||
-           receiver.sector_gain_db > 0.0;
+    return receiver.ring_down_db > 0.0 || receiver.beam_gain_db > 0.0;
 }
 
 void combine_samples(std::span<const float> powers, int samples, SampleRule rule, int beams,
@@ -73,27 +71,16 @@ void combine_samples(std::span<const float> powers, int samples, SampleRule rule
     }
 }
 
-void blank(const ReceiverConfig& receiver, const ImageRows& rows, std::span<float> image) {
-    const double blanked = (receiver.blanking_m - rows.range_min_m) / rows.bin_m;
-    const int end = static_cast<int>(std::clamp(blanked + 0.5, 0.0, 1.0 * rows.rows));
-    std::fill_n(image.begin(), static_cast<std::ptrdiff_t>(end) * rows.beams, 0.0F);
-}
-
-double beam_gain_db(const ReceiverConfig& receiver, int beam, int beams, const PingDraws& draws) {
+double beam_gain_db(const ReceiverConfig& receiver, int beam, const PingDraws& draws) {
     const PhiloxKey key = stream_key(draws.seed, draws.sensor, 0, stream_named("beam gains"));
-    const auto normal = [&](std::uint32_t number, std::uint32_t what) {
-        return normal_pair(philox({number, what, 0, 0}, key).x0).first;
-    };
-    const auto sector = static_cast<std::uint32_t>(std::int64_t{beam} * receiver.sectors / beams);
-    return receiver.beam_gain_db * normal(static_cast<std::uint32_t>(beam), 0) +
-           receiver.sector_gain_db * normal(sector, 1);
+    const std::uint32_t word = philox({static_cast<std::uint32_t>(beam), 0, 0, 0}, key).x0;
+    return receiver.beam_gain_db * normal_pair(word).first;
 }
 
 void add_faults(const ReceiverConfig& receiver, const ImageRows& rows, const PingDraws& draws,
                 std::span<float> image) {
     if (receiver.ring_down_db > 0.0) add_ringing(receiver, rows, image);
-    if (receiver.beam_gain_db > 0.0 || receiver.sector_gain_db > 0.0)
-        apply_beam_gains(receiver, rows, draws, image);
+    if (receiver.beam_gain_db > 0.0) apply_beam_gains(receiver, rows, draws, image);
 }
 
 }  // namespace sonarsim

@@ -28,14 +28,11 @@ struct ImageRows {
     std::span<const float> noise;  ///< [rows] the value of the mean noise
 };
 
-/// Sets the rows up to the blanking range to 0.
-void blank(const ReceiverConfig& receiver, const ImageRows& rows, std::span<float> image);
-
 /// Adds ringing and applies the gains of beams.
 void add_faults(const ReceiverConfig& receiver, const ImageRows& rows, const PingDraws& draws,
                 std::span<float> image);
 
-/// The gain of a beam, dB, the same in all pings: the sum of its own gain and its sector's.
-double beam_gain_db(const ReceiverConfig& receiver, int beam, int beams, const PingDraws& draws);
+/// The gain of a beam, dB, the same in all pings.
+double beam_gain_db(const ReceiverConfig& receiver, int beam, const PingDraws& draws);
 
 }  // namespace sonarsim

@@ -16,8 +16,8 @@ using Words = PatchBlock::Array<std::uint32_t>;
 // Greatest length of cells as a share of the resolution: longer ones make speckle too long.
 constexpr double max_of_resolution = 0.75;
 
-// Cells in a resolution cell if it has less than one scatterer.
-constexpr double cells_for_few = 4.0;
+// Scatterers in a resolution cell: amplitudes are about Rayleigh distributed.
+constexpr double scatterers_in_cell = 4.0;
 
 // The number of levels by which cells are larger at normal than at grazing incidence.
 constexpr int steep_levels = 1;
@@ -89,32 +89,18 @@ void find_phases(const Scatterers& block, int count, const SonarInScene& sonar, 
     }
 }
 
-/// The strengths of scatterers that represent many: exponentially distributed.
-void find_strengths_of_many(const Words& words, int count, Floats& strength) {
+/// The strengths of scatterers: exponentially distributed.
+void find_strengths(const Words& words, int count, Floats& strength) {
     for (int k = 0; k < count; ++k)
         strength[k] = -natural_log(unit_float(words[k]));
 }
 
-/// The strengths of sparse scatterers, n to a square metre. A cell of the area A holds one with the
-/// probability n A, and the strength of this scatterer is 1 / (n A).
-void find_strengths_of_few(const Words& words, int count, const PatchBlock& pieces,
-                           const PointEchoes& echoes, float per_m2, Floats& strength) {
-    for (int k = 0; k < count; ++k) {
-        // In this order of arguments NaN becomes 1.
-        const float share = std::min(1.0F, per_m2 * pieces.area_m2[k] / echoes.range_m[k]);
-        const float draw = static_cast<float>(static_cast<std::int32_t>(words[k] >> 1)) * 0x1p-31F;
-        strength[k] = draw < share ? 1.0F / share : 0.0F;
-    }
-}
-
 }  // namespace
 
-ScattererCells scatterer_cells(double per_cell, double resolution_m, double width_rad,
-                               double range_min_m, double wavelength_m) {
+ScattererCells scatterer_cells(double resolution_m, double width_rad, double range_min_m,
+                               double wavelength_m) {
     const double greatest = max_of_resolution * resolution_m;
-    const bool few = per_cell < 1.0;
-    const double in_cell = few ? cells_for_few : per_cell;
-    const double per_root_range = std::sqrt(resolution_m * width_rad / in_cell);
+    const double per_root_range = std::sqrt(resolution_m * width_rad / scatterers_in_cell);
     const double least = per_root_range * std::sqrt(std::max(range_min_m, 1e-3));
     ScattererCells out;
     out.levels = 1;
@@ -129,7 +115,6 @@ ScattererCells scatterer_cells(double per_cell, double resolution_m, double widt
     out.greatest_depth_m = static_cast<float>(greatest);
     out.width_rad = static_cast<float>(width_rad);
     out.turns_per_m = 2.0 / wavelength_m;
-    if (few) out.density_at_1m_per_m2 = static_cast<float>(per_cell / (resolution_m * width_rad));
     return out;
 }
 
@@ -157,12 +142,7 @@ void draw_amplitudes(const Scatterers& block, const PointEchoes& echoes,
     philox_pairs(for_strength.data(), for_phase.data(), count, key);
     find_phases(block, count, sonar, cells.turns_per_m, turns);
     Floats strength;
-    if (cells.density_at_1m_per_m2 > 0.0F) {
-        find_strengths_of_few(for_strength, count, block.pieces, echoes, cells.density_at_1m_per_m2,
-                              strength);
-    } else {
-        find_strengths_of_many(for_strength, count, strength);
-    }
+    find_strengths(for_strength, count, strength);
     for (int k = 0; k < count; ++k) {
         const float amplitude = std::sqrt(echoes.power[k] * strength[k]);
         const SinCosFloat phase = sincos_turns(unit_float(for_phase[k]) + turns[k]);

@@ -14,10 +14,7 @@ namespace sonarsim {
 /// The scatterers of a scene as one sonar resolves them: one to each cell of a world-aligned
 /// lattice of cubes. A cell's scatterer has a place within the cell, a strength and a phase of its
 /// own, all drawn from the cell's number. The edge of the cells doubles from one level to the next.
-///
-/// With one or more scatterers in a resolution cell, each represents many: its strength is
-/// exponentially distributed. With fewer, some cells of the lattice are empty, and all others have
-/// the same strength per m^2 of the surface.
+/// A scatterer represents many, so its strength is exponentially distributed.
 struct ScattererCells {
     float min_edge_m = 0.0F;           ///< level 0
     float edge_per_root_range = 0.0F;  ///< m per sqrt(m), at grazing incidence
@@ -25,17 +22,12 @@ struct ScattererCells {
     float width_rad = 0.0F;            ///< width of a resolution cell
     int levels = 1;
     double turns_per_m = 0.0;  ///< two-way phase: 2 / wavelength
-    /// Scatterers per m^2 at a range of 1 m, falling as one over the range; 0: one in each cell.
-    float density_at_1m_per_m2 = 0.0F;
-
-    float edge_of(int level) const { return min_edge_m * static_cast<float>(1 << level); }
 };
 
-/// Cells with `per_cell` scatterers to a resolution cell of `resolution_m` in range and `width_rad`
-/// across, but no longer in range than the resolution. If `per_cell` is below 1, a resolution cell
-/// has four cells, and enough of them are empty.
-ScattererCells scatterer_cells(double per_cell, double resolution_m, double width_rad,
-                               double range_min_m, double wavelength_m);
+/// Four cells to a resolution cell of `resolution_m` in range and `width_rad` across, but no longer
+/// in range than the resolution.
+ScattererCells scatterer_cells(double resolution_m, double width_rad, double range_min_m,
+                               double wavelength_m);
 
 /// The pose of the sonar among the cells.
 struct SonarInScene {

@@ -109,41 +109,15 @@ std::uint64_t find_specular_echoes(std::span<const SpecularPath> paths,
         const float power = materials[path.material].between(path.sine_of_point, path.sine_of_image,
                                                              path.sine_between) *
                             path.reflection * path.area_m2 / static_cast<float>(rows * columns);
-        for (int i = 0; i < rows; ++i) {
-            const float s = (2.0F * static_cast<float>(i) + 1.0F) / static_cast<float>(rows) - 1.0F;
-            for (int j = 0; j < columns; ++j) {
-                const float t =
-                    (2.0F * static_cast<float>(j) + 1.0F) / static_cast<float>(columns) - 1.0F;
-                put_place(block.points, block.count, path.point, s, t);
-                put_place(block.images, block.count, path.image_source, s, t);
-                block.path[block.count] = number;
-                block.power[block.count] = power;
-                if (++block.count == PatchBlock::most) outside += use_block(equation, block, use);
-            }
-        }
+        for_each_middle(rows, columns, [&](float s, float t) {
+            put_place(block.points, block.count, path.point, s, t);
+            put_place(block.images, block.count, path.image_source, s, t);
+            block.path[block.count] = number;
+            block.power[block.count] = power;
+            if (++block.count == PatchBlock::most) outside += use_block(equation, block, use);
+        });
     }
     return outside + use_block(equation, block, use);
 }
-
-template <class Beams>
-std::uint64_t add_specular_powers(const Beams& beams, std::span<const SpecularPath> pieces,
-                                  std::span<const Backscatter> materials,
-                                  const SonarEquation& equation, const PointLimits& limits,
-                                  EchoGrid& grid) {
-    std::uint64_t outside_beams = 0;
-    const std::uint64_t outside_range =
-        find_specular_echoes(pieces, materials, equation, limits, [&](const SpecularBlock& block) {
-            outside_beams += find_columns(beams, block.places, block.echoes);
-            add_bistatic_powers(beams, block.out, {block.places, block.echoes}, grid);
-        });
-    return outside_range + outside_beams;
-}
-
-template std::uint64_t add_specular_powers(const TransducerBeams&, std::span<const SpecularPath>,
-                                           std::span<const Backscatter>, const SonarEquation&,
-                                           const PointLimits&, EchoGrid&);
-template std::uint64_t add_specular_powers(const ArrayBeams&, std::span<const SpecularPath>,
-                                           std::span<const Backscatter>, const SonarEquation&,
-                                           const PointLimits&, EchoGrid&);
 
 }  // namespace sonarsim

@@ -4,10 +4,8 @@
 #include <functional>
 #include <span>
 
-#include "calibrated/array_beams.h"
 #include "calibrated/sonar_equation.h"
 #include "calibrated/specular_path.h"
-#include "calibrated/transducer_beams.h"
 
 namespace sonarsim {
 
@@ -36,23 +34,5 @@ std::uint64_t find_specular_echoes(std::span<const SpecularPath> paths,
                                    std::span<const Backscatter> materials,
                                    const SonarEquation& equation, const PointLimits& limits,
                                    const std::function<void(const SpecularBlock&)>& use);
-
-/// Adds the powers of these echoes to the real parts of the grid. Returns the number of them
-/// outside the range or the beams.
-template <class Beams>
-std::uint64_t add_specular_powers(const Beams& beams, std::span<const SpecularPath> pieces,
-                                  std::span<const Backscatter> materials,
-                                  const SonarEquation& equation, const PointLimits& limits,
-                                  EchoGrid& grid);
-
-extern template std::uint64_t add_specular_powers(const TransducerBeams&,
-                                                  std::span<const SpecularPath>,
-                                                  std::span<const Backscatter>,
-                                                  const SonarEquation&, const PointLimits&,
-                                                  EchoGrid&);
-extern template std::uint64_t add_specular_powers(const ArrayBeams&, std::span<const SpecularPath>,
-                                                  std::span<const Backscatter>,
-                                                  const SonarEquation&, const PointLimits&,
-                                                  EchoGrid&);
 
 }  // namespace sonarsim

@@ -56,12 +56,11 @@ template <class Beams>
 class SurfaceEchoFinder {
   public:
     SurfaceEchoFinder(const CalibratedModel& model, const Beams& beams, ViewShape shape,
-                      const Scene& scene, bool patches)
+                      bool patches)
         : model_(model),
           beams_(beams),
           shape_(shape),
           limits_(label_limits(model)),
-          scattering_(model, scene),
           patches_(patches) {}
 
     /// Adds the echoes of a surface without its targets.
@@ -75,7 +74,7 @@ class SurfaceEchoFinder {
         const auto half_sine = [&](int k) { return cut_at(k).half.sine; };
         subdivide(surface, shape_, limits_, pieces_, [&](const PatchBlock& pieces) {
             last_piece_ = -1;
-            apply_sonar_equation(pieces, *scattering_, model_.equation, echoes_);
+            apply_sonar_equation(pieces, model_.scattering, model_.equation, echoes_);
             for_each_beam(pieces, echoes_, nullptr, half_sine, [&](int beam, int k, float power) {
                 const CutSample& of = cut_at(k);
                 if (targets.has(of.sample->instance)) return;
@@ -99,7 +98,7 @@ class SurfaceEchoFinder {
             PatchBlock::Array<HalfExtents> half;
             for (int k = 0; k < points.count; ++k)
                 half[k] = half_extents(cut.edge_u[k], cut.edge_v[k], arrival_of(place(k)));
-            apply_sonar_equation(points, *scattering_, model_.equation, echoes_);
+            apply_sonar_equation(points, model_.scattering, model_.equation, echoes_);
             const auto half_sine = [&](int k) { return half[k].sine; };
             for_each_beam(points, echoes_, nullptr, half_sine, [&](int beam, int k, float power) {
                 const Sample* const sample = &target_samples_[cut.facet[k]];
@@ -143,7 +142,7 @@ class SurfaceEchoFinder {
             const auto point = [](int) { return 0.0F; };
             for_each_beam(block.places, block.echoes, &block.out, point, add);
         };
-        find_specular_echoes(paths, scattering_->materials, equation, model_.limits, use);
+        find_specular_echoes(paths, model_.scattering.materials, equation, model_.limits, use);
     }
 
     SurfaceEchoes take(int beams) {
@@ -235,7 +234,6 @@ class SurfaceEchoFinder {
     const Beams& beams_;
     ViewShape shape_;
     PointLimits limits_;  ///< for direct echoes
-    ScatteringOfScene scattering_;
     bool patches_;
     PatchBlock pieces_;
     PointEchoes echoes_;
@@ -251,9 +249,11 @@ class SurfaceEchoFinder {
 
 SurfaceEchoes CalibratedModel::surface_echoes(const TracedPing& traced, const View& view,
                                               const Scene& scene, bool patches) const {
+    if (!is_prepared_for(scene))
+        return prepared_for(scene)->surface_echoes(traced, view, scene, patches);
     return std::visit(
         [&]<class Beams>(const Beams& of_model) {
-            SurfaceEchoFinder<Beams> finder(*this, of_model, view.shape, scene, patches);
+            SurfaceEchoFinder<Beams> finder(*this, of_model, view.shape, patches);
             finder.add_surface(traced.samples.items, traced.targets);
             finder.add_surface(traced.outside_sector, traced.targets);
             finder.add_targets(traced.targets, slopes_of(scene.materials));

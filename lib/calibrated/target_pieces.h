@@ -7,8 +7,8 @@
 #include <span>
 
 #include "calibrated/patches.h"
-#include "visibility/cut_triangle.h"
 #include "trace/target_surface.h"
+#include "visibility/cut_triangle.h"
 
 // The highlight of a smooth curved surface. With incidence angles t off the normal and facets of
 // RMS slope s, a sphere of radius a sends back
@@ -69,15 +69,13 @@ class PieceSize {
         }
         const Arrival arrival = arrival_of(facet.corners[0]);
         const auto by_limits = [&](const Eigen::Vector3f& edge) -> Eigen::Vector3f {
-            const float depth = edge.dot(arrival.direction);
+            const auto [depth, y, z] = extents_of(edge, arrival.direction);
             const auto per = [&](float limit, float scale) {
                 return limit > 0.0F ? scale / limit : 0.0F;
             };
             const float per_range = 1.0F / arrival.range_m;
-            return {
-                depth * per(limits.depth_m, 1.0F),
-                (edge.y() - depth * arrival.direction.y()) * per(limits.sine, per_range),
-                (edge.z() - depth * arrival.direction.z()) * per(limits.elevation_sine, per_range)};
+            return {depth * per(limits.depth_m, 1.0F), y * per(limits.sine, per_range),
+                    z * per(limits.elevation_sine, per_range)};
         };
         limits_u_ = by_limits(facet.corners[1] - facet.corners[0]);
         limits_v_ = by_limits(facet.corners[2] - facet.corners[0]);

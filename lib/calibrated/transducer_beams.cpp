@@ -184,10 +184,8 @@ void add_bistatic_powers(const TransducerBeams& beams, const PathEndpoint& out,
     }
 }
 
-void beamform(const TransducerBeams& beams, const EchoGrid& grid, bool powers,
-              const EchoGrid* coherent, bool noisy, PhiloxKey key, std::span<const float> row_gain,
-              std::span<float> image) {
-    const EchoGrid* const amplitudes = powers ? coherent : &grid;
+void beamform(const TransducerBeams& beams, const EchoGrid& grid, bool powers, bool noisy,
+              PhiloxKey key, std::span<const float> row_gain, std::span<float> image) {
     const int count = beams.beams();
     const float sigma = noisy ? beams.noise_sigma : 0.0F;
     FilteredNoise noise({.firsts = count}, beams.noise_taps, key);
@@ -196,13 +194,12 @@ void beamform(const TransducerBeams& beams, const EchoGrid& grid, bool powers,
         const int lanes = std::min(lanes_at_once, grid.rows() - row);
         for (int beam = 0; beam < count; ++beam) {
             const float* const column = grid.column(beam);
-            const float* const amplitude = amplitudes ? amplitudes->column(beam) : nullptr;
             const auto [re, im] = noisy ? noise.of(beam) : ComplexLanes{};
             for (int lane = 0; lane < lanes; ++lane) {
                 const std::ptrdiff_t at = std::ptrdiff_t{2} * (row + lane);
                 // Without speckle the energies of echo and noise add.
-                const float x = sigma * re[lane] + (amplitude ? amplitude[at] : 0.0F);
-                const float y = sigma * im[lane] + (amplitude ? amplitude[at + 1] : 0.0F);
+                const float x = sigma * re[lane] + (powers ? 0.0F : column[at]);
+                const float y = sigma * im[lane] + (powers ? 0.0F : column[at + 1]);
                 const float echo = powers ? std::max(column[at], 0.0F) : 0.0F;
                 image[static_cast<std::size_t>(row + lane) * count + beam] =
                     value_of(row_gain[row + lane], echo + std::fma(x, x, y * y));

@@ -82,10 +82,8 @@ void add_bistatic_powers(const TransducerBeams& beams, const PathEndpoint& out,
                          const PathEndpoint& back, EchoGrid& grid);
 
 /// Fills the image [bins, beams] with the power of the grid, which holds `powers` or amplitudes,
-/// and of the noise. `coherent` may hold amplitudes in addition to powers, else it is null. Noise
-/// depends on the bin, the beam and the key alone.
-void beamform(const TransducerBeams& beams, const EchoGrid& grid, bool powers,
-              const EchoGrid* coherent, bool noisy, PhiloxKey key, std::span<const float> row_gain,
-              std::span<float> image);
+/// and of the noise. Noise depends on the bin, the beam and the key alone.
+void beamform(const TransducerBeams& beams, const EchoGrid& grid, bool powers, bool noisy,
+              PhiloxKey key, std::span<const float> row_gain, std::span<float> image);
 
 }  // namespace sonarsim

@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include "calibrated/drawn_powers.h"
 #include "calibrated/sight_cells.h"
+#include "calibrated/speckle.h"
 #include "core/pose.h"
 #include "mission/mission.h"
 #include "trace/traced_ping.h"

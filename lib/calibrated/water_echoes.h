@@ -9,15 +9,13 @@
 #include "calibrated/patches.h"
 #include "calibrated/speckle.h"
 #include "core/elementary.h"
-#include "core/units.h"
 
 namespace sonarsim {
 
 // The echoes of the water's volume and surface and of point targets in it, section 5 of
 // docs/calibrated.md. `Beams`: ArrayBeams or TransducerBeams.
 
-/// Adds the echoes of the water's volume. Its speckle is drawn at whole ages. Between two of them
-/// it is their sum with weights whose squares add up to 1, like the drifting gain.
+/// Adds the echoes of the water's volume. Its speckle is new in each ping.
 template <class Beams>
 void add_water_column(const CalibratedModel& model, const Beams& beams, const TracedPing& traced,
                       const FormContext& context, bool expected_power, float speckle_gain,
@@ -27,19 +25,9 @@ void add_water_column(const CalibratedModel& model, const Beams& beams, const Tr
     const std::vector<float> received =
         received_water(*model.water, water_ends(model.water->sight.cells, traced),
                        traced.T_world_sensor, surface_z_m, grid.rows());
-    const auto add = [&](const PingDraws& draws, double share) {
-        add_water(*model.water, received, sines_of(beams),
-                  expected_power ? PowerForm::power : PowerForm::amplitude,
-                  static_cast<float>(share) * speckle_gain, draws.of(stream_named("water")), grid);
-    };
-    if (expected_power || !traced.water_age) return add(context.draws, 1.0);
-    const double whole = std::floor(*traced.water_age);
-    const SinCos weights = sincos(0.5 * pi * (*traced.water_age - whole));
-    PingDraws draws = context.draws;
-    draws.ping = static_cast<std::uint32_t>(whole);
-    add(draws, weights.cos * weights.cos);
-    ++draws.ping;
-    add(draws, weights.sin * weights.sin);
+    add_water(*model.water, received, sines_of(beams),
+              expected_power ? PowerForm::power : PowerForm::amplitude, speckle_gain,
+              context.draws.of(stream_named("water")), grid);
 }
 
 /// Point targets: their area is their cross-section, and they face the sonar.
@@ -124,12 +112,7 @@ void add_water_surface(const CalibratedModel& model, const Beams& beams,
                        std::span<const Sample> surface, const FormContext& context,
                        SpeckleMode speckle, float speckle_gain, PingCounts& counts,
                        EchoGrid& grid) {
-    const double wind_m_s = context.scene.water_surface->wind_m_s.value_or(0.0);
-    WindSurface own;
-    if (model.water_surface.wind_m_s != wind_m_s)
-        own = wind_surface(wind_m_s, model.instrument.frequency_hz);
-    const Scattering& scattering =
-        own.scattering.materials.empty() ? model.water_surface.scattering : own.scattering;
+    const Scattering& scattering = model.water_surface.scattering;
     if (speckle != SpeckleMode::scene) {
         add_surface_powers(model, beams, surface, scattering, counts, grid);
         return;

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "calibrated/patches.h"
 #include "calibrated/water_column.h"
 #include "trace/arrivals.h"
 
@@ -19,20 +20,15 @@ class CoveredCells {
 
     void add(std::span<const Sample> surface) {
         for (const Sample& sample : surface) {
-            const auto [range, departure, direction] = arrival_of(sample.position);
+            const auto [range, direction] = arrival_of(sample.position);
             if (!(range > 0.0F)) continue;
             const int rows = cells_.spanned(sample.edge_u, direction, range);
             const int columns = cells_.spanned(sample.edge_v, direction, range);
             const float covers = sample.area_m2 * sample.height_m / static_cast<float>(rows) /
                                  static_cast<float>(columns);
-            for (int k = 0; k < rows * columns; ++k) {
-                const auto share = [](int at, int of) {
-                    return (2.0F * static_cast<float>(at) + 1.0F) / static_cast<float>(of) - 1.0F;
-                };
-                add(sample.position + share(k / columns, rows) * sample.edge_u +
-                        share(k % columns, columns) * sample.edge_v,
-                    covers);
-            }
+            for_each_middle(rows, columns, [&](float s, float t) {
+                add(sample.position + s * sample.edge_u + t * sample.edge_v, covers);
+            });
         }
     }
 

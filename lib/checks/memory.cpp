@@ -19,7 +19,9 @@ PingMemory ping_memory(const Sonar& sonar) {
     const double seen_per_beam = bins * samples_per_bin * sizeof(Sample);
     const double image = view.beams * (seen_per_beam + bins * bytes_per_bin);
     const double guards = 2.0 * sonar.settings.guard_beams.count * seen_per_beam;
-    const double working = sonar.settings.model->working_bytes(sonar.settings.multipath.on);
+    const EchoModelInfo& model = sonar.settings.model->info;
+    const double working =
+        model.working_bytes + (sonar.settings.multipath.on ? model.multipath_bytes : 0.0);
     PingMemory out{.bytes = image + guards + working, .key = "range_bins"};
     if (guards > std::max(image, working))
         out.key = "instrument.beam.view_azimuth_deg";

@@ -204,7 +204,7 @@ SonarSurvey survey_sonar(const Mission& mission, const Assembly& assembly, Sonar
     View& view = sonar.settings.view;
     view.relative_l1 = std::max(view.relative_l1, coarse_l1);
     const auto bins = static_cast<std::size_t>(view.range_bins) * view.beams;
-    const bool slow = sonar.settings.model->is_slow();
+    const bool slow = sonar.settings.model->info.is_slow;
     const std::size_t most = slow ? most_slow : most_pings;
     BinSums sums;
     for (const std::uint32_t pose :

@@ -87,9 +87,6 @@ Json describe_ping(const Mission& mission, const Assembly& assembly, const Finis
             describe_pose(assembly.reported[id.pose].T_world_vehicle);
     }
     json["counts"]["multipath"] = json_object<Json>(multipath_counters, counts.multipath);
-    // Rounded, since it is an estimate.
-    if (const double error = finished.ping.estimated_l1; !std::isnan(error))
-        json["estimated_error"] = std::round(1e5 * error) / 1e5;
     if (mission.variant.index >= 0) {
         json["variant"] = {{"index", mission.variant.index},
                            {"drawn", describe_drawn(mission.variant.drawn)}};

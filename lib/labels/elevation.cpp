@@ -13,7 +13,7 @@ namespace {
 
 /// The variance of sin(theta) in a patch at one range.
 double variance_at_one_range(const EchoPatch& patch) {
-    const auto [range, departure, d] = arrival_of(patch.position);
+    const auto [range, d] = arrival_of(patch.position);
     const float u = d.dot(patch.edge_u);
     const float v = d.dot(patch.edge_v);
     // Over the parallelogram, (s, t) in [-1, 1]^2, sin(theta) = z / r changes by

@@ -6,7 +6,7 @@
 namespace sonarsim {
 
 RangePath range_path(const EchoPatch& patch) {
-    const auto [range, departure, d] = arrival_of(patch.position);
+    const auto [range, d] = arrival_of(patch.position);
     const float u = d.dot(patch.edge_u);
     const float v = d.dot(patch.edge_v);
     const RangeExtent along_u = extent_of(patch.edge_u.squaredNorm(), std::fabs(u), range);

@@ -17,9 +17,9 @@ constexpr float longest_half = 0.1F;
 void add_line(const Sample& sample, const Eigen::Vector3f& place, float share_u, float share_v,
               int beam, std::vector<SightLine>& lines) {
     if (beam < 0) return;
-    const auto [range, departure, direction] = arrival_of(place);
+    const auto [range, direction] = arrival_of(place);
     const auto number = static_cast<std::uint32_t>(lines.size());
-    lines.push_back({.direction = departure,
+    lines.push_back({.direction = direction,
                      .before_m = range,
                      .range_m = range,
                      .solid_angle = share_u * share_v * sample.area_m2 * sample.height_m /

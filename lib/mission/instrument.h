@@ -48,7 +48,6 @@ struct BeamConfig {
     /// Phase errors at the ends of the aperture: quadratic, cubic, quartic.
     std::array<double, 3> aberration_rad{};
     BeamSpacing spread = BeamSpacing::equal_angle;
-    std::vector<double> azimuths_deg;  ///< the middles of a fan's beams; empty: by `spread`
     double view_azimuth_deg = 0.0;  ///< full azimuth that a line array insonifies; 0: azimuth_deg
     double elevation_width_deg = 0.0;  ///< two-way half-power width; 0: constant pattern
     double elevation_side_lobe_db = -13.3;
@@ -59,22 +58,16 @@ struct BeamConfig {
     bool operator==(const BeamConfig&) const = default;
 };
 
-/// The direction in which the frequency of a coded pulse runs. `none`: motion does not shift its
-/// echo.
-enum class Sweep { none, up, down };
-
 struct PulseConfig {
     double resolution_m = 0.0;    ///< half-power width of a point target in range; 0: one bin
     double duration_s = 0.0;      ///< transmitted pulse; 0: that of a pulse without a code
     double side_lobe_db = -30.0;  ///< highest range side lobe after compression
-    Sweep sweep = Sweep::none;    ///< motion shifts its echoes
 
     bool operator==(const PulseConfig&) const = default;
 };
 
 struct SpeckleConfig {
     SpeckleMode mode = SpeckleMode::scene;
-    double per_cell = 4.0;       ///< scatterers per resolution cell
     double clutter_shape = 0.0;  ///< nu of the K-distribution; 0: Rayleigh
     double clutter_m = 0.1;      ///< edge of the cells that share one clutter strength
 
@@ -98,15 +91,11 @@ struct ReceiverConfig {
     int bits = 8;
     int samples = 1;  ///< for each range bin
     SampleRule combine = SampleRule::maximum;
-    int looks = 1;                ///< their powers are averaged
-    double offset = 0.0;          ///< subtracted from raw/, as a share of its largest value
-    double tvg_step_db = 0.0;     ///< 0: the TVG is smooth
-    double blanking_m = 0.0;      ///< nothing is received up to this range
-    double ring_down_db = 0.0;    ///< at range 0, above the noise; 0: none
-    double ring_down_m = 0.1;     ///< range over which it falls by 10 dB
-    double beam_gain_db = 0.0;    ///< standard deviation of the gains of the beams
-    double sector_gain_db = 0.0;  ///< standard deviation of the gains of sectors of beams
-    int sectors = 1;              ///< equal shares of the beams
+    int looks = 1;              ///< their powers are averaged
+    double offset = 0.0;        ///< subtracted from raw/, as a share of its largest value
+    double ring_down_db = 0.0;  ///< at range 0, above the noise; 0: none
+    double ring_down_m = 0.1;   ///< range over which it falls by 10 dB
+    double beam_gain_db = 0.0;  ///< standard deviation of the gains of the beams
 
     bool operator==(const ReceiverConfig&) const = default;
 };

@@ -68,12 +68,6 @@ void describe(Visitor& v, BeamConfig& c) {
                 "phase error at the ends of the array: quadratic, cubic and quartic part");
         v.choice("spread", c.spread, beam_spacings,
                  "beam spacing: equal steps of the angle, or of its sine");
-        v.array("azimuths_deg", c.azimuths_deg, between(-90, 90),
-                "middles of the beams, one for each of azimuth_bins, increasing from starboard "
-                "to port, in place of `spread`");
-        const bool increase = std::ranges::adjacent_find(c.azimuths_deg, std::greater_equal()) ==
-                              c.azimuths_deg.end();
-        v.require(increase, {"azimuths_deg"}, "azimuths_deg must increase from beam to beam");
         v.number(
             "view_azimuth_deg", c.view_azimuth_deg, between(0, 180),
             "full azimuth of the surface that is insonified; 0 means azimuth_deg. A beam of a line "
@@ -89,10 +83,6 @@ void describe(Visitor& v, BeamConfig& c) {
               "elevation_width_deg is 0, for a constant pattern, or at least 0.01");
 }
 
-inline constexpr std::array sweeps{Choice<Sweep>{"none", Sweep::none},
-                                   Choice<Sweep>{"up", Sweep::up},
-                                   Choice<Sweep>{"down", Sweep::down}};
-
 template <class Visitor>
 void describe(Visitor& v, PulseConfig& c) {
     v.number("resolution_m", c.resolution_m, between(0, 1000),
@@ -105,11 +95,6 @@ void describe(Visitor& v, PulseConfig& c) {
              "resolution is coded, and its noise is that of the long pulse; 0 means no code");
     v.number("side_lobe_db", c.side_lobe_db, side_lobes_db,
              "highest range side lobe of the compressed pulse");
-    v.choice("sweep", c.sweep, sweeps,
-             "with moves_in_ping: the frequency of the coded pulse runs `up` or `down`, so that "
-             "what approaches is measured too near or too far; `none`: at its place");
-    v.require(c.sweep == Sweep::none || c.duration_s > 0.0, {"sweep", "duration_s"},
-              "a pulse that sweeps needs a duration_s above 0");
 }
 
 template <class Visitor>
@@ -117,8 +102,6 @@ void describe(Visitor& v, SpeckleConfig& c) {
     v.choice("mode", c.mode, speckle_modes,
              "`scene`: scatterers stay in place in the scene; `ping`: scatterers are drawn "
              "for every ping, which is faster; `none`: no speckle, the mean power");
-    v.number("per_cell", c.per_cell, between(0.01, 30),
-             "number of scatterers in a resolution cell; below 1 they are seen one by one");
     v.number("clutter_shape", c.clutter_shape, between(0, 100),
              "shape nu of K-distributed clutter; 0 means Rayleigh");
     // At much smaller shapes nearly all cells draw a power of 0.
@@ -141,19 +124,12 @@ void describe_chain(Visitor& v, ReceiverConfig& c) {
     v.number("offset", c.offset, between(0, 0.9),
              "share of the largest value that is taken from the values of raw/; what would be "
              "negative is 0");
-    v.number("tvg_step_db", c.tvg_step_db, between(0, 60),
-             "step in which the TVG grows; 0 means smoothly");
-    v.number("blanking_m", c.blanking_m, between(0, 1e5), "range up to which the receiver is off");
     v.number("ring_down_db", c.ring_down_db, raised_levels_db,
              "level of the transducer's ringing at range 0 above the noise; 0 means none");
     v.number("ring_down_m", c.ring_down_m, between(1e-4, 1e4),
              "range over which the ringing falls by 10 dB");
     v.number("beam_gain_db", c.beam_gain_db, between(0, 30),
              "standard deviation of the gains of single beams, which stay from ping to ping");
-    v.number("sector_gain_db", c.sector_gain_db, between(0, 30),
-             "standard deviation of the gains of sectors, which stay, too");
-    v.number("sectors", c.sectors, between(1, 64),
-             "number of sectors, which share the beams equally");
 }
 
 template <class Visitor>

@@ -45,10 +45,7 @@ struct WaterConfig {
     WaterContent content = WaterContent::automatic;
     /// Volume backscattering strength, dB re 1 m^2 per m^3; empty: that of `content`.
     std::optional<double> scattering_db_per_m3 = {};
-    std::vector<WaterLayerConfig> layers = {};  ///< their scattering is added to the above
-    /// RMS speed at which the scatterers drift apart; none: new scatterers in each ping.
-    std::optional<double> drift_rms_m_s = {};
-    std::array<double, 3> current_m_s{};             ///< velocity of all scatterers
+    std::vector<WaterLayerConfig> layers = {};       ///< their scattering is added to the above
     std::optional<SoundProfileConfig> profile = {};  ///< bends sound; none: paths are straight
     /// The profile by which the instruments turn angles and times to soundings; none: constant.
     std::optional<SoundProfileConfig> assumed_profile = {};
@@ -73,7 +70,6 @@ struct MultipathConfig {
     /// Largest angle between normals within a cluster. The paper's 15 miss more than 5 % of the
     /// bins on a rough sea floor; 5 miss 2 % and take a tenth more rays.
     double delta_deg = 5.0;
-    int columns_per_beam = 1;  ///< parts that the trace divides a beam into; fans only
 
     bool operator==(const MultipathConfig&) const = default;
 };

@@ -74,15 +74,6 @@ void describe(Visitor& v, WaterConfig& c) {
     v.number("scattering_db_per_m3", c.scattering_db_per_m3, volume_strengths_db,
              "volume backscattering strength of the water, dB re 1 m^2 per m^3, for the "
              "calibrated model; `auto` takes that of `content`");
-    v.number("drift_rms_m_s", c.drift_rms_m_s, between(0, 100),
-             "RMS speed at which the water's scatterers drift apart, one component: pings "
-             "close in time from one place keep a part of the water's speckle; with "
-             "`auto`, and with `speckle: ping` of the sonar, each ping has its own");
-    v.array("current_m_s", c.current_m_s, between(-100, 100),
-            "velocity of the water in the world, which carries its speckle past the sonar");
-    v.require(c.drift_rms_m_s || c.current_m_s == std::array<double, 3>{},
-              {"current_m_s", "drift_rms_m_s"},
-              "current_m_s needs a drift_rms_m_s: without it each ping has speckle of its own");
     v.list_of("layers", c.layers, 0,
               "layers of the water that scatter more; they need "
               "scene.water_surface");

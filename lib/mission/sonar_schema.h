@@ -50,27 +50,6 @@ void describe(Visitor& v, MultipathConfig& c) {
              "size of a cluster in range, azimuth and elevation bins");
     v.number("delta_deg", c.delta_deg, between(0, 180),
              "largest angle between the normals within a cluster");
-    v.number("columns_per_beam", c.columns_per_beam, between(1, 16),
-             "number of narrower beams that each beam of a fan is traced as: more echoes of small "
-             "facets are found, and a ping takes that many times as long");
-}
-
-/// Checks that a table of beams fits the other keys of a sonar.
-template <class Visitor>
-void require_table_of_beams(Visitor& v, const SonarConfig& c) {
-    const std::vector<double>& table = c.instrument.beam.azimuths_deg;
-    if (table.empty()) return;
-    v.require(std::ssize(table) == c.azimuth_bins, {"azimuth_bins", "instrument"},
-              "instrument.beam.azimuths_deg needs one azimuth for each of azimuth_bins");
-    const double half = 0.5 * c.azimuth_deg;
-    const double first_gap = table.size() > 1 ? table[1] - table[0] : c.azimuth_deg;
-    const double last_gap = table.size() > 1 ? table.back() - table[table.size() - 2] : first_gap;
-    v.require(table.front() > -half && table.back() < half, {"azimuth_deg", "instrument"},
-              "instrument.beam.azimuths_deg must lie within azimuth_deg / 2 to either side");
-    v.require(table.front() + half <= first_gap && half - table.back() <= last_gap,
-              {"azimuth_deg", "instrument"},
-              "azimuth_deg must end within one beam spacing of the first and the last beam of "
-              "instrument.beam.azimuths_deg");
 }
 
 /// Checks that the angles of a calibrated sonar hold its beam.
@@ -147,15 +126,12 @@ void describe(Visitor& v, SonarConfig& c) {
     if (keys.azimuth_bins)
         v.number("azimuth_bins", c.azimuth_bins, between(1, 8192), "number of beams of a ping");
     v.section("multipath", c.multipath, "multipath via a second surface");
-    v.require((!keys.opening && c.kind != SonarKind::sidescan) || c.multipath.columns_per_beam == 1,
-              {"multipath"}, "multipath.columns_per_beam is for the beams of a fan: it must be 1");
     v.choice(
         "model", c.model, echo_models,
         "echo model: the paper's, or the calibrated one, which gives what the instrument measures");
     if (c.model == ModelKind::calibrated) {
         v.section("instrument", c.instrument, "the instrument of the calibrated model");
         require_insonified(v, c);
-        require_table_of_beams(v, c);
     }
     if (c.model == ModelKind::paper) {
         v.section("noise", c.noise, "the random terms of the paper's model");

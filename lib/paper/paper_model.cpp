@@ -107,6 +107,8 @@ PaperModel paper_model(const SonarConfig& config, const PaperSonar& sonar) {
                          .mult_sigma = static_cast<float>(noise.mult_sigma),
                          .range_scale = sonar.range_scale,
                          .lobe_scale = std::vector<float>(sonar.beams, 1.0F)};
+    model.info.random_terms = terms_by_name;
+    model.info.noise_growth = sonar.range_scale;
     if (!noise.scale_with_range) return model;
     const double sigma =
         radians(noise.lobe_sigma_deg > 0.0 ? noise.lobe_sigma_deg : config.azimuth_deg / 8.0);
@@ -118,10 +120,6 @@ PaperModel paper_model(const SonarConfig& config, const PaperSonar& sonar) {
             static_cast<float>(1.0 + 0.5 * exponential(-0.5 * sigmas * sigmas));
     }
     return model;
-}
-
-std::span<const std::string_view> PaperModel::random_terms() const {
-    return terms_by_name;
 }
 
 EchoModel::SignalAndNoise PaperModel::signal_and_noise(float clean, float /*noisy*/, int range_bin,

@@ -19,8 +19,6 @@ struct PaperModel final : EchoModel {
     void form(const TracedPing& traced, const FormContext& context, Ping& ping) const override;
     SurfaceEchoes surface_echoes(const TracedPing& traced, const View& view, const Scene& scene,
                                  bool patches) const override;
-    std::span<const std::string_view> random_terms() const override;
-    std::span<const float> noise_growth() const override { return pixel_noise.range_scale; }
     SignalAndNoise signal_and_noise(float clean, float noisy, int range_bin,
                                     int beam) const override;
 };

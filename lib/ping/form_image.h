@@ -23,9 +23,8 @@ struct PingKey {
 /// Forms the image of a traced ping by the sonar's echo model, with the terms that are in both
 /// `terms` and the settings. A pure function: the same arguments give the same bytes. `settings`
 /// may differ from those of the trace except for the view. The counts and the times of the ping
-/// include the trace; its multipath is counted only if it is in the image. A ping of
-/// several groups of beams has their mean counts, the sum of their times and the largest estimated
-/// error.
+/// include the trace; its multipath is counted only if it is in the image. A ping of several groups
+/// of beams has their mean counts and the sum of their times.
 Ping form_image(const TracedPing& traced, const PingSettings& settings, const Scene& scene,
                 const PingKey& key, const Terms& terms = {});
 

@@ -28,8 +28,6 @@ struct Sonar {
     std::shared_ptr<const SoundProfile> assumed_profile;  ///< the profile the instrument assumes
     /// Its motion during a ping, by pose of the trajectory; null: it stands still.
     std::shared_ptr<const std::vector<PingMotion>> motions;
-    /// TracedPing::water_age by pose; null: none.
-    std::shared_ptr<const std::vector<double>> water_ages;
 };
 
 /// The angle of the head at the pose with this index on the trajectory; 0 for a fixed sonar.

@@ -73,13 +73,10 @@ std::vector<Sounding> find_soundings(const Sonar& sonar, const Pose& T_world_veh
                                      const Ping& ping, const PingMotion& motion) {
     const Pose T_world_sensor = T_world_vehicle * sonar.T_vehicle_sensor;
     const ViewShape shape = sonar.settings.view.shape;
-    // The instrument knows its poses in the ping, but not the shift of a pulse that sweeps.
-    PingMotion known = motion;
-    known.doppler_s = 0.0;
-    const TruePlaces reported{T_world_sensor, sonar.assumed_profile.get(), known, shape};
+    const TruePlaces reported{T_world_sensor, sonar.assumed_profile.get(), motion, shape};
     const TruePlaces true_places{T_world_sensor, sonar.true_profile.get(), motion, shape};
-    const std::span<const float> growth = sonar.settings.model->noise_growth();
-    const std::span<const float> noise = sonar.settings.model->mean_noise();
+    const std::span<const float> growth = sonar.settings.model->info.noise_growth;
+    const std::span<const float> noise = sonar.settings.model->info.mean_noise;
     std::vector<Sounding> soundings(ping.beams);
     std::vector<double> beam(ping.range_bins);
     for (int j = 0; j < ping.beams; ++j) {
@@ -90,7 +87,7 @@ std::vector<Sounding> find_soundings(const Sonar& sonar, const Pose& T_world_veh
         if (std::isnan(soundings[j].range_m)) continue;
         const double azimuth = sonar.beam_azimuths_rad[j];
         const double range = soundings[j].range_m;
-        soundings[j].position = reported.of(on_axis(known, shape, azimuth, range));
+        soundings[j].position = reported.of(on_axis(motion, shape, azimuth, range));
         if (sonar.true_profile) {
             soundings[j].true_position = true_places.of(on_axis(motion, shape, azimuth, range));
         }

@@ -35,7 +35,8 @@ constexpr std::array<OptionalColumn, 8> optional_columns{
      {"spectral_exponent", 2.4, 3.9,
       [](Material& m, double value) { m.spectral_exponent = value; }},
      {"volume_parameter", 0.0, 1.0, [](Material& m, double value) { m.volume_parameter = value; }},
-     {"roughness_m", 0.0, 10.0, [](Material& m, double value) { m.roughness_m = value; }}}};
+     // Older files have it; it has no effect.
+     {"roughness_m", 0.0, 10.0, [](Material& /*m*/, double /*value*/) {}}}};
 
 /// The optional columns of the table, in its order, from its fourth column on.
 std::vector<OptionalColumn> optional_columns_of(const CsvTable& csv) {

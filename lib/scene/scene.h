@@ -34,8 +34,6 @@ struct Material {
     std::optional<double> spectral_strength_cm4 = {};  ///< w2 of the roughness spectrum
     std::optional<double> spectral_exponent = {};      ///< exponent of that spectrum
     std::optional<double> volume_parameter = {};       ///< scattering / absorption cross-section
-    /// RMS height of the roughness of a surface that reflects coherently; empty: it does not.
-    std::optional<double> roughness_m = {};
 
     bool operator==(const Material&) const = default;
 };

@@ -87,23 +87,8 @@ std::vector<float> growth_with_range(const Sonar& sonar) {
     return growth;
 }
 
-/// The beams of a line array in the order of their azimuths. Edges lie midway between the sines of
-/// two beams, where both receive the same; the first and the last one lie on the view's borders.
-BeamSines sines_of_table(const std::vector<double>& azimuths_deg, double half_azimuth_rad) {
-    BeamSines sines;
-    sines.edges.push_back(-sincos(half_azimuth_rad).sin);
-    for (const double azimuth : azimuths_deg) {
-        const double sine = sincos(radians(azimuth)).sin;
-        if (!sines.middles.empty()) sines.edges.push_back(0.5 * (sines.middles.back() + sine));
-        sines.middles.push_back(sine);
-    }
-    sines.edges.push_back(sincos(half_azimuth_rad).sin);
-    return sines;
-}
-
 BeamSines beam_sines(const BeamConfig& beam, const View& view) {
     const double half = 0.5 * view.azimuth_rad;
-    if (!beam.azimuths_deg.empty()) return sines_of_table(beam.azimuths_deg, half);
     const bool equal_sine = beam.spread == BeamSpacing::equal_sine;
     const auto sine_at = [&](double share) {
         return equal_sine ? share * sincos(half).sin : sincos(share * half).sin;
@@ -123,7 +108,7 @@ CalibratedModel instrument_model(Sonar& sonar, const WaterConfig& water) {
     const View& view = sonar.settings.view;
     if (beam.aperture != Aperture::line) return calibrated_model(instrument, water, view, {});
     const BeamSines sines = beam_sines(beam, view);
-    sonar.equal_azimuth = beam.azimuths_deg.empty() && beam.spread == BeamSpacing::equal_angle;
+    sonar.equal_azimuth = beam.spread == BeamSpacing::equal_angle;
     if (!sonar.equal_azimuth) {
         std::ranges::transform(sines.middles, sonar.beam_azimuths_rad.begin(), arcsin);
         std::transform(sines.edges.begin() + 1, sines.edges.end() - 1,

@@ -6,7 +6,6 @@
 #include "mission/ping_draws.h"
 #include "sonar/kinds.h"
 #include "sonar/setup.h"
-#include "trace/find_coherent_faces.h"
 
 namespace sonarsim {
 
@@ -21,27 +20,20 @@ Sonar make_sonar(const KindOfSonar& kind, const SonarConfig& config, const Accur
     if (kind.finish) kind.finish(sonar);
     PingSettings& settings = sonar.settings;
     settings.model = make_echo_model(sonar, kind, water);
-    settings.view.energies_add = settings.model->energies_add();
-    settings.guard_beams = settings.model->guard_beams();
+    settings.view.energies_add = settings.model->info.energies_add;
+    settings.guard_beams = settings.model->info.guard_beams;
     // Multipath starts at the samples, so it needs those of every beam.
-    if (settings.multipath.on) {
-        settings.guard_beams.joined = 1;
-        if (settings.view.shape == ViewShape::fan)
-            settings.guard_beams.divided = config.multipath.columns_per_beam;
-    }
-    settings.multipath.scattered = settings.model->needs_scattered_paths();
+    if (settings.multipath.on) settings.guard_beams.joined = 1;
+    settings.multipath.scattered = settings.model->info.needs_scattered_paths;
     return sonar;
 }
 
 void find_targets(std::span<Sonar> sonars, const Scene& scene) {
-    const auto needs = [](const Sonar& sonar) { return sonar.settings.model->energies_add(); };
+    const auto needs = [](const Sonar& sonar) { return sonar.settings.model->info.energies_add; };
     if (std::ranges::none_of(sonars, needs)) return;
     const std::shared_ptr<const TargetShapes> targets = find_target_shapes(scene);
-    const std::shared_ptr<const CoherentFaces> coherent = find_coherent_faces(scene);
     for (Sonar& sonar : sonars) {
-        if (!needs(sonar)) continue;
-        sonar.settings.targets = targets;
-        sonar.settings.coherent = coherent;
+        if (needs(sonar)) sonar.settings.targets = targets;
     }
 }
 
@@ -66,8 +58,6 @@ TracedPing trace_at(const Sonar& sonar, const Scene& scene, const VisibilityEngi
                     const Pose& T_world_sensor, std::uint32_t pose, const PingMotion& motion,
                     const Terms& terms) {
     TracedPing traced = trace_ping(sonar.settings, scene, engine, T_world_sensor, terms, motion);
-    if (sonar.water_ages && pose < sonar.water_ages->size())
-        traced.water_age = (*sonar.water_ages)[pose];
     if (const auto& particles = sonar.settings.particles) {
         const double time_s = pose < particles->time_s.size() ? particles->time_s[pose] : 0.0;
         traced.particles =
@@ -120,7 +110,7 @@ Ping render_ping(const Sonar& sonar, const Scene& scene, const VisibilityEngine&
 }
 
 std::size_t stage_count(const Sonar& sonar) {
-    return 2 + sonar.settings.model->random_terms().size();
+    return 2 + sonar.settings.model->info.random_terms.size();
 }
 
 std::vector<Ping> form_stages(const TracedPing& traced, const Sonar& sonar, const Scene& scene,

@@ -22,9 +22,8 @@ Sonar make_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
 Sonar make_sonar(const KindOfSonar& kind, const SonarConfig& config, const AccuracyConfig& accuracy,
                  const WaterConfig& water = {});
 
-/// Sets the objects of the scene that may be targets, and the faces that reflect coherently, in the
-/// sonars whose echo model adds energies. Without them only the engine samples small and shiny
-/// objects.
+/// Sets the objects of the scene that may be targets in the sonars whose echo model adds energies.
+/// Without them only the engine samples small and shiny objects.
 void find_targets(std::span<Sonar> sonars, const Scene& scene);
 
 /// The sonar at a pose, with the numbers that the mission's `vary` draws for every ping; nothing if

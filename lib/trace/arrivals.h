@@ -16,8 +16,7 @@ namespace sonarsim {
 /// The arrival of the sound that a point sends back.
 struct Arrival {
     float range_m;              ///< one-way equivalent slant range, m: half of the two-way path
-    Eigen::Vector3f departure;  ///< unit, sensor frame: direction of departure
-    Eigen::Vector3f direction;  ///< unit, sensor frame: from which the sound comes
+    Eigen::Vector3f direction;  ///< unit, sensor frame: of departure and of return
 };
 
 /// The range of a point in the sensor frame, m.
@@ -27,8 +26,16 @@ inline float arrival_range(const Eigen::Vector3f& point) {
 
 inline Arrival arrival_of(const Eigen::Vector3f& point) {
     const float range = arrival_range(point);
-    const Eigen::Vector3f direction = point / range;
-    return {range, direction, direction};
+    return {range, point / range};
+}
+
+/// The extents of an edge: in range, and across it along y and z, m. All have signs.
+struct EdgeExtents {
+    float depth, y, z;
+};
+inline EdgeExtents extents_of(const Eigen::Vector3f& edge, const Eigen::Vector3f& direction) {
+    const float depth = edge.dot(direction);
+    return {depth, edge.y() - depth * direction.y(), edge.z() - depth * direction.z()};
 }
 
 /// The range of a two-way path of out_m + back_m, m.

@@ -18,7 +18,7 @@ Ray specular_ray(const Sample& sample, float bin_m) {
     const float size = sample.edge_u.norm() + sample.edge_v.norm();
     const float lift = 1e-4F * arrival.range_m + std::min(0.05F * size, 0.5F * bin_m);
     return {sample.position + lift * sample.normal,
-            specular_direction(arrival.departure, sample.normal)};
+            specular_direction(arrival.direction, sample.normal)};
 }
 
 /// True if a ray may have hit the surface that it started from: its start lies in the plane that it

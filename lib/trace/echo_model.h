@@ -12,7 +12,6 @@
 #include "trace/surface_echoes.h"
 #include "trace/terms.h"
 #include "trace/traced_ping.h"
-#include "visibility/probe.h"
 
 namespace sonarsim {
 
@@ -24,12 +23,38 @@ struct FormContext {
     Terms terms;
 };
 
+/// The properties of an echo model that are the same for all of its images.
+struct EchoModelInfo {
+    /// The names of the random terms, in the order in which they enter an image.
+    std::span<const std::string_view> random_terms = {};
+    GuardBeams guard_beams = {};  ///< the guard beams that the model needs
+    /// True if the model needs the multipath paths whose second surface reflects the sound away
+    /// from the sonar. A rough surface scatters sound back along them.
+    bool needs_scattered_paths = false;
+    /// Above 0: the view needs rays, with this factor on the columns for its error goal.
+    int ray_columns = 0;
+    bool energies_add = false;  ///< a bin is the sum of the energies of its echoes, not a mean
+    /// True if an image takes so long that previews and checks of a mission form fewer of them.
+    bool is_slow = false;
+    /// The memory that the model needs to form an image, without the image itself, and that which
+    /// multipath adds.
+    double working_bytes = 0.0, multipath_bytes = 0.0;
+    /// The factor by which the noise grows with range, by range bin; empty: it does not grow.
+    std::vector<float> noise_growth = {};
+    /// The mean value of the receiver's noise, by range bin; empty: it has none, or noise_growth
+    /// tells how it grows.
+    std::vector<float> mean_noise = {};
+    int raw_bits = 0;  ///< number of bits of a value in raw/ and raw.npy; 0: no raw values
+};
+
 /// An echo model: PaperModel (paper/paper_model.h) or CalibratedModel (calibrated/model.h). It
 /// turns the trace of a ping into an image. Models are immutable; any number of threads may form
 /// images at once.
 class EchoModel {
   public:
     virtual ~EchoModel() = default;
+
+    EchoModelInfo info;
 
     /// Fills the image [range bins, beams] of `ping`, its counts and its seconds. The image must be
     /// 0 before. The same arguments give the same bytes.
@@ -38,32 +63,10 @@ class EchoModel {
     /// the visible surface, too.
     virtual SurfaceEchoes surface_echoes(const TracedPing& traced, const View& view,
                                          const Scene& scene, bool patches) const = 0;
-    /// The names of the model's random terms, in the order in which they enter an image.
-    virtual std::span<const std::string_view> random_terms() const = 0;
-
     /// This model with the data that depend on the scene alone, found once for all pings; nullptr
     /// if it needs none. A model that was not prepared forms the same images, slower.
     virtual std::shared_ptr<const EchoModel> prepared(const Scene& /*scene*/) const { return {}; }
 
-    /// The guard beams that the model needs.
-    virtual GuardBeams guard_beams() const { return {}; }
-    /// True if the model needs the multipath paths whose second surface reflects the sound away
-    /// from the sonar. A rough surface scatters sound back along them.
-    virtual bool needs_scattered_paths() const { return false; }
-    /// The rays that this view needs; a goal of 0: any engine will do.
-    virtual RaysNeed rays_need(const View& /*view*/) const { return {}; }
-    /// True if a bin is the sum of the energies of its echoes; false if it is a mean.
-    virtual bool energies_add() const { return false; }
-    /// True if an image takes so long that previews and checks of a mission form fewer of them.
-    virtual bool is_slow() const { return false; }
-    /// The memory in bytes that the model needs to form an image, without the image itself.
-    virtual double working_bytes(bool /*multipath*/) const { return 0.0; }
-
-    /// The factor by which the noise grows with range, by range bin; empty: it does not grow.
-    virtual std::span<const float> noise_growth() const { return {}; }
-    /// The mean value of the receiver's noise, by range bin; empty: it has none, or noise_growth()
-    /// tells how it grows.
-    virtual std::span<const float> mean_noise() const { return {}; }
     /// The signal of a pixel and the size of its noise. `clean` is the value of the pixel without
     /// the noise of pixels, `noisy` its value with that noise.
     struct SignalAndNoise {
@@ -74,8 +77,6 @@ class EchoModel {
 
     /// Adds the meaning of an image's values to the sensor's block in dataset.json.
     virtual void describe(nlohmann::ordered_json& /*sensor*/) const {}
-    /// The number of bits of a value in raw/ and raw.npy; 0: the model has no raw values.
-    virtual int raw_bits() const { return 0; }
     /// The integers that the instrument delivers (raw/ and raw.npy), [range bins, beams].
     virtual std::vector<std::uint16_t> raw(const Ping& /*ping*/) const { return {}; }
 };

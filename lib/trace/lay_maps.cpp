@@ -47,7 +47,7 @@ struct MapPiece {
 class GroundMapApplier {
   public:
     GroundMapApplier(const GroundMaps& maps, const View& view, const Pose& T_world_sensor,
-                     double size, const SoundProfile* profile)
+                     const SoundProfile* profile)
         : maps_(maps),
           profile_(profile),
           pose_(T_world_sensor),
@@ -56,10 +56,10 @@ class GroundMapApplier {
           shape_(view.shape),
           range_min_m_(static_cast<float>(view.range_min_m)),
           bin_m_(static_cast<float>(view.bin_m())),
-          depth_m_(static_cast<float>(size * depth_in_bins * view.bin_m())),
-          sine_y_(static_cast<float>(size * view.azimuth_rad /
+          depth_m_(static_cast<float>(depth_in_bins * view.bin_m())),
+          sine_y_(static_cast<float>(view.azimuth_rad /
                                      (view.shape == ViewShape::fan ? view.beams : parts_of_cone))),
-          sine_z_(static_cast<float>(size * view.elevation_rad / parts_of_cone)) {}
+          sine_z_(static_cast<float>(view.elevation_rad / parts_of_cone)) {}
 
     /// Appends the pieces of a sample.
     void apply(const Sample& sample, std::vector<Sample>& out) {
@@ -93,11 +93,10 @@ class GroundMapApplier {
 
     /// The extent of an edge over the greatest extent of a piece.
     float size_of(const Eigen::Vector3f& half_edge, const Arrival& at) const {
-        const float depth = half_edge.dot(at.direction);
+        const auto [depth, y, z] = extents_of(half_edge, at.direction);
         const float across = 2.0F / at.range_m;
-        return std::max({2.0F * std::fabs(depth) / depth_m_,
-                         across * std::fabs(half_edge.y() - depth * at.direction.y()) / sine_y_,
-                         across * std::fabs(half_edge.z() - depth * at.direction.z()) / sine_z_});
+        return std::max({2.0F * std::fabs(depth) / depth_m_, across * std::fabs(y) / sine_y_,
+                         across * std::fabs(z) / sine_z_});
     }
 
     void cut(MapPiece piece, int halvings, std::vector<Sample>& out) {
@@ -176,9 +175,8 @@ class GroundMapApplier {
 }  // namespace
 
 void lay_maps(const GroundMaps& maps, const View& view, const Pose& T_world_sensor,
-              Samples& samples, std::vector<Sample>& outside_sector, double size,
-              const SoundProfile* profile) {
-    GroundMapApplier layer(maps, view, T_world_sensor, size, profile);
+              Samples& samples, std::vector<Sample>& outside_sector, const SoundProfile* profile) {
+    GroundMapApplier layer(maps, view, T_world_sensor, profile);
     std::vector<Sample> items;
     items.reserve(2 * samples.items.size());
     std::uint32_t begin = 0;

@@ -13,9 +13,9 @@ namespace sonarsim {
 /// on which the maps change is cut until its pieces are half a range bin deep and as wide as a
 /// beam; a piece with several materials becomes strips with the area of each. So the strips tile
 /// the surface as the samples did, and a bin's echo is the mean over the area that it sees.
-/// `size` is a factor on the extents of the pieces; `profile` bends the sound, if not null.
+/// `profile` bends the sound, if not null.
 void lay_maps(const GroundMaps& maps, const View& view, const Pose& T_world_sensor,
-              Samples& samples, std::vector<Sample>& outside_sector, double size = 1.0,
+              Samples& samples, std::vector<Sample>& outside_sector,
               const SoundProfile* profile = nullptr);
 
 /// The material and strength of a point in the sensor frame.

@@ -23,12 +23,6 @@ double two_way_time(const PingMotion& motion, const Eigen::Vector3d& place) {
     return 2.0 * (c * place.norm() - v.dot(place)) / (c * c - v.squaredNorm());
 }
 
-/// The range shift of a pulse that sweeps.
-double range_shift(const PingMotion& motion, const Eigen::Vector3d& place) {
-    if (motion.doppler_s == 0.0) return 0.0;
-    return -motion.doppler_s * motion.velocity_m_s.dot(place.normalized());
-}
-
 /// A sample as the moving sonar measures it. Its edges are only turned: its parts differ in two-way
 /// time by 2 / c for each metre; in this time a sonar moves by thousandths of a metre and turns by
 /// less than 1e-3.
@@ -39,7 +33,7 @@ Sample moved(const PingMotion& motion, ViewShape shape, const Sample& sample) {
     const Eigen::Matrix3d to_there =
         rotation_by(moving * motion.turn_rad_s).conjugate().toRotationMatrix();
     const Eigen::Vector3d from_there = to_there * (place - moving * motion.velocity_m_s);
-    const double range = 0.5 * motion.sound_speed_m_s * time + range_shift(motion, place);
+    const double range = 0.5 * motion.sound_speed_m_s * time;
     const Eigen::Matrix3f turn = to_there.cast<float>();
     Sample out = sample;
     out.position = (range / from_there.norm() * from_there).cast<float>();
@@ -105,29 +99,24 @@ Eigen::Vector3d measured_place(const PingMotion& motion, ViewShape shape,
     const double moving = reception_share(motion, shape) * time;
     const Eigen::Vector3d from_there = rotation_by(moving * motion.turn_rad_s).conjugate() *
                                        (place - moving * motion.velocity_m_s);
-    const double range = 0.5 * motion.sound_speed_m_s * time + range_shift(motion, place);
+    const double range = 0.5 * motion.sound_speed_m_s * time;
     return range * from_there.normalized();
 }
 
 Eigen::Vector3d unmoved_place(const PingMotion& motion, ViewShape shape,
                               const Eigen::Vector3d& measured) {
     // The place is s + l d, with s the sonar's motion meanwhile and d the direction in the frame at
-    // transmission. Its two-way time must be that of the measured range less the range shift.
-    // Newton's steps in l use the derivative 2 / c of a sonar at rest. Its relative error is the
-    // ratio of the speeds of sonar and sound, so each step reduces the errors of l and of the shift
-    // about a thousandfold.
-    Eigen::Vector3d place = measured;
+    // transmission. Its two-way time must be that of the measured range. Newton's steps in l use
+    // the derivative 2 / c of a sonar at rest. Its relative error is the ratio of the speeds of
+    // sonar and sound, so each step reduces the error of l about a thousandfold.
     double length = measured.norm();
-    for (int k = 0; k < 4; ++k) {
-        const double range = measured.norm() - range_shift(motion, place);
-        const double time = 2.0 * range / motion.sound_speed_m_s;
-        const double moving = reception_share(motion, shape) * time;
-        const Eigen::Vector3d d = rotation_by(moving * motion.turn_rad_s) * measured.normalized();
-        const Eigen::Vector3d s = moving * motion.velocity_m_s;
+    const double time = 2.0 * length / motion.sound_speed_m_s;
+    const double moving = reception_share(motion, shape) * time;
+    const Eigen::Vector3d d = rotation_by(moving * motion.turn_rad_s) * measured.normalized();
+    const Eigen::Vector3d s = moving * motion.velocity_m_s;
+    for (int k = 0; k < 4; ++k)
         length += 0.5 * motion.sound_speed_m_s * (time - two_way_time(motion, s + length * d));
-        place = s + length * d;
-    }
-    return place;
+    return s + length * d;
 }
 
 void move_in_ping(const PingMotion& motion, const View& view, Samples& samples,

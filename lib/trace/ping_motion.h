@@ -15,9 +15,6 @@ struct PingMotion {
     Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();
     Eigen::Vector3d turn_rad_s = Eigen::Vector3d::Zero();
     double sound_speed_m_s = 0.0;  ///< 0: the sonar stands still
-    /// A pulse that sweeps measures a range that is too long by this times the speed at which the
-    /// place recedes.
-    double doppler_s = 0.0;
     /// False for a fan of one beam, as of a scanning sonar, which measures no direction.
     bool measures_direction = true;
 
@@ -35,10 +32,10 @@ PingMotion motion_after(const PingMotion& motion, double later_s);
 Pose pose_after(const PingMotion& motion, const Pose& T_world_sensor, double later_s);
 
 /// The place that a moving sonar measures for `place`, which is in its frame at transmission. The
-/// range is half of the path out from the pose of transmission and back to the pose of reception,
-/// with the range shift of a pulse that sweeps. The array of a fan measures the direction from the
-/// pose of reception. In a side-scan sonar or a cone only the product of the transmitting and
-/// receiving patterns matters, so the direction is that from the pose half way between them.
+/// range is half of the path out from the pose of transmission and back to the pose of reception.
+/// The array of a fan measures the direction from the pose of reception. In a side-scan sonar or a
+/// cone only the product of the transmitting and receiving patterns matters, so the direction is
+/// that from the pose half way between them.
 Eigen::Vector3d measured_place(const PingMotion& motion, ViewShape shape,
                                const Eigen::Vector3d& place);
 

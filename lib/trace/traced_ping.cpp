@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "core/clock.h"
-#include "trace/find_coherent_surface.h"
 #include "trace/lay_maps.h"
 #include "trace/visible_water_surface.h"
 #include "trace/water_mirror.h"
@@ -27,17 +26,13 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
     traced.counts.dropped_samples = traced.samples.dropped;
     if (scene.maps) {
         lay_maps(*scene.maps, settings.view, T_world_sensor, traced.samples, traced.outside_sector,
-                 1.0, scene.sound_profile.get());
+                 scene.sound_profile.get());
     }
     move_in_ping(motion, settings.view, traced.samples, traced.outside_sector);
     if (settings.targets) {
         traced.targets = target_surface(*settings.targets, settings.view, settings.guard_beams,
                                         scene, engine, T_world_sensor);
         move_in_ping(motion, settings.view.shape, traced.targets.facets);
-    }
-    if (settings.coherent) {
-        traced.coherent = find_coherent_surface(*settings.coherent, scene, engine, T_world_sensor,
-                                                widened_view(settings.view, settings.guard_beams));
     }
     if (settings.sees_water_surface && scene.water_surface && scene.water_surface->wind_m_s) {
         if (const auto water = mirror_of(scene.water_surface, T_world_sensor)) {

@@ -6,7 +6,6 @@
 
 #include "core/pose.h"
 #include "scene/scene.h"
-#include "trace/coherent_surface.h"
 #include "trace/counters.h"
 #include "trace/multipath.h"
 #include "trace/particles.h"
@@ -19,8 +18,6 @@
 
 namespace sonarsim {
 
-struct CoherentFaces;
-
 /// The settings of the trace of a ping.
 struct TraceSettings {
     View view;
@@ -28,9 +25,8 @@ struct TraceSettings {
     Multipath multipath;
     /// Objects that the trace samples itself where an engine's samples cannot; null: none.
     std::shared_ptr<const TargetShapes> targets;
-    std::shared_ptr<const CoherentFaces> coherent;  ///< null: none
-    std::shared_ptr<const Particles> particles;     ///< point targets in the water; null: none
-    bool sees_water_surface = false;                ///< if the surface scatters
+    std::shared_ptr<const Particles> particles;  ///< point targets in the water; null: none
+    bool sees_water_surface = false;             ///< if the surface scatters
 };
 
 /// The surface that a sonar insonified from one pose. It holds no noise: any number of images may
@@ -41,12 +37,9 @@ struct TracedPing {
     Samples samples;                     ///< the visible surface
     std::vector<Sample> outside_sector;  ///< the visible surface in the guard beams
     TargetSurface targets;               ///< replaces the samples of its instances
-    CoherentSurface coherent;            ///< reflects coherently; samples may lie on it as well
     SeenParticles particles;
     std::vector<Sample> water_surface;  ///< material and instance are 0
     std::vector<BouncePath> bounces;    ///< multipath paths from `samples`
-    /// The age of the water's speckle; none: each ping draws its own speckle.
-    std::optional<double> water_age;
     /// The group in which each beam transmits, and the traces of all groups after the first, whose
     /// trace is this one. Empty: all beams transmit at once.
     std::vector<int> group_of_beam;

@@ -41,15 +41,6 @@ std::vector<std::uint32_t> repeat_offsets(std::span<const std::uint32_t> begins,
     return out;
 }
 
-/// The offsets of a view's beams, from the offsets of the parts that they are divided into.
-std::vector<std::uint32_t> merge_offsets(std::span<const std::uint32_t> begins, int divided) {
-    std::vector<std::uint32_t> out;
-    out.reserve(begins.size() / static_cast<std::size_t>(divided) + 1);
-    for (std::size_t j = 0; j < begins.size(); j += static_cast<std::size_t>(divided))
-        out.push_back(begins[j]);
-    return out;
-}
-
 /// Adds the surface that the engine sees in the guard beams on one side of the view.
 void add_guard_side(const View& view, const Samples& seen, const Pose& T_sensor_side,
                     VisibleSurface& out) {
@@ -63,8 +54,6 @@ void add_guard_side(const View& view, const Samples& seen, const Pose& T_sensor_
         out.outside_sector.push_back(sample);
     }
     out.samples.dropped += seen.dropped;
-    // fmax of NaN and a number is the number.
-    out.samples.estimated_l1 = std::fmax(out.samples.estimated_l1, seen.estimated_l1);
 }
 
 }  // namespace
@@ -81,7 +70,7 @@ View widened_view(const View& view, const GuardBeams& guard_beams) {
 
 View traced_view(const View& view, const GuardBeams& guard_beams) {
     View out = widened_view(view, guard_beams);
-    out.beams = out.beams / joined_beams(view, guard_beams) * guard_beams.divided;
+    out.beams /= joined_beams(view, guard_beams);
     return out;
 }
 
@@ -93,9 +82,7 @@ bool in_array_cones(const View& view, const Eigen::Vector3f& position) {
 std::vector<Sight> sights(const View& view, const GuardBeams& guard_beams,
                           const Pose& T_world_sensor) {
     if (!(guard_beams.beam_rad > 0.0)) return {{traced_view(view, guard_beams), T_world_sensor}};
-    std::vector<Sight> all{
-        {traced_view(view, {.joined = guard_beams.joined, .divided = guard_beams.divided}),
-         T_world_sensor}};
+    std::vector<Sight> all{{traced_view(view, {.joined = guard_beams.joined}), T_world_sensor}};
     for (const double side : {-1.0, 1.0})
         all.push_back(
             {guard_view(view, guard_beams), T_world_sensor * guard_side(view, guard_beams, side)});
@@ -111,7 +98,6 @@ VisibleSurface visible_surface(const View& view, const GuardBeams& guard_beams,
     VisibleSurface out;
     out.samples = see(asked[0]);
     std::vector<std::uint32_t>& begins = out.samples.beam_begin;
-    if (guard_beams.divided > 1) begins = merge_offsets(begins, guard_beams.divided);
     begins = repeat_offsets(begins, joined_beams(view, guard_beams));
     if (asked.size() > 1) {
         add_guard_side(view, see(asked[1]), guard_side(view, guard_beams, -1.0), out);

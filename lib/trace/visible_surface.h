@@ -21,7 +21,6 @@ struct GuardBeams {
     /// The number of neighbouring beams that are traced as one at error goals of 2 % and above: a
     /// divisor of the number of beams and, without `beam_rad`, of `count`.
     int joined = 1;
-    int divided = 1;  ///< number of beams that each beam of a fan is traced as
 };
 
 /// The view in which surface is traced: the sonar's view with guard beams on either side.

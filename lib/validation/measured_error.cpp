@@ -35,8 +35,8 @@ double cell_m2_of(const SonarConfig& config) {
 std::vector<Sonar> measured_sonars(const Mission& mission, const Assembly& assembly) {
     std::vector<Sonar> sonars;
     for (std::size_t i = 0; i < mission.sensors.size(); ++i) {
-        Sonar& sonar = sonars.emplace_back(
-            make_sonar(mission.sensors[i], mission.accuracy, mission.water));
+        Sonar& sonar =
+            sonars.emplace_back(make_sonar(mission.sensors[i], mission.accuracy, mission.water));
         const PingSettings& own = assembly.sonars[i].settings;
         sonar.settings.targets = own.targets;
         if (auto prepared = sonar.settings.model->prepared(assembly.scene))
@@ -62,14 +62,13 @@ PingError measure(const Mission& mission, const Assembly& assembly, const Caster
         body.translation -= scene.origin;
     const Caster placed = bodies.empty() ? caster : caster.moved(bodies);
     const double goal = mission.accuracy.relative_l1;
-    const Reference truth = cast_reference(placed, scene, *sonar, T_world_sensor,
-                                           {.moved = 0.1 * goal,
-                                            .rays_per_bin = 16.0,
-                                            .rays_max = sonar->settings.model->energies_add()
-                                                            ? energy_rays_max
-                                                            : mean_rays_max});
-    const Ping ping = direct_image(*sonar, scene, *engine_at(engine, assembly.motions, at.t_s),
-                                   T_world_sensor);
+    const Reference truth = cast_reference(
+        placed, scene, *sonar, T_world_sensor,
+        {.moved = 0.1 * goal,
+         .rays_per_bin = 16.0,
+         .rays_max = sonar->settings.model->info.energies_add ? energy_rays_max : mean_rays_max});
+    const Ping ping =
+        direct_image(*sonar, scene, *engine_at(engine, assembly.motions, at.t_s), T_world_sensor);
     return {pose, image_error(ping.intensity, truth.intensity, truth.scored).relative_l1,
             truth.apart};
 }
@@ -100,7 +99,7 @@ Reference cast_reference(const Caster& caster, const Scene& scene, const Sonar& 
                          const Pose& T_world_sensor, ReferenceGoal goal) {
     goal.cell_m2 = cell_m2_of(sonar.config);
     const PingSettings& settings = sonar.settings;
-    return settings.model->energies_add()
+    return settings.model->info.energies_add
                ? cast_energy_reference(caster, scene, settings, T_world_sensor, goal)
                : cast_reference(caster, scene, settings.view, T_world_sensor, goal);
 }
@@ -108,7 +107,6 @@ Reference cast_reference(const Caster& caster, const Scene& scene, const Sonar& 
 Ping direct_image(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
                   const Pose& T_world_sensor) {
     PingSettings settings = sonar.settings;
-    settings.coherent = nullptr;  // the reference has no coherent echoes
     settings.particles = nullptr;
     settings.sees_water_surface = false;
     const TracedPing traced =

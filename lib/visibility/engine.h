@@ -31,12 +31,6 @@ struct Sample {
     float strength = 1.0F;
 };
 
-/// The samples of a beam in two sets, whose images an engine's estimate compares.
-struct ComparedBeam {
-    int beam = 0;
-    std::vector<Sample> one, other;
-};
-
 /// The insonified surface of a ping, sorted by beam. A footprint extends into a neighbouring beam
 /// by at most a tenth of a beam.
 struct Samples {
@@ -45,10 +39,6 @@ struct Samples {
     /// Number of patches in view that were dropped. Rays: patches that are edge-on to within
     /// rounding, or at zero distance.
     std::uint64_t dropped = 0;
-    /// The engine's estimate of the relative L1 of the noise-free image; NaN if it has none.
-    double estimated_l1 = std::numeric_limits<double>::quiet_NaN();
-    /// The beams of the estimate, in order. Only for scenes with maps, which engines ignore.
-    std::vector<ComparedBeam> compared;
 
     std::span<const Sample> beam(int j) const {
         return {items.data() + beam_begin[j], items.data() + beam_begin[j + 1]};
@@ -107,7 +97,6 @@ class VisibilityEngine {
 
     /// The poses of Scene::bodies that at() was given; empty without them. World.
     virtual std::span<const Pose> body_poses() const { return {}; }
-
 };
 
 }  // namespace sonarsim

@@ -110,29 +110,6 @@ TEST_SUITE("assembly") {
         CHECK(survey.front().T_world_vehicle.translation.z() == test::approx(3.0));
     }
 
-    TEST_CASE("assemble: a table of beams sets their azimuths, and the edges between them") {
-        const MissionOnDisk disk;
-        Mission mission = disk.load("{file: poses.csv}");
-        SonarConfig& config = mission.sensors[0];
-        config.model = ModelKind::calibrated;
-        config.azimuth_bins = 3;
-        config.azimuth_deg = 60.0;
-        config.instrument.beam.azimuths_deg = {-25.0, -10.0, 20.0};
-        mission.output.labels = {Label::instance};
-        const Sonar sonar = assemble(mission).sonars[0];
-        const double between =
-            std::asin(0.5 * (std::sin(radians(-10.0)) + std::sin(radians(20.0))));
-        REQUIRE(sonar.azimuth_edges_rad.size() == 4);
-        CHECK(sonar.azimuth_edges_rad[0] == test::approx(radians(-30.0)));
-        CHECK(sonar.azimuth_edges_rad[2] == test::approx(between));
-        CHECK(sonar.azimuth_edges_rad[3] == test::approx(radians(30.0)));
-        CHECK(sonar.beam_azimuths_rad[2] == test::approx(radians(20.0)));
-        // Beams are drawn where they lie: column_at() is linear in the sine between their edges.
-        CHECK(ColumnFinder(sonar)(sonar.azimuth_edges_rad[2]) == test::approx(2.0));
-        CHECK(ColumnFinder(sonar)(std::asin(0.5 * (std::sin(between) + 0.5))) == test::approx(2.5));
-        CHECK(ColumnFinder(sonar)(radians(30.0)) == test::approx(3.0));
-    }
-
     TEST_CASE("assemble: calibrated sonars know the scene's materials before the first ping") {
         const MissionOnDisk disk;
         const std::vector<std::string> settings{"sensors.fls.model=calibrated"};
@@ -212,7 +189,6 @@ TEST_SUITE("assembly") {
         CHECK(changed([](Assembly& a) { a.scene.materials[0].density_kg_m3 += 1.0; }));
         CHECK(changed([](Assembly& a) { a.scene.materials[0].sound_speed_m_s += 1.0; }));
         CHECK(changed([](Assembly& a) { a.scene.materials[0].grain_phi = 1.5; }));
-        CHECK(changed([](Assembly& a) { a.scene.materials[0].roughness_m = 0.0; }));
         CHECK(changed([](Assembly& a) { a.scene.instances[0] += "x"; }));
         CHECK(changed([](Assembly& a) { a.trajectory[6].t_s += 1e-6; }));
         const auto profile = [](double speed_m_s) {

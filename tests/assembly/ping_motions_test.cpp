@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "calibrated/pulse_band.h"
 #include "core/error.h"
 #include "core/units.h"
 #include "sonar/kinds.h"
@@ -45,50 +44,6 @@ TEST_SUITE("assembly") {
         sonars[1].config.multipath.method = MultipathMethod::exact;
         CHECK_THROWS_WITH_AS(add_ping_motions(mission, trajectory, sonars),
                              doctest::Contains("multipath"), InputError);
-    }
-
-    TEST_CASE("ping motions: the shift of a pulse that sweeps") {
-        Trajectory vehicle;
-        for (int k = 0; k < 10; ++k)
-            vehicle.push_back({0.1 * k, {}});
-        SonarConfig config = default_sonar(SonarKind::imaging);
-        config.model = ModelKind::calibrated;
-        config.moves_in_ping = true;
-        config.instrument.frequency_hz = 9e5;
-        config.instrument.pulse.duration_s = 1e-3;
-        config.instrument.pulse.resolution_m = 0.015;
-        config.instrument.pulse.sweep = Sweep::down;
-        std::vector<Sonar> sonars{make_sonar(config, {})};
-        Mission mission;
-        add_ping_motions(mission, vehicle, sonars);
-        // f T / B with B = k c / (2 res), k about 1.2 for side lobes of -30 dB.
-        const double band_hz =
-            pulse_band(config.instrument.pulse, 0.0, mission.water.sound_speed_m_s).sweep_hz;
-        CHECK((*sonars[0].motions)[4].doppler_s ==
-              test::approx(-9e5 * 1e-3 / band_hz).epsilon(1e-12));
-        CHECK(band_hz * 2.0 * 0.015 / mission.water.sound_speed_m_s ==
-              test::approx(1.2).epsilon(0.1));
-    }
-
-    TEST_CASE("ping motions: a pulse without a resolution sweeps over the band of a sample") {
-        const Trajectory vehicle{{0.0, {}}, {1.0, {Eigen::Quaterniond::Identity(), {1, 0, 0}}}};
-        SonarConfig config = default_sonar(SonarKind::sidescan);
-        config.model = ModelKind::calibrated;
-        config.moves_in_ping = true;
-        config.instrument.pulse.duration_s = 1e-3;
-        config.instrument.pulse.sweep = Sweep::up;
-        config.range_bins = 1200;
-        const auto motion = [&] {
-            std::vector<Sonar> sonars{make_sonar(config, {})};
-            add_ping_motions({}, vehicle, sonars);
-            return (*sonars[0].motions)[0];
-        };
-        const PingMotion of_bins = motion();
-        config.range_bins = 400;
-        config.instrument.receiver.samples = 3;
-        const PingMotion of_samples = motion();
-        CHECK(of_bins.doppler_s > 0.0);
-        CHECK(of_samples.doppler_s == test::approx(of_bins.doppler_s).epsilon(1e-12));
     }
 
     TEST_CASE("ping motions: a scanning head has the pattern half way in time, a fan measures") {

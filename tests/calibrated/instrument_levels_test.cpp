@@ -47,33 +47,6 @@ InstrumentLevels levels_of(const SonarConfig& config, const WaterConfig& water =
     return calibrated_model_of(make_sonar(config, {}, water)).levels;
 }
 
-/// A plate of 1 cm^2, 5 m ahead.
-Samples plate() {
-    Samples out;
-    out.items = {{.position = {5.0F, 0.0F, 0.0F},
-                  .edge_u = {0.0F, 0.005F, 0.0F},
-                  .edge_v = {0.0F, 0.0F, 0.005F},
-                  .normal = {-1.0F, 0.0F, 0.0F},
-                  .height_m = 5.0F,
-                  .area_m2 = 1e-4F,
-                  .material = 0,
-                  .instance = 0}};
-    return out;
-}
-
-/// The image with speckle and noise.
-std::vector<float> image_of(const SonarConfig& config) {
-    const Sonar sonar = make_sonar(config, {});
-    return image_of_samples(calibrated_model_of(sonar), sonar.settings.view, plate(),
-                            {.random = 2});
-}
-
-std::vector<std::uint16_t> raw_of(const SonarConfig& config) {
-    Ping ping;
-    ping.intensity = image_of(config);
-    return calibrated_model_of(make_sonar(config, {})).raw(ping);
-}
-
 double index_db(double directivity) {
     return db_of_power(directivity);
 }
@@ -170,39 +143,6 @@ TEST_SUITE("calibrated") {
                                 db_of_power(4.0 * pi * length * height);
         CHECK(std::fabs(levels.noise_db - noise_db) < 0.05);
         CHECK(levels_of(config, {.wind_m_s = 20.0}).noise_db > levels.noise_db);
-    }
-
-    TEST_CASE("levels: auto is the number that it comes to") {
-        SonarConfig config = imaging();
-        const std::vector<float> by_rule = image_of(config);
-        const InstrumentLevels levels = levels_of(config);
-        config.instrument.source_level_db = levels.source_level_db;
-        config.instrument.receiver.noise_db = levels.noise_db;
-        config.instrument.receiver.full_scale_db = levels.full_scale_db;
-        CHECK(image_of(config) == by_rule);
-        CHECK(levels_of(config).full_scale_db == levels.full_scale_db);
-    }
-
-    TEST_CASE("levels: a louder source with a higher full scale gives the same numbers") {
-        SonarConfig config = imaging();
-        InstrumentConfig& instrument = config.instrument;
-        instrument.source_level_db = 200.0;
-        instrument.receiver.noise_db = 60.0;
-        instrument.receiver.full_scale_db = 130.0;
-        const std::vector<std::uint16_t> before = raw_of(config);
-        CHECK(*std::ranges::max_element(before) > 0);
-        instrument.source_level_db = 206.0;
-        instrument.receiver.noise_db = 66.0;
-        instrument.receiver.full_scale_db = 136.0;
-        CHECK(raw_of(config) == before);
-        // Auto follows the source level by itself where sand is louder than the noise.
-        instrument.receiver.noise_db.reset();
-        instrument.receiver.full_scale_db.reset();
-        const InstrumentLevels loud = levels_of(config);
-        instrument.source_level_db = 200.0;
-        const InstrumentLevels quiet = levels_of(config);
-        CHECK(loud.noise_db == quiet.noise_db);
-        CHECK(std::fabs(loud.full_scale_db - quiet.full_scale_db - 6.0) < 1e-9);
     }
 
     TEST_CASE("levels: relative ones are as far below the source as absolute ones") {

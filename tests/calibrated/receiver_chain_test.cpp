@@ -111,19 +111,9 @@ AmplitudeShape shape_of_largest(int n) {
 }  // namespace
 
 TEST_SUITE("calibrated") {
-    // 16,000 draws: the coefficient of variation is known to about 0.7 %, the shape to 0.8 %.
-    TEST_CASE("receiver: one look has Rayleigh's amplitudes") {
-        const AmplitudeShape one = shape_of(noise_powers({}));
-        CHECK(one.variation == test::approx(0.5227).epsilon(0.025));
-        CHECK(one.weibull == test::approx(2.0).epsilon(0.03));
-        const AmplitudeShape closed = shape_of_largest(1);
-        CHECK(closed.variation == test::approx(0.5227).epsilon(1e-3));
-        CHECK(closed.weibull == test::approx(2.0));
-    }
-
     // The largest of n exponential powers lies below x with the probability (1 - exp(-x))^n.
     TEST_CASE("receiver: the largest of several samples follows order statistics") {
-        for (const int n : {2, 3}) {
+        for (const int n : {1, 2, 3}) {
             ReceiverConfig chain;
             chain.samples = n;
             const std::vector<double> powers = noise_powers(chain);
@@ -166,7 +156,7 @@ TEST_SUITE("calibrated") {
               test::approx(0.5227 / std::sqrt(2.0)).epsilon(0.025));
     }
 
-    TEST_CASE("receiver: ringing and blanking lie where they should") {
+    TEST_CASE("receiver: ringing lies where it should") {
         const std::vector<float> plain = noise_image({});
         ReceiverConfig ringing;
         ringing.ring_down_db = 200.0;
@@ -175,34 +165,21 @@ TEST_SUITE("calibrated") {
         for (const int row : {0, 200, 500})
             CHECK(10.0 * std::log10((rung[row] - plain[row]) / 1e-10) ==
                   test::approx(200.0 - 10.0 * (10.005 + 0.01 * row)).epsilon(1e-3));
-        ReceiverConfig blanked = ringing;
-        blanked.blanking_m = 12.0;
-        const std::vector<float> after = noise_image(blanked);
-        CHECK(after[199] == 0.0F);
-        CHECK(after[200] == rung[200]);
     }
 
-    // Gains of beams are normal in dB with their own spread s and that of their sector S, which
-    // half of the beams share: neighbours differ by 2 s^2, beams of two sectors by 2 (s^2 + S^2).
-    TEST_CASE("receiver: gains of beams and of their sectors stay") {
+    // Gains of beams are normal in dB: neighbours differ by 2 s^2 in the mean square.
+    TEST_CASE("receiver: gains of beams stay") {
         ReceiverConfig receiver;
         receiver.beam_gain_db = 0.5;
-        receiver.sector_gain_db = 2.0;
-        receiver.sectors = 2;
         constexpr int draws = 2000;
-        double within = 0.0;
-        double across = 0.0;
+        double square = 0.0;
         for (std::uint64_t seed = 0; seed < draws; ++seed) {
-            const auto gain = [&](int beam) {
-                return beam_gain_db(receiver, beam, 8, {seed, 2, 7});
-            };
-            within += std::pow(gain(1) - gain(2), 2) / draws;
-            across += std::pow(gain(3) - gain(4), 2) / draws;
+            const double apart =
+                beam_gain_db(receiver, 1, {seed, 2, 7}) - beam_gain_db(receiver, 2, {seed, 2, 7});
+            square += apart * apart / draws;
         }
         // Four standard errors of a mean of squares, sqrt(2 / draws) of it, once in 16,000 runs.
-        const double four_errors = 4.0 * std::sqrt(2.0 / draws);
-        CHECK(std::fabs(within / (2.0 * 0.25) - 1.0) < four_errors);
-        CHECK(std::fabs(across / (2.0 * 4.25) - 1.0) < four_errors);
+        CHECK(std::fabs(square / (2.0 * 0.25) - 1.0) < 4.0 * std::sqrt(2.0 / draws));
         const ImageRows rows{.rows = 2, .beams = 8, .noise = {}};
         for (const std::uint32_t ping : {3U, 9U}) {
             std::vector<float> image(16, 1.0F);
@@ -210,7 +187,7 @@ TEST_SUITE("calibrated") {
             add_faults(receiver, rows, {1, 2, ping}, image);
             for (int k = 0; k < 16; ++k) {
                 CHECK(10.0 * std::log10(image[k]) ==
-                      test::approx(beam_gain_db(receiver, k % 8, 8, {1, 2, 0})).epsilon(1e-4));
+                      test::approx(beam_gain_db(receiver, k % 8, {1, 2, 0})).epsilon(1e-4));
             }
         }
     }
@@ -222,30 +199,5 @@ TEST_SUITE("calibrated") {
         const std::vector<float> powers{1.0F, 1.0F / 16, 1.0F / 256, 1e-4F};
         CHECK(companded(powers, offset) == std::vector<std::uint16_t>{191, 64, 0, 0});
         CHECK(companded(powers, {}) == std::vector<std::uint16_t>{255, 128, 64, 26});
-    }
-
-    TEST_CASE("receiver: a gain in steps stays below the smooth one by less than a step") {
-        ReceiverConfig smooth;
-        smooth.tvg_log = 40.0;
-        ReceiverConfig stepped = smooth;
-        stepped.tvg_step_db = 3.0;
-        InstrumentConfig config = bare({});
-        const auto gains = [&](const ReceiverConfig& receiver) {
-            config.receiver = receiver;
-            config.receiver.full_scale_db = -1.0;
-            config.beam.aperture = Aperture::piston;
-            return calibrated_model(config, {}, chain_view(), {}).row_gain;
-        };
-        const std::vector<float> one = gains(smooth);
-        const std::vector<float> other = gains(stepped);
-        int changes = 0;
-        for (int row = 0; row < chain_rows; ++row) {
-            const double below = 10.0 * std::log10(one[row] / other[row]);
-            CHECK(below > -1e-4);
-            CHECK(below < 3.0001);
-            if (row > 0 && other[row] != other[row - 1]) ++changes;
-        }
-        CHECK(changes > 3);
-        CHECK(changes < 100);
     }
 }

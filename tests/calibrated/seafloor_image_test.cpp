@@ -6,7 +6,6 @@
 
 #include "calibrated/decibel.h"
 #include "calibrated/model.h"
-#include "calibrated/piston.h"
 #include "core/units.h"
 #include "support/calibrated.h"
 
@@ -122,52 +121,6 @@ TEST_SUITE("calibrated") {
             CAPTURE(depth);
             CHECK(std::fabs(db_of_power(found / (expected * of_plate))) < 0.1);
         }
-    }
-
-    TEST_CASE("sea bed: the level of a floor in an echosounder") {
-        // At depth h the floor at range r is a ring of area 2 pi r dr, seen at a grazing angle of
-        // sine h / r. The two-way pattern of the disc is its fourth power by amplitude.
-        constexpr double depth = 5.0;
-        constexpr double width_rad = radians(30.0);
-        InstrumentConfig config = bare({});
-        config.frequency_hz = 1e5;
-        config.beam.aperture = Aperture::piston;
-        config.beam.width_deg = degrees(width_rad);
-        config.pulse.resolution_m = 0.05;
-        constexpr View view{.azimuth_rad = 1.2,
-                            .elevation_rad = 1.2,
-                            .range_min_m = 0.5,
-                            .range_max_m = 10.0,
-                            .range_bins = 190,
-                            .beams = 1};
-        const CalibratedModel model = calibrated_model(config, {}, view, {});
-        const Scene scene = scene_of_beds();
-        const auto received = [&](double range) {
-            return std::pow(range, -4.0) * std::pow(10.0, -0.2 * model.absorption_db_per_m * range);
-        };
-        const auto sigma = [&](double sine) { return sand(sine, 1e5, model.sound_speed_m_s); };
-        std::vector<Sample> floor;
-        for (float y = -3.5F; y < 3.5F; y += 0.03F) {
-            for (float z = -3.5F; z < 3.5F; z += 0.03F)
-                floor.push_back(
-                    patch({static_cast<float>(depth), y, z}, {-1.0F, 0.0F, 0.0F}, 0.03F));
-        }
-        const double of_plate =
-            power_of(image_of(model, scene, view,
-                              {patch({4.0F, 0.0F, 0.0F}, {-1.0F, 0.0F, 0.0F}, 0.001F)})) /
-            (sigma(1.0) * 1e-6 * received(4.0));
-        const double most = std::sqrt(depth * depth + 3.4 * 3.4);
-        double expected = 0.0;
-        constexpr double step = 1e-3;
-        for (double range = depth + 0.5 * step; range < most; range += step) {
-            const double sine = depth / range;
-            const double off = std::sqrt(1.0 - sine * sine);
-            const double pattern = piston_pattern(piston_scale(width_rad) * off);
-            expected +=
-                sigma(sine) * 2.0 * pi * range * step * received(range) * std::pow(pattern, 4.0);
-        }
-        const double found = power_of(image_of(model, scene, view, floor));
-        CHECK(std::fabs(db_of_power(found / (expected * of_plate))) < 0.1);
     }
 
     TEST_CASE(

@@ -8,7 +8,6 @@
 
 #include "calibrated/decibel.h"
 #include "calibrated/model.h"
-#include "calibrated/piston.h"
 #include "core/units.h"
 #include "sonar/setup.h"
 #include "support/bounces.h"
@@ -169,51 +168,6 @@ TEST_SUITE("calibrated") {
                     db_of_power(specular / direct));
             CHECK(std::fabs(level - db_of_power(specular / direct)) < 0.1);
         }
-    }
-
-    TEST_CASE("specular echoes: the level of the second bottom echo") {
-        // A sonar d below the water's surface and h above a flat bottom. In the world unfolded at
-        // the bottom and at the surface, sound that leaves at the angle a off nadir goes a straight
-        // way of the height H = 3 h + 2 d, meets the bottom the second time x = H tan a aside, and
-        // comes back straight, at the angle b with tan b = x / h. Facets lie halfway.
-        constexpr double h = 5.0;
-        constexpr double d = 2.0;
-        constexpr double H = 3.0 * h + 2.0 * d;
-        constexpr double of_bottom = 0.25;
-        constexpr double of_surface = 0.9;
-        Scene scene = empty_scene();
-        add_floor(scene, 50.0F, 0.0F, add_material(scene, of_bottom), 4);
-        scene.water_surface = {h + d, of_surface};
-        const Sonar sonar = make_sonar(echosounder(), {0.005});
-        const Backscatter bottom = backscatter(-27.0, of_bottom, std::tan(radians(10.0)));
-        const double loss = loss_per_m(sonar);
-        const double scale = piston_scale(radians(10.0));
-        const auto one_way = [&](double angle) {
-            return std::pow(piston_pattern(scale * std::sin(angle)), 2.0);
-        };
-        double direct = 0.0;
-        double second = 0.0;
-        constexpr double step = 0.001;
-        for (double x = 0.5 * step; x < h * std::tan(radians(25.0)); x += step) {
-            const double a = std::atan(x / H);
-            const double b = std::atan(x / h);
-            const double r = h / std::cos(b);
-            const double s = H / std::cos(a);
-            const double area = 2.0 * pi * x * step;
-            direct += bottom.at(static_cast<float>(std::cos(b))) * area * one_way(b) * one_way(b) /
-                      std::pow(r, 4.0) * std::exp(-loss * r);
-            second +=
-                2.0 * of_bottom * of_surface *
-                bottom.between(static_cast<float>(std::cos(a)), static_cast<float>(std::cos(b)),
-                               static_cast<float>(std::cos(0.5 * (a + b)))) *
-                area * one_way(a) * one_way(b) / (r * r * s * s) * std::exp(-0.5 * loss * (r + s));
-        }
-        const Energies found =
-            energies_of(sonar, scene, {Eigen::Quaterniond::Identity(), {0.0, 0.0, h}});
-        const double level = db_of_power(found.specular / found.direct);
-        MESSAGE("dB below the first bottom echo: ", level, ", by hand ",
-                db_of_power(second / direct));
-        CHECK(std::fabs(level - db_of_power(second / direct)) < 0.1);
     }
 
     TEST_CASE("specular echoes: multipath darkens no bin, and has its mean whatever the speckle" *

@@ -44,13 +44,6 @@ std::vector<float> image_of(const CalibratedModel& model, const std::vector<Samp
     return image_of_samples(model, {.range_bins = sounder_bins, .beams = 1}, samples, {});
 }
 
-double energy_of(const CalibratedModel& model, const std::vector<Sample>& surface) {
-    double sum = 0.0;
-    for (const float value : image_of(model, surface))
-        sum += value;
-    return sum;
-}
-
 /// sigma of that rock by the sine of the grazing angle, docs/calibrated.md: Lambert's rule of -27
 /// dB and facets whose slopes are those of 10 degrees.
 double strength_of_rock(double sine) {
@@ -115,69 +108,6 @@ TEST_SUITE("calibrated") {
         CHECK(std::fabs(near / std::hypot(0.7798934, 0.4382591) - 1.0) < 2e-3);
         // Far away nothing of it is left.
         CHECK(std::fabs(std::abs(unfocused_pattern(array, 0.0, wavelength, 0.0)) - 1.0) < 1e-9);
-    }
-
-    TEST_CASE("near field: the beam is as wide as the array is long") {
-        LineArray array;
-        array.wavelengths = 200.0;
-        const double wavelength = 1e-3;  // 0.2 m; the far field begins beyond 40 m
-        const UnfocusedBeam beam = unfocused_beam(array, wavelength, 4.0, 0.05);
-        const double axis = std::abs(beam.at(0.0F, 4.0F));
-        // 0.07 m and 0.17 m off the axis, 4 m away, in front of the array and beyond its end.
-        CHECK(std::abs(beam.at(0.07F / 4.0F, 4.0F)) > 0.5 * axis);
-        CHECK(std::abs(beam.at(0.17F / 4.0F, 4.0F)) < 0.1 * axis);
-    }
-
-    TEST_CASE("near field: the table is the pattern") {
-        const LineArray array = line_array(radians(0.5), -20.0);
-        const double wavelength = 2e-3;
-        const UnfocusedBeam beam = unfocused_beam(array, wavelength, 2.0, 0.03);
-        const double peak = std::norm(unfocused_pattern(array, 0.0, wavelength, 1.0 / 20.0));
-        for (const double u : {-0.021, -0.004, 0.0013, 0.0077}) {
-            const std::complex<double> one_way =
-                unfocused_pattern(array, u, wavelength, 1.0 / 20.0);
-            const std::complex<double> entry = beam.at(static_cast<float>(u), 20.0F);
-            CHECK(std::abs(entry - one_way * one_way) < 0.02 * peak);
-        }
-    }
-
-    TEST_CASE("echosounder: a small plate off the axis is weighed by the disc's pattern") {
-        const CalibratedModel model = sounder(10.0);
-        const double on_axis = energy_of(model, {patch_at(5.0, 0.0, 0.0, 0.01)});
-        REQUIRE(on_axis > 0.0);
-        // In y or in z at half of the width, the two-way power is a quarter. The plate moves on
-        // an arc and faces the sonar, so that the grazing angle stays the same.
-        const double angle = radians(5.0);
-        for (const bool up : {false, true}) {
-            const double across = 5.0 * std::sin(angle);
-            Sample off =
-                patch_at(5.0 * std::cos(angle), up ? 0.0 : across, up ? across : 0.0, 0.01);
-            off.normal = -off.position.normalized();
-            const double ratio = energy_of(model, {off}) / on_axis;
-            CHECK(std::fabs(ratio / 0.25 - 1.0) < 0.02);
-        }
-    }
-
-    TEST_CASE("echosounder: a small plate on the axis sends back the energy of the equation") {
-        // Over all bins the echo has the power of the sonar equation times the integral of the
-        // pulse's power. That is more than its width between half powers: by 4.2 % (0.18 dB) for
-        // a taper of -30 dB, within three widths. The spline that stands for a pulse of one bin
-        // swings below 0, where powers are cut off: another 1.2 %, of echoes that stand alone.
-        double pulse_widths = 0.0;
-        for (double widths = -3.0; widths < 3.0; widths += 0.01)
-            pulse_widths += 0.01 * pulse_power(widths + 0.005);
-        CHECK(std::fabs(pulse_widths - 1.042) < 1e-3);
-        for (const double bins : {1.0, 2.0, 3.0}) {
-            const CalibratedModel model = sounder(10.0, 0.05 * bins);
-            for (const double range : {2.0, 5.0, 8.01}) {
-                const double power = strength_of_rock(1.0) * 1e-4 * std::pow(range, -4.0) *
-                                     std::pow(10.0, -0.2 * model.absorption_db_per_m * range);
-                const double energy = energy_of(model, {patch_at(range, 0.0, 0.0, 0.01)});
-                const double ratio = energy / (power * pulse_widths * bins);
-                MESSAGE("bins ", bins, ": ", ratio);
-                CHECK(std::fabs(ratio - 1.0) < (bins < 2.0 ? 0.015 : 0.005));
-            }
-        }
     }
 
     TEST_CASE("echosounder: the echo of a plane bottom, its shape and how it dies away") {

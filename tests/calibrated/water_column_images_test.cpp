@@ -106,11 +106,4 @@ TEST_SUITE("calibrated") {
             CHECK(behind < 0.005 * before);
         }
     }
-
-    TEST_CASE("water: none by default") {
-        const CalibratedModel model = calibrated_model(instrument_of(Aperture::piston, 7.0), {},
-                                                       view_of(ViewShape::cone, 40.0, 40.0, 1), {});
-        CHECK_FALSE(model.water.has_value());
-        CHECK(sounder(SpeckleMode::none).water.has_value());
-    }
 }

@@ -36,15 +36,6 @@ TEST_SUITE("calibrated") {
         }
     }
 
-    TEST_CASE("absorption goes with the square of the frequency in pure water") {
-        const WaterState fresh{.temperature_c = 20.0, .salinity_psu = 0.0, .depth_m = 0.0};
-        const double one = absorption_db_per_m(1e6, fresh);
-        // 25e-15 s^2/m nepers at 20 degrees, the classical figure of pure water: 0.217 dB/m at 1
-        // MHz.
-        CHECK(std::fabs(one / 0.217 - 1.0) < 0.03);
-        CHECK(std::fabs(absorption_db_per_m(2e6, fresh) / one - 4.0) < 1e-9);
-    }
-
     TEST_CASE("sound speed: Mackenzie's own check") {
         // 25 degrees, 35 psu, 1000 m: 1550.744 m/s.
         CHECK(std::fabs(sound_speed_m_s({.temperature_c = 25.0, .depth_m = 1000.0}) - 1550.744) <

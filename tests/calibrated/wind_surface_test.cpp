@@ -95,11 +95,6 @@ TEST_SUITE("calibrated") {
         }
     }
 
-    // The slope of the facets goes on at 1 m/s, where the report has two rules.
-    TEST_CASE("wind: no jump at 1 m/s") {
-        CHECK(std::fabs(surface_db(85.0, 0.999, 1e5) - surface_db(85.0, 1.001, 1e5)) < 0.2);
-    }
-
     // The energy that a disc receives of a surface of waves is the integral of
     //
     //     sigma(grazing) b(theta)^4 2 pi r dr / r^4,    cos(theta) = sine of grazing = h / r
@@ -143,12 +138,5 @@ TEST_SUITE("calibrated") {
         const auto brightest = std::max_element(windy.begin(), windy.end()) - windy.begin();
         CHECK(5.0 + 0.025 * (static_cast<double>(brightest) + 0.5) ==
               test::approx(10.0).epsilon(0.01));
-    }
-
-    TEST_CASE("wind: without a speed the surface is not seen") {
-        const Sonar sonar = sounder_to_surface();
-        Scene scene = calm_scene(5.0);
-        scene.water_surface->wind_m_s.reset();
-        CHECK(total_of(expected_image(sonar, scene, EngineKind::rays)) == 0.0);
     }
 }

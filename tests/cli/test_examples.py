@@ -23,7 +23,7 @@ GROUPS = (
     ("minefield_variants", "detection"),
     ("lifeboat_imaging",), ("own_bathymetry", "sediment_maps"),
     ("made_seabeds", "scattering_layer", "summer_bathymetry", "fish_and_bubbles", "windy_sidescan",
-     "yawing_camera", "towed_sidescan", "sector_bathymetry", "moored_echosounder"),
+     "yawing_camera", "towed_sidescan", "swath_bathymetry", "moored_echosounder"),
     ("tank_imaging", "tank_calibrated", "tank_detection", "tank_echosounder", "tank_labels",
      "tank_multipath", "tank_multipath_calibrated", "tank_scanning"),
 )

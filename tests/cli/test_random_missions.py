@@ -148,10 +148,6 @@ def instrument(draw, keys, kind, wild, sonar):
     sonar[view] = angle
     if 0 < beam.get("view_azimuth_deg", 0) < angle:
         beam["view_azimuth_deg"] = draw.choice([angle, 179.95, 180])
-    if kind in ("imaging", "profiling") and draw.random() < 0.3:
-        bins = sonar.get("azimuth_bins", default["azimuth_bins"])
-        sonar["instrument"].setdefault("beam", beam)["azimuths_deg"] = [
-            angle * ((j + 0.5 + draw.uniform(-0.1, 0.1)) / bins - 0.5) for j in range(bins)]
 
 
 def trajectory(draw, size, at, folder):

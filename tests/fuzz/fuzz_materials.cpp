@@ -23,7 +23,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                          std::isfinite(material.slope_rms_deg);
             for (const auto& number :
                  {material.grain_phi, material.loss_parameter, material.spectral_strength_cm4,
-                  material.spectral_exponent, material.volume_parameter, material.roughness_m})
+                  material.spectral_exponent, material.volume_parameter})
                 holds = holds && std::isfinite(number.value_or(0.0));
             if (!holds) std::abort();
         }

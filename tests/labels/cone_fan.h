@@ -15,8 +15,8 @@
 
 namespace sonarsim::test {
 
-enum class Spacing { angle, sine, table };
-constexpr std::array spacings{Spacing::angle, Spacing::sine, Spacing::table};
+enum class Spacing { angle, sine };
+constexpr std::array spacings{Spacing::angle, Spacing::sine};
 
 /// Uniform numbers; std::uniform_real_distribution differs between libraries.
 class Uniform {
@@ -46,13 +46,6 @@ inline Sonar wide_fan(Spacing spacing) {
     beam.side_lobe_db = -40.0;
     beam.view_azimuth_deg = 150.0;
     if (spacing == Spacing::sine) beam.spread = BeamSpacing::equal_sine;
-    if (spacing == Spacing::table) {
-        // From steps of 0.4 degrees at starboard to 0.72 degrees at port.
-        for (int j = 0; j < config.azimuth_bins; ++j) {
-            const double t = (j + 0.5) / config.azimuth_bins;
-            beam.azimuths_deg.push_back(-45.0 + 90.0 * (0.71 * t + 0.29 * t * t));
-        }
-    }
     return make_sonar(config, {0.02});
 }
 

@@ -12,7 +12,7 @@ TEST_CASE("an unknown key is refused with the key that is near, or with all that
     CHECK(refusal(smallest_mission + "water: {colour: 35}\n") ==
           "m.yaml:6:9: unknown key 'colour'; known here: density_kg_m3, sound_speed_m_s, "
           "temperature_c, salinity_psu, depth_m, wind_m_s, content, scattering_db_per_m3, "
-          "drift_rms_m_s, current_m_s, layers, profile, "
+          "layers, profile, "
           "assumed_profile");
     CHECK(refusal(smallest_mission + "    noise:\n      add_sigm: 0.1\n") ==
           "m.yaml:7:7: unknown key 'add_sigm' (did you mean 'add_sigma'?)");

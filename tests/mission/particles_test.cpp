@@ -59,8 +59,6 @@ TEST_CASE("motion in a ping: what is refused") {
     CHECK(refusal(mission + "    shutter: {groups: 2}\n").find("moves_in_ping: true") !=
           std::string::npos);
     CHECK(refusal(mission + "    moves_in_ping: true\n    shutter: {groups: 2}\n").empty());
-    CHECK(refusal(mission + "    model: calibrated\n    instrument: {pulse: {sweep: up}}\n")
-              .find("duration_s above 0") != std::string::npos);
 }
 
 TEST_SUITE_END();

@@ -79,24 +79,6 @@ TEST_CASE("a fan hears no less than its azimuth") {
           std::string::npos);
 }
 
-TEST_CASE("a table of beams fits the other keys of its fan") {
-    const auto with_table = [](const std::string& keys, const std::string& table) {
-        return smallest_mission + "    model: calibrated\n    azimuth_deg: 60\n    " + keys +
-               "\n    instrument: {beam: {azimuths_deg: [" + table + "]}}\n";
-    };
-    const auto refused = [&](const std::string& keys, const std::string& table,
-                             std::string_view cause) {
-        return refusal(with_table(keys, table)).find(cause) != std::string::npos;
-    };
-    const Mission mission = parse(with_table("azimuth_bins: 3", "-25, -10, 20"));
-    CHECK(mission.sensors[0].instrument.beam.azimuths_deg == std::vector{-25.0, -10.0, 20.0});
-    CHECK(refused("azimuth_bins: 3", "-25, -10, -10", "azimuths_deg must increase"));
-    CHECK(refused("azimuth_bins: 4", "-25, -10, 20", "one azimuth for each of azimuth_bins"));
-    CHECK(refused("azimuth_bins: 3", "-25, -10, 31", "within azimuth_deg / 2 to either side"));
-    CHECK(refused("azimuth_bins: 3", "-25, -10, 0", "within one beam spacing of the first"));
-    CHECK(refused("azimuth_bins: 3", "-25, -10, east", "azimuths_deg"));
-}
-
 TEST_CASE("the speed of sound follows from the water where it is left to it") {
     const Mission mission = parse(
         smallest_mission + "water: {sound_speed_m_s: auto, temperature_c: 25, depth_m: 1000}\n");

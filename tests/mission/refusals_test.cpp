@@ -120,10 +120,6 @@ TEST_CASE("checks across keys stand at the key that was written last") {
     CHECK(refusal(smallest_mission + "    range_min_m: 20\n", {"sensors.fls.range_max_m=15"}) ==
           "--set sensors.fls.range_max_m=15: range_min_m must be below range_max_m (range_min_m is "
           "20, range_max_m is 15)");
-    CHECK(refusal(smallest_mission + "water: {current_m_s: [0.1, 0, 0]}\n")
-              .starts_with("m.yaml:6:22: current_m_s needs a drift_rms_m_s"));
-    CHECK(refusal(smallest_mission + "water: {current_m_s: [0.1, 0, 0], drift_rms_m_s: 0}\n") ==
-          "");
     // 1e-4 m over 512 bins is 2e-7 m a bin.
     CHECK(refusal(smallest_mission + "    range_min_m: 1\n    range_max_m: 1.0001\n") ==
           "m.yaml:7:18: range bins must be wider than a micrometre (range_min_m is 1, range_max_m "

@@ -83,8 +83,6 @@ water:
   wind_m_s: 5
   content: auto
   scattering_db_per_m3: auto
-  drift_rms_m_s: auto
-  current_m_s: [0, 0, 0]
   layers: []
 scene:
   file: "/base/a.glb"
@@ -135,7 +133,6 @@ sensors:
       method: none
       epsilon_bins: 5
       delta_deg: 5
-      columns_per_beam: 1
     model: paper
     noise:
       range_lambda_m: 0

@@ -123,7 +123,7 @@ TEST_SUITE("product") {
         config.model = ModelKind::calibrated;
         config.range_max_m = 40.0;
         const Sonar sonar = make_sonar(config, {});
-        const std::span<const float> mean = sonar.settings.model->mean_noise();
+        const std::span<const float> mean = sonar.settings.model->info.mean_noise;
         REQUIRE(mean.size() == 100);
         CHECK(mean[99] > 0.005F);
         CHECK(mean[10] < 1e-8F);
@@ -143,7 +143,7 @@ TEST_SUITE("product") {
             }
         }
         config.instrument.receiver.noise_db = -300.0;  // none
-        CHECK(make_sonar(config, {}).settings.model->mean_noise().empty());
+        CHECK(make_sonar(config, {}).settings.model->info.mean_noise.empty());
     }
 
     TEST_CASE("bathymetry: means per cell, north up") {

@@ -71,11 +71,9 @@ TEST_SUITE("scene") {
                             "m.csv");
         const Material& sand = table.materials[0];
         CHECK(sand.grain_phi == 1.5);
-        CHECK(!sand.roughness_m);
         CHECK(sand.lambert_db == Material{}.lambert_db);
         CHECK(sand.slope_rms_deg == Material{}.slope_rms_deg);
         const Material& plate = table.materials[1];
-        CHECK(plate.roughness_m == 1e-6);
         CHECK(!plate.grain_phi);
         CHECK(plate.slope_rms_deg == 0.0);
         CHECK(plate.lambert_db == -300.0);

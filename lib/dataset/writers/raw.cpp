@@ -24,7 +24,7 @@ std::vector<std::uint8_t> as_bytes(std::span<const std::uint16_t> values) {
 
 /// Bytes of one of the instrument's values in a file.
 int bytes_of(const EchoModel& model) {
-    return model.raw_bits() > 8 ? 2 : 1;
+    return model.info.raw_bits > 8 ? 2 : 1;
 }
 
 /// raw/NNNNNN.png: 8 or 16 bits [range, azimuth], the output of the calibrated model's instrument.
@@ -169,7 +169,7 @@ class RawRecordsWriter final : public Writer {
 };
 
 bool is_asked(const WriterContext& context) {
-    return context.mission.output.raw && context.sonar().settings.model->raw_bits() > 0;
+    return context.mission.output.raw && context.sonar().settings.model->info.raw_bits > 0;
 }
 
 }  // namespace

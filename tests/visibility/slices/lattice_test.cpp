@@ -8,10 +8,10 @@
 
 #include "core/random.h"
 #include "core/units.h"
+#include "support/mean_echoes.h"
 #include "support/sanitized.h"
 #include "support/scenes.h"
 #include "validation/reference.h"
-#include "visibility/image_change.h"
 #include "visibility/slices/slices_engine.h"
 
 using namespace sonarsim;
@@ -244,7 +244,7 @@ TEST_CASE("slices: no beam of a drawn lattice is far from brute force at any goa
             const Samples samples = engine->visible_surface(view, Pose{});
             CAPTURE(seed);
             CAPTURE(goal);
-            CHECK(worst_beam(mean_echoes(scene, view, samples), truth, view) < 0.5);
+            CHECK(worst_beam(test::mean_echoes(scene, view, samples), truth, view) < 0.5);
         }
     }
 }

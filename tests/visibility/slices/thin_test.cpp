@@ -6,8 +6,8 @@
 
 #include "core/units.h"
 #include "support/approx.h"
+#include "support/mean_echoes.h"
 #include "support/scenes.h"
-#include "visibility/image_change.h"
 #include "visibility/slices/fixtures.h"
 #include "visibility/slices/slices_engine.h"
 
@@ -106,7 +106,7 @@ TEST_CASE("slices: a grazing tread with an oblique near edge has its area in the
                        {far, -0.5F, low + h}, rock);
         for (const int per_beam : {0, 1}) {
             const std::vector<double> image =
-                mean_echoes(scene, view, seen(scene, view, Pose{}, per_beam));
+                test::mean_echoes(scene, view, seen(scene, view, Pose{}, per_beam));
             for (const int beam : {31, 32}) {
                 const double intensity = image[beam * view.range_bins + last_bin];
                 const auto of_riser = static_cast<double>(0.5F * h / (h + d));

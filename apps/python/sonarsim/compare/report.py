@@ -2,7 +2,7 @@
 COLOURS = {"real": "#1b6ca8", "simulated": "#c8553d"}
 MOST_STANDARDISED = 10.0
 RECEIVER, BEAM, PULSE = "instrument.receiver.", "instrument.beam.", "instrument.pulse.resolution_m, range_bins"
-LOOKS = RECEIVER + "looks, samples, combine, companding; instrument.speckle.clutter_shape, per_cell"
+LOOKS = RECEIVER + "looks, samples, combine, companding; instrument.speckle.clutter_shape"
 # The begin of a figure's name, a text in it, the keys that it follows. The first rule that matches applies.
 RULES = (
     ("points", "side lobes", BEAM + "side_lobe_db, elements"),
@@ -17,9 +17,9 @@ RULES = (
     ("", "beams", BEAM + "width_deg, side_lobe_db, aberration_rad; azimuth_bins"),
     ("edges", "degrees", BEAM + "width_deg, aberration_rad"),
     ("edges", "", PULSE),
-    ("", "zeros", RECEIVER + "noise_db, offset, bits, blanking_m"),
+    ("", "zeros", RECEIVER + "noise_db, offset, bits"),
     ("", "clipped", RECEIVER + "full_scale_db"),
-    ("ring", "level", RECEIVER + "ring_down_db, ring_down_m, blanking_m"),
+    ("ring", "level", RECEIVER + "ring_down_db, ring_down_m"),
     ("water", "level, dB", RECEIVER + "noise_db, common_mode_db, tvg_log, tvg_from_m, full_scale_db"),
     ("tail", "level, dB", f"{BEAM}elevation_side_lobe_db; {RECEIVER}noise_db, tvg_log"),
     ("bottom", "level at", BEAM + "elevation_width_deg, the mount's attitude, the material's scattering"),

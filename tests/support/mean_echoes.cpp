@@ -1,11 +1,11 @@
-#include "visibility/image_change.h"
+#include "support/mean_echoes.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/overlapped_bins.h"
 
-namespace sonarsim {
+namespace sonarsim::test {
 
 namespace {
 
@@ -18,7 +18,7 @@ struct BeamSums {
 };
 
 /// Spreads a sample over the bins that it covers, in proportion to the overlap.
-void add_box(const Sample& sample, double reflection, const View& view, BeamSums& sums) {
+void spread_sample(const Sample& sample, double reflection, const View& view, BeamSums& sums) {
     const double range = static_cast<double>(sample.position.norm());
     const double half = static_cast<double>(std::fabs(sample.position.dot(sample.edge_u)) +
                                             std::fabs(sample.position.dot(sample.edge_v))) /
@@ -39,8 +39,8 @@ void add_box(const Sample& sample, double reflection, const View& view, BeamSums
 BeamSums sum_beam(const Scene& scene, const View& view, const Samples& samples, int beam) {
     BeamSums sums{std::vector<double>(view.range_bins), std::vector<double>(view.range_bins)};
     for (const Sample& sample : samples.beam(beam))
-        add_box(sample, static_cast<double>(scene.materials[sample.material].reflection), view,
-                sums);
+        spread_sample(sample, static_cast<double>(scene.materials[sample.material].reflection),
+                      view, sums);
     return sums;
 }
 
@@ -57,15 +57,4 @@ std::vector<double> mean_echoes(const Scene& scene, const View& view, const Samp
     return image;
 }
 
-double image_change(std::span<const double> coarse, std::span<const double> fine) {
-    double change = 0.0;
-    double whole = 0.0;
-    for (std::size_t i = 0; i < fine.size(); ++i) {
-        change += std::fabs(coarse[i] - fine[i]);
-        whole += fine[i];
-    }
-    if (whole > 0.0) return change / whole;
-    return change > 0.0 ? 1.0 : 0.0;
-}
-
-}  // namespace sonarsim
+}  // namespace sonarsim::test
