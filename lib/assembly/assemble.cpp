@@ -165,12 +165,10 @@ void read_scene_files(const Mission& mission, SceneFiles& models) {
 
 /// The number of triangles beyond which load_scene() shares meshes. A million triangles take 170
 /// MB.
-std::size_t sharing_threshold(RepeatedFiles repeats, EngineKind engine) {
+std::size_t sharing_threshold(EngineKind engine) {
     constexpr std::size_t many_triangles = 4'000'000;
-    if (repeats == RepeatedFiles::shared) return 0;
     const bool may_be_rays = engine == EngineKind::automatic || engine == EngineKind::rays;
-    const bool may_share = repeats == RepeatedFiles::automatic && may_be_rays;
-    return may_share ? many_triangles : share_nothing;
+    return may_be_rays ? many_triangles : share_nothing;
 }
 
 template <class T>
@@ -232,7 +230,7 @@ Assembly assemble(const Mission& mission, SceneFiles& models) {
     auto [materials, parts] = place(mission, settings, models, assembly);
     assembly.scene = load_scene(parts.files, models, materials, mission.scene.material_default,
                                 {mission.water.density_kg_m3, mission.water.sound_speed_m_s},
-                                sharing_threshold(mission.scene.repeats, settings.type));
+                                sharing_threshold(settings.type));
     place_moving_scene(assembly.trajectory, parts.motions, assembly.scene);
     lay_ground_maps(mission.scene, materials,
                     {mission.water.density_kg_m3, mission.water.sound_speed_m_s}, assembly.scene);

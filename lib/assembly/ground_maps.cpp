@@ -20,32 +20,22 @@ namespace sonarsim {
 
 namespace {
 
-/// 1 for the instances that a map lies on. Moving instances have no map.
-std::vector<char> instances_of(const LaidMapConfig& map, const std::string& section,
-                               const SceneConfig& config, const Scene& scene) {
-    std::vector<std::string> patterns = map.instances;
-    if (patterns.empty()) patterns = bottom_patterns(config);
+/// 1 for the instances that are the ground.
+std::vector<char> ground_of(const SceneConfig& config, const Scene& scene) {
+    const std::vector<std::string> patterns = bottom_patterns(config);
     if (patterns.empty()) {
-        throw InputError(map.place.location, section +
-                                                 " does not say what it lies on; write instances: "
-                                                 "[NAME] with nodes or objects, or \"*\" for all");
+        throw InputError(config.place.location,
+                         "maps need ground to lie on; write scene.bottom: [NAME] with the nodes of "
+                         "scene.file that are the ground");
     }
     std::vector<char> on(scene.instances.size(), 0);
-    for (const std::string& pattern : patterns) {
-        bool any = false;
-        for (std::size_t i = 0; i < on.size(); ++i) {
-            const bool moves = std::ranges::any_of(
-                scene.bodies, [&](const Body& body) { return body.instance == i; });
-            if (moves || !fits_pattern(pattern, scene.instances[i])) continue;
-            on[i] = 1;
-            any = true;
-        }
-        if (any) continue;
-        throw InputError(map.place.location, section + ": no instance at rest is named '" +
-                                                 printable(pattern) + "'" +
-                                                 did_you_mean(pattern, scene.instances) +
-                                                 "; `sonarsim inspect` lists the names");
+    for (std::size_t i = 0; i < on.size(); ++i) {
+        on[i] = std::ranges::any_of(patterns, [&](const std::string& pattern) {
+            return fits_pattern(pattern, scene.instances[i]);
+        });
     }
+    for (const Body& body : scene.bodies)
+        on[body.instance] = 0;
     return on;
 }
 
@@ -54,7 +44,6 @@ LaidMapRule rule_of(const LaidMapConfig& map, const std::string& section, const 
             .pixel_m = map.pixel_m,
             .size_m = map.size_m.value_or(std::array{0.0, 0.0}),
             .origin_m = map.origin_m,
-            .no_data = map.no_data,
             .section = section,
             .needed_m = {scene.bounds_min.head<2>(), scene.bounds_max.head<2>()}};
 }
@@ -112,11 +101,9 @@ void lay_ground_maps(const SceneConfig& config, const MaterialTable& table, cons
     if (!config.sediment_map && !config.backscatter_map) return;
     std::optional<MaterialTexels> materials;
     std::optional<StrengthTexels> strengths;
-    std::vector<char> on_materials, on_strengths;
     if (config.sediment_map) {
         const std::string section = "scene.sediment_map";
         const LaidMapConfig& laid = config.sediment_map->laid;
-        on_materials = instances_of(laid, section, config, scene);
         const auto of_scene =
             add_materials(config.sediment_map->materials, table, laid.place.location, scene);
         resolve_materials(scene, table, water);
@@ -129,7 +116,6 @@ void lay_ground_maps(const SceneConfig& config, const MaterialTable& table, cons
     if (config.backscatter_map) {
         const std::string section = "scene.backscatter_map";
         const BackscatterMapConfig& map = *config.backscatter_map;
-        on_strengths = instances_of(map.laid, section, config, scene);
         strengths = read_map(map.laid, [&] {
             return read_strength_map(rule_of(map.laid, section, scene), read_image(map.laid.file),
                                      map.scale_db, map.offset_db);
@@ -139,11 +125,11 @@ void lay_ground_maps(const SceneConfig& config, const MaterialTable& table, cons
             std::ranges::all_of(strengths->factor, [](float x) { return x == 1.0F; })) {
             scene.warnings.push_back(section +
                                      " changes nothing: each of its pixels is unknown or "
-                                     "0 dB; check no_data, scale_db and offset_db");
+                                     "0 dB; check scale_db and offset_db");
         }
     }
-    scene.maps = std::make_shared<const GroundMaps>(std::move(materials), std::move(on_materials),
-                                                    std::move(strengths), std::move(on_strengths));
+    scene.maps = std::make_shared<const GroundMaps>(std::move(materials), std::move(strengths),
+                                                    ground_of(config, scene));
 }
 
 }  // namespace sonarsim

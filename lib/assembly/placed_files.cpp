@@ -31,7 +31,6 @@ PlacedFile file_of(const std::filesystem::path& path, const MeshConfig& mesh,
             .z_up = mesh.up == UpAxis::z,
             .material = mesh.material,
             .renamed_materials = mesh.materials_map,
-            .exclude = mesh.exclude,
             .place = place.location};
 }
 
@@ -49,8 +48,7 @@ PlacedFile file_of(const HeightmapConfig& map) {
                     .material = map.material,
                     .class_name = map.class_name,
                     .place = map.place.location};
-    file.heightmap =
-        HeightmapRule{map.pixel_m, map.size_m.value_or(std::array{0.0, 0.0}), map.no_data};
+    file.heightmap = HeightmapRule{map.pixel_m, map.size_m.value_or(std::array{0.0, 0.0})};
     file.T_world_file.linear() = Eigen::Vector3d(1.0, 1.0, map.height_scale).asDiagonal();
     file.T_world_file.translation() =
         Eigen::Vector3d(-map.origin_m[0], -map.origin_m[1], map.height_offset_m);

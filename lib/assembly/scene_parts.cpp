@@ -285,10 +285,9 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
         PlacedFile& file = parts.files.emplace_back(file_of(object));
         const Surface& shape = shapes.of(file, object.mesh);
         if (shape.triangles.empty()) {
-            throw InputError(object.place.location,
-                             title_of(object) + ": there is no surface in " + object.file.string() +
-                                 (object.mesh.exclude.empty() ? "; name another file"
-                                                              : " but what `exclude` leaves out"));
+            throw InputError(object.place.location, title_of(object) + ": there is no surface in " +
+                                                        object.file.string() +
+                                                        "; name another file");
         }
         if (is_upright(object)) add_orientation_warning(up_question(file, shape), parts);
         file.T_world_file = transform_of(object, shape, bottom, range_m);

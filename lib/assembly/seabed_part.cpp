@@ -2,7 +2,6 @@
 
 #include <memory>
 
-#include "core/elementary.h"
 #include "core/units.h"
 
 namespace sonarsim {
@@ -12,10 +11,7 @@ namespace {
 BedRipples ripples_of(const BedRippleConfig& config) {
     return {.height_m = config.height_m,
             .length_m = config.length_m,
-            .direction_rad = radians(config.direction_deg),
-            .spread = config.spread,
-            .share = config.share,
-            .patch_m = config.patch_m};
+            .direction_rad = radians(config.direction_deg)};
 }
 
 BedRocks rocks_of(const BedRockConfig& config) {
@@ -34,11 +30,7 @@ SeabedRule rule_of(const SeabedConfig& config, std::uint64_t seed) {
     rule.seed = seed;
     rule.cell_m = config.cell_m;
     rule.size_m = config.size_m;
-    rule.origin_m = config.origin_m;
     rule.z_m = config.z_m;
-    const SinCos slope = sincos(radians(config.slope_deg));
-    const SinCos uphill = sincos(radians(config.uphill_deg));
-    rule.slope = {slope.sin / slope.cos * uphill.cos, slope.sin / slope.cos * uphill.sin};
     if (config.roughness) {
         const BedRoughnessConfig& roughness = *config.roughness;
         rule.roughness = BedRoughness{
@@ -50,7 +42,6 @@ SeabedRule rule_of(const SeabedConfig& config, std::uint64_t seed) {
     for (const auto& [material, share] : config.sediments)
         rule.sediments.push_back({material, share});
     rule.patch_m = config.patch_m;
-    rule.border_m = config.border_m;
     rule.material = config.material;
     rule.class_name = config.class_name;
     rule.place = config.place.location;
@@ -60,11 +51,10 @@ SeabedRule rule_of(const SeabedConfig& config, std::uint64_t seed) {
 PlacedFile seabed_of(const SeabedConfig& config, std::uint64_t seed,
                      const Eigen::AlignedBox2d& needed) {
     SeabedRule rule = rule_of(config, seed);
-    const Eigen::Vector2d origin(config.origin_m.data());
     // A rock beyond the ranges may reach into them.
     const double margin_m = rule.rocks ? 0.5 * rule.rocks->diameter_m[1] : 0.0;
-    const Eigen::Vector2d low = needed.min() + origin - Eigen::Vector2d::Constant(margin_m);
-    const Eigen::Vector2d high = needed.max() + origin + Eigen::Vector2d::Constant(margin_m);
+    const Eigen::Vector2d low = needed.min() - Eigen::Vector2d::Constant(margin_m);
+    const Eigen::Vector2d high = needed.max() + Eigen::Vector2d::Constant(margin_m);
     rule.window = {low.x(), low.y(), high.x(), high.y()};
     PlacedFile file{.file = "scene.seabed", .z_up = true, .place = config.place.location};
     file.seabed = std::make_shared<const Seabed>(make_seabed(rule));

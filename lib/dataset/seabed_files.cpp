@@ -16,8 +16,8 @@ using Json = nlohmann::ordered_json;
 
 MapPlace place_of(const Seabed& bed) {
     const BedGrid& grid = bed.grid;
-    return {.west_m = grid.x_m(0) - bed.origin_m[0] - 0.5 * grid.cell_m,
-            .north_m = grid.y_m(0) - bed.origin_m[1] + 0.5 * grid.cell_m,
+    return {.west_m = grid.x_m(0) - 0.5 * grid.cell_m,
+            .north_m = grid.y_m(0) + 0.5 * grid.cell_m,
             .cell_m = grid.cell_m};
 }
 

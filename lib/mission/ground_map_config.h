@@ -14,14 +14,12 @@ namespace sonarsim {
 /// Pairs of a name and its replacement, in the order of the file.
 using Renaming = std::vector<std::pair<std::string, std::string>>;
 
-/// An image that is laid on surfaces from above.
+/// An image that is laid on the ground from above.
 struct LaidMapConfig {
     std::filesystem::path file;
     double pixel_m = 0.0;                         ///< size of a pixel; 0: by size_m, or by the file
     std::optional<std::array<double, 2>> size_m;  ///< x, y, from edge to edge of the map
     std::array<double, 2> origin_m{};             ///< point of the map that is the world's (0, 0)
-    std::vector<std::string> instances;           ///< patterns; none: the bottom
-    std::optional<double> no_data;  ///< value of pixels that change nothing; none: the file's
     MissionPlace place;
 
     bool operator==(const LaidMapConfig&) const = default;

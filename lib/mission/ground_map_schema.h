@@ -28,13 +28,6 @@ void describe_laid_map(Visitor& v, LaidMapConfig& c) {
     v.path("file", c.file, "an image, PNG, TIFF (GeoTIFF) or OpenEXR, whose first row is the north",
            required);
     describe_image_place(v, c);
-    v.text(
-        "instances", c.instances,
-        "names of the nodes and objects that the map is laid on; default: the heightmap or "
-        "seabed, else the nodes of scene.bottom. `*` stands for any text. What moves has no map");
-    v.number("no_data", c.no_data, {-4e38, 4e38},
-             "value of pixels that change nothing; `auto` takes the file's. NaN and pixels "
-             "whose alpha is 0 never change anything");
     v.require(c.pixel_m == 0.0 || !c.size_m, {"pixel_m", "size_m"},
               "give pixel_m or size_m, not both");
 }

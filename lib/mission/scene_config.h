@@ -22,9 +22,8 @@ enum class UpAxis { y, z };
 struct MeshConfig {
     LengthUnit units = LengthUnit::m;
     UpAxis up = UpAxis::y;
-    std::string material;              ///< for all triangles; "": the file's materials
-    Renaming materials_map;            ///< from names in the file to names in the CSV
-    std::vector<std::string> exclude;  ///< patterns of the nodes that are left out
+    std::string material;    ///< for all triangles; "": the file's materials
+    Renaming materials_map;  ///< from names in the file to names in the CSV
 
     bool operator==(const MeshConfig&) const = default;
 };
@@ -78,7 +77,6 @@ struct HeightmapConfig {
     std::array<double, 2> origin_m{};             ///< point of the map that is the world's (0, 0)
     double height_scale = 1.0;                    ///< metres of a step of the pixels' values
     double height_offset_m = 0.0;
-    std::optional<double> no_data;  ///< value of unknown heights; none: the file's
     std::string material;
     std::string class_name;
     MissionPlace place;
@@ -88,9 +86,6 @@ struct HeightmapConfig {
 
 /// The instance that a heightmap makes.
 inline constexpr const char* heightmap_instance = "heightmap";
-
-/// Storage of a file that is placed in the scene many times.
-enum class RepeatedFiles { automatic, copied, shared };
 
 /// The surface of the water, which reflects sound from below.
 struct WaterSurfaceConfig {
@@ -114,7 +109,6 @@ struct SceneConfig {
     std::vector<ObjectConfig> objects = {};
     std::vector<ScatterConfig> scatter = {};
     std::vector<ParticlesConfig> particles = {};
-    RepeatedFiles repeats = RepeatedFiles::automatic;
     std::optional<WaterSurfaceConfig> water_surface = {};
     MissionPlace place = {};
 

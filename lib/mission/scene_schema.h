@@ -22,10 +22,6 @@ inline constexpr std::array up_axes{Choice<UpAxis>{"y", UpAxis::y}, Choice<UpAxi
 inline constexpr std::array object_places{Choice<ObjectPlace>{"free", ObjectPlace::free},
                                           Choice<ObjectPlace>{"on_bottom", ObjectPlace::on_bottom}};
 
-inline constexpr std::array repeated_files{Choice<RepeatedFiles>{"auto", RepeatedFiles::automatic},
-                                           Choice<RepeatedFiles>{"copied", RepeatedFiles::copied},
-                                           Choice<RepeatedFiles>{"shared", RepeatedFiles::shared}};
-
 /// The largest factor by which an object is enlarged or made smaller.
 inline constexpr double largest_scale = 1e6;
 
@@ -38,8 +34,6 @@ void describe_mesh(Visitor& v, MeshConfig& c) {
     v.text("materials_map", c.materials_map,
            "materials of the file that have another name in the CSV, as {\"0137_Black\": "
            "rubber}");
-    v.text("exclude", c.exclude,
-           "names of nodes that are left out; `*` stands for any text and `?` for any one byte");
 }
 
 template <class Visitor>
@@ -117,9 +111,6 @@ void describe(Visitor& v, HeightmapConfig& c) {
              "metres for each step of the pixels' values; -1 for depths");
     v.number("height_offset_m", c.height_offset_m, any_position_m,
              "height of the value 0 in the world");
-    v.number("no_data", c.no_data, {-4e38, 4e38},
-             "value of pixels without a height, which become holes; `auto` takes the "
-             "file's, and NaN always is one");
     v.text("material", c.material, "material of the bottom; default: scene.material_default");
     v.text("class", c.class_name, "class of the bottom, for labels");
     v.require(c.pixel_m == 0.0 || !c.size_m, {"pixel_m", "size_m"},
@@ -170,11 +161,6 @@ void describe(Visitor& v, SceneConfig& c) {
     v.list_of("particles", c.particles, 0,
               "groups of point targets in the water, for the calibrated model: fish, bubbles and "
               "others");
-    v.choice("repeats", c.repeats, repeated_files,
-             "how a file that is used several times is stored: `copied` repeats its triangles; "
-             "`shared` keeps them once, which only named objects that do not move can have and "
-             "only the rays see; `auto` shares when the copies have more than four million "
-             "triangles and the engine can be rays");
     v.section(
         "water_surface", c.water_surface,
         "the surface of the water: it reflects multipath and, with `scatters`, is seen itself");

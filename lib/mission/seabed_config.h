@@ -28,9 +28,6 @@ struct BedRippleConfig {
     double height_m = 0.0;  ///< from trough to crest
     double length_m = 0.0;  ///< from crest to crest
     double direction_deg = 0.0;
-    double spread = 0.05;  ///< deviation of the wave vector, as a share of its length
-    double share = 1.0;    ///< share of the bed with ripples
-    double patch_m = 10.0;
 
     bool operator==(const BedRippleConfig&) const = default;
 };
@@ -58,17 +55,13 @@ struct BedSedimentConfig {
 struct SeabedConfig {
     std::optional<std::array<double, 2>> size_m;  ///< x, y; none: the bed has no end
     double cell_m = 0.0;                          ///< distance between heights
-    std::array<double, 2> origin_m{};             ///< point of the bed that is the world's (0, 0)
-    double z_m = 0.0;                             ///< mean height at the world's (0, 0)
-    double slope_deg = 0.0;
-    double uphill_deg = 0.0;  ///< direction in which the bed rises
+    double z_m = 0.0;                             ///< mean height
     std::string material;
     std::string class_name;
     std::optional<BedRoughnessConfig> roughness;
     std::optional<BedRippleConfig> ripples;
     std::vector<BedSedimentConfig> sediments;
     double patch_m = 10.0;  ///< size of the patches of sediments
-    double border_m = 1.0;  ///< size of the bays of their borders
     std::optional<BedRockConfig> rocks;
     std::filesystem::path preset;  ///< empty after reading: its keys are filled in
     MissionPlace place;

@@ -29,11 +29,6 @@ void describe(Visitor& v, BedRippleConfig& c) {
     v.number("length_m", c.length_m, above(0), "length from crest to crest", required);
     v.number("direction_deg", c.direction_deg, any_angle_deg,
              "direction across the crests, from x towards y");
-    v.number("spread", c.spread, between(0, 0.5),
-             "deviation of the wave vector, as a share of its length: crests bend, and end at 6.3 "
-             "(spread / length_m)^2 places per square metre");
-    v.number("share", c.share, between(0, 1), "share of the bed that has these ripples");
-    v.number("patch_m", c.patch_m, above(0), "size of the patches that have them");
 }
 
 template <class Visitor>
@@ -66,17 +61,11 @@ void describe(Visitor& v, SeabedConfig& c) {
            "YAML file with keys of this section, such as those of configs/seabeds; keys given here "
            "override those of the file");
     v.array("size_m", c.size_m, above(0),
-            "extent along x and y; without it the bed has no end. In both cases no more "
-            "of it is made than the sonars reach and objects need");
+            "extent along x and y from the south-west corner at (0, 0); without it the bed has no "
+            "end. No more of it is made than the sonars reach and objects need");
     v.number("cell_m", c.cell_m, between(1e-3, 1e3), "distance between neighbouring heights",
              required);
-    v.array("origin_m", c.origin_m, any_position_m,
-            "the point of the bed that becomes x = 0, y = 0 of the mission. The south-west corner "
-            "of a bed of a size is its (0, 0)");
-    v.number("z_m", c.z_m, any_position_m, "mean height of the bed at x = 0, y = 0 of the mission");
-    v.number("slope_deg", c.slope_deg, between(0, 60), "slope of the whole bed");
-    v.number("uphill_deg", c.uphill_deg, any_angle_deg,
-             "direction in which it rises, from x towards y");
+    v.number("z_m", c.z_m, any_position_m, "mean height of the bed");
     v.text("material", c.material, "material of the bed; default: scene.material_default");
     v.text("class", c.class_name, "class of the bed, for labels");
     v.section("roughness", c.roughness, "random heights of all wavelengths");
@@ -84,7 +73,6 @@ void describe(Visitor& v, SeabedConfig& c) {
     v.list_of("sediments", c.sediments, 0,
               "materials in patches; each borders on those before and after it in the list");
     v.number("patch_m", c.patch_m, above(0), "size of the patches of sediments");
-    v.number("border_m", c.border_m, above(0), "size of the bays of their borders");
     v.section("rocks", c.rocks, "rocks that lie on the bed, each an object");
     v.require(!c.ripples || c.ripples->length_m >= 4.0 * c.cell_m, {"cell_m", "ripples"},
               "ripples need 4 cells from crest to crest; lower cell_m");

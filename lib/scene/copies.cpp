@@ -31,15 +31,11 @@ std::vector<Eigen::AlignedBox3d> boxes_of_instances(const Scene& scene) {
     return boxes;
 }
 
-std::size_t triangles_of_copies(const Scene& scene) {
-    std::size_t count = 0;
+std::size_t all_triangles(const Scene& scene) {
+    std::size_t count = scene.triangles.size();
     for (const MeshCopy& copy : scene.copies)
         count += scene.shared_meshes[copy.mesh].triangles.size();
     return count;
-}
-
-std::size_t all_triangles(const Scene& scene) {
-    return scene.triangles.size() + triangles_of_copies(scene);
 }
 
 std::array<Eigen::Vector3f, 3> placed_corners(const Scene& scene, const MeshCopy& copy,

@@ -17,9 +17,6 @@ std::vector<Eigen::AlignedBox3d> boxes_of_copies(const Scene& scene);
 /// World boxes around the instances that stand still, by Scene::instances; empty for the others.
 std::vector<Eigen::AlignedBox3d> boxes_of_instances(const Scene& scene);
 
-/// Number of triangles of all copies.
-std::size_t triangles_of_copies(const Scene& scene);
-
 /// Number of triangles of the scene, copies included.
 std::size_t all_triangles(const Scene& scene);
 

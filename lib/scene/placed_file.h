@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,14 +18,14 @@ struct Seabed;
 
 /// The way in which an image becomes a surface: each pixel is a height.
 struct HeightmapRule {
+    static constexpr double unlimited = std::numeric_limits<double>::infinity();
     /// The size of a pixel, or the extent of the map along x and y, from edge to edge. If one is
     /// given, the south-west corner lies at (0, 0). If both are 0, the file places its pixels.
     double pixel_m = 0.0;
     std::array<double, 2> size_m{};
-    std::optional<double> no_data = {};  ///< value of unknown heights; none: the file's
     /// The part that is read, in the coordinates of the map: least x and y, largest x and y.
-    /// Without a window, or if it lies outside the map, all is read.
-    std::optional<std::array<double, 4>> window = {};
+    /// If it lies outside the map, all is read.
+    std::array<double, 4> window{-unlimited, -unlimited, unlimited, unlimited};
 
     bool operator==(const HeightmapRule&) const = default;
 };
@@ -36,8 +37,6 @@ struct PlacedFile {
     bool z_up = false;          ///< the file's z points up, not its y
     std::string material = {};  ///< material of every triangle; "": the file's own
     std::vector<std::pair<std::string, std::string>> renamed_materials = {};
-    /// Patterns of nodes that are left out with their descendants.
-    std::vector<std::string> exclude = {};
     std::optional<HeightmapRule> heightmap = {};  ///< the file is an image of heights
     std::shared_ptr<const Seabed> seabed = {};    ///< generated sea bed, in place of the file
 

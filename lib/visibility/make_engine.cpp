@@ -36,8 +36,7 @@ std::string unsupported(const EngineSettings& settings, const Scene& scene) {
     }
     if (!scene.copies.empty() && (is_octree || settings.type == EngineKind::slices)) {
         return std::string(is_octree ? "engine: octree" : "engine: slices") +
-               " does not support copies of shared meshes; use engine: auto or engine: rays, or "
-               "scene.repeats: copied";
+               " does not support copies of shared meshes; use engine: auto or engine: rays";
     }
     if (!is_octree) return "";
     return too_small_leaves((scene.bounds_max - scene.bounds_min).maxCoeff(),

@@ -91,8 +91,8 @@ void lay_drawn_texels(MappedPlate& plate, double texel_m, Draws& draws) {
     auto of_materials = material_texels(frame, {plate.materials[0], plate.materials[1]}, bright);
     // They lie on the plate, not on the floor.
     const std::vector<char> on{1, 0};
-    plate.scene.maps = std::make_shared<const GroundMaps>(std::move(of_materials), on,
-                                                          strengths(frame, factor), on);
+    plate.scene.maps =
+        std::make_shared<const GroundMaps>(std::move(of_materials), strengths(frame, factor), on);
 }
 
 }  // namespace

@@ -29,10 +29,6 @@ class BadObjects(Composed):
         self.refused("mission.yaml:7:7: materials_map:", "crate.gltf has no material 'Concreet'",
                      "did you mean 'Concrete'?")
 
-    def test_excludes_what_is_not_there(self):
-        self.objects(["{name: a, file: crate.gltf, exclude: [lid]}"])
-        self.refused("mission.yaml:7:7: exclude: no node of", "fits 'lid'", "sonarsim inspect")
-
     def test_two_of_one_name(self):
         self.objects(["{name: a, file: crate.gltf, position_m: [5, 0, 1]}",
                       "{name: a, file: crate.gltf, position_m: [7, 0, 1]}"])
@@ -53,13 +49,9 @@ class BadObjects(Composed):
         self.refused("fish.csv", "No such file", "; mission.yaml:7:7 names it")
 
     def test_nothing_is_left(self):
-        self.objects(["{file: crate.gltf, exclude: ['*']}"])
-        self.refused("mission.yaml:7:7: 'crate.gltf': there is no surface in", "`exclude`")
         self.write("crate.gltf", '{"asset": {"version": "2.0"}}')
         self.objects(["{file: crate.gltf}"])
         self.refused("mission.yaml:7:7: 'crate.gltf': there is no surface in", "another file")
-        self.scene("  file: floor.gltf\n  materials: materials.csv\n  exclude: ['*']\n")
-        self.refused("mission.yaml:4:3: exclude leaves nothing of", "floor.gltf")
 
     def test_buried_wholly(self):
         self.objects(["{name: a, file: crate.gltf, place: on_bottom, bury_m: 1.01}"])

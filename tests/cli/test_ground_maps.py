@@ -16,6 +16,7 @@ seed: 5
 scene:
   file: floor.gltf
   materials: materials.csv
+  bottom: [floor]
 %strajectory:
   waypoints: [{position_m: [-5, 0, 2]}, {position_m: [5, 0, 2]}]
   speed_m_s: 10
@@ -32,9 +33,9 @@ output:
   labels: [material, clean]
 """
 # The floor has 20 x 20 m: values 1 and 2 in the north, 3 and 4 in the south.
-QUARTERS = ('  sediment_map: {file: quarters.png, size_m: [20, 20], origin_m: [10, 10], instances: [floor]%s,\n'
+QUARTERS = ('  sediment_map: {file: quarters.png, size_m: [20, 20], origin_m: [10, 10]%s,\n'
             '    materials: {1: north_west, 2: north_east, 3: south_west, 4: Concrete}}\n')
-DECIBELS = '  backscatter_map: {file: db.png, size_m: [20, 20], origin_m: [10, 10], instances: ["*"]%s}\n'
+DECIBELS = '  backscatter_map: {file: db.png, size_m: [20, 20], origin_m: [10, 10]%s}\n'
 
 
 def colour_png(rows):
@@ -112,11 +113,6 @@ class GroundMaps(Composed):
         self.assert_renders()
         self.assertEqual(self.material_names(), ["north_west", "south_west", "south_west", "Concrete"])
 
-    def test_no_data(self):
-        self.mission((QUARTERS % ", no_data: 3").replace(", 3: south_west", "") + DECIBELS % ", no_data: 16")
-        self.assert_renders()
-        self.assertEqual(self.material_names(), ["north_west", "Concrete", "north_east", "Concrete"])
-
     def test_engines_and_threads(self):
         """The same bytes for any number of threads."""
         self.mission(QUARTERS % "" + DECIBELS % "")
@@ -144,30 +140,29 @@ class GroundMaps(Composed):
     def test_a_map_of_no_decibels(self):
         self.mission(DECIBELS % ", scale_db: 0")
         result = self.run_sonarsim("validate", "mission.yaml")
-        self.assertIn("scene.backscatter_map changes nothing: each of its pixels is unknown or 0 dB; check no_data",
+        self.assertIn("scene.backscatter_map changes nothing: each of its pixels is unknown or 0 dB; check scale_db",
                       result.stdout + result.stderr)
 
     def test_refused(self):
         for maps, fragments in (
                 ((QUARTERS % "").replace("4: Concrete", "5: Concrete"),
                  ("quarters.png: row 1, column 1: 4 has no material; add 4: MATERIAL to "
-                  "scene.sediment_map.materials, or write no_data: 4", "mission.yaml:5:")),
+                  "scene.sediment_map.materials, or mark it: gdal_translate -a_nodata 4", "mission.yaml:6:")),
                 ((QUARTERS % "").replace("4: Concrete", "4: chalk"), ("unknown material 'chalk'",)),
                 ((QUARTERS % "").replace("4: Concrete", '"#102030": Concrete'),
                  ("one channel of numbers, and scene.sediment_map.materials has '#102030'; write 7: MATERIAL",)),
-                ((QUARTERS % "").replace("[floor]", "[flor]"),
-                 ("no instance at rest is named 'flor' (did you mean 'floor'?)",)),
-                ((QUARTERS % "").replace(", instances: [floor]", ""),
-                 ("scene.sediment_map does not say what it lies on; write instances: [NAME]",)),
                 ((QUARTERS % "").replace("size_m: [20, 20], ", ""),
                  ("quarters.png: does not say how large its pixels are", "scene.sediment_map.pixel_m")),
                 ((QUARTERS % "").replace("{1: north_west, 2: north_east, 3: south_west, 4: Concrete}", "{}"),
                  ("'materials' must name",)),
                 (DECIBELS % ", scale_db: 20", ("db.png: row 0, column 0: 10 makes 200 dB, and at most 100 are "
-                                               "believed", "mission.yaml:5:"))):
+                                               "believed", "mission.yaml:6:"))):
             with self.subTest(maps=maps):
                 self.mission(maps)
                 self.assert_refused(self.run_sonarsim("validate", "mission.yaml"), *fragments)
+        self.mission(DECIBELS % "")
+        self.edit("mission.yaml", "  bottom: [floor]\n", "")
+        self.refused("maps need ground to lie on; write scene.bottom: [NAME]")
         (self.folder / "db.png").write_bytes(colour_png([[(1, 2, 3, 4)]]))
         self.mission(DECIBELS % "")
         self.refused("db.png: has 4 channels, and a map of decibels has one")

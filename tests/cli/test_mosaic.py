@@ -23,6 +23,7 @@ seed: 3
 scene:
   file: floor.gltf
   materials: materials.csv
+  bottom: [floor]
 %%strajectory:
   waypoints: [{position_m: [0, -23, %g], rpy_deg: [0, 0, 90]},
               {position_m: [0, %g, %g], rpy_deg: [0, 0, 90]}]
@@ -33,7 +34,7 @@ sensors:
 output: {folder: %%s, waterfall: true, labels: [clean]}
 """ % (HEIGHT_M, STEP_M * (PINGS - 1) - 23, HEIGHT_M, STEP_M, FIRST_M)
 # The middle of the map is x = 0, y = 0.
-LAID = "  backscatter_map: {file: mosaic.tif, origin_m: [505027.5, 5987025], instances: [floor]}\n"
+LAID = "  backscatter_map: {file: mosaic.tif, origin_m: [505027.5, 5987025]}\n"
 MODELS = {"paper": "", "calibrated": ", model: calibrated, instrument: {frequency_hz: 400e3}"}
 
 

@@ -70,17 +70,6 @@ class Objects(Composed):
         self.assert_renders("--overwrite")
         self.assertEqual(self.images(), by_map)
 
-    def test_exclude(self):
-        self.write("two.gltf", gltf([{"name": "crate", "mesh": 0, "children": [1]},
-                                     {"name": "lid", "mesh": 0, "translation": [0, 1, 0]}],
-                                    [box_mesh()]))
-        self.objects(["{name: a, file: two.gltf, exclude: [lid], position_m: [5, 0, 0.5]}"])
-        self.assert_renders()
-        without = self.images()
-        self.objects(["{name: a, file: crate.gltf, position_m: [5, 0, 0.5]}"])
-        self.assert_renders("--overwrite")
-        self.assertEqual(self.images(), without)
-
 
 class Scattered(Composed):
     def setUp(self):

@@ -28,17 +28,14 @@ scene:
   seabed:
     cell_m: 0.3
     size_m: [40, 40]
-    origin_m: [20, 20]
     sediments: [{material: Concrete, share: 2}, {material: steel, share: 1}]
     rocks: {density_per_m2: 0.1, diameter_m: [0.3, 1.5], buried: [0.2, 0.6]}
 """
-TRAIN = [("height_m", "uniform: [0.05, 0.3]"), ("direction_deg", "uniform: [-90, 90]"), ("spread", "uniform: [0, 0.2]"),
-         ("share", "uniform: [0.2, 1]"), ("patch_m", "uniform: [2, 20]")]
+TRAIN = [("height_m", "uniform: [0.05, 0.3]"), ("direction_deg", "uniform: [-90, 90]")]
 PAIRS = {"rocks.diameter_m": (0.3, 1.5), "rocks.buried": (0.2, 0.6)}
 BED_RULES = [
-    ("cell_m", "uniform: [0.2, 0.35]"), ("size_m.0", "uniform: [30, 40]"), ("origin_m.1", "uniform: [15, 25]"),
-    ("z_m", "uniform: [-5, -4]"), ("slope_deg", "uniform: [0, 5]"), ("uphill_deg", "uniform: [-180, 180]"),
-    ("class", "choice: [ground, floor]"), ("patch_m", "log_uniform: [1, 20]"), ("border_m", "uniform: [0.5, 2]"),
+    ("cell_m", "uniform: [0.2, 0.35]"), ("size_m.0", "uniform: [30, 40]"), ("z_m", "uniform: [-5, -4]"),
+    ("class", "choice: [ground, floor]"), ("patch_m", "log_uniform: [1, 20]"),
     ("roughness.spectral_strength_cm4", "log_uniform: [0.001, 0.02]"),
     ("roughness.spectral_exponent", "uniform: [2.5, 3.5]"), ("roughness.corner_m", "uniform: [1, 4]"),
     ("ripples.length_m", "uniform: [1.5, 2]"), *[(f"ripples.{key}", rule) for key, rule in TRAIN],
@@ -61,15 +58,13 @@ seed: 5
 scene:
   materials: materials.csv
   heightmap: {file: a.png, SIZE, material: Concrete}
-  sediment_map: {file: a.png, SIZE, instances: [heightmap], materials: {0: Concrete, 1: steel, 2: rubber, 3: steel}}
-  backscatter_map: {file: b.png, SIZE, instances: [heightmap]}
+  sediment_map: {file: a.png, SIZE, materials: {0: Concrete, 1: steel, 2: rubber, 3: steel}}
+  backscatter_map: {file: b.png, SIZE}
 """
-LAID_RULES = [("file", "choice: [a.png, b.png]"), ("origin_m.0", "uniform: [18, 22]"),
-              ("no_data", "choice: [0, 1]")]
+LAID_RULES = [("file", "choice: [a.png, b.png]"), ("origin_m.0", "uniform: [18, 22]")]
 MAP_RULES = [
     *[(f"{section}.{key}", rule) for section in ("heightmap", "sediment_map", "backscatter_map")
       for key, rule in LAID_RULES],
-    *[(f"{section}.instances.0", 'choice: [heightmap, height*]') for section in ("sediment_map", "backscatter_map")],
     ("heightmap.height_scale", "uniform: [0.1, 0.3]"), ("heightmap.height_offset_m", "uniform: [-5, -4]"),
     ("heightmap.material", "choice: [steel, rubber]"), ("heightmap.class", "choice: [one, other]"),
     ("sediment_map.materials.3", "choice: [Concrete, rubber]"),

@@ -92,7 +92,6 @@ scene:
   objects: []
   scatter: []
   particles: []
-  repeats: auto
 trajectory:
   file: "/base/a.tum"
   rate_hz: 0

@@ -16,7 +16,6 @@ scene:
   units: mm
   up: z
   materials_map: {"0137_Black": rubber, "a: b": steel}
-  exclude: ["Light*", camera]
   bottom: [floor]
   objects:
     - {name: wreck, class: ship, file: w.glb, position_m: [1, 2, 3], rpy_deg: [4, 5, 6], scale: 2,
@@ -47,7 +46,6 @@ TEST_CASE("the keys of a composed scene") {
     CHECK(scene.mesh.units == LengthUnit::mm);
     CHECK(scene.mesh.up == UpAxis::z);
     CHECK(scene.mesh.materials_map == Renaming{{"0137_Black", "rubber"}, {"a: b", "steel"}});
-    CHECK(scene.mesh.exclude == std::vector<std::string>{"Light*", "camera"});
     REQUIRE(scene.objects.size() == 2);
     CHECK(scene.objects[0].class_name == "ship");
     CHECK(scene.objects[0].place_on == ObjectPlace::on_bottom);
@@ -88,9 +86,7 @@ TEST_CASE("what the scene's keys refuse") {
           "m.yaml:1:54: unknown place 'on_botom' (did you mean 'on_bottom'?); known: free, "
           "on_bottom");
     CHECK(object("file: a, units: inch").find("known: m, mm, cm, km, in, ft") != std::string::npos);
-    CHECK(object("file: a, exclude: Light")
-              .ends_with("'exclude' must be a list of texts, not "
-                         "'Light'"));
+    CHECK(object("file: a, exclude: Light").ends_with("delete these nodes in the file"));
     CHECK(
         object("file: a, materials_map: [a]").ends_with("must be a section of names, not a list"));
     CHECK(object("file: a, class: 5, clas: 6").find("unknown key 'clas'") != std::string::npos);

@@ -61,9 +61,4 @@ TEST_SUITE("scene") {
         CHECK(!coarse(50'000.0, 0.04));  // as accurate as its size allows, or nearly
         CHECK(coarse(50'000.0, 0.25));
     }
-
-    TEST_CASE("summary: an empty scene") {
-        CHECK(describe_scene(Scene{}).find("triangles  0 with 0 vertices, 0.000 m^2\n") !=
-              std::string::npos);
-    }
 }

@@ -41,12 +41,9 @@ inline MaterialTexels material_texels(
 /// Lays maps on all instances of a scene.
 inline void lay(Scene& scene, std::optional<MaterialTexels> of_materials,
                 std::optional<StrengthTexels> of_strengths) {
-    const std::vector<char> all(scene.instances.size(), 1);
-    const std::vector<char> none;
-    const std::vector<char>& on_materials = of_materials ? all : none;
-    const std::vector<char>& on_strengths = of_strengths ? all : none;
-    scene.maps = std::make_shared<const GroundMaps>(std::move(of_materials), on_materials,
-                                                    std::move(of_strengths), on_strengths);
+    scene.maps =
+        std::make_shared<const GroundMaps>(std::move(of_materials), std::move(of_strengths),
+                                           std::vector<char>(scene.instances.size(), 1));
 }
 
 }  // namespace sonarsim::test

@@ -98,8 +98,7 @@ TEST_SUITE("visibility") {
         CHECK(unsupported({.type = EngineKind::automatic, .octree = {}}, scene).empty());
         CHECK(unsupported({.type = EngineKind::octree, .octree = {}}, scene) ==
               "engine: octree does not support copies of shared meshes; use engine: auto or "
-              "engine: rays, "
-              "or scene.repeats: copied");
+              "engine: rays");
         CHECK(unsupported({.type = EngineKind::slices, .octree = {}}, scene)
                   .find("slices does not support") != std::string::npos);
     }

@@ -11,6 +11,10 @@ struct SurfaceExtent {
     /// Box around the triangles that have an area, before they are rounded to floats.
     Eigen::AlignedBox3d box;
     double vertex_rounding_m = 0.0;  ///< as in Scene
+
+    Eigen::Vector3d centre() const {
+        return box.isEmpty() ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : box.center();
+    }
 };
 
 /// InputError for vertices beyond the limits of coordinates.

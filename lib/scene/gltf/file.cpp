@@ -28,6 +28,16 @@ using nlohmann::json;
 constexpr std::size_t max_bytes = std::size_t{1} << 31;
 constexpr std::uint32_t json_type = 0x4E4F534A;
 
+bool contains(std::span<const std::string_view> list, std::string_view word) {
+    return std::ranges::find(list, word) != list.end();
+}
+
+constexpr std::array<std::string_view, 8> unread_of_file{
+    "images", "textures", "samplers", "skins", "animations", "cameras", "extensions", "extras"};
+constexpr std::array<std::string_view, 6> unread_of_materials{
+    "pbrMetallicRoughness", "normalTexture",  "occlusionTexture",
+    "emissiveTexture",      "emissiveFactor", "extensions"};
+
 std::uint32_t little_endian(std::string_view bytes, std::size_t at) {
     std::uint32_t value = 0;
     std::memcpy(&value, bytes.data() + at, sizeof(value));
@@ -68,13 +78,6 @@ std::string glb_of(std::string json, std::string_view binary) {
     return bytes.append(json).append(binary);
 }
 
-std::string version_of(const json& document) {
-    const auto asset = document.find("asset");
-    if (asset == document.end()) return "";
-    const auto version = asset->find("version");
-    return version != asset->end() && version->is_string() ? version->get<std::string>() : "";
-}
-
 /// The JSON without the parts that are not read: tinygltf would load textures, and it recurses as
 /// deep as the JSON does.
 std::string surfaces_of(std::string_view text, const Location& where) {
@@ -87,29 +90,31 @@ std::string surfaces_of(std::string_view text, const Location& where) {
     }
     if (is_nested_deeper(text, max_depth))
         throw InputError(where, "the JSON is nested more than 64 deep");
+    // Unread parts are not even stored: they may be much larger than the meshes.
+    const auto is_read = [](int depth, json::parse_event_t event, const json& parsed) {
+        constexpr int of_file = 1;
+        constexpr int of_material = 3;
+        if (event != json::parse_event_t::key) return true;
+        const auto& key = parsed.get_ref<const std::string&>();
+        return !(depth == of_file && contains(unread_of_file, key)) &&
+               !(depth == of_material && contains(unread_of_materials, key));
+    };
     json document;
     try {
-        document = json::parse(text);
+        document = json::parse(text, is_read);
     } catch (const json::exception& error) {
         // "[json.exception.parse_error.101] parse error at line 1, column 2: ..."
         const std::string fault = error.what();
         throw InputError(where, fault.substr(fault.find("] ") + 2));
     }
-    const std::string version = version_of(document);
+    const json::json_pointer place("/asset/version");
+    const bool has_version = document.contains(place) && document[place].is_string();
+    const std::string version = has_version ? document[place].get<std::string>() : "";
     if (version.empty())
         throw InputError(where, "asset.version is missing; expected glTF version 2.0");
     if (!version.starts_with("2.")) {
         throw InputError(where,
                          "is glTF version " + printable(version.substr(0, 20)) + "; expected 2.0");
-    }
-    for (const char* unread : {"images", "textures", "samplers", "skins", "animations", "cameras",
-                               "extensions", "extras"})
-        document.erase(unread);
-    for (json& material : document["materials"]) {
-        if (!material.is_object()) continue;  // tinygltf refuses it
-        for (const char* unread : {"pbrMetallicRoughness", "normalTexture", "occlusionTexture",
-                                   "emissiveTexture", "emissiveFactor", "extensions"})
-            material.erase(unread);
     }
     for (const json& mesh : document["meshes"]) {
         // tinygltf takes an object for an array of none.
@@ -149,27 +154,20 @@ std::string reduced_glb(std::string_view bytes, const Location& where) {
     return glb_of(surfaces_of(text, where), rest.substr(0, rest.size() - bytes.size()));
 }
 
-bool contains(std::span<const std::string_view> list, std::string_view word) {
-    return std::find(list.begin(), list.end(), word) != list.end();
-}
-
-/// Names other mesh formats in the message, since the parser would only call them malformed.
-void check_format(const std::filesystem::path& path, std::string_view bytes) {
+/// InputError for a file that is not even JSON; it names the formats of other meshes.
+void require_json(const std::filesystem::path& path, std::string_view bytes) {
+    const Location where{path.string()};
     constexpr std::array<std::string_view, 5> others{".fbx", ".dae", ".3ds", ".blend", ".off"};
     std::string extension = path.extension().string();
     for (char& c : extension)
         c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    if (!contains(others, extension) || bytes.starts_with("glTF")) return;
-    std::filesystem::path converted = path;
-    converted.replace_extension(".glb");
-    throw InputError(Location{path.string()},
-                     "is not glTF, OBJ, STL or PLY, the formats that are read; convert it: assimp "
-                     "export " +
-                         path.filename().string() + " " + converted.filename().string());
-}
-
-/// Throws InputError for a file that is not even JSON.
-void check_json(std::string_view bytes, const Location& where) {
+    if (contains(others, extension)) {
+        const std::string name = path.stem().string();
+        throw InputError(where,
+                         "is not glTF, OBJ, STL or PLY, the formats that are read; convert it: "
+                         "assimp export " +
+                             name + path.extension().string() + " " + name + ".glb");
+    }
     const std::string_view text = trim(without_byte_order_mark(bytes));
     if (text.starts_with('{') || text.starts_with('[')) return;
     const std::string format(known_format(bytes));
@@ -218,6 +216,13 @@ void ignore_sizes(Callbacks& callbacks) {
     }
 }
 
+/// True if a URI of a glTF file names a file in its folder or below.
+bool stays_below(const std::string& uri) {
+    const std::filesystem::path path(uri);
+    return uri.find(':') == std::string::npos && uri.find('\0') == std::string::npos &&
+           !path.is_absolute() && std::find(path.begin(), path.end(), "..") == path.end();
+}
+
 /// The buffers that tinygltf may read: in the folder of the glTF file or below, `bytes_left` at
 /// most.
 struct BufferFiles {
@@ -253,18 +258,11 @@ tinygltf::FsCallbacks buffer_callbacks(BufferFiles& files) {
 
 }  // namespace
 
-bool stays_below(const std::string& uri) {
-    const std::filesystem::path path(uri);
-    return uri.find(':') == std::string::npos && uri.find('\0') == std::string::npos &&
-           !path.is_absolute() && std::find(path.begin(), path.end(), "..") == path.end();
-}
-
 tinygltf::Model read_gltf(const std::filesystem::path& path) {
     const Location where{path.string()};
     std::string bytes = read_file(path, max_bytes);
-    check_format(path, bytes);
     const bool is_binary = bytes.starts_with("glTF");
-    if (!is_binary) check_json(bytes, where);
+    if (!is_binary) require_json(path, bytes);
     bytes = is_binary ? reduced_glb(bytes, where) : surfaces_of(bytes, where);
 
     tinygltf::TinyGLTF reader;

@@ -3,7 +3,6 @@
 #include <tiny_gltf.h>
 
 #include <filesystem>
-#include <string>
 
 namespace sonarsim {
 
@@ -11,8 +10,5 @@ namespace sonarsim {
 /// cameras. Sizes, indices and offsets are not checked, and a value of a wrong type is a default.
 /// Reads at most 2 GiB, external buffers included. InputError for a faulty file.
 tinygltf::Model read_gltf(const std::filesystem::path& path);
-
-/// True if a URI of a glTF file names a file in its folder or below.
-bool stays_below(const std::string& uri);
 
 }  // namespace sonarsim

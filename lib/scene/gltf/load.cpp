@@ -51,38 +51,24 @@ void warn_of_unit(const OpenFile& file, const Eigen::AlignedBox3d& box,
                              "; if that is wrong, set its `units`, as in units: mm");
 }
 
-/// The extents of the files. A file that is repeated is read once.
-std::vector<SurfaceExtent> find_extents(const std::vector<OpenFile>& open, const Repeats& repeats) {
-    ReadingLimit limit;
-    std::vector<SurfaceExtent> of_repeat;
-    for (const RepeatedFile& repeated : repeats.files) {
-        require_renamed(repeated.open);
-        of_repeat.push_back(find_extent(repeated.open, limit));
-    }
+/// Finds the extents of the files, and from them the origin of the scene.
+std::vector<SurfaceExtent> find_extents(const std::vector<OpenFile>& open, const Repeats& repeats,
+                                        ReadingLimit& limit, Scene& scene) {
     std::vector<SurfaceExtent> extents;
-    for (std::size_t i = 0; i < open.size(); ++i) {
-        if (repeats.of_file[i] == Repeats::none) {
-            require_renamed(open[i]);
-            extents.push_back(find_extent(open[i], limit));
-        } else {
-            extents.push_back(moved(of_repeat[repeats.of_file[i]], open[i].placed->T_world_file));
-        }
-    }
-    return extents;
-}
-
-/// Stores the extents in the scene, and warns about implausible units.
-void note_extents(const std::vector<OpenFile>& open, const std::vector<SurfaceExtent>& extents,
-                  Scene& scene) {
     Eigen::AlignedBox3d whole;
     std::set<std::pair<std::string, double>> warned;
     for (std::size_t i = 0; i < open.size(); ++i) {
-        const SurfaceExtent& extent = extents[i];
+        const RepeatedFile* const repeated = repeats.of_file[i];
+        if (!repeated) require_renamed(open[i]);
+        const SurfaceExtent& extent =
+            extents.emplace_back(repeated ? moved(repeated->extent, open[i].placed->T_world_file)
+                                          : find_extent(open[i], limit));
         warn_of_unit(open[i], extent.box, warned, scene);
         scene.vertex_rounding_m = std::max(scene.vertex_rounding_m, extent.vertex_rounding_m);
         if (!open[i].placed->moves) whole.extend(extent.box);
     }
     scene.origin = choose_origin(whole);
+    return extents;
 }
 
 void set_bounds(const std::vector<SurfaceExtent>& extents, const Repeats& repeats, Scene& scene) {
@@ -90,7 +76,7 @@ void set_bounds(const std::vector<SurfaceExtent>& extents, const Repeats& repeat
     for (const Eigen::Vector3f& vertex : scene.vertices)
         box.extend(vertex.cast<double>());
     for (std::size_t i = 0; i < extents.size(); ++i) {
-        if (repeats.of_file[i] == Repeats::none || extents[i].box.isEmpty()) continue;
+        if (!repeats.of_file[i] || extents[i].box.isEmpty()) continue;
         box.extend(Eigen::AlignedBox3d(extents[i].box.min() - scene.origin,
                                        extents[i].box.max() - scene.origin));
     }
@@ -104,16 +90,15 @@ Scene compose(std::span<const PlacedFile> files, SceneFiles& models, const Mater
               std::size_t sharing_threshold, MaterialNumbers& materials) {
     Scene scene;
     const std::vector<OpenFile> open = open_files(files, models, scene);
-    const Repeats repeats = find_repeats(open, sharing_threshold);
-    const std::vector<SurfaceExtent> extents = find_extents(open, repeats);
-    note_extents(open, extents, scene);
+    ReadingLimit looked_at;
+    const Repeats repeats = find_repeats(open, sharing_threshold, looked_at);
+    const std::vector<SurfaceExtent> extents = find_extents(open, repeats, looked_at, scene);
     ReadingLimit limit;
     MeshBuilder<Scene> still{scene, scene.rejects, scene.origin};
-    SharedMeshes shared(repeats);
     for (std::size_t i = 0; i < open.size(); ++i) {
         const OpenFile& file = open[i];
-        if (repeats.of_file[i] != Repeats::none) {
-            shared.add_copy(repeats.of_file[i], file, rules, limit, materials, scene);
+        if (RepeatedFile* const repeated = repeats.of_file[i]) {
+            add_copy(*repeated, file, rules, limit, materials, scene);
             continue;
         }
         Body body;
@@ -148,11 +133,6 @@ bool is_bottom(const PlacedFile& file, const PlacedMesh& mesh) {
            });
 }
 
-/// True for the heightmap or seabed, of which a scene has one at most.
-bool is_ground(const PlacedFile& file) {
-    return file.heightmap || file.seabed;
-}
-
 /// InputError, with the place in the mission, for a material that the table lacks.
 void require_materials(std::span<const PlacedFile> files, const MaterialTable& table) {
     for (const PlacedFile& file : files) {
@@ -178,6 +158,7 @@ std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& 
     }
     // The rules of the mission know the ground by the names of its nodes, so they come first.
     std::vector<PlacedMesh> ground;
+    const auto is_ground = [](const PlacedFile& file) { return file.heightmap || file.seabed; };
     for (const PlacedFile& file : files) {
         if (is_ground(file)) ground = place_meshes(models.model(file), file, names);
     }
@@ -187,10 +168,6 @@ std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& 
         next.placed = &file;
         next.model = &models.model(file);
         next.meshes = is_ground(file) ? std::move(ground) : place_meshes(*next.model, file, names);
-        if (next.meshes.empty() && !file.exclude.empty()) {
-            throw InputError(file.place, "exclude leaves nothing of " + file.file.string() +
-                                             "; `sonarsim inspect` lists the names of its nodes");
-        }
         for (const PlacedMesh& mesh : next.meshes) {
             const bool is_part = !file.name.empty() && !next.instance_of_mesh.empty();
             if (!is_part) {

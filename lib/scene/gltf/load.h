@@ -40,9 +40,8 @@ inline constexpr std::size_t share_nothing = std::numeric_limits<std::size_t>::m
 /// InputError for an invalid glTF 2.0 file, for compressed or skinned meshes, unknown required
 /// extensions, buffers outside of the file's folder, primitives without material, and materials
 /// that the table lacks. InputError at the place of the file in the mission for a name that is
-/// taken, for a pattern of `exclude` that matches nothing, and for a material to rename that the
-/// file lacks. Points, lines, degenerate and non-finite triangles are dropped and counted in
-/// `rejects`; a scene may end up empty.
+/// taken, and for a material to rename that the file lacks. Points, lines, degenerate and
+/// non-finite triangles are dropped and counted in `rejects`; a scene may end up empty.
 Scene load_scene(std::span<const PlacedFile> files, SceneFiles& models, const MaterialTable& table,
                  const std::string& material_default, const Water& water,
                  std::size_t sharing_threshold = share_nothing);

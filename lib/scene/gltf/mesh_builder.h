@@ -13,9 +13,11 @@
 
 namespace sonarsim {
 
-/// Adds triangles to a scene, a body or a shared mesh, and the vertices that they use.
+/// Adds triangles to a scene, a body, a shared mesh or a surface, and the vertices that they use.
 template <class Mesh>
 struct MeshBuilder {
+    using Vertex = typename decltype(Mesh::vertices)::value_type;
+
     Mesh& mesh;
     SceneRejects& rejects;
     Eigen::Vector3d origin;
@@ -30,10 +32,11 @@ struct MeshBuilder {
         slots.resize(std::max(slots.size(), primitive.source.positions.count), 0);
         for (std::size_t i = 0; i < primitive.source.count; ++i) {
             std::array<std::uint32_t, 3> vertices = triangle(primitive.source, i, primitive.where);
-            std::array<Eigen::Vector3f, 3> local;
+            std::array<Vertex, 3> local;
             std::array<Eigen::Vector3d, 3> rounded;
             for (std::size_t k = 0; k < 3; ++k) {
-                local[k] = (corner(primitive, vertices[k]) - origin).template cast<float>();
+                local[k] = (corner(primitive, vertices[k]) - origin)
+                               .template cast<typename Vertex::Scalar>();
                 rounded[k] = local[k].template cast<double>();
             }
             if (!is_finite(rounded)) {

@@ -6,7 +6,6 @@
 
 #include "core/error.h"
 #include "scene/gltf/extras.h"
-#include "scene/objects.h"
 
 namespace sonarsim {
 
@@ -49,11 +48,7 @@ std::vector<int> parents_of(const Graph& graph) {
             known = i;
         }
     }
-    return parent;
-}
-
-/// Refuses nodes below a cycle and nodes that lie too deep.
-void check_depth(const Graph& graph, const std::vector<int>& parent) {
+    // Refuse nodes below a cycle and nodes that lie too deep.
     for (int i = 0; i < static_cast<int>(graph.size()); ++i) {
         int above = i;
         for (int depth = 1; above != no_parent; ++depth) {
@@ -62,6 +57,7 @@ void check_depth(const Graph& graph, const std::vector<int>& parent) {
             if (above == i) graph.fail(i, "is its own ancestor");
         }
     }
+    return parent;
 }
 
 std::vector<int> scene_roots(const Graph& graph, const std::vector<int>& parent) {
@@ -147,36 +143,6 @@ void check_rigid(const Graph& graph, int index) {
     }
 }
 
-/// The patterns of nodes that are left out, with a flag for each that matched a node.
-class Exclusion {
-  public:
-    explicit Exclusion(const PlacedFile& placed)
-        : placed_(placed), used_(placed.exclude.size(), false) {}
-
-    bool takes(const std::string& name) {
-        bool fits = false;
-        for (std::size_t k = 0; k < used_.size(); ++k) {
-            if (!fits_pattern(placed_.exclude[k], name)) continue;
-            used_[k] = fits = true;
-        }
-        return fits;
-    }
-
-    void require_used() const {
-        const auto unused = std::find(used_.begin(), used_.end(), false);
-        if (unused == used_.end()) return;
-        const std::string& pattern =
-            placed_.exclude[static_cast<std::size_t>(unused - used_.begin())];
-        throw InputError(placed_.place, "exclude: no node of " + placed_.file.string() + " fits '" +
-                                            pattern +
-                                            "'; `sonarsim inspect` lists the names of its nodes");
-    }
-
-  private:
-    const PlacedFile& placed_;
-    std::vector<bool> used_;
-};
-
 /// The transform from the file's axes and unit to metres with z up.
 Eigen::Affine3d file_from_gltf(const PlacedFile& placed) {
     Eigen::Affine3d T_file_gltf = Eigen::Affine3d::Identity();
@@ -201,7 +167,6 @@ std::vector<PlacedMesh> place_meshes(const tinygltf::Model& model, const PlacedF
     const std::string file = placed_file.file.string();
     const Graph graph{model, file};
     const std::vector<int> parent = parents_of(graph);
-    check_depth(graph, parent);
 
     struct Visit {
         int node;
@@ -221,11 +186,9 @@ std::vector<PlacedMesh> place_meshes(const tinygltf::Model& model, const PlacedF
     push(scene_roots(graph, parent), T_world_gltf, "", "");
 
     std::vector<PlacedMesh> placed;
-    Exclusion exclusion(placed_file);
     while (!pending.empty()) {
         const Visit visit = std::move(pending.back());
         pending.pop_back();
-        if (exclusion.takes(graph.name(visit.node))) continue;
         const tinygltf::Node& node = graph.node(visit.node);
         const Eigen::Affine3d T_world_node =
             visit.T_world_parent * local_transform(graph, visit.node);
@@ -242,7 +205,6 @@ std::vector<PlacedMesh> place_meshes(const tinygltf::Model& model, const PlacedF
         }
         push(node.children, T_world_node, material, label);
     }
-    exclusion.require_used();
     return placed;
 }
 

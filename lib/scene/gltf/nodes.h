@@ -30,11 +30,9 @@ struct UniqueNames {
 };
 
 /// The meshes of the default scene, else of the first, else of all root nodes; parents come before
-/// children. Nodes that match a pattern of `placed.exclude` are left out with their descendants.
-/// InputError with the name of the file for nodes that do not exist, have two parents or are their
-/// own ancestor, for hierarchies deeper than 256, matrices that are not affine, rotations that are
-/// not unit quaternions, skinned meshes and morphed ones; and at the place of `placed` for a
-/// pattern that matches no node.
+/// children. InputError with the name of the file for nodes that do not exist, have two parents or
+/// are their own ancestor, for hierarchies deeper than 256, matrices that are not affine, rotations
+/// that are not unit quaternions, skinned meshes and morphed ones.
 std::vector<PlacedMesh> place_meshes(const tinygltf::Model& model, const PlacedFile& placed,
                                      UniqueNames& names);
 

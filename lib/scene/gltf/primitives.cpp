@@ -49,14 +49,10 @@ std::string material_name(const PlacedPrimitive& primitive, const MaterialRules&
     if (!rules.fallback.empty() && !rules.known.contains(name)) return rules.fallback;
     if (!name.empty()) return name;
     if (rules.nameless_allowed) return "(no material)";
-    if (placed.heightmap) {
-        throw InputError(placed.place,
-                         "the heightmap has no material; write "
-                         "scene.heightmap.material: NAME");
-    }
-    if (placed.seabed) {
-        throw InputError(placed.place,
-                         "the seabed has no material; write scene.seabed.material: NAME");
+    if (placed.heightmap || placed.seabed) {
+        const std::string ground = placed.seabed ? "seabed" : "heightmap";
+        throw InputError(placed.place, "the " + ground + " has no material; write scene." + ground +
+                                           ".material: NAME");
     }
     if (is_mesh_file(placed.file)) {
         throw InputError(placed.place, "'" + printable(primitive.mesh.instance) +

@@ -8,10 +8,32 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-
-#include "scene/gltf/accessor.h"
+#include <vector>
 
 namespace sonarsim {
+
+/// Bytes of a buffer, in equal steps.
+struct Elements {
+    const unsigned char* data = nullptr;
+    std::size_t stride = 0;
+
+    const unsigned char* at(std::size_t i) const { return data + i * stride; }
+};
+
+/// Elements of a glTF accessor, read one by one from the model's buffers: strided, sparse or both.
+/// The functions that open an accessor check that all its bytes exist.
+struct Accessor {
+    Elements elements;  ///< without data: elements that are not sparse are 0
+    std::size_t count = 0;
+    int component_type = 0;
+    std::size_t component_bytes = 0;
+    bool is_normalized = false;
+    std::vector<std::uint32_t> sparse_at;  ///< indices of the replaced elements, ascending
+    Elements sparse;                       ///< their values
+};
+
+/// Element `i` < count. Normalised integers become numbers in [-1, 1].
+Eigen::Vector3d position(const Accessor& accessor, std::size_t i);
 
 inline bool has_area(const std::array<Eigen::Vector3d, 3>& p) {
     return (p[1] - p[0]).cross(p[2] - p[0]).squaredNorm() > 0.0;

@@ -2,10 +2,10 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,7 +14,6 @@
 #include "core/text.h"
 #include "scene/images/image_place.h"
 #include "scene/images/read_image.h"
-#include "scene/images/unknown_pixels.h"
 #include "scene/model_data.h"
 
 namespace sonarsim {
@@ -34,9 +33,8 @@ std::vector<std::uint32_t> corners_of_cells(std::size_t width, const std::vector
     const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
         if (!known[a] || !known[b] || !known[c]) return;
         if (mirrored) std::swap(b, c);
-        corners.push_back(static_cast<std::uint32_t>(a));
-        corners.push_back(static_cast<std::uint32_t>(b));
-        corners.push_back(static_cast<std::uint32_t>(c));
+        for (const std::size_t corner : {a, b, c})
+            corners.push_back(static_cast<std::uint32_t>(corner));
     };
     for (std::size_t row = 0; row + 1 < height; ++row) {
         for (std::size_t column = 0; column + 1 < width; ++column) {
@@ -67,108 +65,52 @@ void require_heights(const Image& image, const Location& where) {
     }
 }
 
-/// InputError for a value that is not a height. `no_data`: the mark of unknown heights, if one is
-/// known.
-void require_height(float value, const std::optional<double>& no_data, int row, int column,
-                    const Location& where) {
+/// True for a number that looks like the mark of an unknown height.
+bool is_odd(float value, const Image& image) {
     constexpr std::array<float, 5> usual_marks{-9999.0F, -99999.0F, -32767.0F, -32768.0F,
                                                -2147483648.0F};
-    bool is_odd = !(std::fabs(value) <= huge_pixel);
-    for (const float mark : usual_marks)
-        is_odd = is_odd || (!no_data && value == mark);
-    if (!is_odd) return;
-    const std::string text = number_text(static_cast<double>(value));
-    throw InputError(where,
-                     fmt::format("row {}, column {}: {} looks like the mark of an unknown height; "
-                                 "write scene.heightmap.no_data: {}, or another number that does "
-                                 "not occur if it is a height",
-                                 row, column, text, std::isfinite(value) ? text : "3.4e38"));
-}
-
-PixelWindow window_of(const Image& image, const PixelGrid& grid, const HeightmapRule& rule,
-                      const Location& where) {
-    PixelWindow window{0, image.height, 0, image.width};
-    if (rule.window) {
-        const auto& w = *rule.window;
-        window =
-            pixels_within(image, grid, {Eigen::Vector2d(w[0], w[1]), Eigen::Vector2d(w[2], w[3])});
-    }
-    if (window.width() * window.height() <= most_heights) return window;
-    throw InputError(where, fmt::format("the mission needs {} x {} heights of it, and at most 2^25 "
-                                        "have room; make it coarser with gdal_translate -outsize "
-                                        "50% 50%, or cut a part out with gdal_translate -projwin",
-                                        window.width(), window.height()));
-}
-
-/// The heights of a map, or of the part that a mission needs.
-struct HeightVertices {
-    PixelGrid grid;
-    std::vector<float> positions;  ///< column, row and value of each
-    std::vector<bool> known;       ///< false for those without a height
-    std::size_t width = 0;         ///< vertices of a row
-};
-
-HeightVertices read_heights(const std::filesystem::path& path, const HeightmapRule& rule,
-                            const Location& where) {
-    const Image image = read_image(path);
-    require_heights(image, where);
-    HeightVertices out;
-    out.grid = grid_in_metres(image, rule.pixel_m, rule.size_m, "scene.heightmap", where);
-    std::optional<double> no_data = rule.no_data ? rule.no_data : image.no_data;
-    if (no_data && std::isnan(*no_data)) no_data.reset();  // NaN is not a height anyway
-    const PixelWindow window = window_of(image, out.grid, rule, where);
-    const UnknownPixels unknown(no_data);
-    out.width = window.width();
-    out.positions.reserve(3 * window.width() * window.height());
-    out.known.reserve(window.width() * window.height());
-    for (int row = window.first_row; row < window.last_row; ++row) {
-        for (int column = window.first_column; column < window.last_column; ++column) {
-            const float value = *image.pixel(row, column);
-            const bool is_known = !unknown.has(value);
-            if (is_known) require_height(value, no_data, row, column, where);
-            out.known.push_back(is_known);
-            for (const float x : {static_cast<float>(column), static_cast<float>(row), value})
-                out.positions.push_back(x);
-        }
-    }
-    return out;
-}
-
-void add_height_node(tinygltf::Model& model, const PixelGrid& grid, int positions, int corners) {
-    tinygltf::Primitive primitive;
-    primitive.mode = TINYGLTF_MODE_TRIANGLES;
-    primitive.attributes["POSITION"] = positions;
-    primitive.indices = corners;
-    tinygltf::Mesh mesh;
-    mesh.name = "heightmap";
-    mesh.primitives.push_back(std::move(primitive));
-    model.meshes.push_back(std::move(mesh));
-    tinygltf::Node node;
-    node.name = "heightmap";
-    node.mesh = 0;
-    node.matrix = {grid.column_m, 0.0,        0.0, 0.0,  //
-                   0.0,           grid.row_m, 0.0, 0.0,  //
-                   0.0,           0.0,        1.0, 0.0,  //
-                   grid.x_m,      grid.y_m,   0.0, 1.0};
-    model.nodes.push_back(std::move(node));
+    constexpr float largest = 1e30F;
+    return !(std::fabs(value) <= largest) ||
+           (!image.has_no_data && std::ranges::find(usual_marks, value) != usual_marks.end());
 }
 
 }  // namespace
 
 tinygltf::Model height_model(const std::filesystem::path& path, const HeightmapRule& rule) {
     const Location where{path.string()};
-    const HeightVertices vertices = read_heights(path, rule, where);
-    const PixelGrid& grid = vertices.grid;
+    const Image image = read_image(path);
+    require_heights(image, where);
+    const PixelGrid grid =
+        grid_in_metres(image, rule.pixel_m, rule.size_m, "scene.heightmap", where);
+    const PixelWindow window = pixels_within(image, grid,
+                                             {Eigen::Vector2d(rule.window[0], rule.window[1]),
+                                              Eigen::Vector2d(rule.window[2], rule.window[3])},
+                                             most_heights, where);
+    std::vector<float> positions;
+    std::vector<bool> known;
+    positions.reserve(3 * window.width() * window.height());
+    known.reserve(window.width() * window.height());
+    window.for_each([&](int row, int column) {
+        const float value = *image.pixel(row, column);
+        known.push_back(!std::isnan(value));
+        if (known.back() && is_odd(value, image)) {
+            throw InputError(
+                where,
+                fmt::format("row {}, column {}: {} looks like the mark of an unknown "
+                            "height; mark it in the file: gdal_translate -a_nodata {}",
+                            row, column, number_text(double{value}), number_text(double{value})));
+        }
+        for (const float x : {static_cast<float>(column), static_cast<float>(row), value})
+            positions.push_back(x);
+    });
     const std::vector<std::uint32_t> corners =
-        corners_of_cells(vertices.width, vertices.known, grid.column_m * grid.row_m > 0.0);
-    if (corners.empty())
-        throw InputError(where, "has no three neighbours with known heights; check no_data");
+        corners_of_cells(window.width(), known, grid.column_m * grid.row_m > 0.0);
+    if (corners.empty()) throw InputError(where, "has no three neighbours with known heights");
     tinygltf::Model model;
-    const int positions = add_accessor(model, vertices.positions, vertices.known.size(),
-                                       TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
-    const int indices = add_accessor(model, corners, corners.size(),
-                                     TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR);
-    add_height_node(model, grid, positions, indices);
+    const int mesh = add_mesh(model, "heightmap");
+    add_triangles(model, mesh, add_positions(model, positions), corners, -1);
+    add_node(model, "heightmap", mesh).matrix =
+        grid_matrix(grid.column_m, grid.row_m, grid.x_m, grid.y_m);
     return model;
 }
 

@@ -26,11 +26,14 @@ struct Image {
     int channels = 0;
     int bits = 0;           ///< bits of one value in the file
     bool is_float = false;  ///< false: the file holds whole numbers
-    /// Rows from the top, in them pixels from the left, in them channels.
+    /// Rows from the top, in them pixels from the left, in them channels. NaN: no value.
     std::vector<float> values;
     std::optional<PixelGrid> grid;  ///< the place on its map, as the file has it
     bool in_degrees = false;        ///< `grid` has longitudes and latitudes, not metres
-    std::optional<double> no_data;  ///< the value of unknown pixels
+    bool has_no_data = false;       ///< the file names the value of pixels without one
+
+    /// The channels without that of transparency.
+    int colours() const { return channels % 2 == 0 ? channels - 1 : channels; }
 
     const float* pixel(int row, int column) const {
         const auto index = static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +

@@ -1,11 +1,41 @@
 #include "scene/images/image_place.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <system_error>
+
+#include "core/file.h"
+#include "core/text.h"
 
 namespace sonarsim {
 
 namespace {
+
+std::string in_capitals(std::string text) {
+    for (char& letter : text)
+        letter = letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;
+    return text;
+}
+
+/// The world file next to an image; empty if there is none. For ".tif" its extension is ".tfw",
+/// ".tifw" or ".wld", in lower case or capitals.
+std::filesystem::path find_world_file(const std::filesystem::path& image) {
+    const std::string extension = image.extension().string();
+    std::string brief = "." + extension.substr(extension.size() < 2 ? 0 : 1, 1);
+    if (!extension.empty()) brief += extension.back();
+    std::error_code ignored;
+    for (const std::string& end : {brief + "w", extension + "w", std::string(".wld")}) {
+        for (const std::string& name : {end, in_capitals(end)}) {
+            std::filesystem::path file = image;
+            file.replace_extension(name);
+            if (std::filesystem::is_regular_file(file, ignored)) return file;
+        }
+    }
+    return {};
+}
 
 /// The pixels from `low` to `high`, with a margin, of `count` that begin at `start`; all of them if
 /// fewer than two would remain.
@@ -20,6 +50,34 @@ std::array<int, 2> pixels_between(double low, double high, double start, double 
 }
 
 }  // namespace
+
+std::optional<PixelGrid> read_world_file(const std::filesystem::path& image) {
+    const std::filesystem::path file = find_world_file(image);
+    if (file.empty()) return std::nullopt;
+    const Location where{file.string()};
+    const std::string bytes = read_file(file, 10'000);
+    std::string_view rest = bytes;
+    std::array<double, 6> numbers{};
+    for (double& number : numbers) {
+        rest = trim(rest);
+        const std::string_view word = rest.substr(0, rest.find_first_of(" \t\r\n"));
+        rest.remove_prefix(word.size());
+        const auto value = parse_number(word);
+        if (!value) {
+            throw InputError(where,
+                             "is not a world file, which has six numbers: the width of a "
+                             "pixel, 0, 0, its negative height, and x and y of the centre "
+                             "of the first pixel");
+        }
+        number = *value;
+    }
+    if (numbers[1] != 0.0 || numbers[2] != 0.0) {
+        throw InputError(where,
+                         "its rows and columns do not run along east and north; make a map of it "
+                         "whose first row is the north, as with gdalwarp");
+    }
+    return PixelGrid{numbers[4], numbers[5], numbers[0], numbers[3]};
+}
 
 PixelGrid grid_in_metres(const Image& image, double pixel_m, const std::array<double, 2>& size_m,
                          const std::string& section, const Location& where) {
@@ -42,12 +100,18 @@ PixelGrid grid_in_metres(const Image& image, double pixel_m, const std::array<do
 }
 
 PixelWindow pixels_within(const Image& image, const PixelGrid& grid,
-                          const Eigen::AlignedBox2d& box_m) {
+                          const Eigen::AlignedBox2d& box_m, std::size_t most,
+                          const Location& where) {
     const auto rows =
         pixels_between(box_m.min().y(), box_m.max().y(), grid.y_m, grid.row_m, image.height);
     const auto columns =
         pixels_between(box_m.min().x(), box_m.max().x(), grid.x_m, grid.column_m, image.width);
-    return {rows[0], rows[1], columns[0], columns[1]};
+    const PixelWindow window{rows[0], rows[1], columns[0], columns[1]};
+    if (window.width() * window.height() <= most) return window;
+    throw InputError(where, fmt::format("the mission needs {} x {} pixels of it, and at most {} "
+                                        "have room; make it coarser with gdal_translate -outsize "
+                                        "50% 50%, or cut a part out with gdal_translate -projwin",
+                                        window.width(), window.height(), most));
 }
 
 }  // namespace sonarsim

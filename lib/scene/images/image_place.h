@@ -2,12 +2,18 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <filesystem>
+#include <optional>
 #include <string>
 
 #include "core/error.h"
 #include "scene/images/image.h"
 
 namespace sonarsim {
+
+/// Reads the world file next to an image, map.tfw, map.tifw or map.wld for map.tif; nullopt if
+/// there is none. InputError if it has not six numbers, or for a grid that is turned.
+std::optional<PixelGrid> read_world_file(const std::filesystem::path& image);
 
 /// The pixels of an image in the coordinates of its map, m. If `pixel_m` (the size of a pixel) or
 /// `size_m` (the extent from edge to edge) is above 0, the south-west corner is (0, 0); else the
@@ -25,11 +31,21 @@ struct PixelWindow {
 
     std::size_t width() const { return static_cast<std::size_t>(last_column - first_column); }
     std::size_t height() const { return static_cast<std::size_t>(last_row - first_row); }
+
+    /// Calls use(row, column) for every pixel, row by row.
+    template <class Use>
+    void for_each(const Use& use) const {
+        for (int row = first_row; row < last_row; ++row) {
+            for (int column = first_column; column < last_column; ++column)
+                use(row, column);
+        }
+    }
 };
 
 /// The pixels in a box of the map's coordinates, with a margin; all rows, or all columns, if fewer
-/// than two would remain.
+/// than two would remain. InputError for more pixels than `most`.
 PixelWindow pixels_within(const Image& image, const PixelGrid& grid,
-                          const Eigen::AlignedBox2d& box_m);
+                          const Eigen::AlignedBox2d& box_m, std::size_t most,
+                          const Location& where);
 
 }  // namespace sonarsim

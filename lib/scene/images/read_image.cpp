@@ -12,14 +12,12 @@
 #include "core/known_format.h"
 #include "core/module.h"
 #include "core/text.h"
+#include "scene/images/image_place.h"
 #include "scene/images/module.h"
-#include "scene/images/world_file.h"
 
 namespace sonarsim {
 
 namespace {
-
-constexpr std::uintmax_t most_image_bytes = std::uintmax_t{1} << 31;
 
 std::string first_bytes(const std::filesystem::path& path) {
     std::string bytes(16, '\0');
@@ -40,25 +38,15 @@ std::string image_format(std::string_view bytes) {
 
 /// InputError unless the path is that of a regular file that can be opened and is not too large.
 void require_readable(const std::filesystem::path& path, const Location& where) {
+    constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 31;
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status)) throw InputError(where, "no such file");
     if (!std::filesystem::is_regular_file(status)) throw InputError(where, "is not a regular file");
-    if (!std::ifstream(path, std::ios::binary)) throw InputError(where, "cannot be opened");
     const std::uintmax_t size = std::filesystem::file_size(path, error);
-    if (error || size > most_image_bytes)
+    if (error || size > most_bytes)
         throw InputError(where,
                          "is larger than 2 GiB; cut a part out with gdal_translate -projwin");
-}
-
-[[noreturn]] void refuse_format(std::string_view bytes, const Location& where) {
-    if (bytes.starts_with("\xff\xd8\xff"))
-        throw InputError(where,
-                         "is a JPEG, whose values are not exact; save the image it was made from "
-                         "as PNG, TIFF or OpenEXR");
-    const std::string_view known = known_format(bytes);
-    throw InputError(where, (known.empty() ? "is not an image" : "is " + std::string(known)) +
-                                "; PNG, TIFF and OpenEXR are read");
 }
 
 struct Reading {
@@ -66,17 +54,14 @@ struct Reading {
     Image image;
 };
 
-bool has_too_many(const SonarsimImageHead& head) {
-    return head.channels == 0 || head.width > most_image_values ||
-           head.height > most_image_values ||
-           head.width * head.height > most_image_values / head.channels;
-}
-
 /// Keeps the head of an image. Returns the room for its values, unless they are too many.
 float* make_room(void* user, const SonarsimImageHead* head) {
     auto& reading = *static_cast<Reading*>(user);
     reading.head = *head;
-    if (has_too_many(*head)) return nullptr;
+    if (head->channels == 0 || head->width > most_image_values ||
+        head->height > most_image_values ||
+        head->width * head->height > most_image_values / head->channels)
+        return nullptr;
     reading.image.values.resize(head->width * head->height * head->channels);
     return reading.image.values.data();
 }
@@ -98,30 +83,53 @@ Reading read_file_with_module(const std::filesystem::path& path, const std::stri
     }
     std::ranges::replace(reason, '\n', ' ');
     if (!reason.empty()) throw InputError(where, "cannot be read: " + printable(reason));
-    return reading;
+    if (!reading.image.values.empty()) return reading;
+    throw InputError(where, "has " + std::to_string(reading.head.width) + " x " +
+                                std::to_string(reading.head.height) + " pixels of " +
+                                std::to_string(reading.head.channels) +
+                                (reading.head.channels == 1 ? " value" : " values") +
+                                ", and at most 2^26 values are read; make it coarser with "
+                                "gdal_translate -outsize 50% 50%, or cut a part out with "
+                                "gdal_translate -projwin");
 }
 
 void set_reference(const SonarsimImageHead& head, const std::filesystem::path& path,
                    const Location& where, Image& image) {
-    if (head.has_grid != 0)
-        image.grid = PixelGrid{head.grid[0], head.grid[1], head.grid[2], head.grid[3]};
-    else
-        image.grid = read_world_file(path);
+    image.grid = head.has_grid == 0
+                     ? read_world_file(path)
+                     : PixelGrid{head.grid[0], head.grid[1], head.grid[2], head.grid[3]};
     image.in_degrees = head.in_degrees != 0;
-    if (image.grid) {
-        const PixelGrid& grid = *image.grid;
-        const bool holds = std::isfinite(grid.x_m) && std::isfinite(grid.y_m) &&
-                           std::isfinite(grid.column_m) && std::isfinite(grid.row_m) &&
-                           grid.column_m != 0.0 && grid.row_m != 0.0;
-        if (!holds) throw InputError(where, "has no valid pixel size or origin; export it again");
-    }
-    const std::string_view no_data = trim(head.no_data);
-    if (no_data.empty()) return;
-    image.no_data = parse_number(no_data);
-    if (!image.no_data) {
-        throw InputError(where, "has the mark of unknown pixels '" + printable(no_data) +
+    if (!image.grid) return;
+    const auto& [x_m, y_m, column_m, row_m] = *image.grid;
+    if (std::isfinite(x_m) && std::isfinite(y_m) && std::isfinite(column_m) &&
+        std::isfinite(row_m) && column_m != 0.0 && row_m != 0.0)
+        return;
+    throw InputError(where, "has no valid pixel size or origin; export it again");
+}
+
+/// Makes the pixels that have no value NaN. Many files mark them with the largest float, but write
+/// this mark with few digits: then every huge value with the sign of the mark is unknown.
+void mark_unknown(const SonarsimImageHead& head, const Location& where, Image& image) {
+    const std::string_view text = trim(head.no_data);
+    if (text.empty()) return;
+    const std::optional<double> mark = parse_number(text);
+    if (!mark) {
+        throw InputError(where, "has the mark of unknown pixels '" + printable(text) +
                                     "' (GDAL_NODATA), which is not a number; set it anew, as with "
                                     "gdal_translate -a_nodata -9999");
+    }
+    if (std::isnan(*mark)) return;
+    image.has_no_data = true;
+    constexpr double huge = 1e30;
+    const auto is_unknown = [&](float value) {
+        return std::isnan(value) || value == static_cast<float>(*mark) ||
+               (std::fabs(*mark) > huge && std::fabs(value) > huge &&
+                (value < 0.0F) == (*mark < 0.0));
+    };
+    for (std::size_t i = 0; i < image.values.size(); i += head.channels) {
+        float* const pixel = &image.values[i];
+        if (std::all_of(pixel, pixel + image.colours(), is_unknown))
+            std::fill(pixel, pixel + image.colours(), std::nanf(""));
     }
 }
 
@@ -138,18 +146,13 @@ Image read_image(const std::filesystem::path& path) {
     require_readable(path, where);
     const std::string bytes = first_bytes(path);
     const std::string format = image_format(bytes);
-    if (format.empty()) refuse_format(bytes, where);
+    if (format.empty()) {
+        const std::string_view known = known_format(bytes);
+        throw InputError(where, (known.empty() ? "is not an image" : "is " + std::string(known)) +
+                                    "; PNG, TIFF and OpenEXR are read");
+    }
     Reading reading = read_file_with_module(path, format, where);
     const SonarsimImageHead& head = reading.head;
-    if (has_too_many(head)) {
-        throw InputError(where, "has " + std::to_string(head.width) + " x " +
-                                    std::to_string(head.height) + " pixels of " +
-                                    std::to_string(head.channels) +
-                                    (head.channels == 1 ? " value" : " values") +
-                                    ", and at most 2^26 values are read; make it coarser with "
-                                    "gdal_translate -outsize 50% 50%, or cut a part out with "
-                                    "gdal_translate -projwin");
-    }
     Image& image = reading.image;
     image.width = static_cast<int>(head.width);
     image.height = static_cast<int>(head.height);
@@ -157,6 +160,7 @@ Image read_image(const std::filesystem::path& path) {
     image.bits = static_cast<int>(head.bits);
     image.is_float = head.is_float != 0;
     set_reference(head, path, where, image);
+    mark_unknown(head, where, image);
     return std::move(image);
 }
 

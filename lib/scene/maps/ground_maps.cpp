@@ -113,43 +113,32 @@ std::string bytes_hash(const std::vector<T>& values) {
 
 }  // namespace
 
-GroundMaps::GroundMaps(std::optional<MaterialTexels> materials, std::vector<char> on_materials,
-                       std::optional<StrengthTexels> strengths, std::vector<char> on_strengths)
+GroundMaps::GroundMaps(std::optional<MaterialTexels> materials,
+                       std::optional<StrengthTexels> strengths, std::vector<char> ground)
     : materials_(std::move(materials)),
-      on_materials_(std::move(on_materials)),
       strengths_(std::move(strengths)),
-      on_strengths_(std::move(on_strengths)) {
-    if (materials_) {
-        const MaterialTexels& map = *materials_;
-        for (std::size_t m = 0; m < map.materials.size(); ++m) {
-            counts_.emplace_back(map.frame.width, map.frame.height, [&](int row, int column) {
-                const std::size_t k =
-                    static_cast<std::size_t>(row) * static_cast<std::size_t>(map.frame.width) +
-                    static_cast<std::size_t>(column);
-                return map.choice[k] == m ? 1U : 0U;
-            });
-        }
+      ground_(std::move(ground)) {
+    const std::size_t count = materials_ ? materials_->materials.size() : 0;
+    for (std::size_t m = 0; m < count; ++m) {
+        counts_.emplace_back(
+            materials_->frame.width, materials_->frame.height,
+            [&](std::size_t texel) { return materials_->choice[texel] == m ? 1U : 0U; });
     }
-    if (strengths_) {
-        const StrengthTexels& map = *strengths_;
-        gains_ = TexelSums<double>(map.frame.width, map.frame.height, [&](int row, int column) {
-            const std::size_t k =
-                static_cast<std::size_t>(row) * static_cast<std::size_t>(map.frame.width) +
-                static_cast<std::size_t>(column);
-            return static_cast<double>(map.factor[k]) - 1.0;
-        });
-    }
+    if (!strengths_) return;
+    gains_ = {strengths_->frame.width, strengths_->frame.height, [&](std::size_t texel) {
+                  return static_cast<double>(strengths_->factor[texel]) - 1.0;
+              }};
 }
 
 MappedPoint GroundMaps::at(std::uint32_t instance, std::uint32_t own,
                            const Eigen::Vector2d& world) const {
     MappedPoint out{own, 1.0F};
-    if (is_on(on_materials_, instance)) {
+    if (has_materials(instance)) {
         const auto texel = texel_at(materials_->frame, materials_->frame.texels(world));
         if (texel && materials_->choice[*texel] != MaterialTexels::own)
             out.material = materials_->materials[materials_->choice[*texel]];
     }
-    if (is_on(on_strengths_, instance)) {
+    if (has_strengths(instance)) {
         const auto texel = texel_at(strengths_->frame, strengths_->frame.texels(world));
         if (texel) out.strength = strengths_->factor[*texel];
     }
@@ -158,7 +147,7 @@ MappedPoint GroundMaps::at(std::uint32_t instance, std::uint32_t own,
 
 std::optional<std::uint32_t> GroundMaps::material_over(std::uint32_t instance, std::uint32_t own,
                                                        const GroundFootprint& footprint) const {
-    if (!is_on(on_materials_, instance)) return own;
+    if (!has_materials(instance)) return own;
     const TexelFrame& frame = materials_->frame;
     const TexelBox box = box_around(frame, footprint.centre, reach_m(footprint));
     const auto texel = texel_at(frame, frame.texels(footprint.centre));
@@ -175,7 +164,7 @@ std::optional<std::uint32_t> GroundMaps::material_over(std::uint32_t instance, s
 
 std::optional<MappedPoint> GroundMaps::alike_over(std::uint32_t instance, std::uint32_t own,
                                                   const GroundFootprint& footprint) const {
-    if (is_on(on_strengths_, instance)) {
+    if (has_strengths(instance)) {
         const TexelFrame& frame = strengths_->frame;
         if (!is_within_texel(frame, box_around(frame, footprint.centre, reach_m(footprint))))
             return std::nullopt;
@@ -203,18 +192,18 @@ void GroundMaps::shares_over(std::uint32_t instance, std::uint32_t own,
     const Probes probes = probes_of(footprint);
     const Eigen::Vector2d half_m = Eigen::Vector2d::Constant(probes.half_m);
     const double per_probe = 1.0 / probes.count;
-    const bool has_strengths = is_on(on_strengths_, instance);
+    const bool varies = has_strengths(instance);
     // Most footprints have one material.
     if (const auto material = material_over(instance, own, footprint)) {
         double sum = 0.0;
         for (int k = 0; k < probes.count; ++k)
-            sum += has_strengths ? factor_over(probes.first + k * probes.step, half_m) : 1.0;
+            sum += varies ? factor_over(probes.first + k * probes.step, half_m) : 1.0;
         out.push_back({*material, 1.0, sum * per_probe});
         return;
     }
     for (int k = 0; k < probes.count; ++k) {
         const Eigen::Vector2d world = probes.first + k * probes.step;
-        const double factor = has_strengths ? factor_over(world, half_m) : 1.0;
+        const double factor = varies ? factor_over(world, half_m) : 1.0;
         const TexelBox box = box_around(materials_->frame, world, half_m);
         const double per_area = 1.0 / area_of(box);
         double left = 1.0;
@@ -229,15 +218,13 @@ void GroundMaps::shares_over(std::uint32_t instance, std::uint32_t own,
 }
 
 std::string GroundMaps::identity() const {
-    std::string out;
+    std::string out = "\nground " + bytes_hash(ground_);
     if (materials_) {
         out += "\nmaterials " + frame_text(materials_->frame) + bytes_hash(materials_->choice) +
-               bytes_hash(materials_->materials) + bytes_hash(on_materials_);
+               bytes_hash(materials_->materials);
     }
-    if (strengths_) {
-        out += "\nstrengths " + frame_text(strengths_->frame) + bytes_hash(strengths_->factor) +
-               bytes_hash(on_strengths_);
-    }
+    if (strengths_)
+        out += "\nstrengths " + frame_text(strengths_->frame) + bytes_hash(strengths_->factor);
     return out;
 }
 

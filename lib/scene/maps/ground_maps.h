@@ -57,16 +57,15 @@ struct MaterialShare {
     double power = 0.0;  ///< share times the mean factor on the power
 };
 
-/// Maps of material and of strength that are laid on instances of a scene from above. Immutable.
+/// Maps of material and of strength that are laid on the ground from above. Immutable.
 class GroundMaps {
   public:
-    /// `materials` lies on the instances whose element of `on_materials` is not 0, `strengths` on
-    /// those of `on_strengths`.
-    GroundMaps(std::optional<MaterialTexels> materials, std::vector<char> on_materials,
-               std::optional<StrengthTexels> strengths, std::vector<char> on_strengths);
+    /// The maps lie on the instances of the scene whose element of `ground` is not 0.
+    GroundMaps(std::optional<MaterialTexels> materials, std::optional<StrengthTexels> strengths,
+               std::vector<char> ground);
 
     bool lie_on(std::uint32_t instance) const {
-        return is_on(on_materials_, instance) || is_on(on_strengths_, instance);
+        return instance < ground_.size() && ground_[instance] != 0;
     }
 
     /// The materials that texels may have, indices into Scene::materials.
@@ -91,22 +90,19 @@ class GroundMaps {
     std::string identity() const;
 
   private:
-    static bool is_on(const std::vector<char>& on, std::uint32_t instance) {
-        return instance < on.size() && on[instance] != 0;
-    }
-
     /// The material of a footprint, if a quick test finds that it has only one.
     std::optional<std::uint32_t> material_over(std::uint32_t instance, std::uint32_t own,
                                                const GroundFootprint& footprint) const;
+    bool has_materials(std::uint32_t instance) const { return materials_ && lie_on(instance); }
+    bool has_strengths(std::uint32_t instance) const { return strengths_ && lie_on(instance); }
     /// The mean of the factors over a box around a point.
     double factor_over(const Eigen::Vector2d& world, const Eigen::Vector2d& half_m) const;
 
     std::optional<MaterialTexels> materials_;
     std::vector<TexelSums<std::uint32_t>> counts_;  ///< texels of each of MaterialTexels::materials
-    std::vector<char> on_materials_;
     std::optional<StrengthTexels> strengths_;
     TexelSums<double> gains_;  ///< sums of the factors less 1
-    std::vector<char> on_strengths_;
+    std::vector<char> ground_;
 };
 
 }  // namespace sonarsim

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,18 +13,14 @@
 
 namespace sonarsim {
 
-/// The most texels of a map that a mission keeps.
-inline constexpr std::size_t most_map_texels = std::size_t{1} << 24;
-
-/// A map's image and its place.
+/// The place of a map's image.
 struct LaidMapRule {
     std::filesystem::path file = {};
-    double pixel_m = 0.0;                ///< size of a pixel; 0: by size_m, or by the file
-    std::array<double, 2> size_m{};      ///< extent of the map; 0: by pixel_m, or by the file
-    std::array<double, 2> origin_m{};    ///< point of the map that is the world's (0, 0)
-    std::optional<double> no_data = {};  ///< value of pixels that change nothing; none: the file's
-    std::string section = {};            ///< section of the mission, for messages
-    Eigen::AlignedBox2d needed_m = {};   ///< the part that is kept, world x and y
+    double pixel_m = 0.0;               ///< size of a pixel; 0: by size_m, or by the file
+    std::array<double, 2> size_m{};     ///< extent of the map; 0: by pixel_m, or by the file
+    std::array<double, 2> origin_m{};   ///< point of the map that is the world's (0, 0)
+    std::string section = {};           ///< section of the mission, for messages
+    Eigen::AlignedBox2d needed_m = {};  ///< the part that is kept, world x and y
 };
 
 /// A map of materials, from an image of one channel with a number for each, or of colours.
@@ -33,12 +28,12 @@ struct LaidMapRule {
 /// for an image whose place is not known, for a key that does not fit the image's numbers or
 /// colours, and for a pixel that has no material.
 MaterialTexels read_material_map(
-    const LaidMapRule& rule, Image image,
+    const LaidMapRule& rule, const Image& image,
     const std::vector<std::pair<std::string, std::uint32_t>>& materials);
 
 /// A map of decibels, from an image of one channel, or one and alpha: scale_db times the pixel's
 /// value plus offset_db. Throws as the above, and for more than 100 dB.
-StrengthTexels read_strength_map(const LaidMapRule& rule, Image image, double scale_db,
+StrengthTexels read_strength_map(const LaidMapRule& rule, const Image& image, double scale_db,
                                  double offset_db);
 
 }  // namespace sonarsim

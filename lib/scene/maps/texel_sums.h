@@ -21,16 +21,17 @@ template <class T>
 class TexelSums {
   public:
     TexelSums() = default;
-    /// `value(row, column)` is called for every texel.
+    /// `value(k)` is called for every texel, row by row.
     template <class Value>
     TexelSums(int width, int height, const Value& value)
         : width_(width), height_(height), sums_(row_length() * (index(height) + 1)) {
+        std::size_t texel = 0;
         for (int row = 0; row < height; ++row) {
             T left = 0;
             const std::size_t above = index(row) * row_length();
             const std::size_t here = above + row_length();
             for (int column = 0; column < width; ++column) {
-                left += static_cast<T>(value(row, column));
+                left += static_cast<T>(value(texel++));
                 sums_[here + index(column) + 1] = sums_[above + index(column) + 1] + left;
             }
         }

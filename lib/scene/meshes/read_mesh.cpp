@@ -43,22 +43,17 @@ class ModelBuilder {
     void add(const SonarsimMeshPart& part) {
         // Files may have names in any encoding; those of a dataset are UTF-8.
         const std::string name = printable(part.node);
-        auto& primitives = mesh_of(name.empty() ? title_ : name).primitives;
-        const std::vector<float> positions(part.positions, part.positions + 3 * part.vertices);
-        const int vertices = add_accessor(model_, positions, part.vertices,
-                                          TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
+        const int mesh = mesh_of(name.empty() ? title_ : name);
         if (part.triangles > 0) {
-            const std::vector<std::uint32_t> corners(part.corners,
-                                                     part.corners + 3 * part.triangles);
-            tinygltf::Primitive& primitive = primitives.emplace_back();
-            primitive.mode = TINYGLTF_MODE_TRIANGLES;
-            primitive.attributes["POSITION"] = vertices;
-            primitive.indices =
-                add_accessor(model_, corners, corners.size(), TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
-                             TINYGLTF_TYPE_SCALAR);
-            primitive.material = number_of(printable(part.material));
+            const int positions =
+                add_positions(model_, {part.positions, part.positions + 3 * part.vertices});
+            add_triangles(model_, mesh, positions,
+                          {part.corners, part.corners + 3 * part.triangles},
+                          material_number(model_, printable(part.material)));
         }
-        if (part.others > 0) primitives.emplace_back().mode = TINYGLTF_MODE_POINTS;
+        if (part.others == 0) return;
+        auto& primitives = model_.meshes[static_cast<std::size_t>(mesh)].primitives;
+        primitives.emplace_back().mode = TINYGLTF_MODE_POINTS;
     }
 
     tinygltf::Model finish() { return std::move(model_); }
@@ -66,32 +61,16 @@ class ModelBuilder {
   private:
     /// The mesh of the node of this name. A name may occur again after others: the faces of a group
     /// of an OBJ may stand in several places.
-    tinygltf::Mesh& mesh_of(const std::string& name) {
-        const auto [found, is_new] = mesh_of_name_.emplace(name, model_.meshes.size());
-        if (is_new) {
-            tinygltf::Node& node = model_.nodes.emplace_back();
-            node.name = name;
-            node.mesh = static_cast<int>(model_.meshes.size());
-            model_.meshes.emplace_back().name = name;
-        }
-        return model_.meshes[found->second];
-    }
-
-    /// The index of a material; -1 for one without a name.
-    int number_of(const std::string& material) {
-        if (material.empty()) return -1;
-        auto& known = model_.materials;
-        const auto found = std::ranges::find(known, material, &tinygltf::Material::name);
-        if (found == known.end()) {
-            known.emplace_back().name = material;
-            return static_cast<int>(known.size()) - 1;
-        }
-        return static_cast<int>(found - known.begin());
+    int mesh_of(const std::string& name) {
+        const auto [found, is_new] =
+            mesh_of_name_.emplace(name, static_cast<int>(model_.meshes.size()));
+        if (is_new) add_node(model_, name, add_mesh(model_, name));
+        return found->second;
     }
 
     std::string title_;  ///< the name of nodes without one
     tinygltf::Model model_;
-    std::map<std::string, std::size_t> mesh_of_name_;
+    std::map<std::string, int> mesh_of_name_;
 };
 
 void add_part(void* builder, const SonarsimMeshPart* part) {

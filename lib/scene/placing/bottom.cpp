@@ -1,7 +1,5 @@
 #include "scene/placing/bottom.h"
 
-#include <immintrin.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -54,8 +52,8 @@ Eigen::AlignedBox2d area_of(const Surface& surface, std::uint32_t triangle) {
 }  // namespace
 
 Bottom::Bottom(Surface surface) : surface_(std::move(surface)) {
-    for (const Eigen::Vector3d& vertex : surface_.vertices)
-        area_.extend(vertex.head<2>());
+    const Eigen::AlignedBox3d all = box_of(surface_);
+    area_ = {all.min().head<2>(), all.max().head<2>()};
     const auto count = static_cast<std::uint32_t>(surface_.triangles.size());
     side_ = std::clamp(static_cast<int>(std::sqrt(cells_per_triangle * count)), 1, most_cells);
     while (side_ > 1 && places_of_triangles() > most_places)
@@ -73,15 +71,22 @@ Bottom::Bottom(Surface surface) : surface_(std::move(surface)) {
     };
     for (std::uint32_t t = 0; t < count; ++t)
         for_each_cell(t, [&](std::size_t cell) { ++size[cell + 1]; });
-    for (std::size_t cell = 1; cell < size.size(); ++cell)
-        size[cell] += size[cell - 1];
+    std::partial_sum(size.begin(), size.end(), size.begin());
     begin_ = size;
     triangles_.resize(size.back());
-    make_boxes();
+    if (count == 0) return;
+    corner_ = all.min();
+    const auto rounding = static_cast<float>(0x1p-20 * all.sizes().maxCoeff());
+    for (const auto& triangle : surface_.triangles) {
+        Eigen::AlignedBox3f& box = boxes_.emplace_back();
+        for (const std::uint32_t vertex : triangle)
+            box.extend((surface_.vertices[vertex] - corner_).cast<float>());
+        box = {(box.min().array() - rounding).matrix(), (box.max().array() + rounding).matrix()};
+    }
     std::vector<std::uint32_t> downwards(count);
     std::iota(downwards.begin(), downwards.end(), 0U);
     std::ranges::stable_sort(downwards, std::greater{},
-                             [&](std::uint32_t t) { return boxes_[t].max[2]; });
+                             [&](std::uint32_t t) { return boxes_[t].max().z(); });
     for (const std::uint32_t t : downwards)
         for_each_cell(t, [&](std::size_t cell) { triangles_[size[cell]++] = t; });
 }
@@ -96,39 +101,11 @@ std::uint64_t Bottom::places_of_triangles() const {
     return places;
 }
 
-void Bottom::make_boxes() {
-    if (surface_.triangles.empty()) return;
-    const Eigen::AlignedBox3d all = box_of(surface_);
-    corner_ = all.min();
-    const auto rounding = static_cast<float>(0x1p-20 * all.sizes().maxCoeff());
-    boxes_.reserve(surface_.triangles.size());
-    for (const auto& triangle : surface_.triangles) {
-        Eigen::AlignedBox3d box;
-        for (const std::uint32_t vertex : triangle)
-            box.extend(surface_.vertices[vertex]);
-        const Eigen::Array3f min = (box.min() - corner_).cast<float>().array() - rounding;
-        const Eigen::Array3f max = (box.max() - corner_).cast<float>().array() + rounding;
-        boxes_.push_back({{min.x(), min.y(), min.z(), 0.0F}, {max.x(), max.y(), max.z(), 0.0F}});
-    }
-}
-
 Eigen::Array2i Bottom::cell_of(const Eigen::Vector2d& point) const {
     if (area_.isEmpty()) return {0, 0};
     const Eigen::Array2d size = area_.sizes().array().max(1e-9);
     const Eigen::Array2d cell = ((point - area_.min()).array() / size * side_).floor();
     return cell.max(0.0).min(side_ - 1.0).cast<int>();
-}
-
-std::optional<Bottom::Heights> Bottom::heights(const Eigen::Vector2d& point) const {
-    std::optional<Heights> found;
-    for_each_near({point, point}, [&](std::uint32_t triangle) {
-        const auto z = height_above(corners_of(surface_, triangle), point);
-        if (!z) return;
-        if (!found) found = {*z, *z};
-        found->lowest = std::min(found->lowest, *z);
-        found->highest = std::max(found->highest, *z);
-    });
-    return found;
 }
 
 std::optional<double> Bottom::highest_below(const Eigen::Vector3d& point, double tolerance) const {
@@ -137,18 +114,15 @@ std::optional<double> Bottom::highest_below(const Eigen::Vector3d& point, double
     constexpr double none = -std::numeric_limits<double>::infinity();
     double found = none;
     const Eigen::Array3f from = (Eigen::Vector3d(at.x(), at.y(), most) - corner_).cast<float>();
-    const __m128 high = _mm_setr_ps(from.x(), from.y(), from.z(), 0.0F);
-    const __m128 low =
-        _mm_setr_ps(from.x(), from.y(), -std::numeric_limits<float>::infinity(), 0.0F);
     const Eigen::Array2i place = cell_of(at);
     const auto cell = static_cast<std::size_t>(place.y()) * side_ + place.x();
     float found_z = -std::numeric_limits<float>::infinity();
     for (std::uint32_t k = begin_[cell]; k < begin_[cell + 1]; ++k) {
-        const Box& box = boxes_[triangles_[k]];
-        if (box.max[2] < found_z) break;
-        const __m128 above = _mm_cmple_ps(_mm_load_ps(box.min.data()), high);
-        const __m128 below = _mm_cmple_ps(low, _mm_load_ps(box.max.data()));
-        if (_mm_movemask_ps(_mm_and_ps(above, below)) != 0xF) continue;
+        const Eigen::AlignedBox3f& box = boxes_[triangles_[k]];
+        if (box.max().z() < found_z) break;
+        if (box.min().z() > from.z() || box.min().x() > from.x() || box.max().x() < from.x() ||
+            box.min().y() > from.y() || box.max().y() < from.y())
+            continue;
         const auto& [a, b, c] = surface_.triangles[triangles_[k]];
         double z = none;
         find_height(surface_.vertices[a], surface_.vertices[b], surface_.vertices[c], at, z);

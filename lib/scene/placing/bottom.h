@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -19,16 +20,13 @@ class Bottom {
     const Surface& surface() const { return surface_; }
     const Eigen::AlignedBox2d& area() const { return area_; }
 
-    /// Heights of the lowest and the highest surface at a point.
-    struct Heights {
-        double lowest;
-        double highest;
-    };
-    std::optional<Heights> heights(const Eigen::Vector2d& point) const;
-
     /// The highest surface at the x and y of a point that lies below it, or at most `tolerance`
     /// above it; nullopt if there is none.
     std::optional<double> highest_below(const Eigen::Vector3d& point, double tolerance) const;
+    /// The highest surface at a point seen from above.
+    std::optional<double> highest(const Eigen::Vector2d& point) const {
+        return highest_below({point.x(), point.y(), std::numeric_limits<double>::infinity()}, 0.0);
+    }
 
     /// Calls `visit` with the index of every triangle that may meet the box, some more than once.
     template <class Visit>
@@ -45,16 +43,9 @@ class Bottom {
     }
 
   private:
-    /// Box around a triangle, relative to `corner_` and enlarged by more than the rounding of
-    /// floats. Most triangles of a cell are skipped after one comparison of boxes.
-    struct alignas(16) Box {
-        std::array<float, 4> min, max;  ///< x, y, z; the last is 0
-    };
-
     Eigen::Array2i cell_of(const Eigen::Vector2d& point) const;
     /// The number of triangles in all cells of the grid, a triangle once in each of its cells.
     std::uint64_t places_of_triangles() const;
-    void make_boxes();
 
     Surface surface_;
     Eigen::AlignedBox2d area_;
@@ -62,7 +53,9 @@ class Bottom {
     std::vector<std::uint32_t> begin_;
     std::vector<std::uint32_t> triangles_;  ///< the highest first in each cell
     Eigen::Vector3d corner_ = Eigen::Vector3d::Zero();
-    std::vector<Box> boxes_;  ///< one for each triangle
+    /// Box around each triangle, relative to `corner_` and enlarged by more than the rounding of
+    /// floats. Most triangles of a cell are skipped after one comparison of boxes.
+    std::vector<Eigen::AlignedBox3f> boxes_;
 };
 
 /// The height of a triangle's plane at a point within the triangle as seen from above, edges

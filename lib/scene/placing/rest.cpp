@@ -49,13 +49,11 @@ double rise_of(const Corners& object, const Corners& ground) {
 }
 
 /// Height of the highest corner of the bottom's triangles near an object, seen from above.
-double highest_below(const Bottom& bottom, const Surface& object) {
-    Eigen::AlignedBox2d box;
-    for (const Eigen::Vector3d& vertex : object.vertices)
-        box.extend(vertex.head<2>());
+double top_near(const Bottom& bottom, const Surface& object) {
     double highest = -std::numeric_limits<double>::infinity();
-    if (box.isEmpty()) return highest;
-    bottom.for_each_near(box, [&](std::uint32_t near) {
+    if (object.vertices.empty()) return highest;
+    const Eigen::AlignedBox3d box = box_of(object);
+    bottom.for_each_near({box.min().head<2>(), box.max().head<2>()}, [&](std::uint32_t near) {
         for (const Eigen::Vector3d& corner : corners_of(bottom.surface(), near))
             highest = std::max(highest, corner.z());
     });
@@ -67,16 +65,16 @@ double highest_below(const Bottom& bottom, const Surface& object) {
 std::optional<double> lift_to_rest(const Bottom& bottom, const Surface& object) {
     double lift = -std::numeric_limits<double>::infinity();
     for (const Eigen::Vector3d& vertex : object.vertices) {
-        const auto heights = bottom.heights(vertex.head<2>());
-        if (!heights) return std::nullopt;
-        lift = std::max(lift, heights->highest - vertex.z());
+        const auto highest = bottom.highest(vertex.head<2>());
+        if (!highest) return std::nullopt;
+        lift = std::max(lift, *highest - vertex.z());
     }
-    const double ground_top = highest_below(bottom, object);
+    const double ground_top = top_near(bottom, object);
     for (std::size_t t = 0; t < object.triangles.size(); ++t) {
         const Corners own = corners_of(object, t);
-        if (ground_top - std::min({own[0].z(), own[1].z(), own[2].z()}) <= lift) continue;
-        const Eigen::AlignedBox2d box = box_from_above(own);
         const double lowest = std::min({own[0].z(), own[1].z(), own[2].z()});
+        if (ground_top - lowest <= lift) continue;
+        const Eigen::AlignedBox2d box = box_from_above(own);
         bottom.for_each_near(box, [&](std::uint32_t near) {
             const Corners ground = corners_of(bottom.surface(), near);
             // Quick test first: most of an object is too high to touch.
@@ -92,8 +90,7 @@ std::optional<double> lift_to_rest(const Bottom& bottom, const Surface& object) 
 bool lies_below(const Bottom& bottom, const Surface& object) {
     return !object.vertices.empty() &&
            std::ranges::all_of(object.vertices, [&](const Eigen::Vector3d& vertex) {
-               const auto heights = bottom.heights(vertex.head<2>());
-               return heights && vertex.z() < heights->lowest;
+               return bottom.highest(vertex.head<2>()) && !bottom.highest_below(vertex, 0.0);
            });
 }
 
@@ -105,8 +102,8 @@ Eigen::Quaterniond slope_of(const Bottom& bottom, const Eigen::AlignedBox2d& box
             const Eigen::Vector2d share(static_cast<double>(i) / steps,
                                         static_cast<double>(k) / steps);
             const Eigen::Vector2d offset = share.cwiseProduct(box.sizes()) - 0.5 * box.sizes();
-            if (const auto heights = bottom.heights(box.center() + offset))
-                points.emplace_back(offset.x(), offset.y(), heights->highest);
+            if (const auto highest = bottom.highest(box.center() + offset))
+                points.emplace_back(offset.x(), offset.y(), *highest);
         }
     }
     if (points.size() < 3) return Eigen::Quaterniond::Identity();

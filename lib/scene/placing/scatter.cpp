@@ -65,46 +65,18 @@ struct Refusals {
             " have no bottom below; take a larger area, fewer or smaller objects or more tries");
 }
 
-Hull shifted(const Hull& hull, const Eigen::Vector2d& by) {
-    Hull out = hull;
-    for (Eigen::Vector2d& corner : out)
+Hull shifted(Hull hull, const Eigen::Vector2d& by) {
+    for (Eigen::Vector2d& corner : hull)
         corner += by;
-    return out;
+    return hull;
 }
 
-Eigen::AlignedBox2d box_around(const Hull& hull) {
-    Eigen::AlignedBox2d box;
-    for (const Eigen::Vector2d& corner : hull)
-        box.extend(corner);
-    return box;
+bool has_room(const Hull& room, double spacing_m, const std::vector<Hull>& taken) {
+    return std::ranges::none_of(taken, [&](const Hull& other) {
+        const double distance = distance_between(room, other, spacing_m);
+        return distance <= 0.0 || distance < spacing_m;
+    });
 }
-
-/// The occupied ground, with boxes for a quick test.
-struct TakenGround {
-    std::vector<Hull>& hulls;
-    std::vector<Eigen::AlignedBox2d> boxes = {};
-
-    explicit TakenGround(std::vector<Hull>& taken) : hulls(taken) {
-        for (const Hull& hull : taken)
-            boxes.push_back(box_around(hull));
-    }
-    void add(Hull hull) {
-        boxes.push_back(box_around(hull));
-        hulls.push_back(std::move(hull));
-    }
-    bool has_room_for(const Hull& room, double spacing_m) const {
-        const Eigen::AlignedBox2d box = box_around(room);
-        // The margin exceeds the rounding of the distance between two hulls.
-        const double near_m = 1.001 * spacing_m + 1e-6 * (1.0 + box.max().cwiseAbs().maxCoeff() +
-                                                          box.min().cwiseAbs().maxCoeff());
-        for (std::size_t k = 0; k < hulls.size(); ++k) {
-            if (box.squaredExteriorDistance(boxes[k]) > near_m * near_m) continue;
-            const double distance = distance_between(room, hulls[k]);
-            if (distance <= 0.0 || distance < spacing_m) return false;
-        }
-        return true;
-    }
-};
 
 /// One object whose positions are tried one after the other.
 struct Attempt {
@@ -117,12 +89,12 @@ struct Attempt {
 
 /// Returns the object's transform if there is room for it, and marks the ground as taken.
 std::optional<Eigen::Affine3d> try_at(const Eigen::Vector2d& position, const Attempt& attempt,
-                                      TakenGround& taken, Refusals& refusals) {
+                                      std::vector<Hull>& taken, Refusals& refusals) {
     const ScatterRule& rule = attempt.rule;
     const auto fits = [&](const Hull& room) {
         const bool inside = std::ranges::all_of(
             room, [&](const Eigen::Vector2d& p) { return rule.area.contains(p); });
-        const bool alone = inside && taken.has_room_for(room, rule.spacing_m);
+        const bool alone = inside && has_room(room, rule.spacing_m, taken);
         refusals.outside += !inside;
         refusals.taken += inside && !alone;
         return alone;
@@ -136,13 +108,13 @@ std::optional<Eigen::Affine3d> try_at(const Eigen::Vector2d& position, const Att
         return std::nullopt;
     }
     if (!rule.align) {
-        taken.add(shifted(attempt.outline, position));
+        taken.push_back(shifted(attempt.outline, position));
         return T_world_shape;
     }
     // The object may have been tilted on a slope, so its outline is tested again.
     Hull room = hull_of(moved(attempt.shape, *T_world_shape).vertices);
     if (!fits(room)) return std::nullopt;
-    taken.add(std::move(room));
+    taken.push_back(std::move(room));
     return T_world_shape;
 }
 
@@ -173,7 +145,6 @@ std::vector<ScatteredObject> scatter(const ScatterRule& rule, std::uint32_t rule
                                      std::uint64_t seed, const Bottom& bottom,
                                      std::vector<Hull>& taken) {
     const std::size_t count = count_of(rule, seed, rule_index);
-    TakenGround ground(taken);
     std::vector<ScatteredObject> objects;
     for (std::size_t i = 0; i < count; ++i) {
         const Draws draws(seed, rule_index, static_cast<std::uint32_t>(i));
@@ -196,7 +167,7 @@ std::vector<ScatteredObject> scatter(const ScatterRule& rule, std::uint32_t rule
             const Eigen::Vector2d position(
                 draws.in({rule.area.min().x(), rule.area.max().x()}, Draw::x, n),
                 draws.in({rule.area.min().y(), rule.area.max().y()}, Draw::y, n));
-            found = try_at(position, {rule, bottom, shape, stance, outline}, ground, refusals);
+            found = try_at(position, {rule, bottom, shape, stance, outline}, taken, refusals);
         }
         if (!found) give_up(rule, i, count, refusals);
         objects.push_back({chosen, *found});

@@ -1,6 +1,5 @@
 #include "scene/placing/standing.h"
 
-#include <cmath>
 #include <vector>
 
 #include "core/text.h"
@@ -8,20 +7,6 @@
 #include "scene/placing/hull.h"
 
 namespace sonarsim {
-
-namespace {
-
-double area_of_hull(const Hull& hull) {
-    double twice = 0.0;
-    for (std::size_t i = 0; i < hull.size(); ++i) {
-        const Eigen::Vector2d& a = hull[i];
-        const Eigen::Vector2d& b = hull[(i + 1) % hull.size()];
-        twice += a.x() * b.y() - a.y() * b.x();
-    }
-    return 0.5 * std::abs(twice);
-}
-
-}  // namespace
 
 bool rests_upright(const Surface& surface, int axis) {
     constexpr double low = 0.01;
@@ -36,7 +21,7 @@ bool rests_upright(const Surface& surface, int axis) {
         all.push_back(seen);
         if (vertex[axis] <= limit) lowest.push_back(seen);
     }
-    return area_of_hull(hull_of(lowest)) >= broad * area_of_hull(hull_of(all));
+    return area_of(hull_of(lowest)) >= broad * area_of(hull_of(all));
 }
 
 std::string up_question(const PlacedFile& file, const Surface& surface) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -32,11 +33,13 @@ struct BedGrid {
     }
 };
 
+/// A part of a bed: least x and y, largest x and y, m.
+using BedArea = std::array<double, 4>;
+
 /// The subjects of the draws for a bed. Draws of different subjects are independent.
 enum class BedDraw : std::uint32_t {
     roughness = 1,  ///< the octave as `number`
     ripples = 2,
-    ripple_patches = 4,
     sediments = 6,
     borders = 7,
     rocks = 10,

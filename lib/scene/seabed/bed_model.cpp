@@ -1,10 +1,7 @@
 #include "scene/seabed/bed_model.h"
 
-#include <algorithm>
 #include <cstdint>
-#include <map>
-#include <span>
-#include <utility>
+#include <string>
 #include <vector>
 
 #include "scene/model_data.h"
@@ -12,8 +9,6 @@
 namespace sonarsim {
 
 namespace {
-
-constexpr const char* bed_node = "seabed";
 
 /// Column, row and height of each vertex.
 std::vector<float> vertices_of(const Seabed& bed) {
@@ -49,132 +44,57 @@ std::vector<std::vector<std::uint32_t>> corners_by_material(const Seabed& bed) {
     return out;
 }
 
-/// Makes a model of a bed.
-class BedModel {
-  public:
-    explicit BedModel(const Seabed& bed) : bed_(bed) {}
+void set_class(const std::string& name, tinygltf::Node& node) {
+    using tinygltf::Value;
+    if (name.empty()) return;
+    node.extras = Value(Value::Object{{"sonar", Value(Value::Object{{"class", Value(name)}})}});
+}
 
-    tinygltf::Model model() && {
-        add_bed();
-        add_rocks();
-        return std::move(model_);
+int add_rock_shape(const Surface& surface, int material, tinygltf::Model& model) {
+    std::vector<float> positions;
+    for (const Eigen::Vector3d& vertex : surface.vertices) {
+        for (const double x : vertex)
+            positions.push_back(static_cast<float>(x));
     }
-
-  private:
-    /// The index of a material; -1 for one without a name.
-    int material(const std::string& name) {
-        if (name.empty()) return -1;
-        const auto [entry, is_new] = materials_.emplace(name, static_cast<int>(materials_.size()));
-        if (is_new) model_.materials.emplace_back().name = name;
-        return entry->second;
-    }
-    int material_or_bed(const std::string& name) {
-        return material(name.empty() ? bed_.materials.front() : name);
-    }
-
-    int add_corners(const std::vector<std::uint32_t>& corners) {
-        return add_accessor(model_, corners, corners.size(), TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
-                            TINYGLTF_TYPE_SCALAR);
-    }
-    int add_positions(const std::vector<float>& positions) {
-        return add_accessor(model_, positions, positions.size() / 3, TINYGLTF_COMPONENT_TYPE_FLOAT,
-                            TINYGLTF_TYPE_VEC3);
-    }
-    static tinygltf::Primitive primitive(int positions, int corners, int material) {
-        tinygltf::Primitive out;
-        out.mode = TINYGLTF_MODE_TRIANGLES;
-        out.attributes["POSITION"] = positions;
-        out.indices = corners;
-        out.material = material;
-        return out;
-    }
-
-    int add_mesh(const char* name, const Surface& surface, int material) {
-        std::vector<float> positions;
-        positions.reserve(3 * surface.vertices.size());
-        for (const Eigen::Vector3d& vertex : surface.vertices) {
-            for (const double x : vertex)
-                positions.push_back(static_cast<float>(x));
-        }
-        std::vector<std::uint32_t> corners;
-        corners.reserve(3 * surface.triangles.size());
-        for (const auto& triangle : surface.triangles)
-            corners.insert(corners.end(), triangle.begin(), triangle.end());
-        tinygltf::Mesh mesh;
-        mesh.name = name;
-        mesh.primitives.push_back(
-            primitive(add_positions(positions), add_corners(corners), material));
-        model_.meshes.push_back(std::move(mesh));
-        return static_cast<int>(model_.meshes.size()) - 1;
-    }
-
-    tinygltf::Node& add_node(const std::string& name, int mesh, const std::string& class_name) {
-        tinygltf::Node node;
-        node.name = name;
-        node.mesh = mesh;
-        if (!class_name.empty()) {
-            const tinygltf::Value::Object sonar{{"class", tinygltf::Value(class_name)}};
-            node.extras =
-                tinygltf::Value(tinygltf::Value::Object{{"sonar", tinygltf::Value(sonar)}});
-        }
-        model_.nodes.push_back(std::move(node));
-        return model_.nodes.back();
-    }
-
-    void add_bed() {
-        const BedGrid& grid = bed_.grid;
-        tinygltf::Mesh mesh;
-        mesh.name = bed_node;
-        const int positions = add_positions(vertices_of(bed_));
-        const auto corners = corners_by_material(bed_);
-        for (std::size_t m = 0; m < corners.size(); ++m) {
-            if (corners[m].empty()) continue;
-            mesh.primitives.push_back(
-                primitive(positions, add_corners(corners[m]), material(bed_.materials[m])));
-        }
-        model_.meshes.push_back(std::move(mesh));
-        add_node(bed_node, 0, bed_.class_name).matrix = {grid.cell_m,
-                                                         0.0,
-                                                         0.0,
-                                                         0.0,
-                                                         0.0,
-                                                         -grid.cell_m,
-                                                         0.0,
-                                                         0.0,
-                                                         0.0,
-                                                         0.0,
-                                                         1.0,
-                                                         0.0,
-                                                         grid.x_m(0) - bed_.origin_m[0],
-                                                         grid.y_m(0) - bed_.origin_m[1],
-                                                         0.0,
-                                                         1.0};
-    }
-
-    void add_rocks() {
-        std::vector<int> mesh_of_shape(bed_.rock_shapes.size(), -1);
-        for (std::size_t i = 0; i < bed_.rocks.size(); ++i) {
-            const Rock& rock = bed_.rocks[i];
-            int& mesh = mesh_of_shape[rock.shape];
-            if (mesh < 0) {
-                mesh = add_mesh("rock", bed_.rock_shapes[rock.shape],
-                                material_or_bed(bed_.rock_material));
-            }
-            const Eigen::Matrix4d& matrix = rock.T_world_shape.matrix();
-            add_node(rock_name(i), mesh, bed_.rock_class)
-                .matrix.assign(matrix.data(), matrix.data() + matrix.size());
-        }
-    }
-
-    const Seabed& bed_;
-    tinygltf::Model model_;
-    std::map<std::string, int> materials_;
-};
+    std::vector<std::uint32_t> corners;
+    for (const auto& triangle : surface.triangles)
+        corners.insert(corners.end(), triangle.begin(), triangle.end());
+    const int mesh = add_mesh(model, "rock");
+    add_triangles(model, mesh, add_positions(model, positions), corners, material);
+    return mesh;
+}
 
 }  // namespace
 
 tinygltf::Model bed_model(const Seabed& bed) {
-    return BedModel(bed).model();
+    tinygltf::Model model;
+    const int ground = add_mesh(model, "seabed");
+    const int positions = add_positions(model, vertices_of(bed));
+    const auto corners = corners_by_material(bed);
+    for (std::size_t m = 0; m < corners.size(); ++m) {
+        if (corners[m].empty()) continue;
+        add_triangles(model, ground, positions, corners[m],
+                      material_number(model, bed.materials[m]));
+    }
+    tinygltf::Node& node = add_node(model, "seabed", ground);
+    node.matrix = grid_matrix(bed.grid.cell_m, -bed.grid.cell_m, bed.grid.x_m(0), bed.grid.y_m(0));
+    set_class(bed.class_name, node);
+    const std::string& of_rocks =
+        bed.rock_material.empty() ? bed.materials.front() : bed.rock_material;
+    std::vector<int> mesh_of_shape(bed.rock_shapes.size(), -1);
+    for (std::size_t i = 0; i < bed.rocks.size(); ++i) {
+        const Rock& rock = bed.rocks[i];
+        int& mesh = mesh_of_shape[rock.shape];
+        if (mesh < 0) {
+            mesh = add_rock_shape(bed.rock_shapes[rock.shape], material_number(model, of_rocks),
+                                  model);
+        }
+        const Eigen::Matrix4d& matrix = rock.T_world_shape.matrix();
+        tinygltf::Node& placed = add_node(model, rock_name(i), mesh);
+        placed.matrix.assign(matrix.data(), matrix.data() + matrix.size());
+        set_class(bed.rock_class, placed);
+    }
+    return model;
 }
 
 }  // namespace sonarsim

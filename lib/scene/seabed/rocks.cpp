@@ -106,6 +106,66 @@ Surface cut_rock(const Surface& ball, const std::vector<Cut>& cuts) {
     return out;
 }
 
+/// A point of a Poisson process, and the counter of its further draws.
+struct BedPoint {
+    double x_m = 0.0;
+    double y_m = 0.0;
+    std::uint32_t tile_x = 0;
+    std::uint32_t tile_y = 0;
+    std::uint32_t number = 0;  ///< within its tile
+
+    /// A uniform number in [0, 1); each `which` from 1 on gives an independent one.
+    double draw(std::uint32_t which, PhiloxKey key) const {
+        const PhiloxBlock block = philox({tile_x, tile_y, number, which}, key);
+        return unit_double(block.x0, block.x1);
+    }
+};
+
+constexpr double points_per_tile = 8.0;
+
+/// The number of points of a tile, by inversion of Poisson's distribution.
+std::uint32_t count_of_tile(std::uint32_t tile_x, std::uint32_t tile_y, PhiloxKey key) {
+    constexpr std::uint32_t counter = 0xFFFFFFFFU;  // points are counted from 0
+    const double u = BedPoint{0.0, 0.0, tile_x, tile_y, counter}.draw(0, key);
+    double probability = exponential(-points_per_tile);
+    double sum = probability;
+    std::uint32_t count = 0;
+    constexpr std::uint32_t never_reached = 100;  // its probability is 1e-70
+    while (u >= sum && count < never_reached) {
+        ++count;
+        probability *= points_per_tile / count;
+        sum += probability;
+    }
+    return count;
+}
+
+/// The points of a Poisson process in an area. The size of the tiles depends only on the density.
+std::vector<BedPoint> poisson_points(const BedArea& area, double density_per_m2, PhiloxKey key) {
+    std::vector<BedPoint> out;
+    if (density_per_m2 <= 0.0) return out;
+    const double tile_m = std::sqrt(points_per_tile / density_per_m2);
+    const auto tile_of = [&](double x) {
+        return static_cast<std::int64_t>(std::floor(x / tile_m));
+    };
+    for (std::int64_t j = tile_of(area[1]); j <= tile_of(area[3]); ++j) {
+        for (std::int64_t i = tile_of(area[0]); i <= tile_of(area[2]); ++i) {
+            const auto tile_x = static_cast<std::uint32_t>(i);
+            const auto tile_y = static_cast<std::uint32_t>(j);
+            const std::uint32_t count = count_of_tile(tile_x, tile_y, key);
+            for (std::uint32_t n = 0; n < count; ++n) {
+                const PhiloxBlock block = philox({tile_x, tile_y, n, 0}, key);
+                const double x =
+                    (static_cast<double>(i) + unit_double(block.x0, block.x1)) * tile_m;
+                const double y =
+                    (static_cast<double>(j) + unit_double(block.x2, block.x3)) * tile_m;
+                if (x < area[0] || x >= area[2] || y < area[1] || y >= area[3]) continue;
+                out.push_back({x, y, tile_x, tile_y, n});
+            }
+        }
+    }
+    return out;
+}
+
 /// The diameter that a share u of the rocks is smaller than.
 double diameter_at(double u, const BedRocks& rocks) {
     const auto [least, most] = rocks.diameter_m;
@@ -138,13 +198,12 @@ std::vector<Rock> rocks_in(const BedArea& area, const BedRocks& rocks, double ce
     std::vector<Rock> out;
     for (const BedPoint& point : poisson_points(area, rocks.density_per_m2, key)) {
         Rock& rock = out.emplace_back();
-        rock.diameter_m = diameter_at(draw_of(point, 1, key), rocks);
-        rock.buried = draw_in(rocks.buried, point, 2, key);
+        rock.diameter_m = diameter_at(point.draw(1, key), rocks);
+        rock.buried = rocks.buried[0] + (rocks.buried[1] - rocks.buried[0]) * point.draw(2, key);
         const double cells = rock.diameter_m / cell_m;
         const std::uint32_t level = (cells > 3.0 ? 1U : 0U) + (cells > 12.0 ? 1U : 0U);
-        rock.shape =
-            levels * static_cast<std::uint32_t>(draw_of(point, 3, key) * shape_count) + level;
-        const SinCos turn = sincos(2.0 * pi * draw_of(point, 4, key));
+        rock.shape = levels * static_cast<std::uint32_t>(point.draw(3, key) * shape_count) + level;
+        const SinCos turn = sincos(2.0 * pi * point.draw(4, key));
         rock.T_world_shape = Eigen::Affine3d::Identity();
         rock.T_world_shape.linear() << turn.cos, -turn.sin, 0.0, turn.sin, turn.cos, 0.0, 0.0, 0.0,
             1.0;

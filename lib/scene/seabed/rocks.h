@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "scene/seabed/bed_grid.h"
-#include "scene/seabed/point_process.h"
 #include "scene/surface.h"
 
 namespace sonarsim {
@@ -34,9 +33,10 @@ struct Rock {
 /// with 20, 80 and 320 triangles, in this order.
 std::vector<Surface> rock_shapes(std::uint64_t seed);
 
-/// The rocks whose middles lie in an area of the bed, without their height: z of the transform is
-/// 0. Their diameters follow the power law between the two limits. Rocks that cover more cells have
-/// more triangles.
+/// The rocks whose middles lie in an area of the bed, [least, largest), without their height: z of
+/// the transform is 0. They are a Poisson process, drawn tile by tile of the endless plane, so that
+/// an area has the same rocks, in the same order, whatever else is made. Their diameters follow the
+/// power law between the two limits. Rocks that cover more cells have more triangles.
 std::vector<Rock> rocks_in(const BedArea& area, const BedRocks& rocks, double cell_m,
                            std::uint64_t seed);
 

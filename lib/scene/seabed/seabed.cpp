@@ -48,35 +48,6 @@ BedGrid grid_of_rule(const SeabedRule& rule) {
             static_cast<int>(columns), static_cast<int>(rows)};
 }
 
-/// The heights of the bed without its random parts.
-std::vector<double> smooth_heights(const BedGrid& grid, const SeabedRule& rule) {
-    std::vector<double> out;
-    out.reserve(grid.size());
-    for (int row = 0; row < grid.rows; ++row) {
-        const double along_y = rule.slope[1] * (grid.y_m(row) - rule.origin_m[1]);
-        for (int column = 0; column < grid.columns; ++column)
-            out.push_back(rule.z_m + along_y +
-                          rule.slope[0] * (grid.x_m(column) - rule.origin_m[0]));
-    }
-    return out;
-}
-
-/// The ground within the outer heights of a grid, where every point has a height.
-BedArea area_of_grid(const BedGrid& grid) {
-    return {grid.x_m(0), grid.y_m(grid.rows - 1), grid.x_m(grid.columns - 1), grid.y_m(0)};
-}
-
-/// InputError for more items than the limit.
-void require_room(const SeabedRule& rule, const BedArea& area, double density_per_m2, double most,
-                  const char* what) {
-    const double count = (area[2] - area[0]) * (area[3] - area[1]) * density_per_m2;
-    if (count <= most) return;
-    throw InputError(rule.place, fmt::format("the part of the seabed that the mission needs has "
-                                             "some {:.0f} {}, and at most {:.0f} have room; lower "
-                                             "their density_per_m2",
-                                             count, what, most));
-}
-
 /// The height of the bed between the heights of the grid, on its triangles.
 double height_at(const Seabed& bed, double x_m, double y_m) {
     const BedGrid& grid = bed.grid;
@@ -101,10 +72,19 @@ double height_at(const Seabed& bed, double x_m, double y_m) {
     return z(0, 0) + v * (z(1, 0) - z(0, 0)) + u * (z(1, 1) - z(1, 0));
 }
 
-void lay_rocks(const SeabedRule& rule, Seabed& bed) {
+void add_rocks(const SeabedRule& rule, Seabed& bed) {
     constexpr double most_rocks = 50000.0;
-    const BedArea area = area_of_grid(bed.grid);
-    require_room(rule, area, rule.rocks->density_per_m2, most_rocks, "rocks");
+    const BedGrid& grid = bed.grid;
+    // Within the outer heights, where every point has a height.
+    const BedArea area{grid.x_m(0), grid.y_m(grid.rows - 1), grid.x_m(grid.columns - 1),
+                       grid.y_m(0)};
+    const double count = (area[2] - area[0]) * (area[3] - area[1]) * rule.rocks->density_per_m2;
+    if (count > most_rocks) {
+        throw InputError(rule.place, fmt::format("the part of the seabed that the mission needs "
+                                                 "has some {:.0f} rocks, and at most {:.0f} have "
+                                                 "room; lower their density_per_m2",
+                                                 count, most_rocks));
+    }
     bed.rock_shapes = rock_shapes(rule.seed);
     bed.rocks = rocks_in(area, *rule.rocks, rule.cell_m, rule.seed);
     bed.rock_material = rule.rocks->material;
@@ -114,8 +94,6 @@ void lay_rocks(const SeabedRule& rule, Seabed& bed) {
         const Eigen::AlignedBox3d box = box_of(bed.rock_shapes[rock.shape]);
         const double z = height_at(bed, at.x(), at.y());
         at.z() = z - rock.diameter_m * (box.min().z() + rock.buried * box.sizes().z());
-        at.x() -= rule.origin_m[0];
-        at.y() -= rule.origin_m[1];
     }
 }
 
@@ -135,9 +113,8 @@ std::vector<std::string> materials_of(const Seabed& bed) {
 Seabed make_seabed(const SeabedRule& rule) {
     Seabed bed;
     bed.grid = grid_of_rule(rule);
-    bed.origin_m = rule.origin_m;
     bed.class_name = rule.class_name;
-    std::vector<double> heights = smooth_heights(bed.grid, rule);
+    std::vector<double> heights(bed.grid.size(), rule.z_m);
     if (rule.ripples) add_ripples(bed.grid, *rule.ripples, rule.seed, heights);
     if (rule.roughness) add_roughness(bed.grid, *rule.roughness, rule.seed, heights);
     bed.heights.reserve(heights.size());
@@ -147,8 +124,8 @@ Seabed make_seabed(const SeabedRule& rule) {
     if (!rule.sediments.empty()) bed.materials.clear();
     for (const BedSediment& sediment : rule.sediments)
         bed.materials.push_back(sediment.material);
-    bed.sediments = sediments_of(bed.grid, rule.sediments, rule.patch_m, rule.border_m, rule.seed);
-    if (rule.rocks) lay_rocks(rule, bed);
+    bed.sediments = sediments_of(bed.grid, rule.sediments, rule.patch_m, rule.seed);
+    if (rule.rocks) add_rocks(rule, bed);
     return bed;
 }
 

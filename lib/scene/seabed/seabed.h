@@ -8,10 +8,8 @@
 
 #include "core/error.h"
 #include "scene/seabed/bed_grid.h"
-#include "scene/seabed/point_process.h"
-#include "scene/seabed/ripples.h"
+#include "scene/seabed/relief.h"
 #include "scene/seabed/rocks.h"
-#include "scene/seabed/roughness.h"
 #include "scene/seabed/sediments.h"
 #include "scene/surface.h"
 
@@ -23,14 +21,11 @@ struct SeabedRule {
     double cell_m = 1.0;
     std::optional<std::array<double, 2>> size_m = {};  ///< x, y from (0, 0); none: no end
     BedArea window{};                                  ///< the part to generate
-    std::array<double, 2> origin_m{};                  ///< point that is the world's (0, 0)
-    double z_m = 0.0;                                  ///< height of the smooth bed there
-    std::array<double, 2> slope{};                     ///< rise per metre along x and y
+    double z_m = 0.0;                                  ///< mean height
     std::optional<BedRoughness> roughness = {};
     std::optional<BedRipples> ripples = {};
     std::vector<BedSediment> sediments = {};  ///< none: `material` everywhere
     double patch_m = 10.0;
-    double border_m = 1.0;
     std::optional<BedRocks> rocks = {};
     std::string material = {};  ///< "": none
     std::string class_name = {};
@@ -40,7 +35,6 @@ struct SeabedRule {
 /// A bed, or a part of one.
 struct Seabed {
     BedGrid grid;
-    std::array<double, 2> origin_m{};     ///< point of the bed that is the world's (0, 0)
     std::vector<float> heights;           ///< world z of the cells, in the order of the grid
     std::vector<std::string> materials;   ///< the bed's; "" is none
     std::vector<std::uint8_t> sediments;  ///< index into `materials` for each cell

@@ -72,20 +72,12 @@ TEST_SUITE("scene") {
               where + ": claims 6 elements; bufferView 0 is too short for them (36 bytes)");
         CHECK(error_of([&](json& d) { accessor(d)["count"] = 1ULL << 52; }) ==
               where + ": count 4503599627370496 is not between 1 and 268435456");
-        CHECK(error_of([&](json& d) { accessor(d)["count"] = 0; }) ==
-              where + ": count 0 is not between 1 and 268435456");
-        CHECK(error_of([&](json& d) { accessor(d)["byteOffset"] = 4; }) ==
-              where + ": claims 3 elements; bufferView 0 is too short for them (36 bytes)");
         CHECK(error_of([&](json& d) { accessor(d)["byteOffset"] = 1ULL << 53; }) ==
               where + ": claims 3 elements; bufferView 0 is too short for them (36 bytes)");
-        CHECK(error_of([&](json& d) { view(d)["byteLength"] = 40; }) ==
-              where + ": bufferView 0 reaches beyond the end of its buffer (36 bytes)");
         CHECK(error_of([&](json& d) { view(d)["byteOffset"] = 1ULL << 53; }) ==
               where + ": bufferView 0 reaches beyond the end of its buffer (36 bytes)");
         CHECK(error_of([&](json& d) { view(d)["byteStride"] = 8; }) ==
               where + ": byteStride 8 is less than the size of an element, 12");
-        CHECK(error_of([&](json& d) { view(d)["byteStride"] = 16; }) ==
-              where + ": claims 3 elements; bufferView 0 is too short for them (36 bytes)");
         CHECK(error_of([&](json& d) { view(d)["byteStride"] = 1ULL << 63; }) != "");
         CHECK(error_of([&](json& d) { view(d)["buffer"] = 1; }) ==
               where + ": bufferView 0 lies in buffer 1, which does not exist");
@@ -122,8 +114,6 @@ TEST_SUITE("scene") {
         CHECK(sparse_error({0, 2}, 2, as_it_is) == "");
         CHECK(sparse_error({0, 3}, 2, as_it_is) ==
               where + "sparse indices must ascend and stay below 3");
-        CHECK(sparse_error({1, 1}, 2, as_it_is) ==
-              where + "sparse indices must ascend and stay below 3");
         CHECK(sparse_error({0, 1}, 4, as_it_is) ==
               where + "sparse count 4 is not between 1 and the accessor's 3");
         CHECK(sparse_error({0, 1}, 3, as_it_is) ==
@@ -136,9 +126,6 @@ TEST_SUITE("scene") {
                   "(24 bytes)");
         CHECK(sparse_error({0, 1}, 2, [](json& s) { s["indices"]["componentType"] = 5126; }) ==
               where + "sparse indices must be unsigned integers");
-        CHECK(sparse_error({0, 1}, 2, [](json& s) { s["indices"].erase("bufferView"); }) != "");
-        CHECK(sparse_error({0, 1}, 2, [](json& s) { s.erase("values"); }) ==
-              "x.glb: is not a valid glTF: the sparse object of this accessor doesn't have values");
     }
 
     TEST_CASE("glTF errors: primitives") {
@@ -151,10 +138,7 @@ TEST_SUITE("scene") {
         };
         const std::string where = "x.glb: mesh 'Tri' primitive 0: ";
         CHECK(indexed({0, 1, 3}, 4) == where + "index 3 is out of range; there are 3 vertices");
-        CHECK(indexed({0, 1, 2, 65535}, 5) ==
-              where + "index 65535 is out of range; there are 3 vertices");
         CHECK(indexed({0, 1, 2, 0}, 4) == where + "4 corners do not make whole triangles");
-        CHECK(indexed({0, 1}, 6) == where + "2 corners do not make whole triangles");
         CHECK(indexed({0, 1, 2}, 7) == where + "mode 7 is not one of glTF's, 0 to 6");
         CHECK(error_of([](json& d) { primitive(d)["indices"] = 0; }) ==
               where + "indices: indices must be unsigned 8-, 16- or 32-bit integers");
@@ -170,14 +154,6 @@ TEST_SUITE("scene") {
                                 {{"name", "a"}, {"children", {2}}},
                                 {{"name", "b"}, {"children", {1}}}};
               }) == "x.glb: node 'a' has two parents, 'node0' and 'b'");
-        CHECK(error_of([](json& d) {
-                  d["nodes"].push_back({{"name", "a"}, {"children", {2}}});
-                  d["nodes"].push_back({{"name", "b"}, {"children", {1, 3}}});
-                  d["nodes"].push_back({{"name", "below"}});
-              }) != "");
-        CHECK(error_of([](json& d) {
-                  d["nodes"].push_back({{"children", {0, 0}}});
-              }) == "x.glb: node 'tri' has two parents, 'node1' and 'node1'");
         CHECK(error_of([](json& d) { d["nodes"][0]["children"] = {5}; }) ==
               "x.glb: node 'tri' has the child node 5, which does not exist");
         CHECK(error_of([](json& d) { d["nodes"][0]["mesh"] = 5; }) ==
@@ -197,7 +173,6 @@ TEST_SUITE("scene") {
         CHECK(load_error(chain(256)) == "");
         CHECK(load_error(chain(257)) ==
               "x.glb: node 'tri' lies deeper than 256 levels in the hierarchy");
-        CHECK(load_error(chain(20000)) != "");
     }
 
     TEST_CASE("glTF errors: transforms, skins and morphs") {
@@ -206,13 +181,9 @@ TEST_SUITE("scene") {
         };
         CHECK(node_error("rotation", {0, 0, 0, 0}) ==
               "x.glb: node 'tri' has a rotation that is not a unit quaternion");
-        CHECK(node_error("rotation", {0, 0, 0.5, 1}) != "");
         CHECK(node_error("rotation", {0, 0, 0, 1.0001}) == "");
-        CHECK(node_error("rotation", {0, 0, 1}) ==
-              "x.glb: node 'tri' has a rotation of 3 numbers; expected 4");
         CHECK(node_error("matrix", {1, 2}) ==
               "x.glb: node 'tri' has a matrix of 2 numbers; expected 16");
-        CHECK(node_error("scale", {1}) == "x.glb: node 'tri' has a scale of 1 numbers; expected 3");
         CHECK(node_error("translation", {0, 0, 1e12}) ==
               "x.glb: mesh 'Tri' primitive 0: a vertex lies more than 1e8 m from the origin");
         CHECK(node_error("matrix", {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}) ==
@@ -232,9 +203,6 @@ TEST_SUITE("scene") {
         };
         CHECK(extension_error("extensionsRequired", "KHR_draco_mesh_compression") ==
               "x.glb: is compressed with KHR_draco_mesh_compression, which is not read; export it "
-              "uncompressed");
-        CHECK(extension_error("extensionsUsed", "EXT_meshopt_compression") ==
-              "x.glb: is compressed with EXT_meshopt_compression, which is not read; export it "
               "uncompressed");
         CHECK(extension_error("extensionsUsed", "EXT_mesh_gpu_instancing") ==
               "x.glb: places copies with EXT_mesh_gpu_instancing, which is not read; export one "
@@ -310,16 +278,5 @@ TEST_SUITE("scene") {
                   d["accessors"] = json::object();
                   d["asset"]["version"] = "1.0";
               }) == "x.glb: is glTF version 1.0; expected 2.0");
-    }
-
-    TEST_CASE("glTF: what is not read may be anything, as long as it is JSON") {
-        const json anything = {{"deep", {{"mesh", {1, "two", nullptr, {{"nodes", "x"}}}}}}};
-        CHECK(error_of([&](json& d) {
-                  for (const char* key : {"textures", "animations", "extras", "sonar"})
-                      d[key] = anything;
-                  d["nodes"][0]["camera"] = anything;
-                  d["nodes"][0]["extras"] = {{"other", anything}, {"sonar", {{"material", "m"}}}};
-              }).starts_with("materials.csv: lacks the material 'm' of 'tri' in x.glb; add it"));
-        CHECK(load_error("{\"extras\": [1, 2}").find("parse error at line 1") != std::string::npos);
     }
 }

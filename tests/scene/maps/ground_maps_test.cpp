@@ -18,8 +18,7 @@ TEST_SUITE("ground maps") {
         std::vector<double> texels;
         for (int k = 0; k < width * height; ++k)
             texels.push_back(draws.between(-1, 3));
-        const TexelSums<double> sums(
-            width, height, [&](int row, int column) { return texels[row * width + column]; });
+        const TexelSums<double> sums(width, height, [&](std::size_t k) { return texels[k]; });
         for (int trial = 0; trial < 200; ++trial) {
             TexelBox box;
             box.x_min = draws.between(-2, 8);

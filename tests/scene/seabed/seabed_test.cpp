@@ -6,20 +6,14 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
-#include <string>
 #include <vector>
 
-#include "core/error.h"
 #include "core/units.h"
-#include "format/geotiff.h"
 #include "scene/gltf/surface_of.h"
-#include "support/approx.h"
 #include "support/bed_spectrum.h"
-#include "support/temporary_folder.h"
 
 using namespace sonarsim;
 using sonarsim::test::spectrum_at;
-using sonarsim::test::TemporaryFolder;
 
 namespace {
 
@@ -34,9 +28,8 @@ SeabedRule everything() {
     SeabedRule rule = rule_of_size(3.0);
     rule.seed = 11;
     rule.z_m = -20.0;
-    rule.slope = {0.02, -0.01};
     rule.roughness = BedRoughness{1e-4, 3.25, 2.0};
-    rule.ripples = BedRipples{0.03, 0.2, 0.5, 0.08, 0.5, 4.0};
+    rule.ripples = BedRipples{0.03, 0.2, 0.5};
     return rule;
 }
 
@@ -48,22 +41,7 @@ Surface surface_of_bed(const Seabed& bed) {
     return surface_of(placed, files);
 }
 
-std::string error_of(const SeabedRule& rule) {
-    try {
-        make_seabed(rule);
-    } catch (const InputError& fault) {
-        return fault.what();
-    }
-    return "";
-}
-
 }  // namespace
-
-TEST_CASE("strengths in cm^4 become those in metres") {
-    // W = w K^-g with K = 1 rad/cm is w cm^4 = w 1e-8 m^4 at 100 rad/m.
-    const double strength = roughness_strength(0.003, 3.25);
-    CHECK(strength * std::pow(100.0, -3.25) == test::approx(0.003e-8));
-}
 
 TEST_CASE("the spectrum of a bed has its strength and exponent") {
     // 28 beds, 6 wavelengths from 1 m to 4 cells, 8 directions each, which lie more than the
@@ -118,7 +96,7 @@ TEST_CASE("ripples have their length, direction and height") {
     for (const double angle : {0.4, 2.0}) {
         SeabedRule rule = rule_of_size(6.0);
         rule.seed = 3;
-        rule.ripples = BedRipples{0.03, 0.25, angle, 0.05};
+        rule.ripples = BedRipples{0.03, 0.25, angle};
         const Seabed bed = make_seabed(rule);
         const double k = 2.0 * pi / 0.25;
         double power = 0.0;
@@ -143,32 +121,6 @@ TEST_CASE("ripples have their length, direction and height") {
         CHECK(high - low > 0.0285);
         CHECK(high - low <= 0.03);
     }
-    // Straight crests, at a place far from the origin: a cosine.
-    SeabedRule rule = rule_of_size(1.0);
-    rule.window = {10000, 20000, 10001, 20001};
-    rule.ripples = BedRipples{0.03, 0.25, 0.0, 0.0};
-    const Seabed bed = make_seabed(rule);
-    for (int column = 0; column < bed.grid.columns; ++column) {
-        CHECK(bed.heights[static_cast<std::size_t>(column)] ==
-              test::approx(0.015 * std::cos(2.0 * pi * bed.grid.x_m(column) / 0.25)).epsilon(1e-5));
-    }
-}
-
-TEST_CASE("ripples in patches cover their share") {
-    SeabedRule rule = rule_of_size(40.0, 0.5);
-    rule.ripples = BedRipples{1.0, 2.5, 0.3, 0.0, 0.3, 6.0};
-    double covered = 0.0;
-    constexpr int beds = 6;
-    for (int b = 0; b < beds; ++b) {
-        rule.seed = static_cast<std::uint64_t>(b);
-        const Seabed bed = make_seabed(rule);
-        const auto bare = std::ranges::count(bed.heights, 0.0F);
-        covered += 1.0 - static_cast<double>(bare) / static_cast<double>(bed.heights.size());
-    }
-    // Cells on a border count as covered: half of a border of a tenth of a patch adds some 6 %. A
-    // patch has about (6 m / 2)^2, so that 6 beds have 4,000 of them.
-    CHECK(covered / beds > 0.3);
-    CHECK(covered / beds < 0.42);
 }
 
 TEST_CASE("a part of a bed is the same bed, bit by bit, and another seed makes another") {
@@ -196,50 +148,17 @@ TEST_CASE("a part of a bed is the same bed, bit by bit, and another seed makes a
     CHECK(make_seabed(part_rule).heights != whole.heights);
 }
 
-TEST_CASE("a bed of a size ends there, and lies where its origin says") {
+TEST_CASE("a bed of a size ends there") {
     SeabedRule rule = rule_of_size(100.0, 0.5);
     rule.size_m = {8.0, 5.0};
-    rule.origin_m = {3.0, 1.0};
     rule.z_m = -7.0;
-    rule.slope = {0.1, 0.0};
     const Surface surface = surface_of_bed(make_seabed(rule));
     const Eigen::AlignedBox3d box = box_of(surface);
-    CHECK((box.min() - Eigen::Vector3d(-2.75, -0.75, -7.275)).norm() < 1e-6);
-    CHECK((box.max() - Eigen::Vector3d(4.75, 3.75, -6.525)).norm() < 1e-6);
+    CHECK((box.min() - Eigen::Vector3d(0.25, 0.25, -7.0)).norm() < 1e-6);
+    CHECK((box.max() - Eigen::Vector3d(7.75, 4.75, -7.0)).norm() < 1e-6);
     CHECK(surface.triangles.size() == 2 * 15 * 9);
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
         const auto c = corners_of(surface, t);
         CHECK((c[1] - c[0]).cross(c[2] - c[0]).z() > 0.0);
     }
-}
-
-TEST_CASE("the heights of a bed as a map are the same surface") {
-    const Seabed bed = make_seabed(everything());
-    const TemporaryFolder folder;
-    PlacedFile placed;
-    placed.file = folder.path / "bed.tif";
-    placed.z_up = true;
-    placed.heightmap = HeightmapRule{};
-    const BedGrid& grid = bed.grid;
-    write_geotiff(placed.file, bed.heights, grid.columns,
-                  {.west_m = static_cast<double>(grid.west) * grid.cell_m,
-                   .north_m = static_cast<double>(grid.north + 1) * grid.cell_m,
-                   .cell_m = grid.cell_m});
-    SceneFiles files;
-    const Surface map = surface_of(placed, files);
-    const Surface made = surface_of_bed(bed);
-    REQUIRE(map.triangles == made.triangles);
-    double off = 0.0;
-    for (std::size_t i = 0; i < map.vertices.size(); ++i)
-        off = std::max(off, (map.vertices[i] - made.vertices[i]).norm());
-    CHECK(off < 1e-12);
-}
-
-TEST_CASE("beds that are too large or too small are refused") {
-    SeabedRule rule = rule_of_size(1000.0);
-    rule.place = {"mission.yaml", 3, 5};
-    CHECK(error_of(rule).find("mission.yaml:3:5: the mission needs 40004 x 40004 heights") !=
-          std::string::npos);
-    rule.size_m = {0.09, 5.0};
-    CHECK(error_of(rule).find("size_m has fewer than 2 x 2 cells") != std::string::npos);
 }

@@ -91,30 +91,3 @@ TEST_CASE("a part of a smooth field has the values of the whole, at any place") 
     }
     CHECK(smooth_field(whole, 0.5, key_of(1)) != smooth_field(whole, 0.5, key_of(2)));
 }
-
-TEST_CASE("two smooth fields turn around a point as often as Gaussian fields do") {
-    // Berry and Dennis 2000: zeros of a complex Gaussian field have the density <k^2> / (4 pi), and
-    // <k^2> = 1 / length^2 here.
-    const BedGrid grid{0.25, 0, 0, 400, 400};
-    const std::vector<float> re = smooth_field(grid, 1.0, key_of(3));
-    const std::vector<float> im = smooth_field(grid, 1.0, key_of(4));
-    const auto phase = [&](int row, int column) {
-        const auto i = static_cast<std::size_t>(row) * 400 + static_cast<std::size_t>(column);
-        return std::atan2(im[i], re[i]);
-    };
-    int zeros = 0;
-    for (int row = 0; row + 1 < grid.rows; ++row) {
-        for (int column = 0; column + 1 < grid.columns; ++column) {
-            const double corners[] = {phase(row, column), phase(row, column + 1),
-                                      phase(row + 1, column + 1), phase(row + 1, column),
-                                      phase(row, column)};
-            double turn = 0.0;
-            for (int k = 0; k < 4; ++k)
-                turn += std::remainder(corners[k + 1] - corners[k], 2.0 * pi);
-            zeros += std::abs(turn) > 3.0;
-        }
-    }
-    // 796 expected; zeros repel each other a little, so their count varies less than Poisson's.
-    const double expected = 399.0 * 399.0 / 16.0 / (4.0 * pi);
-    CHECK(std::abs(zeros - expected) < 4.0 * std::sqrt(expected));
-}

@@ -7,6 +7,22 @@
 
 namespace sonarsim {
 
+/// A train of ripples.
+struct BedRipples {
+    double height_m = 0.0;       ///< from trough to crest
+    double length_m = 1.0;       ///< from crest to crest
+    double direction_rad = 0.0;  ///< across the crests, from x towards y
+};
+
+/// The deviation of the wave vector along each axis, as a share of its length. It has no source.
+inline constexpr double ripple_spread = 0.05;
+
+/// Adds ripples, in metres. Their height is that of a cosine, height_m / 2 Re(exp(i k x) b / |b|),
+/// where the complex Gaussian field b moves the crests. At the zeros of b, of which a square metre
+/// has 2 pi (ripple_spread / length_m)^2, a crest ends and the height falls to 0.
+void add_ripples(const BedGrid& grid, const BedRipples& ripples, std::uint64_t seed,
+                 std::vector<double>& heights);
+
 /// An isotropic spectrum of heights, W(k) = strength (k^2 + k0^2)^(-exponent / 2) with k in rad/m
 /// and k0 = 2 pi / corner_m. Its integral over all wave vectors is the variance, m^2.
 struct BedRoughness {
