@@ -133,19 +133,6 @@ std::string read_file(const std::filesystem::path& path, std::size_t limit) {
     return bytes;
 }
 
-bool is_own_file(const std::filesystem::path& folder, const std::filesystem::path& name) {
-    namespace fs = std::filesystem;
-    fs::path path = folder;
-    fs::file_type type = fs::file_type::directory;
-    std::error_code absent;
-    for (const fs::path& part : name) {
-        if (type != fs::file_type::directory) return false;
-        path /= part;
-        type = fs::symlink_status(path, absent).type();
-    }
-    return type == fs::file_type::regular;
-}
-
 std::filesystem::path temporary_name(const std::filesystem::path& path) {
     std::array<unsigned char, random_bytes> random;
     if (::getrandom(random.data(), random.size(), 0) != random_bytes)

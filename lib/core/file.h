@@ -12,10 +12,6 @@ namespace sonarsim {
 /// cannot be read or is larger than `limit` bytes.
 std::string read_file(const std::filesystem::path& path, std::size_t limit);
 
-/// True if `name`, relative to `folder`, is a regular file whose path has no symbolic link below
-/// `folder`. A link could bring any file of this machine into a dataset that is passed on.
-bool is_own_file(const std::filesystem::path& folder, const std::filesystem::path& name);
-
 /// Writes to a temporary name next to `path` and renames it: a reader sees the old file or the
 /// whole new one, and a link at `path` is replaced, not followed. std::system_error when the disk
 /// refuses; no temporary file is left then.

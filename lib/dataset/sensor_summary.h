@@ -13,8 +13,6 @@ struct SensorSummary {
     std::uint64_t dark_pings = 0;  ///< pings without an occupied bin
     PingCounts counts;
     std::uint64_t clipped_pixels = 0;  ///< intensities above full_scale, if files were written
-    std::uint64_t missed_goals = 0;    ///< pings whose estimated error is above the goal
-    double worst_l1 = 0.0;             ///< the greatest of the estimates
     float brightest = 0.0F;            ///< intensity of the brightest pixel of all
 
     SensorSummary& operator+=(const SensorSummary& more) {
@@ -22,8 +20,6 @@ struct SensorSummary {
         dark_pings += more.dark_pings;
         counts += more.counts;
         clipped_pixels += more.clipped_pixels;
-        missed_goals += more.missed_goals;
-        worst_l1 = std::max(worst_l1, more.worst_l1);
         brightest = std::max(brightest, more.brightest);
         return *this;
     }

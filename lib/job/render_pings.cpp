@@ -1,6 +1,5 @@
 #include "job/render_pings.h"
 
-#include <cmath>
 #include <string>
 
 #include "core/clock.h"
@@ -23,13 +22,10 @@ struct PingReport {
 
 PingReport report_of(const RenderedPing& rendered) {
     const auto& [id, sonar, engine, traced, ping] = rendered;
-    SensorSummary summary{.pings = 1,
-                          .dark_pings = ping.counts.occupied_bins == 0 ? 1U : 0U,
-                          .counts = ping.counts,
-                          .brightest = brightest_pixel(ping, sonar->config.name, id.pose)};
-    // The estimate is NaN if the engine has none.
-    summary.missed_goals = ping.estimated_l1 > sonar->settings.view.relative_l1 ? 1 : 0;
-    if (!std::isnan(ping.estimated_l1)) summary.worst_l1 = ping.estimated_l1;
+    const SensorSummary summary{.pings = 1,
+                                .dark_pings = ping.counts.occupied_bins == 0 ? 1U : 0U,
+                                .counts = ping.counts,
+                                .brightest = brightest_pixel(ping, sonar->config.name, id.pose)};
     return {.id = id, .fields = {}, .summary = summary, .seconds = ping.seconds};
 }
 

@@ -1,7 +1,5 @@
 #include "ping/form_image.h"
 
-#include <cmath>
-
 namespace sonarsim {
 
 namespace {
@@ -12,7 +10,6 @@ Ping form_group(const TracedPing& traced, const PingSettings& settings, const Sc
     ping.range_bins = settings.view.range_bins;
     ping.beams = settings.view.beams;
     ping.intensity.resize(static_cast<std::size_t>(ping.range_bins) * ping.beams);
-    ping.estimated_l1 = traced.samples.estimated_l1;
     ping.counts = traced.counts;
     ping.seconds = traced.seconds;
     if (!terms.multipath) ping.counts.multipath = {};
@@ -37,7 +34,6 @@ Ping form_image(const TracedPing& traced, const PingSettings& settings, const Sc
             if (traced.group_of_beam[beam] == static_cast<int>(k) + 1)
                 ping.intensity[at] = later.intensity[at];
         }
-        ping.estimated_l1 = std::fmax(ping.estimated_l1, later.estimated_l1);
         ping.counts += later.counts;
         ping.seconds += later.seconds;
     }

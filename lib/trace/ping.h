@@ -15,8 +15,6 @@ struct Ping {
     int range_bins = 0;
     int beams = 0;
     std::vector<float> intensity;  ///< [range_bins, beams], 0 where nothing is seen
-    /// The engine's estimate of its own error, see Samples::estimated_l1.
-    double estimated_l1 = std::numeric_limits<double>::quiet_NaN();
     PingCounts counts;
     PingSeconds seconds;
 

@@ -63,8 +63,6 @@ void add_guard_side(const View& view, const Samples& seen, const Pose& T_sensor_
         out.outside_sector.push_back(sample);
     }
     out.samples.dropped += seen.dropped;
-    // fmax of NaN and a number is the number.
-    out.samples.estimated_l1 = std::fmax(out.samples.estimated_l1, seen.estimated_l1);
 }
 
 }  // namespace

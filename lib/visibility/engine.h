@@ -45,8 +45,6 @@ struct Samples {
     /// Number of patches in view that were dropped. Rays: patches that are edge-on to within
     /// rounding, or at zero distance.
     std::uint64_t dropped = 0;
-    /// The engine's estimate of the relative L1 of the noise-free image; NaN if it has none.
-    double estimated_l1 = std::numeric_limits<double>::quiet_NaN();
     /// The beams of the estimate, in order. Only for scenes with maps, which engines ignore.
     std::vector<ComparedBeam> compared;
 
@@ -107,7 +105,6 @@ class VisibilityEngine {
 
     /// The poses of Scene::bodies that at() was given; empty without them. World.
     virtual std::span<const Pose> body_poses() const { return {}; }
-
 };
 
 }  // namespace sonarsim

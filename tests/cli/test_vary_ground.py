@@ -18,7 +18,7 @@ trajectory:
 sensors:
   fls: {kind: imaging, mount: {rpy_deg: [0, 40, 0]}, azimuth_deg: 60, elevation_deg: 20, range_max_m: 8,
         range_bins: 64, azimuth_bins: 24}
-output: {folder: out, meta: false, labels: [material, class]}
+output: {folder: out, labels: [material, class]}
 """
 
 BED = """\
