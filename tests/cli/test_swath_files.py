@@ -165,7 +165,7 @@ class SwathFiles(Sandbox):
         self.assert_renders("--overwrite")
         self.assertTrue((self.out / "sss/waterfall.xtf").is_file())
         self.assertEqual(sorted(path.name for path in (self.out / "sounder").iterdir()),
-                         ["echogram.npy", "echogram.png", "echogram_view.png"])
+                         ["echogram.npy", "echogram.png", "echogram_view.png", "meta"])
 
 
 if __name__ == "__main__":

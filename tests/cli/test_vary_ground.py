@@ -92,8 +92,9 @@ def documented_keys():
 
 
 def files(dataset):
-    """The sums of all files of the sonar but those of classes, which have numbers of all variants there."""
-    return {name: sum_ for name, sum_ in digest(dataset / "fls").items() if not name.startswith("class/")}
+    """The sums of all files of the sonar but those of classes, which have numbers of all variants there, and the
+    metadata, which name the variant."""
+    return {name: sum_ for name, sum_ in digest(dataset / "fls").items() if not name.startswith(("class/", "meta/"))}
 
 
 class VaryGround(Composed):
