@@ -41,9 +41,9 @@ for upper in ("dataset", "checks", "validation", "job", "benchmark", "preview"):
 # each other. "x/" is a subfolder, "x" the files x.h and x.cpp, "*" every other file of the folder.
 PARTS = {
     "dataset": [["*"], ["writers/"], ["writers"], ["layout"], ["metadata"], ["dataset_file"],
-                ["description", "object_records"], ["encode_ping", "record_objects"]],
+                ["encode_ping"]],
     "job": [["*"], ["shard_lock"], ["journal"], ["folder", "ping_files"], ["ping_cost"], ["completion", "render_pings"],
-            ["run_job", "ping_source", "finished_variants"], ["variants"], ["merge", "status", "verify"]],
+            ["run_job", "ping_source"], ["variants"], ["merge", "status", "verify"]],
     "scene": [["*"], ["images/", "meshes/"], ["heightmap/", "maps/", "seabed/"], ["gltf/", "placing/"]],
     "visibility": [["*"], ["octree/", "rays/", "slices/"], ["auto_engine"],
                    ["make_engine"]],

@@ -170,7 +170,7 @@ std::size_t count_images(const Writers& writers, std::size_t pings) {
     std::size_t images = 0;
     bool of_pings = false;
     for (const auto& writer : writers) {
-        const WriterOutputs outputs = writer->outputs();
+        const WriterOutputs& outputs = writer.outputs;
         const auto* file = std::get_if<PingFile>(&outputs.per_ping);
         of_pings = of_pings || (file != nullptr && !file->title.empty());
         images += std::ranges::count_if(outputs.products, [](const Product& product) {

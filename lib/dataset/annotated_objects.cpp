@@ -8,8 +8,14 @@ ObjectSphere sphere_around(const Eigen::AlignedBox3d& box) {
     return {box.center(), 0.5 * box.diagonal().norm()};
 }
 
-}  // namespace
+Eigen::AlignedBox3d box_of_body(const Body& body) {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3f& vertex : body.vertices)
+        box.extend(vertex.cast<double>());
+    return box;
+}
 
+/// The box around the surface at rest of each object, world.
 std::vector<Eigen::AlignedBox3d> still_boxes(const Assembly& assembly) {
     const Scene& scene = assembly.scene;
     const SceneObjects& objects = assembly.objects;
@@ -27,6 +33,30 @@ std::vector<Eigen::AlignedBox3d> still_boxes(const Assembly& assembly) {
     return boxes;
 }
 
+}  // namespace
+
+std::vector<Eigen::AlignedBox3d> object_boxes(const Assembly& assembly) {
+    std::vector<Eigen::AlignedBox3d> boxes = still_boxes(assembly);
+    for (const Body& body : assembly.scene.bodies)
+        boxes[assembly.objects.object_of(body.instance)].setEmpty();
+    return boxes;
+}
+
+std::vector<std::optional<MovingObject>> moving_objects(const Assembly& assembly) {
+    const Scene& scene = assembly.scene;
+    const SceneObjects& objects = assembly.objects;
+    std::vector<int> parts(objects.objects.size(), 0);
+    for (const std::uint32_t object : objects.object_of_instance)
+        ++parts[object];
+    std::vector<std::optional<MovingObject>> moving(parts.size());
+    for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
+        const std::uint32_t object = objects.object_of(scene.bodies[k].instance);
+        if (parts[object] > 1) continue;
+        moving[object] = {k, box_of_body(scene.bodies[k])};
+    }
+    return moving;
+}
+
 AnnotatedObjects annotated_objects(const Assembly& assembly) {
     const Scene& scene = assembly.scene;
     const SceneObjects& objects = assembly.objects;
@@ -41,10 +71,7 @@ AnnotatedObjects annotated_objects(const Assembly& assembly) {
     }
     for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
         if (objects.is_background(objects.object_of(scene.bodies[k].instance))) continue;
-        Eigen::AlignedBox3d box;
-        for (const Eigen::Vector3f& vertex : scene.bodies[k].vertices)
-            box.extend(vertex.cast<double>());
-        annotated.moving.push_back({k, sphere_around(box)});
+        annotated.moving.push_back({k, sphere_around(box_of_body(scene.bodies[k]))});
     }
     return annotated;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "assembly/assemble.h"
@@ -8,8 +9,17 @@
 
 namespace sonarsim {
 
-/// The box around the surface at rest of each object, world; empty for one that moves.
-std::vector<Eigen::AlignedBox3d> still_boxes(const Assembly& assembly);
+/// World boxes around the objects; empty for an object without triangles, and if a part of it
+/// moves.
+std::vector<Eigen::AlignedBox3d> object_boxes(const Assembly& assembly);
+
+/// An object that moves as a whole.
+struct MovingObject {
+    std::size_t body = 0;     ///< index into Scene::bodies
+    Eigen::AlignedBox3d box;  ///< box around it in its own frame
+};
+/// One for each object; nothing for an object that stands still or consists of several parts.
+std::vector<std::optional<MovingObject>> moving_objects(const Assembly& assembly);
 
 /// Spheres around the objects of a scene whose class is not background.
 struct AnnotatedObjects {

@@ -10,8 +10,8 @@
 
 namespace sonarsim {
 
-/// A sensor as dataset.json describes it. Paths are relative to the folder of the dataset and lie in
-/// the folder of the sensor.
+/// A sensor as dataset.json describes it. Paths are relative to the folder of the dataset and lie
+/// in the folder of the sensor.
 struct DescribedSensor {
     std::string name;
     std::uint32_t every = 1;  ///< pings at every n-th pose
@@ -31,8 +31,8 @@ struct DatasetFile {              // NOLINT(bugprone-exception-escape): moving J
     std::vector<std::string> products;  ///< products of all sensors together
 };
 
-/// The JSON of a file of a dataset. InputError when it cannot be read, is longer than a quarter of a
-/// gigabyte, is not JSON or is nested more than 64 deep.
+/// The JSON of a file of a dataset. InputError when it cannot be read, is longer than a quarter of
+/// a gigabyte, is not JSON or is nested more than 64 deep.
 nlohmann::ordered_json read_json(const std::filesystem::path& path);
 
 /// The dataset.json of a folder, its keys not checked; nothing if it is not sonarsim's.
@@ -46,6 +46,14 @@ DatasetFile parse_description(nlohmann::ordered_json json, const std::string& fi
 
 /// The dataset.json of a folder that must hold a dataset: else InputError.
 DatasetFile require_dataset(const std::filesystem::path& folder);
+
+inline constexpr const char* of_another_mission = "of another mission";
+
+/// The difference between two descriptions as the end of a sentence that begins with "a dataset":
+/// "of another mission". Empty if both are the same dataset, complete or not. Their keys need not
+/// be checked.
+std::string difference_between(const nlohmann::ordered_json& found,
+                               const nlohmann::ordered_json& expected);
 
 /// "fls/polar/%06d.npy" with the number of a ping's pose in it.
 std::string numbered(const std::string& pattern, std::uint64_t number);

@@ -40,8 +40,7 @@ RenderedPing render_at_pose(const Mission& mission, const Assembly& assembly,
                             const VisibilityEngine& engine, const PingId& id) {
     const TimedPose& at = assembly.trajectory[id.pose];
     const SonarAtPose sonar(mission, assembly.sonars[id.sensor], id.pose);
-    const std::shared_ptr<const VisibilityEngine> now =
-        engine_at(engine, assembly.motions, at.t_s);
+    const std::shared_ptr<const VisibilityEngine> now = engine_at(engine, assembly.motions, at.t_s);
     TracedPing traced = trace(*sonar, assembly.scene, *now, at.T_world_vehicle, id.pose);
     Ping ping = form_image(traced, sonar->settings, assembly.scene, {mission.seed, id.pose});
     return {id, sonar, now, std::move(traced), std::move(ping)};
@@ -80,8 +79,8 @@ WrittenPing encode_ping(const Assembly& assembly, const Writers& writers, const 
     WrittenPing out;
     finish_ping(assembly, plan, rendered, [&](const FinishedPing& finished) {
         out.clipped_pixels = finished.clipped_pixels;
-        for (const auto& writer : writers)
-            out.parts.push_back(writer->encode(finished));
+        for (const Writer& writer : writers)
+            out.parts.push_back(writer.encode(finished));
     });
     return out;
 }

@@ -28,16 +28,13 @@ LabelPlan plan_labels(const Mission& mission, const Assembly& assembly, const So
                     .height = asked(Label::height),
                     .annotations = objects,
                     .bottom = assembly.bottom.get()};
-    plan.polar_masks = has_images && objects;
-    plan.fan_masks = has_images && objects && output.fan;
+    plan.objects = has_images && objects;
     if (has_images && (asked(Label::fan) || (output.fan && objects)))
-        plan.fan = make_fan_bins(sonar, output.fan_width_px);
-    plan.seen = has_images && objects;
+        plan.fan = make_fan_bins(sonar);
     if (objects || asked(Label::shadow)) plan.annotated = annotated_objects(assembly);
-    if (asked(Label::shadow))
-        plan.triangles = std::make_shared<const TriangleRuns>(assembly.scene);
+    if (asked(Label::shadow)) plan.triangles = std::make_shared<const TriangleRuns>(assembly.scene);
     const View& view = sonar.settings.view;
-    if (plan.fan_masks)
+    if (plan.objects && output.fan)
         plan.fan_boxes =
             bin_boxes(plan.fan, static_cast<std::size_t>(view.beams) * view.range_bins);
     return plan;
@@ -59,14 +56,13 @@ LabelledPing label_for_writers(const LabelPlan& plan, const Assembly& assembly, 
     LabelledPing out;
     out.bins = label_bins(plan, assembly, sonar, engine, traced, t_s);
     out.fan_bins = &plan.fan;
-    if (plan.polar_masks) out.polar = object_masks(out.bins.object, out.bins.range_bins);
-    if (plan.fan_masks) {
+    if (!plan.objects) return out;
+    out.polar = object_masks(out.bins.object, out.bins.range_bins);
+    if (!plan.fan_boxes.empty()) {
         out.fan = object_masks(fan_values(plan.fan.by_column, out.bins.object, std::uint16_t{0}),
                                plan.fan.frame.height);
     }
-    if (plan.seen) {
-        out.seen = seen_objects(sonar, assembly.objects, traced, out.bins, ping, plan.fan_boxes);
-    }
+    out.seen = seen_objects(sonar, assembly.objects, traced, out.bins, ping, plan.fan_boxes);
     return out;
 }
 

@@ -21,14 +21,12 @@ bool is_asked(const Mission& mission, Label label);
 struct LabelPlan {
     bool on = false;  ///< the mission asks for labels
     LabelRequest request;
-    bool polar_masks = false;
-    bool fan_masks = false;
+    bool objects = false;             ///< a writer needs the masks and the table of objects
     FanBins fan;                      ///< empty if no label is in the fan
-    bool seen = false;                ///< a writer needs the table of objects
-    std::vector<PixelBox> fan_boxes;  ///< bin_boxes() of `fan`, for annotations
+    std::vector<PixelBox> fan_boxes;  ///< bin_boxes() of `fan`, for objects in it; else empty
     /// For shadows; null without.
     std::shared_ptr<const TriangleRuns> triangles;
-    AnnotatedObjects annotated;       ///< empty without annotations and shadows
+    AnnotatedObjects annotated;  ///< empty without annotations and shadows
 };
 LabelPlan plan_labels(const Mission& mission, const Assembly& assembly, const Sonar& sonar);
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/text.h"
-#include "dataset/shared_products.h"
+#include "dataset/seabed_files.h"
 
 namespace sonarsim {
 
@@ -89,15 +89,16 @@ Layout make_layout(const Mission& mission, const std::vector<Writers>& writers, 
                             .pings = pings[i],
                             .per_ping = {},
                             .products = {}};
-        for (const auto& writer : writers[i]) {
-            WriterOutputs outputs = writer->outputs();
-            sensor.per_ping.push_back(std::move(outputs.per_ping));
-            for (Product& product : outputs.products)
-                sensor.products.push_back(std::move(product.file));
+        for (const Writer& writer : writers[i]) {
+            sensor.per_ping.push_back(writer.outputs.per_ping);
+            for (const Product& product : writer.outputs.products)
+                sensor.products.push_back(product.file);
         }
         layout.sensors.push_back(std::move(sensor));
     }
-    layout.products = shared_products(mission);
+    if (mission.scene.seabed) layout.products = seabed_file_names();
+    if (mission.vehicle.navigation != NavigationConfig{})
+        layout.products.emplace_back(navigation_name);
     layout.poses = poses;
     const std::size_t last = poses > 0 ? poses - 1 : 0;
     layout.digits = std::max(6, static_cast<int>(std::to_string(last).size()));

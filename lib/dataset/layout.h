@@ -51,7 +51,9 @@ struct SensorLayout {
 struct Layout {
     std::filesystem::path folder;
     std::vector<SensorLayout> sensors;
-    std::vector<std::string> products;  ///< files of no single sensor
+    /// Files of no single sensor, written before the first ping: those of a generated sea bed, and
+    /// the reported poses.
+    std::vector<std::string> products;
     std::size_t poses = 0;
     int digits = 6;  ///< digits of a ping number
 

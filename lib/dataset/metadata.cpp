@@ -1,7 +1,8 @@
 #include "dataset/metadata.h"
 
 #include "core/build_info.h"
-#include "dataset/label_description.h"
+#include "dataset/annotated_objects.h"
+#include "dataset/json.h"
 #include "dataset/ping_metadata.h"
 #include "format/png.h"
 #include "mission/files.h"
@@ -69,6 +70,39 @@ Json describe_record(const PingRecord& record, const std::string& folder, std::s
     return json;
 }
 
+/// The names of the ids of labels, with the world boxes (m) of instances that stand still.
+Json describe_label_ids(const Assembly& assembly) {
+    const SceneObjects& objects = assembly.objects;
+    const std::vector<Eigen::AlignedBox3d> boxes = object_boxes(assembly);
+    Json json = {{"none", 0}};
+    json["instances"] = Json::array();
+    for (std::size_t k = 0; k < objects.objects.size(); ++k) {
+        const SceneObjects::Object& object = objects.objects[k];
+        json["instances"].push_back({{"id", k + 1},
+                                     {"name", object.name},
+                                     {"class", object.class_index + 1},
+                                     {"box_world_m", describe_box(boxes[k])}});
+    }
+    json["classes"] = Json::array();
+    for (std::size_t k = 0; k < objects.classes.size(); ++k) {
+        json["classes"].push_back({{"id", k + 1}, {"name", objects.classes[k]}});
+    }
+    json["materials"] = Json::array();
+    for (std::size_t k = 0; k < assembly.scene.materials.size(); ++k) {
+        json["materials"].push_back({{"id", k + 1}, {"name", assembly.scene.materials[k].name}});
+    }
+    return json;
+}
+
+/// The names of the classes that are background.
+Json describe_annotations(const SceneObjects& objects) {
+    Json background = Json::array();
+    for (std::size_t k = 0; k < objects.background.size(); ++k) {
+        if (objects.background[k] != 0) background.push_back(objects.classes[k]);
+    }
+    return {{"background", std::move(background)}};
+}
+
 Json describe_sensor(const Sonar& sonar, double full_scale, const Layout& layout,
                      const SensorLayout& own, const Writers& writers) {
     const SonarConfig& config = sonar.config;
@@ -101,8 +135,9 @@ Json describe_sensor(const Sonar& sonar, double full_scale, const Layout& layout
     json["pictures"] = std::move(fans);
     for (const std::string& name : own.products)
         json["products"].push_back(config.name + "/" + name);
-    for (const auto& writer : writers)
-        writer->describe(json);
+    for (const Writer& writer : writers) {
+        if (writer.describe) writer.describe(json);
+    }
     json["range_edges_m"] = sonar.range_edges_m;
     if (!sonar.azimuth_edges_rad.empty()) json["azimuth_edges_rad"] = sonar.azimuth_edges_rad;
     return json;

@@ -11,13 +11,6 @@ namespace sonarsim {
 
 using Json = nlohmann::ordered_json;
 
-Json describe_pose(const Pose& pose) {
-    const Eigen::Vector3d& p = pose.translation;
-    const Eigen::Quaterniond& q = pose.rotation;
-    return {{"position_m", {p.x(), p.y(), p.z()}},
-            {"quaternion_xyzw", {q.x(), q.y(), q.z(), q.w()}}};
-}
-
 Json describe_drawn(const DrawnValues& drawn) {
     Json json = Json::object();
     for (const auto& [key, value] : drawn) {
@@ -53,10 +46,9 @@ Json describe_particles(const Assembly& assembly, const FinishedPing& finished, 
     }
     Json json = Json::object();
     for (const auto& [instance, sum] : sums) {
-        const Eigen::Vector3d place = sum.place / sum.count;
         json[assembly.scene.instances[instance]] = {
             {"count", sum.count},
-            {"position_m", {place.x(), place.y(), place.z()}},
+            {"position_m", describe_vector(Eigen::Vector3d(sum.place / sum.count))},
             // Rounded to a hundredth of a decibel, since the cross-sections are floats.
             {"target_strength_db", std::round(100.0 * db_of_power(sum.section_m2)) / 100.0}};
     }
@@ -104,11 +96,6 @@ Json describe_ping(const Mission& mission, const Assembly& assembly, const Finis
     }
     if (!finished.measured.is_null()) json["measured"] = finished.measured;
     return json;
-}
-
-std::string json_text(const Json& json) {
-    // A mission's name may be any bytes; what is no UTF-8 becomes U+FFFD.
-    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace sonarsim

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "dataset/ping_metadata.h"
+#include "dataset/json.h"
 #include "format/geotiff.h"
 #include "format/png.h"
 
@@ -35,22 +35,17 @@ Json list_materials(const Seabed& bed) {
     return out;
 }
 
-Json point_json(const Eigen::Vector3d& point) {
-    return {point.x(), point.y(), point.z()};
-}
-
 Json list_rocks(const Seabed& bed) {
     Json out = Json::array();
     for (std::size_t i = 0; i < bed.rocks.size(); ++i) {
         const Rock& rock = bed.rocks[i];
         const Eigen::AlignedBox3d box =
             box_of(moved(bed.rock_shapes[rock.shape], rock.T_world_shape));
-        out.push_back(
-            {{"name", rock_name(i)},
-             {"diameter_m", rock.diameter_m},
-             {"buried", rock.buried},
-             {"middle_m", point_json(rock.T_world_shape.translation())},
-             {"box_world_m", {{"min", point_json(box.min())}, {"max", point_json(box.max())}}}});
+        out.push_back({{"name", rock_name(i)},
+                       {"diameter_m", rock.diameter_m},
+                       {"buried", rock.buried},
+                       {"middle_m", describe_vector(rock.T_world_shape.translation())},
+                       {"box_world_m", describe_box(box)}});
     }
     return out;
 }
@@ -65,13 +60,13 @@ std::vector<std::pair<std::string, std::string>> seabed_files(const Seabed& bed)
     const BedGrid& grid = bed.grid;
     const MapPlace place = place_of(bed);
     const Json list{{"grid",
-               {{"west_m", place.west_m},
-                {"north_m", place.north_m},
-                {"cell_m", place.cell_m},
-                {"rows", grid.rows},
-                {"columns", grid.columns}}},
-              {"materials", list_materials(bed)},
-              {"rocks", list_rocks(bed)}};
+                     {{"west_m", place.west_m},
+                      {"north_m", place.north_m},
+                      {"cell_m", place.cell_m},
+                      {"rows", grid.rows},
+                      {"columns", grid.columns}}},
+                    {"materials", list_materials(bed)},
+                    {"rocks", list_rocks(bed)}};
     // A square of the mesh has the material of its north-western height.
     const std::string world_file =
         fmt::format("{}\n0\n0\n{}\n{}\n{}\n", grid.cell_m, -grid.cell_m, place.west_m + grid.cell_m,

@@ -34,4 +34,21 @@ WriterOutputs record_outputs(const WriterContext& context, const std::string& st
     return outputs;
 }
 
+Writer array_writer(WriterOutputs outputs, std::function<PingNumbers(const FinishedPing&)> numbers,
+                    PngFilter filter) {
+    const bool is_record = std::holds_alternative<PingRecord>(outputs.per_ping);
+    const auto encode = [=](const FinishedPing& ping) {
+        const PingNumbers all = numbers(ping);
+        if (is_record) return record_bytes(all);
+        const auto rows = static_cast<int>(all.shape[0]);
+        const auto columns = static_cast<int>(all.shape[1]);
+        if (const auto* floats = std::get_if<std::vector<float>>(&all.values))
+            return npy_bytes(*floats, rows, columns);
+        if (const auto* bytes = std::get_if<std::vector<std::uint8_t>>(&all.values))
+            return png_bytes(*bytes, columns, rows);
+        return png_bytes(std::get<std::vector<std::uint16_t>>(all.values), columns, rows, filter);
+    };
+    return {.outputs = std::move(outputs), .encode = encode, .numbers = std::move(numbers)};
+}
+
 }  // namespace sonarsim

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 #include "dataset/labelled_ping.h"
 #include "dataset/record_file.h"
 #include "format/npy.h"
+#include "format/png.h"
 #include "mission/mission.h"
 #include "ping/form_image.h"
 #include "sonar/kinds.h"
@@ -124,24 +126,30 @@ inline std::string record_bytes(const PingNumbers& numbers) {
     return std::visit([](const auto& values) { return record_bytes(values); }, numbers.values);
 }
 
-/// One output format of one sensor. Writers are immutable, so any number of threads may encode at a
-/// time. A resumed run finds the finished pings by the journal, which has the size of each file and
-/// the hash of each record. It makes products again unless all of them exist.
-class Writer {
-  public:
-    virtual ~Writer() = default;
-
-    virtual WriterOutputs outputs() const = 0;
+/// One output format of one sensor. Its functions may be called by any number of threads at a time,
+/// and the context must outlive it. A resumed run finds the finished pings by the journal, which
+/// has the size of each file and the hash of each record. It makes products again unless all of
+/// them exist.
+struct Writer {
+    WriterOutputs outputs;
     /// The bytes of the ping's file, or of its record.
-    virtual std::string encode(const FinishedPing& ping) const = 0;
-    /// The numbers that a reader of those bytes gets; nothing if they are text or a picture for
+    std::function<std::string(const FinishedPing&)> encode;
+    /// The numbers that a reader of those bytes gets; null if they are text or a picture for
     /// people.
-    virtual std::optional<PingNumbers> numbers(const FinishedPing& /*ping*/) const { return {}; }
-    /// Makes the products in `folder`, in memory that does not grow with the number of pings.
-    virtual void write_products(const RecordFile& /*records*/,
-                                const std::filesystem::path& /*folder*/) const {}
+    std::function<PingNumbers(const FinishedPing&)> numbers = {};
+    /// Makes the products in a folder, in memory that does not grow with the number of pings.
+    std::function<void(const RecordFile&, const std::filesystem::path&)> write_products = {};
     /// Adds to the sensor's block in dataset.json.
-    virtual void describe(nlohmann::ordered_json& /*sensor*/) const {}
+    std::function<void(nlohmann::ordered_json& sensor)> describe = {};
 };
+
+/// A writer of numbers: records, or files in .npy or PNG.
+Writer array_writer(WriterOutputs outputs, std::function<PingNumbers(const FinishedPing&)> numbers,
+                    PngFilter filter = PngFilter::none);
+
+/// The bytes of a float32 image of a sonar as .npy, at most.
+inline double npy_bytes_at_most(const View& view) {
+    return 128.0 + 4.0 * view.range_bins * view.beams;
+}
 
 }  // namespace sonarsim

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
 #include <variant>
 
 #include "core/error.h"
@@ -9,22 +11,22 @@
 
 namespace sonarsim {
 
-// The makers of the formats, each in the file of its name. They return null when the mission does
-// not ask for the format or the sonar has no such output.
-std::unique_ptr<Writer> make_polar_writer(const WriterContext& context);
-std::unique_ptr<Writer> make_image_writer(const WriterContext& context);
-std::unique_ptr<Writer> make_raw_writer(const WriterContext& context);
-std::unique_ptr<Writer> make_fan_writer(const WriterContext& context);
-std::unique_ptr<Writer> make_stages_writer(const WriterContext& context);
-std::unique_ptr<Writer> make_strip_writer(const WriterContext& context);
-std::unique_ptr<Writer> make_soundings_writer(const WriterContext& context);
-std::unique_ptr<Writer> make_scan_writer(const WriterContext& context);
-std::unique_ptr<Writer> make_raw_records_writer(const WriterContext& context);  // in raw.cpp
-std::unique_ptr<Writer> make_meta_writer(const WriterContext& context);
+// The makers of the formats. They return nothing when the mission does not ask for the format or
+// the sonar has no such output.
+std::optional<Writer> make_polar_writer(const WriterContext& context);
+std::optional<Writer> make_image_writer(const WriterContext& context);
+std::optional<Writer> make_raw_writer(const WriterContext& context);
+std::optional<Writer> make_fan_writer(const WriterContext& context);
+std::optional<Writer> make_stages_writer(const WriterContext& context);
+std::optional<Writer> make_strip_writer(const WriterContext& context);
+std::optional<Writer> make_soundings_writer(const WriterContext& context);
+std::optional<Writer> make_scan_writer(const WriterContext& context);
+std::optional<Writer> make_raw_records_writer(const WriterContext& context);
+std::optional<Writer> make_meta_writer(const WriterContext& context);
 
 namespace {
 
-using MakeWriter = std::unique_ptr<Writer> (*)(const WriterContext&);
+using MakeWriter = std::optional<Writer> (*)(const WriterContext&);
 
 /// Every format that a dataset may hold.
 constexpr MakeWriter formats[] = {
@@ -67,10 +69,9 @@ std::vector<std::size_t> count_pings(const Mission& mission, std::size_t poses) 
 Writers make_array_writers(const WriterContext& context) {
     Writers writers;
     for (const MakeWriter make : {make_raw_writer, make_raw_records_writer}) {
-        if (auto writer = make(context)) writers.push_back(std::move(writer));
+        if (auto writer = make(context)) writers.push_back(*std::move(writer));
     }
-    for (auto& writer : make_label_writers(context))
-        writers.push_back(std::move(writer));
+    std::ranges::move(make_label_writers(context), std::back_inserter(writers));
     return writers;
 }
 
@@ -79,16 +80,11 @@ std::vector<Writers> make_writers(const Mission& mission, const Assembly& assemb
     const std::vector<std::size_t> pings = count_pings(mission, assembly.trajectory.size());
     std::vector<Writers> all(mission.sensors.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
+        const WriterContext context{mission, assembly, i, pings[i]};
         for (const MakeWriter make : formats) {
-            if (auto writer = make({mission, assembly, i, pings[i]}))
-                all[i].push_back(std::move(writer));
+            if (auto writer = make(context)) all[i].push_back(*std::move(writer));
         }
-        for (auto& writer : make_label_writers({mission, assembly, i, pings[i]}))
-            all[i].push_back(std::move(writer));
-        if (!all[i].empty()) continue;
-        throw InputError("mission '" + mission.name + "' writes nothing of sensor '" +
-                         mission.sensors[i].name +
-                         "': set output.meta, or another output of its kind, to true");
+        std::ranges::move(make_label_writers(context), std::back_inserter(all[i]));
     }
     return all;
 }
@@ -102,8 +98,8 @@ double bytes_at_most(const Writers& writers, std::size_t pings) {
     constexpr double name_bytes = 64.0;  // in the folder
     const auto count = static_cast<double>(pings);
     double bytes = 0.0;
-    for (const auto& writer : writers) {
-        const WriterOutputs outputs = writer->outputs();
+    for (const Writer& writer : writers) {
+        const WriterOutputs& outputs = writer.outputs;
         if (std::holds_alternative<PingFile>(outputs.per_ping)) {
             bytes += count * on_disk(outputs.bytes_per_ping) + on_disk(count * name_bytes);
         } else {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "dataset/writer.h"
@@ -8,9 +7,9 @@
 namespace sonarsim {
 
 /// The writers of one sensor, in the order in which a ping is written.
-using Writers = std::vector<std::unique_ptr<Writer>>;
+using Writers = std::vector<Writer>;
 
-/// The writers of each sensor. InputError when a sensor of the mission would have no output at all.
+/// The writers of each sensor. InputError for the label `fan` without a fan.
 std::vector<Writers> make_writers(const Mission& mission, const Assembly& assembly);
 
 /// The writers of a sensor's raw values and labels alone; empty if the mission asks for neither.

@@ -1,7 +1,6 @@
 #include "format/npy.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -64,29 +63,6 @@ std::string npy_bytes(std::span<const float> values, std::size_t rows, std::size
     std::string bytes;
     bytes.reserve(head.size() + values.size_bytes());
     bytes.append(head).append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
-    return bytes;
-}
-
-std::string npy_bytes_of_columns(std::span<const float> by_column, std::size_t rows,
-                                 std::size_t columns) {
-    std::string bytes = npy_header({"<f4", {rows, columns}});
-    const std::size_t head = bytes.size();
-    bytes.resize(head + by_column.size_bytes());
-    // Tiles fit the first-level cache, and whole cache lines are written.
-    constexpr std::size_t tile = 16;
-    std::array<float, tile> line;
-    for (std::size_t i0 = 0; i0 < rows; i0 += tile) {
-        for (std::size_t j0 = 0; j0 < columns; j0 += tile) {
-            const std::size_t i1 = std::min(i0 + tile, rows);
-            const std::size_t j1 = std::min(j0 + tile, columns);
-            for (std::size_t i = i0; i < i1; ++i) {
-                for (std::size_t j = j0; j < j1; ++j)
-                    line[j - j0] = by_column[j * rows + i];
-                std::memcpy(bytes.data() + head + (i * columns + j0) * sizeof(float), line.data(),
-                            (j1 - j0) * sizeof(float));
-            }
-        }
-    }
     return bytes;
 }
 

@@ -26,8 +26,4 @@ NpyFormat npy_format(std::string_view start);
 /// multiple of 64 bytes.
 std::string npy_bytes(std::span<const float> values, std::size_t rows, std::size_t columns);
 
-/// The same for a matrix that is stored column after column.
-std::string npy_bytes_of_columns(std::span<const float> by_column, std::size_t rows,
-                                 std::size_t columns);
-
 }  // namespace sonarsim

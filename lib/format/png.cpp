@@ -46,16 +46,17 @@ std::string encode(std::span<const Pixel> pixels, int width, int height, PixelKi
     PngEncoder encoder(width, height, kind, filter);
     for (std::size_t at = 0; at < pixels.size(); at += columns)
         encoder.row(pixels.subspan(at, columns));
-    return encoder.finish();
+    return encoder.take(true);
 }
 
 }  // namespace
 
 PngEncoder::PngEncoder(int width, int height, PixelKind kind, PngFilter filter)
-    : width_(static_cast<std::size_t>(width)),
-      pixel_bytes_(bytes_of(kind)),
+    : pixel_bytes_(bytes_of(kind)),
       filter_(filter),
       file_("\x89PNG\r\n\x1a\n"),
+      line_(static_cast<std::size_t>(width) * pixel_bytes_),
+      above_(line_.size()),
       // An id has few high bytes, so single bytes repeat more often than pixels.
       packer_(filter == PngFilter::up ? 1 : static_cast<int>(pixel_bytes_)) {
     std::string header;
@@ -65,60 +66,46 @@ PngEncoder::PngEncoder(int width, int height, PixelKind kind, PngFilter filter)
     header += kind == PixelKind::rgb8 ? rgb_colour : grey_colour;
     header.append(3, '\0');
     append_chunk(file_, "IHDR", header);
-    if (filter == PngFilter::up) above_.assign(width_ * pixel_bytes_, 0);
     rows_.reserve(block_bytes);
 }
 
-void PngEncoder::row(std::span<const std::uint8_t> pixels) {
-    add(pixels);
-}
-
-void PngEncoder::row(std::span<const std::uint16_t> pixels) {
-    swapped_.resize(pixels.size_bytes());
-    for (std::size_t x = 0; x < pixels.size(); ++x) {
-        swapped_[2 * x] = static_cast<std::uint8_t>(pixels[x] >> 8);
-        swapped_[2 * x + 1] = static_cast<std::uint8_t>(pixels[x]);
+void PngEncoder::add(std::span<const std::uint8_t> bytes, bool swapped) {
+    const std::size_t size = line_.size();
+    if (bytes.size() != size) throw std::logic_error("a row does not suit the width of its image");
+    // A block is packed when more bytes follow, since take() marks the last block.
+    if (rows_.size() + size >= block_bytes && !rows_.empty()) pack(false);
+    line_.swap(above_);
+    if (swapped) {
+        for (std::size_t k = 0; k < size; k += 2) {
+            line_[k] = bytes[k + 1];
+            line_[k + 1] = bytes[k];
+        }
+    } else {
+        std::ranges::copy(bytes, line_.begin());
     }
-    add(swapped_);
-}
-
-void PngEncoder::row(std::span<const Rgb> pixels) {
-    add({reinterpret_cast<const std::uint8_t*>(pixels.data()), pixels.size_bytes()});
-}
-
-void PngEncoder::add(std::span<const std::uint8_t> bytes) {
-    if (bytes.size() != width_ * pixel_bytes_)
-        throw std::logic_error("a row does not suit the width of its image");
-    // A block is packed when more bytes follow, since finish() marks the last block.
-    if (rows_.size() + bytes.size() >= block_bytes && !rows_.empty()) {
-        packer_.add(rows_, false);
-        append_chunk(file_, "IDAT", packer_.take());
-        rows_.clear();
-    }
-    const std::size_t begin = rows_.size();
-    rows_.resize(begin + 1 + bytes.size());
-    std::uint8_t* const to = rows_.data() + begin + 1;
-    to[-1] = static_cast<std::uint8_t>(filter_);
-    std::ranges::copy(bytes, to);
+    rows_.push_back(static_cast<std::uint8_t>(filter_));
+    rows_.insert(rows_.end(), line_.begin(), line_.end());
+    std::uint8_t* const to = rows_.data() + rows_.size() - size;
     if (filter_ == PngFilter::left) {
-        for (std::size_t k = pixel_bytes_; k < bytes.size(); ++k)
-            to[k] = static_cast<std::uint8_t>(bytes[k] - bytes[k - pixel_bytes_]);
+        for (std::size_t k = pixel_bytes_; k < size; ++k)
+            to[k] = static_cast<std::uint8_t>(line_[k] - line_[k - pixel_bytes_]);
     } else if (filter_ == PngFilter::up) {
-        for (std::size_t k = 0; k < bytes.size(); ++k)
-            to[k] = static_cast<std::uint8_t>(bytes[k] - above_[k]);
-        std::ranges::copy(bytes, above_.begin());
+        for (std::size_t k = 0; k < size; ++k)
+            to[k] = static_cast<std::uint8_t>(line_[k] - above_[k]);
     }
 }
 
-std::string PngEncoder::take() {
-    return std::exchange(file_, {});
+void PngEncoder::pack(bool last) {
+    append_chunk(file_, "IDAT", packer_.pack(rows_, last));
+    rows_.clear();
 }
 
-std::string PngEncoder::finish() {
-    packer_.add(rows_, true);
-    append_chunk(file_, "IDAT", packer_.take());
-    append_chunk(file_, "IEND", {});
-    return take();
+std::string PngEncoder::take(bool last) {
+    if (last) {
+        pack(true);
+        append_chunk(file_, "IEND", {});
+    }
+    return std::exchange(file_, {});
 }
 
 std::string png_bytes(std::span<const std::uint8_t> pixels, int width, int height) {

@@ -14,40 +14,41 @@ namespace sonarsim {
 
 enum class PixelKind { grey8, grey16, rgb8 };
 
-/// The storage of a row: as it is, or each byte as its difference from the pixel to the left (noise,
-/// colours) or above (areas of one value, such as ids).
+/// The storage of a row: as it is, or each byte as its difference from the pixel to the left
+/// (noise, colours) or above (areas of one value, such as ids).
 enum class PngFilter : std::uint8_t { none = 0, left = 1, up = 2 };
 
-/// Makes a PNG file (www.w3.org/TR/png) of rows that come one by one. The bytes depend on the pixels
-/// alone.
+/// Makes a PNG file (www.w3.org/TR/png) of rows that come one by one. The bytes depend on the
+/// pixels alone.
 class PngEncoder {
   public:
     PngEncoder(int width, int height, PixelKind kind, PngFilter filter);
 
-    // Adds the next row. std::logic_error if its length is not the width.
-    void row(std::span<const std::uint8_t> pixels);
-    void row(std::span<const std::uint16_t> pixels);
-    void row(std::span<const Rgb> pixels);
-    /// Takes the part of the file that is complete and was not taken before.
-    std::string take();
-    /// The rest of the file, after the last row.
-    std::string finish();
+    /// Adds the next row of std::uint8_t, std::uint16_t or Rgb. std::logic_error if its length is
+    /// not the width.
+    template <class Pixel>
+    void row(std::span<const Pixel> pixels) {
+        add({reinterpret_cast<const std::uint8_t*>(pixels.data()), pixels.size_bytes()},
+            sizeof(Pixel) == 2);
+    }
+    /// Takes the part of the file that is complete and was not taken before; after the last row,
+    /// the rest.
+    std::string take(bool last);
 
   private:
-    void add(std::span<const std::uint8_t> bytes);
+    void add(std::span<const std::uint8_t> bytes, bool swapped);
+    void pack(bool last);
 
-    std::size_t width_;
     std::size_t pixel_bytes_;
     PngFilter filter_;
-    std::string file_;                  ///< chunks that were not taken yet
-    std::vector<std::uint8_t> rows_;    ///< filtered rows that were not packed yet
-    std::vector<std::uint8_t> above_;   ///< the row before, for PngFilter::up
-    std::vector<std::uint8_t> swapped_; ///< a row of 16 bits, highest byte first
+    std::string file_;                        ///< chunks that were not taken yet
+    std::vector<std::uint8_t> rows_;          ///< filtered rows that were not packed yet
+    std::vector<std::uint8_t> line_, above_;  ///< a row, highest byte first, and the one before
     ZlibPacker packer_;
 };
 
-/// Writes a PNG file row by row, so that it may be longer than memory. Throws std::system_error when
-/// the disk does not take it.
+/// Writes a PNG file row by row, so that it may be longer than memory. Throws std::system_error
+/// when the disk does not take it.
 class ImageFile {
   public:
     ImageFile(const std::filesystem::path& path, int width, int height, PixelKind kind)
@@ -58,11 +59,11 @@ class ImageFile {
     template <class Row>
     void row(const Row& pixels) {
         encoder_.row(std::span(pixels));
-        file_.append(encoder_.take());
+        file_.append(encoder_.take(false));
     }
     /// To be called after the last row.
     void finish() {
-        file_.append(encoder_.finish());
+        file_.append(encoder_.take(true));
         file_.finish();
     }
 
@@ -79,8 +80,8 @@ std::string png_bytes(std::span<const std::uint16_t> pixels, int width, int heig
 /// Writes a whole picture of `width` pixels a row as a PNG file.
 void write_picture(const std::filesystem::path& path, std::span<const Rgb> pixels, int width);
 
-/// An upper limit of the size of a PNG file: pixels that do not compress, a filter byte per row, and
-/// the blocks and chunks of the format.
+/// An upper limit of the size of a PNG file: pixels that do not compress, a filter byte per row,
+/// and the blocks and chunks of the format.
 double png_bytes_at_most(int width, int height, int bytes_per_pixel);
 
 /// Names the way in which pixels are packed. Another way stores the same pixels in other bytes.

@@ -6,7 +6,6 @@
 #include "core/file.h"
 #include "core/sha256.h"
 #include "dataset/ping_metadata.h"
-#include "dataset/record_objects.h"
 
 namespace sonarsim {
 
@@ -66,17 +65,18 @@ void write_checksums(const Layout& layout, const JournalEntries& entries,
 
 }  // namespace
 
-void complete_dataset(const Layout& layout, const Mission& mission,
-                      const std::vector<Writers>& writers, RecordFiles& records,
-                      const CommonFiles& common) {
+void complete_dataset(const Layout& layout, const std::vector<Writers>& writers,
+                      RecordFiles& records, const CommonFiles& common) {
+    remove_leftovers_of_pings(layout);
     for (std::size_t i = 0; i < writers.size(); ++i) {
         for (std::size_t k = 0; k < writers[i].size(); ++k) {
             if (!records[i][k]) continue;
-            writers[i][k]->write_products(*records[i][k], layout.sensor_folder(i));
+            const Writer& writer = writers[i][k];
+            if (writer.write_products)
+                writer.write_products(*records[i][k], layout.sensor_folder(i));
             records[i][k]->close();
         }
     }
-    write_record_objects(layout, mission, common.description);
     const JournalEntries entries = read_journal(layout.folder);
     write_journal(layout.folder / journal_name, entries);
     // dataset.json says `complete` only after everything else is durable.

@@ -9,8 +9,6 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "core/text.h"
-#include "dataset/description.h"
 #include "dataset/ping_metadata.h"
 #include "mission/differences.h"
 #include "mission/files.h"
@@ -33,20 +31,11 @@ bool is_temporary(const fs::directory_entry& entry) {
            is_temporary_name(entry.path().filename().string());
 }
 
-/// True if a temporary file is that of a ping in `todo`.
-bool is_of(const fs::path& file, std::uint32_t sensor, const std::vector<PingId>& todo) {
-    const std::string name = final_name(file.filename().string());
-    const auto pose = parse_unsigned(name.substr(0, name.find('.')));
-    return pose && *pose <= UINT32_MAX &&
-           std::ranges::binary_search(todo, PingId{static_cast<std::uint32_t>(*pose), sensor});
-}
-
-template <class Condition>
-void remove_temporary_files(const fs::path& folder, const Condition& condition) {
+void remove_temporary_files(const fs::path& folder) {
     std::vector<fs::path> found;
     std::error_code absent;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, absent)) {
-        if (is_temporary(entry) && condition(entry.path())) found.push_back(entry.path());
+        if (is_temporary(entry)) found.push_back(entry.path());
     }
     for (const fs::path& file : found)
         fs::remove(file);
@@ -64,8 +53,8 @@ std::set<std::string> own_names(const Json& description) {
     }
     for (const Json& product : description.value("products", none)) {
         if (product == navigation_name) names.insert(navigation_name);
-        if (product.is_string() && product.get<std::string>().starts_with(
-                                       std::string(seabed_folder_name) + "/"))
+        if (product.is_string() &&
+            product.get<std::string>().starts_with(std::string(seabed_folder_name) + "/"))
             names.insert(seabed_folder_name);
     }
     return names;
@@ -78,8 +67,8 @@ void spare_inputs(const fs::path& folder, const std::set<std::string>& names,
     for (const fs::path& input : files_of(mission)) {
         const fs::path relative = fs::weakly_canonical(input).lexically_relative(home);
         if (relative.empty() || !names.contains(relative.begin()->string())) continue;
-        refuse(folder, "the dataset would replace '" + input.string() +
-                           "', which the mission reads");
+        refuse(folder,
+               "the dataset would replace '" + input.string() + "', which the mission reads");
     }
 }
 
@@ -152,7 +141,7 @@ void remove_dataset(const fs::path& folder, const Mission& mission) {
         part.filename() == journal_part(1, 1) ? fs::resize_file(part, 0) : void(fs::remove(part));
     for (const std::string& name : own)
         fs::remove_all(folder / name);
-    remove_temporary_files(folder, [](const fs::path&) { return true; });
+    remove_temporary_files(folder);
     sync_file_system(folder);
     // dataset.json goes last: it marks the dataset, so that an interrupted removal can be repeated.
     fs::remove(folder / description_name);
@@ -210,20 +199,17 @@ void write_common_files(const Layout& layout, const CommonFiles& files) {
         write_file(layout.folder / name, bytes);
 }
 
-void remove_leftovers(const Layout& layout, const std::vector<PingId>& todo, bool alone) {
-    const auto any = [](const fs::path&) { return true; };
-    if (alone) {
-        remove_temporary_files(layout.folder, any);
-        for (const fs::path& folder : layout.folders())
-            remove_temporary_files(folder, any);
-        return;
-    }
-    for (std::uint32_t sensor = 0; sensor < layout.sensors.size(); ++sensor) {
-        for (const auto& part : layout.sensors[sensor].per_ping) {
-            const auto* kind = std::get_if<PingFile>(&part);
-            if (!kind) continue;
-            remove_temporary_files(layout.sensor_folder(sensor) / kind->name,
-                                   [&](const fs::path& file) { return is_of(file, sensor, todo); });
+void remove_leftovers(const Layout& layout) {
+    remove_temporary_files(layout.folder);
+    for (const fs::path& folder : layout.folders())
+        remove_temporary_files(folder);
+}
+
+void remove_leftovers_of_pings(const Layout& layout) {
+    for (std::size_t i = 0; i < layout.sensors.size(); ++i) {
+        for (const auto& part : layout.sensors[i].per_ping) {
+            if (const auto* file = std::get_if<PingFile>(&part))
+                remove_temporary_files(layout.sensor_folder(i) / file->name);
         }
     }
 }

@@ -49,15 +49,15 @@ void protect_inputs(const Layout& layout, const Mission& mission);
 
 /// Removes the dataset in a folder: the folders of its sensors, with all that is in them, and the
 /// files of the dataset next to these. Nothing else is removed, and no link is followed. It is
-/// durable, so that a new dataset is never found with an old journal. The caller holds the lock of a
-/// whole run, which stays. InputError when a file that the mission reads would go.
+/// durable, so that a new dataset is never found with an old journal. The caller holds the lock of
+/// a whole run, which stays. InputError when a file that the mission reads would go.
 void remove_dataset(const std::filesystem::path& folder, const Mission& mission);
 
 /// True if all files of a complete dataset are in the folder.
 bool has_files(const std::filesystem::path& folder, const DatasetFile& dataset);
 
-/// Creates a file durably, with all of its bytes at once. Returns false and writes nothing if the name
-/// is in use: of several processes one creates it. std::system_error when the disk refuses.
+/// Creates a file durably, with all of its bytes at once. Returns false and writes nothing if the
+/// name is in use: of several processes one creates it. std::system_error when the disk refuses.
 bool create_once(const std::filesystem::path& path, const std::string& text);
 
 /// Makes dataset.json, which decides what the folder holds: of several runs one makes it, and the
@@ -67,8 +67,9 @@ FolderState claim_folder(const std::filesystem::path& folder, const CommonFiles&
 /// Makes the folder ready for pings: subfolders, and the common files but dataset.json.
 void write_common_files(const Layout& layout, const CommonFiles& files);
 
-/// Removes the temporary files of the pings in `todo` (sorted) that an interrupted run left, and
-/// with `alone`, when no other shard may be at work, all others.
-void remove_leftovers(const Layout& layout, const std::vector<PingId>& todo, bool alone);
+/// Removes the temporary files that interrupted runs left; no other shard may be at work.
+void remove_leftovers(const Layout& layout);
+/// The same for the files of pings alone, once all pings are there.
+void remove_leftovers_of_pings(const Layout& layout);
 
 }  // namespace sonarsim

@@ -9,7 +9,6 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "dataset/dataset_file.h"
-#include "dataset/description.h"
 #include "dataset/ping_metadata.h"
 #include "dataset/record_file.h"
 #include "format/npy.h"

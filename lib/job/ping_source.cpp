@@ -17,9 +17,8 @@ namespace {
 
 /// The name and the extension of a writer's file or record.
 std::filesystem::path file_of(const Writer& writer) {
-    const WriterOutputs outputs = writer.outputs();
-    if (const auto* record = std::get_if<PingRecord>(&outputs.per_ping)) return record->file;
-    const auto& file = std::get<PingFile>(outputs.per_ping);
+    if (const auto* record = std::get_if<PingRecord>(&writer.outputs.per_ping)) return record->file;
+    const auto& file = std::get<PingFile>(writer.outputs.per_ping);
     return file.name + file.extension;
 }
 
@@ -49,13 +48,13 @@ PingInMemory PingSource::ping(const PingId& id) const {
     brightest_pixel(rendered.ping, rendered.sonar->config.name, id.pose);
     PingInMemory out;
     finish_ping(assembly_, plans_[id.sensor], rendered, [&](const FinishedPing& finished) {
-        for (const auto& writer : writers_[id.sensor]) {
-            const std::filesystem::path file = file_of(*writer);
-            if (auto numbers = writer->numbers(finished)) {
-                out.arrays.push_back({file.stem().string(), std::move(*numbers)});
+        for (const Writer& writer : writers_[id.sensor]) {
+            const std::filesystem::path file = file_of(writer);
+            if (writer.numbers) {
+                out.arrays.push_back({file.stem().string(), writer.numbers(finished)});
             } else {
                 out.texts.push_back(
-                    {file.stem().string(), file.extension().string(), writer->encode(finished)});
+                    {file.stem().string(), file.extension().string(), writer.encode(finished)});
             }
         }
         out.metadata = json_text(describe_ping(mission_, assembly_, finished));

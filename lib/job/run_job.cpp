@@ -28,9 +28,9 @@ namespace {
 
 constexpr const char* error_key = "measured_error";
 
-/// Adds the measured error of the sonars to dataset.json: that of the folder's dataset.json, else it
-/// is measured, which gives the same values in every shard. The first of several variants stands for
-/// all.
+/// Adds the measured error of the sonars to dataset.json: that of the folder's dataset.json, else
+/// it is measured, which gives the same values in every shard. The first of several variants stands
+/// for all.
 void add_measured_error(const RenderRun& run, const VisibilityEngine& engine,
                         const std::filesystem::path& folder, nlohmann::ordered_json& description) {
     if (run.mission.variant.index > 0) return;
@@ -104,8 +104,8 @@ void run_in_folder(const RenderRun& run, const RenderOptions& options,
     };
     protect_inputs(layout, mission);
     // Before the lock, which makes a file: the folder may not be ours, or the disk read-only.
-    if (finished(inspect_folder(layout.folder, common.description, common.mission,
-                                options.overwrite)))
+    if (finished(
+            inspect_folder(layout.folder, common.description, common.mission, options.overwrite)))
         return;
     ShardLock lock(layout.folder, options.shard, options.shards);
     summary.unlocked = !lock.works();
@@ -122,14 +122,14 @@ void run_in_folder(const RenderRun& run, const RenderOptions& options,
     RecordFiles records = open_records(layout, RecordAccess::write);
     const std::vector<PingId> todo = unfinished(layout, records, own);
     summary.skipped = own.size() - todo.size();
-    remove_leftovers(layout, todo, options.shards == 1);
+    if (options.shards == 1) remove_leftovers(layout);
     Journal journal(lock, options.checkpoint_s);
     const Destination to{layout, writers, records, journal};
     render_pings(run, *engine, todo, &to);
     journal.finish();
     if (summary.stopped) return;
     if (has_pings(layout, all)) {
-        complete_dataset(layout, mission, writers, records, common);
+        complete_dataset(layout, writers, records, common);
         lock.finish();
         remove_journal_parts(layout.folder);
         summary.complete = true;
@@ -164,7 +164,8 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
         if (options.files) {
             run_in_folder(run, options, all);
         } else {
-            render_pings(run, *make_engine(mission, assembly), pings_of_shard(all, options), nullptr);
+            render_pings(run, *make_engine(mission, assembly), pings_of_shard(all, options),
+                         nullptr);
         }
     });
     return summary;

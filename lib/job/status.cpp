@@ -5,7 +5,6 @@
 
 #include "core/error.h"
 #include "dataset/dataset_file.h"
-#include "dataset/description.h"
 #include "job/journal.h"
 #include "job/shard_lock.h"
 #include "job/variants.h"

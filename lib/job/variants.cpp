@@ -1,18 +1,21 @@
 #include "job/variants.h"
 
 #include <algorithm>
+#include <map>
+#include <stdexcept>
 
 #include "checks/find_warnings.h"
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/sha256.h"
 #include "dataset/dataset_file.h"
 #include "dataset/layout.h"
 #include "dataset/metadata.h"
 #include "dataset/ping_metadata.h"
-#include "job/finished_variants.h"
 #include "job/folder.h"
 #include "job/shard_lock.h"
+#include "mission/files.h"
 #include "mission/resolved.h"
 #include "mission/variants.h"
 #include "scene/gltf/scene_files.h"
@@ -33,8 +36,8 @@ constexpr const char* variants_format = "sonarsim variants";
                      "holds variants of another mission, seed or version of sonarsim" + which);
 }
 
-/// " (seed: 1 there, 2 here)": what differs in two variants.json; "" if only the hash of the mission
-/// does.
+/// " (seed: 1 there, 2 here)": what differs in two variants.json; "" if only the hash of the
+/// mission does.
 std::string variants_difference(const Json& there, const Json& here) {
     std::string text;
     const auto add = [&](const std::string& name, const Json& before, const Json& now) {
@@ -94,6 +97,39 @@ void require_places(std::span<const Mission* const> variants) {
     }
 }
 
+/// SHA-256 of input files by path.
+using InputSums = std::map<fs::path, std::string>;
+
+/// The number of pings of the dataset in the variant's folder, found without its scene; nothing
+/// unless it is complete, has all its files, and was made of this mission and these input files by
+/// a build with the same bytes.
+std::optional<std::uint64_t> finished_pings(const Mission& variant, InputSums& sums) try {
+    const fs::path& folder = variant.output.folder;
+    if (!fs::exists(folder / description_name)) return std::nullopt;
+    const DatasetFile found = require_dataset(folder);
+    const Json expected = {{"format_version", dataset_format_version},
+                           {"program_version", SONARSIM_VERSION},
+                           {"build", describe_build()},
+                           {"mission_hash", mission_hash(variant, sonar_keys())},
+                           {"inputs_hash", found.json.at("inputs_hash")}};
+    if (!found.complete || !difference_between(found.json, expected).empty()) return std::nullopt;
+    for (const Json& input : found.json.at("inputs")) {
+        const fs::path file = home_of(variant) / input.at("file").get<std::string>();
+        const auto [sum, is_new] = sums.try_emplace(file);
+        if (is_new) sum->second = sha256_of_file(file);
+        if (sum->second != input.at("sha256").get<std::string>()) return std::nullopt;
+    }
+    if (!has_files(folder, found)) return std::nullopt;
+    std::uint64_t pings = 0;
+    for (const DescribedSensor& sensor : found.sensors)
+        pings += sensor.pings;
+    return pings;
+} catch (const Json::exception&) {
+    return std::nullopt;  // run_job() says what is wrong
+} catch (const std::runtime_error&) {
+    return std::nullopt;
+}
+
 }  // namespace
 
 Json describe_variants(const Mission& mission, std::span<const Mission> variants) {
@@ -138,9 +174,10 @@ bool is_complete(const fs::path& dataset) {
 
 void require_same_variants(const fs::path& folder, const Json& json, const fs::path& first) {
     const std::optional<Json> own = read_variants(folder);
-    if (!own) throw InputError({folder.string()}, "has no variants.json, and " + first.string() +
-                                                      " has one; give the output folders of one "
-                                                      "mission");
+    if (!own)
+        throw InputError({folder.string()}, "has no variants.json, and " + first.string() +
+                                                " has one; give the output folders of one "
+                                                "mission");
     if (*own != json)
         refuse_variants(folder, " than " + first.string() + variants_difference(*own, json));
 }
@@ -160,8 +197,8 @@ void inspect_variants(const fs::path& folder, const Json& json, std::span<const 
             difference =
                 mission_differences(folder / variant_folder(0),
                                     resolved_yaml(portable(variants.front()), sonar_keys()));
-        refuse_variants(folder, difference +
-                                    "; choose another output.folder, or --overwrite to begin anew");
+        refuse_variants(
+            folder, difference + "; choose another output.folder, or --overwrite to begin anew");
     }
     for (const Json& one : {found.value_or(json), json}) {
         for (const fs::path& variant : folders_of_variants(folder, one))
@@ -182,12 +219,12 @@ RenderSummary run_variants(const Mission& mission, std::span<const Mission> vari
     const Json json = describe_variants(mission, variants);
     if (options.files) inspect_variants(folder, json, variants, options.overwrite);
     RenderSummary all;
-    FinishedVariants finished;
+    InputSums sums;
     std::vector<const Mission*> todo;
     for (std::size_t i = 0; i < variants.size(); ++i) {
         if (shard_of(i, options.shards) != options.shard) continue;
         const auto pings =
-            options.files && !options.overwrite ? finished(variants[i]) : std::nullopt;
+            options.files && !options.overwrite ? finished_pings(variants[i], sums) : std::nullopt;
         all.skipped += pings.value_or(0);
         if (!pings) todo.push_back(&variants[i]);
     }

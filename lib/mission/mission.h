@@ -173,22 +173,14 @@ struct OutputConfig {
     bool polar = true;        ///< float32 in .npy
     bool image = false;       ///< 16-bit polar PNG
     bool fan = true;          ///< 8-bit PNG
-    bool meta = true;         ///< JSON per ping
     bool stages = false;      ///< 8-bit PNG of five fans that add the model's terms one by one
-    int fan_width_px = 0;     ///< 0: one pixel per range bin, at most 1024
     double full_scale = 0.0;  ///< intensity that becomes white; 0: automatic, by sonar
     std::vector<Label> labels = {};  ///< each at most once, in the order of the enumeration
     bool raw = true;                 ///< the instrument's output with the calibrated model
 
     // Products of all pings of a sonar.
-    bool waterfall = true;           ///< side-scan sonars
-    bool echogram = true;            ///< echosounders
-    bool soundings = true;           ///< profiling sonars: soundings and their map
-    bool scan = true;                ///< scanning sonars
-    double bathymetry_cell_m = 0.0;  ///< 0: from the number of soundings
     bool xtf = false;                ///< side-scan sonars: the waterfall as XTF
     bool mosaic = false;             ///< side-scan sonars: the waterfall georeferenced
-    double mosaic_cell_m = 0.0;      ///< 0: from the distance between pings
     MissionPlace place = {};
 
     bool operator==(const OutputConfig&) const = default;

@@ -38,31 +38,18 @@ void describe(Visitor& v, OutputConfig& c) {
         "fan", c.fan,
         "write every ping of these sonars as an 8-bit fan in grey, as an operator sees it, in PNG "
         "files");
-    v.flag("meta", c.meta, "write a JSON file per ping");
     v.flag("stages", c.stages,
            "write a fan for each stage of the echo model side by side: direct echoes, then with "
            "multipath, then with one random term after the other");
-    v.number("fan_width_px", c.fan_width_px, between(0, 8192),
-             "width of the fan; 0 means one pixel per range bin, at most 1024");
     v.number("full_scale", c.full_scale, above(0),
              "intensity that becomes white in pictures; `auto` finds it for each sonar "
              "from a few pings and writes it to dataset.json",
              or_auto);
     v.subset("labels", c.labels, label_names,
              "labels to write for every bin: `true` for all, or a list of them");
-    v.flag("waterfall", c.waterfall, "write the waterfalls of side-scan sonars");
-    v.flag("echogram", c.echogram, "write the echograms of echosounders");
-    v.flag("soundings", c.soundings,
-           "write the soundings of profiling sonars and the map made of them");
-    v.flag("scan", c.scan, "write the scans of scanning sonars");
-    v.number("bathymetry_cell_m", c.bathymetry_cell_m, at_least(0),
-             "cell size of the map of soundings; 0 gives a cell four soundings or more on average");
-    v.flag("xtf", c.xtf, "with `waterfall`, write it as XTF as well, for other programs");
-    v.flag("mosaic", c.mosaic, "with `waterfall`, write a georeferenced mosaic of it as GeoTIFF");
-    v.number("mosaic_cell_m", c.mosaic_cell_m, at_least(0),
-             "cell size of the mosaic; 0 means the distance between pings");
-    v.require(c.waterfall || !(c.xtf || c.mosaic), {"waterfall", "xtf", "mosaic"},
-              "xtf and mosaic are made of the waterfall: write waterfall: true");
+    v.flag("xtf", c.xtf, "write the waterfall of side-scan sonars as XTF as well");
+    v.flag("mosaic", c.mosaic,
+           "write a georeferenced mosaic of the waterfall of side-scan sonars as GeoTIFF");
 }
 
 }  // namespace sonarsim

@@ -110,8 +110,7 @@ void write_numbers(Picture& picture, const FanFrame& frame, const View& view) {
 Picture styled_fan(const Sonar& sonar, const FanFrame& frame, std::span<const std::uint8_t> grey) {
     Picture picture(frame.width, frame.height, backdrop);
     for (std::size_t k = 0; k < grey.size(); ++k)
-        picture.pixels[k] =
-            blend(stops_of(FanColours::amber), static_cast<float>(grey[k]) / 255.0F);
+        picture.pixels[k] = blend(amber_colours, static_cast<float>(grey[k]) / 255.0F);
     const View& view = sonar.settings.view;
     draw_lines(picture, frame, view);
     if (std::min(frame.width, frame.height) >= least_px) write_numbers(picture, frame, view);

@@ -59,7 +59,6 @@ void draw_heights(Picture& tile, const PlaneFrame& frame, const std::vector<floa
     std::ranges::sort(known);
     const float low = known[known.size() / 50];
     const float high = std::max(known[known.size() - 1 - known.size() / 50], low + 1e-3F);
-    const std::span<const Rgb> stops = stops_of(FanColours::sea);
     const auto width = static_cast<std::size_t>(frame.plot_width);
     for (std::size_t k = 0; k < heights.size(); ++k) {
         if (std::isnan(heights[k])) continue;
@@ -71,7 +70,7 @@ void draw_heights(Picture& tile, const PlaneFrame& frame, const std::vector<floa
                             neighbour(k - width)) /
                            static_cast<float>(frame.pixel_m);
         const float light = std::clamp(0.55F + 0.25F * rise, 0.3F, 0.8F);
-        const Rgb full = blend(stops, (heights[k] - low) / (high - low));
+        const Rgb full = blend(sea_colours, (heights[k] - low) / (high - low));
         const Rgb ends[] = {backdrop, full};
         tile.row(frame.top + static_cast<int>(k / width))[frame.left + k % width] =
             blend(ends, light);

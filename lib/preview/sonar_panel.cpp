@@ -128,7 +128,7 @@ SonarPanel draw_rows(const Sonar& sonar, const RecordShape& shape, const Series&
     }
     Picture picture(width, height, backdrop);
     const int bottom = height - axis_px;
-    draw_values(picture, 0, width, bottom, values, series.white, stops_of(FanColours::copper));
+    draw_values(picture, 0, width, bottom, values, series.white, copper_colours);
     const auto mark_at = [&](double range, int x) {
         fill(picture, x, bottom, 1, 4, ink);
         const std::string text = number_text(range) + " m";
@@ -171,8 +171,7 @@ SonarPanel draw_columns(const Sonar& sonar, const RecordShape& shape, const Seri
     }
     Picture picture(width, height, backdrop);
     const int left = number_px;
-    draw_values(picture, left, width - left, height, values, series.white,
-                stops_of(FanColours::sea));
+    draw_values(picture, left, width - left, height, values, series.white, sea_colours);
     const double px_per_m = height / (config.range_max_m - config.range_min_m);
     for (const double range : axis_marks(config.range_min_m, config.range_max_m, 8.0)) {
         const int y = static_cast<int>((range - config.range_min_m) * px_per_m);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 namespace sonarsim {
 
 /// A box of pixels: columns [left, right), rows [top, bottom). Empty where left = right.
@@ -11,8 +13,11 @@ struct PixelBox {
 };
 
 /// The smallest box around two boxes; an empty box adds nothing.
-PixelBox joined(const PixelBox& one, const PixelBox& other);
-/// Enlarges a box so that it holds a pixel.
-void extend(PixelBox& box, int column, int row);
+inline PixelBox joined(const PixelBox& one, const PixelBox& other) {
+    if (one.is_empty()) return other;
+    if (other.is_empty()) return one;
+    return {std::min(one.left, other.left), std::max(one.right, other.right),
+            std::min(one.top, other.top), std::max(one.bottom, other.bottom)};
+}
 
 }  // namespace sonarsim

@@ -21,7 +21,7 @@ struct FanFrame {
 
 /// The frame of an image exactly `width_px` wide; a narrow sector is centred in it. 0 means one
 /// pixel per range bin, at most 1024.
-FanFrame fan_frame(const Sonar& sonar, int width_px);
+FanFrame fan_frame(const Sonar& sonar, int width_px = 0);
 
 /// The place of a pixel's centre in the fan.
 struct FanPlace {
@@ -72,7 +72,7 @@ struct FanMap {
 };
 
 /// `width_px` as for fan_frame().
-FanMap make_fan_map(const Sonar& sonar, int width_px);
+FanMap make_fan_map(const Sonar& sonar, int width_px = 0);
 
 /// Renders the fan as grey values [height, width], row by row from the top. Intensity is power, and
 /// an operator's display shows amplitude: grey = 255 sqrt(intensity / full_scale), white above

@@ -20,11 +20,11 @@ std::int32_t bin_at(const View& view, const ColumnFinder& column_at, const FanPl
 
 }  // namespace
 
-FanBins make_fan_bins(const Sonar& sonar, int width_px) {
+FanBins make_fan_bins(const Sonar& sonar) {
     const View& view = sonar.settings.view;
     const ColumnFinder column_at(sonar);
     FanBins fan;
-    fan.frame = fan_frame(sonar, width_px);
+    fan.frame = fan_frame(sonar);
     const auto width = static_cast<std::size_t>(fan.frame.width);
     const auto height = static_cast<std::size_t>(fan.frame.height);
     fan.by_row.resize(width * height);
@@ -48,7 +48,9 @@ std::vector<PixelBox> bin_boxes(const FanBins& fan, std::size_t bins) {
         for (int column = 0; column < fan.frame.width; ++column) {
             const std::int32_t bin =
                 fan.by_row[static_cast<std::size_t>(row) * fan.frame.width + column];
-            if (bin >= 0) extend(boxes[static_cast<std::size_t>(bin)], column, row);
+            if (bin < 0) continue;
+            PixelBox& box = boxes[static_cast<std::size_t>(bin)];
+            box = joined(box, {column, column + 1, row, row + 1});
         }
     }
     return boxes;

@@ -18,8 +18,8 @@ struct FanBins {
     std::vector<std::int32_t> by_column;  ///< [width, height]
 };
 
-/// Makes the bins for the same fan as make_fan_map().
-FanBins make_fan_bins(const Sonar& sonar, int width_px);
+/// Makes the bins for the same fan as make_fan_map(sonar).
+FanBins make_fan_bins(const Sonar& sonar);
 
 /// The pixels of each of a ping's bins: the box around them, empty (left = right) for a bin between
 /// pixels.

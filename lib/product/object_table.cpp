@@ -156,11 +156,7 @@ void add_shadows(const PingLabels& labels, std::span<const PixelBox> fan_boxes,
 class Contrasts {
   public:
     Contrasts(const SceneObjects& objects, const PingLabels& labels, const LevelMap& map)
-        : labels_(labels), map_(map) {
-        is_background_.push_back(1);
-        for (std::uint32_t k = 0; k < objects.objects.size(); ++k)
-            is_background_.push_back(objects.is_background(k) ? 1 : 0);
-    }
+        : labels_(labels), map_(map), is_background_(background_ids(objects)) {}
 
     void add_to(ObjectInPing& seen) const {
         if (is_background_[seen.id] != 0) return;
@@ -182,6 +178,13 @@ class Contrasts {
 };
 
 }  // namespace
+
+std::vector<std::uint8_t> background_ids(const SceneObjects& objects) {
+    std::vector<std::uint8_t> is_background(std::size_t{1} << 16, 1);
+    for (std::uint32_t k = 0; k < objects.objects.size(); ++k)
+        is_background[k + 1] = objects.is_background(k) ? 1 : 0;
+    return is_background;
+}
 
 std::vector<ObjectInPing> seen_objects(const Sonar& sonar, const SceneObjects& objects,
                                        const TracedPing& traced, const PingLabels& labels,

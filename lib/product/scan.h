@@ -50,4 +50,17 @@ class ScanDisplay {
     Ping image_;
 };
 
+/// Calls show(ping, step) for each ping of a sonar, and finish(sweep, end) after the last ping of
+/// each sweep, the unfinished one too; `end` is the number of pings so far.
+template <class Show, class Finish>
+void for_each_sweep(const SonarConfig& config, std::size_t pings, const Show& show,
+                    const Finish& finish) {
+    const auto steps = static_cast<std::size_t>(scan_steps(config));
+    for (std::size_t ping = 0; ping < pings; ++ping) {
+        show(ping, scan_step(config, ping));
+        const std::size_t end = ping + 1;
+        if (end % steps == 0 || end == pings) finish(ping / steps, end);
+    }
+}
+
 }  // namespace sonarsim

@@ -49,11 +49,10 @@ Picture waterfall_axis(const SonarConfig& config, const StripFrame& frame) {
 
 void waterfall_row(std::span<const float> row, double white, const StripFrame& /*frame*/,
                    std::span<Rgb> pixels) {
-    const std::span<const Rgb> copper = stops_of(FanColours::copper);
     const auto full = static_cast<float>(white);
     const std::size_t nadir = row.size() / 2;
     for (std::size_t i = 0; i < row.size(); ++i)
-        pixels[i < nadir ? i : i + 1] = blend(copper, shade(row[i], full));
+        pixels[i < nadir ? i : i + 1] = blend(copper_colours, shade(row[i], full));
     pixels[nadir] = nadir_colour;
 }
 

@@ -34,7 +34,6 @@ KindOfSonar echosounder_kind() {
             .range_noise_fades = false,
             .has_images = false,
             .record = {.name = "echogram",
-                       .wanted = &OutputConfig::echogram,
                        .upright = true,
                        .pictures = RecordPictures::strip,
                        .style = echogram_style},

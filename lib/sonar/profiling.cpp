@@ -32,7 +32,7 @@ KindOfSonar profiling_kind() {
             .gain = 0.5,
             .range_noise_fades = true,
             .has_images = true,
-            .record = {.name = "soundings", .wanted = &OutputConfig::soundings},
+            .record = {.name = "soundings"},
             .finish = add_azimuth,
             .measure = measure_soundings};
 }

@@ -22,10 +22,9 @@ enum class RecordPictures {
 /// It is a selection of the ping's bins; the writer of a record without pictures may make it of
 /// other values.
 struct RecordShape {
-    std::string_view name;                 ///< name of the file; "": the kind has no record
-    bool OutputConfig::*wanted = nullptr;  ///< the mission's key that requests the file
-    std::string_view axis = "range";       ///< the meaning of a ping's values, for dataset.json
-    bool upright = false;                  ///< pings are columns: [range, ping]
+    std::string_view name;            ///< name of the file; "": the kind has no record
+    std::string_view axis = "range";  ///< the meaning of a ping's values, for dataset.json
+    bool upright = false;             ///< pings are columns: [range, ping]
     RecordPictures pictures = RecordPictures::none;
     StripStyle style = {};  ///< for a strip
     /// The bin of the ping's image [range, beam] that each value shows; -1: none. Null: a record
@@ -36,7 +35,6 @@ struct RecordShape {
     /// The record has two sides, port and starboard of the track: XTF and mosaics are made of it.
     bool two_sides = false;
 
-    bool is_written(const OutputConfig& output) const { return wanted && output.*wanted; }
     /// The number of values of a ping.
     std::size_t values(const SonarConfig& config) const;
 };

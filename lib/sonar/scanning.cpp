@@ -40,21 +40,19 @@ KindOfSonar scanning_kind() {
     defaults.range_max_m = 20.0;
     defaults.range_bins = 500;
     defaults.instrument.beam.aperture = Aperture::head;
-    return {.keys = {.kind = SonarKind::scanning,
-                     .name = "scanning",
-                     .defaults = defaults,
-                     .head = true},
-            .shape = ViewShape::fan,
-            .looks_down = false,
-            .gain = 1.0,
-            .range_noise_fades = true,
-            .has_images = false,
-            .record = {.name = "scan",
-                       .wanted = &OutputConfig::scan,
-                       .pictures = RecordPictures::sweeps,
-                       .describe = describe_sweeps},
-            .finish = turn_head,
-            .measure = measure_head};
+    return {
+        .keys = {.kind = SonarKind::scanning,
+                 .name = "scanning",
+                 .defaults = defaults,
+                 .head = true},
+        .shape = ViewShape::fan,
+        .looks_down = false,
+        .gain = 1.0,
+        .range_noise_fades = true,
+        .has_images = false,
+        .record = {.name = "scan", .pictures = RecordPictures::sweeps, .describe = describe_sweeps},
+        .finish = turn_head,
+        .measure = measure_head};
 }
 
 }  // namespace sonarsim

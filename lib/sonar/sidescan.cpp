@@ -49,7 +49,6 @@ KindOfSonar sidescan_kind() {
         .range_noise_fades = true,
         .has_images = false,
         .record = {.name = "waterfall",
-                   .wanted = &OutputConfig::waterfall,
                    .axis = "port from range_max to nadir, then starboard from nadir to range_max",
                    .pictures = RecordPictures::strip,
                    .style = waterfall_style,

@@ -72,7 +72,7 @@ class Documents(Sandbox):
 
     @unittest.skipIf(PYTHON is None, "needs numpy")
     def test_snippets_open_what_little_was_asked_for(self):
-        self.render_all_kinds("out/survey", "--set", "output.meta=false", "--set", "output.polar=false")
+        self.render_all_kinds("out/survey", "--set", "output.polar=false")
         self.run_snippet(DATASET_PAGE)
 
     @unittest.skipIf(PYTHON is None, "needs numpy")

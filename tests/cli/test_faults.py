@@ -29,7 +29,7 @@ sensors:
   mbes: {kind: profiling, range_max_m: 6, range_bins: 16, azimuth_bins: 8}
   sss: {kind: sidescan, range_max_m: 6, range_bins: 16}
   sounder: {kind: echosounder, range_max_m: 6, range_bins: 16}
-output: {folder: out, image: true, fan_width_px: 32}
+output: {folder: out, image: true}
 """
 
 RECORDS = ("soundings.npy", "waterfall.npy", "echogram.npy")

@@ -29,7 +29,6 @@ sensors:
     range_bins: 55
 output:
   folder: %s
-  waterfall: true
   labels: [material, clean]
 """
 # The floor has 20 x 20 m: values 1 and 2 in the north, 3 and 4 in the south.

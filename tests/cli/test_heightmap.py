@@ -190,7 +190,7 @@ class Heightmap(Composed):
         """What a profiler writes of the ground is the same ground for the next mission."""
         self.mission(self.OWN)
         profiler = ("  mbes: {kind: profiling, azimuth_deg: 90, range_max_m: 8, range_bins: 800, "
-                    "azimuth_bins: 90}\noutput:\n  bathymetry_cell_m: 0.25\n")
+                    "azimuth_bins: 90}\noutput:\n")
         self.edit("mission.yaml", "  labels: true\n", "")
         self.edit("mission.yaml", "  rate_hz: 3", "  rate_hz: 20")
         self.edit("mission.yaml", "[2, 5, 3], rpy_deg: [0, 0, 30]", "[9, 4.5, 3]")
@@ -205,8 +205,9 @@ class Heightmap(Composed):
         second = json.loads((self.folder / "again/mbes/bathymetry.json").read_text())
         again = heights_of(self.folder / "again/mbes/bathymetry.tif", second["rows"] * second["columns"])
         # Cells begin at multiples of their size, so those of both maps fit together.
-        right = round((second["west_m"] - first["west_m"]) / 0.25)
-        down = round((first["north_m"] - second["north_m"]) / 0.25)
+        self.assertEqual(first["cell_m"], second["cell_m"])
+        right = round((second["west_m"] - first["west_m"]) / first["cell_m"])
+        down = round((first["north_m"] - second["north_m"]) / first["cell_m"])
         off = []
         for r in range(second["rows"]):
             for c in range(second["columns"]):

@@ -27,7 +27,6 @@ numpy.testing.assert_array_equal(cloud.point_data["quality"], rows[:, 4].astype(
 PROFILER = """\
   mbes: {kind: profiling, azimuth_deg: 60, range_max_m: 6, range_bins: 64, azimuth_bins: 16}
 output:
-  bathymetry_cell_m: 0.25
 """
 
 
@@ -52,7 +51,6 @@ class Map(Sandbox):
         self.assertEqual(result.stderr, "")
         info = json.loads(result.stdout)
         cell = map_place["cell_m"]
-        self.assertEqual(cell, 0.25)
         self.assertEqual(info["size"], [map_place["columns"], map_place["rows"]])
         # x of the upper left corner, x by column, x by row; then y.
         self.assertEqual(info["geoTransform"],

@@ -31,7 +31,7 @@ scene:
   rate_hz: 1
 sensors:
   side: {kind: sidescan, range_min_m: %g, range_max_m: 26, range_bins: 200%%s}
-output: {folder: %%s, waterfall: true, labels: [clean]}
+output: {folder: %%s, labels: [clean]}
 """ % (HEIGHT_M, STEP_M * (PINGS - 1) - 23, HEIGHT_M, STEP_M, FIRST_M)
 # The middle of the map is x = 0, y = 0.
 LAID = "  backscatter_map: {file: mosaic.tif, origin_m: [505027.5, 5987025]}\n"

@@ -143,7 +143,7 @@ class Objects(Labelled):
                 ("labels: true", "pack: tar", "'pack' is no longer there", "webdataset"),
                 ("labels: true", "polar: exr", "'exr' is no longer there", "polar: true"),
                 ("labels: true", "labels: [boxes]", "unknown labels 'boxes'"),
-                ("fan_width_px: 64\n  labels: true", "fan: false\n  labels: [fan]", "'fan'", "output.fan: true"),
+                ("labels: true", "fan: false\n  labels: [fan]", "'fan'", "output.fan: true"),
                 ('"pillar*"', '"pilar*"', "no node of the scene fits 'pilar*'", "sonarsim inspect")):
             before = (self.folder / "mission.yaml").read_text()
             self.edit("mission.yaml", old, new)

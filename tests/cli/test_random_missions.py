@@ -224,8 +224,6 @@ def write_mission(draw, keys, folder):
                           for i in range(draw.choice([1, 1, 2]))}
     output = mission.setdefault("output", {})
     output["folder"] = "out"
-    if output.get("fan_width_px", 0) > 1024:
-        output["fan_width_px"] = draw.choice([1, 1024, 2000])
     # The finest goals and the widest images together are long work, and no fault.
     if any(s.get("azimuth_bins", 1) > 1000 or s["range_bins"] > 1000
            for s in mission["sensors"].values()):

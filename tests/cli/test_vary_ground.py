@@ -18,7 +18,7 @@ trajectory:
 sensors:
   fls: {kind: imaging, mount: {rpy_deg: [0, 40, 0]}, azimuth_deg: 60, elevation_deg: 20, range_max_m: 8,
         range_bins: 64, azimuth_bins: 24}
-output: {folder: out, meta: false, labels: [material, class]}
+output: {folder: out, labels: [material, class]}
 """
 
 BED = """\
@@ -87,8 +87,9 @@ def documented_keys():
 
 
 def files(dataset):
-    """The sums of all files of the sonar but those of classes, which have numbers of all variants there."""
-    return {name: sum_ for name, sum_ in digest(dataset / "fls").items() if not name.startswith("class/")}
+    """The sums of all files of the sonar but those of classes, which have numbers of all variants there, and the
+    metadata, which name the variant."""
+    return {name: sum_ for name, sum_ in digest(dataset / "fls").items() if not name.startswith(("class/", "meta/"))}
 
 
 class VaryGround(Composed):

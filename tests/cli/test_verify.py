@@ -148,8 +148,8 @@ class EveryFile(Sandbox):
         self.draw = random.Random(7)
         # The other two sonars write files of the same sorts.
         kept = [line for line in MISSION.splitlines() if not line.startswith(("  mbes", "  sounder"))]
-        mission = "\n".join(kept).replace("fan_width_px: 32", "fan_width_px: 32") + "\n"
-        labels = mission.replace("fan_width_px: 32", "fan_width_px: 32, labels: [instance, objects]")
+        mission = "\n".join(kept) + "\n"
+        labels = mission.replace("image: true", "image: true, labels: [instance, objects]")
         labels += "labels: {background: [none]}\n"
         self.write("mission.yaml", labels)
         self.write("variants.yaml", mission + "variants: 2\n"

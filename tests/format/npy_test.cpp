@@ -3,7 +3,6 @@
 #include <doctest/doctest.h>
 
 #include <bit>
-#include <cmath>
 #include <limits>
 
 #include "core/error.h"
@@ -37,26 +36,6 @@ TEST_SUITE("dataset") {
             const std::string bytes = npy_bytes(values, rows, 3);
             CHECK((bytes.size() - values.size() * 4) % 64 == 0);
             CHECK(bytes[bytes.size() - values.size() * 4 - 1] == '\n');
-        }
-    }
-
-    TEST_CASE("npy: what is stored by columns is written by rows") {
-        for (const auto& [rows, columns] : {std::pair<std::size_t, std::size_t>{1, 1},
-                                            {3, 2},
-                                            {16, 16},
-                                            {17, 33},
-                                            {40, 1},
-                                            {1, 40}}) {
-            std::vector<float> by_row;
-            std::vector<float> by_column(rows * columns);
-            for (std::size_t i = 0; i < rows; ++i) {
-                for (std::size_t j = 0; j < columns; ++j) {
-                    by_row.push_back(static_cast<float>(100 * i + j));
-                    by_column[j * rows + i] = by_row.back();
-                }
-            }
-            CHECK(npy_bytes_of_columns(by_column, rows, columns) ==
-                  npy_bytes(by_row, rows, columns));
         }
     }
 

@@ -149,6 +149,6 @@ TEST_SUITE("format") {
         const std::vector<std::uint8_t> pixels(12);
         CHECK_THROWS_AS(png_bytes(pixels, 3, 3), std::logic_error);
         PngEncoder encoder(3, 1, PixelKind::grey8, PngFilter::left);
-        CHECK_THROWS_AS(encoder.row(std::span(pixels).first(4)), std::logic_error);
+        CHECK_THROWS_AS(encoder.row(std::span(std::as_const(pixels)).first(4)), std::logic_error);
     }
 }

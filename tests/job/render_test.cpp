@@ -80,7 +80,7 @@ TEST_SUITE("job") {
                     REQUIRE(std::fabs(image[k] - grey) < 0.51);
                     if (matrix.values[k] > white) ++clipped;
                 }
-                const auto fan = render_fan(make_fan_map(sonar, 0), ping, white);
+                const auto fan = render_fan(make_fan_map(sonar), ping, white);
                 const auto shown = read_pixels(sensor / "fan" / (number + ".png"));
                 CHECK(std::ranges::equal(shown, fan, {}, {}, [](int grey) { return 257 * grey; }));
                 const Json meta =
@@ -101,9 +101,9 @@ TEST_SUITE("job") {
         const TemporaryFolder temporary;
         Mission mission = small_mission(temporary.path / "out");
         mission.output.polar = false;
-        mission.output.image = mission.output.meta = false;
+        mission.output.image = false;
         run(mission);
-        CHECK(contents(temporary.path / "out").size() == 5 + pings);
+        CHECK(contents(temporary.path / "out").size() == 5 + 2 * pings);
         CHECK(fs::exists(temporary.path / "out/left/fan/000006.png"));
         CHECK_FALSE(fs::exists(temporary.path / "out/left/polar"));
     }

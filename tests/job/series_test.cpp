@@ -21,7 +21,7 @@
 #include "support/temporary_folder.h"
 
 namespace sonarsim {
-std::unique_ptr<Writer> make_strip_writer(const WriterContext& context);
+std::optional<Writer> make_strip_writer(const WriterContext& context);
 }
 
 using namespace sonarsim;
@@ -189,33 +189,6 @@ TEST_SUITE("job") {
             if (count[i] > 0) REQUIRE(z[i] == test::approx(sum[i] / count[i]));
         }
         CHECK(OIIO::ImageInput::open((out / "mbes/bathymetry.png").string()));
-    }
-
-    TEST_CASE("series: output chooses them") {
-        const TemporaryFolder temporary;
-        const fs::path out = temporary.path / "out";
-        Mission mission = survey_mission(out);
-        mission.output.waterfall = mission.output.soundings = false;
-        mission.output.polar = false;
-        mission.output.image = false;
-        mission.output.fan = false;
-        CHECK(run(mission).complete);
-        CHECK_FALSE(fs::exists(out / "sss/waterfall.npy"));
-        CHECK_FALSE(fs::exists(out / "mbes/soundings.csv"));
-        CHECK(fs::exists(out / "sounder/echogram.npy"));
-        CHECK(fs::exists(out / "sss/meta/000006.json"));
-    }
-
-    TEST_CASE("series: without metadata the records alone are written") {
-        const TemporaryFolder temporary;
-        const fs::path out = temporary.path / "out";
-        Mission mission = survey_mission(out);
-        mission.output.meta = false;
-        CHECK(run(mission).complete);
-        CHECK_FALSE(fs::exists(out / "sss/meta"));
-        CHECK_FALSE(fs::exists(out / "sounder/meta"));
-        CHECK(fs::exists(out / "sss/waterfall.png"));
-        CHECK(run(mission).pings == 0);
     }
 
     TEST_CASE("series: what is predicted before a run is not less than what it writes") {

@@ -17,15 +17,11 @@ TEST_SUITE("job") {
         CHECK(third.pings == 3);
         CHECK_FALSE(third.complete);
         CHECK_FALSE(is_complete(out));
-        // A shard leaves the temporary files of another one that may be at work.
-        write_file(out / "front/polar/.000001.npy.0123456789abcdef.part",
-                   "at work");  // index 2, shard 2
-        write_file(out / "front/polar/.000000.npy.0123456789abcdef.part",
-                   "stale");  // index 0, shard 0
+        // A shard leaves the temporary files of another one that may be at work; the run that
+        // completes the dataset removes them.
+        write_file(out / "front/polar/.000001.npy.0123456789abcdef.part", "at work");
         CHECK(run(mission, {.shard = 0, .shards = 3}).pings == 4);
         CHECK(fs::exists(out / "front/polar/.000001.npy.0123456789abcdef.part"));
-        CHECK_FALSE(fs::exists(out / "front/polar/.000000.npy.0123456789abcdef.part"));
-        fs::remove(out / "front/polar/.000001.npy.0123456789abcdef.part");
         const RenderSummary last = run(mission, {.shard = 1, .shards = 3});
         CHECK(last.complete);
         CHECK(is_complete(out));

@@ -59,8 +59,6 @@ TEST_CASE("an override is checked like the file and named in the message") {
           "--set sensors.fls.noise.add_sigma=-1: 'add_sigma' must be at least 0, not '-1'");
     CHECK(set_refusal("seed=") ==
           "--set seed=: 'seed' must be a whole number from 0 to 2^64 - 1, not nothing");
-    CHECK(set_refusal("output.meta=on") ==
-          "--set output.meta=on: 'meta' must be true or false, not 'on'");
     CHECK(set_refusal("output.polar=on") ==
           "--set output.polar=on: 'polar' must be true or false, not 'on'");
     CHECK(set_refusal("sensors.fls.range_max_m=0.05") ==

@@ -69,8 +69,6 @@ output:
   polar: false
   image: false
   fan: false
-  meta: false
-  fan_width_px: 300
   full_scale: 0.25
 )");
     CHECK(mission.name == "all keys");
@@ -96,7 +94,7 @@ output:
     CHECK(mission.accuracy == AccuracyConfig{0.1});
     CHECK(mission.engine == EngineKind::octree);
     CHECK(mission.octree == OctreeConfig{0.05});
-    CHECK(mission.output == OutputConfig{"/o", false, false, false, false, false, 300, 0.25});
+    CHECK(mission.output == OutputConfig{"/o", false, false, false, false, 0.25});
 }
 
 TEST_CASE("waypoints") {
@@ -132,11 +130,11 @@ TEST_CASE("numbers are decimal and booleans are true and false") {
                   "'");
     }
     for (const char* text : {"on", "yes", "True", "TRUE", "y", "1"}) {
-        CHECK(refusal(smallest_mission + "output: {meta: " + text + "}\n") ==
-              "m.yaml:6:16: 'meta' must be true or false, not '" + std::string(text) + "'");
+        CHECK(refusal(smallest_mission + "output: {raw: " + text + "}\n") ==
+              "m.yaml:6:15: 'raw' must be true or false, not '" + std::string(text) + "'");
     }
-    CHECK(refusal(smallest_mission + "output: {meta: \"true\"}\n") ==
-          "m.yaml:6:16: 'meta' must be true or false, not the quoted text 'true'");
+    CHECK(refusal(smallest_mission + "output: {raw: \"true\"}\n") ==
+          "m.yaml:6:15: 'raw' must be true or false, not the quoted text 'true'");
     CHECK(refusal(smallest_mission + key + "'60'\n") ==
           "m.yaml:6:18: 'azimuth_deg' must be a finite number, not the quoted text '60'");
     CHECK(refusal(smallest_mission + key + "[60]\n") ==

@@ -41,15 +41,9 @@ Mission unusual_mission() {
                       .polar = false,
                       .image = true,
                       .fan = false,
-                      .meta = false,
                       .stages = true,
-                      .fan_width_px = 99,
                       .full_scale = 0.125,
-                      .waterfall = false,
-                      .echogram = false,
-                      .soundings = false,
-                      .scan = false,
-                      .bathymetry_cell_m = 0.375};
+                      .xtf = true};
     return mission;
 }
 
@@ -161,19 +155,11 @@ output:
   image: false
   raw: true
   fan: true
-  meta: true
   stages: false
-  fan_width_px: 0
   full_scale: auto
   labels: false
-  waterfall: true
-  echogram: true
-  soundings: true
-  scan: true
-  bathymetry_cell_m: 0
   xtf: false
   mosaic: false
-  mosaic_cell_m: 0
 variants: 0
 vary: []
 )");

@@ -12,9 +12,9 @@ TEST_SUITE("preview") {
         const auto luminance = [](const Rgb& c) {
             return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b;
         };
-        for (const FanColours colours :
-             {FanColours::grey, FanColours::copper, FanColours::amber, FanColours::sea}) {
-            const std::span<const Rgb> stops = stops_of(colours);
+        for (const std::span<const Rgb> stops :
+             {std::span<const Rgb>(copper_colours), std::span<const Rgb>(amber_colours),
+              std::span<const Rgb>(sea_colours)}) {
             for (std::size_t k = 1; k < stops.size(); ++k)
                 CHECK(luminance(stops[k]) > luminance(stops[k - 1]));
             CHECK(luminance(stops.back()) - luminance(stops.front()) > 150.0);

@@ -39,7 +39,7 @@ TEST_SUITE("product") {
             CAPTURE(azimuth_deg);
             CAPTURE(equal_azimuth);
             const Sonar sonar = fan_sonar(azimuth_deg, equal_azimuth);
-            const FanBins fan = make_fan_bins(sonar, 200);
+            const FanBins fan = make_fan_bins(sonar);
             std::size_t inside = 0;
             for (int row = 0; row < fan.frame.height; ++row) {
                 for (int column = 0; column < fan.frame.width; ++column) {

@@ -199,7 +199,7 @@ class Sensor:
         return DECODERS[suffix](data)
 
     def fan_shape(self, width):
-        """(height, width, metres per pixel) of a fan, as output.fan_width_px makes it."""
+        """(height, width, metres per pixel) of a fan that is `width` pixels wide."""
         half = 0.5 * (self.azimuth_edges_rad[-1] - self.azimuth_edges_rad[0])
         reach = self.range_edges_m[-1]
         wide = half > 0.5 * np.pi

@@ -4,8 +4,7 @@
 #include <utility>
 
 #include "dataset/writers/label_writers.h"
-#include "format/png.h"
-#include "product/scan.h"
+#include "product/fan_bins.h"
 
 namespace sonarsim {
 
@@ -92,7 +91,7 @@ const Floats& floats(const PingLabels& labels) {
 }
 
 /// The image of some terms of the echo, [range bins, beams].
-Floats image(const WriterContext& context, const FinishedPing& finished, const Terms& terms) {
+Floats image_of(const WriterContext& context, const FinishedPing& finished, const Terms& terms) {
     return form_image(finished.traced, finished.sonar.settings, context.assembly.scene,
                       {context.mission.seed, finished.id.pose}, terms)
         .intensity;
@@ -132,160 +131,82 @@ constexpr LabelFile annotation_records[] = {
     {Label::objects, visible_share_record, visible_shares},
 };
 
-/// A file per ping with the rows and columns of the sonar's image.
-class LabelImageWriter final : public Writer {
-  public:
-    LabelImageWriter(const WriterContext& context, const LabelFile& file)
-        : context_(context), view_(context.sonar().settings.view), file_(file) {}
-
-    WriterOutputs outputs() const override {
-        const double bytes = file_.ids_of ? png_bytes_at_most(view_.beams, view_.range_bins, 2)
-                                          : 128.0 + 4.0 * view_.range_bins * view_.beams;
-        return {PingFile{file_.name, file_.ids_of ? ".png" : ".npy", PingArray::bins, file_.ids},
-                bytes,
-                {}};
-    }
-
-    std::string encode(const FinishedPing& finished) const override {
-        const PingLabels& labels = finished.labels->bins;
-        if (file_.terms) {
-            return npy_bytes(image(context_, finished, *file_.terms), view_.range_bins,
-                             view_.beams);
-        }
-        if (file_.floats_of)
-            return npy_bytes_of_columns(file_.floats_of(labels), view_.range_bins, view_.beams);
-        return png_bytes(rows_of_range(file_.ids_of(labels), labels), view_.beams, view_.range_bins,
-                         PngFilter::up);
-    }
-
-    std::optional<PingNumbers> numbers(const FinishedPing& finished) const override {
-        const PingLabels& labels = finished.labels->bins;
-        const int rows = view_.range_bins;
-        const int columns = view_.beams;
-        if (file_.terms)
-            return make_numbers(image(context_, finished, *file_.terms), rows, columns);
-        if (file_.floats_of)
-            return make_numbers(rows_of_range(file_.floats_of(labels), labels), rows, columns);
-        return make_numbers(rows_of_range(file_.ids_of(labels), labels), rows, columns);
-    }
-
-  private:
-    WriterContext context_;
-    const View& view_;
-    const LabelFile& file_;
-};
-
-/// fan_LABEL/NNNNNN.png: a label for each pixel of the fan.
-class LabelFanWriter final : public Writer {
-  public:
-    LabelFanWriter(const WriterContext& context, const LabelFile& file)
-        : frame_(fan_frame(context.sonar(), context.mission.output.fan_width_px)), file_(file) {}
-
-    WriterOutputs outputs() const override {
-        return {PingFile{std::string("fan_") + file_.name, ".png", PingArray::fan, file_.ids},
-                png_bytes_at_most(frame_.width, frame_.height, 2),
-                {}};
-    }
-
-    std::string encode(const FinishedPing& finished) const override {
-        return png_bytes(pixels(finished), frame_.width, frame_.height, PngFilter::up);
-    }
-
-    std::optional<PingNumbers> numbers(const FinishedPing& finished) const override {
-        return make_numbers(pixels(finished), frame_.height, frame_.width);
-    }
-
-  private:
-    Ids pixels(const FinishedPing& finished) const {
-        const Ids values = file_.ids_of(finished.labels->bins);
-        return fan_values(finished.labels->fan_bins->by_row, values, std::uint16_t{0});
-    }
-
-    FanFrame frame_;
-    const LabelFile& file_;
-};
-
-/// The files of objects in the pictures of the records; dataset/record_objects.h writes them.
-std::vector<Product> record_objects(const WriterContext& context) {
-    constexpr double longest_object = 1000.0;
-    const RecordShape& shape = context.kind().record;
-    const SonarConfig& config = context.sonar().config;
-    if (!shape.is_written(context.mission.output)) return {};
-    const auto objects = static_cast<double>(context.assembly.objects.objects.size());
-    // A mask takes at most a byte for a pixel, where ids are as ragged as noise.
-    const double bytes = static_cast<double>(shape.values(config) * context.pings) +
-                         longest_object * (1.0 + 2.0 * objects);
-    if (shape.pictures == RecordPictures::strip) return {{record_objects_name, bytes}};
-    std::vector<Product> products;
-    for (std::size_t k = 0; k < scan_sweeps(config, context.pings); ++k)
-        products.push_back({scan_file_name("objects", k, ".json"), bytes});
-    return products;
+/// The numbers of a ping [range bins, beams] as the rows and columns of the sonar's image, or as
+/// its record; `blank` where a record shows no bin.
+template <class T>
+PingNumbers shaped(const WriterContext& context, std::vector<T> values, T blank) {
+    const View& view = context.sonar().settings.view;
+    if (context.kind().has_images)
+        return make_numbers(std::move(values), view.range_bins, view.beams);
+    return make_numbers(
+        record_values(context.kind().record, context.sonar().config, values, blank));
 }
 
-/// A file of records, one to a ping.
-class LabelRecordWriter final : public Writer {
-  public:
-    LabelRecordWriter(const WriterContext& context, const LabelFile& file)
-        : context_(context), file_(file) {}
+PingNumbers label_numbers(const WriterContext& context, const LabelFile& file,
+                          const FinishedPing& finished) {
+    const PingLabels& labels = finished.labels->bins;
+    if (file.terms) return shaped(context, image_of(context, finished, *file.terms), 0.0F);
+    if (file.ids_of)
+        return shaped<std::uint16_t>(context, rows_of_range(file.ids_of(labels), labels), 0);
+    return shaped(context, rows_of_range(file.floats_of(labels), labels),
+                  std::numeric_limits<float>::quiet_NaN());
+}
 
-    WriterOutputs outputs() const override {
-        WriterOutputs outputs = file_.ids_of
-                                    ? record_outputs(context_, file_.name, "<u2", 2, file_.name)
-                                    : record_outputs(context_, file_.name, "<f4", 4, file_.name);
-        std::get<PingRecord>(outputs.per_ping).ids = file_.ids;
-        const bool has_objects =
-            file_.label == Label::instance && is_asked(context_.mission, Label::objects);
-        if (has_objects) outputs.products = record_objects(context_);
-        return outputs;
+/// NAME/NNNNNN.png or .npy with the rows and columns of the image, or a record per ping in
+/// NAME.npy.
+Writer label_writer(const WriterContext& context, const LabelFile& file) {
+    const View& view = context.sonar().settings.view;
+    WriterOutputs outputs;
+    if (context.kind().has_images) {
+        outputs = {PingFile{file.name, file.ids_of ? ".png" : ".npy", PingArray::bins, file.ids},
+                   file.ids_of ? png_bytes_at_most(view.beams, view.range_bins, 2)
+                               : npy_bytes_at_most(view),
+                   {}};
+    } else {
+        outputs = record_outputs(context, file.name, file.ids_of ? "<u2" : "<f4",
+                                 file.ids_of ? 2 : 4, file.name);
+        std::get<PingRecord>(outputs.per_ping).ids = file.ids;
     }
+    return array_writer(
+        std::move(outputs),
+        [context, &file](const FinishedPing& ping) { return label_numbers(context, file, ping); },
+        PngFilter::up);
+}
 
-    std::string encode(const FinishedPing& finished) const override {
-        return record_bytes(*numbers(finished));
-    }
-
-    std::optional<PingNumbers> numbers(const FinishedPing& finished) const override {
-        const PingLabels& labels = finished.labels->bins;
-        if (file_.terms) return record(image(context_, finished, *file_.terms), 0.0F);
-        if (file_.ids_of)
-            return record<std::uint16_t>(rows_of_range(file_.ids_of(labels), labels), 0);
-        return record(rows_of_range(file_.floats_of(labels), labels),
-                      std::numeric_limits<float>::quiet_NaN());
-    }
-
-  private:
-    template <class T>
-    PingNumbers record(const std::vector<T>& image, T blank) const {
-        return make_numbers(
-            record_values(context_.kind().record, context_.sonar().config, image, blank));
-    }
-
-    WriterContext context_;
-    const LabelFile& file_;
-};
+/// fan_NAME/NNNNNN.png: a label for each pixel of the fan.
+Writer fan_label_writer(const WriterContext& context, const LabelFile& file) {
+    const FanFrame frame = fan_frame(context.sonar());
+    const auto pixels = [&file, frame](const FinishedPing& finished) {
+        return make_numbers(fan_values(finished.labels->fan_bins->by_row,
+                                       file.ids_of(finished.labels->bins), std::uint16_t{0}),
+                            frame.height, frame.width);
+    };
+    return array_writer(
+        {PingFile{std::string("fan_") + file.name, ".png", PingArray::fan, file.ids},
+         png_bytes_at_most(frame.width, frame.height, 2),
+         {}},
+        pixels, PngFilter::up);
+}
 
 }  // namespace
 
-std::vector<std::unique_ptr<Writer>> make_label_writers(const WriterContext& context) {
-    std::vector<std::unique_ptr<Writer>> writers;
-    const auto add = [&](std::unique_ptr<Writer> writer) {
-        if (writer) writers.push_back(std::move(writer));
-    };
+std::vector<Writer> make_label_writers(const WriterContext& context) {
+    std::vector<Writer> writers;
     const Mission& mission = context.mission;
     const bool has_images = context.kind().has_images;
     const bool has_fan = has_images && mission.output.fan && is_asked(mission, Label::fan);
+    const bool record_objects = !has_images && is_asked(mission, Label::objects);
     for (const LabelFile& file : label_files) {
-        const bool for_objects =
-            !has_images && file.label == Label::instance && is_asked(mission, Label::objects);
+        const bool for_objects = record_objects && file.label == Label::instance;
         if (!is_asked(mission, file.label) && !for_objects) continue;
-        if (has_images) add(std::make_unique<LabelImageWriter>(context, file));
-        if (!has_images) add(std::make_unique<LabelRecordWriter>(context, file));
-        if (has_fan && file.ids_of) add(std::make_unique<LabelFanWriter>(context, file));
+        writers.push_back(label_writer(context, file));
+        if (for_objects) add_record_objects(context, writers.back());
+        if (has_fan && file.ids_of) writers.push_back(fan_label_writer(context, file));
     }
     for (const LabelFile& file : annotation_records) {
-        if (!has_images && is_asked(mission, Label::objects))
-            add(std::make_unique<LabelRecordWriter>(context, file));
+        if (record_objects) writers.push_back(label_writer(context, file));
     }
-    add(make_objects_writer(context));
+    if (has_images && is_asked(mission, Label::objects)) writers.push_back(objects_writer(context));
     return writers;
 }
 

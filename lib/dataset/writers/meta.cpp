@@ -42,28 +42,14 @@ double longest_metadata(const WriterContext& context) {
     return bytes;
 }
 
-/// meta/NNNNNN.json: time, poses, seed, counts and what was measured.
-class MetaWriter final : public Writer {
-  public:
-    explicit MetaWriter(const WriterContext& context) : context_(context) {}
-
-    WriterOutputs outputs() const override {
-        return {PingFile{"meta", ".json"}, longest_metadata(context_), {}};
-    }
-
-    std::string encode(const FinishedPing& finished) const override {
-        return json_text(describe_ping(context_.mission, context_.assembly, finished));
-    }
-
-  private:
-    WriterContext context_;
-};
-
 }  // namespace
 
-std::unique_ptr<Writer> make_meta_writer(const WriterContext& context) {
-    if (!context.mission.output.meta) return nullptr;
-    return std::make_unique<MetaWriter>(context);
+/// meta/NNNNNN.json: time, poses, seed, counts and what was measured.
+std::optional<Writer> make_meta_writer(const WriterContext& context) {
+    return Writer{.outputs = {PingFile{"meta", ".json"}, longest_metadata(context), {}},
+                  .encode = [context](const FinishedPing& finished) {
+                      return json_text(describe_ping(context.mission, context.assembly, finished));
+                  }};
 }
 
 }  // namespace sonarsim

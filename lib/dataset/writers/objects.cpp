@@ -1,11 +1,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "dataset/label_description.h"
-#include "dataset/ping_metadata.h"
+#include "dataset/annotated_objects.h"
+#include "dataset/json.h"
 #include "dataset/writers/label_writers.h"
 #include "format/coco_counts.h"
 #include "sonar/setup.h"
@@ -16,23 +17,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json seen_box_json(const Eigen::AlignedBox3f& box) {
-    if (box.isEmpty()) return nullptr;
-    const auto corner = [](const Eigen::Vector3f& v) { return Json{v.x(), v.y(), v.z()}; };
-    return {{"min", corner(box.min())}, {"max", corner(box.max())}};
-}
-
 /// The box around a whole object along the axes of a frame, placed in the sensor's frame.
 Json placed_box_json(const Eigen::AlignedBox3d& box, const Pose& T_world_frame,
                      const Pose& T_world_sensor) {
     if (box.isEmpty()) return nullptr;
-    const Eigen::Vector3d size = box.sizes();
     const Eigen::Vector3d centre =
         T_world_frame.rotation * box.center() + T_world_frame.translation;
     const Eigen::Quaterniond to_sensor = T_world_sensor.rotation.conjugate();
     Json json = describe_pose(
         {to_sensor * T_world_frame.rotation, to_sensor * (centre - T_world_sensor.translation)});
-    json["size_m"] = {size.x(), size.y(), size.z()};
+    json["size_m"] = describe_vector(box.sizes());
     return json;
 }
 
@@ -42,36 +36,23 @@ const ObjectMask* mask_of(const std::vector<ObjectMask>& masks, std::uint32_t id
     return found != masks.end() && found->id == id ? &*found : nullptr;
 }
 
-class ObjectsWriter final : public Writer {
+/// The facts of objects in pings.
+class PingObjects {
   public:
-    explicit ObjectsWriter(const WriterContext& context)
+    explicit PingObjects(const WriterContext& context)
         : context_(context),
           view_(context.sonar().settings.view),
           boxes_(object_boxes(context.assembly)),
           moving_(moving_objects(context.assembly)) {}
 
-    WriterOutputs outputs() const override {
-        constexpr double longest_object = 2000.0;
-        constexpr double masks_per_pixel = 1.0;  // bytes, where ids are as ragged as noise
-        const double bins = static_cast<double>(view_.range_bins) * view_.beams;
-        const auto objects = static_cast<double>(context_.assembly.objects.objects.size());
-        double bytes = 100.0 + longest_object * std::min(objects, bins);
-        const FanFrame fan = fan_frame(context_.sonar(), context_.mission.output.fan_width_px);
-        bytes += masks_per_pixel * (bins + static_cast<double>(fan.width) * fan.height);
-        return {PingFile{"objects", ".json"}, bytes, {}};
-    }
-
-    std::string encode(const FinishedPing& finished) const override {
-        std::string text = "{\"ping\": " + std::to_string(finished.id.pose) + ", \"objects\": [";
-        constexpr auto replace = Json::error_handler_t::replace;
-        const char* before = "\n";
+    std::string text(const FinishedPing& finished) const {
+        std::vector<Json> objects;
         const std::vector<Pose> T_world_body =
             body_poses(context_.assembly, context_.assembly.trajectory[finished.id.pose].t_s);
         for (const ObjectInPing& seen : finished.labels->seen) {
-            text += before + seen_json(seen, finished, T_world_body).dump(-1, ' ', false, replace);
-            before = ",\n";
+            objects.push_back(seen_json(seen, finished, T_world_body));
         }
-        return text + "\n]}\n";
+        return objects_text({{"ping", finished.id.pose}}, objects);
     }
 
   private:
@@ -90,7 +71,7 @@ class ObjectsWriter final : public Writer {
                      {"level_around", number_or_null(seen.surrounding_level)},
                      {"range_m", seen.range_m},
                      {"azimuth_rad", number_or_null(seen.azimuth_rad)}};
-        json["seen_box_sensor_m"] = seen_box_json(seen.box_sensor_m);
+        json["seen_box_sensor_m"] = describe_box(seen.box_sensor_m);
         const Pose& T_world_sensor = finished.traced.T_world_sensor;
         if (const std::optional<MovingObject>& moving = moving_[seen.id - 1]) {
             const Pose& T_world_object = T_world_body[moving->body];
@@ -131,14 +112,10 @@ class ObjectsWriter final : public Writer {
     /// Null for an object that lies between the pixels.
     Json fan_json(const ObjectInPing& seen, const ObjectMask* mask) const {
         if (!mask) return nullptr;
-        Json json = {
-            {"box_px", {{"x", {mask->left, mask->right}}, {"y", {mask->top, mask->bottom}}}},
-            {"area_px", mask->area}};
-        const PixelBox& shadow = seen.shadow_in_fan;
-        if (!shadow.is_empty()) {
-            json["shadow_box_px"] = {{"x", {shadow.left, shadow.right}},
-                                     {"y", {shadow.top, shadow.bottom}}};
-        }
+        Json json = {{"box_px", describe_box({mask->left, mask->right, mask->top, mask->bottom})},
+                     {"area_px", mask->area}};
+        if (!seen.shadow_in_fan.is_empty())
+            json["shadow_box_px"] = describe_box(seen.shadow_in_fan);
         json["mask"] = coco_counts(mask->runs);
         return json;
     }
@@ -151,10 +128,18 @@ class ObjectsWriter final : public Writer {
 
 }  // namespace
 
-std::unique_ptr<Writer> make_objects_writer(const WriterContext& context) {
-    const bool asked = is_asked(context.mission, Label::objects);
-    if (!asked || !context.kind().has_images) return nullptr;
-    return std::make_unique<ObjectsWriter>(context);
+Writer objects_writer(const WriterContext& context) {
+    constexpr double longest_object = 2000.0;
+    constexpr double masks_per_pixel = 1.0;  // bytes, where ids are as ragged as noise
+    const View& view = context.sonar().settings.view;
+    const double bins = static_cast<double>(view.range_bins) * view.beams;
+    const auto objects = static_cast<double>(context.assembly.objects.objects.size());
+    const FanFrame fan = fan_frame(context.sonar());
+    const double bytes = 100.0 + longest_object * std::min(objects, bins) +
+                         masks_per_pixel * (bins + static_cast<double>(fan.width) * fan.height);
+    return {.outputs = {PingFile{"objects", ".json"}, bytes, {}},
+            .encode = [facts = std::make_shared<const PingObjects>(context)](
+                          const FinishedPing& finished) { return facts->text(finished); }};
 }
 
 }  // namespace sonarsim

@@ -1,99 +1,76 @@
 #include "product/scan.h"
 
+#include <memory>
+
 #include "core/atomic_file.h"
 #include "dataset/writer.h"
-#include "format/npy.h"
-#include "format/png.h"
 #include "product/fan.h"
 
 namespace sonarsim {
 
 namespace {
 
-/// scan.npy: float32 [ping, range], one column of the display per ping. The display after each
-/// sweep of the head, and after the unfinished one at the end: scan_NNNN.npy, float32 [range,
-/// step], and scan_NNNN.png, grey, 8 bits, round, boresight up.
-class ScanWriter final : public Writer {
-  public:
-    explicit ScanWriter(const WriterContext& context)
-        : context_(context),
-          sonar_(context.sonar()),
-          name_(context.kind().record.name),
-          steps_(scan_steps(sonar_.config)),
-          map_(make_fan_map(whole_scan(sonar_), context.mission.output.fan_width_px)) {}
-
-    WriterOutputs outputs() const override {
-        WriterOutputs outputs = record_outputs(context_, name_, "<f4", 4);
-        const auto values =
-            static_cast<double>(sonar_.config.range_bins) * static_cast<double>(steps_);
-        for (std::size_t sweep = 0; sweep < scan_sweeps(sonar_.config, context_.pings); ++sweep) {
-            outputs.products.push_back({name(sweep, ".npy"), 128.0 + 4.0 * values});
-            outputs.products.push_back(
-                {name(sweep, ".png"), png_bytes_at_most(map_.frame.width, map_.frame.height, 1)});
-        }
-        return outputs;
-    }
-
-    std::string encode(const FinishedPing& finished) const override {
-        return record_bytes(finished.ping.intensity);
-    }
-
-    void write_products(const RecordFile& records,
-                        const std::filesystem::path& folder) const override {
-        ScanDisplay display(sonar_);
-        std::vector<float> bins(sonar_.config.range_bins);
-        for (std::size_t ping = 0; ping < context_.pings; ++ping) {
+void write_displays(const WriterContext& context, const FanMap& map, const RecordFile& records,
+                    const std::filesystem::path& folder) {
+    const std::string stem(context.kind().record.name);
+    std::vector<float> bins(context.sonar().config.range_bins);
+    ScanDisplay display(context.sonar());
+    for_each_sweep(
+        context.sonar().config, context.pings,
+        [&](std::size_t ping, int) {
             records.read(ping, std::as_writable_bytes(std::span(bins)));
             display.show(ping, bins);
-            const bool last_of_sweep = (ping + 1) % steps_ == 0 || ping + 1 == context_.pings;
-            if (last_of_sweep) write_display(display.image(), ping / steps_, folder);
-        }
-    }
-
-    void describe(nlohmann::ordered_json& sensor) const override {
-        const RecordShape& shape = context_.kind().record;
-        if (shape.describe) shape.describe(sonar_, sensor);
-        const std::string file = sonar_.config.name + "/" + name_ + "_%04d.png";
-        const FanFrame& frame = map_.frame;
-        sensor["pictures"].push_back({{"title", name_},
-                                      {"file", file},
-                                      {"per", "sweep"},
-                                      {"boxes_of", file},
-                                      {"pings", steps_},
-                                      {"radius_px", sonar_.config.range_max_m / frame.pixel_m},
-                                      {"width_px", frame.width}});
-    }
-
-  private:
-    std::string name(std::size_t sweep, const char* extension) const {
-        return scan_file_name(name_, sweep, extension);
-    }
-
-    void write_display(const Ping& image, std::size_t sweep,
-                       const std::filesystem::path& folder) const {
-        StreamedFile array(folder / name(sweep, ".npy"));
-        array.append(npy_bytes(image.intensity, image.range_bins, image.beams));
-        array.finish();
-        StreamedFile picture(folder / name(sweep, ".png"));
-        picture.append(png_bytes(render_fan(map_, image, context_.full_scale()), map_.frame.width,
-                                 map_.frame.height));
-        picture.finish();
-    }
-
-    WriterContext context_;
-    const Sonar& sonar_;
-    std::string name_;
-    std::size_t steps_;
-    FanMap map_;
-};
+        },
+        [&](std::size_t sweep, std::size_t) {
+            const Ping& image = display.image();
+            StreamedFile array(folder / scan_file_name(stem, sweep, ".npy"));
+            array.append(npy_bytes(image.intensity, image.range_bins, image.beams));
+            array.finish();
+            StreamedFile picture(folder / scan_file_name(stem, sweep, ".png"));
+            picture.append(png_bytes(render_fan(map, image, context.full_scale()), map.frame.width,
+                                     map.frame.height));
+            picture.finish();
+        });
+}
 
 }  // namespace
 
-std::unique_ptr<Writer> make_scan_writer(const WriterContext& context) {
+/// scan.npy: float32 [ping, range], one column of the display per ping. The display after each
+/// sweep of the head, and after the unfinished one at the end: scan_NNNN.npy, float32 [range,
+/// step], and scan_NNNN.png, grey, 8 bits, round, boresight up.
+std::optional<Writer> make_scan_writer(const WriterContext& context) {
     const RecordShape& shape = context.kind().record;
-    if (shape.pictures != RecordPictures::sweeps) return nullptr;
-    if (!shape.is_written(context.mission.output)) return nullptr;
-    return std::make_unique<ScanWriter>(context);
+    if (shape.pictures != RecordPictures::sweeps) return std::nullopt;
+    const SonarConfig& config = context.sonar().config;
+    const std::string stem(shape.name);
+    const auto map = std::make_shared<const FanMap>(make_fan_map(whole_scan(context.sonar())));
+    const auto steps = static_cast<std::size_t>(scan_steps(config));
+    const double values = static_cast<double>(config.range_bins) * static_cast<double>(steps);
+    WriterOutputs outputs = record_outputs(context, stem, "<f4", 4);
+    for (std::size_t sweep = 0; sweep < scan_sweeps(config, context.pings); ++sweep) {
+        outputs.products.push_back({scan_file_name(stem, sweep, ".npy"), 128.0 + 4.0 * values});
+        outputs.products.push_back({scan_file_name(stem, sweep, ".png"),
+                                    png_bytes_at_most(map->frame.width, map->frame.height, 1)});
+    }
+    const auto describe = [=](nlohmann::ordered_json& sensor) {
+        const Sonar& sonar = context.sonar();
+        if (context.kind().record.describe) context.kind().record.describe(sonar, sensor);
+        const std::string file = sonar.config.name + "/" + stem + "_%04d.png";
+        sensor["pictures"].push_back({{"title", stem},
+                                      {"file", file},
+                                      {"per", "sweep"},
+                                      {"boxes_of", file},
+                                      {"pings", steps},
+                                      {"radius_px", sonar.config.range_max_m / map->frame.pixel_m},
+                                      {"width_px", map->frame.width}});
+    };
+    return Writer{.outputs = std::move(outputs),
+                  .encode = [](const FinishedPing& f) { return record_bytes(f.ping.intensity); },
+                  .write_products =
+                      [=](const RecordFile& records, const std::filesystem::path& folder) {
+                          write_displays(context, *map, records, folder);
+                      },
+                  .describe = describe};
 }
 
 }  // namespace sonarsim

@@ -10,10 +10,9 @@
 
 #include "core/atomic_file.h"
 #include "core/file.h"
-#include "dataset/ping_metadata.h"
+#include "dataset/json.h"
 #include "dataset/writer.h"
 #include "format/geotiff.h"
-#include "format/png.h"
 #include "product/bathymetry.h"
 
 namespace sonarsim {
@@ -72,14 +71,13 @@ bool good_for_map(const RecordedSounding& sounding) {
     return sounding.quality >= map_quality;
 }
 
-nlohmann::ordered_json georeference(const Bathymetry& grid, double cell_asked_m, std::uint64_t used,
+nlohmann::ordered_json georeference(const Bathymetry& grid, std::uint64_t used,
                                     std::uint64_t left_out) {
     return {{"file", "bathymetry.tif"},
             {"values", "mean world z of the soundings in a cell, m; NaN where there are none"},
             {"rows", grid.rows},
             {"columns", grid.columns},
             {"cell_m", grid.cell_m},
-            {"cell_asked_m", cell_asked_m},
             {"west_m", grid.west_m},
             {"north_m", grid.north_m},
             {"axes",
@@ -123,14 +121,13 @@ void write_soundings(const SoundingSource& source, const std::filesystem::path& 
     ply.finish();
 }
 
-void write_bathymetry(const SoundingSource& source, double cell_m,
-                      const std::filesystem::path& folder) {
+void write_bathymetry(const SoundingSource& source, const std::filesystem::path& folder) {
     SoundingBounds bounds;
     std::uint64_t left_out = 0;
     for_each_sounding(source, [&](const RecordedSounding& s) {
         good_for_map(s) ? bounds.add(s.position) : void(++left_out);
     });
-    Bathymetry grid = make_bathymetry(bounds, cell_m);
+    Bathymetry grid = make_bathymetry(bounds, 0.0);
     for_each_sounding(source, [&](const RecordedSounding& s) {
         if (good_for_map(s)) grid.add(s.position);
     });
@@ -140,86 +137,73 @@ void write_bathymetry(const SoundingSource& source, double cell_m,
     const int columns = std::max(grid.columns, 1);
     write_geotiff(folder / "bathymetry.tif", z, columns,
                   {grid.west_m, grid.north_m, grid.cell_m > 0.0 ? grid.cell_m : 1.0});
-    write_file(folder / "bathymetry.json",
-               json_text(georeference(grid, cell_m, bounds.count, left_out)));
+    write_file(folder / "bathymetry.json", json_text(georeference(grid, bounds.count, left_out)));
     const Picture picture = draw_bathymetry(grid);
     write_picture(folder / "bathymetry.png", picture.pixels, picture.width);
 }
 
-/// soundings.npy: float64 [ping, beam, 5]: range, x, y, z and quality, NaN without a sounding;
-/// where sound bends [ping, beam, 8] with the true x, y and z. soundings.csv and .ply hold the
-/// beams with a sounding; bathymetry.tif, .json and .png hold the map of the soundings.
-class SoundingsWriter final : public Writer {
-  public:
-    explicit SoundingsWriter(const WriterContext& context) : context_(context) {}
-
-    WriterOutputs outputs() const override {
-        const double soundings = static_cast<double>(beams()) * static_cast<double>(context_.pings);
-        // An automatic cell size gives four soundings per cell on average, before it is rounded up.
-        const bool own_cell = context_.mission.output.bathymetry_cell_m == 0.0;
-        const double cells = own_cell ? 1.0 + soundings / 4.0 : most_map_cells;
-        constexpr double csv_line = 160.0;
-        constexpr double ply_vertex = 28.0;
-        WriterOutputs outputs =
-            record_outputs("soundings.npy", {"<f8", {context_.pings, beams(), fields()}},
-                           {"ping", "beam",
-                            fields() == bent_fields
-                                ? "range_m, x_m, y_m, z_m, quality, true_x_m, true_y_m, true_z_m"
-                                : "range_m, x_m, y_m, z_m, quality"},
-                           8.0 * static_cast<double>(fields() * beams()));
-        outputs.products = {{"soundings.csv", 60.0 + csv_line * soundings},
-                            {"soundings.ply", 200.0 + ply_vertex * soundings},
-                            {"bathymetry.tif", 1000.0 + 4.0 * cells},
-                            {"bathymetry.json", 1000.0},
-                            {"bathymetry.png", png_bytes_at_most(4096, 4096, 3)}};
-        return outputs;
+/// The numbers of the soundings of a ping.
+std::vector<double> sounding_fields(const WriterContext& context, std::size_t fields,
+                                    const FinishedPing& finished) {
+    std::vector<double> all;
+    const Pose& T_world_vehicle = context.assembly.trajectory[finished.id.pose].T_world_vehicle;
+    for (const Sounding& s :
+         find_soundings(finished.sonar, T_world_vehicle, finished.ping, finished.traced.motion)) {
+        all.insert(all.end(),
+                   {s.range_m, s.position.x(), s.position.y(), s.position.z(), s.quality});
+        if (fields == bent_fields)
+            all.insert(all.end(), s.true_position.begin(), s.true_position.end());
     }
-
-    std::string encode(const FinishedPing& finished) const override {
-        std::vector<double> fields_of;
-        const Pose& T_world_vehicle =
-            context_.assembly.trajectory[finished.id.pose].T_world_vehicle;
-        for (const Sounding& s : find_soundings(finished.sonar, T_world_vehicle, finished.ping,
-                                                finished.traced.motion)) {
-            fields_of.insert(fields_of.end(), {s.range_m, s.position.x(), s.position.y(),
-                                               s.position.z(), s.quality});
-            if (fields() == straight_fields) continue;
-            fields_of.insert(fields_of.end(), s.true_position.begin(), s.true_position.end());
-        }
-        return record_bytes(fields_of);
-    }
-
-    void write_products(const RecordFile& records,
-                        const std::filesystem::path& folder) const override {
-        const SoundingSource source{records, beams(), fields(),
-                                    static_cast<std::uint32_t>(context_.sonar().config.every),
-                                    context_.assembly.trajectory};
-        write_soundings(source, folder);
-        write_bathymetry(source, context_.mission.output.bathymetry_cell_m, folder);
-    }
-
-    void describe(nlohmann::ordered_json& sensor) const override {
-        sensor["pictures"].push_back({{"title", "bathymetry"},
-                                      {"file", context_.sonar().config.name + "/bathymetry.png"},
-                                      {"per", "sensor"}});
-    }
-
-  private:
-    std::size_t fields() const {
-        return context_.mission.water.profile ? bent_fields : straight_fields;
-    }
-    std::size_t beams() const { return context_.sonar().settings.view.beams; }
-
-    WriterContext context_;
-};
+    return all;
+}
 
 }  // namespace
 
-std::unique_ptr<Writer> make_soundings_writer(const WriterContext& context) {
-    const RecordShape& record = context.kind().record;
-    const bool is_its = record.wanted == &OutputConfig::soundings;
-    if (!is_its || !record.is_written(context.mission.output)) return nullptr;
-    return std::make_unique<SoundingsWriter>(context);
+/// soundings.npy: float64 [ping, beam, 5]: range, x, y, z and quality, NaN without a sounding;
+/// where sound bends [ping, beam, 8] with the true x, y and z. soundings.csv and .ply hold the
+/// beams with a sounding; bathymetry.tif, .json and .png hold the map of the soundings.
+std::optional<Writer> make_soundings_writer(const WriterContext& context) {
+    const SonarConfig& config = context.sonar().config;
+    if (config.kind != SonarKind::profiling) return std::nullopt;
+    constexpr double csv_line = 160.0;
+    constexpr double ply_vertex = 28.0;
+    const bool bent = context.mission.water.profile.has_value();
+    const std::size_t fields = bent ? bent_fields : straight_fields;
+    const std::size_t beams = context.sonar().settings.view.beams;
+    const double soundings = static_cast<double>(beams) * static_cast<double>(context.pings);
+    // A cell has four soundings on average, before its size is rounded up.
+    const double cells = 1.0 + soundings / 4.0;
+    WriterOutputs outputs =
+        record_outputs("soundings.npy", {"<f8", {context.pings, beams, fields}},
+                       {"ping", "beam",
+                        bent ? "range_m, x_m, y_m, z_m, quality, true_x_m, true_y_m, true_z_m"
+                             : "range_m, x_m, y_m, z_m, quality"},
+                       8.0 * static_cast<double>(fields * beams));
+    outputs.products = {{"soundings.csv", 60.0 + csv_line * soundings},
+                        {"soundings.ply", 200.0 + ply_vertex * soundings},
+                        {"bathymetry.tif", 1000.0 + 4.0 * cells},
+                        {"bathymetry.json", 1000.0},
+                        {"bathymetry.png", png_bytes_at_most(4096, 4096, 3)}};
+    const auto write_products = [=, &config](const RecordFile& records,
+                                             const std::filesystem::path& folder) {
+        const SoundingSource source{records, beams, fields,
+                                    static_cast<std::uint32_t>(config.every),
+                                    context.assembly.trajectory};
+        write_soundings(source, folder);
+        write_bathymetry(source, folder);
+    };
+    return Writer{.outputs = std::move(outputs),
+                  .encode =
+                      [=](const FinishedPing& finished) {
+                          return record_bytes(sounding_fields(context, fields, finished));
+                      },
+                  .write_products = write_products,
+                  .describe =
+                      [&config](nlohmann::ordered_json& sensor) {
+                          sensor["pictures"].push_back({{"title", "bathymetry"},
+                                                        {"file", config.name + "/bathymetry.png"},
+                                                        {"per", "sensor"}});
+                      }};
 }
 
 }  // namespace sonarsim

@@ -5,6 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "dataset/averaged_rows.h"
+#include "dataset/writer.h"
+
 namespace sonarsim {
 
 /// Visits the rows of a strip from the top. A row is a ping or, in an upright strip, one of the
@@ -31,6 +34,15 @@ void for_each_strip_row(std::size_t pings, std::size_t values, bool upright, con
         for (std::size_t i = 0; i < count; ++i)
             visit(std::span<const T>(block).subspan(i * pings, pings));
     }
+}
+
+/// The bytes of a picture with a pixel for each value of each row of pings, at most.
+inline double strip_bytes_at_most(const WriterContext& context, int bytes_per_pixel) {
+    const RecordShape& shape = context.kind().record;
+    const auto values = static_cast<int>(shape.values(context.sonar().config));
+    const int rows = picture_rows(context.pings);
+    return shape.upright ? png_bytes_at_most(rows, values, bytes_per_pixel)
+                         : png_bytes_at_most(values, rows, bytes_per_pixel);
 }
 
 }  // namespace sonarsim

@@ -11,7 +11,7 @@
 #include "core/file.h"
 #include "core/pose.h"
 #include "core/units.h"
-#include "dataset/ping_metadata.h"
+#include "dataset/json.h"
 #include "format/geotiff.h"
 #include "format/xtf.h"
 #include "product/gain.h"
@@ -85,8 +85,8 @@ void write_xtf(const WriterContext& context, const RecordFile& rows,
     file.finish();
 }
 
-/// The automatic cell size: neighbouring pings and bins leave no cell between them empty.
-double automatic_cell_m(const WriterContext& context) {
+/// The cell size: neighbouring pings and bins leave no cell between them empty.
+double mosaic_cell_m(const WriterContext& context) {
     const Trajectory& trajectory = context.assembly.trajectory;
     double way_m = 0.0;
     for (std::size_t k = 1; k < trajectory.size(); ++k) {
@@ -100,13 +100,12 @@ double automatic_cell_m(const WriterContext& context) {
 
 void write_mosaic(const WriterContext& context, const RecordFile& rows,
                   const std::filesystem::path& folder) {
-    const double asked_m = context.mission.output.mosaic_cell_m;
     SoundingBounds bounds;
     std::uint64_t dark = 0;
     for_each_row(context, rows, [&](const RecordedRow& row) {
         row.swath ? add_bounds(*row.swath, bounds) : void(++dark);
     });
-    Bathymetry map = make_bathymetry(bounds, asked_m > 0.0 ? asked_m : automatic_cell_m(context));
+    Bathymetry map = make_bathymetry(bounds, mosaic_cell_m(context));
     for_each_row(context, rows, [&](const RecordedRow& row) {
         if (row.swath) rasterize(context.sonar(), *row.swath, row.values, map);
     });
@@ -121,7 +120,6 @@ void write_mosaic(const WriterContext& context, const RecordFile& rows,
         {"rows", map.rows},
         {"columns", map.columns},
         {"cell_m", map.cell_m},
-        {"cell_asked_m", asked_m},
         {"west_m", map.west_m},
         {"north_m", map.north_m},
         {"ground", "level, at the first return of each ping"},

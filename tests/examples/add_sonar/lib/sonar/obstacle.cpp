@@ -1,10 +1,11 @@
-#include "product/colour_map.h"
 #include "product/gain.h"
 #include "sonar/kinds.h"
 
 namespace sonarsim {
 
 namespace {
+
+constexpr Rgb greys[] = {{0, 0, 0}, {255, 255, 255}};
 
 // The picture of the record: a row per ping in grey, the nearest range on the left, no axis.
 
@@ -19,7 +20,7 @@ Picture obstacles_axis(const SonarConfig& /*config*/, const StripFrame& frame) {
 void obstacles_row(std::span<const float> ping, double white, const StripFrame& /*frame*/,
                    std::span<Rgb> pixels) {
     for (std::size_t i = 0; i < ping.size(); ++i)
-        pixels[i] = blend(stops_of(FanColours::grey), shade(ping[i], static_cast<float>(white)));
+        pixels[i] = blend(greys, shade(ping[i], static_cast<float>(white)));
 }
 
 }  // namespace
@@ -47,7 +48,6 @@ KindOfSonar obstacle_kind() {
             .range_noise_fades = true,
             .has_images = false,
             .record = {.name = "obstacles",
-                       .wanted = &OutputConfig::obstacles,
                        .pictures = RecordPictures::strip,
                        .style = {obstacles_frame, obstacles_axis, obstacles_row}}};
 }
