@@ -67,7 +67,7 @@ struct CalibratedModel final : EchoModel {
     std::span<const std::string_view> random_terms() const override;
     GuardBeams guard_beams() const override { return guard; }
     bool needs_scattered_paths() const override { return true; }
-    RaysNeed rays_need(const View& view) const override;
+    bool needs_rays(const View& view) const override;
     bool energies_add() const override { return true; }
     bool is_slow() const override { return true; }
     double working_bytes(bool multipath) const override;

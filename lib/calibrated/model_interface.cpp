@@ -13,9 +13,6 @@ namespace {
 // In the order in which they enter an image.
 constexpr std::array<std::string_view, 2> calibrated_terms{"speckle", "receiver_noise"};
 
-// Columns of rays across a side-scan's beam, which is narrower than one column of the goal.
-constexpr int columns_along_track = 4;
-
 }  // namespace
 
 Scattering CalibratedModel::scattering_of(std::span<const Material> materials) const {
@@ -44,12 +41,9 @@ std::span<const std::string_view> CalibratedModel::random_terms() const {
     return calibrated_terms;
 }
 
-RaysNeed CalibratedModel::rays_need(const View& view) const {
-    if (view.shape == ViewShape::port_starboard)
-        return {.goal = view.relative_l1, .columns = columns_along_track};
-    // In a cone slices are off by up to 1 %, which their estimate does not include; rays are as
-    // fast and have a third of that error.
-    return {.goal = view.shape == ViewShape::cone ? view.relative_l1 : 0.0};
+// In a cone slices are off by up to 1 %; rays are as fast and have a third of that error.
+bool CalibratedModel::needs_rays(const View& view) const {
+    return view.shape != ViewShape::fan;
 }
 
 double CalibratedModel::working_bytes(bool multipath) const {

@@ -12,7 +12,7 @@
 #include "trace/surface_echoes.h"
 #include "trace/terms.h"
 #include "trace/traced_ping.h"
-#include "visibility/probe.h"
+#include "visibility/view.h"
 
 namespace sonarsim {
 
@@ -50,8 +50,8 @@ class EchoModel {
     /// True if the model needs the multipath paths whose second surface reflects the sound away
     /// from the sonar. A rough surface scatters sound back along them.
     virtual bool needs_scattered_paths() const { return false; }
-    /// The rays that this view needs; a goal of 0: any engine will do.
-    virtual RaysNeed rays_need(const View& /*view*/) const { return {}; }
+    /// True if rays must trace this view; false if any engine will do.
+    virtual bool needs_rays(const View& /*view*/) const { return false; }
     /// True if a bin is the sum of the energies of its echoes; false if it is a mean.
     virtual bool energies_add() const { return false; }
     /// True if an image takes so long that previews and checks of a mission form fewer of them.

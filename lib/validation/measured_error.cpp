@@ -35,8 +35,8 @@ double cell_m2_of(const SonarConfig& config) {
 std::vector<Sonar> measured_sonars(const Mission& mission, const Assembly& assembly) {
     std::vector<Sonar> sonars;
     for (std::size_t i = 0; i < mission.sensors.size(); ++i) {
-        Sonar& sonar = sonars.emplace_back(
-            make_sonar(mission.sensors[i], mission.accuracy, mission.water));
+        Sonar& sonar =
+            sonars.emplace_back(make_sonar(mission.sensors[i], mission.accuracy, mission.water));
         const PingSettings& own = assembly.sonars[i].settings;
         sonar.settings.targets = own.targets;
         if (auto prepared = sonar.settings.model->prepared(assembly.scene))
@@ -62,14 +62,13 @@ PingError measure(const Mission& mission, const Assembly& assembly, const Caster
         body.translation -= scene.origin;
     const Caster placed = bodies.empty() ? caster : caster.moved(bodies);
     const double goal = mission.accuracy.relative_l1;
-    const Reference truth = cast_reference(placed, scene, *sonar, T_world_sensor,
-                                           {.moved = 0.1 * goal,
-                                            .rays_per_bin = 16.0,
-                                            .rays_max = sonar->settings.model->energies_add()
-                                                            ? energy_rays_max
-                                                            : mean_rays_max});
-    const Ping ping = direct_image(*sonar, scene, *engine_at(engine, assembly.motions, at.t_s),
-                                   T_world_sensor);
+    const Reference truth = cast_reference(
+        placed, scene, *sonar, T_world_sensor,
+        {.moved = 0.1 * goal,
+         .rays_per_bin = 16.0,
+         .rays_max = sonar->settings.model->energies_add() ? energy_rays_max : mean_rays_max});
+    const Ping ping =
+        direct_image(*sonar, scene, *engine_at(engine, assembly.motions, at.t_s), T_world_sensor);
     return {pose, image_error(ping.intensity, truth.intensity, truth.scored).relative_l1,
             truth.apart};
 }
@@ -154,8 +153,6 @@ double rounded(double share) {
 /// The key that lowers the error, as the imperative of a sentence.
 std::string cure_of(const Mission& mission, const PingError& worst) {
     if (mission.engine == EngineKind::octree) return "use engine: auto";
-    if (mission.engine == EngineKind::slices && mission.slices.per_beam > 0)
-        return "leave slices.per_beam out";
     // Errors fall about as fast as the goal.
     const double goal = mission.accuracy.relative_l1;
     const double lower = goal * goal / worst.without_noise();
