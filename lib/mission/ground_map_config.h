@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "mission/place.h"
+#include "mission/source_location.h"
 
 namespace sonarsim {
 
@@ -22,7 +22,7 @@ struct LaidMapConfig {
     std::array<double, 2> origin_m{};             ///< point of the map that is the world's (0, 0)
     std::vector<std::string> instances;           ///< patterns; none: the bottom
     std::optional<double> no_data;  ///< value of pixels that change nothing; none: the file's
-    MissionPlace place;
+    SourceLocation place;
 
     bool operator==(const LaidMapConfig&) const = default;
 };

@@ -9,9 +9,9 @@
 
 #include "mission/ground_map_config.h"
 #include "mission/particles_config.h"
-#include "mission/place.h"
 #include "mission/seabed_config.h"
-#include "mission/trajectory_config.h"
+#include "mission/source_location.h"
+#include "mission/trajectory_keys.h"
 
 namespace sonarsim {
 
@@ -44,7 +44,7 @@ struct ObjectConfig {
     double bury_m = 0.0;  ///< burial depth of an object on the bottom
     bool align = false;   ///< upright on the bottom's slope
     std::optional<TrajectoryConfig> trajectory;
-    MissionPlace place;
+    SourceLocation place;
 
     bool operator==(const ObjectConfig&) const = default;
 };
@@ -65,7 +65,7 @@ struct ScatterConfig {
     std::array<double, 2> bury_m{};
     double spacing_m = 0.0;  ///< least distance between objects, seen from above
     bool align = false;
-    MissionPlace place;
+    SourceLocation place;
 
     bool operator==(const ScatterConfig&) const = default;
 };
@@ -81,7 +81,7 @@ struct HeightmapConfig {
     std::optional<double> no_data;  ///< value of unknown heights; none: the file's
     std::string material;
     std::string class_name;
-    MissionPlace place;
+    SourceLocation place;
 
     bool operator==(const HeightmapConfig&) const = default;
 };
@@ -116,7 +116,7 @@ struct SceneConfig {
     std::vector<ParticlesConfig> particles = {};
     RepeatedFiles repeats = RepeatedFiles::automatic;
     std::optional<WaterSurfaceConfig> water_surface = {};
-    MissionPlace place = {};
+    SourceLocation place = {};
 
     bool operator==(const SceneConfig&) const = default;
 };

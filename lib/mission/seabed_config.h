@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "mission/place.h"
+#include "mission/source_location.h"
 
 namespace sonarsim {
 
@@ -71,7 +71,7 @@ struct SeabedConfig {
     double border_m = 1.0;  ///< size of the bays of their borders
     std::optional<BedRockConfig> rocks;
     std::filesystem::path preset;  ///< empty after reading: its keys are filled in
-    MissionPlace place;
+    SourceLocation place;
 
     bool operator==(const SeabedConfig&) const = default;
 };

@@ -76,8 +76,7 @@ std::vector<Sounding> find_soundings(const Sonar& sonar, const Pose& T_world_veh
     // The instrument knows its poses in the ping, but not the shift of a pulse that sweeps.
     PingMotion known = motion;
     known.doppler_s = 0.0;
-    const TruePlaces reported{T_world_sensor, sonar.assumed_profile.get(), known, shape};
-    const TruePlaces true_places{T_world_sensor, sonar.true_profile.get(), motion, shape};
+    const TruePlaces places{T_world_sensor, sonar.sound_profile.get(), known, shape};
     const std::span<const float> growth = sonar.settings.model->noise_growth();
     const std::span<const float> noise = sonar.settings.model->mean_noise();
     std::vector<Sounding> soundings(ping.beams);
@@ -89,11 +88,7 @@ std::vector<Sounding> find_soundings(const Sonar& sonar, const Pose& T_world_veh
         soundings[j] = sounding_of_beam(sonar, beam);
         if (std::isnan(soundings[j].range_m)) continue;
         const double azimuth = sonar.beam_azimuths_rad[j];
-        const double range = soundings[j].range_m;
-        soundings[j].position = reported.of(on_axis(known, shape, azimuth, range));
-        if (sonar.true_profile) {
-            soundings[j].true_position = true_places.of(on_axis(motion, shape, azimuth, range));
-        }
+        soundings[j].position = places.of(on_axis(known, shape, azimuth, soundings[j].range_m));
     }
     return soundings;
 }

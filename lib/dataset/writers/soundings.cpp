@@ -6,7 +6,6 @@
 #include <cstring>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "core/atomic_file.h"
 #include "core/file.h"
@@ -24,15 +23,12 @@ namespace {
 struct SoundingSource {
     const RecordFile& records;
     std::size_t beams;
-    std::size_t fields;  ///< numbers in each sounding
     std::uint32_t every;
     const Trajectory& trajectory;
 };
 
-/// Numbers per sounding in a record: range, x, y, z and quality, and the true x, y and z where
-/// sound bends.
-constexpr std::size_t straight_fields = 5;
-constexpr std::size_t bent_fields = 8;
+/// Numbers per sounding in a record: range, x, y, z and quality.
+constexpr std::size_t fields_of_sounding = 5;
 
 struct RecordedSounding {
     std::size_t pose;
@@ -40,22 +36,18 @@ struct RecordedSounding {
     double range_m;
     Eigen::Vector3d position;
     double quality;
-    std::optional<Eigen::Vector3d> true_position;
 };
 
 /// Calls `visit` for every sounding, ping by ping and beam by beam; beams without one are left out.
 void for_each_sounding(const SoundingSource& source,
                        const std::function<void(const RecordedSounding&)>& visit) {
-    std::vector<double> fields(source.beams * source.fields);
+    std::vector<double> fields(source.beams * fields_of_sounding);
     for (std::size_t k = 0; k < source.records.records(); ++k) {
         source.records.read(k, std::as_writable_bytes(std::span(fields)));
         for (std::size_t beam = 0; beam < source.beams; ++beam) {
-            const double* const f = fields.data() + beam * source.fields;
+            const double* const f = fields.data() + beam * fields_of_sounding;
             if (std::isnan(f[0])) continue;
-            RecordedSounding sounding{k * source.every,   beam, f[0],
-                                      {f[1], f[2], f[3]}, f[4], std::nullopt};
-            if (source.fields == bent_fields) sounding.true_position = {f[5], f[6], f[7]};
-            visit(sounding);
+            visit({k * source.every, beam, f[0], {f[1], f[2], f[3]}, f[4]});
         }
     }
 }
@@ -92,18 +84,12 @@ nlohmann::ordered_json georeference(const Bathymetry& grid, double cell_asked_m,
 
 void write_soundings(const SoundingSource& source, const std::filesystem::path& folder) {
     StreamedFile csv(folder / "soundings.csv");
-    csv.append("pose,time_s,beam,range_m,x_m,y_m,z_m,quality");
-    csv.append(source.fields == bent_fields ? ",true_x_m,true_y_m,true_z_m\n" : "\n");
+    csv.append("pose,time_s,beam,range_m,x_m,y_m,z_m,quality\n");
     std::uint64_t count = 0;
     for_each_sounding(source, [&](const RecordedSounding& s) {
-        csv.append(fmt::format("{},{:.6f},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.3f}", s.pose,
+        csv.append(fmt::format("{},{:.6f},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.3f}\n", s.pose,
                                source.trajectory[s.pose].t_s, s.beam, s.range_m, s.position.x(),
                                s.position.y(), s.position.z(), s.quality));
-        if (s.true_position) {
-            csv.append(fmt::format(",{:.4f},{:.4f},{:.4f}", s.true_position->x(),
-                                   s.true_position->y(), s.true_position->z()));
-        }
-        csv.append("\n");
         ++count;
     });
     csv.finish();
@@ -146,9 +132,9 @@ void write_bathymetry(const SoundingSource& source, double cell_m,
     write_picture(folder / "bathymetry.png", picture.pixels, picture.width);
 }
 
-/// soundings.npy: float64 [ping, beam, 5]: range, x, y, z and quality, NaN without a sounding;
-/// where sound bends [ping, beam, 8] with the true x, y and z. soundings.csv and .ply hold the
-/// beams with a sounding; bathymetry.tif, .json and .png hold the map of the soundings.
+/// soundings.npy: float64 [ping, beam, 5]: range, x, y, z and quality, NaN without a sounding.
+/// soundings.csv and .ply hold the beams with a sounding; bathymetry.tif, .json and .png hold the
+/// map of the soundings.
 class SoundingsWriter final : public Writer {
   public:
     explicit SoundingsWriter(const WriterContext& context) : context_(context) {}
@@ -161,12 +147,9 @@ class SoundingsWriter final : public Writer {
         constexpr double csv_line = 160.0;
         constexpr double ply_vertex = 28.0;
         WriterOutputs outputs =
-            record_outputs("soundings.npy", {"<f8", {context_.pings, beams(), fields()}},
-                           {"ping", "beam",
-                            fields() == bent_fields
-                                ? "range_m, x_m, y_m, z_m, quality, true_x_m, true_y_m, true_z_m"
-                                : "range_m, x_m, y_m, z_m, quality"},
-                           8.0 * static_cast<double>(fields() * beams()));
+            record_outputs("soundings.npy", {"<f8", {context_.pings, beams(), fields_of_sounding}},
+                           {"ping", "beam", "range_m, x_m, y_m, z_m, quality"},
+                           8.0 * static_cast<double>(fields_of_sounding * beams()));
         outputs.products = {{"soundings.csv", 60.0 + csv_line * soundings},
                             {"soundings.ply", 200.0 + ply_vertex * soundings},
                             {"bathymetry.tif", 1000.0 + 4.0 * cells},
@@ -183,15 +166,13 @@ class SoundingsWriter final : public Writer {
                                                 finished.traced.motion)) {
             fields_of.insert(fields_of.end(), {s.range_m, s.position.x(), s.position.y(),
                                                s.position.z(), s.quality});
-            if (fields() == straight_fields) continue;
-            fields_of.insert(fields_of.end(), s.true_position.begin(), s.true_position.end());
         }
         return record_bytes(fields_of);
     }
 
     void write_products(const RecordFile& records,
                         const std::filesystem::path& folder) const override {
-        const SoundingSource source{records, beams(), fields(),
+        const SoundingSource source{records, beams(),
                                     static_cast<std::uint32_t>(context_.sonar().config.every),
                                     context_.assembly.trajectory};
         write_soundings(source, folder);
@@ -205,9 +186,6 @@ class SoundingsWriter final : public Writer {
     }
 
   private:
-    std::size_t fields() const {
-        return context_.mission.water.profile ? bent_fields : straight_fields;
-    }
     std::size_t beams() const { return context_.sonar().settings.view.beams; }
 
     WriterContext context_;
