@@ -6,8 +6,7 @@
 #include "checks/warning.h"
 #include "commands.h"
 #include "logging.h"
-#include "mission/json_schema.h"
-#include "mission/reference_markdown.h"
+#include "mission/reference.h"
 #include "sonar/kinds.h"
 
 namespace sonarsim {
@@ -16,21 +15,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Parses numbers, flags and lists; any other value becomes text.
-Json value_json(const std::string& yaml) {
-    Json value = Json::parse(yaml, nullptr, false);
-    return value.is_discarded() ? Json(yaml) : value;
-}
-
 Json key_json(const KeyReference& key) {
     Json json{{"name", key.name}, {"type", key.type}};
     if (!key.unit.empty()) json["unit"] = key.unit;
     json["required"] = key.required;
     for (const auto& [kind, value] : key.defaults) {
         if (kind.empty()) {
-            json["default"] = value_json(value);
+            json["default"] = default_json(value);
         } else {
-            json["default_by_kind"][kind] = value_json(value);
+            json["default_by_kind"][kind] = default_json(value);
         }
     }
     if (key.limits) {
@@ -79,7 +72,7 @@ void add_keys(CLI::App& app, int& exit_code) {
     command.callback([json, &exit_code] {
         const std::vector<SectionReference> sections = mission_reference(sonar_keys());
         if (*json) {
-            Json schema = mission_json_schema(sonar_keys());
+            Json schema = reference_schema(sections, sonar_keys());
             // Editors skip what a schema does not define.
             schema["sections"] = reference_json(sections);
             fmt::print("{}\n", schema.dump(1));

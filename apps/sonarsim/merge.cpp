@@ -17,7 +17,7 @@ namespace sonarsim {
 
 namespace {
 
-constexpr const char* goes_on = "the same command run again goes on from there";
+constexpr const char* run_again = "run the same command again to continue";
 
 struct MergeArguments {
     std::vector<std::filesystem::path> folders;  ///< the parts, then the output
@@ -32,7 +32,7 @@ struct MergeArguments {
 int merge(const MergeArguments& arguments) {
     start_logging(arguments.log);
     const std::atomic<bool>& stop =
-        stop_on_signal(warning_line(arguments.log, std::string("stopped at once; ") + goes_on));
+        stop_on_signal(warning_line(arguments.log, std::string("stopped at once; ") + run_again));
     MergeSummary summary;
     {
         ProgressLine line(arguments.log, "datasets");
@@ -46,7 +46,7 @@ int merge(const MergeArguments& arguments) {
     }
     if (summary.unlocked) spdlog::warn("{}", sentence(no_locks_warning(arguments.out())));
     if (summary.stopped) {
-        spdlog::warn("stopped after {} pings; {}", summary.pings, goes_on);
+        spdlog::warn("stopped after {} pings; {}", summary.pings, run_again);
         return exit_signal + signal_received();
     }
     const std::string made = made_text(summary.pings, summary.skipped, "copied");

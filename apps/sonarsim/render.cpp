@@ -30,8 +30,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* goes_on_from_there =
-    "written files are whole, and the same command run again goes on from there";
+constexpr const char* run_again =
+    "written files are complete; run the same command again to continue";
 
 struct RenderArguments {
     MissionOptions mission;
@@ -194,8 +194,8 @@ int render(RenderArguments arguments) {
     start_logging(arguments.log);
     arguments.render.files = !arguments.no_files;
     take_shard(arguments, arguments.render);
-    const std::atomic<bool>& stop = stop_on_signal(
-        warning_line(arguments.log, std::string("stopped at once; ") + goes_on_from_there));
+    const std::atomic<bool>& stop =
+        stop_on_signal(warning_line(arguments.log, std::string("stopped at once; ") + run_again));
     const Mission mission = load(arguments.mission);
     if (arguments.render.overwrite) refuse_overwriting_mission(arguments.mission.file, mission);
     const std::vector<Mission> variants = load_variants(arguments.mission, mission);
@@ -214,7 +214,7 @@ int render(RenderArguments arguments) {
         print_table(summary);
     }
     if (!summary.stopped) return arguments.strict && !warnings.empty() ? exit_warned : exit_done;
-    spdlog::warn("stopped after {} pings; {}", summary.pings, goes_on_from_there);
+    spdlog::warn("stopped after {} pings; {}", summary.pings, run_again);
     return exit_signal + signal_received();
 }
 

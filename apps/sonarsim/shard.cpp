@@ -42,11 +42,11 @@ std::optional<Shard> shard_of_slurm() {
                       last - first == step * (*count - 1) && (*id - first) % step == 0 &&
                       (*id - first) / step < *count;
     if (!even) {
-        throw InputError("task " + std::to_string(*id) + " of a Slurm array of " +
-                         std::to_string(*count) + " tasks from " + std::to_string(first) + " to " +
-                         std::to_string(last) +
-                         " is no shard, since these are not evenly spaced; submit --array=1-N, or "
-                         "say which shard it is with --shard I/N");
+        throw InputError(
+            "task " + std::to_string(*id) + " of a Slurm array of " + std::to_string(*count) +
+            " tasks from " + std::to_string(first) + " to " + std::to_string(last) +
+            " is not a shard, since these are not evenly spaced; submit --array=1-N, or "
+            "say which shard it is with --shard I/N");
     }
     return Shard{static_cast<int>((*id - first) / step), static_cast<int>(*count)};
 }

@@ -13,7 +13,7 @@
 #include <utility>
 #include <variant>
 
-#include "assembly/engine_probes.h"
+#include "assembly/engines.h"
 #include "checks/find_warnings.h"
 #include "commands.h"
 #include "core/clock.h"

@@ -21,7 +21,7 @@
 #include "core/sha256.h"
 #include "core/text.h"
 #include "mission/files.h"
-#include "mission/scattering_water.h"
+#include "mission/water.h"
 #include "scene/gltf/load.h"
 #include "scene/gltf/scene_files.h"
 #include "scene/maps/ground_maps.h"
@@ -147,7 +147,7 @@ Sonar checked_sonar(const Mission& mission, const SonarConfig& sensor,
 /// Throws InputError for the files of the scene that cannot be read.
 void read_scene_files(const Mission& mission, SceneFiles& models) {
     ErrorList errors;
-    const auto read = [&](const std::filesystem::path& file, const MissionPlace& place) {
+    const auto read = [&](const std::filesystem::path& file, const SourceLocation& place) {
         if (file.empty()) return;
         errors.attempt([&] { models.model({.file = file, .place = place.location}); });
     };
@@ -312,10 +312,8 @@ std::string inputs_hash(const Assembly& assembly) {
     }
     if (scene.maps) text += scene.maps->identity();
     for (const Sonar& sonar : assembly.sonars) {
-        for (const auto& profile : {sonar.true_profile, sonar.assumed_profile}) {
-            if (!profile) continue;
+        if (const auto& profile = sonar.sound_profile)
             text += "\nprofile " + hash_of(profile->height_m) + hash_of(profile->speed_m_s);
-        }
     }
     for (const Trajectory& motion : assembly.motions)
         text += "\n" + write_tum(motion);

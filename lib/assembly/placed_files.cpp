@@ -25,7 +25,7 @@ double metres(LengthUnit unit) {
 }
 
 PlacedFile file_of(const std::filesystem::path& path, const MeshConfig& mesh,
-                   const MissionPlace& place) {
+                   const SourceLocation& place) {
     return {.file = path,
             .unit_m = metres(mesh.units),
             .z_up = mesh.up == UpAxis::z,

@@ -41,8 +41,7 @@ Trajectory form_of(const LawnmowerTrajectoryConfig& config) {
 }
 
 WaveMotion wave_motion(const MotionConfig& config) {
-    WaveMotion motion{
-        .position_m = config.position_m, .period_s = config.period_s, .lag_s = config.lag_s};
+    WaveMotion motion{.position_m = config.position_m, .period_s = config.period_s};
     for (std::size_t axis = 0; axis < 3; ++axis)
         motion.turn_rad[axis] = radians(config.turn_deg[axis]);
     return motion;
@@ -114,9 +113,7 @@ Trajectory navigation_poses(const Mission& mission, const Trajectory& truth) {
     const NavigationErrors errors{.position_m = config.position_m,
                                   .depth_m = config.depth_m,
                                   .tilt_rad = radians(config.tilt_deg),
-                                  .heading_rad = radians(config.heading_deg),
-                                  .heading_bias_rad = radians(config.heading_bias_deg),
-                                  .speed_scale = config.speed_scale};
+                                  .heading_rad = radians(config.heading_deg)};
     if (!errors.is_on()) return {};
     return reported_poses(truth, errors, vehicle_key(mission, "navigation"));
 }

@@ -9,8 +9,8 @@
 namespace sonarsim {
 
 /// The objects and classes that any variant of a mission can have, in the order of the mission.
-/// Objects of files are taken from `scene`; objects whose number is drawn are named even if the scene
-/// has none.
+/// Objects of files are taken from `scene`; objects whose number is drawn are named even if the
+/// scene has none.
 PossibleObjects possible_objects(const Mission& mission, const Scene& scene);
 
 /// Draws the variants of a mission, as draw_variants(), and notes in each of them the classes of

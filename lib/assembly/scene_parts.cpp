@@ -258,7 +258,7 @@ void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64
 /// The greatest speed of sound over that by which sonars measure ranges, or 1 if that is more.
 double faster_sound(const Mission& mission) {
     if (!mission.water.profile) return 1.0;
-    const SoundProfile profile = sound_profile(*mission.water.profile, mission);
+    const SoundProfile profile = sound_profile(mission);
     return std::max(std::ranges::max(profile.speed_m_s) / profile.range_speed_m_s, 1.0);
 }
 

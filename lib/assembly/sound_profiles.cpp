@@ -8,8 +8,7 @@
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "mission/sound_profile_schema.h"
-#include "mission/sound_speed.h"
+#include "mission/water.h"
 
 namespace sonarsim {
 
@@ -97,7 +96,7 @@ std::vector<ProfilePoint> points_of_file(const std::filesystem::path& file) {
     std::vector<ProfilePoint> points;
     for (const CsvRow& row : csv.rows) {
         points.push_back({number_of(csv, row, depth, between(0, 12000)),
-                          number_of(csv, row, speed, profile_speeds_m_s)});
+                          number_of(csv, row, speed, sound_speeds_m_s)});
         const std::size_t n = points.size();
         if (n > 1 && !(points[n - 1].depth_m > points[n - 2].depth_m)) {
             throw InputError({csv.file, row.line},
@@ -121,7 +120,8 @@ void refuse_multipath(const Mission& mission) {
 
 }  // namespace
 
-SoundProfile sound_profile(const SoundProfileConfig& config, const Mission& mission) {
+SoundProfile sound_profile(const Mission& mission) {
+    const SoundProfileConfig& config = *mission.water.profile;
     std::vector<ProfilePoint> points =
         config.file.empty() ? named_points(config, mission.water) : points_of_file(config.file);
     SoundProfile profile;
@@ -137,17 +137,9 @@ SoundProfile sound_profile(const SoundProfileConfig& config, const Mission& miss
 void add_sound_profiles(const Mission& mission, Scene& scene, std::span<Sonar> sonars) {
     if (!mission.water.profile) return;
     refuse_multipath(mission);
-    scene.sound_profile =
-        std::make_shared<const SoundProfile>(sound_profile(*mission.water.profile, mission));
-    std::shared_ptr<const SoundProfile> assumed;
-    if (mission.water.assumed_profile) {
-        assumed = std::make_shared<const SoundProfile>(
-            sound_profile(*mission.water.assumed_profile, mission));
-    }
-    for (Sonar& sonar : sonars) {
-        sonar.true_profile = scene.sound_profile;
-        sonar.assumed_profile = assumed;
-    }
+    scene.sound_profile = std::make_shared<const SoundProfile>(sound_profile(mission));
+    for (Sonar& sonar : sonars)
+        sonar.sound_profile = scene.sound_profile;
 }
 
 }  // namespace sonarsim

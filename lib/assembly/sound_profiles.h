@@ -8,11 +8,11 @@
 
 namespace sonarsim {
 
-/// The profile of sound speed of a mission's water, in the world. InputError for a file that cannot
-/// be read.
-SoundProfile sound_profile(const SoundProfileConfig& config, const Mission& mission);
+/// The profile of sound speed of a mission's water, which has one, in the world. InputError for a
+/// file that cannot be read.
+SoundProfile sound_profile(const Mission& mission);
 
-/// Sets the scene's profile of sound speed, and the profile by which the sonars compute soundings.
+/// Sets the profile of sound speed of the scene and of the sonars, for soundings.
 /// InputError if the mission has a key that requires straight paths of sound.
 void add_sound_profiles(const Mission& mission, Scene& scene, std::span<Sonar> sonars);
 

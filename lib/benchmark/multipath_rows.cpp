@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "assembly/engine_probes.h"
+#include "assembly/engines.h"
 #include "benchmark/report.h"
 #include "core/in_parallel.h"
 #include "validation/image_error.h"

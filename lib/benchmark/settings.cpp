@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "assembly/engine_probes.h"
+#include "assembly/engines.h"
 #include "core/text.h"
 #include "sonar/engine_settings.h"
 
@@ -30,16 +30,11 @@ Setting octree_with(double leaf_m, double goal) {
 
 Setting own_setting(const Mission& mission) {
     const double goal = mission.accuracy.relative_l1;
-    if (mission.engine == EngineKind::octree)
-        return octree_with(mission.octree.leaf_m, goal);
+    if (mission.engine == EngineKind::octree) return octree_with(mission.octree.leaf_m, goal);
     if (mission.engine == EngineKind::rays) return with_goal(EngineKind::rays, "rays", goal);
     if (mission.engine == EngineKind::automatic)
         return with_goal(EngineKind::automatic, "auto", goal);
-    Setting slices = with_goal(EngineKind::slices, "slices", goal);
-    slices.slices = mission.slices;
-    if (mission.slices.per_beam > 0)
-        slices.name = "per_beam=" + std::to_string(mission.slices.per_beam);
-    return slices;
+    return with_goal(EngineKind::slices, "slices", goal);
 }
 
 double finest_bin_m(const Mission& mission) {
@@ -78,15 +73,14 @@ std::vector<Setting> make_settings(const Mission& mission, bool quick) {
 
 EngineSettings engine_settings(const Setting& setting, const Mission& mission,
                                const Assembly& assembly) {
-    if (setting.kind != EngineKind::automatic)
-        return engine_settings(setting.kind, setting.octree, setting.slices);
+    if (setting.kind != EngineKind::automatic) return engine_settings(setting.kind, setting.octree);
     Mission chosen = mission;
     chosen.engine = EngineKind::automatic;
     return engine_settings(chosen, assembly);
 }
 
 std::string unsupported(const Setting& setting, const Assembly& assembly) {
-    const EngineSettings engine = engine_settings(setting.kind, setting.octree, setting.slices);
+    const EngineSettings engine = engine_settings(setting.kind, setting.octree);
     std::string refusal = unsupported(engine, assembly.scene);
     for (const Sonar& sonar : assembly.sonars) {
         if (refusal.empty()) refusal = unsupported(engine, sonar.settings.view);

@@ -12,19 +12,14 @@ namespace sonarsim {
 /// One engine with one resolution.
 struct Setting {
     std::string engine;  ///< "rays", "slices", "octree" or "auto"
-    std::string name;  ///< the mission's key and value, "relative_l1=0.03"
+    std::string name;    ///< the mission's key and value, "relative_l1=0.03"
     EngineKind kind = EngineKind::rays;
     OctreeConfig octree;       ///< for the octree
     double relative_l1 = 0.0;  ///< error goal of rays, slices and auto
     bool current = false;      ///< the mission's own setting
-    SlicesConfig slices = {};  ///< for the slices
 
-    /// True if relative_l1 sets the sampling: rays, auto, and slices unless the mission sets their
-    /// number.
-    bool has_goal() const {
-        return kind == EngineKind::rays || kind == EngineKind::automatic ||
-               (kind == EngineKind::slices && slices.per_beam == 0);
-    }
+    /// True if relative_l1 sets the sampling.
+    bool has_goal() const { return kind != EngineKind::octree; }
 };
 
 /// The settings of a report: rays and slices by error goal and the octree by leaf size, each from

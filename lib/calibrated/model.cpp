@@ -30,9 +30,6 @@ constexpr double no_level_db = -300.0;  // docs/mission.md
 // In the order in which they enter an image.
 constexpr std::array<std::string_view, 2> calibrated_terms{"speckle", "receiver_noise"};
 
-// Columns of rays across a side-scan's beam, which is narrower than one column of the goal.
-constexpr int columns_along_track = 4;
-
 /// The number of beams that may be traced as one: two if the array does not resolve them. More than
 /// two save hardly any time.
 int joinable_beams(double resolved_beams, int beams) {
@@ -124,8 +121,7 @@ void set_info(ViewShape shape, CalibratedModel& model) {
     info.random_terms = calibrated_terms;
     info.needs_scattered_paths = true;
     // In a cone slices are off by up to 1 %; rays are as fast and have a third of that error.
-    if (shape == ViewShape::port_starboard) info.ray_columns = columns_along_track;
-    if (shape == ViewShape::cone) info.ray_columns = 1;
+    info.needs_rays = shape != ViewShape::fan;
     info.energies_add = true;
     info.is_slow = true;
     const int columns =

@@ -53,7 +53,7 @@ NpyFormat npy_format(std::string_view start) {
             format.shape.push_back(parse_unsigned(length).value_or(0));
     }
     if (format.type.empty() || format.shape.empty() || !start.starts_with(npy_header(format)))
-        throw std::runtime_error("is no .npy file, format 1.0, as sonarsim writes it");
+        throw std::runtime_error("is not a .npy file of format 1.0");
     return format;
 }
 

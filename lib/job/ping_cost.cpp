@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "assembly/engine_probes.h"
+#include "assembly/engines.h"
 #include "assembly/sample_pings.h"
 #include "core/clock.h"
 #include "dataset/encode_ping.h"

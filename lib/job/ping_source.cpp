@@ -4,7 +4,7 @@
 #include <utility>
 #include <variant>
 
-#include "assembly/engine_probes.h"
+#include "assembly/engines.h"
 #include "dataset/encode_ping.h"
 #include "dataset/layout.h"
 #include "dataset/metadata.h"

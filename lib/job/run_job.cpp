@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "assembly/engine_probes.h"
+#include "assembly/engines.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "dataset/dataset_file.h"

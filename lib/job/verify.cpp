@@ -19,8 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* render_again =
-    "the render command that made the dataset, run again, makes it anew";
+constexpr const char* render_again = "run the render command of the dataset again";
 
 /// A file to be checked.
 struct Task {
@@ -64,9 +63,7 @@ void list_tasks(const fs::path& top, const std::string& prefix, std::vector<Task
     };
     const DatasetFile dataset = require_dataset(folder);
     if (!dataset.complete)
-        add_error(description_name,
-                  "the dataset is not complete; the render command that made it, run again, goes "
-                  "on with it");
+        add_error(description_name, std::string("the dataset is not complete; ") + render_again);
     std::map<std::string, std::string> sums;
     if (fs::is_regular_file(folder / checksums_name))
         sums = read_checksums(folder / checksums_name);
@@ -81,13 +78,15 @@ void list_tasks(const fs::path& top, const std::string& prefix, std::vector<Task
         else if (sum != sums.end())
             tasks.push_back({(fs::path(prefix) / name).string(), sum->second});
         else if (!sums.empty())
-            add_error(name, "SHA256SUMS does not list it; remove SHA256SUMS, and the render command "
-                            "that made the dataset writes it again");
+            add_error(name,
+                      "SHA256SUMS does not list it; remove SHA256SUMS, and the render command "
+                      "that made the dataset writes it again");
     }
     for (const auto& [name, sum] : sums) {
         if (!expected.contains(name))
-            add_error(name, "SHA256SUMS lists it, and dataset.json does not; one of them was "
-                            "changed: render the dataset anew (--overwrite)");
+            add_error(name,
+                      "SHA256SUMS lists it, and dataset.json does not; one of them was "
+                      "changed: render the dataset anew (--overwrite)");
     }
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
         const std::string name = entry.path().lexically_relative(folder).string();

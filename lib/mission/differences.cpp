@@ -1,8 +1,7 @@
 #include "mission/differences.h"
 
 #include <algorithm>
-#include <cstddef>
-#include <vector>
+#include <map>
 
 #include "core/error.h"
 #include "mission/document.h"
@@ -11,61 +10,45 @@ namespace sonarsim {
 
 namespace {
 
-std::string value_of(const YamlNode* node) {
-    return node == nullptr ? "not given" : shown(flow_text(*node), 40);
-}
-
-void compare(const YamlNode* there, const YamlNode* here, const std::string& key,
-             std::vector<std::string>& out);
-
-void compare_maps(const YamlNode& there, const YamlNode& here, const std::string& prefix,
-                  std::vector<std::string>& out) {
-    for (const YamlNode& item : there.items)
-        compare(&item, here.find(item.key), prefix + item.key, out);
-    for (const YamlNode& item : here.items) {
-        if (there.find(item.key) == nullptr) compare(nullptr, &item, prefix + item.key, out);
+/// Adds the values below a node by their keys, as "objects.1.x". Lists of values are one value.
+void flatten(const YamlNode& node, const std::string& key,
+             std::map<std::string, std::string>& values) {
+    const bool is_list = node.kind == YamlNode::Kind::list;
+    const auto is_section = [](const YamlNode& item) { return item.kind == YamlNode::Kind::map; };
+    if (!is_section(node) && !(is_list && std::ranges::any_of(node.items, is_section))) {
+        values[key] = shown(flow_text(node), 40);
+        return;
     }
-}
-
-/// Adds the keys below and at `key` whose values differ. A node that is missing is null.
-void compare(const YamlNode* there, const YamlNode* here, const std::string& key,
-             std::vector<std::string>& out) {
-    if (there != nullptr && here != nullptr) {
-        const auto both_are = [&](YamlNode::Kind kind) {
-            return there->kind == kind && here->kind == kind;
-        };
-        const std::string prefix = key.empty() ? "" : key + ".";
-        if (both_are(YamlNode::Kind::map)) return compare_maps(*there, *here, prefix, out);
-        const auto has_parts = [](const YamlNode& item) {
-            return item.kind == YamlNode::Kind::map;
-        };
-        if (both_are(YamlNode::Kind::list) && there->items.size() == here->items.size() &&
-            std::ranges::any_of(here->items, has_parts)) {
-            for (std::size_t i = 0; i < here->items.size(); ++i)
-                compare(&there->items[i], &here->items[i], prefix + std::to_string(i), out);
-            return;
-        }
-        if (flow_text(*there) == flow_text(*here)) return;
+    for (std::size_t i = 0; i < node.items.size(); ++i) {
+        const std::string own = is_list ? std::to_string(i) : node.items[i].key;
+        flatten(node.items[i], key.empty() ? own : key + "." + own, values);
     }
-    out.push_back(key + ": " + value_of(there) + " there, " + value_of(here) + " here");
 }
 
 }  // namespace
 
 std::string differing_keys(std::string_view there, std::string_view here) {
-    constexpr std::size_t most = 4;
-    std::vector<std::string> keys;
+    constexpr std::size_t max_listed = 4;
+    constexpr const char* absent = "not given";
+    std::map<std::string, std::string> before;
+    std::map<std::string, std::string> now;
     try {
-        const YamlNode before = read_document(there, "there");
-        const YamlNode now = read_document(here, "here");
-        compare(&before, &now, "", keys);
+        flatten(read_document(there, "there"), "", before);
+        flatten(read_document(here, "here"), "", now);
     } catch (const InputError&) {
         return "";
     }
+    for (const auto& one : now)
+        before.try_emplace(one.first, absent);
     std::string text;
-    for (std::size_t i = 0; i < std::min(most, keys.size()); ++i)
-        text += (text.empty() ? " (" : "; ") + keys[i];
-    if (keys.size() > most) text += "; and " + std::to_string(keys.size() - most) + " more";
+    std::size_t count = 0;
+    for (const auto& [key, value] : before) {
+        const auto found = now.find(key);
+        const std::string other = found == now.end() ? absent : found->second;
+        if (value == other || ++count > max_listed) continue;
+        text += (text.empty() ? " (" : "; ") + key + ": " + value + " there, " + other + " here";
+    }
+    if (count > max_listed) text += "; and " + std::to_string(count - max_listed) + " more";
     return text.empty() ? "" : text + ")";
 }
 

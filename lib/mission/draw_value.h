@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/random.h"
-#include "mission/variation_config.h"
+#include "mission/variation_keys.h"
 
 namespace sonarsim {
 

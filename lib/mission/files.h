@@ -28,9 +28,8 @@ void for_each_file(SomeMission& mission, const Visit& visit) {
             visit(file);
     }
     poses_of(mission.trajectory);
-    for (auto* profile : {&mission.water.profile, &mission.water.assumed_profile}) {
-        if (*profile && !(*profile)->file.empty()) visit((*profile)->file);
-    }
+    if (auto& profile = mission.water.profile; profile && !profile->file.empty())
+        visit(profile->file);
 }
 
 /// The same as a list.

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "mission/place.h"
+#include "mission/source_location.h"
 
 namespace sonarsim {
 
@@ -20,7 +20,7 @@ struct LaidMapConfig {
     double pixel_m = 0.0;                         ///< size of a pixel; 0: by size_m, or by the file
     std::optional<std::array<double, 2>> size_m;  ///< x, y, from edge to edge of the map
     std::array<double, 2> origin_m{};             ///< point of the map that is the world's (0, 0)
-    MissionPlace place;
+    SourceLocation place;
 
     bool operator==(const LaidMapConfig&) const = default;
 };

@@ -30,6 +30,8 @@ constexpr Limits between(double low, double high) {
     return {low, high};
 }
 inline constexpr Limits any_position_m{-furthest_m, furthest_m};
+/// The speed of sound in water is 1,400 to 1,600 m/s; scale models in a tank may have other speeds.
+inline constexpr Limits sound_speeds_m_s{1000.0, 2000.0};
 inline constexpr Limits any_angle_deg{-360.0, 360.0};
 inline constexpr Limits any_unsigned{0.0, 18446744073709551615.0};  // 64 bits
 

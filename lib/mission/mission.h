@@ -12,13 +12,11 @@
 #include "core/engine_kind.h"
 #include "mission/echo_models.h"
 #include "mission/instrument.h"
-#include "mission/label_config.h"
 #include "mission/paper_keys.h"
-#include "mission/place.h"
 #include "mission/scene_config.h"
-#include "mission/sound_profile_config.h"
-#include "mission/trajectory_config.h"
-#include "mission/variation_config.h"
+#include "mission/source_location.h"
+#include "mission/trajectory_keys.h"
+#include "mission/variation_keys.h"
 
 namespace sonarsim {
 
@@ -31,6 +29,17 @@ struct WaterLayerConfig {
     double scattering_db_per_m3 = 0.0;
 
     bool operator==(const WaterLayerConfig&) const = default;
+};
+
+/// Profiles of sound speed that are made from temperatures, see assembly/sound_profiles.h.
+enum class NamedProfile { none, isothermal, mixed_layer, summer };
+
+/// The speed of sound by depth, in one of two forms.
+struct SoundProfileConfig {
+    NamedProfile named = NamedProfile::none;
+    std::filesystem::path file;  ///< CSV with depth_m and sound_speed_m_s; "": none
+
+    bool operator==(const SoundProfileConfig&) const = default;
 };
 
 struct WaterConfig {
@@ -47,8 +56,6 @@ struct WaterConfig {
     std::optional<double> scattering_db_per_m3 = {};
     std::vector<WaterLayerConfig> layers = {};       ///< their scattering is added to the above
     std::optional<SoundProfileConfig> profile = {};  ///< bends sound; none: paths are straight
-    /// The profile by which the instruments turn angles and times to soundings; none: constant.
-    std::optional<SoundProfileConfig> assumed_profile = {};
 
     bool operator==(const WaterConfig&) const = default;
 };
@@ -128,12 +135,6 @@ struct AccuracyConfig {
     bool operator==(const AccuracyConfig&) const = default;
 };
 
-struct SlicesConfig {
-    int per_beam = 0;  ///< slices per beam; 0: derived from accuracy.relative_l1
-
-    bool operator==(const SlicesConfig&) const = default;
-};
-
 struct OctreeConfig {
     double leaf_m = 0.02;  ///< edge of the leaves
 
@@ -145,9 +146,17 @@ struct ClassConfig {
     std::string nodes;     ///< `*` stands for any text, `?` for any one byte
     std::string name;      ///< the class
     std::string instance;  ///< one instance of all these nodes; "": each is its own
-    MissionPlace place;
+    SourceLocation place;
 
     bool operator==(const ClassConfig&) const = default;
+};
+
+/// The classes that are background: they have neither contrast, shadow nor visible share.
+struct LabelConfig {
+    std::vector<std::string> background{"auto"};  ///< classes that are not objects
+    SourceLocation place;
+
+    bool operator==(const LabelConfig&) const = default;
 };
 
 /// Labels that may be written with the image of a ping.
@@ -181,7 +190,7 @@ struct OutputConfig {
     // Products of all pings of a sonar.
     bool xtf = false;                ///< side-scan sonars: the waterfall as XTF
     bool mosaic = false;             ///< side-scan sonars: the waterfall georeferenced
-    MissionPlace place = {};
+    SourceLocation place = {};
 
     bool operator==(const OutputConfig&) const = default;
 };
@@ -197,7 +206,6 @@ struct Mission {
     AccuracyConfig accuracy;
     EngineKind engine = EngineKind::automatic;
     OctreeConfig octree;
-    SlicesConfig slices;
     std::vector<ClassConfig> classes;  ///< in the order of the file; the first match applies
     LabelConfig labels;
     OutputConfig output;

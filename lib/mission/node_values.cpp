@@ -7,7 +7,6 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "mission/removed_keys.h"
-#include "mission/value_text.h"
 
 namespace sonarsim {
 
@@ -28,26 +27,14 @@ std::string found(const YamlNode& node) {
     return node.quoted ? "the quoted text " + in_quotes(node.text) : in_quotes(node.text);
 }
 
-}  // namespace
-
-void refuse(const YamlNode& node, const std::string& what) {
-    throw InputError(node.place.location(), what);
-}
-
-void refuse_type(const YamlNode& node, const std::string& key, const std::string& wanted) {
-    refuse(node, "'" + key + "' must be " + wanted + ", not " + found(node));
+/// True if the node is a word or number without quotes.
+bool is_plain(const YamlNode& node) {
+    return node.kind == YamlNode::Kind::scalar && !node.quoted;
 }
 
 void check_limits(const YamlNode& node, const char* key, double value, const Limits& limits) {
-    const bool too_low = limits.low_allowed ? value < limits.low : value <= limits.low;
-    if (!too_low && value <= limits.high) return;
-    std::string wanted = "at most " + number_text(limits.high);
-    if (too_low) wanted = (limits.low_allowed ? "at least " : "above ") + number_text(limits.low);
-    refuse_type(node, key, wanted);
-}
-
-bool is_plain(const YamlNode& node) {
-    return node.kind == YamlNode::Kind::scalar && !node.quoted;
+    const std::string fault = fault_of(value, limits);
+    if (!fault.empty()) refuse_type(node, key, fault);
 }
 
 double read_number(const YamlNode& node, const char* key, const Limits& limits) {
@@ -65,6 +52,34 @@ std::string read_text(const YamlNode& node, const char* key) {
         refuse(node, "'" + std::string(key) + "' must not hold control characters");
     }
     return node.text;
+}
+
+}  // namespace
+
+std::string fault_of(double value, const Limits& limits) {
+    const bool too_low = limits.low_allowed ? value < limits.low : value <= limits.low;
+    if (too_low) return (limits.low_allowed ? "at least " : "above ") + number_text(limits.low);
+    return value <= limits.high ? "" : "at most " + number_text(limits.high);
+}
+
+void refuse(const YamlNode& node, const std::string& what) {
+    throw InputError(node.place.location(), what);
+}
+
+void refuse_type(const YamlNode& node, const std::string& key, const std::string& wanted) {
+    refuse(node, "'" + key + "' must be " + wanted + ", not " + found(node));
+}
+
+bool read_flag(const YamlNode& node, const char* key) {
+    if (is_plain(node) && (node.text == "true" || node.text == "false")) return node.text == "true";
+    const std::string removed = instead_of_removed(key, node.text);
+    if (!removed.empty()) refuse(node, removed);
+    refuse_type(node, key, "true or false");
+}
+
+std::filesystem::path read_path(const YamlNode& node, const char* key,
+                                const std::filesystem::path& base_folder) {
+    return std::filesystem::absolute(base_folder / read_text(node, key)).lexically_normal();
 }
 
 void read_value(const YamlNode& node, const char* key, const Limits& limits, double& value) {
@@ -101,10 +116,10 @@ void read_value(const YamlNode& node, const char* key, const Limits& limits,
         value.fill(read_number(node, key, limits));
         return;
     }
-    read_numbers(node, key, value.data(), 2, limits);
+    read_numbers(node, key, value, limits);
     if (value[0] <= value[1]) return;
-    refuse(node, "'" + std::string(key) + "': the first number must not be above the second, in " +
-                     yaml_text(value));
+    refuse(node, "'" + std::string(key) + "': the first number must not be above the second, in [" +
+                     number_text(value[0]) + ", " + number_text(value[1]) + "]");
 }
 
 void read_value(const YamlNode& node, const char* key, std::string& value) {
@@ -159,15 +174,15 @@ std::size_t index_of(const YamlNode& node, const char* key, const std::vector<st
     return static_cast<std::size_t>(name - names.begin());
 }
 
-void read_numbers(const YamlNode& node, const char* key, double* values, std::size_t count,
+void read_numbers(const YamlNode& node, const char* key, std::span<double> values,
                   const Limits& limits) {
-    const std::string wanted = "a list of " + std::to_string(count) + " numbers";
+    const std::string wanted = "a list of " + std::to_string(values.size()) + " numbers";
     if (node.kind != YamlNode::Kind::list) refuse_type(node, key, wanted);
-    if (node.items.size() != count) {
+    if (node.items.size() != values.size()) {
         refuse(node, "'" + std::string(key) + "' must be " + wanted + ", not of " +
                          std::to_string(node.items.size()));
     }
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t i = 0; i < values.size(); ++i)
         values[i] = read_number(node.items[i], key, limits);
 }
 

@@ -3,8 +3,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,7 +14,7 @@
 #include "mission/document.h"
 #include "mission/ground_map_config.h"
 #include "mission/limits.h"
-#include "mission/variation_config.h"
+#include "mission/variation_keys.h"
 
 namespace sonarsim {
 
@@ -25,17 +27,14 @@ namespace sonarsim {
 [[noreturn]] void refuse_type(const YamlNode& node, const std::string& key,
                               const std::string& wanted);
 
-void check_limits(const YamlNode& node, const char* key, double value, const Limits& limits);
+/// "at least 0" for a number that is not within the limits, else "".
+std::string fault_of(double value, const Limits& limits);
 
-/// True if the node is a word or number without quotes.
-bool is_plain(const YamlNode& node);
+bool read_flag(const YamlNode& node, const char* key);
 
-double read_number(const YamlNode& node, const char* key, const Limits& limits);
-
-/// Reads a text that is not empty and has no control characters.
-std::string read_text(const YamlNode& node, const char* key);
-
-// The same into a value of each type.
+/// Reads a path, which becomes absolute and normalised; a relative one starts at `base_folder`.
+std::filesystem::path read_path(const YamlNode& node, const char* key,
+                                const std::filesystem::path& base_folder);
 
 void read_value(const YamlNode& node, const char* key, const Limits& limits, double& value);
 void read_value(const YamlNode& node, const char* key, const Limits& limits, int& value);
@@ -46,6 +45,7 @@ void read_value(const YamlNode& node, const char* key, const Limits& limits,
 /// Reads a number, or a list of the least and the largest.
 void read_value(const YamlNode& node, const char* key, const Limits& limits,
                 std::array<double, 2>& value);
+/// Reads a text that is not empty and has no control characters.
 void read_value(const YamlNode& node, const char* key, std::string& value);
 void read_value(const YamlNode& node, const char* key, std::vector<std::string>& values);
 /// Reads a map from texts to texts.
@@ -65,8 +65,8 @@ std::string values_text(const KeyTexts& values, std::initializer_list<const char
 /// Returns the index of the node's text in `names`.
 std::size_t index_of(const YamlNode& node, const char* key, const std::vector<std::string>& names);
 
-/// Reads a list of exactly `count` numbers.
-void read_numbers(const YamlNode& node, const char* key, double* values, std::size_t count,
+/// Reads a list of exactly as many numbers as `values` has.
+void read_numbers(const YamlNode& node, const char* key, std::span<double> values,
                   const Limits& limits);
 
 /// Returns for each name whether it is chosen: `true` chooses all, `false` none, a list some.

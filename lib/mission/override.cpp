@@ -67,7 +67,7 @@ YamlNode& descend(const YamlNode& above, YamlNode& node, const std::string& key,
 }
 
 /// Replaces the value at the path.
-void put(YamlNode& root, const std::vector<std::string>& path, YamlNode value) {
+void assign(YamlNode& root, const std::vector<std::string>& path, YamlNode value) {
     const YamlNode* above = &root;
     YamlNode* node = &root;
     for (const std::string& key : path)
@@ -78,11 +78,11 @@ void put(YamlNode& root, const std::vector<std::string>& path, YamlNode value) {
 }
 
 /// Sets the place of a value and of all its parts.
-void put_at(YamlNode& node, const YamlPlace& place) {
+void set_place(YamlNode& node, const YamlPlace& place) {
     node.place = place;
     node.key_place = place;
     for (YamlNode& item : node.items)
-        put_at(item, place);
+        set_place(item, place);
 }
 
 }  // namespace
@@ -94,19 +94,16 @@ void apply_override(YamlNode& root, const std::string& setting) {
     if (equals == std::string::npos) {
         throw InputError(where, usage_of_set);
     }
-    put(root, split_path(std::string_view(setting).substr(0, equals), where, usage_of_set),
-        read_document(std::string_view(setting).substr(equals + 1), source, Lines::none));
-}
-
-void set_key(YamlNode& root, std::string_view path, YamlNode value, const Location& where) {
-    put(root, split_path(path, where, "'key' is written as key or section.key"), std::move(value));
+    assign(root, split_path(std::string_view(setting).substr(0, equals), where, usage_of_set),
+           read_document(std::string_view(setting).substr(equals + 1), source, Lines::none));
 }
 
 void set_text(YamlNode& root, std::string_view path, const std::string& value,
               const Location& where) {
     YamlNode node = read_document(value, where.file, Lines::none);
-    put_at(node, {std::make_shared<const std::string>(where.file), where.line, where.column});
-    set_key(root, path, std::move(node), where);
+    set_place(node, {std::make_shared<const std::string>(where.file), where.line, where.column});
+    assign(root, split_path(path, where, "'key' is written as key or section.key"),
+           std::move(node));
 }
 
 void erase_key(YamlNode& map, std::string_view key) {

@@ -14,12 +14,8 @@ namespace sonarsim {
 /// or the value cannot be read, or when the path leads through a value that is no section.
 void apply_override(YamlNode& root, const std::string& setting);
 
-/// Sets the value at the path "a.b.c" in the same way. `where` is the place in messages about the
-/// path.
-void set_key(YamlNode& root, std::string_view path, YamlNode value, const Location& where);
-
-/// The same for a value that is YAML text. `where` becomes the place of the value and of all its
-/// parts.
+/// Sets the value at the path "a.b.c" in the same way. The value is YAML text; `where` becomes the
+/// place of the value and of all its parts.
 void set_text(YamlNode& root, std::string_view path, const std::string& value,
               const Location& where);
 

@@ -14,7 +14,7 @@
 #include "mission/preset.h"
 #include "mission/reader.h"
 #include "mission/schema.h"
-#include "mission/sound_speed.h"
+#include "mission/water.h"
 
 namespace sonarsim {
 
@@ -31,48 +31,6 @@ YamlNode document_of(std::string_view text, const std::string& file_name,
     return root;
 }
 
-/// Adds the list of a key such as "vehicle.offset_m.2" to the document if it is missing. Lists of
-/// numbers that may be drawn for pings default to zeros.
-void fill_in_list(YamlNode& root, std::string_view key) {
-    const std::size_t dot = key.rfind('.');
-    if (!parse_unsigned(key.substr(dot + 1))) return;
-    const YamlNode* node = &root;
-    for (std::size_t start = 0; node != nullptr && start < dot;) {
-        const std::size_t end = key.find('.', start);
-        node = node->find(key.substr(start, end - start));
-        start = end + 1;
-    }
-    if (node == nullptr) set_text(root, key.substr(0, dot), "[0, 0, 0]", {});
-}
-
-/// Checks the rules that are drawn for every ping: the mission must be valid with the extreme
-/// values of each rule. Throws InputError.
-void check_draws_of_pings(const Mission& mission, const YamlNode& root,
-                          const std::string& file_name, const std::filesystem::path& base_folder,
-                          SonarKeyTable sonars) {
-    std::vector<std::pair<const VaryConfig*, std::vector<std::string>>> rules;
-    std::size_t most = 0;
-    ErrorList errors;
-    for (const VaryConfig& rule : mission.vary) {
-        if (rule.per != VaryPer::ping) continue;
-        errors.attempt([&] { check_key_of_pings(mission, rule); });
-        rules.emplace_back(&rule, extremes_of(rule));
-        most = std::max(most, rules.back().second.size());
-    }
-    errors.raise();
-    YamlNode without = root;
-    erase_key(without, "vary");
-    erase_key(without, "variants");
-    for (const auto& [rule, ends] : rules)
-        fill_in_list(without, rule->key);
-    for (std::size_t k = 0; k < most; ++k) {
-        YamlNode at_end = without;
-        for (const auto& [rule, ends] : rules)
-            set_text(at_end, rule->key, ends[k % ends.size()], rule->place.location);
-        parse_mission(at_end, file_name, base_folder, sonars);
-    }
-}
-
 bool is_within(std::string_view key, std::string_view section) {
     return key == section || (key.starts_with(section) && key[section.size()] == '.');
 }
@@ -87,8 +45,7 @@ void check_rules(const Mission& mission) {
         Reserved{"seed", "each variant has a seed of its own, which follows from the mission's"},
         Reserved{"variants", "it says how many variants there are"},
         Reserved{"vary", "it says what varies"},
-        Reserved{"output.folder", "each variant has a folder of its own in that of the mission"},
-        Reserved{"output.split", "it parts whole variants"}};
+        Reserved{"output.folder", "each variant has a folder of its own in that of the mission"}};
     ErrorList errors;
     for (auto rule = mission.vary.begin(); rule != mission.vary.end(); ++rule) {
         const auto refuse = [&](const std::string& what) {
@@ -112,13 +69,8 @@ void check_rules(const Mission& mission) {
 
 Mission load_mission(const std::filesystem::path& file, std::span<const std::string> overrides,
                      SonarKeyTable sonars) {
-    return load_mission(file, file.parent_path(), overrides, sonars);
-}
-
-Mission load_mission(const std::filesystem::path& file, const std::filesystem::path& base_folder,
-                     std::span<const std::string> overrides, SonarKeyTable sonars) {
-    return parse_mission(read_file(file, largest_file), file.string(), base_folder, overrides,
-                         sonars);
+    return parse_mission(read_file(file, largest_file), file.string(), file.parent_path(),
+                         overrides, sonars);
 }
 
 Mission parse_mission(std::string_view text, const std::string& file_name,
@@ -162,7 +114,7 @@ Mission parse_mission(const YamlNode& root, const std::string& file_name,
     });
     errors.raise();
     check_rules(mission);
-    check_draws_of_pings(mission, root, file_name, base_folder, sonars);
+    check_ping_draws(mission);
     if (mission.water.sound_speed_m_s == 0.0)
         mission.water.sound_speed_m_s = sound_speed_m_s(mission.water);
     if (mission.output.folder.empty()) {

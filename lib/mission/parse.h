@@ -30,10 +30,6 @@ struct MissionSource {
 Mission load_mission(const std::filesystem::path& file, std::span<const std::string> overrides,
                      SonarKeyTable sonars);
 
-/// The same with relative paths that start at `base_folder`.
-Mission load_mission(const std::filesystem::path& file, const std::filesystem::path& base_folder,
-                     std::span<const std::string> overrides, SonarKeyTable sonars);
-
 /// The same for a source. InputError also for the mission of a dataset if `base_folder` is the
 /// folder of the dataset and the files of the scene are not there.
 Mission load_mission(const MissionSource& source, SonarKeyTable sonars);

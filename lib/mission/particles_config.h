@@ -3,7 +3,7 @@
 #include <array>
 #include <string>
 
-#include "mission/place.h"
+#include "mission/source_location.h"
 
 namespace sonarsim {
 
@@ -24,7 +24,7 @@ struct ParticlesConfig {
     std::array<double, 3> size_m{};      ///< from end to end along x, y and z
     std::array<double, 3> drift_m_s{};
     double rise_m_s = 0.0;  ///< for bubbles, which come back at the bottom of the region
-    MissionPlace place;
+    SourceLocation place;
 
     bool operator==(const ParticlesConfig&) const = default;
 };

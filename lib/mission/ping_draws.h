@@ -12,11 +12,9 @@
 
 namespace sonarsim {
 
-/// Throws InputError at the place of a rule whose key cannot be drawn for every ping.
-void check_key_of_pings(const Mission& mission, const VaryConfig& rule);
-
-/// The limits of a rule's draws, or all of its choices, as YAML.
-std::vector<std::string> extremes_of(const VaryConfig& rule);
+/// Throws InputError at the place of each rule whose key cannot be drawn for every ping, or that
+/// may draw a number which the key cannot have.
+void check_ping_draws(const Mission& mission);
 
 /// True if any key of a sensor is drawn for every ping.
 bool varies_by_ping(const Mission& mission, std::string_view sensor);

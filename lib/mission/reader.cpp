@@ -80,57 +80,6 @@ const SonarKeys& MissionReader::one_of(const char* key, SonarConfig& value,
     return keys;
 }
 
-void MissionReader::read_or_auto(const YamlNode& node, const char* key, const Limits& limits,
-                                 double& value) {
-    std::optional<double> number;
-    read_value(node, key, limits, number);
-    value = number.value_or(0.0);
-}
-
-void MissionReader::flag(const char* key, bool& value, const char* /*meaning*/) {
-    read_key(key, Presence::optional, [&](const YamlNode& node) {
-        const bool yes = is_plain(node) && node.text == "true";
-        if (!yes && !(is_plain(node) && node.text == "false")) {
-            const std::string removed = instead_of_removed(key, node.text);
-            if (!removed.empty()) refuse(node, removed);
-            refuse_type(node, key, "true or false");
-        }
-        value = yes;
-    });
-}
-
-void MissionReader::array(const char* key, std::vector<double>& values, const Limits& limits,
-                          const char* /*meaning*/) {
-    read_key(key, Presence::optional, [&](const YamlNode& node) {
-        if (node.kind != YamlNode::Kind::list) refuse_type(node, key, "a list of numbers");
-        values.resize(node.items.size());
-        read_numbers(node, key, values.data(), values.size(), limits);
-    });
-}
-
-void MissionReader::path(const char* key, std::filesystem::path& value, const char* /*meaning*/,
-                         Presence presence) {
-    read_key(key, presence, [&](const YamlNode& node) { value = path_of(node, key); });
-}
-
-void MissionReader::path(const char* key, std::vector<std::filesystem::path>& values,
-                         const char* /*meaning*/, Presence presence) {
-    read_key(key, presence, [&](const YamlNode& node) {
-        values.clear();
-        if (node.kind != YamlNode::Kind::list) {
-            values.push_back(path_of(node, key));
-            return;
-        }
-        if (node.items.empty()) refuse_type(node, key, "a path or a list of one or more");
-        for (const YamlNode& item : node.items)
-            values.push_back(path_of(item, key));
-    });
-}
-
-std::filesystem::path MissionReader::path_of(const YamlNode& node, const char* key) const {
-    return std::filesystem::absolute(base_folder_ / read_text(node, key)).lexically_normal();
-}
-
 std::size_t MissionReader::index_of_present(const std::vector<std::string>& keys) const {
     std::vector<std::string> present;
     std::string hint;
@@ -206,7 +155,7 @@ void MissionReader::require(bool holds, std::initializer_list<const char*> keys,
         if (node != nullptr && (last == nullptr || after(node->place, last->place))) last = node;
     }
     errors_.attempt(
-        [&] { refuse(last != nullptr ? *last : node_, message + values_text(values_, keys)); });
+        [&] { refuse(last != nullptr ? *last : node_, message + values_text(numbers_, keys)); });
     faulty_.insert(faulty_.end(), keys.begin(), keys.end());
 }
 

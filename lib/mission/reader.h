@@ -14,86 +14,36 @@
 
 #include "core/error.h"
 #include "mission/document.h"
-#include "mission/limits.h"
-#include "mission/node_values.h"
+#include "mission/key_visitor.h"
 #include "mission/sonar_keys.h"
-#include "mission/value_text.h"
 
 namespace sonarsim {
 
 /// The visitor that fills a section of a mission from YAML. A key that the document leaves out
 /// keeps its value. Errors are collected in `errors` with their place. An InputError is thrown
 /// only when the rest of a section cannot be checked because its kind is unknown.
-class MissionReader {
+class MissionReader : public KeyVisitor<MissionReader> {
   public:
     /// `name` is the section's name in messages. Relative paths start at `base_folder`. Throws
     /// InputError when the node is no section.
     MissionReader(const YamlNode& node, std::string name, const std::filesystem::path& base_folder,
                   SonarKeyTable sonars, ErrorList& errors);
 
-    template <class T>
-    void number(const char* key, T& value, const Limits& limits, const char* /*meaning*/,
-                Presence presence = Presence::optional) {
+    template <class T, class Type>
+    void value(const char* key, T& value, const Type& type, const char* /*meaning*/,
+               Presence presence) {
         read_key(key, presence, [&](const YamlNode& node) {
-            if constexpr (std::is_same_v<T, double>) {
-                if (presence == or_auto) return read_or_auto(node, key, limits, value);
-            }
-            read_value(node, key, limits, value);
-        });
-        note(key, yaml_text(value));
-    }
-
-    void flag(const char* key, bool& value, const char* meaning);
-
-    template <class T>
-    void text(const char* key, T& value, const char* /*meaning*/,
-              Presence presence = Presence::optional) {
-        read_key(key, presence, [&](const YamlNode& node) { read_value(node, key, value); });
-    }
-
-    void path(const char* key, std::filesystem::path& value, const char* meaning,
-              Presence presence = Presence::optional);
-    /// Reads one path, or a list of one or more.
-    void path(const char* key, std::vector<std::filesystem::path>& values, const char* meaning,
-              Presence presence);
-
-    template <std::size_t N>
-    void array(const char* key, std::array<double, N>& values, const Limits& limits,
-               const char* /*meaning*/, Presence presence = Presence::optional) {
-        read_key(key, presence,
-                 [&](const YamlNode& node) { read_numbers(node, key, values.data(), N, limits); });
-        note(key, yaml_text(values));
-    }
-    template <std::size_t N>
-    void array(const char* key, std::optional<std::array<double, N>>& values, const Limits& limits,
-               const char* /*meaning*/) {
-        read_key(key, Presence::optional, [&](const YamlNode& node) {
-            read_numbers(node, key, values.emplace().data(), N, limits);
-        });
-    }
-    /// Reads a list of any number of numbers.
-    void array(const char* key, std::vector<double>& values, const Limits& limits,
-               const char* meaning);
-
-    template <class T, std::size_t N>
-    void choice(const char* key, T& value, const std::array<Choice<T>, N>& choices,
-                const char* /*meaning*/, Presence presence = Presence::optional) {
-        read_key(key, presence, [&](const YamlNode& node) {
-            value = choices[index_of(node, key, names_of(choices))].value;
-        });
-    }
-
-    /// Reads `true` for all of the choices, `false` for none, or a list of some of them.
-    template <class T, std::size_t N>
-    void subset(const char* key, std::vector<T>& values, const std::array<Choice<T>, N>& choices,
-                const char* /*meaning*/) {
-        read_key(key, Presence::optional, [&](const YamlNode& node) {
-            const std::vector<bool> chosen = chosen_of(node, key, names_of(choices));
-            values.clear();
-            for (std::size_t i = 0; i < N; ++i) {
-                if (chosen[i]) values.push_back(choices[i].value);
+            if constexpr (std::is_same_v<Type, PathType>) {
+                type.read(node, key, value, base_folder_);
+            } else {
+                type.read(node, key, value);
             }
         });
+        // Numbers, given or default, are for messages of require().
+        constexpr bool is_number = std::is_same_v<Type, NumberType> || requires {
+            std::tuple_size<T>::value;
+        };
+        if constexpr (is_number) numbers_.emplace_back(key, type.yaml(value));
     }
 
     template <class T>
@@ -182,13 +132,7 @@ class MissionReader {
         });
     }
 
-    /// Keeps the value of a key, given or default, for messages of require().
-    void note(const char* key, std::string value) { values_.emplace_back(key, std::move(value)); }
-
-    static void read_or_auto(const YamlNode& node, const char* key, const Limits& limits,
-                             double& value);
     const YamlNode* find(const char* key, Presence presence);
-    std::filesystem::path path_of(const YamlNode& node, const char* key) const;
     std::size_t index_of_present(const std::vector<std::string>& keys) const;
     std::span<const YamlNode> list_items(const char* key, std::size_t fewest);
     const std::vector<YamlNode>& named_items(const char* key);
@@ -200,7 +144,7 @@ class MissionReader {
     ErrorList& errors_;
     std::vector<std::string> known_;
     std::vector<std::string> faulty_;  ///< keys with an error
-    KeyTexts values_;                  ///< numbers read so far, by key
+    KeyTexts numbers_;                 ///< numbers read so far, by key
 };
 
 }  // namespace sonarsim

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -22,9 +23,12 @@ struct KeyReference {
     std::optional<Limits> limits;      ///< limits of a number, or of every number of a list
     std::vector<std::string> choices;  ///< allowed names; empty: anything
     std::string meaning;
+    /// The kinds and models of the sonars with this key, as "imaging, paper". For other sections
+    /// one empty text.
+    std::vector<std::string> sonars;
 };
 
-/// The keys of one section of a mission.
+/// The keys of one section of a mission. A section with several forms has one of these for each.
 struct SectionReference {
     std::string path;  ///< keys with dots, as --set takes them; "" is the whole mission
     std::string form;  ///< the key that selects this form of a section with several forms
@@ -32,25 +36,21 @@ struct SectionReference {
     std::vector<std::string> checks;  ///< conditions on several keys
 };
 
-/// The sections of a mission while its keys are visited: a sonar once for each kind and model, a
-/// trajectory once for each form.
-class KeyTables {
-  public:
-    /// Adds a key after the one that was added before. `kind`: the kind of the visited sonar. A key
-    /// that the section has gets the default of this kind.
-    void add(const std::string& path, const std::string& form, const std::string& kind,
-             KeyReference key, const std::string& default_text);
-    void add_check(const std::string& path, const std::string& form, const std::string& check);
-
-    std::vector<SectionReference> sections;
-
-  private:
-    SectionReference& section(const std::string& path, const std::string& form);
-
-    std::string last_key_;
-};
-
-/// All keys of a mission, as mission/schema.h describes them.
+/// All keys of a mission, as mission/schema.h describes them. All trajectories have the keys of the
+/// vehicle's.
 std::vector<SectionReference> mission_reference(SonarKeyTable sonars);
+
+/// Makes a Markdown table per section: key, type and unit, default, range, meaning.
+std::string reference_markdown(const std::vector<SectionReference>& sections);
+
+/// The JSON Schema (2020-12) of a mission, with which editors complete and check missions: type,
+/// limits, default, choices and meaning of each key, the required keys, and the keys of each kind
+/// of sonar. A schema cannot express checks across keys; they are in the `$comment` of their
+/// section.
+nlohmann::ordered_json reference_schema(const std::vector<SectionReference>& sections,
+                                        SonarKeyTable sonars);
+
+/// A default of the reference as JSON.
+nlohmann::ordered_json default_json(const std::string& yaml);
 
 }  // namespace sonarsim

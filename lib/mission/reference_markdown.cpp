@@ -1,10 +1,9 @@
-#include "mission/reference_markdown.h"
-
 #include <algorithm>
 #include <string_view>
 #include <utility>
 
 #include "core/text.h"
+#include "mission/reference.h"
 
 namespace sonarsim {
 

@@ -9,9 +9,9 @@
 
 #include "mission/ground_map_config.h"
 #include "mission/particles_config.h"
-#include "mission/place.h"
 #include "mission/seabed_config.h"
-#include "mission/trajectory_config.h"
+#include "mission/source_location.h"
+#include "mission/trajectory_keys.h"
 
 namespace sonarsim {
 
@@ -43,7 +43,7 @@ struct ObjectConfig {
     double bury_m = 0.0;  ///< burial depth of an object on the bottom
     bool align = false;   ///< upright on the bottom's slope
     std::optional<TrajectoryConfig> trajectory;
-    MissionPlace place;
+    SourceLocation place;
 
     bool operator==(const ObjectConfig&) const = default;
 };
@@ -64,7 +64,7 @@ struct ScatterConfig {
     std::array<double, 2> bury_m{};
     double spacing_m = 0.0;  ///< least distance between objects, seen from above
     bool align = false;
-    MissionPlace place;
+    SourceLocation place;
 
     bool operator==(const ScatterConfig&) const = default;
 };
@@ -79,7 +79,7 @@ struct HeightmapConfig {
     double height_offset_m = 0.0;
     std::string material;
     std::string class_name;
-    MissionPlace place;
+    SourceLocation place;
 
     bool operator==(const HeightmapConfig&) const = default;
 };
@@ -110,7 +110,7 @@ struct SceneConfig {
     std::vector<ScatterConfig> scatter = {};
     std::vector<ParticlesConfig> particles = {};
     std::optional<WaterSurfaceConfig> water_surface = {};
-    MissionPlace place = {};
+    SourceLocation place = {};
 
     bool operator==(const SceneConfig&) const = default;
 };

@@ -10,9 +10,8 @@
 #include "mission/output_schema.h"
 #include "mission/scene_schema.h"
 #include "mission/sonar_schema.h"
-#include "mission/sound_profile_schema.h"
-#include "mission/trajectory_schema.h"
-#include "mission/variation_schema.h"
+#include "mission/trajectory_keys.h"
+#include "mission/variation_keys.h"
 
 // The keys of a mission, each written once. A visitor gets every key with its value, its limits,
 // its meaning and its checks. The MissionReader fills the value from YAML, the MissionWriter turns
@@ -52,10 +51,28 @@ void describe(Visitor& v, WaterLayerConfig& c) {
              required);
 }
 
+inline constexpr std::array named_profiles{
+    Choice<NamedProfile>{"none", NamedProfile::none},
+    Choice<NamedProfile>{"isothermal", NamedProfile::isothermal},
+    Choice<NamedProfile>{"mixed_layer", NamedProfile::mixed_layer},
+    Choice<NamedProfile>{"summer", NamedProfile::summer}};
+
+template <class Visitor>
+void describe(Visitor& v, SoundProfileConfig& c) {
+    v.choice("named", c.named, named_profiles,
+             "a profile that is made from temperatures and water.salinity_psu: `isothermal` is "
+             "water of water.temperature_c at all depths; `mixed_layer` has it down to 50 m and "
+             "cools by 6 degrees down to 100 m, but not below 0; `summer` has 20 degrees down to 8 "
+             "m and 8 degrees below 30 m");
+    v.path("file", c.file, "CSV with the columns depth_m and sound_speed_m_s, in rising depth");
+    v.require((c.named != NamedProfile::none) != !c.file.empty(), {"named", "file"},
+              "a profile of sound speed needs exactly one of 'named' and 'file'");
+}
+
 template <class Visitor>
 void describe(Visitor& v, WaterConfig& c) {
     v.number("density_kg_m3", c.density_kg_m3, between(900, 1300), "density of the water");
-    v.number("sound_speed_m_s", c.sound_speed_m_s, between(1000, 2000),
+    v.number("sound_speed_m_s", c.sound_speed_m_s, sound_speeds_m_s,
              "speed of sound in the water; `auto` computes it from temperature, salinity "
              "and depth by Mackenzie's formula",
              or_auto);
@@ -80,11 +97,6 @@ void describe(Visitor& v, WaterConfig& c) {
     v.section("profile", c.profile,
               "speed of sound by depth below scene.water_surface: sound bends, and a "
               "range is half of sound_speed_m_s times the time");
-    v.section("assumed_profile", c.assumed_profile,
-              "the profile that profiling sonars believe in when they make soundings; "
-              "default: sound_speed_m_s at all depths");
-    v.require(!c.assumed_profile || c.profile, {"assumed_profile", "profile"},
-              "assumed_profile needs the true 'profile'");
 }
 
 template <class Visitor>
@@ -99,14 +111,6 @@ void describe(Visitor& v, OctreeConfig& c) {
     // Leaves below a millimetre are finer than any sonar's bins.
     v.number("leaf_m", c.leaf_m, between(1e-3, 1e3),
              "edge of the octree's leaves; the octree is the paper's, a baseline");
-}
-
-template <class Visitor>
-void describe(Visitor& v, SlicesConfig& c) {
-    v.number(
-        "per_beam", c.per_beam, between(0, 64),
-        "slices per beam, one of them on its border; 0 derives the number from "
-        "accuracy.relative_l1. Wide beams, the sides of a side-scan sonar and cones have more");
 }
 
 template <class Visitor>
@@ -166,13 +170,13 @@ void describe(Visitor& v, Mission& c) {
         "scene.particles and scene.water_surface.scatters need straight paths of sound: leave "
         "out water.profile or these keys");
     v.section("accuracy", c.accuracy, "error goal of the images");
-    v.choice("engine", c.engine, engine_kinds,
-             "method that finds the visible surface. `auto` takes the slices; it takes the rays "
-             "for a sonar with multipath or more than 90 degrees of elevation, for side-scan sonars "
-             "and cones of the calibrated model, where objects move or sound bends, and over more "
-             "than half a million triangles");
+    v.choice(
+        "engine", c.engine, engine_kinds,
+        "method that finds the visible surface. `auto` takes the slices; it takes the rays "
+        "for a sonar with multipath or more than 90 degrees of elevation, for side-scan sonars "
+        "and cones of the calibrated model, where objects move or sound bends, and over more "
+        "than half a million triangles");
     v.section("octree", c.octree, "settings of the octree");
-    v.section("slices", c.slices, "settings of the slices");
     v.list_of("classes", c.classes, 0,
               "rules that give nodes of the scene a class, for labels; the first rule that fits a "
               "node applies");

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "mission/place.h"
+#include "mission/source_location.h"
 
 namespace sonarsim {
 
@@ -64,7 +64,7 @@ struct SeabedConfig {
     double patch_m = 10.0;  ///< size of the patches of sediments
     std::optional<BedRockConfig> rocks;
     std::filesystem::path preset;  ///< empty after reading: its keys are filled in
-    MissionPlace place;
+    SourceLocation place;
 
     bool operator==(const SeabedConfig&) const = default;
 };

@@ -9,63 +9,23 @@
 #include <variant>
 #include <vector>
 
-#include "mission/limits.h"
+#include "mission/key_visitor.h"
 #include "mission/sonar_keys.h"
-#include "mission/value_text.h"
 
 namespace sonarsim {
 
 /// The visitor that writes a mission as YAML, with all values. It checks nothing.
-class MissionWriter {
+class MissionWriter : public KeyVisitor<MissionWriter> {
   public:
     explicit MissionWriter(SonarKeyTable sonars) : sonars_(sonars) {}
 
     const std::string& yaml() const { return yaml_; }
 
-    template <class T>
-    void number(const char* key, const T& value, const Limits&, const char* /*meaning*/,
-                Presence presence = Presence::optional) {
-        write(key, presence == or_auto && value == T{} ? "auto" : yaml_text(value));
-    }
-
-    void flag(const char* key, bool value, const char* /*meaning*/) {
-        write(key, yaml_text(value));
-    }
-
-    template <class T>
-    void text(const char* key, const T& value, const char* /*meaning*/,
-              Presence = Presence::optional) {
-        write(key, yaml_text(value));
-    }
-
-    template <class T>
-    void path(const char* key, const T& value, const char* /*meaning*/,
-              Presence = Presence::optional) {
-        write(key, yaml_text(value));
-    }
-
-    template <class T>
-    void array(const char* key, const T& values, const Limits&, const char* /*meaning*/,
-               Presence = Presence::optional) {
-        write(key, yaml_text(values));
-    }
-
-    template <class T, std::size_t N>
-    void choice(const char* key, const T& value, const std::array<Choice<T>, N>& choices,
-                const char* /*meaning*/, Presence = Presence::optional) {
-        write(key, std::ranges::find(choices, value, &Choice<T>::value)->name);
-    }
-
-    template <class T, std::size_t N>
-    void subset(const char* key, const std::vector<T>& values,
-                const std::array<Choice<T>, N>& choices, const char* /*meaning*/) {
-        std::vector<Choice<T>> chosen;
-        std::ranges::copy_if(choices, std::back_inserter(chosen), [&](const Choice<T>& one) {
-            return std::ranges::find(values, one.value) != values.end();
-        });
-        write(key, chosen.empty() ? "false" : yaml_list(chosen, [](const auto& one) {
-                  return std::string(one.name);
-              }));
+    template <class T, class Type>
+    void value(const char* key, const T& value, const Type& type, const char* /*meaning*/,
+               Presence) {
+        const std::string text = type.yaml(value);
+        if (!text.empty()) line(key, text);
     }
 
     template <class T>
@@ -114,10 +74,6 @@ class MissionWriter {
     void require(bool, std::initializer_list<const char*>, const char*) const {}
 
   private:
-    void write(const char* key, const std::string& value) {
-        if (!value.empty()) line(key, value);
-    }
-
     void line(std::string_view key, std::string_view value) {
         yaml_.append(item_ ? indent_ - 2 : indent_, ' ');
         if (item_) yaml_ += "- ";

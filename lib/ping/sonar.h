@@ -23,9 +23,8 @@ struct Sonar {
     /// The angles of a head that turns from ping to ping about the sensor's z axis, positive to
     /// port; they repeat. Empty for a fixed sonar.
     std::vector<double> head_angles_rad;
-    // For soundings, where sound bends: the profile of the water. Null: sound goes straight.
-    std::shared_ptr<const SoundProfile> true_profile;
-    std::shared_ptr<const SoundProfile> assumed_profile;  ///< the profile the instrument assumes
+    /// The profile of the water, for soundings; null: sound goes straight.
+    std::shared_ptr<const SoundProfile> sound_profile;
     /// Its motion during a ping, by pose of the trajectory; null: it stands still.
     std::shared_ptr<const std::vector<PingMotion>> motions;
 };

@@ -73,8 +73,7 @@ std::vector<Sounding> find_soundings(const Sonar& sonar, const Pose& T_world_veh
                                      const Ping& ping, const PingMotion& motion) {
     const Pose T_world_sensor = T_world_vehicle * sonar.T_vehicle_sensor;
     const ViewShape shape = sonar.settings.view.shape;
-    const TruePlaces reported{T_world_sensor, sonar.assumed_profile.get(), motion, shape};
-    const TruePlaces true_places{T_world_sensor, sonar.true_profile.get(), motion, shape};
+    const TruePlaces places{T_world_sensor, sonar.sound_profile.get(), motion, shape};
     const std::span<const float> growth = sonar.settings.model->info.noise_growth;
     const std::span<const float> noise = sonar.settings.model->info.mean_noise;
     std::vector<Sounding> soundings(ping.beams);
@@ -86,11 +85,7 @@ std::vector<Sounding> find_soundings(const Sonar& sonar, const Pose& T_world_veh
         soundings[j] = sounding_of_beam(sonar, beam);
         if (std::isnan(soundings[j].range_m)) continue;
         const double azimuth = sonar.beam_azimuths_rad[j];
-        const double range = soundings[j].range_m;
-        soundings[j].position = reported.of(on_axis(motion, shape, azimuth, range));
-        if (sonar.true_profile) {
-            soundings[j].true_position = true_places.of(on_axis(motion, shape, azimuth, range));
-        }
+        soundings[j].position = places.of(on_axis(motion, shape, azimuth, soundings[j].range_m));
     }
     return soundings;
 }

@@ -5,10 +5,9 @@
 
 namespace sonarsim {
 
-/// The settings of a mission's `engine`, `octree` and `slices` keys. For `auto` see also
-/// assembly/engine_probes.h.
-EngineSettings engine_settings(EngineKind kind, const OctreeConfig& octree = {},
-                               const SlicesConfig& slices = {});
+/// The settings of a mission's `engine` and `octree` keys. For `auto` see also
+/// assembly/engines.h.
+EngineSettings engine_settings(EngineKind kind, const OctreeConfig& octree = {});
 EngineSettings engine_settings(const Mission& mission);
 
 }  // namespace sonarsim

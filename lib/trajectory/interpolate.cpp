@@ -55,9 +55,6 @@ TimedPose interpolate(const Trajectory& trajectory, double t_s) {
 
 Trajectory resample(const Trajectory& trajectory, double rate_hz) {
     require_poses(trajectory);
-    if (!(rate_hz > 0.0) || !std::isfinite(rate_hz)) {
-        throw InputError("rate_hz must be a number above 0, not " + number_text(rate_hz));
-    }
     const double first = trajectory.front().t_s;
     const double last = trajectory.back().t_s;
     const double rounding =

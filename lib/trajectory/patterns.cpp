@@ -9,7 +9,6 @@
 
 #include "core/elementary.h"
 #include "core/error.h"
-#include "core/input_limits.h"
 #include "core/text.h"
 #include "core/units.h"
 #include "trajectory/interpolate.h"
@@ -19,17 +18,6 @@ namespace sonarsim {
 namespace {
 
 constexpr int most_lines = 100'000;
-
-void require_positive(const char* name, double value) {
-    if (value > 0.0 && std::isfinite(value)) return;
-    throw InputError(std::string(name) + " must be a number above 0, not " + number_text(value));
-}
-
-void require_within(const char* name, double value, double limit) {
-    if (std::fabs(value) <= limit) return;
-    throw InputError(std::string(name) + " must be between " + number_text(-limit) + " and " +
-                     number_text(limit) + ", not " + number_text(value));
-}
 
 /// The corners of the survey's rectangle, in order: x along the heading, y to port.
 std::array<Eigen::Vector2d, 4> corners_along(const Lawnmower& survey, const SinCos& heading) {
@@ -68,42 +56,20 @@ Interval reach_in_strip(const std::array<Eigen::Vector2d, 4>& corners, const Int
     return reach;
 }
 
-void check(const Lawnmower& survey) {
-    for (const double coordinate : survey.area_min_m) {
-        require_within("area_min_m", coordinate, furthest_m);
-    }
-    for (const double coordinate : survey.area_max_m) {
-        require_within("area_max_m", coordinate, furthest_m);
-    }
-    require_within("z_m", survey.z_m, furthest_m);
-    require_within("heading_deg", survey.heading_deg, 360.0);
-    require_positive("line_spacing_m", survey.line_spacing_m);
-    if (!(survey.area_min_m.array() < survey.area_max_m.array()).all()) {
-        throw InputError("area_max_m must be greater than area_min_m in x and in y");
-    }
-}
-
 }  // namespace
 
 Trajectory follow_waypoints(std::span<const Waypoint> waypoints, double speed_m_s, double rate_hz) {
-    require_positive("speed_m_s", speed_m_s);
     Trajectory knots;
     knots.reserve(waypoints.size());
     for (const Waypoint& waypoint : waypoints) {
-        const std::string number = std::to_string(knots.size() + 1);
-        for (const double coordinate : waypoint.position_m) {
-            require_within(("position_m of waypoint " + number).c_str(), coordinate, furthest_m);
-        }
-        if (!(std::fabs(waypoint.attitude.norm() - 1.0) < 1e-3)) {
-            throw InputError("the attitude of waypoint " + number + " is not a unit quaternion");
-        }
         double t_s = 0.0;
         if (!knots.empty()) {
             const TimedPose& last = knots.back();
             const double length = (waypoint.position_m - last.T_world_vehicle.translation).norm();
             t_s = last.t_s + length / speed_m_s;
             if (!(t_s > last.t_s)) {
-                throw InputError("waypoint " + number + " has the position of the one before: " +
+                throw InputError("waypoint " + std::to_string(knots.size() + 1) +
+                                 " has the position of the one before: " +
                                  "a leg needs a length (turn along a leg, not on the spot)");
             }
         }
@@ -113,7 +79,6 @@ Trajectory follow_waypoints(std::span<const Waypoint> waypoints, double speed_m_
 }
 
 Trajectory lawnmower(const Lawnmower& survey) {
-    check(survey);
     const double yaw = radians(survey.heading_deg);
     const SinCos heading = sincos(yaw);
     const auto corners = corners_along(survey, heading);

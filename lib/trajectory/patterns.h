@@ -15,8 +15,7 @@ struct Waypoint {
 /// rate_hz s. The attitude turns from one waypoint's to the next one's along the whole leg; a
 /// waypoint in between decides the direction of a half turn. One waypoint gives one pose.
 /// InputError for a leg without length, which has no speed (move the waypoint, or turn along a
-/// leg), for no waypoint, a coordinate that is not finite or beyond 1e8 m, an attitude that is not
-/// a unit quaternion, a speed that is not positive, and for what resample() refuses.
+/// leg), and for what resample() refuses.
 Trajectory follow_waypoints(std::span<const Waypoint> waypoints, double speed_m_s, double rate_hz);
 
 /// A survey in parallel lines. The defaults are the mission's.
@@ -35,8 +34,8 @@ struct Lawnmower {
 /// line runs along the middle of each strip, bow ahead, over the part of the strip that meets the
 /// rectangle. The first line is the furthest to starboard; each next line lies to port of the one
 /// before. At the end of a line the vehicle moves straight to the start of the next while it turns
-/// through the port side of the first line's heading. InputError if the rectangle has no area, a
-/// number is out of its domain, or there are more than 100,000 lines or more poses than most_poses.
+/// through the port side of the first line's heading. InputError if there are more than 100,000
+/// lines or more poses than most_poses.
 Trajectory lawnmower(const Lawnmower& survey);
 
 }  // namespace sonarsim

@@ -17,7 +17,6 @@ constexpr std::uint32_t cosines = 64;
 struct Cosine {
     double rad_per_s;
     double phase;
-    double amplitude;
 };
 
 std::vector<Cosine> draw_cosines(std::uint32_t movement, const WaveMotion& motion,
@@ -31,9 +30,7 @@ std::vector<Cosine> draw_cosines(std::uint32_t movement, const WaveMotion& motio
             std::clamp((k + unit_double(words.x0, words.x1)) / cosines, 1e-9, 1.0 - 1e-9);
         const double peak_ratio = std::sqrt(std::sqrt(1.25 / -logarithm(share)));
         const double rad_per_s = 2.0 * pi * peak_ratio / motion.period_s;
-        const double late = rad_per_s * motion.lag_s;
-        out.push_back({rad_per_s, 2.0 * pi * unit_double(words.x2, words.x3) - arctan2(late, 1.0),
-                       1.0 / std::sqrt(1.0 + late * late)});
+        out.push_back({rad_per_s, 2.0 * pi * unit_double(words.x2, words.x3)});
     }
     return out;
 }
@@ -41,7 +38,7 @@ std::vector<Cosine> draw_cosines(std::uint32_t movement, const WaveMotion& motio
 double sum_at(const std::vector<Cosine>& spectrum, double t_s) {
     double sum = 0.0;
     for (const Cosine& one : spectrum)
-        sum += one.amplitude * sincos(one.rad_per_s * t_s + one.phase).cos;
+        sum += sincos(one.rad_per_s * t_s + one.phase).cos;
     return sum * std::sqrt(2.0 / cosines);
 }
 

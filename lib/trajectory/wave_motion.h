@@ -12,9 +12,6 @@ struct WaveMotion {
     std::array<double, 3> position_m{};  ///< surge (ahead), sway (to port), heave (up)
     std::array<double, 3> turn_rad{};    ///< roll, pitch, yaw
     double period_s = 8.0;               ///< at the spectrum's peak
-    /// Time constant T with which a towed vehicle x follows the towing one y, T dx/dt = y - x. A
-    /// cosine of frequency w is reduced by sqrt(1 + (w T)^2) and delayed by the phase atan(w T).
-    double lag_s = 0.0;
 
     bool is_on() const;
 };

@@ -152,8 +152,6 @@ double rounded(double share) {
 /// The key that lowers the error, as the imperative of a sentence.
 std::string cure_of(const Mission& mission, const PingError& worst) {
     if (mission.engine == EngineKind::octree) return "use engine: auto";
-    if (mission.engine == EngineKind::slices && mission.slices.per_beam > 0)
-        return "leave slices.per_beam out";
     // Errors fall about as fast as the goal.
     const double goal = mission.accuracy.relative_l1;
     const double lower = goal * goal / worst.without_noise();

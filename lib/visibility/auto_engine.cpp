@@ -17,14 +17,11 @@ constexpr int density_over_many_triangles = 4;
 /// Rays for the views that need them; slices, or dense rays over many triangles, for others.
 class AutoEngine final : public VisibilityEngine {
   public:
-    AutoEngine(const Scene& scene, const Caster& caster, const SlicesOptions& options,
-               std::span<const Probe> probes)
+    AutoEngine(const Scene& scene, const Caster& caster, std::vector<View> by_rays)
         : is_large_(scene.triangles.size() > many_triangles),
-          others_(make_others(scene, caster, options)),
-          rays_(make_rays_engine(scene, caster)) {
-        for (const Probe& probe : probes)
-            if (probe.rays.goal > 0.0) by_rays_.push_back(probe.view);
-    }
+          others_(make_others(scene, caster)),
+          rays_(make_rays_engine(scene, caster)),
+          by_rays_(std::move(by_rays)) {}
 
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
         const bool by_rays =
@@ -38,10 +35,9 @@ class AutoEngine final : public VisibilityEngine {
     }
 
   private:
-    static std::unique_ptr<VisibilityEngine> make_others(const Scene& scene, const Caster& caster,
-                                                         const SlicesOptions& options) {
+    static std::unique_ptr<VisibilityEngine> make_others(const Scene& scene, const Caster& caster) {
         const std::size_t triangles = scene.triangles.size();
-        if (triangles <= slices_triangles_max) return make_slices_engine(scene, caster, options);
+        if (triangles <= slices_triangles_max) return make_slices_engine(scene, caster, {});
         return make_rays_engine(scene, caster,
                                 triangles > many_triangles ? density_over_many_triangles : 1);
     }
@@ -54,10 +50,9 @@ class AutoEngine final : public VisibilityEngine {
 }  // namespace
 
 std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const Caster& caster,
-                                                   const SlicesOptions& slices,
-                                                   std::span<const Probe> probes) {
+                                                   std::vector<View> by_rays) {
     if (!scene.bodies.empty() || !scene.copies.empty()) return make_rays_engine(scene, caster);
-    return std::make_unique<AutoEngine>(scene, caster, slices, probes);
+    return std::make_unique<AutoEngine>(scene, caster, std::move(by_rays));
 }
 
 }  // namespace sonarsim

@@ -2,12 +2,11 @@
 
 #include <cstddef>
 #include <memory>
-#include <span>
+#include <vector>
 
 #include "scene/scene.h"
 #include "visibility/caster.h"
 #include "visibility/engine.h"
-#include "visibility/probe.h"
 #include "visibility/slices/slices_engine.h"
 
 namespace sonarsim {
@@ -21,10 +20,9 @@ constexpr std::size_t many_triangles = std::size_t{1} << 21;
 constexpr std::size_t slices_triangles_max = std::size_t{1} << 19;
 
 /// Traces each view by slices or by rays. Rays: scenes with bodies or copies, scenes of many
-/// triangles, and views for which one of `probes` requires rays. `scene` must outlive the engine.
-/// Throws std::runtime_error when Embree cannot build its tree.
+/// triangles, and the views `by_rays`. `scene` must outlive the engine. Throws std::runtime_error
+/// when Embree cannot build its tree.
 std::unique_ptr<VisibilityEngine> make_auto_engine(const Scene& scene, const Caster& caster,
-                                                   const SlicesOptions& slices,
-                                                   std::span<const Probe> probes);
+                                                   std::vector<View> by_rays);
 
 }  // namespace sonarsim

@@ -15,28 +15,23 @@ constexpr double least_error_in_cones = 0.01;
 std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSettings& settings) {
     if (settings.type == EngineKind::octree) return make_octree_engine(scene, settings.octree);
     const Caster caster = settings.caster ? *settings.caster : Caster(scene);
-    if (settings.type == EngineKind::slices)
-        return make_slices_engine(scene, caster, settings.slices);
-    if (settings.type == EngineKind::automatic && !scene.sound_profile) {
-        return make_auto_engine(scene, caster, settings.slices, settings.probes);
-    }
+    if (settings.type == EngineKind::slices) return make_slices_engine(scene, caster, {});
+    if (settings.type == EngineKind::automatic && !scene.sound_profile)
+        return make_auto_engine(scene, caster, settings.by_rays);
     return make_rays_engine(scene, caster);
 }
 
 std::string unsupported(const EngineSettings& settings, const Scene& scene) {
     const bool is_octree = settings.type == EngineKind::octree;
-    if (scene.sound_profile && (is_octree || settings.type == EngineKind::slices)) {
-        return std::string(is_octree ? "engine: octree" : "engine: slices") +
-               " needs straight paths of sound, and water.profile bends them; use engine: auto or "
-               "engine: rays";
-    }
-    if (!scene.bodies.empty() && (is_octree || settings.type == EngineKind::slices)) {
-        return std::string(is_octree ? "engine: octree" : "engine: slices") +
-               " does not support moving objects; use engine: auto or engine: rays";
-    }
-    if (!scene.copies.empty() && (is_octree || settings.type == EngineKind::slices)) {
-        return std::string(is_octree ? "engine: octree" : "engine: slices") +
-               " does not support copies of shared meshes; use engine: auto or engine: rays";
+    const std::string engine = is_octree ? "engine: octree" : "engine: slices";
+    const std::string instead = "; use engine: auto or engine: rays";
+    if (is_octree || settings.type == EngineKind::slices) {
+        if (scene.sound_profile)
+            return engine + " needs straight paths of sound, and water.profile bends them" +
+                   instead;
+        if (!scene.bodies.empty()) return engine + " does not support moving objects" + instead;
+        if (!scene.copies.empty())
+            return engine + " does not support copies of shared meshes" + instead;
     }
     if (!is_octree) return "";
     return too_small_leaves((scene.bounds_max - scene.bounds_min).maxCoeff(),

@@ -16,10 +16,8 @@ namespace sonarsim {
 
 struct EngineSettings {
     EngineKind type = EngineKind::rays;
-    OctreeOptions octree;       ///< for the octree only
-    SlicesOptions slices = {};  ///< for the slices only
-    /// For `automatic` only. Without probes it takes the slices, unless the scene requires rays.
-    std::vector<Probe> probes = {};
+    OctreeOptions octree;            ///< for the octree only
+    std::vector<View> by_rays = {};  ///< for `automatic` only: the views that rays trace
     /// A caster over the scene, whose trees the rays and the slices then use; null: they make one.
     std::shared_ptr<const Caster> caster = {};
 };

@@ -194,8 +194,7 @@ TEST_SUITE("assembly") {
         const auto profile = [](double speed_m_s) {
             return std::make_shared<const SoundProfile>(SoundProfile{{-5.0}, {speed_m_s}, 1500.0});
         };
-        CHECK(changed([&](Assembly& a) { a.sonars[0].true_profile = profile(1480.0); }));
-        CHECK(changed([&](Assembly& a) { a.sonars[0].assumed_profile = profile(1480.0); }));
+        CHECK(changed([&](Assembly& a) { a.sonars[0].sound_profile = profile(1480.0); }));
         CHECK(changed([](Assembly& a) { a.trajectory.pop_back(); }));
     }
 }

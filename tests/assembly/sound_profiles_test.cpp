@@ -23,7 +23,7 @@ Mission watery(const SoundProfileConfig& profile) {
 }
 
 SoundProfile profile_of(const SoundProfileConfig& config) {
-    return sound_profile(config, watery(config));
+    return sound_profile(watery(config));
 }
 
 SoundProfileConfig named(NamedProfile name) {
@@ -77,7 +77,7 @@ TEST_SUITE("assembly") {
         Mission mission = watery(named(NamedProfile::mixed_layer));
         const auto speed_at_100_m = [&](double celsius) {
             mission.water.temperature_c = celsius;
-            return sound_profile(*mission.water.profile, mission).speed_at(-97.0);
+            return sound_profile(mission).speed_at(-97.0);
         };
         CHECK(speed_at_100_m(4.0) == test::approx(1450.592).epsilon(1e-6));
         CHECK(speed_at_100_m(-2.0) == test::approx(1441.196).epsilon(1e-6));

@@ -213,9 +213,6 @@ TEST_CASE("a goal is met at the worst pose, or missed") {
     row.worst_relative_l1 = 0.031;
     CHECK(std::string(row.goal()) == "missed");
     row.setting.kind = EngineKind::slices;
-    row.setting.slices.per_beam = 2;
-    CHECK(std::string(row.goal()) == "-");
-    row.setting.slices.per_beam = 0;
     CHECK(std::string(row.goal()) == "missed");
     row.setting.kind = EngineKind::octree;
     CHECK(std::string(row.goal()) == "-");

@@ -57,7 +57,7 @@ TEST_SUITE("calibrated") {
             config.range_bins = 230;
             config.elevation_deg = 6.0;
             const Sonar sonar = make_sonar(config, {0.03});
-            CHECK(sonar.settings.model->info.ray_columns == 4);
+            CHECK(sonar.settings.model->info.needs_rays);
             const Caster caster(scene);
             Pose pose;
             pose.translation = {unit(random) - 0.5, unit(random) - 0.5, 0.3 * unit(random)};

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "mission/sound_speed.h"
+#include "mission/water.h"
 
 using namespace sonarsim;
 

@@ -171,7 +171,7 @@ class RandomSignals(Faults):
                 early = {-number} if after == before else set()
                 self.assertIn(process.returncode, codes[number] | {0} | early, stderr)
                 if process.returncode > 0:
-                    self.assertIn("run again", stderr)
+                    self.assertIn("same command again", stderr)
                 if process.returncode >= 0:
                     self.assertEqual(self.is_complete(), process.returncode == 0)
                 # What a kill left stays until a run gets as far as to tidy up.

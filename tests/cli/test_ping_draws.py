@@ -100,7 +100,7 @@ class PingDraws(Sandbox):
                 ("sensors.fls.noise.add_sigma", "sensors.sss.noise.add_sigma",
                  ("mission.yaml:25:5", "cannot be drawn for every ping")),
                 ("log_uniform: [0.001, 0.2]", "uniform: [-0.1, 0.2]",
-                 ("mission.yaml:25:5", "'add_sigma' must be at least 0")),
+                 ("mission.yaml:25:5", "'sensors.fls.noise.add_sigma' must be at least 0, not -0.1")),
                 ("within: [-6, 6]", "within: [40, 41]",
                  ("mission.yaml:26:5", "less than 5 % of the normal draws", "make it wider")),
                 ("within: [-6, 6], ", "",

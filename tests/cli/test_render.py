@@ -212,7 +212,7 @@ class Interrupted(Sandbox):
             with self.subTest(signal=number):
                 returned, stderr = self.interrupt(number)
                 self.assertEqual(returned, code, stderr)
-                self.assertIn("run again", stderr, "the message says how to go on")
+                self.assertIn("same command again", stderr, "the message says how to go on")
                 self.assertIs(self.dataset()["complete"], False)
                 self.check_files()
         self.assert_renders()

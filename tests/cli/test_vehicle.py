@@ -9,7 +9,7 @@ vehicle:
   motion: {position_m: [0, 0, 0.2], turn_deg: [3, 2, 1], period_s: 4}
 """
 NAVIGATION = """\
-  navigation: {position_m: 0.5, heading_bias_deg: 2}
+  navigation: {position_m: 0.5, heading_deg: 2}
 """
 
 

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "assembly/engine_probes.h"
+#include "assembly/engines.h"
 #include "core/file.h"
 #include "dataset/labelled_ping.h"
 #include "format/npy.h"

@@ -56,7 +56,7 @@ TEST_SUITE("job") {
         CHECK(run(mission, 2, false).complete);
     }
 
-    TEST_CASE("folder: what is no dataset is never overwritten, asked or not") {
+    TEST_CASE("folder: what is not a dataset is never overwritten, asked or not") {
         const TemporaryFolder temporary;
         const Mission mission = small_mission(temporary.path / "out");
         fs::create_directory(mission.output.folder);

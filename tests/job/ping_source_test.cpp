@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "assembly/engine_probes.h"
+#include "assembly/engines.h"
 #include "core/file.h"
 #include "dataset/encode_ping.h"
 #include "dataset/layout.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "assembly/engine_probes.h"
+#include "assembly/engines.h"
 #include "core/file.h"
 #include "dataset/metadata.h"
 #include "job/small_job.h"

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "assembly/engine_probes.h"
+#include "assembly/engines.h"
 #include "core/csv.h"
 #include "core/file.h"
 #include "dataset/averaged_rows.h"

@@ -12,8 +12,7 @@ TEST_CASE("an unknown key is refused with the key that is near, or with all that
     CHECK(refusal(smallest_mission + "water: {colour: 35}\n") ==
           "m.yaml:6:9: unknown key 'colour'; known here: density_kg_m3, sound_speed_m_s, "
           "temperature_c, salinity_psu, depth_m, wind_m_s, content, scattering_db_per_m3, "
-          "layers, profile, "
-          "assumed_profile");
+          "layers, profile");
     CHECK(refusal(smallest_mission + "    noise:\n      add_sigm: 0.1\n") ==
           "m.yaml:7:7: unknown key 'add_sigm' (did you mean 'add_sigma'?)");
     CHECK(
@@ -80,24 +79,6 @@ TEST_CASE("each kind of sonar has defaults and keys of its own") {
           std::string::npos);
     CHECK(refusal(before + "sidescan, noise: {range_lambda_m: 0.1}}}\n").find("no range noise") !=
           std::string::npos);
-}
-
-TEST_CASE("multipath and streaks") {
-    const Mission mission =
-        parse(smallest_mission +
-              "    multipath: {method: cluster, epsilon_bins: 3, delta_deg: 30}\n"
-              "    streaks: {mode: reduce, threshold: 0.2, angle_deg: 5}\n");
-    CHECK(mission.sensors[0].multipath == MultipathConfig{MultipathMethod::cluster, 3, 30.0});
-    CHECK(mission.sensors[0].streaks == StreaksConfig{StreakMode::reduce, 0.2, 5.0});
-    CHECK(refusal(smallest_mission + "    multipath: {method: clusters}\n") ==
-          "m.yaml:6:25: unknown method 'clusters' (did you mean 'cluster'?); known: none, cluster, "
-          "exact");
-    CHECK(refusal(smallest_mission + "    streaks: {mode: subtract}\n") ==
-          "m.yaml:6:21: unknown mode 'subtract'; known: none, add, reduce");
-    CHECK(refusal(smallest_mission + "    multipath: {epsilon_bins: -1}\n")
-              .starts_with("m.yaml:6:31: 'epsilon_bins' must be"));
-    CHECK(refusal(smallest_mission + "    streaks: {threshold: 8}\n")
-              .starts_with("m.yaml:6:26: 'threshold' must be"));
 }
 
 TEST_CASE("the engine and its octree") {

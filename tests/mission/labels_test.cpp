@@ -26,9 +26,17 @@ TEST_CASE("keys and labels that are gone say what to do instead") {
     CHECK(refusal(smallest_mission + "output: {split: {train: 0.8, val: 0.2}}\n") ==
           "m.yaml:6:10: 'split' is no longer there; give the shares to the export: sonarsim export "
           "--split");
-    CHECK(refusal(smallest_mission + "labels: {min_pixels: 4}\n") ==
-          "m.yaml:6:10: 'min_pixels' is no longer there; give it to the export: sonarsim export "
-          "--min-pixels");
+    CHECK(refusal(smallest_mission + "water: {assumed_profile: {named: summer}}\n") ==
+          "m.yaml:6:9: 'assumed_profile' is no longer there; soundings use water.profile; leave it "
+          "out");
+    CHECK(
+        refusal(smallest_mission + "slices: {per_beam: 2}\n") ==
+        "m.yaml:6:1: 'slices' is no longer there; leave it out: the number of slices follows from "
+        "accuracy.relative_l1");
+    CHECK(refusal(smallest_mission + "vehicle: {motion: {lag_s: 2}}\n")
+              .starts_with("m.yaml:6:20: 'lag_s' is no longer there"));
+    CHECK(refusal(smallest_mission + "vehicle: {navigation: {speed_scale: 0.1}}\n")
+              .starts_with("m.yaml:6:24: 'speed_scale' is no longer there"));
     CHECK(
         refusal(smallest_mission + "output: {labels: [instance, coco]}\n") ==
         "m.yaml:6:29: 'coco' is no longer there; write labels: [objects], then run sonarsim export "

@@ -26,77 +26,6 @@ TEST_CASE("what a mission leaves out takes the defaults of the structs") {
     CHECK(mission.sensors == std::vector{sonar});
 }
 
-TEST_CASE("every key arrives where it belongs") {
-    const Mission mission = parse(R"(
-name: all keys
-seed: 18446744073709551615
-water: {density_kg_m3: 1025, sound_speed_m_s: 1500.5}
-scene: {file: ../s/a.glb, materials: /abs/../m.csv}
-trajectory:
-  lawnmower:
-    area_min_m: [-1, -2.5]
-    area_max_m: [1e1, +3]
-    z_m: -4
-    heading_deg: 90
-    line_spacing_m: 2
-    speed_m_s: 0.5
-    rate_hz: 20
-sensors:
-  port-1:
-    kind: imaging
-    mount: {translation_m: [1, 2, 3], rpy_deg: [-4, 5, 6]}
-    every: 3
-    azimuth_deg: 60
-    elevation_deg: 12
-    range_min_m: 0.5
-    range_max_m: 8
-    range_bins: 100
-    azimuth_bins: 50
-    noise:
-      range_lambda_m: 0.04
-      scatterer_m: 0.01
-      add_sigma: 0.08
-      mult_sigma: 0.15
-      scale_with_range: false
-      lobe_sigma_deg: 7
-  2:
-    kind: imaging
-accuracy: {relative_l1: 0.1}
-engine: octree
-octree: {leaf_m: 0.05}
-output:
-  folder: ../o
-  polar: false
-  image: false
-  fan: false
-  full_scale: 0.25
-)");
-    CHECK(mission.name == "all keys");
-    CHECK(mission.seed == 18446744073709551615U);
-    CHECK(mission.water == WaterConfig{1025, 1500.5});
-    CHECK(mission.scene == SceneConfig{"/s/a.glb", "/m.csv"});
-    CHECK(std::get<LawnmowerTrajectoryConfig>(mission.trajectory) ==
-          LawnmowerTrajectoryConfig{{-1, -2.5}, {10, 3}, -4, 90, 2, 0.5, 20});
-    REQUIRE(mission.sensors.size() == 2);
-    SonarConfig port;
-    port.name = "port-1";
-    port.mount = {{1, 2, 3}, {-4, 5, 6}};
-    port.every = 3;
-    port.azimuth_deg = 60;
-    port.elevation_deg = 12;
-    port.range_min_m = 0.5;
-    port.range_max_m = 8;
-    port.range_bins = 100;
-    port.azimuth_bins = 50;
-    port.noise = {0.04, 0.01, 0.08, 0.15, false, 7};
-    CHECK(mission.sensors[0] == port);
-    CHECK(mission.sensors[1].name == "2");
-    CHECK(mission.accuracy == AccuracyConfig{0.1});
-    CHECK(mission.engine == EngineKind::octree);
-    CHECK(mission.octree == OctreeConfig{0.05});
-    CHECK(mission.output == OutputConfig{"/o", false, false, false, false, 0.25});
-}
-
 TEST_CASE("waypoints") {
     const std::string rest =
         "scene: {file: a, materials: b}\nsensors: {s: {kind: imaging}}\ntrajectory:\n";
@@ -191,20 +120,6 @@ TEST_CASE("load_mission reads a file and refuses what is none") {
     CHECK_THROWS_AS(load_mission(folder / "missing.yaml", none, sonar_keys()), InputError);
     std::filesystem::remove_all(folder);
     CHECK(refusal(std::string((1U << 20) + 1, '#')) == "m.yaml: is larger than 1 MiB");
-}
-
-TEST_CASE("the example missions are valid") {
-    const std::filesystem::path root = SONARSIM_SOURCE_DIR;
-    const Mission mission = load_mission(root / "configs/tank_imaging.yaml", {}, sonar_keys());
-    CHECK(mission.name == "tank_imaging");
-    CHECK(mission.scene.file == root / "scenes/tank.glb");
-    CHECK(mission.sensors.at(0).range_bins == 512);
-    for (const char* name : {"seafloor_bathymetry", "seafloor_sidescan", "tank_echosounder"}) {
-        const std::filesystem::path file = root / "configs" / (std::string(name) + ".yaml");
-        CHECK(load_mission(file, {}, sonar_keys()).name == name);
-        CHECK(load_mission(file, {}, sonar_keys()).sensors.size() == 1);
-    }
-    CHECK(load_mission(root / "configs/survey.yaml", {}, sonar_keys()).sensors.size() == 4);
 }
 
 TEST_SUITE_END();

@@ -1,7 +1,8 @@
+#include "mission/reference.h"
+
 #include <algorithm>
 
 #include "mission/fixtures.h"
-#include "mission/reference_markdown.h"
 #include "mission/resolved.h"
 #include "sonar/kinds.h"
 

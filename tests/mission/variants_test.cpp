@@ -144,53 +144,6 @@ TEST_CASE("variants are missions with other seeds and values") {
     CHECK(draw({"seed=4"})[1].sensors != four[1].sensors);
 }
 
-// Each key of a group of scene.particles and of scene.water_surface that is a number, a word or a
-// list takes a drawn value.
-TEST_CASE("variants: the keys of targets in the water and of its surface vary") {
-    const test::TemporaryFolder folder;
-    const std::filesystem::path file = folder.path / "m.yaml";
-    const std::string mission =
-        "scene:\n  file: a.glb\n  materials: a.csv\n  water_surface: {height_m: 0}\n"
-        "  particles:\n    - {name: p, kind: points, target_strength_db: -40, count: 7, "
-        "position_m: [1, 2, 3], size_m: [4, 5, 6], drift_m_s: [0, 0, 0]}\n"
-        "    - {name: q, kind: fish, length_m: 0.3, count: 7, position_m: [1, 2, 3]}\n"
-        "    - {name: r, kind: bubbles, radius_m: 0.001, count: 7, position_m: [1, 2, 3], "
-        "size_m: [4, 5, 6]}\n"
-        "trajectory: {file: a.tum}\nsensors:\n  fls: {kind: imaging, model: calibrated}\n"
-        "output: {folder: /out}\nvariants: 3\nvary:\n";
-    const std::vector<std::string> rules{"particles.0.name, choice: [a, b]",
-                                         "particles.0.class, choice: [a, b]",
-                                         "particles.0.target_strength_db, uniform: [-50, -30]",
-                                         "particles.0.count, whole: [1, 1000]",
-                                         "particles.0.region, choice: [box, ellipsoid]",
-                                         "particles.0.position_m.2, uniform: [-9, 9]",
-                                         "particles.0.size_m, choice: [[1, 1, 1], [2, 2, 2]]",
-                                         "particles.0.drift_m_s.0, uniform: [-1, 1]",
-                                         "particles.1.length_m, uniform: [0.1, 0.5]",
-                                         "particles.2.radius_m, log_uniform: [1e-4, 1e-2]",
-                                         "particles.2.rise_m_s, uniform: [0.1, 0.3]",
-                                         "particles, choice: [[]]",
-                                         "water_surface.height_m, uniform: [0, 1]",
-                                         "water_surface.roughness, uniform: [0, 0.5]",
-                                         "water_surface.scatters, choice: [true, false]"};
-    for (const std::string& rule : rules) {
-        CAPTURE(rule);
-        // Three draws of two values are alike for one seed in four.
-        bool varies = false;
-        for (const char* const seed : {"seed=1", "seed=2", "seed=3", "seed=4", "seed=5"}) {
-            write_file(file, mission + "  - {key: scene." + rule + "}\n");
-            const std::vector<std::string> overrides{seed};
-            const Mission base = load_mission(file, overrides, sonar_keys());
-            const std::vector<Mission> all =
-                draw_variants(base, {file, folder.path, overrides}, sonar_keys());
-            REQUIRE(all.size() == 3);
-            for (const Mission& one : all)
-                varies = varies || one.scene != all[0].scene || one.scene != base.scene;
-        }
-        CHECK(varies);
-    }
-}
-
 TEST_SUITE_END();
 
 }  // namespace sonarsim

@@ -257,8 +257,8 @@ class CommandTest(unittest.TestCase):
             (folder / "broken").mkdir()
             (folder / "file").write_text("")
             for arguments, what in (((folder / "1", folder / "2", "--out", out), "holds a comparison already"),
-                                    ((folder / "1", folder / "no"), "is no recording"),
-                                    ((folder / "1", folder / "broken"), "is no recording"),
+                                    ((folder / "1", folder / "no"), "is not a recording"),
+                                    ((folder / "1", folder / "broken"), "is not a recording"),
                                     ((folder / "1", folder / "file"), "needs keys"), ((folder / "1",), "simulated"),
                                     ((folder / "1", folder / "2", "--out", folder / "file" / "a"), "Not a directory"),
                                     ((folder / "1", folder / "2", "--pings", "0"), "is not a number")):

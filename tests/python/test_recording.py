@@ -341,8 +341,8 @@ class RecordingTest(unittest.TestCase):
                 (ARRAYS.replace("1490", ".nan"), "'sound_speed_m_s' must be"), (ARRAYS.replace("law", "# law"), "'law'"),
                 (ARRAYS.replace("pings.npy", "[3]"), "'files' must be"),
                 (ARRAYS.replace("pings.npy", "no.npy"), "cannot be read"),
-                (ARRAYS + "bearings_deg: [1, 2]\nrate_hz: 1\n", "2 bearings for 4 beams"), ("a: [", "is no YAML"),
-                ("[" * 20000, "is no YAML"), ("- 1", "needs keys"), (ARRAYS.replace("0.1\n", "0\n"), "range_step_m"),
+                (ARRAYS + "bearings_deg: [1, 2]\nrate_hz: 1\n", "2 bearings for 4 beams"), ("a: [", "is not YAML"),
+                ("[" * 20000, "is not YAML"), ("- 1", "needs keys"), (ARRAYS.replace("0.1\n", "0\n"), "range_step_m"),
                 ("kind: imaging\nlogs: pings.npy\nsound_speed_m_s: 1\n", "number from 300 to 10000")):
             self.assertIn(what, self.fault(yaml), yaml)
         with self.assertRaisesRegex(RecordingError, "neither recording.yaml"):

@@ -84,25 +84,17 @@ TEST_SUITE("trajectory") {
         CHECK(csv_error("t_s,x_m,y_m,z_m\n") == "p.csv:1: no attitude" + expected);
         CHECK(csv_error("t_s,x_m,y_m,z_m,qx,qy,qz,qw,yaw_deg\n") ==
               "p.csv:1: two attitudes" + expected);
-        // The header comes first: any number of rows could follow it.
-        CHECK(csv_error("t_s,salinity\n1,2,3\n") ==
-              "p.csv:1: unknown column 'salinity'" + expected);
     }
 
     TEST_CASE("CSV rows: numbers that are none, not finite or absurd") {
         CHECK(csv_error(angle_header + "0,0,0,0,0,0,0\n1,0,zero,0,0,0,0\n") ==
               "p.csv:3: y_m: 'zero' is not a number");
-        CHECK(csv_error(angle_header + "0,0,,0,0,0,0\n") == "p.csv:2: y_m: '' is not a number");
         CHECK(csv_error(angle_header + "0,nan,0,0,0,0,0\n") ==
               "p.csv:2: x_m: 'nan' is not a finite number");
-        CHECK(csv_error(angle_header + "-inf,0,0,0,0,0,0\n") ==
-              "p.csv:2: t_s: '-inf' is not a finite number");
         // A frequent mistake: nanoseconds since 1970 in the column of seconds.
         CHECK(csv_error(angle_header + "1700000000000000000,0,0,0,0,0,0\n") ==
               "p.csv:2: t_s: '1700000000000000000' is beyond 1e+12; the column's name gives the "
               "unit");
-        CHECK(csv_error(angle_header + "0,0,-2e8,0,0,0,0\n") ==
-              "p.csv:2: y_m: '-2e8' is beyond 1e+08; the column's name gives the unit");
         CHECK(csv_error(angle_header + "0,1e8,-1e8,0,0,0,0\n") == "no error");
         CHECK(csv_error(angle_header + "0,0,0,0,0,0\n") ==
               "p.csv:2: 6 fields, but the header in line 1 has 7");
@@ -118,10 +110,6 @@ TEST_SUITE("trajectory") {
               "p.csv:2: the quaternion is zero; a rotation has norm 1");
         CHECK(csv_error(quaternion_header + "0,0,0,0,0,0,0,2\n") ==
               "p.csv:2: the quaternion has norm 2; a rotation has norm 1 (1e-3 off is tolerated)");
-        CHECK(csv_error(quaternion_header + "0,0,0,0,0,0,0,1.0011\n").find("norm 1.0011") !=
-              std::string::npos);
-        CHECK(csv_error(quaternion_header + "0,0,0,0,0,0,0,0.9989\n").find("norm 0.9989") !=
-              std::string::npos);
         for (const char* qw : {"1.0009", "0.9991"}) {
             const auto poses =
                 parse_csv_trajectory(quaternion_header + "0,0,0,0,0,0,0," + qw + "\n", "p.csv");
@@ -183,23 +171,11 @@ TEST_SUITE("trajectory") {
         CHECK(write_tum({{0.5, Pose{}}}) == "# t_s x_m y_m z_m qx qy qz qw\n0.5 0 0 0 0 0 0 1\n");
     }
 
-    TEST_CASE("Times far from zero survive the round trip; those of another unit are refused") {
+    TEST_CASE("Times far from zero survive the round trip") {
         for (const double begin : {1.7e9, 1e10, 1e11 + 1.0 / 3.0, 1e12 - 10.0, -1.7e9, -1e12}) {
             const std::vector<TimedPose> poses{{begin, {}}, {begin + 0.1, {}}, {begin + 7.0, {}}};
             check_same(parse_tum(write_tum(poses), "p.tum"), poses);
         }
-        // Milliseconds and nanoseconds since 1970.
-        for (const char* time : {"1.7e12", "1700000000000000000", "-1.1e12"}) {
-            CHECK_THROWS_WITH_AS(parse_tum(std::string(time) + " 0 0 0 0 0 0 1\n", "p.tum"),
-                                 doctest::Contains("is beyond 1e+12"), InputError);
-        }
-    }
-
-    TEST_CASE("A normalised quaternion survives the round trip, too") {
-        const auto poses =
-            parse_csv_trajectory(quaternion_header + "0,0,0,0,0.1826,0.3651,0.5477,0.7303\n", "p");
-        CHECK(std::abs(poses.at(0).T_world_vehicle.rotation.norm() - 1.0) < 1e-15);
-        check_same(parse_tum(write_tum(poses), "p"), poses);
     }
 
     TEST_CASE("The name of the file says what it is") {

@@ -57,50 +57,6 @@ TEST_SUITE("navigation") {
         }
     }
 
-    TEST_CASE("Scale, bias and drift bend a straight run by their closed forms") {
-        constexpr double length_m = 1000.0;
-        constexpr double duration_s = 500.0;
-        const Trajectory truth = straight_run(length_m, duration_s);
-        const auto end_error = [&](const NavigationErrors& errors, std::uint32_t seed) {
-            const Trajectory reported = reported_poses(truth, errors, navigation_key(seed));
-            return Eigen::Vector3d(reported.back().T_world_vehicle.translation -
-                                   truth.back().T_world_vehicle.translation);
-        };
-        // A relative error s of the speed: s L ahead. A bias b: sin(b) L to port. A drift d: the
-        // integral of v d t, d L T / 2.
-        constexpr double small = 1e-3;
-        const double ahead = deviation_of(
-            [&](std::uint32_t seed) { return end_error({.speed_scale = small}, seed).x(); });
-        const double by_bias = deviation_of(
-            [&](std::uint32_t seed) { return end_error({.heading_bias_rad = small}, seed).y(); });
-        const double by_drift = deviation_of([&](std::uint32_t seed) {
-            return end_error({.heading_drift_rad_s = small / duration_s}, seed).y();
-        });
-        CHECK(ahead == test::approx(small * length_m).epsilon(four_errors));
-        CHECK(by_bias == test::approx(small * length_m).epsilon(four_errors));
-        CHECK(by_drift == test::approx(0.5 * small * length_m).epsilon(four_errors));
-    }
-
-    TEST_CASE("A constant bias turns a loop about its start, which it returns to") {
-        Trajectory loop;
-        for (int i = 0; i <= 360; ++i) {
-            const double angle = radians(i);
-            loop.push_back({0.1 * i,
-                            {rotation_from_rpy(0.0, 0.0, angle),
-                             {10.0 * std::sin(angle), -10.0 * std::cos(angle), -3.0}}});
-        }
-        const Trajectory reported =
-            reported_poses(loop, {.heading_bias_rad = 0.2, .speed_scale = 0.1}, navigation_key(4));
-        const Eigen::Vector3d start = loop.front().T_world_vehicle.translation;
-        CHECK((reported.back().T_world_vehicle.translation - start).norm() < 1e-9);
-        const Eigen::Vector3d chord = loop[90].T_world_vehicle.translation - start;
-        const Eigen::Vector3d seen = reported[90].T_world_vehicle.translation - start;
-        CHECK(std::fabs(seen.norm() / chord.norm() - 1.0) > 1e-3);
-        const Rpy turned = rpy_from_rotation(reported[90].T_world_vehicle.rotation);
-        const double bias = std::atan2(seen.y(), seen.x()) - std::atan2(chord.y(), chord.x());
-        CHECK(turned.yaw - radians(90.0) == test::approx(bias));
-    }
-
     TEST_CASE("Errors of single poses have their standard deviations") {
         const Trajectory truth = straight_run(10.0, 10.0);
         const auto last = [&](const NavigationErrors& errors, std::uint32_t seed) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "core/error.h"
@@ -70,34 +69,19 @@ TEST_SUITE("trajectory") {
         CHECK(heading(poses[15]) == test::approx(90));
     }
 
-    TEST_CASE("waypoints: one is one pose; none, none apart and nonsense are errors") {
-        CHECK(follow_waypoints(std::vector<Waypoint>{at(1, 2, 3)}, 1.0, 10.0).size() == 1);
-        CHECK_THROWS_WITH_AS(follow_waypoints({}, 1.0, 10.0),
-                             "a trajectory needs at least one pose", InputError);
+    TEST_CASE("waypoints: a leg without length, and more poses than memory holds") {
         const std::vector<Waypoint> on_the_spot{at(0, 0, 0), at(1, 0, 0), at(1, 0, 0, 90)};
         CHECK_THROWS_WITH_AS(follow_waypoints(on_the_spot, 1.0, 10.0),
                              "waypoint 3 has the position of the one before: a leg needs a length "
                              "(turn along a leg, not on the spot)",
                              InputError);
-
-        const double nan = std::numeric_limits<double>::quiet_NaN();
-        const std::vector<Waypoint> points{at(0, 0, 0), at(1, 0, 0)};
-        for (const double speed : {0.0, -1.0, nan, std::numeric_limits<double>::infinity()}) {
-            CHECK_THROWS_AS(follow_waypoints(points, speed, 10.0), InputError);
-        }
-        CHECK_THROWS_WITH_AS(follow_waypoints(points, -1.0, 10.0),
-                             "speed_m_s must be a number above 0, not -1", InputError);
-        CHECK_THROWS_AS(follow_waypoints(points, 1.0, 0.0), InputError);
-        CHECK_THROWS_WITH_AS(
-            follow_waypoints(std::vector<Waypoint>{at(0, 0, 0), at(0, nan, 0)}, 1.0, 10.0),
-            "position_m of waypoint 2 must be between -1e+08 and 1e+08, not nan", InputError);
-        CHECK_THROWS_WITH_AS(
-            follow_waypoints(std::vector<Waypoint>{{{0, 0, 0}, {2, 0, 0, 0}}}, 1.0, 10.0),
-            "the attitude of waypoint 1 is not a unit quaternion", InputError);
         // A kilometre at a micrometre a second is 1e9 s.
         CHECK_THROWS_AS(
             follow_waypoints(std::vector<Waypoint>{at(0, 0, 0), at(1000, 0, 0)}, 1e-6, 10.0),
             InputError);
+        CHECK_THROWS_WITH_AS(
+            lawnmower(survey(0.0, 1e-9)),
+            "line_spacing_m of 1e-09 gives 2e+10 lines; at most 100000 are allowed", InputError);
     }
 
     TEST_CASE("lawnmower along x: lines, steps, headings and times") {
@@ -134,16 +118,6 @@ TEST_SUITE("trajectory") {
         // lines of 10 m and two steps of 0.7 m take 31.4 s.
         const Lawnmower exact{{0, 0}, {10, 2.1}, 0.0, 0.0, 0.7, 1.0, 10.0};
         CHECK(lawnmower(exact).size() == 315);
-    }
-
-    TEST_CASE("lawnmower along y: the first line lies furthest to starboard") {
-        const Trajectory poses = lawnmower(survey(90.0, 10.0));
-        // Heading +y, starboard is +x: 40 m in four strips, the first at x = 25, from y = 5.
-        CHECK((position(poses.front()) - Vector3d(25, 5, 3)).norm() < 1e-9);
-        CHECK(heading(poses.front()) == test::approx(90));
-        CHECK((position(poses[200]) - Vector3d(25, 25, 3)).norm() < 1e-9);
-        CHECK((position(poses[300]) - Vector3d(15, 25, 3)).norm() < 1e-9);
-        CHECK(std::abs(turn(heading(poses[250]), 180)) < 1e-6);
     }
 
     TEST_CASE("lawnmower: whatever the heading, swaths of the line spacing cover the rectangle" *
@@ -197,36 +171,5 @@ TEST_SUITE("trajectory") {
         const double expected =
             2 * (diagonal / 2) + 2 * diagonal + 2 * std::hypot(step, step) + step;
         CHECK(poses.back().t_s == test::approx(expected).epsilon(1e-3));
-    }
-
-    TEST_CASE("lawnmower refuses what cannot be flown") {
-        const double nan = std::numeric_limits<double>::quiet_NaN();
-        const auto error = [](const Lawnmower& plan) -> std::string {
-            try {
-                lawnmower(plan);
-            } catch (const InputError& refused) {
-                return refused.what();
-            }
-            return "no error";
-        };
-        Lawnmower plan = survey(0.0, 5.0);
-        plan.area_max_m.y() = plan.area_min_m.y();
-        CHECK(error(plan) == "area_max_m must be greater than area_min_m in x and in y");
-        plan.area_max_m.y() = nan;
-        CHECK(error(plan) == "area_max_m must be between -1e+08 and 1e+08, not nan");
-        plan = survey(0.0, 5.0);
-        plan.z_m = nan;
-        CHECK(error(plan) == "z_m must be between -1e+08 and 1e+08, not nan");
-        CHECK(error(survey(361.0, 5.0)) == "heading_deg must be between -360 and 360, not 361");
-        CHECK(error(survey(0.0, 0.0)) == "line_spacing_m must be a number above 0, not 0");
-        CHECK(error(survey(0.0, 1e-9)) ==
-              "line_spacing_m of 1e-09 gives 2e+10 lines; at most 100000 are allowed");
-        plan = survey(0.0, 5.0);
-        plan.speed_m_s = -2.0;
-        CHECK(error(plan) == "speed_m_s must be a number above 0, not -2");
-        plan = survey(0.0, 5.0);
-        plan.rate_hz = 1e5;
-        CHECK(error(plan) ==
-              "rate_hz of 1e+05 gives 17500001 poses over 175 s; at most 10000000 are allowed");
     }
 }

@@ -63,48 +63,6 @@ TEST_SUITE("wave motion") {
         CHECK(correlation < -0.2);
     }
 
-    // A vehicle that follows by T dx/dt = y - x has 1 / (1 + i w T) of a cosine of w. With y the
-    // same movement at once, the mean of y(t) x(t + d) is s^2 times the integral over the shares u
-    // of (cos(w d) + w T sin(w d)) / (1 + (w T)^2). Its d is chosen so that a lead would show.
-    TEST_CASE("A towed vehicle follows later and less") {
-        constexpr int seeds = 4000;
-        constexpr double lag_s = 1.5;
-        for (const double later_s : {0.0, 1.2}) {
-            WaveMotion ship{.period_s = 8.0};
-            ship.position_m[2] = 0.3;
-            WaveMotion fish = ship;
-            fish.lag_s = lag_s;
-            double product = 0.0;
-            double variance = 0.0;
-            for (std::uint32_t seed = 0; seed < seeds; ++seed) {
-                Trajectory of_ship = poses_on_the_spot({10.0, 21.0});
-                Trajectory of_fish = poses_on_the_spot({10.0, 21.0 + later_s});
-                add_wave_motion(ship, wave_key(seed), of_ship);
-                add_wave_motion(fish, wave_key(seed), of_fish);
-                const double y = of_ship[1].T_world_vehicle.translation.z() - 3.0;
-                const double x = of_fish[1].T_world_vehicle.translation.z() - 3.0;
-                product += y * x / seeds;
-                variance += x * x / seeds;
-            }
-            double expected = 0.0;
-            double expected_variance = 0.0;
-            constexpr int steps = 100000;
-            for (int k = 0; k < steps; ++k) {
-                const double w =
-                    2.0 * pi / 8.0 * std::pow(1.25 / -std::log((k + 0.5) / steps), 0.25);
-                const double less = 1.0 + w * lag_s * w * lag_s;
-                expected += 0.09 * (std::cos(w * later_s) + w * lag_s * std::sin(w * later_s)) /
-                            less / steps;
-                expected_variance += 0.09 / less / steps;
-            }
-            // Four standard errors, as above.
-            const double four_errors = 4.0 * std::sqrt(2.0 / seeds) * 0.09;
-            CHECK(std::fabs(product - expected) < four_errors);
-            CHECK(std::fabs(variance - expected_variance) < four_errors);
-            CHECK(expected_variance + 2.0 * four_errors < 0.09);
-        }
-    }
-
     TEST_CASE("A vehicle moves in its own frame, and only where it was asked to") {
         WaveMotion motion;
         motion.position_m[0] = 0.5;  // surge

@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 #include <tbb/task_arena.h>
 
-#include "assembly/engine_probes.h"
+#include "assembly/engines.h"
 #include "support/approx.h"
 #include "support/sanitized.h"
 #include "support/small_mission.h"

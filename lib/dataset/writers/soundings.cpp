@@ -6,7 +6,6 @@
 #include <cstring>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "core/atomic_file.h"
 #include "core/file.h"
@@ -23,15 +22,12 @@ namespace {
 struct SoundingSource {
     const RecordFile& records;
     std::size_t beams;
-    std::size_t fields;  ///< numbers in each sounding
     std::uint32_t every;
     const Trajectory& trajectory;
 };
 
-/// Numbers per sounding in a record: range, x, y, z and quality, and the true x, y and z where
-/// sound bends.
-constexpr std::size_t straight_fields = 5;
-constexpr std::size_t bent_fields = 8;
+/// Numbers per sounding in a record: range, x, y, z and quality.
+constexpr std::size_t fields_of_sounding = 5;
 
 struct RecordedSounding {
     std::size_t pose;
@@ -39,22 +35,18 @@ struct RecordedSounding {
     double range_m;
     Eigen::Vector3d position;
     double quality;
-    std::optional<Eigen::Vector3d> true_position;
 };
 
 /// Calls `visit` for every sounding, ping by ping and beam by beam; beams without one are left out.
 void for_each_sounding(const SoundingSource& source,
                        const std::function<void(const RecordedSounding&)>& visit) {
-    std::vector<double> fields(source.beams * source.fields);
+    std::vector<double> fields(source.beams * fields_of_sounding);
     for (std::size_t k = 0; k < source.records.records(); ++k) {
         source.records.read(k, std::as_writable_bytes(std::span(fields)));
         for (std::size_t beam = 0; beam < source.beams; ++beam) {
-            const double* const f = fields.data() + beam * source.fields;
+            const double* const f = fields.data() + beam * fields_of_sounding;
             if (std::isnan(f[0])) continue;
-            RecordedSounding sounding{k * source.every,   beam, f[0],
-                                      {f[1], f[2], f[3]}, f[4], std::nullopt};
-            if (source.fields == bent_fields) sounding.true_position = {f[5], f[6], f[7]};
-            visit(sounding);
+            visit({k * source.every, beam, f[0], {f[1], f[2], f[3]}, f[4]});
         }
     }
 }
@@ -90,18 +82,12 @@ nlohmann::ordered_json georeference(const Bathymetry& grid, std::uint64_t used,
 
 void write_soundings(const SoundingSource& source, const std::filesystem::path& folder) {
     StreamedFile csv(folder / "soundings.csv");
-    csv.append("pose,time_s,beam,range_m,x_m,y_m,z_m,quality");
-    csv.append(source.fields == bent_fields ? ",true_x_m,true_y_m,true_z_m\n" : "\n");
+    csv.append("pose,time_s,beam,range_m,x_m,y_m,z_m,quality\n");
     std::uint64_t count = 0;
     for_each_sounding(source, [&](const RecordedSounding& s) {
-        csv.append(fmt::format("{},{:.6f},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.3f}", s.pose,
+        csv.append(fmt::format("{},{:.6f},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.3f}\n", s.pose,
                                source.trajectory[s.pose].t_s, s.beam, s.range_m, s.position.x(),
                                s.position.y(), s.position.z(), s.quality));
-        if (s.true_position) {
-            csv.append(fmt::format(",{:.4f},{:.4f},{:.4f}", s.true_position->x(),
-                                   s.true_position->y(), s.true_position->z()));
-        }
-        csv.append("\n");
         ++count;
     });
     csv.finish();
@@ -143,42 +129,35 @@ void write_bathymetry(const SoundingSource& source, const std::filesystem::path&
 }
 
 /// The numbers of the soundings of a ping.
-std::vector<double> sounding_fields(const WriterContext& context, std::size_t fields,
-                                    const FinishedPing& finished) {
+std::vector<double> sounding_fields(const WriterContext& context, const FinishedPing& finished) {
     std::vector<double> all;
     const Pose& T_world_vehicle = context.assembly.trajectory[finished.id.pose].T_world_vehicle;
     for (const Sounding& s :
          find_soundings(finished.sonar, T_world_vehicle, finished.ping, finished.traced.motion)) {
         all.insert(all.end(),
                    {s.range_m, s.position.x(), s.position.y(), s.position.z(), s.quality});
-        if (fields == bent_fields)
-            all.insert(all.end(), s.true_position.begin(), s.true_position.end());
     }
     return all;
 }
 
 }  // namespace
 
-/// soundings.npy: float64 [ping, beam, 5]: range, x, y, z and quality, NaN without a sounding;
-/// where sound bends [ping, beam, 8] with the true x, y and z. soundings.csv and .ply hold the
-/// beams with a sounding; bathymetry.tif, .json and .png hold the map of the soundings.
+/// soundings.npy: float64 [ping, beam, 5]: range, x, y, z and quality, NaN without a sounding.
+/// soundings.csv and .ply hold the beams with a sounding; bathymetry.tif, .json and .png hold the
+/// map of the soundings.
 std::optional<Writer> make_soundings_writer(const WriterContext& context) {
     const SonarConfig& config = context.sonar().config;
     if (config.kind != SonarKind::profiling) return std::nullopt;
     constexpr double csv_line = 160.0;
     constexpr double ply_vertex = 28.0;
-    const bool bent = context.mission.water.profile.has_value();
-    const std::size_t fields = bent ? bent_fields : straight_fields;
     const std::size_t beams = context.sonar().settings.view.beams;
     const double soundings = static_cast<double>(beams) * static_cast<double>(context.pings);
     // A cell has four soundings on average, before its size is rounded up.
     const double cells = 1.0 + soundings / 4.0;
     WriterOutputs outputs =
-        record_outputs("soundings.npy", {"<f8", {context.pings, beams, fields}},
-                       {"ping", "beam",
-                        bent ? "range_m, x_m, y_m, z_m, quality, true_x_m, true_y_m, true_z_m"
-                             : "range_m, x_m, y_m, z_m, quality"},
-                       8.0 * static_cast<double>(fields * beams));
+        record_outputs("soundings.npy", {"<f8", {context.pings, beams, fields_of_sounding}},
+                       {"ping", "beam", "range_m, x_m, y_m, z_m, quality"},
+                       8.0 * static_cast<double>(fields_of_sounding * beams));
     outputs.products = {{"soundings.csv", 60.0 + csv_line * soundings},
                         {"soundings.ply", 200.0 + ply_vertex * soundings},
                         {"bathymetry.tif", 1000.0 + 4.0 * cells},
@@ -186,8 +165,7 @@ std::optional<Writer> make_soundings_writer(const WriterContext& context) {
                         {"bathymetry.png", png_bytes_at_most(4096, 4096, 3)}};
     const auto write_products = [=, &config](const RecordFile& records,
                                              const std::filesystem::path& folder) {
-        const SoundingSource source{records, beams, fields,
-                                    static_cast<std::uint32_t>(config.every),
+        const SoundingSource source{records, beams, static_cast<std::uint32_t>(config.every),
                                     context.assembly.trajectory};
         write_soundings(source, folder);
         write_bathymetry(source, folder);
@@ -195,7 +173,7 @@ std::optional<Writer> make_soundings_writer(const WriterContext& context) {
     return Writer{.outputs = std::move(outputs),
                   .encode =
                       [=](const FinishedPing& finished) {
-                          return record_bytes(sounding_fields(context, fields, finished));
+                          return record_bytes(sounding_fields(context, finished));
                       },
                   .write_products = write_products,
                   .describe =

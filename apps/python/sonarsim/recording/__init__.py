@@ -26,7 +26,7 @@ def open_recording(path, sensor=None, pings=None):
     elif (path / "dataset.json").exists():
         recording = read_dataset(path, sensor, most_pings)
     else:
-        raise RecordingError(f"{path}: is no recording: there is neither {FILE_NAME} (docs/calibrate.md) nor dataset.json")
+        raise RecordingError(f"{path}: is not a recording: there is neither {FILE_NAME} (docs/calibrate.md) nor dataset.json")
     recording.check(path)
     # It stands in tables, in JSON and in a comment of a preset.
     recording.name = "".join(c if c.isprintable() else "?" for c in str(path))

@@ -16,9 +16,9 @@ def read_array(path):
             is_png = file.read(8) == b"\x89PNG\r\n\x1a\n"
         array = read_png(path) if is_png else np.lib.format.open_memmap(path, mode="r")
     except OSError as fault:
-        raise RecordingError(f"{path}: cannot be read: {fault.strerror or 'it is no whole PNG'}") from fault
+        raise RecordingError(f"{path}: cannot be read: {fault.strerror or 'the PNG is incomplete'}") from fault
     except FAULTS as fault:
-        raise RecordingError(f"{path}: is no .npy or PNG file that can be read, or is cut off: {fault}") from fault
+        raise RecordingError(f"{path}: cannot be read as .npy or PNG: {fault}") from fault
     if array.dtype.str[1:] not in ("u1", "u2", "f4", "f8"):
         raise RecordingError(f"{path}: has values of the type {array.dtype}; uint8, uint16, float32 and float64 are read")
     if not 0 < array.size <= MOST_VALUES:

@@ -79,7 +79,7 @@ def read_yaml(path, largest):
     except OSError as fault:
         raise RecordingError(f"{path}: cannot be read: {fault.strerror}") from fault
     except (yaml.YAMLError, UnicodeError, RecursionError) as fault:
-        raise RecordingError(f"{path}: is no YAML: {' '.join(str(fault).split())}") from fault
+        raise RecordingError(f"{path}: is not YAML: {' '.join(str(fault).split())}") from fault
 
 
 def read_description(path):

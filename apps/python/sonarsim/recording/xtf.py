@@ -68,7 +68,7 @@ def read_soundings(data, most_pings, own):
 def channels_of(data):
     """(type, samples) of each channel: type 1 is port, 2 starboard."""
     if field(data, "B", 0) != 0x7B:
-        raise ValueError("is no XTF file")
+        raise ValueError("is not an XTF file")
     count = field(data, "H", 166) + field(data, "H", 168)
     if not 0 < count <= MOST_CHANNELS:
         raise ValueError("has no channels of a sonar, or too many")

@@ -1,13 +1,14 @@
 #pragma once
 
+#include <memory>
+
 #include "assembly/assemble.h"
 #include "mission/mission.h"
 #include "visibility/make_engine.h"
 
 namespace sonarsim {
 
-/// The settings of a mission's engine. For `engine: auto` they hold the views of every sonar and
-/// the rays that each needs.
+/// The settings of a mission's engine. For `engine: auto` they hold the views that rays trace.
 EngineSettings engine_settings(const Mission& mission, const Assembly& assembly);
 
 /// The engine of a mission, over the trees that its assembly has made. The assembly must outlive

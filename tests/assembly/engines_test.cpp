@@ -1,10 +1,7 @@
-#include "assembly/engine_probes.h"
+#include "assembly/engines.h"
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
-
-#include "core/units.h"
 #include "support/small_mission.h"
 
 using namespace sonarsim;
@@ -19,13 +16,7 @@ TEST_SUITE("assembly") {
         for (const double elevation_deg : {90.0, 91.0, 150.0}) {
             mission.sensors[0].elevation_deg = elevation_deg;
             const EngineSettings settings = engine_settings(mission, small_assembly(mission, 9));
-            const auto wide = [&](const Probe& probe) {
-                return degrees(probe.view.elevation_rad) > 90.01;
-            };
-            const bool is_wide = elevation_deg > 90.0;
-            CHECK(std::ranges::any_of(settings.probes, wide) == is_wide);
-            for (const Probe& probe : settings.probes)
-                CHECK((probe.rays.goal > 0.0) == wide(probe));
+            CHECK(settings.by_rays.empty() == (elevation_deg <= 90.0));
         }
     }
 }

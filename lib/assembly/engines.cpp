@@ -1,0 +1,43 @@
+#include "assembly/engines.h"
+
+#include "core/units.h"
+#include "ping/sonar.h"
+#include "sonar/engine_settings.h"
+#include "trace/visible_surface.h"
+
+namespace sonarsim {
+
+namespace {
+
+// Slices meet at the sonar's z axis, so all of them hold the surface near it.
+constexpr double widest_slices_rad = 0.5 * pi;
+
+/// True if rays must trace a sonar. Multipath continues from the middle of each sample, and a
+/// sample of the slices may be as long as a beam is high.
+bool needs_rays(const Sonar& sonar) {
+    const View& view = sonar.settings.view;
+    return sonar.settings.model->info.needs_rays ||
+           sonar.config.multipath.method != MultipathMethod::none ||
+           view.elevation_rad > widest_slices_rad;
+}
+
+}  // namespace
+
+EngineSettings engine_settings(const Mission& mission, const Assembly& assembly) {
+    EngineSettings settings = engine_settings(mission);
+    if (settings.type != EngineKind::automatic) return settings;
+    for (const Sonar& sonar : assembly.sonars) {
+        if (!needs_rays(sonar)) continue;
+        for (const Sight& sight : sights(sonar.settings.view, sonar.settings.guard_beams, {}))
+            settings.by_rays.push_back(sight.view);
+    }
+    return settings;
+}
+
+std::unique_ptr<VisibilityEngine> make_engine(const Mission& mission, const Assembly& assembly) {
+    EngineSettings settings = engine_settings(mission, assembly);
+    settings.caster = assembly.caster;
+    return make_engine(assembly.scene, settings);
+}
+
+}  // namespace sonarsim

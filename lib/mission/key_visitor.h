@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mission/value_types.h"
+
+namespace sonarsim {
+
+/// The base of a visitor of the keys in schema.h. It passes keys with one value to the visitor's
+/// method value(key, value, type, meaning, presence).
+template <class Visitor>
+class KeyVisitor {
+  public:
+    template <class T>
+    void number(const char* key, T& value, const Limits& limits, const char* meaning,
+                Presence presence = Presence::optional) {
+        self().value(key, value, NumberType{limits, presence == or_auto}, meaning, presence);
+    }
+    void flag(const char* key, bool& value, const char* meaning) {
+        self().value(key, value, FlagType{}, meaning, Presence::optional);
+    }
+    template <class T>
+    void text(const char* key, T& value, const char* meaning,
+              Presence presence = Presence::optional) {
+        self().value(key, value, TextType{}, meaning, presence);
+    }
+    template <class T>
+    void path(const char* key, T& value, const char* meaning,
+              Presence presence = Presence::optional) {
+        self().value(key, value, PathType{}, meaning, presence);
+    }
+    template <class T>
+    void array(const char* key, T& values, const Limits& limits, const char* meaning,
+               Presence presence = Presence::optional) {
+        self().value(key, values, ArrayType{limits}, meaning, presence);
+    }
+    template <class T, std::size_t N>
+    void choice(const char* key, T& value, const std::array<Choice<T>, N>& choices,
+                const char* meaning, Presence presence = Presence::optional) {
+        self().value(key, value, ChoiceType<T, N>{choices}, meaning, presence);
+    }
+    template <class T, std::size_t N>
+    void subset(const char* key, std::vector<T>& values, const std::array<Choice<T>, N>& choices,
+                const char* meaning) {
+        self().value(key, values, SubsetType<T, N>{choices}, meaning, Presence::optional);
+    }
+
+  private:
+    Visitor& self() { return static_cast<Visitor&>(*this); }
+};
+
+}  // namespace sonarsim
