@@ -161,7 +161,7 @@ class Reader(Sandbox):
         self.assertEqual([str(one.folder) for one in found], variants)
         self.assertEqual(len(sonarsim_data.open_datasets(variants[0])), 1)
         self.write("many/variants.json", '{"variants": [{"folder": "../many/variant_0000"}]}')
-        with self.assertRaisesRegex(ValueError, "is no name that sonarsim gives"):
+        with self.assertRaisesRegex(ValueError, "is not a name that sonarsim gives"):
             sonarsim_data.open_datasets(self.folder / "many")
 
     def test_mistakes(self):

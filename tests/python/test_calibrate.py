@@ -11,7 +11,6 @@ import unittest
 import unittest.mock
 
 import numpy as np
-from scipy import special
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.append(str(ROOT / "apps" / "python"))
@@ -171,22 +170,6 @@ class Fits(unittest.TestCase):
             self.assert_within(found[0], width)
             self.assertTrue(found[1].low - 2.0 < side_lobe < found[1].high + 2.0, (found[1], side_lobe))
 
-    def test_texture(self):
-        draws = np.random.default_rng(30)
-        shape, edge = 4.0, 6
-        cells = draws.gamma(shape, 1.0 / shape, (8, RANGES // edge + 2, BEAMS // edge + 2))
-        texture = np.kron(cells, np.ones((edge, edge)))[:, 3:3 + RANGES, 2:2 + BEAMS]
-        logs = np.log(texture) + 2.0 * np.log(np.abs(speckle(draws, 8)))
-        patches, one = Patches(logs, np.inf, lambda ping: ping), LogStatistics(1)
-        share, bins = correlations.fit_texture(patches, np.arange(len(patches.place)),
-                                               correlations.Pulse(SINGLE, -30.0, "noise"))
-        texture = special.polygamma(1, shape)       # the variance of the logarithm of its strengths
-        self.assert_within(share, texture / (texture + one.variance))
-        self.assert_within(bins, 1.8)
-        plain = Patches(2.0 * np.log(np.abs(speckle(draws, 8))), np.inf, lambda ping: ping)
-        self.assertIsNone(correlations.fit_texture(plain, np.arange(len(plain.place)),
-                                                   correlations.Pulse(SINGLE, -30.0, "noise")))
-
     def test_a_logarithm_that_cuts_off_noise(self):
         for seed in range(4):
             draws = np.random.default_rng(50 + seed)
@@ -292,8 +275,8 @@ class Command(unittest.TestCase):
         self.refused("of another kind", pings, "sidescan_400khz")
         self.refused("--judge", pings, "start.yaml", "--judge", "1")
         self.refused("only keys of the water", pings, "start.yaml", "--set", "name=x")
-        for name, text, why in (("paper.yaml", "kind: imaging\n", "nothing to calibrate"), ("list.yaml", "[1]", "no preset"),
-                                ("bad.yaml", "a: [", "no preset"), ("unknown.yaml", START + "    lustre: 1\n", "lustre"),
+        for name, text, why in (("paper.yaml", "kind: imaging\n", "nothing to calibrate"), ("list.yaml", "[1]", "not a preset"),
+                                ("bad.yaml", "a: [", "not a preset"), ("unknown.yaml", START + "    lustre: 1\n", "lustre"),
                                 ("flow.yaml", START.replace("\n    mode: ping", " {mode: ping}") + "  pulse: {}\n", "own")):
             (self.folder / name).write_text(text)
             self.refused(why, pings, name)

@@ -260,7 +260,7 @@ class Export(unittest.TestCase):
         path = self.out / "dataset.json"
         sound = json.loads(path.read_text())
         no_pillow = "import importlib.util as u; find = u.find_spec; u.find_spec = lambda name: None if name == 'PIL' else find(name)"
-        self.assert_refused("is no dataset of sonarsim", self.folder / "nowhere", "--format", "coco")
+        self.assert_refused("is not a dataset of sonarsim", self.folder / "nowhere", "--format", "coco")
         self.assert_refused("there is no 'no'; there are: fls, sss", self.out, "--format", "coco", "--sensor", "no")
         self.assert_refused("the shares sum to 0.5", self.out, "--format", "coco", "--split", "train=0.5")
         self.assert_refused("argument --format: invalid choice", self.out, "--format", "voc")

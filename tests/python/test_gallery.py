@@ -221,7 +221,7 @@ class Files(Gallery):
         self.assertFalse((self.out / "index_files.part").exists())
 
     def test_bad_datasets_are_refused_in_one_sentence(self):
-        self.refused("is no dataset and holds none")
+        self.refused("is not a dataset and holds none")
         description = write_dataset(self.out)
         file = self.out / "dataset.json"
         (self.out / "fls/link").symlink_to("/etc")
@@ -241,7 +241,7 @@ class Files(Gallery):
             damaged.write_text(text)
             self.refused("000003.json: is damaged")
         file.unlink()
-        self.refused("is no dataset and holds none")
+        self.refused("is not a dataset and holds none")
 
     def test_only_its_own_files_are_replaced(self):
         write_dataset(self.out)

@@ -118,7 +118,7 @@ class HoloOcean(unittest.TestCase):
         found = re.findall(r"  (\w+):\n    kind: .*\n    mount:\n      translation_m: \[(\d)", result.stdout)
         self.assertEqual(found, [("fls", "0"), ("fls_2", "1"), ("fls_2_2", "2"), ("fls_3", "3"), ("fls_2_3", "4")])
         self.assertIn("8 Hz become 6.667 Hz", result.stderr)
-        self.assertIn("'QuantumSonar' is left out: it is no sonar that sonarsim has; it has ImagingSonar, ", result.stderr)
+        self.assertIn("'QuantumSonar' is left out: sonarsim does not have it; it has ImagingSonar, ", result.stderr)
         self.assertIn("other agents are left out", result.stderr)
         self.validated(result.stdout)
 

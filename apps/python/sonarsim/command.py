@@ -42,7 +42,7 @@ def replaced(path):
     path = pathlib.Path(path)
     part, is_new = path.with_name(f".{path.name}.{os.getpid()}"), not path.parent.exists()
     if path.exists() and not path.is_file():
-        raise ValueError(f"{path}: is no regular file, so it cannot be replaced")
+        raise ValueError(f"{path}: is not a regular file, so it cannot be replaced")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         yield part

@@ -3,7 +3,7 @@
     import sonarsim.data
     dataset = sonarsim.data.open_dataset("out/tank_labels")
     fls = dataset["fls"]                       # a sensor, by its name
-    for sample in fls:                         # a ping; its arrays are read when asked for
+    for sample in fls:                         # a ping; its arrays are read when needed
         image = sample["polar"]                # float32 [range, azimuth]
         ids = sample["instance"]               # uint16 [range, azimuth]
         names = dataset.instances              # id -> name
@@ -69,7 +69,7 @@ class Dataset:
         self.folder = folder
         path = folder / "dataset.json"
         if not path.is_file():
-            raise DataError(f"{folder}: is no dataset of sonarsim: it has no dataset.json")
+            raise DataError(f"{folder}: is not a dataset of sonarsim: it has no dataset.json")
         with reading(path):
             self.description = read_json(path.read_bytes())     # UTF-8, whatever the locale
             is_ours = isinstance(self.description, dict) and self.description.get("format") == "sonarsim dataset"
@@ -87,7 +87,7 @@ class Dataset:
         self.class_of = {entry["id"]: entry["class"] for entry in labels.get("instances", [])}
         if not self.classes.keys() >= set(self.class_of.values()):
             raise ValueError("labels.instances has a class that labels.classes does not have")
-        # The names of the classes that are no objects.
+        # The names of the classes that are not objects.
         self.background = set(labels.get("annotations", {}).get("background", []))
 
     @property
@@ -240,7 +240,7 @@ class Sensor:
 
 
 class Sample(collections.abc.Mapping):
-    """A ping of a sensor. Its arrays are read when asked for: sample['polar']."""
+    """A ping of a sensor. Its arrays are read when needed: sample['polar']."""
 
     def __init__(self, sensor, index):
         self.sensor = sensor
@@ -312,7 +312,7 @@ def checked(text, rule, key):
     """The text, if all of it matches the rule; else ValueError."""
     if isinstance(text, str) and rule.fullmatch(text):
         return text
-    raise ValueError(f"{key!r} is {text!r}, which is no name that sonarsim gives")
+    raise ValueError(f"{key!r} is {text!r}, which is not a name that sonarsim gives")
 
 
 def whole(number, low, key):
@@ -340,7 +340,7 @@ def read_png(data):
     as [row, column] or [row, column, 3]; with a colour table the numbers of the colours, which are ids.
     ValueError for any other."""
     if data[:8] != b"\x89PNG\r\n\x1a\n":
-        raise ValueError("is no PNG")
+        raise ValueError("is not a PNG")
     packed, header, at = [], None, 8
     while at + 12 <= len(data):
         size, kind = struct.unpack(">I4s", data[at:at + 8])
@@ -394,10 +394,10 @@ def unfiltered(filters, rows):
 
 
 def read_npy(data):
-    """The array in a .npy file, format 1.0; ValueError if it is no such file, or not as long as its header says."""
+    """The array in a .npy file, format 1.0; ValueError if it is not such a file, or not as long as its header says."""
     file = io.BytesIO(data)
     if np.lib.format.read_magic(file) != (1, 0):
-        raise ValueError("is no .npy file, format 1.0")
+        raise ValueError("is not a .npy file, format 1.0")
     shape, _, dtype = np.lib.format.read_array_header_1_0(file)
     if dtype.hasobject or math.prod(shape) * dtype.itemsize != len(data) - file.tell():
         raise ValueError(f"is {len(data)} bytes long, and its header says {shape} of {dtype}")

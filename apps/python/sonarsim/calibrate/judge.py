@@ -62,23 +62,20 @@ def figures_of(recording, instrument, level_db, start, fit):
         if len(chosen) < LEAST_PATCHES:
             continue
         pulse, sums = pulse_of(instrument, kind), patches.sums(chosen, *columns)
-        statistics, share = pulse.statistics(bins), fit.texture if kind == "echo" else 0.0
-        # The mean squares of independent factors multiply; the logarithm of a texture is taken as normal.
-        of_texture = np.exp(0.25 * statistics.variance * share / (1.0 - share))
-        variation = np.sqrt((1.0 + statistics.variation**2) * of_texture - 1.0)
+        statistics = pulse.statistics(bins)
 
         def distribution(weights, sums=sums):
             count, coefficient, variance = (weights @ sums).T
             return np.stack([coefficient / count, to_shape / np.sqrt(variance / count)], axis=1)
         measured = bootstrap(patches.places, distribution, draws=DRAWS)
-        shape = to_shape / np.sqrt(statistics.variance / (1.0 - share))
-        out += [Figure(f"{where}: variation of the amplitude", 0.1, float(variation), measured[0]),
+        shape = to_shape / np.sqrt(statistics.variance)
+        out += [Figure(f"{where}: variation of the amplitude", 0.1, float(statistics.variation), measured[0]),
                 Figure(f"{where}: Weibull shape of the amplitude", 0.1, float(shape), measured[1])]
         measured = bootstrap(patches.places, patches.correlations(chosen), draws=DRAWS)
         predicted = [pulse.correlations(bins)]
         if recording.bearing_rad is not None and len(recording.bearing_rad) > LAGS:
             predicted.append(predicted_correlations(instrument["beam"], np.sin(recording.bearing_rad), statistics))
-        for axis, of_speckle in enumerate(predicted if share == 0.0 else ()):
+        for axis, of_speckle in enumerate(predicted):
             out += [Figure(f"{where}: correlation {lag} {('bins', 'beams')[axis]} apart", "correlation",
                            float(of_speckle[lag - 1]), measured[axis * LAGS + lag - 1]) for lag in (1, 2, 4)]
         if kind == "noise":

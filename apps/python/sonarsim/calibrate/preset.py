@@ -55,7 +55,7 @@ def preset_file(name):
     folders = [root / part for root in roots for part in ("configs/sensors", "share/sonarsim/configs/sensors")]
     shipped = {path.stem: path for folder in folders for path in folder.glob("*.yaml")}
     if name not in shipped:
-        raise CalibrationError(f"{name}: is no file, and no preset of this name came with the program; there are: "
+        raise CalibrationError(f"{name}: is not a file, and no preset of this name came with the program; there are: "
                                + ", ".join(sorted(shipped)))
     return shipped[name]
 
@@ -73,7 +73,7 @@ def read_start(name):
     except OSError as fault:
         raise CalibrationError(f"{file}: cannot be read: {fault.strerror}") from fault
     except (yaml.YAMLError, UnicodeDecodeError, RecursionError, AttributeError) as fault:
-        raise CalibrationError(f"{file}: is no preset, a YAML file of a sensor's keys with the section instrument: "
+        raise CalibrationError(f"{file}: is not a preset, a YAML file of a sensor's keys with the section instrument: "
                                + " ".join(str(fault).split())) from fault
     if given.get("model") != "calibrated":
         raise CalibrationError(f"{file}: has nothing to calibrate: only model: calibrated has an instrument")

@@ -15,8 +15,6 @@ RULES = (
     ("", " pings", f"{BEAM}width_deg, the speed of the trajectory"),
     ("", "ranges", PULSE),
     ("", "beams", BEAM + "width_deg, side_lobe_db, aberration_rad; azimuth_bins"),
-    ("edges", "degrees", BEAM + "width_deg, aberration_rad"),
-    ("edges", "", PULSE),
     ("", "zeros", RECEIVER + "noise_db, offset, bits, blanking_m"),
     ("", "clipped", RECEIVER + "full_scale_db"),
     ("ring", "level", RECEIVER + "ring_down_db, ring_down_m, blanking_m"),
@@ -30,8 +28,6 @@ RULES = (
 WORDS = {   # by (differs, agrees)
     (True, True): "agrees, measurably different", (True, False): "DIFFERS", (False, True): "agrees",
     (False, False): "off, perhaps by chance"}
-HISTOGRAM = ("{name}: Jensen-Shannon {jensen_shannon_bits:.4g} bits (by chance up to {usual_jensen_shannon_bits:.4g}), "
-             "Kullback-Leibler {kullback_leibler_nats:.4g} nats, earth mover's {earth_movers:.4g} {earth_movers_unit}")
 
 
 def keys_behind(name):
@@ -50,7 +46,6 @@ def comparison_text(c):
         values = zip((figure.real, figure.simulated, figure.difference), figure.halves)
         columns = "  ".join(f"{interval(*one):>19}" for one in values)
         lines.append(f"{figure.name:{width}}  {columns}  {WORDS[figure.differs, figure.agrees]}")
-    lines += [HISTOGRAM.format(**one) for one in c.histograms]
     if c.is_relative:
         lines.append("Levels are relative to the mean of each recording: one has no full_value.")
     lines.append(f"{c.agreeing} of {len(c.figures)} figures agree ({100.0 * c.agreeing / len(c.figures):.0f} %): their "
@@ -76,8 +71,7 @@ def comparison_json(c):
         "figures": [{"name": f.name, "real": f.real, "real_half_interval": f.halves[0], "simulated": f.simulated,
                      "simulated_half_interval": f.halves[1], "difference": f.difference,
                      "difference_half_interval": f.halves[2], "tolerance": f.tolerance, "standardised": f.standardised,
-                     "p": f.p, "adjusted_p": f.adjusted_p, "agrees": f.agrees, "differs": f.differs} for f in c.figures],
-        "histograms": c.histograms}
+                     "p": f.p, "adjusted_p": f.adjusted_p, "agrees": f.agrees, "differs": f.differs} for f in c.figures]}
 
 
 def plot(c, path):

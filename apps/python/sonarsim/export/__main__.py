@@ -49,7 +49,7 @@ def parse(arguments):
     add("--polygons", action="store_true", help="outlines instead of boxes (yolo) or runs (coco)")
     add("--bins", action="store_true", help="of imaging and profiling sonars the picture of the bins, not the fan")
     add("--sensor", action="append", default=[], metavar="NAME", help="only this sensor; may be repeated")
-    add("--without", action="append", default=[], metavar="CLASS", help="a class that is no object; may be repeated")
+    add("--without", action="append", default=[], metavar="CLASS", help="a class that is not an object; may be repeated")
     add("--min-pixels", type=int, default=16, metavar="N", help="fewer make an object faint")
     add("--min-visible-share", type=float, default=0.1, metavar="X", help="less makes it faint")
     add("--min-contrast-db", type=float, default=1.0, metavar="DB",

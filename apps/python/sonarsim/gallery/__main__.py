@@ -131,7 +131,7 @@ def write_page(out, is_quiet):
     found = [""] if (out / "dataset.json").is_file() else sorted(
         path.parent.name for path in out.glob("*/dataset.json") if not path.parent.is_symlink())
     if not found:
-        raise ValueError(f"{out}: is no dataset and holds none; a dataset's folder has a dataset.json")
+        raise ValueError(f"{out}: is not a dataset and holds none; a dataset's folder has a dataset.json")
     datasets = [data.open_dataset(out / name) for name in found]
     variants = data.read_variants(out) if found[0] and (out / "variants.json").is_file() else {}
     page, files = out / "index.html", out / "index_files"

@@ -24,8 +24,6 @@ def read_dataset(folder, name, most_pings):
         return recording_of(folder, dataset[name or names[0]], most_pings)
     except RecordingError:
         raise
-    except OSError as fault:
-        raise RecordingError(f"{fault.filename or folder}: cannot be read: {fault.strerror or fault}") from fault
     except (*FAULTS, LookupError, AttributeError) as fault:
         text = str(fault) if isinstance(fault, ValueError) else f"{folder}: is damaged: {fault!r}"
         raise RecordingError(f"{text}; sonarsim verify says more") from fault

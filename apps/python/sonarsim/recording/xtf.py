@@ -1,30 +1,26 @@
-"""XTF (Triton Imaging, "eXtended Triton Format (XTF) Rev. 40"): side-scans, and the soundings of records of the type 28.
+"""XTF (Triton Imaging, "eXtended Triton Format (XTF) Rev. 40"): side-scans.
 
 Of each ping the first port channel and the first starboard channel are read. Samples are unsigned 8, 16 or 32 bits or
 IEEE floats, times 2 to the power of minus the channel's weight."""
-import itertools
-
 import numpy as np
 
 from .bytes_of_pings import field, law_of, stacked
-from .recording import Recording, Soundings
+from .recording import Recording
 
 FILE_HEADER, CHANNEL_INFO, PING_HEADER, CHANNEL_HEADER = 1024, 128, 256, 64
-SIDE_SCAN, MULTIBEAM = 0, 28
+SIDE_SCAN = 0
 PORT, STARBOARD = 1, 2
 MOST_CHANNELS = 64
 LONGEST_RANGE_M = 1e5
 # By the field SampleFormat, or in older files, where it is 0, by minus the number of bytes.
 SAMPLES = {8: "<u1", 3: "<u2", 2: "<u4", 5: "<f4", -1: "<u1", -2: "<u2", -4: "<u4"}
-SOUNDING = np.dtype({"names": ["intensity", "two_way_s", "angle_deg"], "formats": ["<f8"] * 3, "offsets": [4, 16, 32],
-                     "itemsize": 64})
 
 
-def read_sides(data, most_pings, own):
+def read(data, most_pings, own):
     """The side-scan pings; those that lack a side are left out."""
     channels, pings = channels_of(data), []
     first = full_value = 0.0
-    for record in records(data, len(channels), SIDE_SCAN):
+    for record in side_scans(data, len(channels)):
         sides = sides_of(record, channels)
         if len(sides) < 2:
             continue
@@ -45,30 +41,10 @@ def read_sides(data, most_pings, own):
                      values=stacked(pings))
 
 
-def read_soundings(data, most_pings, own):
-    pings, speeds = [], []
-    for record in itertools.islice(records(data, len(channels_of(data)), MULTIBEAM), most_pings):
-        count = field(record, "H", 4)
-        if PING_HEADER + count * SOUNDING.itemsize > len(record):
-            raise ValueError("has more soundings than their record")
-        beams = np.frombuffer(record, SOUNDING, count, PING_HEADER)
-        beams = beams[beams["two_way_s"] > 0.0]
-        if not ((beams["two_way_s"] < 100.0) & (np.abs(beams["angle_deg"]) <= 180.0) & (beams["intensity"] >= 0.0)
-                & (beams["intensity"] < 1e30)).all():
-            raise ValueError("has a sounding with impossible numbers")
-        speeds.append(own.sound_speed_m_s or sound_speed(record))
-        if not speeds[-1]:
-            raise ValueError("has no speed of sound; add `sound_speed_m_s` to recording.yaml")
-        pings.append((0.5 * speeds[-1] * beams["two_way_s"], np.radians(beams["angle_deg"]), beams["intensity"]))
-    if not pings:
-        raise ValueError("has no pings with soundings (records of the type 28)")
-    return Recording("soundings", law_of(own), sound_speed_m_s=speeds[0], soundings=Soundings.of(pings))
-
-
 def channels_of(data):
     """(type, samples) of each channel: type 1 is port, 2 starboard."""
     if field(data, "B", 0) != 0x7B:
-        raise ValueError("is no XTF file")
+        raise ValueError("is not an XTF file")
     count = field(data, "H", 166) + field(data, "H", 168)
     if not 0 < count <= MOST_CHANNELS:
         raise ValueError("has no channels of a sonar, or too many")
@@ -81,8 +57,8 @@ def channels_of(data):
     return channels
 
 
-def records(data, channels, kind):
-    """Yields the records of a type. Six channels fit into the first 1,024 bytes, eight into each further 1,024."""
+def side_scans(data, channels):
+    """Yields the records of side-scans. Six channels fit into the first 1,024 bytes, eight into each further 1,024."""
     view = memoryview(data)
     at = FILE_HEADER * (1 + -(-max(0, channels - 6) // 8))
     while at < len(data):
@@ -91,7 +67,7 @@ def records(data, channels, kind):
         length = field(data, "I", at + 10)
         if not 14 <= length <= len(data) - at:
             raise ValueError("is cut off within a record")
-        if field(data, "B", at + 2) == kind:
+        if field(data, "B", at + 2) == SIDE_SCAN:
             yield view[at:at + length]
         at += length
 
