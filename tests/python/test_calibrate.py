@@ -154,7 +154,7 @@ class Fits(unittest.TestCase):
             amplitude[:, 100:150, 20:70] += 0.3
             recording = recording_of(amplitude, full=65535)
             known = law.Law(65535.0, False, law.Bounded(0.5, 0.5, 0.5), 0.0, LogStatistics(1))
-            found = noise.find_noise(recording, known, 0.0, 0.0)
+            found = noise.fit_noise(noise.noise_blocks(recording, known), 0.0)
             self.assert_within(found.level_db, level)
             self.assert_within(found.tvg_log, tvg)
 

@@ -183,7 +183,7 @@ class RecordingTest(unittest.TestCase):
         self.assertEqual((own.first_range_m, own.range_step_m, own.sound_speed_m_s), (0.125, 0.25, 1490.0))
         own = opened["xtf"]
         np.testing.assert_array_equal(own.values[1], [[3, 4], [2, 5], [1, 6]])
-        self.assertEqual((own.range_step_m, own.first_range_m, own.sound_speed_m_s), (10.0, 5.0, 1480.0))
+        self.assertEqual((own.range_step_m, own.first_range_m, own.sound_speed_m_s), (10.0, 5.0, 1500.0))
         own = opened["didson"]
         self.assertEqual(own.values[1, 2, 7], 2 * 48 + 7 + 1)
         self.assertAlmostEqual(own.range_step_m, 0.5 * 1480 / 50000)

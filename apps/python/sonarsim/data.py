@@ -26,6 +26,7 @@ import pathlib
 import re
 import struct
 import sys
+import tokenize
 import zlib
 
 import numpy as np
@@ -296,6 +297,11 @@ class DataError(ValueError):
     """What is wrong with a dataset; the text names the file."""
 
 
+# What comes from the content of a damaged file; the last four from numpy.
+FAULTS = (ValueError, LookupError, TypeError, AttributeError, ArithmeticError, SyntaxError, EOFError, RecursionError,
+          tokenize.TokenError)
+
+
 @contextlib.contextmanager
 def reading(path):
     """Makes a DataError, which names the file, of any error that comes from what is in the file."""
@@ -303,7 +309,7 @@ def reading(path):
         yield path
     except DataError:
         raise
-    except (ValueError, LookupError, TypeError, AttributeError, ArithmeticError) as fault:
+    except FAULTS as fault:
         what = str(fault) if isinstance(fault, ValueError) else repr(fault)
         raise DataError(f"{path}: is damaged: {what}; sonarsim verify says more") from fault
 

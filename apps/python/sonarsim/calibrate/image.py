@@ -7,7 +7,7 @@ import numpy as np
 from .correlations import bins_of, fit_array, fit_pulse, pulse_of
 from .judge import classified
 from .law import Law, fit_law, full_value_of
-from .noise import Noise, find_noise
+from .noise import Noise, fit_noise, noise_blocks
 from .statistics import LAGS, Bounded
 
 LEAST_PATCHES = 24
@@ -34,7 +34,7 @@ def fit_image(recording, start):
     fit = Fit(copy.deepcopy(start.instrument), start.noise_db - start.full_scale_db)
 
     def find():
-        fit.noise = find_noise(recording, fit.law, start.absorption_db_per_m, fit.instrument["receiver"]["tvg_from_m"])
+        fit.noise = fit_noise(noise_blocks(recording, fit.law), start.absorption_db_per_m, fit.instrument["receiver"]["tvg_from_m"])
     fit_laws(recording, fit, find)
     fit_pulse_and_beams(recording, fit)
     bits = np.log2(recording.law.full_value + 1.0)
@@ -55,7 +55,7 @@ def fit_laws(recording, fit, find):
     of_noise = statistics.variance
     fit.law = fit_law(values, full, statistics, None, offset)
     find()
-    patches, noise, echoes = classified(recording, fit.law, fit.noise)
+    patches, noise, echoes = classified(recording, fit.law, fit.noise, fit.instrument["receiver"])
     of_echoes = len(noise) < LEAST_PATCHES
     places = None if of_echoes else np.bincount(patches.place[noise], minlength=patches.places) > 0
     if receiver["samples"] > 1:
@@ -75,7 +75,7 @@ def fit_laws(recording, fit, find):
 
 def fit_pulse_and_beams(recording, fit):
     """Sets pulse and beams."""
-    patches, noise, echoes = classified(recording, fit.law, fit.noise)
+    patches, noise, echoes = classified(recording, fit.law, fit.noise, fit.instrument["receiver"])
     of_echoes = len(noise) < LEAST_PATCHES
     chosen = echoes if of_echoes else noise
     if len(chosen) < LEAST_PATCHES:

@@ -5,7 +5,6 @@ import numpy as np
 
 from ..recording import Recording, RecordingError
 from .bootstrap import adjust, compared, exchange_p
-from .figure import decibels
 from .images import have_one_grid, images_of, patch_size_of, zones_of
 from .measure import measure_images
 from .soundings import common_angles, measure_soundings
@@ -18,7 +17,6 @@ class Comparison:
     has_one_grid: bool
     is_relative: bool           # powers are relative to the mean of each recording
     figures: list               # of ComparedFigure
-    levels: list                # (ranges in m, levels in dB) of both, for the plot
 
     @property
     def agreeing(self):
@@ -47,7 +45,7 @@ def compare_recordings(real, simulated, seed=1):
     # A recording without a known largest value has no absolute level.
     is_relative = real.law.full_value == 0.0 or simulated.law.full_value == 0.0
     measure = measure_soundings_of_both if real.kind == "soundings" else measure_images_of_both
-    same_places, same_pings, measured, levels = measure((real, simulated), is_relative)
+    same_places, same_pings, measured = measure((real, simulated), is_relative)
     others = {figure.name: figure for figure in measured[1]}
     pairs = [(figure, others[figure.name]) for figure in measured[0] if figure.name in others]
     figures = [compared(*pair, same_places, same_pings, seed) for pair in pairs]
@@ -62,16 +60,16 @@ def compare_recordings(real, simulated, seed=1):
         # without variance has no such tails.
         for figure, p in zip(figures, exchange_p(pairs, [figure.error for figure in figures], seed)):
             figure.adjusted_p = max(figure.adjusted_p, float(p)) if figure.error > 0.0 else figure.adjusted_p
-    return Comparison(real, simulated, same_places, is_relative, figures, levels)
+    return Comparison(real, simulated, same_places, is_relative, figures)
 
 
 def measure_soundings_of_both(recordings, is_relative):
     angles = common_angles(*recordings)
-    return False, False, [measure_soundings(one, angles, is_relative) for one in recordings], []
+    return False, False, [measure_soundings(one, angles, is_relative) for one in recordings]
 
 
 def measure_images_of_both(recordings, is_relative):
-    """(same places, same pings, figures of both, levels by range of both)."""
+    """(same places, same pings, figures of both)."""
     images = [images_of(one, is_relative) for one in recordings]
     a, b = images
     is_one, size, bands = have_one_grid(a, b), patch_size_of(a, b), common_bands(a, b)
@@ -79,8 +77,7 @@ def measure_images_of_both(recordings, is_relative):
     # With a common grid both have the zones of their mean, so that chance does not shift one's against the other's.
     zones = [zones_of(mean) for mean in ([0.5 * (means[0] + means[1])] * 2 if is_one else means)]
     measured = [measure_images(one, size, own, bands) for one, own in zip(images, zones)]
-    levels = [(one.ranges_m, decibels(mean)) for one, mean in zip(images, means)]
-    return is_one, is_one and len(a.powers) == len(b.powers), measured, levels
+    return is_one, is_one and len(a.powers) == len(b.powers), measured
 
 
 def common_bands(a, b):

@@ -1,12 +1,8 @@
 """Arrays in .npy files and in grey PNG files."""
-import tokenize
-
 import numpy as np
 
+from ..data import FAULTS
 from .recording import MOST_RANGES, MOST_VALUES, Recording, RecordingError, Soundings
-
-# What numpy and Pillow raise for damaged files.
-FAULTS = (ValueError, SyntaxError, tokenize.TokenError, EOFError, TypeError, OverflowError, MemoryError, RecursionError)
 
 
 def read_array(path):
@@ -17,7 +13,7 @@ def read_array(path):
         array = read_png(path) if is_png else np.lib.format.open_memmap(path, mode="r")
     except OSError as fault:
         raise RecordingError(f"{path}: cannot be read: {fault.strerror or 'the PNG is not whole'}") from fault
-    except FAULTS as fault:
+    except (*FAULTS, MemoryError) as fault:
         raise RecordingError(f"{path}: cannot be read as a .npy or PNG file: {fault}") from fault
     if array.dtype.str[1:] not in ("u1", "u2", "f4", "f8"):
         raise RecordingError(f"{path}: has values of the type {array.dtype}; uint8, uint16, float32 and float64 are read")

@@ -24,21 +24,21 @@ def read(data, most_pings, own):
         sides = sides_of(record, channels)
         if len(sides) < 2:
             continue
-        first = first or (record, *sides[PORT])
+        first = first or sides[PORT]
         for samples, range_m, largest in sides.values():
             full_value = max(full_value, largest)
-            if len(samples) != len(first[1]) or abs(range_m - first[2]) > 0.01 * first[2]:
+            if len(samples) != len(first[0]) or abs(range_m - first[1]) > 0.01 * first[1]:
                 raise ValueError(f"ping {len(pings)} has {len(samples)} samples over {range_m:g} m, the first ping "
-                                 f"{len(first[1])} over {first[2]:g} m; split the file where the range changes")
+                                 f"{len(first[0])} over {first[1]:g} m; split the file where the range changes")
         pings.append(np.stack([sides[PORT][0][::-1], sides[STARBOARD][0]], axis=1))     # port ends at nadir
         if len(pings) == most_pings:
             break
     if not pings:
         raise ValueError("has no side-scan pings")
-    step = first[2] / len(first[1])
-    speed = own.sound_speed_m_s or sound_speed(first[0]) or 1500.0      # ranges do not need it
-    return Recording("sidescan", law_of(own, full_value), sound_speed_m_s=speed, first_range_m=0.5 * step, range_step_m=step,
-                     values=stacked(pings))
+    step = first[1] / len(first[0])
+    # Ranges do not need the speed of sound.
+    return Recording("sidescan", law_of(own, full_value), sound_speed_m_s=own.sound_speed_m_s or 1500.0,
+                     first_range_m=0.5 * step, range_step_m=step, values=stacked(pings))
 
 
 def channels_of(data):
@@ -89,11 +89,3 @@ def sides_of(record, channels):
             samples = np.float32(factor) * np.frombuffer(record, dtype, count, begin).astype(np.float32)
             sides[kind] = samples, range_m, factor * np.iinfo(dtype).max if dtype.kind == "u" else 0.0
     return sides
-
-
-def sound_speed(record):
-    """The computed speed of sound, or twice the field of the older layout; 0 if neither can be one."""
-    computed, half = field(record, "f", 72), field(record, "f", 32)
-    # Some programs write the whole speed into the field of the half.
-    speed = computed if computed > 0.0 else half * (2.0 if half < 1000.0 else 1.0)
-    return speed if 300.0 <= speed <= 1e4 else 0.0
