@@ -1,21 +1,16 @@
 """The figures of a comparison against closed forms, its verdict on drawn recordings, and its command."""
 import json
-import os
 import pathlib
-import subprocess
-import sys
 import tempfile
 import unittest
 import warnings
 
 import numpy as np
-
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.append(str(ROOT / "apps" / "python"))
+import tool
 from sonarsim.compare import points, report, shadows, speckle  # noqa: E402
 from sonarsim.compare.bootstrap import exchange_p  # noqa: E402
 from sonarsim.compare.comparison import compare_recordings  # noqa: E402
-from sonarsim.compare.figure import Figure, quantile_of  # noqa: E402
+from sonarsim.compare.figure import Figure  # noqa: E402
 from sonarsim.compare.images import zones_of  # noqa: E402
 from sonarsim.recording import Law, Recording, RecordingError, Soundings  # noqa: E402
 
@@ -53,16 +48,6 @@ class FiguresTest(unittest.TestCase):
             np.testing.assert_allclose(speckle.correlation(checkers, lag, axis), value)
         np.testing.assert_allclose(speckle.correlation_of(checkers, checkers), 1.0)
 
-    def test_trend(self):
-        basis = speckle.trend_basis((8, 10))
-        plane = np.add.outer(10.0 + np.arange(8), 0.5 * np.arange(10))
-        edge = (np.arange(80) >= 40).astype(float).reshape(8, 10)
-        with np.errstate(invalid="ignore"):
-            amplitude, _, is_even = speckle.detrended(np.stack([plane, edge, 0.0 * edge]), basis)
-        np.testing.assert_allclose(amplitude[0], 1.0)
-        self.assertEqual(is_even.tolist(), [True, False, False])
-        self.assertEqual(speckle.trend_basis((8, 1)).shape[1], 3)
-
     def test_zones(self):
         powers = np.full(440, 1e-5)
         powers[:10], powers[200:300], powers[300:] = 1.0, 0.1, 1e-3
@@ -93,12 +78,6 @@ class FiguresTest(unittest.TestCase):
         self.assertLess(abs(depth + 20), 1.5)
         self.assertLess(abs(edge - 6), 3)
         self.assertEqual(shadows.shadows_of(np.ones((100, 64)), 10), [])
-
-    def test_quantiles(self):
-        values, weights = np.array([1.0, 2.0, 3.0]), np.array([[1.0, 2.0], [1.0, 0.0], [1.0, 2.0]])
-        np.testing.assert_allclose(quantile_of(values, weights, 0.5), [2.0, 2.0])
-        np.testing.assert_allclose(quantile_of(values, weights, 0.01), 1.0)
-        np.testing.assert_allclose(quantile_of(values, weights, 0.99), 3.0)
 
 
 class ComparisonTest(unittest.TestCase):
@@ -192,11 +171,6 @@ class ComparisonTest(unittest.TestCase):
 
 
 class CommandTest(unittest.TestCase):
-    def run_compare(self, *arguments):
-        path = os.pathsep.join(filter(None, [os.environ.get("PYTHONPATH"), str(ROOT / "apps" / "python")]))
-        return subprocess.run([sys.executable, "-B", "-m", "sonarsim.compare", *map(str, arguments)], text=True,
-                              capture_output=True, env={**os.environ, "PYTHONPATH": path}, check=False)
-
     def test_command(self):
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
@@ -207,24 +181,18 @@ class CommandTest(unittest.TestCase):
                     "kind: imaging\nfiles: pings.npy\nlaw: {kind: power, full_value: 1}\nsound_speed_m_s: 1500\n"
                     "first_range_m: 1\nrange_step_m: 0.01\nbearing_last_deg: 30\nrate_hz: 1\n")
             out = folder / "out"
-            done = self.run_compare(folder / "1", folder / "2", "--out", out)
+            done = tool.run("compare", folder / "1", folder / "2", "--out", out)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assertIn("figures agree", done.stdout)
             self.assertEqual(sorted(one.name for one in out.iterdir()), ["compare.json"])
-            printed = json.loads(self.run_compare(folder / "1", folder / "2", "--json").stdout)
+            printed = json.loads(tool.run("compare", folder / "1", folder / "2", "--json").stdout)
             self.assertEqual(printed, json.loads((out / "compare.json").read_text()))
-            (folder / "broken").mkdir()
             (folder / "file").write_text("")
-            for arguments, what in (((folder / "1", folder / "2", "--out", out), "holds a comparison already"),
-                                    ((folder / "1", folder / "no"), "is not a recording"),
-                                    ((folder / "1", folder / "broken"), "is not a recording"),
-                                    ((folder / "1", folder / "file"), "needs keys"), ((folder / "1",), "simulated"),
-                                    ((folder / "1", folder / "2", "--out", folder / "file" / "a"), "Not a directory"),
-                                    ((folder / "1", folder / "2", "--pings", "0"), "must be 1 or more")):
-                done = self.run_compare(*arguments)
-                self.assertEqual((done.returncode, done.stdout), (1 if what == "Not a directory" else 2, ""), arguments)
-                self.assertIn(what, done.stderr)
-                self.assertNotIn("Traceback", done.stderr)
+            for words, what in ((("--out", out), "holds a comparison already"), (("--pings", "0"), "must be 1 or more")):
+                tool.assert_refused(self, tool.run("compare", folder / "1", folder / "2", *words), "compare", what)
+            tool.assert_refused(self, tool.run("compare", folder / "1", folder / "file"), "compare", "needs keys")
+            tool.assert_refused(self, tool.run("compare", folder / "1", folder / "2", "--out", folder / "file" / "a"),
+                                "compare", "Not a directory", 1)
 
 
 if __name__ == "__main__":

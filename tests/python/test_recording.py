@@ -4,14 +4,12 @@ import json
 import pathlib
 import random
 import struct
-import sys
 import tempfile
 import unittest
 import warnings
 
 import numpy as np
-
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "apps" / "python"))
+import tool  # noqa: F401: the path of the package
 from sonarsim.recording import Law, RecordingError, open_recording  # noqa: E402
 
 ARRAYS = ("kind: imaging\nfiles: pings.npy\nlaw: {kind: gamma, exponent: 0.5}\nsound_speed_m_s: 1490\n"

@@ -111,15 +111,15 @@ def taps_of(bins, side_lobe_db, kind):
 def fit_pulse(patches, chosen, pulse):
     """The half-power width in bins; None if neighbouring bins are not correlated: the pulse is shorter than a bin."""
     correlations = patches.correlations(chosen)
-    seen = correlations(np.ones((1, patches.places)))[0, 0]
-    if seen[0] < LEAST_CORRELATION:
+    measured = correlations(np.ones((1, patches.places)))[0, 0]
+    if measured[0] < LEAST_CORRELATION:
         return None
     bins, rows = pulse.table
-    rows = rows[:, np.isfinite(seen)]
+    rows = rows[:, np.isfinite(measured)]
 
     def width(weights):
-        seen = correlations(weights)[:, 0, :rows.shape[1]]
-        return bins[((rows**2).sum(axis=1) - 2.0 * seen @ rows.T).argmin(axis=1)]
+        measured = correlations(weights)[:, 0, :rows.shape[1]]
+        return bins[((rows**2).sum(axis=1) - 2.0 * measured @ rows.T).argmin(axis=1)]
     found = bootstrap(patches.places, width)[0]
     return found.widened((0.01 if pulse.receiver["samples"] == 1 else 0.025) * found.value)
 
@@ -146,7 +146,7 @@ def predicted_correlations(beam, sines, statistics):
                      for u in differences(sines)])
 
 
-def fit_array(seen, covariance, units, sines, statistics):
+def fit_array(measured, covariance, units, sines, statistics):
     """(width in degrees, side lobe in dB) of the array with the least chi^2 on a grid of tapers and lengths. An
     interval covers all arrays whose chi^2 is within 3.84 of the least (profile likelihood; Wilks 1938). None for
     fewer than 24 units."""
@@ -163,7 +163,7 @@ def fit_array(seen, covariance, units, sines, statistics):
         out = []
         for table in tables:
             model = [np.interp(np.exp(log_lengths)[:, None] * u, t, table, right=0.0).mean(axis=1) for u in apart]
-            off = seen - np.array(model).T
+            off = measured - np.array(model).T
             out.append(np.einsum("ki,ij,kj->k", off, inverse, off))
         return np.array(out)
     coarse = np.arange(np.log(0.5), np.log(5000.0), 0.05)

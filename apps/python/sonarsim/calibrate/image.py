@@ -34,7 +34,8 @@ def fit_image(recording, start):
     fit = Fit(copy.deepcopy(start.instrument), start.noise_db - start.full_scale_db)
 
     def find():
-        fit.noise = fit_noise(noise_blocks(recording, fit.law), start.absorption_db_per_m, fit.instrument["receiver"]["tvg_from_m"])
+        from_m = fit.instrument["receiver"]["tvg_from_m"]
+        fit.noise = fit_noise(noise_blocks(recording, fit.law), start.absorption_db_per_m, from_m)
     fit_laws(recording, fit, find)
     fit_pulse_and_beams(recording, fit)
     bits = np.log2(recording.law.full_value + 1.0)
@@ -55,19 +56,22 @@ def fit_laws(recording, fit, find):
     of_noise = statistics.variance
     fit.law = fit_law(values, full, statistics, None, offset)
     find()
-    patches, noise, echoes = classified(recording, fit.law, fit.noise, fit.instrument["receiver"])
-    of_echoes = len(noise) < LEAST_PATCHES
-    places = None if of_echoes else np.bincount(patches.place[noise], minlength=patches.places) > 0
-    if receiver["samples"] > 1:
-        # The statistics depend on the pulse; no law changes the correlations to which it is fitted.
-        chosen, pulse = echoes if of_echoes else noise, pulse_of(fit.instrument, "echo" if of_echoes else "noise")
-        width = fit_pulse(patches, chosen, pulse) if len(chosen) >= LEAST_PATCHES else None
-        statistics = pulse.statistics(width.value if width else bins)
-    # Even patches may be noise as well as echoes, whose variances differ if samples are combined.
-    share = abs(np.sqrt(of_noise / statistics.variance) - 1.0) if of_echoes else 0.0
-    fit.law = fit_law(values, full, statistics, places, offset, fit.law.is_log)
-    fit.law.scale = fit.law.scale.widened(share * fit.law.scale.value)
-    find()
+    for _ in range(2):      # where samples are combined, the pulse of the start may be too wrong to find the noise
+        patches, noise, echoes = classified(recording, fit.law, fit.noise, fit.instrument["receiver"])
+        of_echoes = len(noise) < LEAST_PATCHES
+        places = None if of_echoes else np.bincount(patches.place[noise], minlength=patches.places) > 0
+        if receiver["samples"] > 1:
+            # The statistics depend on the pulse; no law changes the correlations to which it is fitted.
+            chosen, pulse = echoes if of_echoes else noise, pulse_of(fit.instrument, "echo" if of_echoes else "noise")
+            width = fit_pulse(patches, chosen, pulse) if len(chosen) >= LEAST_PATCHES else None
+            statistics = pulse.statistics(width.value if width else bins)
+        # Even patches may be noise as well as echoes, whose variances differ if samples are combined.
+        share = abs(np.sqrt(of_noise / statistics.variance) - 1.0) if of_echoes else 0.0
+        fit.law = fit_law(values, full, statistics, places, offset, fit.law.is_log)
+        fit.law.scale = fit.law.scale.widened(share * fit.law.scale.value)
+        find()
+        if not of_echoes or receiver["samples"] == 1:
+            break
     if of_echoes:
         fit.notes.append("companding is fitted to echoes: a texture of the bottom counts as speckle, and makes gamma too "
                          "large or dynamic_range_db too small")

@@ -14,9 +14,10 @@ LEAST_LEVEL_DB, LEAST_TVG = 0.1, 0.2    # errors that the trend within a block a
 
 def noise_blocks(recording, law):
     """The level in dB re full scale of the part that changes from ping to ping, in blocks of 8 bins, without
-    the middle quarter of the beams, if there are eight: noise that all elements share acts like a wave from there. Noise N is new in every ping, an echo of a scene at rest is constant: with M the mean of the powers A and B
-    of a place in two pings, the mean of (A - B)^2 is 2 (2 M N - N^2), for one look at one sample. `homogeneous`: beams
-    and pings have one level, and no value is 0; `without_echo`: no part is constant."""
+    the middle quarter of the beams, if there are eight: noise that all elements share acts like a wave from there.
+    Noise N is new in every ping, an echo of a scene at rest is constant: with M the mean of the powers A and B of a
+    place in two pings, the mean of (A - B)^2 is 2 (2 M N - N^2), for one look at one sample. `homogeneous`: beams and
+    pings have one level, and no value is 0; `without_echo`: no part is constant."""
     pings, ranges, beams = recording.values.shape
     group, count = np.arange(beams) * GROUPS // beams, ranges // ROWS
     used = (beams < GROUPS) | (np.abs(group - 0.5 * (GROUPS - 1)) > 1.0)
