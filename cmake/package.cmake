@@ -52,7 +52,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS python3)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS
-    "python3-numpy, python3-pil, python3-scipy, python3-matplotlib, python3-yaml")
+    "python3-numpy, python3-pil, python3-scipy, python3-yaml")
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "simulator of sonars that writes datasets
 Turns a mission (a glTF scene, a trajectory and sonars) into a dataset of
 imaging, profiling, side-scan, scanning and echosounder data that can be

@@ -3,25 +3,10 @@ import json
 
 import numpy as np
 from PIL import Image
+from tool import counts_of
 
 PINGS = 600  # three parts of the page's data
 SEEN = (0, 3, 599)  # the pings of fls that show the mine
-
-
-def counts_of(mask):
-    """COCO's compressed text of a mask: lengths of runs, column by column."""
-    flat = np.concatenate([[False], mask.T.ravel()])
-    edges = np.flatnonzero(flat[1:] != flat[:-1])
-    runs = np.diff(np.concatenate([[0], edges, [mask.size]])).tolist()
-    text = ""
-    for k, run in enumerate(runs):
-        value = run - runs[k - 2] if k > 2 else run
-        more = True
-        while more:
-            low, value = value & 31, value >> 5
-            more = value != (-1 if low & 16 else 0)
-            text += chr(48 + (low | 32 * more))
-    return text
 
 
 def corner(height, width, top, left):
@@ -84,17 +69,17 @@ def write_dataset(folder):
                    "classes": [{"id": 1, "name": "bottom"}, {"id": 2, "name": "mine"}],
                    "annotations": {"background": ["bottom"]}},
         "sensors": [
-            {"name": "fls", "kind": "imaging", "every": 1, "pings": PINGS,
+            {"name": "fls", "kind": "imaging", "every": 1, "full_scale": 1.0, "pings": PINGS,
              "files": {"fan": "fls/fan/%06d.png", "image": "fls/image/%06d.png", "objects": "fls/objects/%06d.json"},
              "pictures": [{"title": "fan", "file": "fls/fan/%06d.png", "per": "ping", "boxes_of": "fan"},
                           {"title": "polar", "file": "fls/image/%06d.png", "per": "ping", "ahead": "down",
                            "boxes_of": "bins"}],
              "fan": {"width_px": 40, "height_px": 30}, "range_edges_m": [0.0] * 25, "azimuth_edges_rad": [0.0] * 17},
-            {"name": "sss", "kind": "sidescan", "every": 1, "pings": 50, "files": {}, "range_edges_m": [],
+            {"name": "sss", "kind": "sidescan", "every": 1, "full_scale": 1.0, "pings": 50, "files": {}, "range_edges_m": [],
              "pictures": [{"title": "waterfall", "file": "sss/waterfall_view.png", "per": "sensor",
                            "boxes_of": "sss/waterfall.png", "origin_px": [0, 9], "pixel_px": [1, 1],
                            "pings_along": "y", "pings_per_pixel": 1}]},
-            {"name": "head", "kind": "scanning", "every": 1, "pings": 50, "files": {}, "range_edges_m": [],
+            {"name": "head", "kind": "scanning", "every": 1, "full_scale": 1.0, "pings": 50, "files": {}, "range_edges_m": [],
              "pictures": [{"title": "scan", "file": "head/scan_%04d.png", "per": "sweep", "pings": 60,
                            "boxes_of": "head/scan_%04d.png", "radius_px": 15.5, "width_px": 31}]}]}
     (folder / "dataset.json").write_text(json.dumps(description))

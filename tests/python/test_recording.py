@@ -4,14 +4,12 @@ import json
 import pathlib
 import random
 import struct
-import sys
 import tempfile
 import unittest
 import warnings
 
 import numpy as np
-
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "apps" / "python"))
+import tool  # noqa: F401: the path of the package
 from sonarsim.recording import Law, RecordingError, open_recording  # noqa: E402
 
 ARRAYS = ("kind: imaging\nfiles: pings.npy\nlaw: {kind: gamma, exponent: 0.5}\nsound_speed_m_s: 1490\n"
@@ -65,14 +63,6 @@ def xtf_ping(samples=(1, 2, 3, 4, 5, 6), layout="H", weight=0, range_m=30.0):
     return xtf_record(0, 256 + 2 * length, *fields)
 
 
-def xtf_soundings(beams=((0.02, -30.0, 7.0), (0.03, 45.0, 8.0))):
-    fields = [(4, "H", len(beams)), (72, "f", 1500.0)]
-    for k, (two_way_s, angle, intensity) in enumerate(beams):
-        at = 256 + 64 * k
-        fields += [(at + 4, "d", intensity), (at + 16, "d", two_way_s), (at + 32, "d", angle)]
-    return xtf_record(28, 256 + 64 * len(beams), *fields)
-
-
 def didson(version=4, frames=2, samples=5, start=4):
     mark = 0x00464444 + (version << 24)
     out = placed(512 if version == 3 else 1024, (0, "I", mark), (12, "I", 1), (16, "I", 48), (20, "f", 50000.0),
@@ -118,8 +108,6 @@ FORMATS = {
     "oculus": ("kind: imaging\noculus: FILE\nrate_hz: 5\n" + GAMMA, oculus() * 2, {len(oculus()), len(oculus()) + 1}),
     "xtf": ("kind: sidescan\nxtf: FILE\nlaw: {kind: power}\n", xtf_header() + xtf_ping() * 2,
             {1024 + len(xtf_ping())}),
-    "xtf soundings": ("kind: soundings\nxtf: FILE\nlaw: {kind: power}\n", xtf_header() + xtf_soundings() * 2,
-                      {1024 + len(xtf_soundings())}),
     "didson": ("kind: imaging\nlogs: FILE\nsound_speed_m_s: 1480\n" + BEARINGS, didson(), {len(didson(frames=1))}),
     "aris": ("kind: imaging\nlogs: FILE\n" + GAMMA + BEARINGS, aris(), {len(aris(frames=1))}),
     "ping360": ("kind: scanning\nlogs: FILE\nsound_speed_m_s: 1500\nhead_first_deg: 90\n" + GAMMA,
@@ -193,10 +181,7 @@ class RecordingTest(unittest.TestCase):
         self.assertEqual((own.first_range_m, own.range_step_m, own.sound_speed_m_s), (0.125, 0.25, 1490.0))
         own = opened["xtf"]
         np.testing.assert_array_equal(own.values[1], [[3, 4], [2, 5], [1, 6]])
-        self.assertEqual((own.range_step_m, own.first_range_m, own.sound_speed_m_s), (10.0, 5.0, 1480.0))
-        own = opened["xtf soundings"]
-        np.testing.assert_allclose(own.soundings.range_m[0], [15.0, 22.5])
-        np.testing.assert_allclose(np.degrees(own.soundings.angle_rad[0]), [-30.0, 45.0], rtol=1e-6)
+        self.assertEqual((own.range_step_m, own.first_range_m, own.sound_speed_m_s), (10.0, 5.0, 1500.0))
         own = opened["didson"]
         self.assertEqual(own.values[1, 2, 7], 2 * 48 + 7 + 1)
         self.assertAlmostEqual(own.range_step_m, 0.5 * 1480 / 50000)
@@ -325,7 +310,7 @@ class RecordingTest(unittest.TestCase):
         np.testing.assert_allclose(own.soundings.angle_rad[0], [0.1, -0.1])
         for more, what in (({"pings": 1 << 31}, "take fewer pings"), ({"pings": 3}, "000002.npy"),
                            ({"range_edges_m": [1, 2]}, "another shape"), ({"files": {}}, "set output.polar: true"),
-                           ({"files": {"polar": "../%06d.npy"}}, "no name that"), ({"kind": "sidescan"}, "no records")):
+                           ({"files": {"polar": "../%06d.npy"}}, "not a name that"), ({"kind": "sidescan"}, "no records")):
             with self.subTest(what), self.assertRaisesRegex(RecordingError, what):
                 self.dataset(more.pop("kind", "imaging"), polar, **{**files, **more})
         (self.path / "s/polar/000001.npy").write_bytes(b"\x93NUMPY\1\0")

@@ -6,8 +6,7 @@ import pathlib
 import shutil
 import sys
 
-PACKAGES = {"numpy": "python3-numpy", "PIL": "python3-pil", "scipy": "python3-scipy",
-            "matplotlib": "python3-matplotlib", "yaml": "python3-yaml"}
+PACKAGES = {"numpy": "python3-numpy", "PIL": "python3-pil", "scipy": "python3-scipy", "yaml": "python3-yaml"}
 
 
 def need(command, *modules):

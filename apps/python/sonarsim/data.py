@@ -3,7 +3,7 @@
     import sonarsim.data
     dataset = sonarsim.data.open_dataset("out/tank_labels")
     fls = dataset["fls"]                       # a sensor, by its name
-    for sample in fls:                         # a ping; its arrays are read when asked for
+    for sample in fls:                         # a ping; its arrays are read when needed
         image = sample["polar"]                # float32 [range, azimuth]
         ids = sample["instance"]               # uint16 [range, azimuth]
         names = dataset.instances              # id -> name
@@ -26,6 +26,7 @@ import pathlib
 import re
 import struct
 import sys
+import tokenize
 import zlib
 
 import numpy as np
@@ -87,7 +88,7 @@ class Dataset:
         self.class_of = {entry["id"]: entry["class"] for entry in labels.get("instances", [])}
         if not self.classes.keys() >= set(self.class_of.values()):
             raise ValueError("labels.instances has a class that labels.classes does not have")
-        # The names of the classes that are no objects.
+        # The names of the classes that are not objects.
         self.background = set(labels.get("annotations", {}).get("background", []))
 
     @property
@@ -240,7 +241,7 @@ class Sensor:
 
 
 class Sample(collections.abc.Mapping):
-    """A ping of a sensor. Its arrays are read when asked for: sample['polar']."""
+    """A ping of a sensor. Its arrays are read when needed: sample['polar']."""
 
     def __init__(self, sensor, index):
         self.sensor = sensor
@@ -296,6 +297,11 @@ class DataError(ValueError):
     """What is wrong with a dataset; the text names the file."""
 
 
+# What comes from the content of a damaged file; the last four from numpy.
+FAULTS = (ValueError, LookupError, TypeError, AttributeError, ArithmeticError, SyntaxError, EOFError, RecursionError,
+          tokenize.TokenError)
+
+
 @contextlib.contextmanager
 def reading(path):
     """Makes a DataError, which names the file, of any error that comes from what is in the file."""
@@ -303,7 +309,7 @@ def reading(path):
         yield path
     except DataError:
         raise
-    except (ValueError, LookupError, TypeError, AttributeError, ArithmeticError) as fault:
+    except FAULTS as fault:
         what = str(fault) if isinstance(fault, ValueError) else repr(fault)
         raise DataError(f"{path}: is damaged: {what}; sonarsim verify says more") from fault
 
@@ -394,10 +400,10 @@ def unfiltered(filters, rows):
 
 
 def read_npy(data):
-    """The array in a .npy file, format 1.0; ValueError if it is no such file, or not as long as its header says."""
+    """The array in a .npy file, format 1.0; ValueError if it is not such a file, or not as long as its header says."""
     file = io.BytesIO(data)
     if np.lib.format.read_magic(file) != (1, 0):
-        raise ValueError("is not a .npy file of format 1.0")
+        raise ValueError("is not a .npy file, format 1.0")
     shape, _, dtype = np.lib.format.read_array_header_1_0(file)
     if dtype.hasobject or math.prod(shape) * dtype.itemsize != len(data) - file.tell():
         raise ValueError(f"is {len(data)} bytes long, and its header says {shape} of {dtype}")

@@ -120,7 +120,7 @@ def sensors_of(where, agent, ticks):
             sonars.append((here, sensor, kind, number(here, {"Hz": ticks} | sensor, "Hz", 1e-6)))
         else:
             known = f"; it has {', '.join(SONARS)}" if "onar" in kind else ""
-            say(f"{here}sensor_type '{kind}' is left out: sonarsim has no such sonar{known}")
+            say(f"{here}sensor_type '{kind}' is left out: sonarsim does not have it{known}")
     fastest = max((rate for *_, rate in sonars), default=0) or wrong(f"{where}sensors: no sonar of {', '.join(SONARS)}")
     for here, sensor, kind, rate in sonars:
         base = re.sub(NOT_IN_NAMES, "_", take(here, sensor, "sensor_name", str, kind))[:60] or "sonar"

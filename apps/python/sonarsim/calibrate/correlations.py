@@ -1,4 +1,4 @@
-"""Pulse, array and texture of the bottom by the correlations of log powers along range and beams.
+"""Pulse and array by the correlations of log powers along range and beams.
 
 An array, or the band of a pulse, is weighted along x = position / length in [-1/2, 1/2] by p + (1 - p) cos^2(pi x):
 p = 1 is uniform (side lobes at -13.3 dB), p = 0.08 is Hamming's (-42 dB)."""
@@ -13,10 +13,8 @@ from .statistics import LAGS, Bounded, bootstrap, sampled_correlations, sampled_
 TAPERS_DB = np.arange(-13.3, -41.0, -0.5)
 LEAST_UNITS, MOST_PAIRS = 24, 16
 CHI2_95 = 3.84          # chi^2 of one degree of freedom stays below it in 95 of 100 cases
-# Of correlations: the error of the model between the columns of its grid, the least that shows a pulse, and the most
-# that a texture may leave unexplained.
-MODEL_ERROR, LEAST_CORRELATION, MOST_LEFT = 0.002, 0.04, 0.05
-SIZES = 24          # tried sizes of its squares, from 2 to 12 bins
+# Of correlations: the error of the model between the columns of its grid, and the least that shows a pulse.
+MODEL_ERROR, LEAST_CORRELATION = 0.002, 0.04
 
 
 def pattern(pedestal, t):
@@ -113,39 +111,17 @@ def taps_of(bins, side_lobe_db, kind):
 def fit_pulse(patches, chosen, pulse):
     """The half-power width in bins; None if neighbouring bins are not correlated: the pulse is shorter than a bin."""
     correlations = patches.correlations(chosen)
-    seen = correlations(np.ones((1, patches.places)))[0, 0]
-    if seen[0] < LEAST_CORRELATION:
+    measured = correlations(np.ones((1, patches.places)))[0, 0]
+    if measured[0] < LEAST_CORRELATION:
         return None
     bins, rows = pulse.table
-    rows = rows[:, np.isfinite(seen)]
+    rows = rows[:, np.isfinite(measured)]
 
     def width(weights):
-        seen = correlations(weights)[:, 0, :rows.shape[1]]
-        return bins[((rows**2).sum(axis=1) - 2.0 * seen @ rows.T).argmin(axis=1)]
+        measured = correlations(weights)[:, 0, :rows.shape[1]]
+        return bins[((rows**2).sum(axis=1) - 2.0 * measured @ rows.T).argmin(axis=1)]
     found = bootstrap(patches.places, width)[0]
     return found.widened((0.01 if pulse.receiver["samples"] == 1 else 0.025) * found.value)
-
-
-def fit_texture(patches, echoes, pulse):
-    """(share of the variance of ln P, pulse in bins) where echoes have a texture besides speckle: strengths in squares of
-    one size, of which a share 1 - lag / size of all bins that far apart lies in one. By least squares over a grid of
-    squares and pulses; None if the share lies less than 3.3 standard errors off 0, or if the correlations are others."""
-    bins, rows = (of[::5] for of in pulse.table)
-    squares = np.maximum(1.0 - np.arange(1, LAGS + 1) / np.linspace(2.0, 12.0, SIZES)[:, None], 0.0)
-    own = np.tile(rows, (SIZES, 1))
-    t = np.repeat(squares, len(rows), axis=0) - own       # [size and pulse, lag]
-    norm, correlations = np.maximum((t**2).sum(axis=1, keepdims=True), 1e-6), patches.correlations(echoes)
-
-    def estimate(weights):
-        # Least squares of seen - own = share (squares - own), with own the speckle's correlation.
-        seen = correlations(weights)[:, 0].T
-        share = np.maximum((t @ seen - (t * own).sum(axis=1, keepdims=True)) / norm, 0.0)
-        error = (seen**2).sum(axis=0) - 2.0 * own @ seen + (own**2).sum(axis=1, keepdims=True) - share**2 * norm
-        best, draw = error.argmin(axis=0), np.arange(len(weights))
-        left = np.sqrt(np.maximum(error[best, draw], 0.0) / LAGS)
-        return np.stack([share[best, draw], bins[best % len(bins)], left], axis=1)
-    share, width, left = bootstrap(patches.places, estimate, [0.0, bins[1] - bins[0], 0.0])
-    return None if share.value < 3.3 * share.half_width / 1.96 or left.value > MOST_LEFT else (share, width)
 
 
 def beam_correlation(pedestal, t):
@@ -170,7 +146,7 @@ def predicted_correlations(beam, sines, statistics):
                      for u in differences(sines)])
 
 
-def fit_array(seen, covariance, units, sines, statistics):
+def fit_array(measured, covariance, units, sines, statistics):
     """(width in degrees, side lobe in dB) of the array with the least chi^2 on a grid of tapers and lengths. An
     interval covers all arrays whose chi^2 is within 3.84 of the least (profile likelihood; Wilks 1938). None for
     fewer than 24 units."""
@@ -187,7 +163,7 @@ def fit_array(seen, covariance, units, sines, statistics):
         out = []
         for table in tables:
             model = [np.interp(np.exp(log_lengths)[:, None] * u, t, table, right=0.0).mean(axis=1) for u in apart]
-            off = seen - np.array(model).T
+            off = measured - np.array(model).T
             out.append(np.einsum("ki,ij,kj->k", off, inverse, off))
         return np.array(out)
     coarse = np.arange(np.log(0.5), np.log(5000.0), 0.05)

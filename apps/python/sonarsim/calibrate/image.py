@@ -1,13 +1,13 @@
-"""What images or records tell of the instrument that made them: law, noise, pulse, beams and texture, in this order."""
+"""What images or records tell of the instrument that made them: law, noise, pulse and beams, in this order."""
 import copy
 import dataclasses
 
 import numpy as np
 
-from .correlations import bins_of, fit_array, fit_pulse, fit_texture, pulse_of
+from .correlations import bins_of, fit_array, fit_pulse, pulse_of
 from .judge import classified
 from .law import Law, fit_law, full_value_of
-from .noise import Noise, find_noise
+from .noise import Noise, fit_noise, noise_blocks
 from .statistics import LAGS, Bounded
 
 LEAST_PATCHES = 24
@@ -19,7 +19,6 @@ class Fit:
     level_db: float             # of the noise, re full scale
     law: Law | None = None
     noise: Noise | None = None
-    texture: float = 0.0        # share of the variance of echoes
     estimates: dict = dataclasses.field(default_factory=dict)   # key -> Bounded or a word
     notes: list = dataclasses.field(default_factory=list)
 
@@ -35,17 +34,10 @@ def fit_image(recording, start):
     fit = Fit(copy.deepcopy(start.instrument), start.noise_db - start.full_scale_db)
 
     def find():
-        fit.noise = find_noise(recording, fit.law, start.absorption_db_per_m, fit.instrument["receiver"]["tvg_from_m"])
-    of_echoes = fit_laws(recording, fit, find)
-    texture = fit_pulse_and_beams(recording, fit)
-    if texture and of_echoes:
-        # The law took the variance of the texture for speckle.
-        fit.texture = min(texture.value, 0.9)
-        factor = np.sqrt(1.0 - fit.texture)
-        scale = fit.law.scale.scaled(1.0 / factor if fit.law.is_log else factor)
-        fit.law.scale = scale.widened(0.5 * texture.half_width / factor**2 * scale.value)
-        fit.notes.append(f"a texture of the bottom makes {fit.texture:.0%} of the variance of echoes")
-        find()
+        from_m = fit.instrument["receiver"]["tvg_from_m"]
+        fit.noise = fit_noise(noise_blocks(recording, fit.law), start.absorption_db_per_m, from_m)
+    fit_laws(recording, fit, find)
+    fit_pulse_and_beams(recording, fit)
     bits = np.log2(recording.law.full_value + 1.0)
     if bits in range(8, 17):
         fit.set("receiver.bits", int(bits))
@@ -56,38 +48,42 @@ def fit_image(recording, start):
 
 
 def fit_laws(recording, fit, find):
-    """Fits the law to all patches, finds the noise, and fits the law again to patches of noise, since even patches of
-    echoes may hold a texture. True if there is too little noise."""
+    """Fits the law to all patches, finds the noise, and fits the law again to patches of noise, if there are
+    enough, since even patches of echoes may hold a texture of the bottom."""
     values, full, receiver = recording.values, full_value_of(recording), fit.instrument["receiver"]
     bins, offset = bins_of(fit.instrument, recording.range_step_m), receiver["offset"]
     statistics = pulse_of(fit.instrument, "noise").statistics(bins)
     of_noise = statistics.variance
     fit.law = fit_law(values, full, statistics, None, offset)
     find()
-    patches, noise, echoes = classified(recording, fit.law, fit.noise)
-    of_echoes = len(noise) < LEAST_PATCHES
-    places = None if of_echoes else np.bincount(patches.place[noise], minlength=patches.places) > 0
-    if receiver["samples"] > 1:
-        # The statistics depend on the pulse; no law changes the correlations to which it is fitted.
-        chosen, pulse = echoes if of_echoes else noise, pulse_of(fit.instrument, "echo" if of_echoes else "noise")
-        width = fit_pulse(patches, chosen, pulse) if len(chosen) >= LEAST_PATCHES else None
-        statistics = pulse.statistics(width.value if width else bins)
-    # Even patches may be noise as well as echoes, whose variances differ if samples are combined.
-    share = abs(np.sqrt(of_noise / statistics.variance) - 1.0) if of_echoes else 0.0
-    fit.law = fit_law(values, full, statistics, places, offset, fit.law.is_log)
-    fit.law.scale = fit.law.scale.widened(share * fit.law.scale.value)
-    find()
-    return of_echoes
+    for _ in range(2):      # where samples are combined, the pulse of the start may be too wrong to find the noise
+        patches, noise, echoes = classified(recording, fit.law, fit.noise, fit.instrument["receiver"])
+        of_echoes = len(noise) < LEAST_PATCHES
+        places = None if of_echoes else np.bincount(patches.place[noise], minlength=patches.places) > 0
+        if receiver["samples"] > 1:
+            # The statistics depend on the pulse; no law changes the correlations to which it is fitted.
+            chosen, pulse = echoes if of_echoes else noise, pulse_of(fit.instrument, "echo" if of_echoes else "noise")
+            width = fit_pulse(patches, chosen, pulse) if len(chosen) >= LEAST_PATCHES else None
+            statistics = pulse.statistics(width.value if width else bins)
+        # Even patches may be noise as well as echoes, whose variances differ if samples are combined.
+        share = abs(np.sqrt(of_noise / statistics.variance) - 1.0) if of_echoes else 0.0
+        fit.law = fit_law(values, full, statistics, places, offset, fit.law.is_log)
+        fit.law.scale = fit.law.scale.widened(share * fit.law.scale.value)
+        find()
+        if not of_echoes or receiver["samples"] == 1:
+            break
+    if of_echoes:
+        fit.notes.append("companding is fitted to echoes: a texture of the bottom counts as speckle, and makes gamma too "
+                         "large or dynamic_range_db too small")
 
 
 def fit_pulse_and_beams(recording, fit):
-    """Sets pulse and beams, and returns the share of a texture or None."""
-    patches, noise, echoes = classified(recording, fit.law, fit.noise)
-    of_echoes, texture = len(noise) < LEAST_PATCHES, None
+    """Sets pulse and beams."""
+    patches, noise, echoes = classified(recording, fit.law, fit.noise, fit.instrument["receiver"])
+    of_echoes = len(noise) < LEAST_PATCHES
     chosen = echoes if of_echoes else noise
     if len(chosen) < LEAST_PATCHES:
-        fit.notes.append("pulse and beams: too few patches of noise or even echoes; those of the start are kept")
-        return None
+        return fit.notes.append("pulse and beams: too few patches of noise or even echoes; those of the start are kept")
     pulse = pulse_of(fit.instrument, "echo" if of_echoes else "noise")
     width = fit_pulse(patches, chosen, pulse)
     if width is None:
@@ -106,12 +102,8 @@ def fit_pulse_and_beams(recording, fit):
             fit.notes.append("beams: too few places of even echoes; width and taper are those of the start")
         elif found[1].high - found[1].low > 8.0:
             fit.notes.append("beam.width_deg and side_lobe_db can hardly be separated: the two belong together")
-    # If pulse and law are fitted to noise, a texture does not affect them.
-    if width and fit.noise and of_echoes:
-        texture = fit_texture(patches, echoes, pulse)
     if width:
-        fit.set("pulse.resolution_m", (texture[1] if texture else width).scaled(recording.range_step_m))
-    return texture and texture[0]
+        fit.set("pulse.resolution_m", width.scaled(recording.range_step_m))
 
 
 def set_levels(start, fit):

@@ -24,18 +24,20 @@ class Figure(typing.NamedTuple):
         return self.predicted is not None and abs(self.predicted - self.measured.value) <= most
 
 
-def classified(recording, law, noise):
+def classified(recording, law, noise, receiver):
     """(patches of log powers less the level of the noise, numbers of noise patches, of echo patches). Patches are
-    noise if all their rows are blocks of `noise` without echoes and zeros, except for those straight ahead. Even
-    patches 6 dB above the noise are echoes; without `noise`, all even ones."""
+    noise if all their rows are blocks of `noise` without echoes and zeros, and outside of
+    the middle quarter if all elements share noise, which acts like a wave from there. Even patches 6 dB above the
+    noise are echoes; without `noise`, all even ones."""
     level = (noise.at(recording.ranges_m) if noise else np.zeros(recording.values.shape[1]))[:, None] / DB_OF_E
     patches = Patches(recording.values, law.full_value, lambda ping: law.log_power(ping) - level)
     is_noise = np.zeros(len(patches.place), bool)
     if noise and noise.used is not None:
         rows = noise.used.row[noise.used.without_echo & noise.used.without_zeros]
         is_noise = np.all([np.isin(patches.row + k, rows) for k in range(0, patches.shape[0], ROWS)], axis=0)
-        if noise.ahead is not None:
-            is_noise &= ~np.any([noise.ahead[patches.beam + k] for k in range(patches.shape[1])], axis=0)
+        if receiver["common_mode_db"] > -300.0:    # -300: none
+            middle = patches.beam + 0.5 * patches.shape[1] - 0.5 * recording.values.shape[2]
+            is_noise &= np.abs(middle) >= 0.5 * patches.shape[1] + recording.values.shape[2] / 8.0
     chosen, echoes = np.flatnonzero(is_noise), patches.even()
     if len(chosen):
         # Particles are bright points in some. The variance of four means of one level exceeds four times its median
@@ -47,13 +49,13 @@ def classified(recording, law, noise):
 
 
 def figures_of(recording, instrument, level_db, start, fit):
-    """The figures of noise and of echoes, where the pings determine them. `fit` has the blocks and beams of noise."""
+    """The figures of noise and of echoes, where the pings determine them. `fit` has the blocks of noise."""
     receiver, bins = instrument["receiver"], bins_of(instrument, recording.range_step_m)
     law = stated_law(receiver, full_value_of(recording), pulse_of(instrument, "noise").statistics(bins))
     noise = Noise(Bounded(*3 * [level_db]), Bounded(*3 * [receiver["tvg_log"]]), receiver["tvg_from_m"],
                   start.absorption_db_per_m if receiver["tvg_absorption"] else 0.0,
-                  fit.noise and fit.noise.used, fit.noise and fit.noise.ahead)
-    patches, of_noise, echoes = classified(recording, law, noise)
+                  fit.noise and fit.noise.used)
+    patches, of_noise, echoes = classified(recording, law, noise, receiver)
     to_shape, out = 2.0 * np.pi / np.sqrt(6.0), []
     of = Patches(recording.values, law.full_value, lambda ping: np.exp(
         0.5 * (law.log_power(ping) - noise.at(recording.ranges_m)[:, None] / DB_OF_E)))
@@ -62,23 +64,20 @@ def figures_of(recording, instrument, level_db, start, fit):
         if len(chosen) < LEAST_PATCHES:
             continue
         pulse, sums = pulse_of(instrument, kind), patches.sums(chosen, *columns)
-        statistics, share = pulse.statistics(bins), fit.texture if kind == "echo" else 0.0
-        # The mean squares of independent factors multiply; the logarithm of a texture is taken as normal.
-        of_texture = np.exp(0.25 * statistics.variance * share / (1.0 - share))
-        variation = np.sqrt((1.0 + statistics.variation**2) * of_texture - 1.0)
+        statistics = pulse.statistics(bins)
 
         def distribution(weights, sums=sums):
             count, coefficient, variance = (weights @ sums).T
             return np.stack([coefficient / count, to_shape / np.sqrt(variance / count)], axis=1)
         measured = bootstrap(patches.places, distribution, draws=DRAWS)
-        shape = to_shape / np.sqrt(statistics.variance / (1.0 - share))
-        out += [Figure(f"{where}: variation of the amplitude", 0.1, float(variation), measured[0]),
+        shape = to_shape / np.sqrt(statistics.variance)
+        out += [Figure(f"{where}: variation of the amplitude", 0.1, float(statistics.variation), measured[0]),
                 Figure(f"{where}: Weibull shape of the amplitude", 0.1, float(shape), measured[1])]
         measured = bootstrap(patches.places, patches.correlations(chosen), draws=DRAWS)
         predicted = [pulse.correlations(bins)]
         if recording.bearing_rad is not None and len(recording.bearing_rad) > LAGS:
             predicted.append(predicted_correlations(instrument["beam"], np.sin(recording.bearing_rad), statistics))
-        for axis, of_speckle in enumerate(predicted if share == 0.0 else ()):
+        for axis, of_speckle in enumerate(predicted):
             out += [Figure(f"{where}: correlation {lag} {('bins', 'beams')[axis]} apart", "correlation",
                            float(of_speckle[lag - 1]), measured[axis * LAGS + lag - 1]) for lag in (1, 2, 4)]
         if kind == "noise":
@@ -88,7 +87,7 @@ def figures_of(recording, instrument, level_db, start, fit):
 
 def noise_levels(recording, law, noise):
     """The level of the noise in the nearest, middle and farthest third of its blocks."""
-    blocks, count, out = noise_blocks(recording, law, noise.ahead), len(noise.used), []
+    blocks, count, out = noise_blocks(recording, law), len(noise.used), []
     for k, name in enumerate(("near", "middle", "far")):
         third = noise.used[k * count // 3:(k + 1) * count // 3]
         here = np.isin(blocks.row, third.row[third.without_echo])   # one ping does not show noise below an echo

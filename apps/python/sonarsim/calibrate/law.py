@@ -64,9 +64,10 @@ def fit_law(values, full_value, statistics, places=None, offset=0.0, is_log=None
     if is_log is None:
         skewness = [moments_of(of, even)[1] for of in (logs, plain)]
         check_speckle(logs, even, skewness, statistics.skewness)
-        level = np.log(plain.mean_value[even])
         # The slope of log standard deviation against log mean is 1 for a power, 0 for a logarithm.
-        slope = np.polyfit(level, 0.5 * np.log(plain.variance[even]), 1)[0] if level.std() > LEAST_SPREAD_OF_LEVELS else None
+        steep = even[plain.variance[even] > 0.0]
+        level, deviation = np.log(plain.mean_value[steep]), 0.5 * np.log(plain.variance[steep])
+        slope = np.polyfit(level, deviation, 1)[0] if level.std() > LEAST_SPREAD_OF_LEVELS else None
         off = [abs(s.value - statistics.skewness) for s in skewness]
         is_log = bool(off[1] <= off[0] if slope is None else slope <= 0.5)
     require_patches(loose if is_log else strict)

@@ -10,17 +10,18 @@ ROWS, GROUPS = 8, 8         # bins of a block, groups of beams
 NEAR_DB = 0.8               # a block is on the law if it is within this of it
 LEAST_BLOCKS, LEAST_SHARE = 6, 0.12
 LEAST_LEVEL_DB, LEAST_TVG = 0.1, 0.2    # errors that the trend within a block and the law leave
-DEVIATIONS_AHEAD, LEAST_OVER_DB = 4.0, 0.4     # by which beams stand out
 
 
-def noise_blocks(recording, law, ahead=None):
-    """The level in dB re full scale of the part that changes from ping to ping, in blocks of 8 bins, without the beams
-    `ahead`. Noise N is new in every ping, an echo of a scene at rest is constant: with M the mean of the powers A and B
-    of a place in two pings, the mean of (A - B)^2 is 2 (2 M N - N^2), for one look at one sample. `homogeneous`: beams
-    and pings have one level, and no value is 0; `without_echo`: no part is constant."""
+def noise_blocks(recording, law):
+    """The level in dB re full scale of the part that changes from ping to ping, in blocks of 8 bins, without
+    the middle quarter of the beams, if there are eight: noise that all elements share acts like a wave from there.
+    Noise N is new in every ping, an echo of a scene at rest is constant: with M the mean of the powers A and B of a
+    place in two pings, the mean of (A - B)^2 is 2 (2 M N - N^2), for one look at one sample. `homogeneous`: beams and
+    pings have one level, and no value is 0; `without_echo`: no part is constant."""
     pings, ranges, beams = recording.values.shape
-    used = np.ones(beams, bool) if ahead is None else ~ahead
-    group, count = np.arange(beams)[used] * GROUPS // beams, ranges // ROWS
+    group, count = np.arange(beams) * GROUPS // beams, ranges // ROWS
+    used = (beams < GROUPS) | (np.abs(group - 0.5 * (GROUPS - 1)) > 1.0)
+    group = group[used]
     sums, groups, before = np.zeros((5, count)), np.zeros((count, GROUPS)), None
 
     def by_block(x):
@@ -42,7 +43,7 @@ def noise_blocks(recording, law, ahead=None):
     with np.errstate(all="ignore"):
         fresh = np.log(power - np.sqrt(power**2 - half))
     level_db = DB_OF_E * np.where(echo, fresh, mean - law.statistics.mean)
-    independent = max(pings * ROWS * used.sum() / GROUPS / 6.0, 1.0)
+    independent = max(pings * ROWS * beams / GROUPS / 6.0, 1.0)
     even = spread_of_groups(groups / pings, group) < 0.3 + 3.0 * np.sqrt(expected / independent)
     single = law.statistics.looks == 1 and not law.statistics.excess.any()
     row = ROWS * np.arange(count)
@@ -55,9 +56,9 @@ def noise_blocks(recording, law, ahead=None):
 
 def spread_of_groups(sums, group):
     """The spread of the mean log powers of groups of beams: 1.48 times the (upper) median distance from their median,
-    so that a bright point does not count. Without the two middle groups, which hold noise that all elements share."""
+    so that a bright point does not count."""
     counts = np.bincount(group, minlength=GROUPS)
-    outer = (counts > 0) & ~np.isin(np.arange(GROUPS), (GROUPS // 2, GROUPS // 2 - 1))
+    outer = counts > 0
     if outer.sum() < 3:
         return np.zeros(len(sums))
     means, middle = sums[:, outer] / counts[outer], outer.sum() // 2
@@ -74,7 +75,6 @@ class Noise:
     from_m: float
     absorption_db_per_m: float
     used: np.recarray | None = None     # the blocks that lie on it
-    ahead: np.ndarray | None = None     # the beams that hold noise which all elements share
 
     def at(self, range_m):
         r = np.maximum(range_m, self.from_m)
@@ -114,22 +114,3 @@ def best_line(x, y, weights):
     sx, sy, sxx, sxy = (weights @ np.stack([x, y, x * x, x * y], axis=1)).T
     factor = (sxy - sx * sy / w) / (sxx - sx * sx / w)
     return np.stack([(sy - factor * sx) / w, factor], axis=1)
-
-
-def find_noise(recording, law, absorption, from_m):
-    """The noise, first of all beams, then without those that stand out straight ahead: noise that all elements share
-    acts like a wave from there."""
-    noise = fit_noise(noise_blocks(recording, law), absorption, from_m)
-    beams = recording.bearing_rad
-    if noise is None or beams is None or len(beams) < 3 or not noise.used.without_echo.any():
-        return noise
-    blocks = noise.used[noise.used.without_echo]
-    rows = (blocks.row[:, None] + np.arange(ROWS)).ravel()
-    of_row = np.repeat(noise.at(blocks.range_m), ROWS)[:, None]
-    over = np.mean([(DB_OF_E * law.log_power(ping[rows]) - of_row).mean(axis=0) for ping in recording.values], axis=0)
-    over -= np.median(over)
-    ahead = over > max(DEVIATIONS_AHEAD * 1.48 * np.median(np.abs(over)), LEAST_OVER_DB)
-    if not ahead[np.argmin(np.abs(np.sin(beams)))]:
-        return noise
-    noise = fit_noise(noise_blocks(recording, law, ahead), absorption, from_m)
-    return noise and dataclasses.replace(noise, ahead=ahead)

@@ -19,7 +19,8 @@ DEFAULTS = {
     "pulse": {"resolution_m": 0.0, "side_lobe_db": -30.0},
     "speckle": {"mode": "scene"},
     "receiver": {"tvg_log": 40.0, "tvg_absorption": True, "tvg_from_m": 0.0, "companding": "gamma", "gamma": 0.5,
-                 "dynamic_range_db": 60.0, "samples": 1, "combine": "max", "looks": 1, "offset": 0.0},
+                 "dynamic_range_db": 60.0, "samples": 1, "combine": "max", "looks": 1, "offset": 0.0,
+                 "common_mode_db": -300.0},
 }
 
 
@@ -55,7 +56,7 @@ def preset_file(name):
     folders = [root / part for root in roots for part in ("configs/sensors", "share/sonarsim/configs/sensors")]
     shipped = {path.stem: path for folder in folders for path in folder.glob("*.yaml")}
     if name not in shipped:
-        raise CalibrationError(f"{name}: there is no such file, and no preset of this name came with the program; there are: "
+        raise CalibrationError(f"{name}: is not a file, and no preset of this name came with the program; there are: "
                                + ", ".join(sorted(shipped)))
     return shipped[name]
 

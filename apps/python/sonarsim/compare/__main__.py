@@ -6,27 +6,20 @@ import sys
 
 from ..command import need, replaced, run
 
-MOST_PINGS = 1 << 20
-
-
-def number_of_pings(text):
-    if not text.isdecimal() or not 0 < int(text) <= MOST_PINGS:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a number from 1 to {MOST_PINGS}")
-    return int(text)
-
 
 def compare(options):
     from ..recording import open_recording      # pylint: disable=import-outside-toplevel
     from . import comparison, report    # pylint: disable=import-outside-toplevel
     out = options.out
+    if options.pings is not None and options.pings < 1:
+        raise ValueError("--pings: must be 1 or more")
     if out and (out / "compare.json").exists():
         raise ValueError(f"{out}: holds a comparison already: name another folder, or remove it")
     result = comparison.compare_recordings(open_recording(options.real, options.real_sensor, options.pings),
                                            open_recording(options.simulated, options.sensor, options.pings))
     content = report.comparison_json(result)
     if out:
-        with replaced(out / "compare.svg") as svg, replaced(out / "compare.json") as file:
-            report.plot(result, svg)
+        with replaced(out / "compare.json") as file:
             file.write_text(json.dumps(content, indent=2) + "\n")
     if options.json or not options.quiet:
         print(json.dumps(content) + "\n" if options.json else report.comparison_text(result), end="")
@@ -39,15 +32,15 @@ def main():
     add = parser.add_argument
     add("real", help="the real pings: a folder with recording.yaml, or a dataset")
     add("simulated", help="the simulated pings: the same")
-    add("--out", metavar="FOLDER", type=pathlib.Path, help="a folder for compare.json and compare.svg")
+    add("--out", metavar="FOLDER", type=pathlib.Path, help="a folder for compare.json")
     add("--sensor", metavar="NAME", help="the sensor of the simulated dataset, if it has several")
     add("--real-sensor", metavar="NAME", help="the same of the real pings, if these are a dataset")
-    add("--pings", metavar="N", type=number_of_pings, help="reads only the first so many pings of each; default: all")
+    add("--pings", metavar="N", type=int, help="reads only the first so many pings of each; default: all")
     add("--json", action="store_true", help="prints compare.json in place of the table")
     add("--quiet", action="store_true", help="prints nothing")
     options = parser.parse_args()
     # Here, so that --help needs no packages.
-    need("compare", "numpy", "scipy", "yaml", "PIL", *["matplotlib"] * bool(options.out))
+    need("compare", "numpy", "scipy", "yaml", "PIL")
     return run("compare", compare, options)
 
 

@@ -2,16 +2,12 @@
 import dataclasses
 
 import numpy as np
-from scipy import stats
 
 from ..recording import Recording, RecordingError
 from .bootstrap import adjust, compared, exchange_p
-from .figure import decibels
 from .images import have_one_grid, images_of, patch_size_of, zones_of
 from .measure import measure_images
 from .soundings import common_angles, measure_soundings
-
-HISTOGRAM_DRAWS = 200
 
 
 @dataclasses.dataclass
@@ -21,8 +17,6 @@ class Comparison:
     has_one_grid: bool
     is_relative: bool           # powers are relative to the mean of each recording
     figures: list               # of ComparedFigure
-    histograms: list            # a dict of distances each
-    levels: list                # (ranges in m, levels in dB) of both, for the plot
 
     @property
     def agreeing(self):
@@ -51,9 +45,9 @@ def compare_recordings(real, simulated, seed=1):
     # A recording without a known largest value has no absolute level.
     is_relative = real.law.full_value == 0.0 or simulated.law.full_value == 0.0
     measure = measure_soundings_of_both if real.kind == "soundings" else measure_images_of_both
-    same_places, same_pings, measured, levels = measure((real, simulated), is_relative)
-    others = {figure.name: figure for figure in measured[1][0]}
-    pairs = [(figure, others[figure.name]) for figure in measured[0][0] if figure.name in others]
+    same_places, same_pings, measured = measure((real, simulated), is_relative)
+    others = {figure.name: figure for figure in measured[1]}
+    pairs = [(figure, others[figure.name]) for figure in measured[0] if figure.name in others]
     figures = [compared(*pair, same_places, same_pings, seed) for pair in pairs]
     # Others were found at fewer than eight places.
     known = [k for k, figure in enumerate(figures) if figure.degrees > 0.0]
@@ -66,18 +60,16 @@ def compare_recordings(real, simulated, seed=1):
         # without variance has no such tails.
         for figure, p in zip(figures, exchange_p(pairs, [figure.error for figure in figures], seed)):
             figure.adjusted_p = max(figure.adjusted_p, float(p)) if figure.error > 0.0 else figure.adjusted_p
-    histograms = [compared_histograms(*both, same_places, seed) for both in zip(measured[0][1], measured[1][1])
-                  if all(one.counts.any() for one in both)]
-    return Comparison(real, simulated, same_places, is_relative, figures, histograms, levels)
+    return Comparison(real, simulated, same_places, is_relative, figures)
 
 
 def measure_soundings_of_both(recordings, is_relative):
     angles = common_angles(*recordings)
-    return False, False, [(measure_soundings(one, angles, is_relative), []) for one in recordings], []
+    return False, False, [measure_soundings(one, angles, is_relative) for one in recordings]
 
 
 def measure_images_of_both(recordings, is_relative):
-    """(same places, same pings, [(figures, histograms)] of both, levels by range of both)."""
+    """(same places, same pings, figures of both)."""
     images = [images_of(one, is_relative) for one in recordings]
     a, b = images
     is_one, size, bands = have_one_grid(a, b), patch_size_of(a, b), common_bands(a, b)
@@ -85,8 +77,7 @@ def measure_images_of_both(recordings, is_relative):
     # With a common grid both have the zones of their mean, so that chance does not shift one's against the other's.
     zones = [zones_of(mean) for mean in ([0.5 * (means[0] + means[1])] * 2 if is_one else means)]
     measured = [measure_images(one, size, own, bands) for one, own in zip(images, zones)]
-    levels = [(one.ranges_m, decibels(mean)) for one, mean in zip(images, means)]
-    return is_one, is_one and len(a.powers) == len(b.powers), measured, levels
+    return is_one, is_one and len(a.powers) == len(b.powers), measured
 
 
 def common_bands(a, b):
@@ -99,39 +90,3 @@ def common_bands(a, b):
         return (begin, end), None
     low, high = max(a.bearing_rad.min(), b.bearing_rad.min()), min(a.bearing_rad.max(), b.bearing_rad.max())
     return (begin, end), (low, high) if high > low else None
-
-
-def compared_histograms(real, simulated, is_paired, seed):
-    """The distances of two histograms. Below `usual` lie 95 % of the draws that exchange places."""
-    a, b = real.counts.sum(axis=0), simulated.counts.sum(axis=0)
-    random, drawn = np.random.default_rng([seed, 4]), []
-    share = 0.5 if is_paired else len(real.counts) / (len(real.counts) + len(simulated.counts))
-    for _ in range(HISTOGRAM_DRAWS):
-        # Common places are exchanged one by one; else all are dealt out again.
-        of_real = random.random(len(real.counts)) < share
-        of_simulated = ~of_real if is_paired else random.random(len(simulated.counts)) < share
-        one = of_real @ real.counts + of_simulated @ simulated.counts
-        drawn.append(jensen_shannon(one, a + b - one))
-    return {"name": real.name, "jensen_shannon_bits": jensen_shannon(a, b),
-            "usual_jensen_shannon_bits": float(np.quantile(drawn, 0.95)),
-            "kullback_leibler_nats": kullback_leibler(a, b), "earth_movers": real.bin_width * earth_movers(a, b),
-            "earth_movers_unit": real.unit}
-
-
-def jensen_shannon(one, other):
-    """The Jensen-Shannon divergence of two histograms, bits: 0 for equal shares, 1 for those that share no bin."""
-    if not one.sum() > 0.0 < other.sum():
-        return 1.0
-    p, q = one / one.sum(), other / other.sum()
-    return float(0.5 * (stats.entropy(p, 0.5 * (p + q), 2) + stats.entropy(q, 0.5 * (p + q), 2)))
-
-
-def kullback_leibler(one, other):
-    """The Kullback-Leibler divergence, nats, with half a count added to each bin, so that an empty one does not make it
-    infinite."""
-    return float(stats.entropy(one + 0.5, other + 0.5))
-
-
-def earth_movers(one, other):
-    """The mean number of bins by which counts have to be moved."""
-    return float(np.abs(np.cumsum(one / one.sum() - other / other.sum())).sum())

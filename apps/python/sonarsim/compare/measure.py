@@ -1,11 +1,9 @@
 """All figures of the images of a recording (docs/calibrate.md)."""
-import collections
 import functools
 
 import numpy as np
 
 from . import speckle
-from .edges import edge_figures
 from .figure import Figure, decibels
 from .images import Grid
 from .points import point_figures
@@ -17,30 +15,20 @@ MOST_CLIPPED = 0.03
 LAGS = (1, 2, 4)
 LOWEST_DB, BIN_DB, LEVEL_BINS = -160.0, 0.5, 340
 PERCENTILES = (5, 25, 50, 75, 95, 99)
-PATTERNS = 59
-NEIGHBOURS = ((-1, -1), (-1, 0), (-1, 1), (0, 1), (1, 1), (1, 0), (1, -1), (0, -1))
-
-
-# counts[place, bin] of all pings together.
-Histogram = collections.namedtuple("Histogram", "name bin_width unit counts")
 
 
 def measure_images(images, size, zones, bands):
-    """(figures, histograms) of images. `bands` are the intervals of range and of bearing (or None) that are compared."""
+    """The figures of images. `bands` are the intervals of range and of bearing (or None) that are compared."""
     grid = Grid(images.shape, size)
     figures = level_figures(images, grid, zones, bands) + share_figures(images, grid)
     for name, zone in (("image" if zones.is_one else "bottom", zones.bottom), ("water", zones.water), ("tail", zones.tail)):
         figures += zone_figures(images, grid, name, zone)
-    histograms = [level_histogram(images, grid), texture_histogram(images, grid)]
-    places, bins = np.nonzero(histograms[0].counts)
-    figures += [Figure.of(f"level of {percent} % of the image, dB", "quantile", "decibel", places, 0,
-                          LOWEST_DB + BIN_DB * bins, histograms[0].counts[places, bins], percent / 100.0)
-                for percent in PERCENTILES]
+    figures += percentile_figures(images, grid)
     if not images.columns_are_pings:
-        figures += point_figures(images, grid, zones) + edge_figures(images, grid, zones)
+        figures += point_figures(images, grid, zones)
     if images.has_shadows:
         figures += shadow_figures(images, grid, zones)
-    return [figure for figure in figures if figure.values.size], histograms
+    return [figure for figure in figures if figure.values.size]
 
 
 def zone_figures(images, grid, name, zone):
@@ -122,32 +110,13 @@ def share_figures(images, grid):
                                 ("share of clipped values", lambda power: power >= images.full_power))[:1 + is_known]]
 
 
-def counted(grid, width, bins_of_images):
-    """The counts [place, bin] of bins [place, ...], of all images."""
-    counts = np.zeros(grid.places * width)
-    for bins in bins_of_images:
-        numbers = np.arange(grid.places)[:, None] * width + bins.reshape(grid.places, -1)
+def percentile_figures(images, grid):
+    """Percentiles of the levels, by the counts of each level at each place in all pings."""
+    counts = np.zeros(grid.places * LEVEL_BINS)
+    for image in images.powers:
+        bins = ((decibels(grid.cut(image)) - LOWEST_DB) / BIN_DB + 0.5).astype(int).reshape(grid.places, -1)
+        numbers = np.arange(grid.places)[:, None] * LEVEL_BINS + np.clip(bins, 0, LEVEL_BINS - 1)
         counts += np.bincount(numbers.ravel(), minlength=counts.size)
-    return counts.reshape(grid.places, width)
-
-
-def level_histogram(images, grid):
-    bins = (((decibels(grid.cut(image)) - LOWEST_DB) / BIN_DB + 0.5).astype(int) for image in images.powers)
-    return Histogram("levels", BIN_DB, "dB", counted(grid, LEVEL_BINS, (np.clip(own, 0, LEVEL_BINS - 1) for own in bins)))
-
-
-def texture_histogram(images, grid):
-    """The uniform local binary patterns of eight neighbours (Ojala, Pietikainen and Maenpaa 2002) of the inner pixels of
-    patches: a bit for each neighbour whose power is at least that of the pixel."""
-    patterns = np.arange(256)
-    changes = np.unpackbits((patterns ^ (patterns << 1 | patterns >> 7)).astype(np.uint8)[:, None], axis=1).sum(axis=1)
-    numbers = np.where(changes <= 2, np.cumsum(changes <= 2) - 1, PATTERNS - 1)
-    height, width = grid.size
-    def patterns_of(patches):
-        pattern = 0
-        for down, right in NEIGHBOURS:
-            other = patches[:, 1 + down:height - 1 + down, 1 + right:width - 1 + right]
-            pattern = pattern << 1 | (other >= patches[:, 1:-1, 1:-1]).astype(int)
-        return numbers[pattern]
-    images = images.powers if min(height, width) > 2 else ()
-    return Histogram("texture", 1.0, "patterns", counted(grid, PATTERNS, (patterns_of(grid.cut(one)) for one in images)))
+    places, bins = np.divmod(np.flatnonzero(counts), LEVEL_BINS)
+    return [Figure.of(f"level of {percent} % of the image, dB", "quantile", "decibel", places, 0, LOWEST_DB + BIN_DB * bins,
+                      counts[counts > 0], percent / 100.0) for percent in PERCENTILES]

@@ -1,11 +1,9 @@
 """sonarsim gallery OUT: writes OUT/index.html and OUT/index_files/, a page to look through a dataset."""
 import argparse
-import collections
 import json
 import os
 import pathlib
 import re
-import shutil
 import sys
 
 from ..command import need, new_folder, replaced, run
@@ -13,10 +11,9 @@ from ..command import need, new_folder, replaced, run
 need("gallery", "numpy")
 
 from .. import data
-from ..tally import EDGES, Tally
 
 PAGE = pathlib.Path(__file__).parent / "page"
-SCRIPTS = ("data.js", "picture.js", "objects.js", "statistics.js", "controls.js")
+SCRIPTS = ("data.js", "picture.js", "objects.js", "controls.js")
 MARK = b'<meta name="generator" content="sonarsim gallery">'
 OWN_FILE = re.compile(r"page\.(css|js)|\d+(_\d+_\d+)?\.js")
 PINGS_PER_CHUNK = 250
@@ -36,38 +33,33 @@ def shape_of(box, x, y, mask="", shadow=None):
     return [*map(int, (left, top, right, bottom)), str(mask or ""), shape_of(shadow, x, y)[:4] if shadow else 0]
 
 
-def facts_of_ping(meta):
+def ping_facts(meta):
     """When and where a ping was, and what it measured."""
-    return facts_of(dict(zip("xyz", meta["T_world_vehicle"]["position_m"]), time_s=meta["time_s"],
-                         estimated_error=meta.get("estimated_error")) | meta.get("measured", {}))
+    place = dict(zip("xyz", meta["T_world_vehicle"]["position_m"]))
+    return facts_of({**place, "time_s": meta["time_s"], **meta.get("measured", {})})
 
 
 class Shown:
-    """A dataset as the page shows it; `totals` are the tallies of all datasets, by sensor."""
+    """A dataset as the page shows it."""
 
-    def __init__(self, dataset, classes, totals):
-        self.dataset, self.classes, self.totals = dataset, classes, totals
+    def __init__(self, dataset, classes):
+        self.dataset = dataset
         self.labels = [[str(dataset.instances[one]), classes.index(dataset.classes[number])]
                        for one, number in dataset.class_of.items()]
         self.label_of = {one: label for label, one in enumerate(dataset.class_of)}
         self.background = [k for k, name in enumerate(classes) if name in dataset.background]
 
-    def entries(self, content, tallies):
+    def entries(self, content):
         """[label, facts, shape in the image of bins or in the record, shape in the fan or 0] of each object."""
-        entries, counted = [], []
-        for seen in content["objects"]:
-            label, shadow, fan = self.label_of[seen["id"]], seen.get("shadow") or {}, seen.get("fan")
-            facts = facts_of({key: value for key, value in seen.items() if "box" not in key and key != "fan"},
+        entries = []
+        for one in content["objects"]:
+            shadow, fan = one.get("shadow") or {}, one.get("fan")
+            facts = facts_of({key: value for key, value in one.items() if "box" not in key and key != "fan"},
                              "id", "name", "class", "mask")
-            own = (seen["box_px"], "x", "y") if "box_px" in seen else (seen["box_bins"], "beam", "range")
-            shape = shape_of(*own, seen.get("mask"), seen.get("shadow_box_px") or shadow.get("box_bins"))
-            entries.append([label, facts, shape, fan and shape_of(fan["box_px"], "x", "y", fan.get("mask"),
-                                                                  fan.get("shadow_box_px"))])
-            if self.labels[label][1] not in self.background:
-                area = facts.get("area_px", facts.get("area_bins"))
-                counted.append({**facts, "area": area, "id": seen["id"], "class": self.labels[label][1] + 1, "iscrowd": 0})
-        for tally in tallies:
-            tally.add(self.dataset.folder, counted)
+            own = (one["box_px"], "x", "y") if "box_px" in one else (one["box_bins"], "beam", "range")
+            shape = shape_of(*own, one.get("mask"), one.get("shadow_box_px") or shadow.get("box_bins"))
+            of_fan = fan and shape_of(fan["box_px"], "x", "y", fan.get("mask"), fan.get("shadow_box_px"))
+            entries.append([self.label_of[one["id"]], facts, shape, of_fan])
         return entries
 
     def contents(self, pattern, numbers, taken):
@@ -81,34 +73,26 @@ class Shown:
     def sensor(self, sensor):
         """A sensor for the page, and its chunks: {number: {ping: {"objects": entries, "meta": facts}}}."""
         own, files, seen, pictures, chunks = sensor.description, sensor.description["files"], {}, {}, {}
-        tallies = Tally(self.classes), self.totals[sensor.name]
         # The place of shapes in an entry, and the size of the picture that is labelled.
         shapes = {"fan": (3, *(own.get("fan", {}).get(key) for key in ("width_px", "height_px"))),
                   "bins": (2, *(len(edges) - 1 for edges in (sensor.azimuth_edges_rad, sensor.range_edges_m)
                                 if edges is not None))}
         views = [view | dict(zip(("part", "width", "height"), shapes.get(view.get("boxes_of"), (2,))))
                  for view in own["pictures"]]
-        if any(data.is_behind_link(sensor.folder, view["file"]) for view in views):
-            raise ValueError(f"a picture of {sensor.name} lies behind a link")
         for view in [one for one in views if one["per"] == "sweep" or "pings_along" in one][:1]:
             is_sweep, pings = view["per"] == "sweep", data.whole(view.get("pings", max(len(sensor), 1)), 1, "pings")
-            for number, (view["width"], view["height"], pictures[number]) in self.contents(
+            for number, (width, height, entries) in self.contents(
                     f"{sensor.name}/objects{'_%04d' if is_sweep else ''}.json", range(-(-len(sensor) // pings)),
-                    lambda content: (int(content["width"]), int(content["height"]), self.entries(content, tallies))):
-                for label, _, box, _ in pictures[number]:
-                    ends = (0, 0) if is_sweep else box["xy".index(view["pings_along"]):4:2]
-                    ping = number * pings + int(sum(ends) / 2 * view.get("pings_per_pixel", 1))
-                    seen.setdefault(label, set()).add(min(ping, len(sensor) - 1))
+                    lambda content: (int(content["width"]), int(content["height"]), self.entries(content))):
+                view["width"], view["height"], pictures[number] = width, height, entries
         for kind in sorted({"objects", "meta"} & files.keys()):
-            taken = (lambda content: self.entries(content, tallies)) if kind == "objects" else facts_of_ping
-            for pose, found in self.contents(files[kind], sensor.pings, taken):
+            for pose, found in self.contents(files[kind], sensor.pings, self.entries if kind == "objects" else ping_facts):
                 ping = pose // sensor.pings.step
                 chunks.setdefault(ping // PINGS_PER_CHUNK, {}).setdefault(ping, {})[kind] = found
                 for entry in found if kind == "objects" else ():
-                    seen.setdefault(entry[0], set()).add(ping)
+                    seen.setdefault(entry[0], []).append(ping)
         return {"name": sensor.name, "kind": sensor.kind, "every": sensor.pings.step, "pings": len(sensor), "views": views,
-                "meta": files.get("meta", ""), "pictures": pictures, "chunks": sorted(chunks),
-                "statistics": tallies[0].as_json(), "seen": {label: sorted(pings) for label, pings in seen.items()}}, chunks
+                "meta": files.get("meta", ""), "pictures": pictures, "chunks": sorted(chunks), "seen": seen}, chunks
 
     def write(self, files, k):
         """Writes the k-th dataset: JSON as text within scripts, so that no name in it means anything to JavaScript."""
@@ -126,7 +110,7 @@ class Shown:
         write(k, about)
 
 
-def write_page(out, is_quiet):
+def write_page(out):
     """Writes the page, whole or not at all."""
     found = [""] if (out / "dataset.json").is_file() else sorted(
         path.parent.name for path in out.glob("*/dataset.json") if not path.parent.is_symlink())
@@ -141,32 +125,24 @@ def write_page(out, is_quiet):
             raise ValueError(f"{path}: is not of sonarsim's making, and would be replaced; move it away")
     with new_folder(files) as partial, replaced(page) as index:
         classes = list(dict.fromkeys(one.classes[k] for one in datasets for k in one.class_of.values()))
-        totals = collections.defaultdict(lambda: Tally(classes))
         for k, dataset in enumerate(datasets):
             with data.reading(dataset.folder / "dataset.json"):
-                Shown(dataset, classes, totals).write(partial, k)
+                Shown(dataset, classes).write(partial, k)
         with data.reading(out / "variants.json"):
-            drawn = {name: {str(key): str(value) for key, value in facts_of(one.get("drawn", {})).items()}
-                     for name, one in variants.items()}
-        about = {"name": out.resolve().name, "classes": classes, "chunk": PINGS_PER_CHUNK, "edges": EDGES,
-                 "datasets": [(name, drawn.get(name, {})) for name in found],
-                 "statistics": {sensor: tally.as_json() for sensor, tally in totals.items()}}
+            drawn = [facts_of(variants.get(name, {}).get("drawn", {})) for name in found]
+        about = {"name": out.resolve().name, "classes": classes, "chunk": PINGS_PER_CHUNK, "datasets": list(zip(found, drawn))}
         text = (PAGE / "page.html").read_text("utf-8").replace("<!--data-->", json.dumps(about).replace("<", "\\u003c"))
         index.write_text(text, "utf-8")
         (partial / "page.js").write_bytes(b"".join((PAGE / name).read_bytes() for name in SCRIPTS))
-        shutil.copyfile(PAGE / "page.css", partial / "page.css")
-    if not is_quiet:
-        print(f"{page}: {len(datasets)} datasets; open it in a browser")
+        (partial / "page.css").write_bytes((PAGE / "page.css").read_bytes())
+    print(f"{page}: {len(datasets)} datasets; open it in a browser")
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="sonarsim gallery", description="Writes a page to look through a "
-                                     "dataset, index.html in its folder. Open it in a browser.")
+    parser = argparse.ArgumentParser("sonarsim gallery", description="Writes index.html, a page to look through a dataset")
     parser.add_argument("folder", type=pathlib.Path, metavar="OUT",
                         help="the folder of a dataset, of the variants of a mission, or of several datasets")
-    parser.add_argument("-q", "--quiet", action="store_true", help="print only errors")
-    arguments = parser.parse_args()
-    return run("gallery", write_page, arguments.folder, arguments.quiet)
+    return run("gallery", write_page, parser.parse_args().folder)
 
 
 if __name__ == "__main__":

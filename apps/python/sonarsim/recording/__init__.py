@@ -6,10 +6,10 @@
 """
 import pathlib
 
-from .arrays import read_arrays
+from .arrays import read_soundings
 from .dataset import read_dataset
 from .description import FILE_NAME, read_description
-from .instrument_files import read_files
+from .files import read_files
 from .recording import MOST_VALUES, Law, Recording, RecordingError, Soundings
 
 __all__ = ["Law", "Recording", "RecordingError", "Soundings", "open_recording"]
@@ -22,7 +22,7 @@ def open_recording(path, sensor=None, pings=None):
     file = path / FILE_NAME if path.is_dir() else path
     if file.exists():
         own = read_description(file)
-        recording = (read_arrays if own.source in ("files", "soundings") else read_files)(own, most_pings)
+        recording = (read_soundings if own.source == "soundings" else read_files)(own, most_pings)
     elif (path / "dataset.json").exists():
         recording = read_dataset(path, sensor, most_pings)
     else:

@@ -1,12 +1,8 @@
 """Arrays in .npy files and in grey PNG files."""
-import tokenize
-
 import numpy as np
 
+from ..data import FAULTS
 from .recording import MOST_RANGES, MOST_VALUES, Recording, RecordingError, Soundings
-
-# What numpy and Pillow raise for damaged files.
-FAULTS = (ValueError, SyntaxError, tokenize.TokenError, EOFError, TypeError, OverflowError, MemoryError, RecursionError)
 
 
 def read_array(path):
@@ -16,9 +12,9 @@ def read_array(path):
             is_png = file.read(8) == b"\x89PNG\r\n\x1a\n"
         array = read_png(path) if is_png else np.lib.format.open_memmap(path, mode="r")
     except OSError as fault:
-        raise RecordingError(f"{path}: cannot be read: {fault.strerror or 'the PNG is incomplete'}") from fault
-    except FAULTS as fault:
-        raise RecordingError(f"{path}: cannot be read as .npy or PNG: {fault}") from fault
+        raise RecordingError(f"{path}: cannot be read: {fault.strerror or 'the PNG is not whole'}") from fault
+    except (*FAULTS, MemoryError) as fault:
+        raise RecordingError(f"{path}: cannot be read as a .npy or PNG file: {fault}") from fault
     if array.dtype.str[1:] not in ("u1", "u2", "f4", "f8"):
         raise RecordingError(f"{path}: has values of the type {array.dtype}; uint8, uint16, float32 and float64 are read")
     if not 0 < array.size <= MOST_VALUES:
@@ -67,26 +63,18 @@ def bearings_of(own, beams):
     return np.arcsin(np.clip(even, -1.0, 1.0)) if is_sine else even
 
 
-def read_arrays(own, most_pings):
-    """The recording in the arrays of `files` or `soundings`."""
-    recording = Recording(own.kind, own.law, "", own.sound_speed_m_s, own.first_range_m or 0.0, own.range_step_m or 0.0)
-    if own.source == "soundings":
-        arrays = [read_array(path) for path in own.files]
-        for array, path in zip(arrays, own.files):
-            if array.ndim != 2 or array.shape != arrays[0].shape:
-                raise RecordingError(f"{path}: has the shape {list(array.shape)}, not [ping, beam] as {own.files[0]}")
-        recording.soundings = Soundings.of(list(zip(*(array[:most_pings] for array in arrays))))
-    else:
-        arrays = []
-        for path in own.files:
-            array = pings_of(read_array(path), own.kind, path)[:most_pings - sum(map(len, arrays))]
-            if arrays and array.shape[1:] != arrays[0].shape[1:]:
-                raise RecordingError(f"{path}: has pings of the shape {array.shape[1:]}, the first file "
-                                     f"{arrays[0].shape[1:]}")
-            if array.size + sum(one.size for one in arrays) > MOST_VALUES:
-                raise RecordingError(f"{path}: makes more than {MOST_VALUES} values in all; take fewer pings")
-            arrays.append(np.asarray(array, np.float32))
-        recording.values = np.concatenate(arrays)
-    if own.kind == "imaging":
-        recording.bearing_rad = bearings_of(own, recording.values.shape[2])
-    return recording
+def read_pings(path, own, most_pings):
+    """The recording in a file of `files`."""
+    return Recording(own.kind, own.law, "", own.sound_speed_m_s, own.first_range_m, own.range_step_m,
+                     values=np.asarray(pings_of(read_array(path), own.kind, path)[:most_pings], np.float32))
+
+
+def read_soundings(own, most_pings):
+    """The recording in the three arrays of `soundings`."""
+    arrays = [read_array(path) for path in own.files]
+    for array, path in zip(arrays, own.files):
+        if array.ndim != 2 or array.shape != arrays[0].shape:
+            raise RecordingError(f"{path}: has the shape {list(array.shape)}, not [ping, beam] as {own.files[0]}")
+    arrays = np.array([array[:most_pings] for array in arrays], np.float32)
+    arrays[:, ~np.isfinite(arrays).all(axis=0)] = np.nan
+    return Recording(own.kind, own.law, "", own.sound_speed_m_s, soundings=Soundings(*arrays))

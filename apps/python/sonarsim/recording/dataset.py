@@ -2,7 +2,7 @@
 import numpy as np
 
 from .. import data
-from .arrays import FAULTS, two_sides
+from .arrays import two_sides
 from .description import Section, read_yaml
 from .recording import MOST_VALUES, Law, Recording, RecordingError, Soundings
 
@@ -13,22 +13,15 @@ KINDS = {"sidescan": "sidescan", "echosounder": "echosounder", "scanning": "scan
 
 def read_dataset(folder, name, most_pings):
     """The recording of a sensor of a dataset."""
-    try:
-        dataset = data.open_dataset(folder)
-        names = list(dataset.sensors)
-        if not dataset.complete:
-            raise RecordingError(f"{folder}: is not complete; run the render command again")
-        if name not in names and (name or len(names) > 1):
-            wrong = f"no sensor {name!r}" if name else "several sensors; choose one with --sensor"
-            raise RecordingError(f"{folder}: has {wrong}; there are {', '.join(names)}")
+    dataset = data.open_dataset(folder)
+    names = list(dataset.sensors)
+    if not dataset.complete:
+        raise RecordingError(f"{folder}: is not complete; run the render command again")
+    if name not in names and (name or len(names) > 1):
+        wrong = f"no sensor {name!r}" if name else "several sensors; choose one with --sensor"
+        raise RecordingError(f"{folder}: has {wrong}; there are {', '.join(names)}")
+    with data.reading(folder):
         return recording_of(folder, dataset[name or names[0]], most_pings)
-    except RecordingError:
-        raise
-    except OSError as fault:
-        raise RecordingError(f"{fault.filename or folder}: cannot be read: {fault.strerror or fault}") from fault
-    except (*FAULTS, LookupError, AttributeError) as fault:
-        text = str(fault) if isinstance(fault, ValueError) else f"{folder}: is damaged: {fault!r}"
-        raise RecordingError(f"{text}; sonarsim verify says more") from fault
 
 
 def recording_of(folder, sensor, most_pings):

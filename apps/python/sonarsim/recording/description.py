@@ -10,7 +10,7 @@ from .recording import KINDS, LAWS, Law, RecordingError
 FILE_NAME = "recording.yaml"
 LARGEST_FILE = 1 << 24
 # The keys that name the files of the pings, and the kinds that each can have.
-SOURCES = {"files": KINDS[:4], "xtf": ("sidescan", "soundings"), "oculus": ("imaging",),
+SOURCES = {"files": KINDS[:4], "xtf": ("sidescan",), "oculus": ("imaging",),
            "logs": ("imaging", "scanning", "echosounder"), "soundings": ("soundings",)}
 ANGLE = (-360.0, 360.0)
 NUMBERS = {     # key: least, greatest, default

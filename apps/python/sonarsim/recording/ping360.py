@@ -16,7 +16,7 @@ def read(data, most_pings, own):
         return HEADER + field(data, "H", at + 2) + 2 if field(data, "H", at + 4) in SAMPLES_AT else 0
     pings = pings_among(data, MARK, HEADER, most_pings, length_of, pings_of)
     if not pings:
-        raise ValueError("is not a .raw of an EK60, a .ddf or an .aris, and has no pings of a Ping360")
+        raise ValueError("has no pings of a Ping360, and is not a .raw of an EK60, a .ddf or an .aris")
     return timed_recording("scanning", [samples[:, None] for _, samples in pings], own,
                            [(0.5 * PERIOD_S * periods, PERIOD_S * periods) for periods, _ in pings], law=law_of(own))
 

@@ -3,15 +3,13 @@ import dataclasses
 
 import numpy as np
 
+from ..data import DataError as RecordingError   # one sentence: the file, what is wrong and what would be right
+
 KINDS = ("imaging", "sidescan", "scanning", "echosounder", "soundings")
 LAWS = ("amplitude", "power", "gamma", "decibel")
 MOST_VALUES = 1 << 28       # of one file, and of all pings of a recording
 MOST_RANGES = 1 << 20
 MOST_POWER = 1e30           # a float32 holds it, and a double its cube
-
-
-class RecordingError(ValueError):
-    """One sentence: the file, what is wrong with it and what would be right."""
 
 
 @dataclasses.dataclass
@@ -50,15 +48,6 @@ class Soundings:
     range_m: np.ndarray
     angle_rad: np.ndarray       # from the vertical, negative to port
     intensity: np.ndarray       # in values of the recording's law
-
-    @classmethod
-    def of(cls, pings):
-        """The soundings of pings, each a tuple (ranges, angles, intensities)."""
-        arrays = np.full((3, len(pings), max((len(ping[0]) for ping in pings), default=0)), np.nan, np.float32)
-        for k, ping in enumerate(pings):
-            arrays[:, k, :len(ping[0])] = ping
-        arrays[:, ~np.isfinite(arrays).all(axis=0)] = np.nan
-        return cls(*arrays)
 
 
 @dataclasses.dataclass

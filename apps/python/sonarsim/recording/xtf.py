@@ -1,68 +1,44 @@
-"""XTF (Triton Imaging, "eXtended Triton Format (XTF) Rev. 40"): side-scans, and the soundings of records of the type 28.
+"""XTF (Triton Imaging, "eXtended Triton Format (XTF) Rev. 40"): side-scans.
 
 Of each ping the first port channel and the first starboard channel are read. Samples are unsigned 8, 16 or 32 bits or
 IEEE floats, times 2 to the power of minus the channel's weight."""
-import itertools
-
 import numpy as np
 
 from .bytes_of_pings import field, law_of, stacked
-from .recording import Recording, Soundings
+from .recording import Recording
 
 FILE_HEADER, CHANNEL_INFO, PING_HEADER, CHANNEL_HEADER = 1024, 128, 256, 64
-SIDE_SCAN, MULTIBEAM = 0, 28
+SIDE_SCAN = 0
 PORT, STARBOARD = 1, 2
 MOST_CHANNELS = 64
 LONGEST_RANGE_M = 1e5
 # By the field SampleFormat, or in older files, where it is 0, by minus the number of bytes.
 SAMPLES = {8: "<u1", 3: "<u2", 2: "<u4", 5: "<f4", -1: "<u1", -2: "<u2", -4: "<u4"}
-SOUNDING = np.dtype({"names": ["intensity", "two_way_s", "angle_deg"], "formats": ["<f8"] * 3, "offsets": [4, 16, 32],
-                     "itemsize": 64})
 
 
-def read_sides(data, most_pings, own):
+def read(data, most_pings, own):
     """The side-scan pings; those that lack a side are left out."""
     channels, pings = channels_of(data), []
     first = full_value = 0.0
-    for record in records(data, len(channels), SIDE_SCAN):
+    for record in side_scans(data, len(channels)):
         sides = sides_of(record, channels)
         if len(sides) < 2:
             continue
-        first = first or (record, *sides[PORT])
+        first = first or sides[PORT]
         for samples, range_m, largest in sides.values():
             full_value = max(full_value, largest)
-            if len(samples) != len(first[1]) or abs(range_m - first[2]) > 0.01 * first[2]:
+            if len(samples) != len(first[0]) or abs(range_m - first[1]) > 0.01 * first[1]:
                 raise ValueError(f"ping {len(pings)} has {len(samples)} samples over {range_m:g} m, the first ping "
-                                 f"{len(first[1])} over {first[2]:g} m; split the file where the range changes")
+                                 f"{len(first[0])} over {first[1]:g} m; split the file where the range changes")
         pings.append(np.stack([sides[PORT][0][::-1], sides[STARBOARD][0]], axis=1))     # port ends at nadir
         if len(pings) == most_pings:
             break
     if not pings:
         raise ValueError("has no side-scan pings")
-    step = first[2] / len(first[1])
-    speed = own.sound_speed_m_s or sound_speed(first[0]) or 1500.0      # ranges do not need it
-    return Recording("sidescan", law_of(own, full_value), sound_speed_m_s=speed, first_range_m=0.5 * step, range_step_m=step,
-                     values=stacked(pings))
-
-
-def read_soundings(data, most_pings, own):
-    pings, speeds = [], []
-    for record in itertools.islice(records(data, len(channels_of(data)), MULTIBEAM), most_pings):
-        count = field(record, "H", 4)
-        if PING_HEADER + count * SOUNDING.itemsize > len(record):
-            raise ValueError("has more soundings than their record")
-        beams = np.frombuffer(record, SOUNDING, count, PING_HEADER)
-        beams = beams[beams["two_way_s"] > 0.0]
-        if not ((beams["two_way_s"] < 100.0) & (np.abs(beams["angle_deg"]) <= 180.0) & (beams["intensity"] >= 0.0)
-                & (beams["intensity"] < 1e30)).all():
-            raise ValueError("has a sounding with impossible numbers")
-        speeds.append(own.sound_speed_m_s or sound_speed(record))
-        if not speeds[-1]:
-            raise ValueError("has no speed of sound; add `sound_speed_m_s` to recording.yaml")
-        pings.append((0.5 * speeds[-1] * beams["two_way_s"], np.radians(beams["angle_deg"]), beams["intensity"]))
-    if not pings:
-        raise ValueError("has no pings with soundings (records of the type 28)")
-    return Recording("soundings", law_of(own), sound_speed_m_s=speeds[0], soundings=Soundings.of(pings))
+    step = first[1] / len(first[0])
+    # Ranges do not need the speed of sound.
+    return Recording("sidescan", law_of(own, full_value), sound_speed_m_s=own.sound_speed_m_s or 1500.0,
+                     first_range_m=0.5 * step, range_step_m=step, values=stacked(pings))
 
 
 def channels_of(data):
@@ -81,8 +57,8 @@ def channels_of(data):
     return channels
 
 
-def records(data, channels, kind):
-    """Yields the records of a type. Six channels fit into the first 1,024 bytes, eight into each further 1,024."""
+def side_scans(data, channels):
+    """Yields the records of side-scans. Six channels fit into the first 1,024 bytes, eight into each further 1,024."""
     view = memoryview(data)
     at = FILE_HEADER * (1 + -(-max(0, channels - 6) // 8))
     while at < len(data):
@@ -91,7 +67,7 @@ def records(data, channels, kind):
         length = field(data, "I", at + 10)
         if not 14 <= length <= len(data) - at:
             raise ValueError("is cut off within a record")
-        if field(data, "B", at + 2) == kind:
+        if field(data, "B", at + 2) == SIDE_SCAN:
             yield view[at:at + length]
         at += length
 
@@ -113,11 +89,3 @@ def sides_of(record, channels):
             samples = np.float32(factor) * np.frombuffer(record, dtype, count, begin).astype(np.float32)
             sides[kind] = samples, range_m, factor * np.iinfo(dtype).max if dtype.kind == "u" else 0.0
     return sides
-
-
-def sound_speed(record):
-    """The computed speed of sound, or twice the field of the older layout; 0 if neither can be one."""
-    computed, half = field(record, "f", 72), field(record, "f", 32)
-    # Some programs write the whole speed into the field of the half.
-    speed = computed if computed > 0.0 else half * (2.0 if half < 1000.0 else 1.0)
-    return speed if 300.0 <= speed <= 1e4 else 0.0

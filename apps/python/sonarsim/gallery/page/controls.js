@@ -13,7 +13,6 @@ function show() {
   show_facts();
   clearTimeout(preloading);
   preloading = setTimeout(load_neighbours, 40);
-  if (!$('statistics').hidden) show_statistics();
 }
 
 function buttons(parent, titles, chosen, choose) {
@@ -86,12 +85,6 @@ function choose_map() {
   show_picture();
 }
 
-function toggle_statistics() {
-  const are_shown = $('statistics').hidden;
-  [$('statistics').hidden, $('pings').hidden] = [!are_shown, are_shown];
-  show();
-}
-
 const steps = {ArrowRight: 1, ArrowLeft: -1, PageDown: 100, PageUp: -100, Home: -Infinity, End: Infinity};
 const keys = {
   ArrowDown: () => choose_sensor(state.sensor + 1),
@@ -101,7 +94,6 @@ const keys = {
   b: () => $('boxes').click(),
   m: () => $('masks').click(),
   c: () => { $('map').selectedIndex = ($('map').selectedIndex + 1) % $('map').length; choose_map(); },
-  s: toggle_statistics,
   n: () => step_object(1),
   p: () => step_object(-1),
   Escape: () => select(-1),
@@ -120,7 +112,7 @@ document.addEventListener('keydown', event => {
 $('slider').oninput = () => go(Number($('slider').value));
 $('number').onchange = () => go(Number($('number').value) / sensor().every);
 for (const id of ['bright', 'boxes', 'masks']) $(id).oninput = () => show_picture();
-for (const [id, key] of [['play', ' '], ['switch', 's'], ['next', 'n'], ['previous', 'p'], ['none', 'Escape']])
+for (const [id, key] of [['play', ' '], ['next', 'n'], ['previous', 'p'], ['none', 'Escape']])
   $(id).onclick = () => { $(id).blur(); keys[key](); };
 $('map').onchange = () => { $('map').blur(); choose_map(); };
 $('datasets').onchange = () => { $('datasets').blur(); choose_dataset($('datasets').selectedIndex); };

@@ -1,6 +1,6 @@
 'use strict';
 // The data: the element #page, and files that are loaded when they are needed, index_files/K.js of dataset K and
-// K_S_C.js of the C-th part of its sensor S; see Shown.
+// K_S_C.js of the C-th part of its sensor S; see gallery/__main__.py.
 
 const $ = id => document.getElementById(id);
 const page = JSON.parse($('page').textContent);
@@ -30,8 +30,22 @@ function load(key) {
 // Called by the files.
 function take(key, text) {
   chunks.set(key, JSON.parse(text));
+  if (!key.includes('_')) chunks.get(key).sensors.forEach(note_pings_of_pictures);
   if (key === `${$('datasets').selectedIndex}`) show_dataset();
   else if (data) show();
+}
+
+// Objects of sweeps are seen at the first ping of their picture, those of other records in the middle of their box.
+function note_pings_of_pictures(one) {
+  const shown = one.views.find(view => view.per === 'sweep' || 'pings_along' in view);
+  for (const [number, entries] of Object.entries(one.pictures)) {
+    for (const [label, , box] of entries) {
+      const k = shown.pings_along === 'y' ? 1 : 0;
+      const along = shown.per === 'sweep' ? 0 : (box[k] + box[k + 2]) / 2 * (shown.pings_per_pixel || 1);
+      const ping = Math.min(number * (shown.pings || one.pings) + Math.floor(along), one.pings - 1);
+      one.seen[label] = [...new Set([...one.seen[label] || [], ping])].sort((a, b) => a - b);
+    }
+  }
 }
 
 const sensor = () => data.sensors[state.sensor];

@@ -61,6 +61,16 @@ function show_chosen() {
     `sighting ${at + 1} of ${seen.length}`}`;
 }
 
+function table_of(heads, rows) {
+  const table = element('table', '');
+  for (const [k, cells] of [heads, ...rows].entries()) {
+    const made = cells.map(() => element(k ? 'td' : 'th', ''));
+    cells.forEach((cell, column) => made[column].append(...[cell].flat()));
+    table.insertRow().append(...made);
+  }
+  return table;
+}
+
 // Writes the facts of the selected object at this ping, of the ping and of the variant.
 function show_facts() {
   const own = entries_of(view(), state.ping).filter(entry => entry[0] === state.selected);

@@ -1,12 +1,12 @@
-"""Recordings in the files of instruments: joins files, and takes from recording.yaml what the format lacks."""
+"""Recordings in files: joins them, and takes from recording.yaml what a format lacks."""
 import math
 import struct
 
 import numpy as np
 
 from . import didson, ek60, oculus, ping360, xtf
-from .arrays import bearings_of
-from .recording import MOST_VALUES, RecordingError, Soundings
+from .arrays import bearings_of, read_pings
+from .recording import MOST_VALUES, RecordingError
 
 LARGEST_FILE = 1 << 31
 READERS = {     # of `logs`, by an offset and the bytes there
@@ -15,21 +15,21 @@ READERS = {     # of `logs`, by an offset and the bytes there
 
 
 def read_files(own, most_pings):
-    """The recording in the files of `xtf`, `oculus` or `logs`."""
-    parts, values = [], 0
+    """The recording in the files of `files`, `xtf`, `oculus` or `logs`."""
+    parts, pings, values = [], 0, 0
     for path in own.files:
-        if sum(map(len, parts)) == most_pings:
+        if pings == most_pings:
             break
-        part = read_file(path, own, most_pings - sum(map(len, parts)))
+        part = (read_pings if own.source == "files" else read_file)(path, own, most_pings - pings)
         if part.kind != own.kind:
             raise RecordingError(f"{path}: has pings of the kind {part.kind}, and recording.yaml says {own.kind}")
-        values += (part.soundings.range_m if part.soundings else part.values).size
+        pings, values = pings + len(part), values + part.values.size
         if values > MOST_VALUES:
             raise RecordingError(f"{path}: makes more than {MOST_VALUES} values in all; take fewer pings")
         parts.append(part)
     recording = joined(own, parts)
     if own.kind == "imaging" and recording.bearing_rad is None:
-        if not own.bearings_deg and own.bearing_first_deg == own.bearing_last_deg:
+        if own.source != "files" and not own.bearings_deg and own.bearing_first_deg == own.bearing_last_deg:
             own.refuse("lacks 'bearing_first_deg' and 'bearing_last_deg', or 'bearings_deg': this format has no "
                        "bearings")
         recording.bearing_rad = bearings_of(own, recording.values.shape[2])
@@ -41,8 +41,7 @@ def read_file(path, own, most_pings):
         if path.stat().st_size > LARGEST_FILE:
             raise ValueError("is larger than 2 GB; split it")
         content = path.read_bytes()
-        of_xtf = xtf.read_soundings if own.kind == "soundings" else xtf.read_sides
-        read = {"xtf": of_xtf, "oculus": oculus.read}.get(own.source) or next(
+        read = {"xtf": xtf.read, "oculus": oculus.read}.get(own.source) or next(
             (reader for (at, mark), reader in READERS.items() if content.startswith(mark, at)), ping360.read)
         if isinstance(read, str):
             raise ValueError(f"is {read} file, which is not read; write its pings as arrays (docs/calibrate.md)")
@@ -60,15 +59,12 @@ def joined(own, parts):
     first = parts[0]
     # Sonars round these; chosen.
     shares = {"first_range_m": 0.01, "range_step_m": 0.01 if own.source == "xtf" else 1e-4}
-    for path, part in zip(own.files, parts if first.values is not None else ()):
+    for path, part in zip(own.files, parts):
         others = [name for name, share in shares.items()
                   if not math.isclose(getattr(part, name) or 0.0, getattr(first, name) or 0.0, rel_tol=share)]
         others += ["scale of levels"] * (part.law != first.law)
         others += ["shape of its pings"] * (part.values.shape[1:] != first.values.shape[1:])
         if others:
             raise RecordingError(f"{path}: has another {others[0]} than the first file; split the recording there")
-    if first.soundings:
-        first.soundings = Soundings.of([ping for part in parts for ping in zip(*vars(part.soundings).values())])
-    else:
-        first.values = np.concatenate([part.values for part in parts])
+    first.values = np.concatenate([part.values for part in parts])
     return first

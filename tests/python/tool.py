@@ -1,0 +1,45 @@
+"""Runs a tool of the package, and makes what several tests read."""
+import os
+import pathlib
+import subprocess
+import sys
+
+import numpy as np
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PACKAGE = ROOT / "apps/python"
+sys.path.insert(0, str(PACKAGE))
+
+
+def run(name, *words, setup=""):
+    """`python3 -m sonarsim.NAME WORDS`, after the Python of `setup`."""
+    program = (f"import runpy, sys\n{setup}\nsys.argv[0] = {name!r}\n"
+               f"runpy.run_module('sonarsim.{name}', run_name='__main__', alter_sys=True)")
+    return subprocess.run([sys.executable, "-B", "-c", program, *map(str, words)], text=True, capture_output=True, check=False,
+                          env={**os.environ, "PYTHONPATH": str(PACKAGE)})
+
+
+def assert_refused(test, result, name, text, code=2):
+    """One sentence, and the exit code."""
+    test.assertEqual((result.returncode, result.stdout), (code, ""), result.stderr)
+    test.assertRegex(result.stderr, f"^sonarsim {name}: [^\n]*{text}[^\n]*\n$")
+
+
+def disc(width, height, x, y, radius):
+    rows, columns = np.mgrid[:height, :width]
+    return (columns - x) ** 2 + (rows - y) ** 2 <= radius ** 2
+
+
+def counts_of(mask):
+    """COCO's compressed text of a mask: lengths of runs, column by column."""
+    flat = np.concatenate([[False], mask.T.ravel()])
+    edges = np.flatnonzero(flat[1:] != flat[:-1])
+    runs = np.diff(np.concatenate([[0], edges, [mask.size]])).tolist()
+    text = ""
+    for k, length in enumerate(runs):
+        value, more = length - (runs[k - 2] if k > 2 else 0), True
+        while more:
+            low, value = value & 31, value >> 5
+            more = value != (-1 if low & 16 else 0)
+            text += chr(48 + (low | 32 * more))
+    return text
