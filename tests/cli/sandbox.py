@@ -1,9 +1,11 @@
-"""A folder with a small, sound mission, and the binary under test. Each test spoils one thing."""
+"""Folders with small, sound missions, and the binary under test. Each test spoils one thing."""
+import array
 import base64
 import hashlib
 import json
 import os
 import pathlib
+import shutil
 import struct
 import subprocess
 import sys
@@ -12,6 +14,8 @@ import unittest
 import zlib
 
 SONARSIM = os.environ["SONARSIM"]
+SANITIZED = os.environ.get("SANITIZED") == "1"
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 # A dataset waits for its disk at every checkpoint, and hundreds are made here: where there is one, a
 # file system in memory holds them.
 IN_MEMORY = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None
@@ -41,61 +45,66 @@ output:
   image: true
 """
 
-MATERIALS = "material,density_kg_m3,sound_speed_m_s\nConcrete,2400,3200\n"
+# Each kind of file that a dataset has.
+ALL_FILES = """\
+name: faults
+seed: 7
+scene: {file: box.gltf, materials: materials.csv}
+trajectory: {file: path.csv}
+sensors:
+  fls: {kind: imaging, azimuth_deg: 60, range_max_m: 6, range_bins: 16, azimuth_bins: 8,
+        noise: {add_sigma: 0.05}}
+  mbes: {kind: profiling, range_max_m: 6, range_bins: 16, azimuth_bins: 8}
+  sss: {kind: sidescan, range_max_m: 6, range_bins: 16}
+  sounder: {kind: echosounder, range_max_m: 6, range_bins: 16}
+output: {folder: out, image: true, fan_width_px: 32}
+"""
+
+MATERIALS = "material,density_kg_m3,sound_speed_m_s\nConcrete,2400,3200\nsteel,7850,5890\n"
+SCATTER = ("  scatter:\n    - {name: mine, files: [crate.gltf], count: 5, area_min_m: [2, -4], "
+           "area_max_m: [8, 4], spacing_m: 0.2}\n")
+
+
+def gltf(nodes, meshes, materials=("Concrete",)):
+    """Nodes as glTF has them over meshes of (points, indices, material)."""
+    data, views, accessors, out = b"", [], [], []
+    for points, indices, material in meshes:
+        parts = (b"".join(struct.pack("<3f", *p) for p in points),
+                 struct.pack(f"<{len(indices)}I", *indices))
+        for part, kind, code, count in ((parts[0], "VEC3", 5126, len(points)),
+                                        (parts[1], "SCALAR", 5125, len(indices))):
+            views.append({"buffer": 0, "byteOffset": len(data), "byteLength": len(part)})
+            accessors.append({"bufferView": len(views) - 1, "componentType": code,
+                              "count": count, "type": kind})
+            data += part
+        out.append({"primitives": [{"attributes": {"POSITION": len(accessors) - 2},
+                                    "indices": len(accessors) - 1, "material": material}]})
+    return json.dumps({
+        "asset": {"version": "2.0"}, "nodes": nodes, "meshes": out,
+        "materials": [{"name": name} for name in materials],
+        "accessors": accessors, "bufferViews": views,
+        "buffers": [{"byteLength": len(data), "uri": "data:application/octet-stream;base64,"
+                     + base64.b64encode(data).decode()}]})
+
+
+def box_mesh(half=(0.5, 0.5, 0.5)):
+    """A closed box around the origin, half-extents in glTF axes."""
+    points = [tuple((1 if i >> k & 1 else -1) * half[k] for k in range(3)) for i in range(8)]
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    return points, [i for a, b, c, d in quads for i in (a, b, c, a, c, d)], 0
+
+
+def sheet_mesh(half=10.0, cells=8, height=lambda x, z: 0.0):
+    """A floor of cells x cells x 2 triangles in glTF's axes (y up)."""
+    axis = [half * (2 * k / cells - 1) for k in range(cells + 1)]
+    points = [(x, height(x, z), z) for z in axis for x in axis]
+    corners = [j * (cells + 1) + i for j in range(cells) for i in range(cells)]
+    return points, [k for a in corners
+                    for k in (a, a + 1, a + cells + 2, a, a + cells + 2, a + cells + 1)], 0
 
 
 def box_gltf(half=(2.0, 1.5, 2.0), material="Concrete"):
-    """A closed box around the origin, half-extents in glTF axes, as one JSON text."""
-    corners = [tuple((1 if i >> k & 1 else -1) * half[k] for k in range(3)) for i in range(8)]
-    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-    indices = [i for a, b, c, d in quads for i in (a, b, c, a, c, d)]
-    points = b"".join(struct.pack("<3f", *corner) for corner in corners)
-    data = points + struct.pack(f"<{len(indices)}H", *indices)
-    return json.dumps({
-        "asset": {"version": "2.0"},
-        "scene": 0,
-        "scenes": [{"nodes": [0]}],
-        "nodes": [{"name": "walls", "mesh": 0}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
-        "materials": [{"name": material}],
-        "buffers": [{"byteLength": len(data), "uri": "data:application/octet-stream;base64," +
-                     base64.b64encode(data).decode()}],
-        "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": len(points)},
-                        {"buffer": 0, "byteOffset": len(points),
-                         "byteLength": len(data) - len(points)}],
-        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 8, "type": "VEC3",
-                       "min": [-h for h in half], "max": list(half)},
-                      {"bufferView": 1, "componentType": 5123, "count": len(indices),
-                       "type": "SCALAR"}],
-    })
-
-
-def copies_gltf(copies, cells, flat=1.0):
-    """A sheet of cells x cells x 2 triangles, `copies` times one below the other: a large scene of
-    a small file. With `flat` = 0 its triangles have no area and are dropped."""
-    side = cells + 1
-    points = b"".join(struct.pack("<3f", 0.1 * i, 0.0, 0.1 * flat * j)
-                      for i in range(side) for j in range(side))
-    corners = [i * side + j for i in range(cells) for j in range(cells)]
-    indices = [k for a in corners for k in (a, a + 1, a + side + 1, a, a + side + 1, a + side)]
-    data = points + struct.pack(f"<{len(indices)}I", *indices)
-    return json.dumps({
-        "asset": {"version": "2.0"},
-        "scene": 0,
-        "scenes": [{"nodes": list(range(copies))}],
-        "nodes": [{"mesh": 0, "translation": [0, -2 - 0.01 * k, 0]} for k in range(copies)],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
-        "materials": [{"name": "Concrete"}],
-        "buffers": [{"byteLength": len(data), "uri": "data:application/octet-stream;base64," +
-                     base64.b64encode(data).decode()}],
-        "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": len(points)},
-                        {"buffer": 0, "byteOffset": len(points),
-                         "byteLength": len(data) - len(points)}],
-        "accessors": [{"bufferView": 0, "componentType": 5126, "count": side * side,
-                       "type": "VEC3", "min": [0, 0, 0], "max": [0.1 * cells, 0, 0.1 * cells]},
-                      {"bufferView": 1, "componentType": 5125, "count": len(indices),
-                       "type": "SCALAR"}],
-    })
+    return gltf([{"name": "walls", "mesh": 0}], [box_mesh(half)], (material,))
 
 
 def path_csv(poses):
@@ -104,12 +113,30 @@ def path_csv(poses):
     return "\n".join(["t_s,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg", *rows]) + "\n"
 
 
-def png_file(width, height, rows):
-    """A PNG file of 8 bits, whole if `rows` are: a zero and the pixels of each."""
+def png(rows, bits=8, channels=1, size=None):
+    """Rows of whole numbers as a PNG, grey or RGB with alpha; `size` is what its header says."""
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)) +
-            chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+    width, height = size or (len(rows[0]) // channels, len(rows))
+    code = ">%dH" if bits == 16 else "%dB"
+    lines = b"".join(b"\0" + struct.pack(code % len(row), *row) for row in rows)
+    head = struct.pack(">IIBBBBB", width, height, bits, {1: 0, 3: 2, 4: 6}[channels], 0, 0, 0)
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(lines)) +
+            chunk(b"IEND", b""))
+
+
+def numbers_of(path):
+    """The numbers of an .npy of float32 or uint16."""
+    data = path.read_bytes()
+    start = 10 + struct.unpack("<H", data[8:10])[0]
+    numbers = array.array("f" if b"'<f4'" in data[:start] else "H")
+    numbers.frombytes(data[start:])
+    return numbers
+
+
+def relative_difference(found, expected):
+    """sum |a - b| / sum b."""
+    return sum(abs(a - b) for a, b in zip(found, expected, strict=True)) / sum(expected)
 
 
 def digest(folder, without=()):
@@ -130,6 +157,23 @@ def python_with(module):
     return None
 
 
+def clone_to(folder):
+    """Copies what git tracks, as it stands here, and nothing else: no generated scene, no build.
+    False where this is not a checkout of git."""
+    try:
+        # The checkout may belong to another user than the tests.
+        listed = subprocess.run(["git", "-c", "safe.directory=*", "-C", ROOT, "ls-files", "-z"],
+                                capture_output=True, check=True).stdout
+    except (OSError, subprocess.CalledProcessError):
+        return False
+    for name in listed.decode().split("\0"):
+        source = ROOT / name
+        if name and source.is_file():
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(source, folder / name)
+    return True
+
+
 class Sandbox(unittest.TestCase):
     def setUp(self):
         self._temporary = tempfile.TemporaryDirectory(prefix="sonarsim-", dir=IN_MEMORY)
@@ -141,10 +185,10 @@ class Sandbox(unittest.TestCase):
         self.write("path.csv", path_csv(6))
         self.out = self.folder / "out"
 
-    def write(self, name, text):
+    def write(self, name, content):
         path = self.folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text)
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
         return path
 
     def edit(self, name, old, new):
@@ -152,17 +196,24 @@ class Sandbox(unittest.TestCase):
         self.assertIn(old, text)
         self.write(name, text.replace(old, new, 1))
 
+    def add(self, text):
+        """Appends to the mission."""
+        self.write("mission.yaml", (self.folder / "mission.yaml").read_text() + text)
+
     def run_sonarsim(self, *arguments, **options):
         return subprocess.run([SONARSIM, *map(str, arguments)], cwd=self.folder, text=True,
                               capture_output=True, timeout=120, check=False, **options)
+
+    def succeeds(self, *arguments, **options):
+        result = self.run_sonarsim(*arguments, **options)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result
 
     def render(self, *arguments, **options):
         return self.run_sonarsim("render", "mission.yaml", *arguments, **options)
 
     def assert_renders(self, *arguments, **options):
-        result = self.render(*arguments, **options)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return result
+        return self.succeeds("render", "mission.yaml", *arguments, **options)
 
     def assert_refused(self, result, *fragments):
         """Exit code 2, every fragment in the message, and nothing written."""
@@ -171,5 +222,46 @@ class Sandbox(unittest.TestCase):
             self.assertIn(fragment, result.stderr)
         self.assertEqual(result.stderr.count("error:"), 1, result.stderr)
 
+    def refused(self, *fragments, arguments=()):
+        """validate and render refuse the mission, with the same message."""
+        for command in ("validate", "render"):
+            with self.subTest(command=command):
+                self.assert_refused(self.run_sonarsim(command, "mission.yaml", *arguments), *fragments)
+                self.assertFalse(self.out.exists(), "a refused mission leaves no folder")
+
     def dataset(self, folder=None):
         return json.loads(((folder or self.out) / "dataset.json").read_text())
+
+    def meta(self, ping, sensor="fls"):
+        return json.loads((self.out / f"{sensor}/meta/{ping:06}.json").read_text())
+
+    def objects_of(self, ping, sensor="fls"):
+        return json.loads((self.out / f"{sensor}/objects/{ping:06}.json").read_text())["objects"]
+
+    def boxes(self, folder=None):
+        """The boxes of all instances in the world, by name."""
+        return {one["name"]: one["box_world_m"] for one in self.dataset(folder)["labels"]["instances"]}
+
+
+class Composed(Sandbox):
+    """A floor, a crate, and a sonar that looks at them."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("floor.gltf", gltf([{"name": "floor", "mesh": 0}], [sheet_mesh()]))
+        self.write("crate.gltf", gltf([{"name": "crate", "mesh": 0}], [box_mesh()]))
+        self.write("path.csv", "t_s,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n"
+                   + "".join(f"{0.2 * i:.1f},0,0,2,0,20,{3 * i}\n" for i in range(6)))
+        self.edit("mission.yaml", "range_max_m: 6", "range_max_m: 9")
+        self.scene()
+
+    def scene(self, text="", head="  file: floor.gltf\n  materials: materials.csv\n"):
+        mission = (self.folder / "mission.yaml").read_text()
+        start, end = mission.index("scene:\n"), mission.index("\ntrajectory:") + 1
+        self.write("mission.yaml", mission[:start] + "scene:\n" + head + text + mission[end:])
+
+    def objects(self, *lines, **options):
+        self.scene("  objects:\n" + "".join(f"    - {line}\n" for line in lines), **options)
+
+    def images(self):
+        return {k: v for k, v in digest(self.out).items() if k.endswith((".npy", ".png"))}

@@ -1,7 +1,9 @@
 """The commands of README.md, the tutorial and docs/running.md do what they say: every line of a code block
 that is a command is run, with the program under test and on small input, or stands in NOT_RUN with the
-reason. tests/docs.py checks that commands, options and keys of the other pages exist."""
+reason. tests/docs.py checks that commands, options and keys of the other pages exist. The snippets of docs/dataset.md
+in Python are run, too, and figures that README.md states are those of other pages."""
 import concurrent.futures
+import json
 import os
 import pathlib
 import re
@@ -9,8 +11,8 @@ import subprocess
 import tempfile
 import unittest
 
-import clean_clone
-from sandbox import IN_MEMORY, MATERIALS, MISSION, SONARSIM, box_gltf, path_csv, python_with
+from sandbox import (IN_MEMORY, MATERIALS, MISSION, ROOT, SANITIZED, SONARSIM, Sandbox, box_gltf, clone_to, path_csv,
+                     python_with)
 
 PAGES = ("README.md", "docs/tutorial.md", "docs/running.md")
 
@@ -25,7 +27,7 @@ NOT_RUN = {
     "yolo detect train model=yolo11n.pt data=anchors/data.yaml": "the same",
     "./scripts/package.sh && sudo apt install ./build-package/sonarsim_*.deb": "CI runs it: builds the program anew",
     "scripts/slurm/render.sh 64 mission.yaml out/big --time=60 --cpus-per-task=4":
-        "needs Slurm; test_clusters.py runs it with a stand-in",
+        "needs Slurm; test_merge.py runs it with a stand-in",
     "parallel sonarsim render mission.yaml --threads 1 --shard {}/4 --out part{} ::: $(seq 4)":
         "needs GNU parallel",
 }
@@ -120,11 +122,11 @@ class DocumentedCommands(unittest.TestCase):
         cls.folder = pathlib.Path(temporary.name)
         cls.clone = cls.folder / "clone"
         cls.clone.mkdir()
-        if os.environ.get("SANITIZED") == "1":
+        if SANITIZED:
             raise unittest.SkipTest("the sanitizers see in other tests what these commands run")
-        if not clean_clone.clone_to(cls.clone):
+        if not clone_to(cls.clone):
             raise unittest.SkipTest("this is not a checkout of git")
-        cls.commands = {page: commands_of((clean_clone.ROOT / page).read_text()) for page in PAGES}
+        cls.commands = {page: commands_of((ROOT / page).read_text()) for page in PAGES}
 
     def run_page(self, page):
         """What is wrong with the commands of a page, in their order in a folder of its own."""
@@ -165,6 +167,61 @@ class DocumentedCommands(unittest.TestCase):
         self.assertEqual(commands_of("text\n\n    sonarsim keys     prints keys\n    A=1 ./x.sh # why\n    I = R\n"
                                      "```python\nfor a in b:\n```\n```sh\nmake -f x \\\n    b=1\n```\n"),
                          [(3, "sonarsim keys"), (4, "A=1 ./x.sh"), (10, "make -f x b=1")])
+
+
+@unittest.skipIf(python_with("numpy") is None, "needs numpy")
+class Snippets(Sandbox):
+    """Of docs/dataset.md."""
+
+    def run_snippet(self, more=""):
+        page = (ROOT / "docs/dataset.md").read_text()
+        program = re.search(r"```python\n(.*?)```", page, re.DOTALL).group(1) + more
+        result = subprocess.run([python_with("numpy"), "-c", program], cwd=self.folder, text=True,
+                                capture_output=True, check=False)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result.stdout
+
+    def test_every_kind(self):
+        render = ("render", ROOT / "tests/four_sonars.yaml", "--out", "out/survey", "--set", "trajectory.rate_hz=0.5")
+        self.succeeds(*render)
+        lines = self.run_snippet()
+        for name in ("fls", "mbes", "sss", "sounder"):
+            self.assertIn(name + " (", lines)
+        self.succeeds(*render, "--overwrite", "--set", "output.meta=false", "--set", "output.polar=false")
+        self.run_snippet()
+
+    def test_the_columns_of_a_waterfall(self):
+        """Slant range is linear in the column, through nadir; nothing echoes before range_min."""
+        self.edit("mission.yaml", "output:\n  folder: out\n",
+                  "  sss: {kind: sidescan, range_min_m: 0.5, range_max_m: 6.5, range_bins: 60}\n"
+                  "output:\n  folder: out/survey\n")
+        self.assert_renders()
+        # The side-scan is the last of the sensors, so its are what the loop leaves behind.
+        printed = self.run_snippet("print(json.dumps([ranges.tolist(), pings.tolist()]))")
+        ranges, rows = json.loads(printed.splitlines()[-1])
+        self.assertEqual((len(rows), len(rows[0])), (6, 130))
+        for column, expected in ((0, 6.45), (64, 0.05), (65, 0.05), (129, 6.45)):
+            self.assertAlmostEqual(ranges[column], expected)
+        # The floor of the box is 1.5 m below, at the edge of a bin, so nothing is nearer.
+        for side in (slice(0, 65), slice(65, 130)):
+            nearest = min(r for r, value in zip(ranges[side], rows[0][side]) if value > 0)
+            self.assertAlmostEqual(nearest, 1.55, delta=0.101)
+
+
+class Figures(unittest.TestCase):
+    def test_figures_of_the_readme(self):
+        readme = (ROOT / "README.md").read_text()
+        self.assertLessEqual(len(readme.split()), 850)
+        self.assertIn("sixty random fields", readme)
+        self.assertIn("\nvariants: 60\n", (ROOT / "configs/detection.yaml").read_text())
+        table = (ROOT / "docs/accuracy.md").read_text().split("<!-- report tank -->")[1]
+        row = re.search(r"^\| slices \| relative_l1=0.03 \|(.*)$", table, re.MULTILINE).group(1)
+        _, _, rate, error, *_ = [float(cell) for cell in re.findall(r"[\d.]+", row)]
+        words = " ".join(readme.split())
+        stated = re.search(r"On the test tank the default leads to ([\d.]+) % against", words).group(1)
+        self.assertLess(error, float(stated))
+        stated = re.search(r"About ([\d,]+) images/s of 512 x 256 bins", words).group(1)
+        self.assertGreater(rate, float(stated.replace(",", "")))
 
 
 if __name__ == "__main__":

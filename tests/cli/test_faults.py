@@ -2,7 +2,6 @@
 is written is whole or, by the same command run again, becomes so."""
 import json
 import os
-import pathlib
 import random
 import re
 import resource
@@ -12,25 +11,9 @@ import subprocess
 import time
 import unittest
 
-from sandbox import SONARSIM, Sandbox, box_gltf, digest, path_csv
+from sandbox import ALL_FILES, SANITIZED, SONARSIM, Sandbox, digest, path_csv
 
 FAULTY_DISK = os.environ["FAULTY_DISK"]
-SANITIZED = os.environ["SANITIZED"] == "1"
-
-# Each kind of file that a dataset has: one ping of every sonar.
-MISSION = """\
-name: faults
-seed: 7
-scene: {file: box.gltf, materials: materials.csv}
-trajectory: {file: path.csv}
-sensors:
-  fls: {kind: imaging, azimuth_deg: 60, range_max_m: 6, range_bins: 16, azimuth_bins: 8,
-        noise: {add_sigma: 0.05}}
-  mbes: {kind: profiling, range_max_m: 6, range_bins: 16, azimuth_bins: 8}
-  sss: {kind: sidescan, range_max_m: 6, range_bins: 16}
-  sounder: {kind: echosounder, range_max_m: 6, range_bins: 16}
-output: {folder: out, image: true}
-"""
 
 RECORDS = ("soundings.npy", "waterfall.npy", "echogram.npy")
 
@@ -69,12 +52,11 @@ class Faults(Sandbox):
 
 
 class FaultyDisk(Faults):
-    MISSION = MISSION
     FEWEST_CALLS = 100
 
     def setUp(self):
         super().setUp()
-        self.write("mission.yaml", self.MISSION)
+        self.write("mission.yaml", ALL_FILES)
         self.write("path.csv", path_csv(1))
         self.log = self.folder / "calls"
 
@@ -100,8 +82,8 @@ class FaultyDisk(Faults):
         self.assertGreater(len(calls), self.FEWEST_CALLS)
         every = 10 if SANITIZED else 1
         for number in range(1, len(calls) + 1, every):
-            self.check_call("once", "Input/output error", calls, number, number % 6 == 0, whole)
-        for number in range(1, len(calls) + 1, 5 * every):
+            self.check_call("once", "Input/output error", calls, number, number % 12 == 0, whole)
+        for number in range(1, len(calls) + 1, 10 * every):
             self.check_call("full", "No space left on device", calls, number, True, whole)
 
     def check_call(self, mode, reason, calls, number, go_on, whole):
@@ -155,7 +137,7 @@ class RandomSignals(Faults):
         draw = random.Random(20)
         killed = False
         codes = {signal.SIGINT: {130}, signal.SIGTERM: {143}, signal.SIGKILL: {-signal.SIGKILL}}
-        for _ in range(4 if SANITIZED else 30):
+        for _ in range(4 if SANITIZED else 16):
             number = draw.choice(list(codes))
             wait = draw.uniform(0.0, longest)
             before = digest(self.out) if self.out.exists() else {}
@@ -195,29 +177,11 @@ class RandomSignals(Faults):
 
 
 class Machine(Faults):
-    def test_a_full_disk_exits_1(self):
-        def small_files():
-            resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
-
-        # Python ignores SIGXFSZ; handed on, a write beyond the limit fails as on a full disk.
-        result = self.render(preexec_fn=small_files, restore_signals=False)
-        self.assertEqual(result.returncode, 1, result.stderr)
-        self.assertIn("cannot write", result.stderr)
-        self.assertFalse((self.out / "fls/polar/000000.npy").exists())
-        self.assert_renders()
-
     def limited(self, *arguments, megabytes):
         def limit():
             resource.setrlimit(resource.RLIMIT_AS, (megabytes << 20, megabytes << 20))
 
         return self.run_sonarsim(*arguments, preexec_fn=limit)
-
-    @unittest.skipIf(SANITIZED, "a program under a sanitizer cannot be held to so little memory")
-    def test_too_little_memory_for_the_mission(self):
-        largest = ("--set", "sensors.fls.range_bins=8192", "--set", "sensors.fls.azimuth_bins=8192")
-        result = self.limited("render", "mission.yaml", "-j1", *largest, megabytes=900)
-        self.assertEqual(result.returncode, 1, result.stderr)
-        self.assertIn("out of memory", result.stderr)
 
     @unittest.skipIf(SANITIZED, "a program under a sanitizer cannot be held to so little memory")
     def test_memory_runs_out_anywhere(self):
@@ -229,7 +193,7 @@ class Machine(Faults):
         least = next(mb for mb in range(100, 2000, 10) if loads(mb))
         failed = 0
         # Where a library lies in memory is up to chance, and so is the last bit that it needs.
-        for megabytes in range(least + 40, least + 500, 20):
+        for megabytes in range(least + 40, least + 500, 40):
             with self.subTest(megabytes=megabytes):
                 result = self.limited("render", "mission.yaml", "-j2", megabytes=megabytes)
                 self.assertIn(result.returncode, (0, 1), result.stderr)

@@ -31,14 +31,13 @@ except ImportError:
 
 import sonarsim
 import sonarsim.data
-from sandbox import Sandbox, path_csv
+from sandbox import ROOT, Sandbox, path_csv
 
 try:
     import torch
 except ImportError:
     torch = None
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 KINDS = """\
 name: kinds
 seed: 7
@@ -112,7 +111,6 @@ class Package(Sandbox):
             self.assertEqual((value.dtype, value.shape), (expected.dtype, expected.shape), name)
             self.assertEqual(value.tobytes(), np.ascontiguousarray(expected).tobytes(), name)
         self.assertEqual(ping.metadata, sample["meta"])
-
 
     def run_page(self, program):
         """The lines that a program of the page prints, run where the examples are."""
@@ -228,12 +226,6 @@ class Use(Package):
         with self.assertRaisesRegex(ValueError, "shard"):
             mission.pings(shard=(2, 2))
 
-    def test_a_dataset_is_opened_again(self):
-        self.assert_renders()
-        with self.assertRaisesRegex(sonarsim.InputError, "--paths-from"):
-            sonarsim.open(self.out / "mission.resolved.yaml")
-        self.assert_same(sonarsim.open(self.out / "mission.resolved.yaml", paths_from=self.folder), self.out)
-
     def test_other_threads_run_meanwhile(self):
         """One ping of several tenths of a second; a thread counts its own turns meanwhile. A thread that
         held the lock would leave it none."""
@@ -294,9 +286,6 @@ class Use(Package):
         lines = self.run_page(program)
         self.assertEqual((lines[0], len(lines)), ("(256, 256)", 4 + 90))
 
-    def test_warnings(self):
-        self.assertEqual(self.open().warnings, [])
-
     def test_the_stubs_are_those_of_the_code(self):
         """Every name of a stub is in the module, and functions have the parameters of the stub."""
         def compare(body, owner):
@@ -312,12 +301,6 @@ class Use(Package):
         for module in (sonarsim.data, sonarsim._sonarsim):
             stub = pathlib.Path(sonarsim.__file__).parent / (module.__name__.split(".")[1] + ".pyi")
             compare(ast.parse(stub.read_text()).body, module)
-
-    def test_the_package_is_typed_and_holds_the_reader(self):
-        folder = pathlib.Path(sonarsim.__file__).parent
-        for name in ("py.typed", "_sonarsim.pyi", "data.pyi"):
-            self.assertTrue((folder / name).is_file(), name)
-        self.assertEqual(sonarsim.__version__, self.run_sonarsim("--version").stdout.split()[1])
 
 
 class Torch(Package):
@@ -356,33 +339,6 @@ class Torch(Package):
                         tools.get_worker_info = lambda info=info: info
                         found += data
                     self.assertEqual(sorted(found), expected, (variants, shard, workers))
-
-    @unittest.skipIf(torch is None, "needs torch")
-    def test_workers(self):
-        """Two workers make the pings of the files, each its share, also after a fork of a process that has
-        made pings itself."""
-        from sonarsim.torch import PingDataset
-        self.write("mission.yaml", (self.folder / "mission.yaml").read_text() + VARIED)
-        self.edit("mission.yaml", "image: true", "image: true\n  labels: [instance, objects]")
-        self.assert_renders()
-        expected = sorted((one["fls"][k]["polar"].tobytes(), one["fls"][k]["instance"].astype(np.int32).tobytes())
-                          for one in sonarsim.data.open_datasets(self.out) for k in range(6))
-        self.open().variants[0].ping(0)
-        data = PingDataset(self.folder / "mission.yaml", names=("image", "instance"))
-        self.assertEqual(len(data), 18)
-        for workers, options in ((0, {}), (2, {}), (1, {"multiprocessing_context": "spawn"})):
-            loader = torch.utils.data.DataLoader(data, batch_size=None, num_workers=workers, **options)
-            found = [(image.numpy().tobytes(), ids.numpy().tobytes()) for image, ids in loader]
-            self.assertEqual(sorted(found), expected, workers)
-        loader = torch.utils.data.DataLoader(data, batch_size=3)
-        self.assertEqual(next(iter(loader))[0].shape, (3, 48, 32))
-        one = PingDataset(self.folder / "mission.yaml", {"seed": 3}, transform=lambda ping: ping.number, threads=2,
-                          shard=(1, 3))
-        self.assertEqual((list(one), len(one)), ([0, 1, 2, 3, 4, 5], 6))
-        with self.assertRaisesRegex(KeyError, "no 'class', but image, instance, objects"):
-            next(iter(PingDataset(self.folder / "mission.yaml", names=("class",))))
-        with self.assertRaisesRegex(sonarsim.InputError, "nowhere.yaml"):
-            PingDataset("nowhere.yaml")
 
     def test_objects_survive_a_batch(self):
         """They are text, whose number in a batch is free."""

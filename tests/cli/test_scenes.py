@@ -1,12 +1,72 @@
-"""Scenes that a mission composes of objects and scatters."""
+"""Scenes that a mission composes of objects, in glTF, OBJ, STL and PLY: the same images whatever the format, the
+units and the names of the materials. What is refused: test_refusals.py."""
+import json
 import math
+import pathlib
+import shutil
+import struct
+import subprocess
 import unittest
 
-from composed import SCATTER, Composed, box_mesh, floor_mesh, gltf
-from sandbox import digest
+from sandbox import SONARSIM, Composed, box_gltf, box_mesh, gltf, png, sheet_mesh
+
+OBJECT = "{name: a, file: %s, position_m: [5, 0.25, 0.5], rpy_deg: [0, 0, 30]%s}"
+
+
+def triangles_of(mesh):
+    points, indices, _ = mesh
+    return points, [tuple(indices[k:k + 3]) for k in range(0, len(indices), 3)]
+
+
+def obj(points, faces, material="Concrete"):
+    return ("mtllib a.mtl\no crate\n" + "".join("v %g %g %g\n" % tuple(p) for p in points) +
+            f"usemtl {material}\n" + "".join("f %d %d %d\n" % tuple(k + 1 for k in f) for f in faces))
+
+
+def text_stl(points, faces):
+    return "solid crate\n" + "".join(
+        "facet normal 0 0 0\nouter loop\n" + "".join("vertex %g %g %g\n" % tuple(points[k]) for k in f) +
+        "endloop\nendfacet\n" for f in faces) + "endsolid crate\n"
+
+
+def binary_stl(points, faces):
+    return bytes(80) + struct.pack("<I", len(faces)) + b"".join(
+        struct.pack("<12fH", 0, 0, 0, *(x for k in f for x in points[k]), 0) for f in faces)
+
+
+def ply(points, faces, form="ascii"):
+    head = (f"ply\nformat {form} 1.0\nelement vertex {len(points)}\nproperty float x\nproperty float y\n"
+            f"property float z\nelement face {len(faces)}\n"
+            "property list uchar int vertex_indices\nend_header\n")
+    if form == "ascii":
+        return head + "".join("%g %g %g\n" % tuple(p) for p in points) + "".join(
+            "3 %d %d %d\n" % tuple(f) for f in faces)
+    return (head.encode() + b"".join(struct.pack("<3f", *p) for p in points) +
+            b"".join(struct.pack("<B3i", 3, *f) for f in faces))
+
+
+def drum(radius, length, sides=24):
+    """Along z, from z = 0."""
+    points, faces = [(0, 0, 0), (0, 0, length)], []
+    for z in (0, length):
+        points += [(radius * math.cos(2 * math.pi * k / sides), radius * math.sin(2 * math.pi * k / sides), z)
+                   for k in range(sides)]
+    for k in range(sides):
+        a, b = 2 + k, 2 + (k + 1) % sides
+        faces += [(0, b, a), (1, a + sides, b + sides), (a, b, b + sides), (a, b + sides, a + sides)]
+    return points, faces
 
 
 class Objects(Composed):
+    def assert_images(self, expected=None):
+        """Renders; the images are those that are expected, and are returned."""
+        self.assert_renders("--overwrite")
+        images = self.images()
+        self.assertGreater(len(images), 6)
+        if expected is not None:
+            self.assertEqual(images, expected)
+        return images
+
     def test_the_same_bytes_as_one_gltf(self):
         """World (x, y, z) is (x, z, -y) in glTF; a turn about the world's z is one about glTF's y."""
         half = math.sqrt(0.5)
@@ -15,110 +75,109 @@ class Objects(Composed):
              {"name": "a", "mesh": 1, "translation": [4.25, 0.5, -1.125]},
              {"name": "b", "mesh": 1, "translation": [6.5, 0.75, 0.5], "scale": [1.5, 1.5, 1.5]},
              {"name": "c", "mesh": 1, "translation": [5.0, 0.625, 2.5],
-              "rotation": [0, half, 0, half]}], [floor_mesh(), box_mesh()]))
-        self.scene("  file: whole.gltf\n  materials: materials.csv\n")
-        self.assert_renders()
-        whole = self.images()
-        self.assertGreater(len(whole), 6)
-        self.objects(["{name: a, file: crate.gltf, position_m: [4.25, 1.125, 0.5]}",
-                      "{name: b, file: crate.gltf, position_m: [6.5, -0.5, 0.75], scale: 1.5}",
-                      "{name: c, file: crate.gltf, position_m: [5, -2.5, 0.625], "
-                      "rpy_deg: [0, 0, 90]}"])
-        self.assert_renders("--overwrite")
-        self.assertEqual(self.images(), whole)
-
-    def test_a_scene_of_objects_alone(self):
-        self.scene("  file: floor.gltf\n  materials: materials.csv\n")
-        self.assert_renders()
-        whole = self.images()
-        self.objects(["{file: floor.gltf}"], "  materials: materials.csv\n")
-        self.assert_renders("--overwrite")
-        self.assertEqual(self.images(), whole)
-
-    def test_units_and_up_mend_a_file(self):
-        self.objects(["{name: a, file: crate.gltf, position_m: [5, 0, 0.5], rpy_deg: [0, 0, 30]}"])
-        self.assert_renders()
-        whole = self.images()
-        # 500 mm either way, and z up: the cube is the same after a quarter turn about x.
-        self.write("mm.gltf", gltf([{"name": "crate", "mesh": 0}], [box_mesh(500.0)]))
-        self.objects(["{name: a, file: mm.gltf, units: mm, position_m: [5, 0, 0.5], "
-                      "rpy_deg: [0, 0, 30]}"])
-        self.assert_renders("--overwrite")
-        self.assertEqual(sorted(self.images()), sorted(whole))
-
-    def test_rests_on_the_bottom(self):
-        self.write("floor.gltf", gltf([{"name": "floor", "mesh": 0}], [floor_mesh(slope=0.1)]))
-        self.objects(["{name: a, file: crate.gltf, position_m: [5, 0, 100], place: on_bottom}"])
-        self.edit("mission.yaml", "output:\n", "output:\n  labels: [instance]\n")
-        self.assert_renders()
-        # Its lower edge at x = 5.5 touches the slope: 0.55 m, and the box reaches 1 m above that.
-        box = self.dataset()["labels"]["instances"][1]["box_world_m"]
-        self.assertAlmostEqual(box["min"][2], 0.55, places=4)
-        self.assertAlmostEqual(box["max"][2], 1.55, places=4)
+              "rotation": [0, half, 0, half]}], [sheet_mesh(), box_mesh()]))
+        self.scene(head="  file: whole.gltf\n  materials: materials.csv\n")
+        whole = self.assert_images()
+        crates = ("{name: a, file: crate.gltf, position_m: [4.25, 1.125, 0.5]}",
+                  "{name: b, file: crate.gltf, position_m: [6.5, -0.5, 0.75], scale: 1.5}",
+                  "{name: c, file: crate.gltf, position_m: [5, -2.5, 0.625], rpy_deg: [0, 0, 90]}")
+        self.objects(*crates)
+        self.assert_images(whole)
+        # A scene of objects alone, and a part of a file that is left out.
+        self.write("floor.gltf", gltf([{"name": "floor", "mesh": 0, "children": [1]},
+                                       {"name": "lid", "mesh": 1, "translation": [4, 1, 0]}], [sheet_mesh(), box_mesh()]))
+        self.objects("{file: floor.gltf, exclude: [lid]}", *crates, head="  materials: materials.csv\n")
+        self.assert_images(whole)
 
     def test_materials_by_other_names(self):
-        self.write("crate.gltf", gltf([{"name": "crate", "mesh": 0}], [box_mesh()],
-                                      ("0137_Black",)))
-        self.objects(["{name: a, file: crate.gltf, position_m: [5, 0, 0.5]}"])
-        self.refused("materials.csv", "0137_Black")
-        for cure in ("material: steel", 'materials_map: {"0137_Black": steel}'):
-            self.objects(["{name: a, file: crate.gltf, position_m: [5, 0, 0.5], " + cure + "}"])
-            self.assert_renders("--overwrite")
-        by_map = self.images()
-        self.objects(["{name: a, file: crate.gltf, position_m: [5, 0, 0.5]}"],
-                     "  file: floor.gltf\n  materials: materials.csv\n  material_default: steel\n")
-        self.assert_renders("--overwrite")
-        self.assertEqual(self.images(), by_map)
+        self.write("crate.gltf", box_gltf((0.5, 0.5, 0.5), "0137_Black"))
+        line = "{name: a, file: crate.gltf, position_m: [5, 0, 0.5]%s}"
+        self.objects(line % ", material: steel")
+        images = self.assert_images()
+        self.objects(line % ', materials_map: {"0137_Black": steel}')
+        self.assert_images(images)
+        self.objects(line % "", head="  file: floor.gltf\n  materials: materials.csv\n  material_default: steel\n")
+        self.assert_images(images)
 
+    def test_one_shape_in_every_format(self):
+        """glTF's (x, y, z) is (x, -z, y) with z up."""
+        shape = points, faces = triangles_of(box_mesh())
+        self.objects(OBJECT % ("crate.gltf", ""))
+        whole = self.assert_images()
+        for name, content, keys in (
+                ("a.obj", obj(*shape).replace("a.mtl", "../../../etc/passwd"), ""),
+                ("mm.obj", obj([(1000 * x, -1000 * z, 1000 * y) for x, y, z in points], faces), ", units: mm, up: z"),
+                ("a.stl", text_stl(*shape), ", material: Concrete"),
+                ("b.STL", binary_stl(*shape), ", material: Concrete"),
+                ("a.ply", ply(*shape), ", material: Concrete"),
+                ("b.ply", ply(*shape, "binary_little_endian"), ", material: Concrete")):
+            with self.subTest(name=name):
+                self.write(name, content)
+                self.objects(OBJECT % (name, keys))
+                self.assert_images(whole)
+                # An .mtl is not read: nothing in the file can name another that is then opened.
+                self.assertNotIn("passwd", json.dumps(self.dataset()))
 
-class Scattered(Composed):
-    def setUp(self):
-        super().setUp()
-        self.scene("  file: floor.gltf\n  materials: materials.csv\n" + SCATTER)
-        self.edit("mission.yaml", "output:\n", "output:\n  labels: [instance]\n")
-
-    def boxes(self):
-        return [one["box_world_m"] for one in self.dataset()["labels"]["instances"]
-                if one["name"].startswith("mine_")]
-
-    def test_seeded_and_apart(self):
+    def test_everywhere(self):
+        """scene.file, scatter, preview and inspect take them, too; an STL has no material."""
+        self.write("floor.obj", obj(*triangles_of(sheet_mesh(10.0, 1))))
+        self.write("crate.ply", ply(*triangles_of(box_mesh())))
+        self.scene("  scatter:\n    - {name: mine, files: [crate.ply], material: steel, count: 2, area_min_m: [2, -4], "
+                   "area_max_m: [8, 4]}\n", head="  file: floor.obj\n  materials: materials.csv\n")
+        self.succeeds("preview", "mission.yaml", "--out", "preview.png")
         self.assert_renders()
-        boxes = self.boxes()
-        self.assertEqual(len(boxes), 5)
-        for box in boxes:
-            self.assertAlmostEqual(box["min"][2], 0, places=4)
-            self.assertTrue(2 <= box["min"][0] and box["max"][0] <= 8)
-            self.assertTrue(-4 <= box["min"][1] and box["max"][1] <= 4)
-        # Crates whose centres are as far apart as their shortest side and the spacing.
-        middle = [[(b["min"][k] + b["max"][k]) / 2 for k in (0, 1)] for b in boxes]
-        for i, a in enumerate(middle):
-            for b in middle[:i]:
-                self.assertGreater(math.dist(a, b), 1.2)
-        first = digest(self.out)
-        self.assert_renders("--overwrite", "-j", "1")
-        self.assertEqual(digest(self.out), first)
-        self.assert_renders("--overwrite", "--seed", "8")
-        self.assertNotEqual(self.boxes(), boxes)
+        reported = json.loads(self.succeeds("inspect", "floor.obj", "--json").stdout)
+        self.assertEqual(reported["materials"], [{"name": "Concrete", "triangles": 2}])
+        self.assertEqual(reported["instances"], [{"name": "crate", "triangles": 2}])
+        self.write("a.stl", text_stl(*triangles_of(box_mesh())))
+        self.objects(OBJECT % ("a.stl", ""))
+        self.assert_refused(self.run_sonarsim("validate", "mission.yaml", "--out", "new"), "mission.yaml:7:7: 'a' has no "
+                            "material in ", "a.stl; write material: NAME for an object", "scene.material_default")
 
-    def test_no_room(self):
-        self.edit("mission.yaml", "count: 5", "count: 50")
-        self.refused("mission.yaml:7:7", "'mine': object", "of 50 finds no room in 1000 tries",
-                     "larger area, fewer or smaller objects")
+    def test_questions_about_units_and_axes(self):
+        """In millimetres the drum is 900 m long, beyond the bottom."""
+        self.write("drum.stl", text_stl(*drum(300, 900)))
+        reported = json.loads(self.succeeds("inspect", "drum.stl", "--json").stdout)
+        self.assertEqual(reported["questions"], [
+            "it is 900 m long: millimetres? units: mm",
+            "drum.stl lies on its side with y up and would stand with z up: does its z point up? up: z"])
+        mended = json.loads(self.succeeds("inspect", "drum.stl", "--units", "mm", "--up", "z", "--json").stdout)
+        self.assertAlmostEqual(mended["bounds_max_m"][2], 0.9, places=6)
+        self.assertEqual(mended["questions"], [])
+        for arguments in (["--units", "yard"], ["--up", "x"]):
+            self.assertIn(arguments[0], self.run_sonarsim("inspect", "drum.stl", *arguments).stderr)
+        self.objects("{name: a, place: on_bottom, file: drum.stl, material: steel, position_m: [5, 0, 1]}")
+        self.refused("mission.yaml:7:7: 'a' reaches beyond the bottom", "; 'a' is 900 m long: millimetres? units: mm")
+        self.objects("{name: a, units: mm, up: z, file: drum.stl, material: steel, position_m: [5, 0, 1]}")
+        self.assertNotIn("millimetres", self.succeeds("validate", "mission.yaml").stderr)
 
-    def test_area_beside_the_bottom(self):
-        self.edit("mission.yaml", "area_max_m: [8, 4]", "area_max_m: [80, 4]")
-        self.edit("mission.yaml", "area_min_m: [2, -4]", "area_min_m: [70, -4]")
-        self.refused("mission.yaml:7:7", "0 come too near", " have no bottom below")
+    def test_names_in_any_encoding(self):
+        """Latin-1 and control characters become text that JSON and a terminal can have."""
+        self.write("a.obj", obj(*triangles_of(box_mesh())).encode().replace(b"o crate", b"o Stra\xdfe\x1b[2J"))
+        reported = json.loads(self.succeeds("inspect", "a.obj", "--json").stdout)
+        self.assertEqual(reported["instances"], [{"name": "Stra\\xdfe\\x1b[2J", "triangles": 12}])
 
-    def test_inverted_area(self):
-        self.edit("mission.yaml", "area_min_m: [2, -4]", "area_min_m: [9, -4]")
-        self.refused("mission.yaml:7:", "area_min_m must be below area_max_m")
+    def test_without_the_modules(self):
+        """A start needs neither libassimp nor OpenImageIO. A mission that does says what to install."""
+        libraries = subprocess.run(["ldd", SONARSIM], capture_output=True, text=True, check=True).stdout
+        self.assertNotRegex(libraries, "assimp|OpenImageIO")
+        if pathlib.Path("/usr/local/lib/sonarsim").exists():
+            self.skipTest("an installed module takes the place of a missing one")
+        own = self.folder / "deep/er/bin/sonarsim"
+        own.parent.mkdir(parents=True)
+        shutil.copy(SONARSIM, own)
+        self.write("crate.stl", text_stl(*triangles_of(box_mesh())))
+        self.write("bed.png", png([[1, 2], [3, 4]]))
 
-    def test_counts(self):
-        self.edit("mission.yaml", "count: 5", "count: [3, 2]")
-        self.refused("mission.yaml:7:", "'count': the first number must not be above the second")
-        self.edit("mission.yaml", "count: [3, 2]", "count: 1.5")
-        self.refused("mission.yaml:7:", "'count' must be a whole number or two of them")
+        def inspect(*arguments):
+            result = subprocess.run([own, "inspect", *arguments], cwd=self.folder, capture_output=True, text=True,
+                                    check=False)
+            return f"{result.returncode} {result.stderr}"
+        self.assertRegex(inspect("crate.gltf"), "^0 ")
+        self.assertRegex(inspect("crate.stl"), "^2 .*crate.stl: cannot be read: .*install libassimp-dev")
+        self.assertRegex(inspect("bed.png", "--pixel-m", "1"), "^2 .*bed.png: cannot be read: .*install libopenimageio-dev")
+        self.write("deep/er/lib/sonarsim/libsonarsim_meshes.so", "no library")
+        self.assertRegex(inspect("crate.stl"), r"^2 .*cannot be loaded \(.*\); install libassimp-dev")
 
 
 if __name__ == "__main__":

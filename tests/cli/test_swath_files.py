@@ -1,5 +1,5 @@
-"""waterfall.xtf as a reader sees it that knows the published format alone (Debian has no program that reads
-XTF), and mosaic.tif as GDAL sees it: a bright target lies where the scene has it."""
+"""Files of a survey as other programs see them: waterfall.xtf as a reader that knows the published format alone
+(Debian has no program that reads XTF), mosaic.tif and bathymetry.tif as GDAL, soundings.ply as meshio."""
 import json
 import math
 import shutil
@@ -7,7 +7,7 @@ import struct
 import subprocess
 import unittest
 
-from sandbox import Sandbox, box_gltf
+from sandbox import Sandbox, box_gltf, python_with
 
 # A flat sea floor at z = -10 of 60 x 60 m and a steel block on it, half a metre each way, at (6, -12).
 MISSION = """\
@@ -130,20 +130,13 @@ class SwathFiles(Sandbox):
     @unittest.skipIf(shutil.which("gdalinfo") is None, "needs gdalinfo")
     def test_mosaic(self):
         path = self.out / "sss/mosaic.tif"
-        result = subprocess.run(["gdalinfo", "-json", "-stats", path], capture_output=True, text=True,
-                                timeout=60, check=True)
-        self.assertEqual(result.stderr, "")
-        info = json.loads(result.stdout)
-        place = json.loads((self.out / "sss/mosaic.json").read_text())
-        cell = place["cell_m"]
+        info, place = gdal_info(path), json.loads((self.out / "sss/mosaic.json").read_text())
         self.assertEqual(info["geoTransform"],
                          [place["west_m"], cell, 0, place["north_m"], 0, -cell])
         self.assertTrue(math.isnan(float(info["bands"][0]["noDataValue"])))
 
         def echo(x, y):
-            found = subprocess.run(["gdallocationinfo", "-valonly", "-geoloc", path, str(x), str(y)],
-                                   capture_output=True, text=True, timeout=60, check=True)
-            return float(found.stdout)
+            return value_at(path, x, y)
 
         # The side of the block that faces the sonar echoes before the floor below it: at the slant range
         # of its foot and of its top, (11.5, 10) and (11.5, 9), that is 11.5 and 10.7 m on level ground.
@@ -159,13 +152,58 @@ class SwathFiles(Sandbox):
         self.assertAlmostEqual(place["rows"] * cell, 2 * math.sqrt(25**2 - 10**2), delta=2 * cell)
         self.assertEqual((place["pings"], place["pings_left_out"]), (81, 0))
 
-    def test_only_a_side_scan_sonar_has_them(self):
-        """An echosounder has a record of all pings, too."""
-        self.edit("mission.yaml", "sensors:\n", "sensors:\n  sounder: {kind: echosounder}\n")
-        self.assert_renders("--overwrite")
-        self.assertTrue((self.out / "sss/waterfall.xtf").is_file())
-        self.assertEqual(sorted(path.name for path in (self.out / "sounder").iterdir()),
-                         ["echogram.npy", "echogram.png", "echogram_view.png", "meta"])
+
+def value_at(path, x, y):
+    found = subprocess.run(["gdallocationinfo", "-valonly", "-geoloc", path, str(x), str(y)],
+                           capture_output=True, text=True, timeout=60, check=True)
+    return float(found.stdout)
+
+
+def gdal_info(path):
+    result = subprocess.run(["gdalinfo", "-json", "-stats", path], capture_output=True, text=True, timeout=60, check=True)
+    assert result.stderr == "", result.stderr
+    return json.loads(result.stdout)
+
+
+class Bathymetry(Sandbox):
+    def setUp(self):
+        super().setUp()
+        self.edit("mission.yaml", "output:\n", "  mbes: {kind: profiling, azimuth_deg: 60, range_max_m: 6, range_bins: 64, "
+                  "azimuth_bins: 16}\noutput:\n  bathymetry_cell_m: 0.25\n")
+        self.assert_renders()
+
+    @unittest.skipIf(python_with("meshio") is None, "needs python3-meshio")
+    def test_ply(self):
+        compare = """
+import sys, meshio, numpy
+cloud, rows = meshio.read(sys.argv[1]), numpy.load(sys.argv[2]).reshape(-1, 5)
+rows = rows[~numpy.isnan(rows[:, 0])]
+assert len(rows) > 0
+numpy.testing.assert_array_equal(cloud.points, rows[:, 1:4])
+numpy.testing.assert_array_equal(cloud.point_data["quality"], rows[:, 4].astype(numpy.float32))
+"""
+        files = [self.out / "mbes" / name for name in ("soundings.ply", "soundings.npy")]
+        read = subprocess.run([python_with("meshio"), "-c", compare, *files], text=True, capture_output=True,
+                              timeout=120, check=False)
+        self.assertEqual(read.returncode, 0, read.stderr)
+
+    @unittest.skipIf(shutil.which("gdalinfo") is None, "needs gdal-bin")
+    def test_gdal(self):
+        folder = self.out / "mbes"
+        place, info = json.loads((folder / "bathymetry.json").read_text()), gdal_info(folder / "bathymetry.tif")
+        self.assertEqual(info["size"], [place["columns"], place["rows"]])
+        # x of the upper left corner, x by column, x by row; then y.
+        self.assertEqual(info["geoTransform"], [place["west_m"], 0.25, 0, place["north_m"], 0, -0.25])
+        band = info["bands"][0]
+        self.assertEqual(band["type"], "Float32")
+        self.assertTrue(math.isnan(float(band["noDataValue"])))
+        # The floor of the box is 1.5 m below the sonar.
+        self.assertAlmostEqual(band["mean"], -1.5, delta=0.1)
+        # Every sounding of the text lies in the cell that GDAL finds at its place.
+        lines = (folder / "soundings.csv").read_text().splitlines()[1:]
+        for line in lines[::15]:
+            x, y, z = map(float, line.split(",")[4:7])
+            self.assertAlmostEqual(value_at(folder / "bathymetry.tif", x, y), z, delta=0.2)
 
 
 if __name__ == "__main__":

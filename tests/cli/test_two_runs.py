@@ -1,6 +1,5 @@
 """Two runs that write into one folder at the same time: one of them gets a clear sentence, or both
 fit together; what is there in the end is whole, and of one mission."""
-import itertools
 import os
 import random
 import shutil
@@ -12,7 +11,6 @@ import unittest
 from sandbox import SONARSIM, Sandbox, digest, path_csv
 
 FAULTY_DISK = os.environ["FAULTY_DISK"]
-POSES = 60
 VARY = """
 variants: 3
 vary:
@@ -23,10 +21,12 @@ REFUSALS = (SECOND_RUN, "holds a dataset of another mission", "holds variants of
             "holds files that are not a sonarsim dataset", "holds files that are not variants")
 
 
-class TwoRuns(Sandbox):
+class Folder(Sandbox):
+    POSES = 60
+
     def setUp(self):
         super().setUp()
-        self.write("path.csv", path_csv(POSES))
+        self.write("path.csv", path_csv(self.POSES))
         mission = (self.folder / "mission.yaml").read_text()
         self.write("variants.yaml", mission + VARY)
         self.draw = random.Random(25)
@@ -39,6 +39,8 @@ class TwoRuns(Sandbox):
         _, stderr = process.communicate(timeout=120)
         return process.returncode, stderr
 
+
+class TwoRuns(Folder):
     def whole(self, *arguments):
         """What the command makes where nobody disturbs it."""
         out = self.folder / "alone"
@@ -77,60 +79,34 @@ class TwoRuns(Sandbox):
         self.assertIn(0, codes)
         return tuple(codes)
 
-    def delays(self, count):
-        return [0.0, *(self.draw.uniform(0.0, 0.15) for _ in range(count - 1))]
-
-    def test_two_missions_have_one_winner(self):
+    def test_pairs_of_runs(self):
+        """Two missions, one mission twice, one that overwrites the other, and two shards."""
+        other = ("--seed", "9")
         for name in ("mission.yaml", "variants.yaml"):
             render = ("render", name)
-            wholes = [self.whole(*render), self.whole(*render, "--seed", "9")]
-            for delay in self.delays(4):
-                with self.subTest(name=name, delay=delay):
-                    codes = self.pair(render, (*render, "--seed", "9"), delay)
-                    self.assertEqual(sorted(codes), [0, 2])
-                    self.assert_whole(wholes[codes.index(0)])
-
-    def test_one_mission_twice(self):
-        for name in ("mission.yaml", "variants.yaml"):
-            render = ("render", name)
-            whole = self.whole(*render)
-            for delay in self.delays(3):
-                with self.subTest(name=name, delay=delay):
-                    self.pair(render, render, delay)
-                    self.assert_whole(whole)
-
-    def test_overwriting_what_is_under_way(self):
-        for name in ("mission.yaml", "variants.yaml"):
-            render = ("render", name)
-            wholes = [self.whole(*render), self.whole(*render, "--seed", "9")]
-            for delay in (0.1, *self.delays(3)):
-                with self.subTest(name=name, delay=delay):
-                    codes = self.pair(render, (*render, "--seed", "9", "--overwrite"), delay)
+            wholes = [self.whole(*render), self.whole(*render, *other)]
+            for first, second, delay in (((), other, 0.0), ((), other, self.draw.uniform(0.0, 0.15)), ((), (), 0.02),
+                                         ((), (*other, "--overwrite"), 0.1), (("--shard", "1/2"), ("--shard", "2/2"), 0.0)):
+                with self.subTest(name=name, first=first, second=second, delay=delay):
+                    codes = self.pair((*render, *first), (*render, *second), delay)
+                    if second == other:
+                        self.assertEqual(sorted(codes), [0, 2])
+                    if first:
+                        self.assertEqual(codes, (0, 0))
                     # The second may have come first, or have replaced a finished dataset.
-                    self.assert_whole(wholes[1 if codes[1] == 0 else 0])
-
-    def test_shards_share_a_folder(self):
-        for name in ("mission.yaml", "variants.yaml"):
-            render = ("render", name)
-            whole = self.whole(*render)
-            for delay in self.delays(3):
-                with self.subTest(name=name, delay=delay):
-                    codes = self.pair((*render, "--shard", "1/2"), (*render, "--shard", "2/2"), delay)
-                    self.assertEqual(codes, (0, 0))
-                    self.assert_whole(whole)
+                    replaced = "--overwrite" in second and codes[1] == 0 or second == other and codes[0] != 0
+                    self.assert_whole(wholes[replaced])
 
     def test_shards_that_do_not_fit(self):
         """The same shard twice, shards of two divisions, of two missions, and a whole run."""
         render = ("render", "mission.yaml")
         wholes = [self.whole(*render), self.whole(*render, "--seed", "9")]
         for second in (("--shard", "1/2"), ("--shard", "2/3"), ("--shard", "2/2", "--seed", "9"), ()):
-            for delay in self.delays(2):
-                with self.subTest(second=second, delay=delay):
-                    codes = self.pair((*render, "--shard", "1/2"), (*render, *second), delay)
-                    other = codes[0] != 0 and "--seed" in second
-                    seed = ("--seed", "9") if other else ()
-                    self.assertEqual(self.run_sonarsim(*render, *seed).returncode, 0)
-                    self.assert_whole(wholes[other])
+            with self.subTest(second=second):
+                codes = self.pair((*render, "--shard", "1/2"), (*render, *second), self.draw.uniform(0.0, 0.15))
+                other = codes[0] != 0 and "--seed" in second
+                self.assertEqual(self.run_sonarsim(*render, *(("--seed", "9") if other else ())).returncode, 0)
+                self.assert_whole(wholes[other])
 
     def test_eight_shards_at_once(self):
         whole = self.whole("render", "mission.yaml")
@@ -147,19 +123,16 @@ class TwoRuns(Sandbox):
         for k in (1, 2):
             self.assert_renders("--shard", f"{k}/2", "--out", f"part{k}")
         merge = ("merge", "part1", "part2", "out")
-        for second, delay in itertools.product((merge, render), (0.0, 0.01)):
-            with self.subTest(second=second, delay=delay):
-                self.pair(merge, second, delay)
+        for second in (merge, render):
+            with self.subTest(second=second):
+                self.pair(merge, second, 0.005)
                 self.assertEqual(self.run_sonarsim(*render).returncode, 0)
                 self.assert_whole(whole)
 
 
-class HeldFolder(TwoRuns):
+class HeldFolder(Folder):
     """The first run is halted, so that the second comes while it is at work."""
-
-    def setUp(self):
-        super().setUp()
-        self.write("path.csv", path_csv(10 * POSES))
+    POSES = 600
 
     def halted(self, *arguments):
         process = self.start("render", *arguments)
@@ -222,11 +195,6 @@ class HeldFolder(TwoRuns):
         first.kill()
         first.wait()
         self.assert_renders()
-
-
-# The pairs above belong to the first class alone.
-for name in [n for n in dir(TwoRuns) if n.startswith("test_")]:
-    setattr(HeldFolder, name, None)
 
 
 class Disks(Sandbox):

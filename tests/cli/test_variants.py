@@ -1,5 +1,6 @@
-"""Variants of a mission: draws, seeds, shards, resume, and what is refused."""
+"""Variants of a mission, and what `vary` draws for every ping: draws, seeds, shards, resume, and what is refused."""
 import json
+import math
 import shutil
 import unittest
 
@@ -13,27 +14,38 @@ vary:
   - {key: sensors.fls.range_bins, whole: [40, 60]}
   - {key: water.density_kg_m3, choice: [1000, 1025], per: dataset}
 """
+PER_PING = """
+vary:
+  - {key: sensors.fls.noise.add_sigma, log_uniform: [0.001, 0.2], per: ping}
+  - {key: sensors.fls.mount.rpy_deg.2, normal: [0, 3], within: [-6, 6], per: ping}
+  - {key: vehicle.offset_m.2, uniform: [-0.2, 0.2], per: ping}
+  - {key: vehicle.turn_deg.0, choice: [-5, 5], per: ping}
+"""
 
 
-class Variants(Sandbox):
+class Varied(Sandbox):
+    def assert_refusals(self, cases):
+        """Each case is a text of the mission, what it becomes, and words of the message."""
+        mission = (self.folder / "mission.yaml").read_text()
+        for old, new, *fragments in cases:
+            with self.subTest(new=new):
+                self.edit("mission.yaml", old, new)
+                self.refused(*fragments)
+                self.write("mission.yaml", mission)
+
+
+class Variants(Varied):
     def setUp(self):
         super().setUp()
-        mission = (self.folder / "mission.yaml").read_text()
-        self.write("mission.yaml", mission + VARY)
+        self.add(VARY)
 
-    def refused(self, *fragments, arguments=()):
-        for command in ("validate", "render"):
-            self.assert_refused(self.run_sonarsim(command, "mission.yaml", *arguments), *fragments)
-            self.assertFalse(self.out.exists(), "a refused mission leaves no folder")
-
-    def index(self, folder=None):
-        return json.loads(((folder or self.out) / "variants.json").read_text())["variants"]
+    def index(self):
+        return json.loads((self.out / "variants.json").read_text())["variants"]
 
     def test_all_differ_and_come_again(self):
         self.assert_renders()
         index = self.index()
-        self.assertEqual([one["folder"] for one in index],
-                         [f"variant_{k:04}" for k in range(6)])
+        self.assertEqual([one["folder"] for one in index], [f"variant_{k:04}" for k in range(6)])
         self.assertEqual(len({one["seed"] for one in index}), 6)
         self.assertEqual(len({one["drawn"]["sensors.fls.noise.add_sigma"] for one in index}), 6)
         self.assertEqual(len({one["drawn"]["water.density_kg_m3"] for one in index}), 1)
@@ -51,30 +63,20 @@ class Variants(Sandbox):
         first = digest(self.out)
         self.assert_renders("--overwrite", "-j", "1")
         self.assertEqual(digest(self.out), first)
-        self.assert_renders()  # nothing is missing, and nothing changes
-        self.assertEqual(digest(self.out), first)
-
-    def test_a_variant_does_not_depend_on_how_many_there_are(self):
-        self.assert_renders()
-        six = self.index()
+        # One alone, and fewer of them.
+        own = self.out / "variant_0004"
+        self.succeeds("render", own / "mission.resolved.yaml", "--paths-from", ".", "--out", "alone")
+        alone = digest(self.folder / "alone")
+        for name, sum_ in digest(own).items():
+            if name.endswith((".npy", ".png")):
+                self.assertEqual(alone[name], sum_)
         self.assert_renders("--overwrite", "--set", "variants=3")
-        self.assertEqual(self.index(), six[:3])
+        self.assertEqual(self.index(), index[:3])
         self.assertFalse((self.out / "variant_0003").exists())
 
-    def test_shards_and_resume(self):
-        self.assert_renders()
-        whole = digest(self.out)
-        shutil.rmtree(self.out)
+    def test_finished_variants_are_skipped_without_their_scenes(self):
         for shard in ("2/3", "1/3", "3/3"):
             self.assert_renders("--shard", shard)
-        self.assertEqual(digest(self.out), whole)
-        shutil.rmtree(self.out / "variant_0004")
-        (self.out / "variant_0002/fls/polar/000003.npy").unlink()
-        self.assert_renders()
-        self.assertEqual(digest(self.out), whole)
-
-    def test_finished_variants_are_skipped_without_their_scenes(self):
-        self.assert_renders()
         whole = digest(self.out)
 
         def again(*arguments):
@@ -99,36 +101,24 @@ class Variants(Sandbox):
         self.assert_refused(self.render(), "variant_0000", "other scene, material or trajectory files")
         self.assertEqual(digest(self.out), whole)
 
-    def test_merge_and_verify(self):
-        self.assert_renders()
+    def test_merge(self):
+        """With more shards than variants."""
+        two = ("--set", "variants=2")
+        self.assert_renders(*two)
         whole = digest(self.out)
-        for k in (1, 2):
-            self.assert_renders("--shard", f"{k}/2", "--out", f"part{k}")
-        result = self.run_sonarsim("merge", "part1", "joined", "--json")
+        for k in (1, 2, 3):
+            self.assert_renders(*two, "--shard", f"{k}/3", "--out", f"part{k}")
+        result = self.succeeds("merge", "part1", "joined", "--json")
         self.assertIs(json.loads(result.stdout)["complete"], False, result.stderr)
-        result = self.run_sonarsim("merge", "part1", "part2", "joined", "--json")
+        result = self.succeeds("merge", "part1", "part2", "part3", "joined", "--json")
         self.assertIs(json.loads(result.stdout)["complete"], True, result.stderr)
+        self.assert_renders(*two, "--out", "joined")
         self.assertEqual(digest(self.folder / "joined"), whole)
-        self.assertEqual(self.run_sonarsim("verify", "joined").returncode, 0)
-        self.assert_renders("--out", "joined")
-        self.assertEqual(digest(self.folder / "joined"), whole)
-        (self.folder / "joined/variant_0003/fls/polar/000000.npy").write_bytes(b"spoilt")
-        result = self.run_sonarsim("verify", "joined")
-        self.assertEqual(result.returncode, 1)
-        self.assertIn("variant_0003", result.stderr)
-
-    def test_more_shards_than_variants(self):
-        self.assert_renders("--set", "variants=2")
-        parts = [f"part{k}" for k in (1, 2, 3)]
-        for k, part in enumerate(parts, 1):
-            self.assert_renders("--set", "variants=2", "--shard", f"{k}/3", "--out", part)
-        result = self.run_sonarsim("merge", *parts, "joined")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(digest(self.folder / "joined"), digest(self.out))
+        self.assert_renders(*two, "--set", "sensors.fls.noise.mult_sigma=0.3", "--out", "other")
+        self.assert_refused(self.run_sonarsim("merge", "other", "joined"), "holds variants of another mission")
 
     def test_variants_with_files_of_their_own_are_rendered(self):
-        for name in ("one", "two"):
-            self.write(f"{name}/box.gltf", (self.folder / "box.gltf").read_text())
+        self.write("one/box.gltf", box_gltf())
         self.write("two/box.gltf", box_gltf((2.5, 1.5, 2.0)))
         self.edit("mission.yaml", "vary:\n", "vary:\n"
                   "  - {key: scene.file, choice: [one/box.gltf, two/box.gltf]}\n")
@@ -137,89 +127,52 @@ class Variants(Sandbox):
         self.assertEqual(len({one["drawn"]["scene.file"] for one in self.index()}), 2)
         self.assertEqual(self.run_sonarsim("verify", "out").returncode, 0)
 
-    def test_merge_into_variants_of_another_mission(self):
-        self.assert_renders()
-        self.assert_renders("--set", "sensors.fls.noise.mult_sigma=0.3", "--out", "other")
-        self.assertEqual(self.run_sonarsim("merge", "out", "joined").returncode, 0)
-        self.assert_refused(self.run_sonarsim("merge", "other", "joined"),
-                            "holds variants of another mission")
-
-    def test_a_variant_renders_alone(self):
-        self.assert_renders()
-        own = self.out / "variant_0004"
-        result = self.run_sonarsim("render", own / "mission.resolved.yaml", "--paths-from", ".",
-                                   "--out", "alone")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        images = {k: v for k, v in digest(own).items() if k.endswith((".npy", ".png"))}
-        alone = digest(self.folder / "alone")
-        self.assertEqual({k: alone[k] for k in images}, images)
-
     def test_validate_counts(self):
-        result = self.run_sonarsim("validate", "mission.yaml", "--json")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        reported = json.loads(result.stdout)
-        self.assertEqual((reported["variants"], reported["pings"]), (6, 36))
-        text = self.run_sonarsim("validate", "mission.yaml").stdout
-        self.assertIn("variants    6\n", text)
-        self.assertIn("36 pings", text)
-
-    def test_another_mission_is_not_overwritten(self):
+        found = json.loads(self.succeeds("validate", "mission.yaml", "--json").stdout)
+        self.assertEqual((found["variants"], found["pings"], found["images"]), (6, 36, 36))
+        self.assertGreater(found["set_up_seconds"], 0)
+        text = self.succeeds("validate", "mission.yaml").stdout
+        for words in ("variants    6\n", "surveyed    variant_0000:\n", "together    6 variants:\n", "36 pings, at most"):
+            self.assertIn(words, text)
         self.assert_renders()
-        self.assert_refused(self.render("--seed", "9"), "holds variants of another mission",
-                            "--overwrite")
-        self.write("other/thesis.txt", "years of work")
-        self.assert_refused(self.render("--out", "other"), "not variants of a sonarsim mission")
+        blocks = [path.stat().st_blocks for path in [self.out, *self.out.rglob("*")]]
+        self.assertLessEqual(512 * sum(blocks), found["bytes_at_most"])
 
     def test_validate_refuses_a_folder_as_render_does(self):
         self.assert_renders("--set", "variants=2")
         self.write("other/thesis.txt", "years of work")
         whole = digest(self.folder)
         for command in ("validate", "render"):
-            self.assert_refused(self.run_sonarsim(command, "mission.yaml", "--set", "variants=3"),
-                                "variants: 2 there, 3 here", "--overwrite")
-            self.assert_refused(self.run_sonarsim(command, "mission.yaml", "--out", "other", "--overwrite"),
-                                "not variants of a sonarsim mission")
+            for arguments, words in ((("--set", "variants=3"), "variants: 2 there, 3 here"),
+                                     (("--set", "variants=2", "--seed", "9"), "holds variants of another mission"),
+                                     (("--out", "other", "--overwrite"), "not variants of a sonarsim mission")):
+                self.assert_refused(self.run_sonarsim(command, "mission.yaml", *arguments), words)
             self.assertEqual(digest(self.folder), whole)
-        for arguments in (("--set", "variants=2"), ("--set", "variants=3", "--overwrite"), ("--out", "new")):
-            result = self.run_sonarsim("validate", "mission.yaml", *arguments)
-            self.assertEqual(result.returncode, 0, result.stderr)
+        self.succeeds("validate", "mission.yaml", "--set", "variants=3", "--overwrite")
         self.assertEqual(digest(self.folder), whole)
 
     def test_bad_keys(self):
-        for old, new, fragments in (
-                ("noise.add_sigma", "noise.add_sgma",
-                 ("mission.yaml:26:5", "add_sgma", "did you mean 'add_sigma'?")),
-                ("uniform: [0.01, 0.2]", "uniform: [0.2, 0.01]",
-                 ("mission.yaml:26:", "the first number must not be above the second")),
-                ("uniform: [0.01, 0.2]", "uniform: [-2, -1]",
-                 ("mission.yaml:26:5", "'add_sigma' must be at least 0")),
-                ("uniform: [0.01, 0.2]", "log_uniform: [0, 1]",
-                 ("mission.yaml:26:", "'log_uniform' takes numbers above 0")),
-                (", uniform: [0.01, 0.2]", "", ("mission.yaml:26:5", "needs exactly one of: uniform")),
-                ("sensors.fls.noise.add_sigma", "water.sound_speed_m_s",
-                 ("mission.yaml:27:5", "'water.sound_speed_m_s' varies twice")),
-                ("{key: sensors.fls.range_bins, whole: [40, 60]}",
-                 "{key: sensors.fls.noise, choice: [{add_sigma: 0.1}]}",
-                 ("mission.yaml:28:5", "'sensors.fls.noise' replaces what is drawn for "
-                  "'sensors.fls.noise.add_sigma'", "write that rule after this one")),
-                ("water.density_kg_m3, choice: [1000, 1025]", "seed, choice: [1, 2]",
-                 ("mission.yaml:29:5", "'seed' cannot vary", "a seed of its own")),
-                ("water.density_kg_m3, choice: [1000, 1025]", "vary.0.key, choice: [a]",
-                 ("mission.yaml:29:5", "'vary.0.key' cannot vary: it says what varies")),
-                ("sensors.fls.noise.add_sigma", "sensors.fls.mount.rpy_deg.1",
-                 ("mission.yaml:26:5", "there is no list 'rpy_deg' with an item '1'",
-                  "write the whole list in the mission first")),
-                ("within: [1400, 1600]", "within: [9000, 9001]",
-                 ("mission.yaml:27:5", "a thousand normal draws", "wider")),
-                ("whole: [40, 60]", "uniform: [40, 60]",
-                 ("mission.yaml:28:5", "'range_bins' must be a whole number"))):
-            with self.subTest(new=new):
-                mission = (self.folder / "mission.yaml").read_text()
-                self.edit("mission.yaml", old, new)
-                try:
-                    self.refused(*fragments)
-                finally:
-                    self.write("mission.yaml", mission)
+        self.assert_refusals((
+            ("noise.add_sigma", "noise.add_sgma", "mission.yaml:26:5", "add_sgma", "did you mean 'add_sigma'?"),
+            ("uniform: [0.01, 0.2]", "uniform: [0.2, 0.01]",
+             "mission.yaml:26:", "the first number must not be above the second"),
+            ("uniform: [0.01, 0.2]", "uniform: [-2, -1]", "mission.yaml:26:5", "'add_sigma' must be at least 0"),
+            ("uniform: [0.01, 0.2]", "log_uniform: [0, 1]", "mission.yaml:26:", "'log_uniform' takes numbers above 0"),
+            (", uniform: [0.01, 0.2]", "", "mission.yaml:26:5", "needs exactly one of: uniform"),
+            ("sensors.fls.noise.add_sigma", "water.sound_speed_m_s",
+             "mission.yaml:27:5", "'water.sound_speed_m_s' varies twice"),
+            ("{key: sensors.fls.range_bins, whole: [40, 60]}",
+             "{key: sensors.fls.noise, choice: [{add_sigma: 0.1}]}",
+             "mission.yaml:28:5", "'sensors.fls.noise' replaces what is drawn for "
+             "'sensors.fls.noise.add_sigma'", "write that rule after this one"),
+            ("water.density_kg_m3, choice: [1000, 1025]", "seed, choice: [1, 2]",
+             "mission.yaml:29:5", "'seed' cannot vary", "a seed of its own"),
+            ("sensors.fls.noise.add_sigma", "sensors.fls.mount.rpy_deg.1",
+             "mission.yaml:26:5", "there is no list 'rpy_deg' with an item '1'",
+             "write the whole list in the mission first"),
+            ("within: [1400, 1600]", "within: [9000, 9001]", "mission.yaml:27:5", "a thousand normal draws", "wider"),
+            ("whole: [40, 60]", "uniform: [40, 60]", "mission.yaml:28:5", "'range_bins' must be a whole number"),
+            ("variants: 6\n", "", "mission.yaml:", "'vary' needs 'variants'")))
 
     def scatter(self, *lines):
         """Lets the mission scatter small boxes, and writes only the rules `lines`."""
@@ -238,31 +191,62 @@ class Variants(Sandbox):
         self.assertGreater(len({len(one["instances"]) for one in labels}), 1, "counts must differ")
         names = [[one["name"] for one in variant["classes"]] for variant in labels]
         self.assertEqual(names, [["walls", "threat", "tyre", "drum", "buoy"]] * 8)
-        self.edit("mission.yaml", "classes:", "classes:\n  - {nodes: 'boat_*', class: boat}")
-        shutil.rmtree(self.out)
-        self.refused("mission.yaml:", "no node of the scene fits 'boat_*'")
 
     def test_a_variant_without_room_is_found_before_the_first(self):
         self.scatter("vary:", "  - {key: scene.scatter.2.spacing_m, choice: [0, 3]}",
                      "  - {key: scene.scatter.2.count, choice: [2]}")
         self.refused("finds no room in 1000 tries", "the bottom lies from (-2, -2) to (2, 2)")
 
-    def test_validate_estimates_all_variants(self):
-        result = self.run_sonarsim("validate", "mission.yaml", "--json")
-        found = json.loads(result.stdout)
-        self.assertEqual((found["pings"], found["images"]), (36, 36), "a ping is one image")
-        self.assertGreater(found["set_up_seconds"], 0)
-        self.assert_renders()
-        blocks = [path.stat().st_blocks for path in [self.out, *self.out.rglob("*")]]
-        self.assertLessEqual(512 * sum(blocks), found["bytes_at_most"])
 
-    def test_vary_without_variants(self):
-        self.edit("mission.yaml", "variants: 6\n", "")
-        self.refused("mission.yaml:", "'vary' needs 'variants'")
+class PingDraws(Varied):
+    KEYS = ["vehicle.offset_m.2", "vehicle.turn_deg.0", "sensors.fls.noise.add_sigma", "sensors.fls.mount.rpy_deg.2"]
 
-    def test_report_takes_one_scene(self):
-        self.assert_refused(self.run_sonarsim("report", "mission.yaml", "--quick"),
-                            "this mission has variants")
+    def test_every_ping_has_draws_of_its_own(self):
+        self.add(PER_PING)
+        self.assert_renders("-j", "1")
+        metas = [self.meta(ping) for ping in range(6)]
+        self.assertTrue(all(list(meta["drawn"]) == self.KEYS for meta in metas))
+        for key in self.KEYS[:1] + self.KEYS[2:]:
+            self.assertEqual(len({meta["drawn"][key] for meta in metas}), len(metas), key)
+        for meta in metas:
+            self.assertTrue(0.001 <= meta["drawn"][self.KEYS[2]] <= 0.2)
+            # The path lies in the plane z = 0, and the sonar in the middle of the vehicle.
+            self.assertEqual(meta["T_world_vehicle"]["position_m"][2], meta["drawn"][self.KEYS[0]])
+            # A mount that is turned about z by a: the scalar product of the two attitudes is
+            # cos(a / 2), of whatever the vehicle's is.
+            vehicle = meta["T_world_vehicle"]["quaternion_xyzw"]
+            sensor = meta["T_world_sensor"]["quaternion_xyzw"]
+            cosine = abs(sum(a * b for a, b in zip(vehicle, sensor)))
+            angle = 2 * math.degrees(math.acos(min(1.0, cosine)))
+            self.assertAlmostEqual(angle, abs(meta["drawn"][self.KEYS[3]]), places=4)
+        whole = digest(self.out)
+        # Shards, and the dataset's own mission; tests/golden has any number of threads.
+        for shard in ("2/2", "1/2"):
+            self.assert_renders("--shard", shard, "--out", "shards")
+        self.assertEqual(digest(self.folder / "shards"), whole)
+        self.succeeds("render", self.out / "mission.resolved.yaml", "--paths-from", ".", "--out", "again")
+        self.assertEqual(digest(self.folder / "again/fls"), digest(self.out / "fls"))
+        self.assert_renders("--overwrite", "--seed", "8")
+        self.assertNotEqual(self.meta(0)["drawn"], metas[0]["drawn"])
+
+    def test_a_drawn_mount_moves_as_a_fixed_one(self):
+        moving = ("--set", "sensors.fls.moves_in_ping=true")
+        self.assert_renders(*moving, "--set", "sensors.fls.mount.rpy_deg=[0, 0, 70]", "--out", "fixed")
+        self.add("\nvary:\n  - {key: sensors.fls.mount.rpy_deg.2, choice: [70, 70], per: ping}\n")
+        self.assert_renders(*moving, "--out", "drawn")
+        self.assertEqual(*(digest(self.folder / out / "fls/polar") for out in ("fixed", "drawn")))
+
+    def test_what_is_refused(self):
+        self.add(PER_PING)
+        self.assert_refusals((
+            ("noise.add_sigma", "range_bins", "mission.yaml:25:5", "'sensors.fls.range_bins' cannot be drawn for every ping",
+             "noise.add_sigma", "vehicle.offset_m.0"),
+            ("log_uniform: [0.001, 0.2]", "uniform: [-0.1, 0.2]", "mission.yaml:25:5", "'add_sigma' must be at least 0"),
+            ("within: [-6, 6]", "within: [40, 41]",
+             "mission.yaml:26:5", "less than 5 % of the normal draws", "make it wider"),
+            ("within: [-6, 6], ", "", "mission.yaml:26:", "a normal draw for every ping needs 'within'"),
+            ("choice: [-5, 5]", "choice: [left, 5]", "mission.yaml:28:5", "takes numbers"),
+            ("    kind: imaging\n", "    kind: imaging\n    moves_in_ping: true\n", "moves_in_ping")))
 
 
 if __name__ == "__main__":

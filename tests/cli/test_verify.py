@@ -1,20 +1,22 @@
-"""sonarsim verify: what is wrong with a dataset, a line for each fault; and SHA256SUMS, which needs no
-sonarsim to be checked."""
+"""sonarsim verify: what is wrong with a dataset, a line for each fault; SHA256SUMS, which needs no sonarsim to be
+checked; and datasets that somebody else made, to do harm: each attack is refused."""
+import hashlib
 import json
-import os
 import random
+import resource
 import shutil
 import subprocess
 import unittest
 
-from sandbox import SONARSIM, Sandbox, digest, path_csv
-from test_faults import MISSION
+from sandbox import ALL_FILES, SANITIZED, SONARSIM, Sandbox, digest, path_csv, png
+
+VARIANTS = "variants: 2\nvary: [{key: water.sound_speed_m_s, uniform: [1470, 1490]}]\n"
 
 
 class Verify(Sandbox):
     def setUp(self):
         super().setUp()
-        self.write("mission.yaml", MISSION)
+        self.write("mission.yaml", ALL_FILES)
         self.write("path.csv", path_csv(3))
         self.assert_renders()
 
@@ -22,7 +24,7 @@ class Verify(Sandbox):
         return self.run_sonarsim("verify", "out", *arguments)
 
     def assert_fault(self, *fragments, count=1):
-        """So many lines of errors, exit code 1, nothing changed; what the message says."""
+        """So many lines of errors, exit code 1, nothing changed; the words of the message."""
         before = digest(self.out)
         result = self.verify()
         self.assertEqual(result.returncode, 1, result.stderr)
@@ -32,43 +34,21 @@ class Verify(Sandbox):
             self.assertIn(fragment, result.stderr)
         self.assertEqual(digest(self.out), before)
 
-    def resum(self, name):
-        """Writes the sum of a changed file into SHA256SUMS."""
-        sums = (self.out / "SHA256SUMS").read_text().splitlines()
-        new = digest(self.out)[name]
-        self.write("out/SHA256SUMS", "".join(
-            (f"{new}  {name}" if line.endswith(f"  {name}") else line) + "\n" for line in sums))
-
     def test_whole(self):
         result = self.verify()
         self.assertEqual((result.returncode, result.stdout), (0, ""), result.stderr)
         self.assertIn("whole", result.stderr)
         listed = {line[66:]: line[:64] for line in (self.out / "SHA256SUMS").read_text().splitlines()}
         self.assertEqual(listed, digest(self.out, without=("SHA256SUMS",)))
-        verdict = json.loads(self.verify("--json").stdout)
-        self.assertEqual(verdict["whole"], True)
-        self.assertEqual(verdict["files"], len(listed))
-        self.assertEqual((verdict["errors"], verdict["unknown_files"]), ([], []))
         self.assertEqual(self.verify("--quiet", "-j1").stderr, "")
-
-    def test_coreutils_take_the_sums(self):
         check = ["sha256sum", "--check", "--strict", "--quiet", "SHA256SUMS"]
         self.assertEqual(subprocess.run(check, cwd=self.out, check=False).returncode, 0)
-        self.write("out/fls/meta/000001.json", "{}")
-        result = subprocess.run(check, cwd=self.out, capture_output=True, check=False)
-        self.assertEqual(result.returncode, 1)
-
-    def test_a_flipped_bit_in_any_file(self):
-        for path in sorted(p for p in self.out.rglob("*") if p.is_file()):
-            name = str(path.relative_to(self.out))
-            if name in ("SHA256SUMS", "dataset.json"):
-                continue
-            data = path.read_bytes()
-            with self.subTest(name=name):
-                path.write_bytes(data[:-1] + bytes([data[-1] ^ 1]))
-                self.assert_fault(f"{name}: ", "SHA256SUMS", "remove it")
-                path.write_bytes(data)
-        self.assertEqual(self.verify().returncode, 0)
+        # A stranger does no harm.
+        self.write("out/notes.txt", "mine")
+        self.write("out/fls/polar/000003.npy", "one too many")
+        verdict = json.loads(self.verify("--json").stdout)
+        self.assertEqual((verdict["whole"], verdict["files"], verdict["errors"]), (True, len(listed), []))
+        self.assertEqual(verdict["unknown_files"], ["fls/polar/000003.npy", "notes.txt"])
 
     def test_dataset_json_is_covered(self):
         whole = digest(self.out)
@@ -78,28 +58,18 @@ class Verify(Sandbox):
         self.assert_renders()
         self.assertEqual(digest(self.out), whole)
 
-    def test_missing(self):
-        (self.out / "fls/fan/000002.png").unlink()
-        (self.out / "sss/waterfall.npy").unlink()
-        self.assert_fault("fls/fan/000002.png: is missing", "sss/waterfall.npy: is missing", count=2)
-
     def test_the_cure_cures(self):
         whole = digest(self.out)
-        for name in ("fls/fan/000002.png", "sss/waterfall.npy", "mbes/bathymetry.tif", "journal.txt",
-                     "trajectory.tum", "SHA256SUMS"):
+        names = ("fls/fan/000002.png", "sss/waterfall.npy", "mbes/bathymetry.tif", "journal.txt", "trajectory.tum")
+        for name in (*names, "SHA256SUMS"):
             with self.subTest(name=name):
                 (self.out / name).unlink()
                 self.assertEqual(self.verify().returncode, 1)
                 self.assert_renders()
                 self.assertEqual(digest(self.out), whole)
-
-    def test_a_stranger_does_no_harm(self):
-        self.write("out/notes.txt", "mine")
-        self.write("out/fls/polar/000003.npy", "one too many")
-        result = self.verify("--json")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(json.loads(result.stdout)["unknown_files"], ["fls/polar/000003.npy", "notes.txt"])
-        self.assertIn("notes.txt", result.stderr)
+        for name in names[:3]:
+            (self.out / name).unlink()
+        self.assert_fault(*(f"{name}: is missing" for name in names[:3]), count=3)
 
     def test_unfinished(self):
         shutil.rmtree(self.out)
@@ -112,131 +82,129 @@ class Verify(Sandbox):
 
     def test_no_dataset(self):
         self.assert_refused(self.run_sonarsim("verify", "none"), "none", "there is no such folder")
+        self.assert_refused(self.run_sonarsim("verify", "out/fls"), "give the folder above")
         self.write("other/dataset.json", "{}")
         self.assert_refused(self.run_sonarsim("verify", "other"), "dataset.json", "not sonarsim's")
-        self.edit("out/dataset.json", '"format_version": 3', '"format_version": 2')
-        self.assert_refused(self.verify(), "format_version 2")
-
-    def test_sums_that_are_none(self):
         good = (self.out / "SHA256SUMS").read_text()
         for line in ("nonsense", "0" * 64 + "  ../mission.yaml", "0" * 64 + "  /etc/passwd", "0" * 63):
             with self.subTest(line=line):
                 self.write("out/SHA256SUMS", line + "\n" + good)
                 self.assert_refused(self.verify(), "SHA256SUMS:1", "remove SHA256SUMS")
+        self.edit("out/dataset.json", '"format_version": 3', '"format_version": 2')
+        self.assert_refused(self.verify(), "format_version 2")
 
-    def test_a_description_that_lies(self):
-        reported = self.dataset()
-        reported["poses"] = 1000
-        for sensor in reported["sensors"]:
-            sensor["pings"] = -(-reported["poses"] // sensor["every"])
-        self.write("out/dataset.json", json.dumps(reported))
-        result = self.verify()
-        self.assertEqual(result.returncode, 1)
-        self.assertIn("fls/polar/000999.npy: is missing", result.stderr)
-        reported["sensors"][0]["pings"] = 10 ** 18
-        self.write("out/dataset.json", json.dumps(reported))
-        self.assert_refused(self.verify(), "dataset.json", "another number of pings of 'fls'")
+    def test_a_byte_of_any_file(self):
+        """A byte that was flipped, an end that was cut off and a file that was removed are found, in every kind of
+        file."""
+        self.write("path.csv", path_csv(1))
+        self.edit("mission.yaml", "fan_width_px: 32", "fan_width_px: 32, labels: [instance, objects]")
+        self.assert_renders("--overwrite")
+        draw = random.Random(7)
+        files = sorted(p for p in self.out.rglob("*") if p.is_file())
+        self.assertGreater(len(files), 30)
+        for path in files:
+            data = path.read_bytes()
+            place = draw.randrange(len(data))
+            flipped = bytes([data[place] ^ draw.randrange(1, 256)])
+            for what, spoilt in (("flipped", data[:place] + flipped + data[place + 1:]),
+                                 ("cut", data[:draw.choice((place, len(data) - 1))]), ("removed", None)):
+                with self.subTest(file=path.relative_to(self.out), what=what, place=place):
+                    path.unlink() if spoilt is None else path.write_bytes(spoilt)
+                    result = self.verify("-j1")
+                    path.write_bytes(data)
+                    self.assertIn(result.returncode, (1, 2), result.stderr)
+                    self.assertIn("error:", result.stderr)
+        self.assertEqual(self.verify().returncode, 0)
+
+    def test_variants(self):
+        self.add(VARIANTS)
+        shutil.rmtree(self.out)
+        self.assert_renders()
+        self.assertEqual(self.verify().returncode, 0)
+        self.write("out/variant_0000/fls/polar/000000.npy", "spoilt")
+        shutil.rmtree(self.out / "variant_0001")
+        self.write("out/variant_0000/notes.txt", "mine")
+        result = self.verify("--json")
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("variant_0001: is missing", result.stderr)
+        self.assertIn("fls/polar/000000.npy: its bytes differ", result.stderr)
+        self.assertEqual(json.loads(result.stdout)["unknown_files"], ["variant_0000/notes.txt"])
 
 
-class EveryFile(Sandbox):
-    """Of whatever the program writes, in every layout: a byte that was flipped, an end that was cut off
-    and a file that was removed are found."""
+class Hostile(Sandbox):
+    COMMANDS = ("verify", "out"), ("status", "out"), ("merge", "out", "merged")
 
     def setUp(self):
         super().setUp()
         self.write("path.csv", path_csv(2))
-        self.draw = random.Random(7)
-        # The other two sonars write files of the same sorts.
-        kept = [line for line in MISSION.splitlines() if not line.startswith(("  mbes", "  sounder"))]
-        mission = "\n".join(kept) + "\n"
-        labels = mission.replace("image: true", "image: true, labels: [instance, objects]")
-        labels += "labels: {background: [none]}\n"
-        self.write("mission.yaml", labels)
-        self.write("variants.yaml", mission + "variants: 2\n"
-                   "vary: [{key: water.sound_speed_m_s, uniform: [1470, 1490]}]\n")
+        self.assert_renders()
+        self.sound = self.dataset()
 
-    def done(self, *arguments):
-        result = self.run_sonarsim(*arguments)
-        self.assertEqual(result.returncode, 0, result.stderr)
+    def change(self, *keys, to):
+        """Sets a value of dataset.json. Whoever changes a file can give its sum."""
+        description = json.loads(json.dumps(self.sound))
+        inner = description
+        for key in keys[:-1]:
+            inner = inner[key]
+        inner[keys[-1]] = to
+        self.write("out/dataset.json", json.dumps(description))
+        own = hashlib.sha256((self.out / "dataset.json").read_bytes()).hexdigest()
+        self.write("out/SHA256SUMS", "".join(
+            f"{own}  dataset.json\n" if line.endswith("  dataset.json\n") else line
+            for line in (self.out / "SHA256SUMS").read_text().splitlines(keepends=True)))
 
-    def check_every_file(self):
-        self.done("verify", "out")
-        # variants.json is a list, without a sum of its own.
-        files = sorted(p for p in self.out.rglob("*") if p.is_file() and p.name != "variants.json")
-        for path in files:
-            data = path.read_bytes()
-            place = self.draw.randrange(len(data))
-            flipped = bytes([data[place] ^ self.draw.randrange(1, 256)])
-            end = self.draw.choice((place, len(data) - 1))
-            for what, spoilt in (("flipped", data[:place] + flipped + data[place + 1:]),
-                                 ("cut", data[:end]), ("removed", None)):
-                with self.subTest(file=path.relative_to(self.out), what=what, place=place):
-                    path.unlink() if spoilt is None else path.write_bytes(spoilt)
-                    result = self.run_sonarsim("verify", "out", "-j1")
-                    path.write_bytes(data)
-                    self.assertIn(result.returncode, (1, 2), result.stderr)
-                    self.assertIn("error:", result.stderr)
-        self.done("verify", "out")
-        return len(files)
+    def assert_all_refuse(self, *fragments, commands=COMMANDS):
+        for command in commands:
+            with self.subTest(command=command, fragments=fragments):
+                result = self.run_sonarsim(*command)
+                self.assert_refused(result, *fragments)
+                self.assertNotIn("json.exception", result.stderr)
+                self.assertFalse((self.folder / "merged").exists())
 
-    def test_plain(self):
-        self.done("render", "mission.yaml")
-        self.assertGreater(self.check_every_file(), 20)
+    def test_keys_of_the_wrong_kind(self):
+        for keys, value, words in (
+                (("complete",), "yes", "type must be boolean"),
+                (("poses",), 10 ** 9, "more than ten million poses"),
+                (("sensors", 0, "pings"), 1 << 60, "another number of pings of 'fls'"),
+                (("sensors", 0, "name"), "../fls", "'../fls', which is not the name of a folder"),
+                (("sensors", 0, "files", "meta"), "fls/../secret/%06d.json", "not the path of a file in 'fls/'"),
+                (("sensors", 0, "files", "meta"), "/etc/%06d.json", "not the path of a file in 'fls/'"),
+                (("products",), ["../../x"], "not the path of a file in 'seabed/'")):
+            self.change(*keys, to=value)
+            self.assert_all_refuse("out/dataset.json", words)
+        self.write("out/dataset.json", "[" * 200000)
+        self.assert_all_refuse("not sonarsim's, or damaged")
+        for text in ('{"format": "sonarsim variants", "variants": 5}', "[]", "[" * 200000):
+            self.write("drawn/variants.json", text)
+            self.assert_all_refuse("drawn/variants.json", commands=(
+                ("verify", "drawn"), ("status", "drawn"), ("merge", "drawn", "merged")))
 
-    def test_variants(self):
-        self.done("render", "variants.yaml")
-        self.assertGreater(self.check_every_file(), 30)
+    def test_names_of_shards(self):
+        """The name of a part of the journal has the number of shards."""
+        self.change("complete", to=False)
+        for name in ("1-of-0.txt", "2-of-1.txt", "1-of-4294967296.txt", "1-of-2000000000.txt"):
+            self.write(f"out/journal.d/{name}", "")
+        self.assertEqual(json.loads(self.succeeds("status", "out", "--json").stdout)["state"], "interrupted")
 
-    def test_merged(self):
-        for k in (1, 2):
-            self.done("render", "mission.yaml", "--shard", f"{k}/2", "--out", f"part{k}")
-        self.done("merge", "part1", "part2", "out")
-        self.done("render", "mission.yaml")
-        self.check_every_file()
-
-    def test_a_variant_that_is_missing(self):
-        self.done("render", "variants.yaml")
-        shutil.rmtree(self.out / "variant_0001")
-        self.write("out/variant_0000/notes.txt", "mine")
-        result = self.run_sonarsim("verify", "out", "--json")
+    def test_a_picture_that_announces_more_than_it_holds(self):
+        """verify reports it, and takes no memory for it."""
+        def limit():
+            if not SANITIZED:  # a sanitizer reserves more memory than that
+                resource.setrlimit(resource.RLIMIT_AS, (1 << 31, 1 << 31))
+        self.write("out/fls/image/000000.png", png([[0]], size=(1 << 20, 1 << 20)))
+        result = subprocess.run([SONARSIM, "verify", "out", "-j1"], cwd=self.folder, check=False, capture_output=True,
+                                text=True, timeout=60, preexec_fn=limit)
         self.assertEqual(result.returncode, 1, result.stderr)
-        self.assertIn("variant_0001: is missing", result.stderr)
-        self.assertEqual(json.loads(result.stdout)["unknown_files"], ["variant_0000/notes.txt"])
+        self.assertIn("fls/image/000000.png: its bytes differ from SHA256SUMS; remove it", result.stderr)
 
-
-class AnotherPlace(Sandbox):
-    """A dataset does not tell where it was made, and by whom."""
-
-    def test_other_folders(self):
-        self.assert_renders()
-        here = digest(self.out)
-        other = self.folder / "somewhere/else"
-        other.mkdir(parents=True)
-        for name in ("mission.yaml", "materials.csv", "box.gltf", "path.csv"):
-            shutil.copy(self.folder / name, other)
-        result = subprocess.run([SONARSIM, "render", other / "mission.yaml", "--out", other / "data/set"],
-                                cwd="/", env=dict(os.environ, HOME="/nowhere", USER="nobody"),
-                                capture_output=True, text=True, check=False)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(digest(other / "data/set"), here)
-        for path in self.out.rglob("*"):
-            if path.is_file():
-                self.assertNotIn(str(self.folder).encode(), path.read_bytes(), path)
-
-    def test_inputs_are_told(self):
-        self.assert_renders()
-        sums = digest(self.folder)
-        for name in ("box.gltf", "materials.csv", "path.csv"):
-            self.assertIn({"file": name, "sha256": sums[name]}, self.dataset()["inputs"])
-            self.assertIn(f"{sums[name]}  {name}\n", (self.out / "mission.resolved.yaml").read_text())
-
-    def test_resolved_mission_gives_the_same_dataset(self):
-        self.assert_renders()
-        resolved = ("render", "out/mission.resolved.yaml", "--out", self.folder / "again")
-        self.assert_refused(self.run_sonarsim(*resolved), "--paths-from")
-        result = self.run_sonarsim(*resolved, "--paths-from", ".")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(digest(self.folder / "again"), digest(self.out))
+    def test_variants_behind_a_link(self):
+        self.write("victim/dataset.json", json.dumps(self.sound))
+        self.add("variants: 2\n")
+        self.assert_renders("--out", "drawn")
+        shutil.rmtree(self.folder / "drawn/variant_0000")
+        (self.folder / "drawn/variant_0000").symlink_to(self.folder / "victim")
+        self.assert_refused(self.render("--out", "drawn", "--overwrite"), "variant_0000", "is a symbolic link")
+        self.assertTrue((self.folder / "victim/dataset.json").exists())
 
 
 if __name__ == "__main__":

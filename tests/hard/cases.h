@@ -43,16 +43,9 @@ struct HardBounds {
     double slices = -1.0;  ///< below 0: the same as for rays
 };
 
-/// Descriptions of known faults; empty: none.
-struct KnownFaults {
-    std::string rays;
-    std::string slices = {};
-};
-
 struct HardCase {
     std::string name;
     std::string stresses;
-    std::string expected;
     std::function<Scene()> scene;
     std::function<HardTrial(SonarKind)> trial = plain_sonar_over_floor;
     /// The expected image, [range_bins, beams]; none: only the invariants are checked.
@@ -61,14 +54,12 @@ struct HardCase {
     /// True if every echo model must give the expected image, not only the paper's. The image of
     /// another model is compared without its random terms.
     bool truth_of_any_model = false;
-    bool noisy = false;      ///< may be brighter than the brightest material
-    double brightest = 0.0;  ///< limit of all pixels; 0: the largest reflection of the scene
-    KnownFaults known = {};
+    std::string known_fault_of_rays = {};  ///< empty: none
 };
 
 /// One case with one engine and one echo model; the worst of the sonars.
 struct HardResult {
-    std::string name, stresses, expected, engine, model;
+    std::string name, stresses, engine, model;
     std::string sonar = {};  ///< the sonar with the largest error
     double error = 0.0;      ///< sum |A - B| / sum B over the pixels that are checked
     double bound = 0.0;
@@ -86,7 +77,6 @@ std::vector<HardCase> hard_places();
 std::vector<HardCase> hard_geometry();
 std::vector<HardCase> hard_numbers();
 std::vector<HardCase> hard_sonar_limits();
-std::vector<HardCase> hard_noise();
 std::vector<HardCase> hard_invariances();
 
 /// The same sonar with another echo model. Its calibrated receiver has neither noise nor
@@ -97,8 +87,8 @@ HardTrial with_model(HardTrial trial, ModelKind model);
 Terms compared_terms(ModelKind model);
 
 /// Runs a case with the rays and the slices, and with every echo model; a model for
-/// which the case has no expected image runs with the rays alone. Invariants of every image: no pixel
-/// is NaN, infinite, negative or brighter than physics allows.
+/// which the case has no expected image runs with the rays alone. Invariants of every image: no
+/// pixel is NaN, infinite, negative or brighter than physics allows.
 std::vector<HardResult> run_hard_case(const HardCase& hard);
 
 /// The results as a table: case, what it stresses, error, bound, verdict.

@@ -81,25 +81,6 @@ Scene cracked_floor() {
     return scene;
 }
 
-/// Three plates that share one upright edge.
-Scene non_manifold() {
-    Scene scene = plain_floor();
-    const std::uint32_t m = add_material(scene, 0.8F);
-    const Eigen::Vector3f foot(3, 0, 0.5F);
-    const Eigen::Vector3f top(3, 0, 1.5F);
-    const Eigen::Vector3f sides[] = {{1, 0, 0}, {-0.5F, 0.8F, 0}, {0, -1, 0.3F}};
-    for (const Eigen::Vector3f& side : sides) {
-        add_quad(scene, foot, foot + side, top + side, top, m);
-    }
-    return scene;
-}
-
-Scene with_plate(const Eigen::Vector3f& min, const Eigen::Vector3f& max) {
-    Scene scene = plain_floor();
-    add_box(scene, min, max, add_material(scene, 0.9F));
-    return scene;
-}
-
 Scene floor_with_pole() {
     Scene scene = plain_floor();
     const std::uint32_t steel = add_material(scene, 0.9F);
@@ -115,27 +96,23 @@ Scene floor_with_pole() {
 std::vector<HardCase> hard_geometry() {
     return {{.name = "triangles without area",
              .stresses = "points, lines, folded triangles",
-             .expected = "the image without them",
              .scene = floor_with_degenerates,
              .truth = plain_floor_image,
              .bounds = {0.0, 1e-6},
              .truth_of_any_model = true},
             {.name = "needle triangles",
              .stresses = "aspect 1e6, 60 m by 60 um",
-             .expected = "R H / r",
              .scene = floor_with_needles,
              .truth = floor_law,
              .bounds = {0.02}},
             {.name = "duplicated faces",
              .stresses = "every triangle twice, turned",
-             .expected = "the image with them once",
              .scene = doubled_tank,
              .trial = plain_sonar_in_tank,
              .truth = tank_image,
              .bounds = {1e-5, 0.01}},
             {.name = "flipped normals",
              .stresses = "every second triangle wound the other way",
-             .expected = "the same image",
              .scene = flipped_tank,
              .trial = plain_sonar_in_tank,
              .truth = tank_image,
@@ -145,45 +122,18 @@ std::vector<HardCase> hard_geometry() {
              .truth_of_any_model = true},
             {.name = "T-junctions, a crack",
              .stresses = "0.1 mm between unlike meshes",
-             .expected = "R H / r",
              .scene = cracked_floor,
              .truth = floor_law,
              .bounds = {0.02}},
-            {.name = "non-manifold edge",
-             .stresses = "three plates on one edge",
-             .expected = "reference",
-             .scene = non_manifold,
-             .truth = settled_reference,
-             .bounds = {0.05}},
-            {.name = "thin plate",
-             .stresses = "two faces 1 mm apart, upright",
-             .expected = "reference",
-             .scene =
-                 [] {
-                     return with_plate({3.0F, -1.0F, 0.0F}, {3.001F, 1.0F, 1.0F});
-                 },
-             .truth = settled_reference,
-             .bounds = {0.05}},
-            {.name = "thin plate on the floor",
-             .stresses = "two faces 1 mm apart, flat",
-             .expected = "reference",
-             .scene =
-                 [] {
-                     return with_plate({0.0F, -1.0F, 0.001F}, {3.0F, 1.0F, 0.002F});
-                 },
-             .truth = settled_reference,
-             .bounds = {0.05}},
             {.name = "thin poles",
              .stresses = "4 mm: thinner than leaf and ray spacing",
-             .expected = "reference",
              .scene = floor_with_pole,
              .truth = settled_reference,
              .bounds = {0.05},
-             .known = {"a cone has a column of rays every 4 degrees, and a pole between two of "
-                       "them is not seen"}},
+             .known_fault_of_rays = "a cone has a column of rays every 4 degrees, and a pole "
+                                    "between two of them is not seen"},
             {.name = "one triangle of 10 km",
              .stresses = "vertices 1e4 times as far as the range",
-             .expected = "R H / r",
              .scene =
                  [] {
                      Scene scene = empty_scene();
@@ -193,18 +143,6 @@ std::vector<HardCase> hard_geometry() {
                      scene.vertices.emplace_back(5000.0F, -4000.0F, 0.0F);
                      scene.vertices.emplace_back(0.0F, 6000.0F, 0.0F);
                      add_triangle(scene, {0, 1, 2});
-                     return scene;
-                 },
-             .truth = floor_law,
-             .bounds = {0.02}},
-            {.name = "a million triangles in a leaf",
-             .stresses = "1 cm x 1 cm of the floor",
-             .expected = "R H / r",
-             .scene =
-                 [] {
-                     Scene scene = plain_floor();
-                     add_quad(scene, {2, 0, 0}, {2.01F, 0, 0}, {2.01F, 0.01F, 0}, {2, 0.01F, 0}, 0,
-                              707);
                      return scene;
                  },
              .truth = floor_law,

@@ -1,9 +1,9 @@
-// build-release/tests/hard_cases [NAME]: runs the hard cases, or those with NAME in their name, and prints
-// them as a table. Exit code 1 where one fails.
-
-#include "hard/cases.h"
+// build-release/tests/hard_cases [NAME]: runs the hard cases, or those with NAME in their name, and
+// prints them as a table. Exit code 1 where one fails.
 
 #include <cstdio>
+
+#include "hard/cases.h"
 
 int main(int argc, char** argv) {
     using namespace sonarsim;

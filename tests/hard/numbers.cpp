@@ -10,8 +10,6 @@ namespace {
 
 using namespace shapes;
 
-const Eigen::Vector3d utm(500000.0, 4800000.0, 0.0);
-
 /// The image of the original tank. If scene and sonar are moved or scaled together, it must not
 /// change.
 std::vector<float> at_home(const HardContext& context) {
@@ -40,32 +38,11 @@ std::vector<float> grazing_law(const HardContext& context) {
     return truth;
 }
 
-Scene floor_of(float reflection) {
-    Scene scene = empty_scene();
-    add_floor(scene, 30.0F, 0.0F, add_material(scene, reflection));
-    return scene;
-}
-
-float reflection_of(double impedances) {
-    const Water water;
-    return static_cast<float>(
-        power_reflection(impedances * water.density_kg_m3, water.sound_speed_m_s, water));
-}
-
 }  // namespace
 
 std::vector<HardCase> hard_numbers() {
-    return {{.name = "UTM, on the grid",
-             .stresses = "5e5, 4.8e6 m against the origin",
-             .expected = "the image at the origin",
-             .scene = [] { return moved_tank(utm); },
-             .trial = [](SonarKind k) { return in_moved_tank(k, utm); },
-             .truth = at_home,
-             .bounds = {1e-4},
-             .truth_of_any_model = true},
-            {.name = "UTM, off the grid",
+    return {{.name = "UTM, off the grid",
              .stresses = "512345.678, 4812345.678, -43.21 m",
-             .expected = "the image at the origin",
              .scene = [] { return moved_tank(utm_odd); },
              .trial = [](SonarKind k) { return in_moved_tank(k, utm_odd); },
              .truth = at_home,
@@ -73,40 +50,16 @@ std::vector<HardCase> hard_numbers() {
              .truth_of_any_model = true},
             {.name = "a tank of a millimetre",
              .stresses = "8e-4 of its size, range 1 mm",
-             .expected = "the image in full size",
              .scene = [] { return scaled_tank(1.25e-4); },
              .trial = [](SonarKind k) { return in_scaled_tank(k, 1.25e-4); },
              .truth = at_home,
              .bounds = {1e-4}},
-            {.name = "a tank of 50 km",
-             .stresses = "6250 times its size, range 62 km",
-             .expected = "the image in full size",
-             .scene = [] { return scaled_tank(6250.0); },
-             .trial = [](SonarKind k) { return in_scaled_tank(k, 6250.0); },
-             .truth = at_home,
-             .bounds = {1e-4}},
             {.name = "grazing incidence",
              .stresses = "down to 0.01 degrees",
-             .expected = "R H / r in every bin",
              .scene = plain_floor,
              .trial = grazing,
              .truth = grazing_law,
-             .bounds = {0.01}},
-            {.name = "impedance of water",
-             .stresses = "R = 0",
-             .expected = "dark",
-             .scene = [] { return floor_of(reflection_of(1.0)); },
-             .truth = dark,
-             .bounds = {0}},
-            {.name = "1,000 times that of water",
-             .stresses = "R = 0.996",
-             .expected = "R H / r",
-             .scene = [] { return floor_of(reflection_of(1000.0)); },
-             .truth =
-                 [](const HardContext& context) {
-                     return plane_law(context, std::pow(999.0 / 1001.0, 2), 3.0);
-                 },
-             .bounds = {0.02}}};
+             .bounds = {0.01}}};
 }
 
 }  // namespace sonarsim

@@ -5,8 +5,8 @@
 #include "core/units.h"
 #include "sonar/engine_settings.h"
 #include "sonar/kinds.h"
-#include "validation/reference.h"
 #include "support/shapes.h"
+#include "validation/reference.h"
 
 namespace sonarsim {
 
@@ -72,8 +72,8 @@ Scene moved_tank(const Eigen::Vector3d& by) {
     return scene;
 }
 
-HardTrial in_moved_tank(SonarKind kind, const Eigen::Vector3d& by, const ConfigChange& change) {
-    HardTrial trial = in_tank(kind, change);
+HardTrial in_moved_tank(SonarKind kind, const Eigen::Vector3d& by) {
+    HardTrial trial = in_tank(kind);
     trial.T_world_vehicle.translation += by;
     return trial;
 }
@@ -85,9 +85,8 @@ Scene scaled_tank(double scale) {
     return scene;
 }
 
-HardTrial in_scaled_tank(SonarKind kind, double scale, const ConfigChange& change) {
+HardTrial in_scaled_tank(SonarKind kind, double scale) {
     HardTrial trial = in_tank(kind, [&](SonarConfig& c) {
-        if (change) change(c);
         c.range_min_m *= scale;
         c.range_max_m *= scale;
     });
@@ -122,16 +121,12 @@ std::vector<float> floor_law(const HardContext& context) {
     return plane_law(context, 0.5, 3.0);
 }
 
-std::vector<float> reference_of(const HardContext& context, const ReferenceGoal& goal) {
+std::vector<float> settled_reference(const HardContext& context) {
     const Caster caster(context.scene);
     const Pose T_world_sensor = sensor_pose(context.trial.sonar, context.trial.T_world_vehicle, 0);
     return cast_reference(caster, context.scene, context.trial.sonar.settings.view, T_world_sensor,
-                          goal)
+                          {0.002, 64.0, 2'000'000})
         .intensity;
-}
-
-std::vector<float> settled_reference(const HardContext& context) {
-    return reference_of(context, {0.002, 64.0, 2'000'000});
 }
 
 std::vector<float> dark(const HardContext& context) {

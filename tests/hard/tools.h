@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "hard/cases.h"
-#include "validation/reference.h"
 
 namespace sonarsim {
 
@@ -30,11 +29,11 @@ HardTrial plain_sonar_in_tank(SonarKind kind);
 /// The tank at another position, with positions rounded to float about an origin on a grid of 10 m,
 /// as when a file is read; and a sonar in it at the position of in_tank().
 Scene moved_tank(const Eigen::Vector3d& by);
-HardTrial in_moved_tank(SonarKind kind, const Eigen::Vector3d& by, const ConfigChange& change = {});
+HardTrial in_moved_tank(SonarKind kind, const Eigen::Vector3d& by);
 
 /// The tank in another size, and a sonar in it with its ranges scaled by the same factor.
 Scene scaled_tank(double scale);
-HardTrial in_scaled_tank(SonarKind kind, double scale, const ConfigChange& change = {});
+HardTrial in_scaled_tank(SonarKind kind, double scale);
 
 /// UTM eastings and northings off the grid.
 inline const Eigen::Vector3d utm_odd(512345.678, 4812345.678, -43.21);
@@ -50,10 +49,7 @@ std::vector<float> plane_law(const HardContext& context, double reflection, doub
 /// plane_law() at three metres over plain_floor().
 std::vector<float> floor_law(const HardContext& context);
 
-/// The brute-force reference of this scene.
-std::vector<float> reference_of(const HardContext& context, const ReferenceGoal& goal);
-
-/// The reference after settling to 0.2 % or after two million rays.
+/// The brute-force reference after settling to 0.2 % or after two million rays.
 std::vector<float> settled_reference(const HardContext& context);
 
 std::vector<float> dark(const HardContext& context);

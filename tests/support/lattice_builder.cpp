@@ -33,20 +33,6 @@ void LatticeBuilder::bar(const Vector3f& a, const Vector3f& b, float radius, int
     }
 }
 
-void LatticeBuilder::cone(const Vector3f& a, const Vector3f& b, float radius_a, float radius_b,
-                          int sides) {
-    const Vector3f along = b - a;
-    const Vector3f u = along.unitOrthogonal();
-    const Vector3f v = along.normalized().cross(u);
-    const auto rim = [&](const Vector3f& centre, float radius, int k) -> Vector3f {
-        const SinCos at = sincos(2.0 * pi * (k % sides) / sides);
-        return centre + radius * (static_cast<float>(at.cos) * u + static_cast<float>(at.sin) * v);
-    };
-    for (int k = 0; k < sides; ++k)
-        quad(rim(a, radius_a, k), rim(a, radius_a, k + 1), rim(b, radius_b, k + 1),
-             rim(b, radius_b, k));
-}
-
 void LatticeBuilder::quad(const Vector3f& a, const Vector3f& b, const Vector3f& c,
                           const Vector3f& d) {
     triangle(a, b, c);

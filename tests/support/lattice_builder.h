@@ -18,16 +18,12 @@ class LatticeBuilder {
     /// A prism from a to b. Welded bars that meet in a node share its vertex.
     void bar(const Eigen::Vector3f& a, const Eigen::Vector3f& b, float radius, int sides);
 
-    /// A cone without ends from a, where it has radius_a, to b.
-    void cone(const Eigen::Vector3f& a, const Eigen::Vector3f& b, float radius_a, float radius_b,
-              int sides);
-
     void quad(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c,
               const Eigen::Vector3f& d);
 
+  private:
     void triangle(const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c);
 
-  private:
     Draws& draws_;
     Scene& scene_;
     bool welded_;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -12,7 +11,6 @@
 #include "core/units.h"
 #include "support/draws.h"
 #include "support/lattice_builder.h"
-#include "support/lattices_kept_aside.h"
 #include "support/shapes.h"
 
 namespace sonarsim::test {
@@ -211,20 +209,15 @@ SonarConfig draw_sonar(Draws& draws, std::uint32_t number, float size_m, float d
 
 }  // namespace
 
-Lattice draw_lattice(std::uint32_t number, ShapeSet set) {
+Lattice draw_lattice(std::uint32_t number) {
     Draws draws(number);
-    Scene scene = shapes::empty_scene();
-    const std::span<const LatticeShape> choice =
-        set == ShapeSet::known ? std::span<const LatticeShape>(known_shapes) : shapes_kept_aside();
-    const LatticeShape& shape =
-        choice[static_cast<std::size_t>(draws.whole(0, static_cast<int>(choice.size()) - 1))];
-    LatticeBuilder builder(draws, scene);
+    Lattice out;
+    out.scene = shapes::empty_scene();
+    const LatticeShape& shape = known_shapes[static_cast<std::size_t>(
+        draws.whole(0, static_cast<int>(known_shapes.size()) - 1))];
+    out.shape = shape.name;
+    LatticeBuilder builder(draws, out.scene);
     shape.build(builder);
-    return place_lattice(draws, number, shape.name, std::move(scene));
-}
-
-Lattice place_lattice(Draws& draws, std::uint32_t number, std::string shape, Scene scene) {
-    Lattice out{std::move(shape), std::move(scene), {}};
     const float size = draws.scale(0.5F, 4.0F);  // half of its length, m
     const float distance = size * draws.scale(1.2F, 6.0F);
     out.sonar = draw_sonar(draws, number, size, distance);

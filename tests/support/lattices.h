@@ -5,7 +5,6 @@
 
 #include "scene/scene.h"
 #include "sonar/sonar.h"
-#include "support/draws.h"
 
 namespace sonarsim::test {
 
@@ -20,17 +19,10 @@ struct Lattice {
     SonarConfig sonar;
 };
 
-/// Known: trusses, nets, stairs, pipes, leaves, wheels and ladders. The estimates of the engines
-/// were developed on such scenes. Kept aside: shapes that were used for judging alone.
-enum class ShapeSet : std::uint8_t { known, kept_aside };
-
-/// Draws scene `number`: the shape, its size, thickness, orientation and distance, whether its bars
-/// share vertices, a floor behind it in half of the scenes, and the sonar's angles. The kind of the
-/// sonar depends on the number: half of them are imaging sonars. The same number gives the same
-/// scene.
-Lattice draw_lattice(std::uint32_t number, ShapeSet set = ShapeSet::known);
-
-/// Places a shape about the origin, some two units wide, before a sonar, as draw_lattice() does.
-Lattice place_lattice(Draws& draws, std::uint32_t number, std::string shape, Scene scene);
+/// Draws scene `number`: the shape (truss, net, stairs, pipes, leaves, wheel or ladder), its size,
+/// thickness, orientation and distance, whether its bars share vertices, a floor behind it in half
+/// of the scenes, and the sonar's angles. The kind of the sonar depends on the number: half of them
+/// are imaging sonars. The same number gives the same scene.
+Lattice draw_lattice(std::uint32_t number);
 
 }  // namespace sonarsim::test

@@ -42,13 +42,4 @@ inline std::vector<float> sidescan_row(const SonarConfig& config, const Ping& pi
     return record_values(kind_of(SonarKind::sidescan).record, config, ping.intensity, 0.0F);
 }
 
-/// For a sonar whose view was replaced.
-inline void fit_noise_to_view(Sonar& sonar) {
-    const View& view = sonar.settings.view;
-    change_paper_model(sonar, [&](PaperModel& model) {
-        model.pixel_noise.lobe_scale.assign(view.beams, 1.0F);
-        model.pixel_noise.range_scale.assign(view.range_bins, 1.0F);
-    });
-}
-
 }  // namespace sonarsim::test

@@ -1,0 +1,184 @@
+"""The program's own texts: --help, --version, former commands, the keys and their schema, and the commands in Python
+that it starts. What the schema refuses the program refuses."""
+import json
+import os
+import pathlib
+import re
+import subprocess
+import unittest
+
+from sandbox import ROOT, SONARSIM, Sandbox
+
+try:
+    import jsonschema
+    import yaml
+except ImportError:     # Debian has python3-jsonschema and python3-yaml
+    jsonschema = yaml = None
+
+
+def lines_of(*arguments):
+    return subprocess.run([SONARSIM, *arguments], text=True, capture_output=True, timeout=60, check=True).stdout
+
+
+HELP = lines_of("--help")
+COMMANDS, PYTHON_COMMANDS = (re.findall(r"^  ([a-z-]+)  ", HELP.split(f"\n{head}:\n")[1].split("\n\n")[0], re.MULTILINE)
+                             for head in ("Subcommands", "Subcommands in Python"))
+
+
+class Texts(Sandbox):
+    maxDiff = None
+
+    def test_commands(self):
+        self.assertEqual(sorted(COMMANDS), ["inspect", "keys", "merge", "preset", "preview", "render", "report", "status",
+                                            "validate", "verify"])
+        self.assertEqual(PYTHON_COMMANDS, ["export", "gallery", "compare", "calibrate", "import-holoocean"])
+
+    def test_former_commands_say_what_stands_in_for_them(self):
+        for command, instead in (("schema", "sonarsim keys --json"), ("materials", "sonarsim inspect FILE.csv"),
+                                 ("man", "--help"), ("completion", "--help"), ("contact-sheet", "montage"),
+                                 ("mission.yaml", "sonarsim render mission.yaml")):
+            self.assert_refused(self.run_sonarsim(command), instead)
+
+    def test_examples_name_commands_and_options_that_there_are(self):
+        for command in COMMANDS:
+            page = lines_of(command, "--help")
+            for line in re.findall(r"^  sonarsim (.*)$", page, re.MULTILINE):
+                self.assertIn(line.split()[0], COMMANDS)
+                for option in re.findall(r" (--[a-z-]+)", line) if line.split()[0] == command else ():
+                    self.assertIn(option, page.split("Examples:")[0])
+
+    def test_version_names_the_build(self):
+        self.assertRegex(lines_of("--version"),
+                         r"\Asonarsim \d+\.\d+\.\d+\nbuilt by \w+ [\d.]+ with .*; arithmetic \S+; ")
+
+    def test_the_pages_show_the_tables_of_the_program(self):
+        for page, table, command in (("mission.md", "keys", "keys"), ("warnings.md", "warnings", "warnings"),
+                                     ("calibrated.md", "presets", "preset")):
+            marks = rf"<!-- begin {table} -->\n\n(.*)\n<!-- end {table} -->"
+            found = re.search(marks, (ROOT / "docs" / page).read_text(), re.DOTALL)
+            self.assertEqual(found.group(1), lines_of(command), "run ./scripts/write_keys.sh")
+
+
+class Python(Sandbox):
+    """SONARSIM_PYTHON names a program that stands in for the interpreter."""
+
+    def run_tool(self, script, *arguments, **variables):
+        python = self.write("python", "#!/bin/sh\n" + script)
+        python.chmod(0o755)
+        return self.run_sonarsim(*arguments, env={**os.environ, "SONARSIM_PYTHON": str(python), **variables})
+
+    def test_options_and_exit_codes_pass_through(self):
+        result = self.run_tool('for word; do echo "<$word>"; done; echo "$PYTHONPATH"; exit 7\n', "import-holoocean",
+                               "--help", "two words", "--", "-q", PYTHONPATH="/elsewhere")
+        self.assertEqual(result.returncode, 7)
+        *words, folders = result.stdout.splitlines()
+        self.assertEqual(words, ["<-m>", "<sonarsim.import_holoocean>", "<--help>", "<two words>", "<-->", "<-q>"])
+        package, other = folders.split(":")
+        self.assertTrue((pathlib.Path(package) / "sonarsim/command.py").is_file())
+        self.assertEqual(other, "/elsewhere")
+        self.assertEqual(self.run_tool("kill -TERM $$\n", "export").returncode, -15)
+
+    def test_a_module_of_the_current_folder_is_not_taken(self):
+        self.write("json.py", "raise SystemExit('the wrong module')\n")
+        result = self.succeeds("import-holoocean", "--help")
+        self.assertEqual(result.stderr, "")
+        self.assertIn("usage: sonarsim import-holoocean", result.stdout)
+
+    def test_what_is_missing_is_named_in_one_sentence(self):
+        result = self.run_sonarsim("export", env={**os.environ, "SONARSIM_PYTHON": "/nowhere/python3"})
+        self.assert_refused(result, "cannot run /nowhere/python3: No such file or directory; install python3")
+        need = "from sonarsim.command import need; need('export', 'json', 'PIL', 'nothing')"
+        result = self.run_tool(f'exec /usr/bin/python3 -SIc "import sys; sys.path.append(\'${{PYTHONPATH%%:*}}\'); {need}"\n',
+                               "export")
+        self.assertEqual(result.returncode, 2)
+        self.assertRegex(result.stderr, r"\Asonarsim export: install python3-pil nothing \(.*SONARSIM_PYTHON.*\)\n\Z")
+
+
+# A text that stands in the small mission, what it becomes, and the key at which it is wrong.
+WRONG = (
+    ("seed: 7", "sead: 7", "sead"),
+    ("seed: 7", "seed: -1", "seed"),
+    ("seed: 7", "seed: 1.5", "seed"),
+    ("seed: 7", "seed: 7\nengine: cubes", "engine"),
+    ("seed: 7", "seed: 7\nwater: 997", "water"),
+    ("seed: 7", "seed: 7\nclasses: {nodes: a, class: b}", "classes"),
+    ("  materials: materials.csv\n", "", "scene"),
+    ("  materials: materials.csv\n", "  materials: materials.csv\n  objects: [{name: hull}]\n", "objects"),
+    ("  file: path.csv", "  file: path.csv\n  speed_m_s: 1", "trajectory"),
+    ("    kind: imaging\n", "", "fls"),
+    ("kind: imaging", "kind: sidescan", "azimuth_bins"),
+    ("kind: imaging", "kind: imaging\n    model: calibrated", "noise"),
+    ("kind: imaging", "kind: imaging\n    mount: {rpy_deg: [0, 0]}", "rpy_deg"),
+    ("kind: imaging", "kind: imaging\n    mount: {rpy_deg: [0, 0, 361]}", "rpy_deg"),
+    ("range_max_m: 6", "range_max_m: 0", "range_max_m"),
+    ("range_bins: 48", "range_bins: 48.5", "range_bins"),
+    ("range_bins: 48", "range_bins: 8193", "range_bins"),
+    ("  fls:", "  fore ward:", "fore ward"),
+    ("image: true", "image: 1", "image"),
+    ("image: true", "labels: [share, share]", "labels"),
+)
+
+
+@unittest.skipIf(jsonschema is None, "needs jsonschema and yaml")
+class Schema(Sandbox):
+    """`sonarsim keys --json`."""
+
+    @classmethod
+    def setUpClass(cls):
+        class Loader(yaml.SafeLoader):
+            """Numbers as YAML 1.2 has them: 3e6 is one, which PyYAML takes for text."""
+
+        number = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?$")
+        Loader.add_implicit_resolver("tag:yaml.org,2002:float", number, list("-+.0123456789"))
+        # Whole numbers are looked for before the others.
+        for resolvers in Loader.yaml_implicit_resolvers.values():
+            resolvers.sort(key=lambda one: not one[0].endswith(":int"))
+        cls.loader, cls.schema = Loader, json.loads(lines_of("keys", "--json"))
+
+    def faults(self, text):
+        """Every place and message of the schema's complaint, in one text; "" where it has none."""
+        checked = jsonschema.Draft202012Validator(self.schema).iter_errors(yaml.load(text, self.loader))
+        lines, waiting = [], list(checked)
+        while waiting:
+            error = waiting.pop()
+            lines.append(f"{'.'.join(map(str, error.absolute_path))}: {error.message}")
+            waiting += error.context
+        return "\n".join(lines)
+
+    def test_examples_validate(self):
+        jsonschema.Draft202012Validator.check_schema(self.schema)
+        missions = sorted((ROOT / "configs").glob("*.yaml")) + [ROOT / "tests/four_sonars.yaml"]
+        self.assertGreater(len(missions), 15)
+        for path in missions:
+            with self.subTest(path=path.name):
+                self.assertEqual(self.faults(path.read_text()), "")
+        small = (self.folder / "mission.yaml").read_text()
+        for path in sorted((ROOT / "configs/sensors").glob("*.yaml")):
+            lines = "\n".join("    " + line for line in path.read_text().splitlines())
+            with self.subTest(preset=path.name):
+                self.assertEqual(self.faults(small[:small.index("    kind")] + lines + "\n"), "")
+
+    def test_what_the_schema_refuses_the_program_refuses(self):
+        sound = (self.folder / "mission.yaml").read_text()
+        self.write("mine.yaml", "kind: imaging\nrange_bins: 48\n")
+        for right, wrong, key in WRONG:
+            with self.subTest(wrong=wrong):
+                self.assertIn(right, sound)
+                text = sound.replace(right, wrong)
+                self.assertIn(key, self.faults(text))
+                self.write("wrong.yaml", text)
+                self.assertEqual(self.run_sonarsim("validate", "wrong.yaml").returncode, 2)
+        # What only looks wrong is right.
+        for right, other in (("name: box", "name: 7"), ("seed: 7", "seed: 18446744073709551615"),
+                             ("range_max_m: 6", "range_max_m: 6e0"), ("image: true", "labels: true"),
+                             ("seed: 7", "seed: 7\nwater: {sound_speed_m_s: auto}"),
+                             ("    kind: imaging\n", "    preset: mine.yaml\n")):
+            with self.subTest(other=other):
+                text = sound.replace(right, other)
+                self.assertEqual(self.faults(text), "")
+                self.write("other.yaml", text)
+                self.succeeds("validate", "other.yaml")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,181 @@
+"""Effects of a mission in its dataset: objects that move, copies of a mesh, targets in the water, the water's
+surface, and a vehicle with errors of navigation. Their images: tests/golden and the closed forms of tests."""
+import json
+import math
+import unittest
+
+from sandbox import Composed, Sandbox, digest, numbers_of, relative_difference
+
+FISH = ("{name: fish, file: crate.gltf, material: steel, trajectory: {waypoints: [{position_m: [4, -2, 1]}, "
+        "{position_m: [4, 2, 1]}], speed_m_s: 4, rate_hz: 5}}")
+PARTICLES = ("  particles:\n    - {name: fish, kind: points, target_strength_db: -20, count: 1, position_m: "
+             "[4, 0.5, 0.6], drift_m_s: [0, 0.5, 0]}\n")
+CALIBRATED = ("    noise:\n      add_sigma: 0.05\n      mult_sigma: 0.1\n      range_lambda_m: 0.02\n",
+              "    model: calibrated\n")
+
+
+class Moving(Composed):
+    def test_poses_and_boxes_at_every_ping(self):
+        self.objects(FISH)
+        self.edit("mission.yaml", "output:\n", "output:\n  labels: [objects]\n")
+        self.assert_renders()
+        self.assertIsNone(self.boxes()["fish"])
+        visible = 0
+        for k in range(6):
+            meta = self.meta(k)
+            pose = meta["T_world_object"]["fish"]
+            for got, wanted in zip(pose["position_m"], (4, -2 + 0.8 * k, 1)):
+                self.assertAlmostEqual(got, wanted, places=9)
+            for one in self.objects_of(k):
+                if one["name"] != "fish":
+                    self.assertNotIn("T_world_object", one)
+                    continue
+                visible += 1
+                self.assertEqual(one["T_world_object"], pose)
+                # A cube of 1 m that is not turned: its centre is where its pose is, and it is turned
+                # against the sonar as the world is.
+                box = one["box_sensor"]
+                for size in box["size_m"]:
+                    self.assertAlmostEqual(size, 1.0, places=6)
+                self.assertAlmostEqual(math.dist(box["position_m"], (0, 0, 0)),
+                                       math.dist(pose["position_m"], meta["T_world_sensor"]["position_m"]), places=9)
+                x, y, z, w = meta["T_world_sensor"]["quaternion_xyzw"]
+                for got, wanted in zip(box["quaternion_xyzw"], (-x, -y, -z, w)):
+                    self.assertAlmostEqual(got, wanted, places=9)
+        self.assertGreater(visible, 1)
+        self.assertEqual(len({v for k, v in digest(self.out).items() if "polar" in k}), 6)
+
+    def test_large_coordinates_lose_nothing_where_all_moves(self):
+        def image(x, y):
+            self.write("fish.txt", f"0 {x + 4} {y - 1} 0 0 0 0 1\n2 {x + 4} {y + 1} 0 0 0 0 1\n")
+            self.write("mission.yaml", "scene: {materials: materials.csv, objects: [{name: fish, file: crate.gltf, "
+                       "material: steel, trajectory: {file: fish.txt}}]}\n"
+                       f"trajectory: {{waypoints: [{{position_m: [{x}, {y}, 0]}}, {{position_m: [{x + 0.3}, {y}, 0]}}], "
+                       "rate_hz: 3, speed_m_s: 0.5}\nengine: rays\n"
+                       "sensors: {fls: {kind: imaging, azimuth_bins: 32, range_max_m: 8, range_bins: 100}}\n"
+                       "output: {folder: out, fan: false, labels: [clean]}\n")
+            self.assertNotIn("W01", self.assert_renders("--overwrite").stderr)
+            return numbers_of(self.out / "fls/clean/000001.npy")
+        self.assertLess(relative_difference(image(500000, 6000000), image(0, 0)), 1e-3)
+
+
+class Copies(Composed):
+    def test_shared_is_what_copied_is(self):
+        """One mesh and three transforms: within rounding the picture of three crates."""
+        self.objects("{name: a, class: crate, file: crate.gltf, position_m: [4.25, 1.5, 0.5]}",
+                     "{name: b, class: crate, file: crate.gltf, position_m: [6.5, -0.5, 0.75], scale: 1.5}",
+                     "{name: c, class: crate, file: crate.gltf, position_m: [5, -2.5, 0.625], rpy_deg: [0, 0, 30]}")
+        self.edit("mission.yaml", "output:\n", "output:\n  labels: [instance]\n")
+        scenes, images, boxes, warnings = {}, {}, {}, {}
+        for repeats in ("copied", "shared"):
+            chosen = ("--set", "engine=rays", "--set", f"scene.repeats={repeats}")
+            self.assert_renders("--overwrite", *chosen)
+            scenes[repeats], boxes[repeats] = self.dataset()["scene"], self.boxes()
+            images[repeats] = numbers_of(self.out / "fls/polar/000000.npy")
+            warnings[repeats] = [line for line in self.succeeds("validate", "mission.yaml", "--overwrite", *chosen)
+                                 .stderr.splitlines() if "W" in line]
+        self.assertNotEqual(images["shared"], images["copied"])
+        self.assertLess(relative_difference(images["shared"], images["copied"]), 1e-3)
+        self.assertEqual(warnings["shared"], warnings["copied"])
+        self.assertEqual(scenes["copied"]["triangles"], 128 + 3 * 12)
+        use = scenes["shared"]
+        self.assertEqual((use["triangles"], use["shared_meshes"], use["copies"]), (128, 1, 3))
+        for name, copied in boxes["copied"].items():
+            for end in ("min", "max"):
+                for x, y in zip(boxes["shared"][name][end], copied[end]):
+                    self.assertAlmostEqual(x, y, places=5)
+        self.refused("engine: slices does not support copies of shared meshes", "scene.repeats: copied",
+                     arguments=["--set", "engine=slices", "--set", "scene.repeats=shared", "--out", "new"])
+
+    def refused(self, *fragments, arguments=()):
+        self.assert_refused(self.run_sonarsim("validate", "mission.yaml", *arguments), *fragments)
+
+
+class Particles(Composed):
+    def setUp(self):
+        super().setUp()
+        self.scene(PARTICLES)
+        self.edit("mission.yaml", *CALIBRATED)
+        self.edit("mission.yaml", "output:\n", "output:\n  labels: [objects]\n")
+
+    def test_places_and_labels(self):
+        self.assert_renders()
+        for k in range(6):
+            target = self.meta(k)["particles"]["fish_1"]
+            self.assertEqual((target["count"], target["target_strength_db"]), (1, -20))
+            y = 0.5 + 0.1 * k
+            for got, wanted in zip(target["position_m"], (4, y, 0.6)):
+                self.assertAlmostEqual(got, wanted, places=9)
+            found = [one for one in self.objects_of(k) if one["name"] == "fish_1"]
+            self.assertEqual([one["class"] for one in found], ["fish"])
+            # From (0, 0, 2) to the place.
+            self.assertAlmostEqual(found[0]["range_m"], (16 + y * y + 1.96) ** 0.5, delta=0.1)
+
+    def test_a_mount_that_is_drawn_receives_what_its_pings_receive(self):
+        """Astern and 20 degrees up, where the bow that points 20 degrees down turns the sonar."""
+        self.edit("mission.yaml", "position_m: [4, 0.5, 0.6]", "position_m: [-4, 0.5, 3.4]")
+        self.add("\nvary: [{key: sensors.fls.mount.rpy_deg.2, uniform: [175, 185], per: ping}]\n")
+        self.assert_renders()
+        self.assertEqual(list(self.meta(3)["particles"]), ["fish_1"])
+
+    def test_an_echosounder_annotates_them(self):
+        """Targets have no visible share: it is not known."""
+        mission = (self.folder / "mission.yaml").read_text()
+        self.edit("mission.yaml", mission[mission.index("sensors:\n"):], "sensors:\n  echo: {kind: echosounder, "
+                  "model: calibrated, range_max_m: 4}\noutput: {folder: out, labels: [objects]}\n")
+        self.edit("mission.yaml", "position_m: [4, 0.5, 0.6], drift_m_s: [0, 0.5, 0]", "position_m: [-0.5, 0, 0.8]")
+        self.assert_renders()
+        found = json.loads((self.out / "echo/objects.json").read_text())["objects"]
+        targets = [one for one in found if one["class"] == "fish"]
+        self.assertEqual([one["visible_share"] for one in targets], [None])
+        self.assertAlmostEqual(targets[0]["range_m"], 1.3, delta=0.05)
+
+
+class Others(Sandbox):
+    def test_the_surface_of_the_water_is_invisible_but_for_multipath(self):
+        images = []
+        for surface in ("", "  water_surface: {height_m: 0.1}\n"):
+            self.edit("mission.yaml", "materials: materials.csv\n", "materials: materials.csv\n" + surface)
+            for method in ("none", "exact"):
+                self.assert_renders("--overwrite", "--set", f"sensors.fls.multipath.method={method}")
+                images.append(digest(self.out / "fls/polar"))
+        self.assertEqual(images[2], images[0])
+        self.assertNotEqual(images[3]["000000.npy"], images[1]["000000.npy"])
+
+    def test_images_do_not_depend_on_navigation(self):
+        def positions(name):
+            return [tuple(map(float, line.split()[1:4])) for line in (self.out / name).read_text().splitlines()[1:]]
+        self.assert_renders()
+        still = digest(self.out / "fls/polar")
+        self.add("\nvehicle:\n  motion: {position_m: [0, 0, 0.2], turn_deg: [3, 2, 1], period_s: 4}\n")
+        self.assert_renders("--overwrite")
+        images, truth = digest(self.out / "fls/polar"), positions("trajectory.tum")
+        self.assertNotEqual(still, images)
+        self.assertEqual(len({z for _, _, z in truth}), 6)
+        self.assertFalse((self.out / "navigation.tum").exists())
+        self.add("  navigation: {position_m: 0.5, heading_bias_deg: 2}\n")
+        self.assert_renders("--overwrite")
+        self.assertEqual((images, truth), (digest(self.out / "fls/polar"), positions("trajectory.tum")))
+        reported = positions("navigation.tum")
+        self.assertNotEqual(reported, truth)
+        for ping in range(6):
+            self.assertEqual(tuple(self.meta(ping)["T_world_vehicle_reported"]["position_m"]), reported[ping])
+        whole = digest(self.out)
+        for part in ("1", "2"):
+            self.assert_renders("--shard", f"{part}/2", "--out", f"part{part}")
+        self.succeeds("merge", "part1", "part2", "merged")
+        self.assert_renders("--out", "merged")
+        self.assertEqual(digest(self.folder / "merged"), whole)
+        self.write("out/navigation.tum", "0 0 0 0 0 0 0 1\n")
+        self.assertEqual(self.run_sonarsim("verify", "out").returncode, 1)
+
+    def test_a_narrow_beam_that_looks_far_along_track_is_done_in_time(self):
+        self.write("mission.yaml", "scene: {file: box.gltf, materials: materials.csv}\ntrajectory: {file: path.csv, "
+                   "rate_hz: 0.1}\nsensors: {s: {kind: sidescan, model: calibrated, elevation_deg: 160, range_max_m: 6, "
+                   "range_bins: 64, instrument: {beam: {width_deg: 0.1}}}}\noutput: {folder: out}\n")
+        self.assert_renders()
+        self.assertTrue(all(map(math.isfinite, numbers_of(self.out / "s/waterfall.npy"))))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,308 @@
+"""Grounds: images of heights, maps of material and strength, and beds that are made from numbers and the mission's
+seed. What is refused: test_refusals.py."""
+import array
+import json
+import math
+import unittest
+
+from sandbox import ROOT, Composed, box_mesh, digest, gltf, numbers_of, png, relative_difference
+
+COLUMNS, ROWS, PIXEL = 48, 40, 0.25
+SONAR = """\
+sensors:
+  fls:
+    kind: imaging
+    range_max_m: 9
+    range_bins: 48
+    azimuth_bins: 32
+    mount: {rpy_deg: [0, 25, 0]}
+output: {folder: %s, labels: true}
+"""
+OVER_THE_MAP = """\
+seed: 5
+scene:
+%s  materials: materials.csv
+%strajectory:
+  waypoints: [{position_m: [1, 4.5, 3]}, {position_m: [2, 5, 3], rpy_deg: [0, 0, 30]}]
+  speed_m_s: 1
+  rate_hz: 3
+""" + SONAR
+OBJECTS = """\
+  objects:
+    - {name: crate, file: crate.gltf, position_m: [5, 5, 0], place: on_bottom, bury_m: 0.1}
+  scatter:
+    - {name: mine, files: [crate.gltf], count: 4, area_min_m: [3, 2], area_max_m: [9, 8], scale: 0.4}
+"""
+MAP = "  heightmap: {file: bed.png, material: Concrete, pixel_m: 0.25, height_scale: 0.001, height_offset_m: -3}\n"
+
+
+def height(row, column):
+    """Whole numbers for PNG: a slope, a ridge along a diagonal, nothing that a turned or mirrored map
+    has, too."""
+    return round(3000 + 12 * column - 5 * row + 150 * math.sin(0.31 * column + 0.17 * row))
+
+
+def surface():
+    """The same ground as a mesh, in glTF's axes (y up): x east, z south."""
+    points = [(PIXEL * (c + 0.5), 0.001 * height(r, c) - 3, -PIXEL * (ROWS - r - 0.5))
+              for r in range(ROWS) for c in range(COLUMNS)]
+    corners = [r * COLUMNS + c for r in range(ROWS - 1) for c in range(COLUMNS - 1)]
+    return points, [k for a in corners for k in (a, a + COLUMNS, a + COLUMNS + 1, a, a + COLUMNS + 1, a + 1)], 0
+
+
+class Heightmap(Composed):
+    def setUp(self):
+        super().setUp()
+        self.write("bed.png", png([[height(r, c) for c in range(COLUMNS)] for r in range(ROWS)], 16))
+        self.write("bed.gltf", gltf([{"name": "heightmap", "mesh": 0}], [surface()]))
+
+    def render_ground(self, scene, objects="", out="out", change=str):
+        self.write("mission.yaml", change(OVER_THE_MAP % (scene, objects, out)))
+        self.assert_renders()
+        return [numbers_of(path) for path in sorted((self.folder / out / "fls/polar").glob("*.npy"))]
+
+    def assert_same(self, objects="", change=str):
+        """The images of the map equal those of the mesh to 1e-4."""
+        pairs = list(zip(self.render_ground("  file: bed.gltf\n", objects, "mesh", change),
+                         self.render_ground(MAP, objects, "map", change), strict=True))
+        self.assertGreater(len(pairs), 2)
+        for mesh, image in pairs:
+            self.assertLess(relative_difference(image, mesh), 1e-4)
+
+    def test_the_same_as_a_mesh(self):
+        """With a buried crate and scattered mines, which lie where they do on the mesh."""
+        self.assert_same(OBJECTS)
+        mesh, image = self.boxes(self.folder / "mesh"), self.boxes(self.folder / "map")
+        self.assertEqual(list(image), ["heightmap", "crate", *(f"mine_{k}" for k in range(1, 5))])
+        for name in list(image)[1:]:
+            for side in ("min", "max"):
+                for a, b in zip(mesh[name][side], image[name][side], strict=True):
+                    self.assertAlmostEqual(a, b, delta=1e-5)
+
+    def test_only_what_is_in_range(self):
+        """1.5 m above the ground a sonar that reaches 4 m leaves most of the map out."""
+        self.assert_same("  objects: []\nengine: rays\n",
+                         lambda text: text.replace("max_m: 9", "max_m: 4").replace("5, 3]", "5, 1.5]"))
+        mesh, image = (self.dataset(self.folder / name)["scene"]["triangles"] for name in ("mesh", "map"))
+        self.assertLess(image, 0.6 * mesh)
+
+    def test_long_cells_are_warned_of(self):
+        """Cells of 0.25 m have visible facets in bins of 2.5 cm, and none in bins of 6 cm."""
+        self.write("mission.yaml", OVER_THE_MAP % (MAP, "", "out"))
+        for bins, warned in ((356, True), (142, False)):
+            result = self.succeeds("validate", "mission.yaml", "--set", f"sensors.fls.range_bins={bins}")
+            self.assertEqual("W37 scene.heightmap: its cells of 0.25 m are 10 times" in result.stderr, warned)
+
+    def test_its_name_is_its_own(self):
+        """Labels and maps find the ground by its name: a node of the scene's file gets another."""
+        self.write("crate.gltf", gltf([{"name": "heightmap", "mesh": 0}], [box_mesh()]))
+        self.render_ground("  file: crate.gltf\n" + MAP)
+        self.assertEqual(list(self.boxes()), ["heightmap_2", "heightmap"])
+        self.assertEqual(self.dataset()["labels"]["annotations"]["background"], ["heightmap"])
+
+
+class Maps(Composed):
+    """The floor has 20 x 20 m: values 1 and 2 in the north, 3 and 4 in the south."""
+    MISSION = """\
+seed: 5
+scene:
+  file: floor.gltf
+  materials: materials.csv
+%strajectory:
+  waypoints: [{position_m: [-5, 0, 2]}, {position_m: [5, 0, 2]}]
+  speed_m_s: 10
+  rate_hz: 1
+sensors: {side: {kind: sidescan, range_min_m: 2.5, range_max_m: 8, range_bins: 55}}
+output: {folder: out, labels: [material, clean]}
+"""
+    QUARTERS = ('  sediment_map: {file: quarters.png, size_m: [20, 20], origin_m: [10, 10], instances: [floor],\n'
+                '    materials: {1: north_west, 2: north_east, 3: south_west, 4: Concrete}}\n')
+    DECIBELS = '  backscatter_map: {file: db.png, size_m: [20, 20], origin_m: [10, 10], instances: ["*"]%s}\n'
+
+    def setUp(self):
+        super().setUp()
+        self.write("materials.csv", "material,density_kg_m3,sound_speed_m_s\nConcrete,2400,3200\n"
+                   "north_west,1500,1600\nnorth_east,1700,1700\nsouth_west,1900,1900\n")
+        self.write("quarters.png", png([[1, 2], [3, 4]]))
+        self.write("db.png", png([[10, 16], [13, 10]]))
+
+    def rows(self, maps, what):
+        """The values of the first and the last ping, at port and at starboard, in the middle of each."""
+        self.write("mission.yaml", self.MISSION % maps)
+        self.assert_renders("--overwrite")
+        numbers = numbers_of(self.out / f"side/{what}.npy")
+        half = len(numbers) // 2
+        return [numbers[k] for row in (0, half) for k in (row + half // 4, row + 3 * half // 4)]
+
+    def assert_materials(self, maps, *names):
+        values = self.rows(maps, "material")
+        known = {entry["id"]: entry["name"] for entry in self.dataset()["labels"]["materials"]}
+        self.assertEqual([known[value] for value in values], list(names))
+
+    def test_place(self):
+        """A sonar that heads east in the west and then in the east: port is the north. The map is not
+        mirrored, and its first row is the north."""
+        places = ("north_west", "south_west", "north_east", "Concrete")
+        self.assert_materials(self.QUARTERS, *places)
+        plain = self.rows(self.QUARTERS, "clean")
+        with_maps = self.rows(self.QUARTERS + self.DECIBELS % ", offset_db: -10", "clean")
+        for found, before, db in zip(with_maps, plain, (0, 3, 6, 0), strict=True):
+            self.assertAlmostEqual(10 * math.log10(found / before), db, delta=0.01)
+        # The same place by a world file, whose coordinates are those of a pixel's centre.
+        self.write("quarters.wld", "10\n0\n0\n-10\n4995\n8005\n")
+        self.assert_materials(self.QUARTERS.replace("size_m: [20, 20], origin_m: [10, 10]", "origin_m: [5000, 8000]"), *places)
+
+    def test_colours_and_no_data(self):
+        """A transparent pixel, and one of no data, leave the material of the mesh."""
+        self.assert_materials(self.QUARTERS.replace(", 3: south_west", "").replace("instances", "no_data: 3, instances") +
+                              self.DECIBELS % ", no_data: 16", "north_west", "Concrete", "north_east", "Concrete")
+        sand, mud = (200, 180, 120, 255), (1, 2, 255, 255)
+        self.write("quarters.png", png([sand + mud, mud + (9, 9, 9, 0)], channels=4))
+        self.assert_materials(self.QUARTERS.replace("1: north_west, 2: north_east, 3: south_west, 4: Concrete",
+                                                    '"#C8b478": north_west, "#0102ff": south_west'),
+                              "north_west", "south_west", "south_west", "Concrete")
+        self.write("quarters.png", png([mud + mud, mud + mud], channels=4))
+        self.assert_refused(self.render(), "made from other scene, material or trajectory files (quarters.png)")
+
+
+BED = """\
+seed: 5
+scene:
+  materials: materials.csv
+  seabed:
+    cell_m: 0.2
+    z_m: -2.5
+    material: Concrete
+    class: bottom
+    roughness: {spectral_strength_cm4: 0.003}
+    ripples: {height_m: 0.1, length_m: 0.8, direction_deg: 20}
+  objects:
+    - {name: crate, file: crate.gltf, position_m: [4, 0.5, 9], place: on_bottom}
+trajectory:
+  waypoints: [{position_m: [0, 0, 0]}, {position_m: [1, 0, 0]}]
+  speed_m_s: 1
+  rate_hz: 2
+""" + SONAR % "out"
+
+
+class Seabed(Composed):
+    def test_truth(self):
+        """The files of the truth are that of what is rendered: the same rocks in the labels, which lie in the same
+        heights, and the share of each material. Objects rest on it."""
+        self.write("mission.yaml", BED.replace("    material: Concrete\n", """\
+    sediments: [{material: Concrete, share: 2}, {material: steel, share: 1}]
+    patch_m: 3
+    rocks: {density_per_m2: 0.3, diameter_m: [0.3, 1.5], exponent: 2, material: steel}
+""").replace("labels: true", "labels: [objects]"))
+        self.assert_renders()
+        reported = json.loads((self.out / "seabed/seabed.json").read_text())
+        grid = reported["grid"]
+        heights = array.array("f", (self.out / "seabed/heights.tif").read_bytes()[-4 * grid["rows"] * grid["columns"]:])
+        self.assertTrue(-4 < min(heights) < max(heights) < -1)
+        boxes = self.boxes()
+        self.assertTrue(-2.8 < boxes["crate"]["min"][2] < -1, boxes["crate"])
+        self.assertGreater(len(reported["rocks"]), 20)
+        for rock in reported["rocks"]:
+            for side in ("min", "max"):
+                for a, b in zip(rock["box_world_m"][side], boxes[rock["name"]][side], strict=True):
+                    self.assertAlmostEqual(a, b, delta=1e-4)
+            x, y, _ = rock["middle_m"]
+            row = int((grid["north_m"] - y) / grid["cell_m"])
+            column = int((x - grid["west_m"]) / grid["cell_m"])
+            bottom, top = (rock["box_world_m"][side][2] for side in ("min", "max"))
+            # The bed within half a cell of the middle has nearly its height.
+            self.assertAlmostEqual(bottom + rock["buried"] * (top - bottom), heights[row * grid["columns"] + column],
+                                   delta=0.25)
+        self.assertEqual([one["material"] for one in reported["materials"]], ["Concrete", "steel"])
+        self.assertAlmostEqual(sum(one["share"] for one in reported["materials"]), 1)
+        # A dataset like any other: verified, resumed where a file of the truth is gone, and merged.
+        before = digest(self.out)
+        (self.out / "seabed/heights.tif").unlink()
+        self.assertEqual(self.run_sonarsim("verify", "out").returncode, 1)
+        self.assert_renders()
+        self.assertEqual(digest(self.out), before)
+        for k in (1, 2):
+            self.assert_renders("--shard", f"{k}/2", "--out", f"part{k}")
+        self.succeeds("merge", "part1", "part2", "merged")
+        self.assert_renders("--out", "merged")
+        self.assertEqual(digest(self.folder / "merged"), before)
+
+    def test_its_files_are_the_ground_of_the_next_mission(self):
+        self.write("materials.csv", "material,density_kg_m3,sound_speed_m_s\nConcrete,2400,3100\nmud,1150,1470\n"
+                   "sand,1900,1700\n")
+        self.write("mission.yaml", BED.replace("labels: true", "labels: [clean]").replace("cell_m: 0.2", "cell_m: 0.1").replace(
+            "    material: Concrete\n", "    sediments: [{material: sand, share: 1}, {material: mud, share: 1}]\n"
+            "    patch_m: 1\n"))
+        text = (self.folder / "mission.yaml").read_text()
+        self.assert_renders()
+        listed = json.loads((self.out / "seabed/seabed.json").read_text())["materials"]
+        names = ", ".join(f"{one['value']}: {one['material']}" for one in listed)
+        start, end = text.index("  seabed:"), text.index("  objects:")
+        self.write("again.yaml", text[:start] + "  heightmap: {file: out/seabed/heights.tif, material: sand}\n"
+                   f"  sediment_map: {{file: out/seabed/materials.png, materials: {{{names}}}}}\n" + text[end:])
+        self.succeeds("render", "again.yaml", "--out", "again")
+        one, other = (numbers_of(folder / "fls/clean/000000.npy") for folder in (self.out, self.folder / "again"))
+        # Fields of the map end at its pixels, and those of the bed within its triangles.
+        self.assertLess(relative_difference(other, one), 0.04)
+
+    def test_presets(self):
+        """Each bed of configs/seabeds, with keys of the mission's own above those of the file."""
+        names = sorted(path.stem for path in (ROOT / "configs/seabeds").glob("*.yaml"))
+        self.assertEqual(names, ["gravel", "mud", "rippled_sand", "rocky"])
+        start, end = BED.index("  seabed:"), BED.index("  objects:")
+        for name in names:
+            self.write("mission.yaml", BED[:start].replace("materials.csv", str(ROOT / "scenes/materials.csv")) +
+                       f"  material_default: sand\n  seabed: {{cell_m: 0.12, z_m: -2.5, preset: seabeds/{name}.yaml, "
+                       "roughness: {corner_m: 3}}\n" + BED[end:])
+            self.succeeds("validate", "mission.yaml", "--set", "sensors.fls.range_max_m=4")
+
+
+class Vary(Composed):
+    """Keys of grounds can be drawn: each variant is what the same values with --set make."""
+    RULES = (("seabed.cell_m", "uniform: [0.2, 0.35]"), ("seabed.z_m", "uniform: [-5, -4]"),
+             ("seabed.roughness.spectral_exponent", "uniform: [2.5, 3.5]"), ("seabed.ripples.length_m", "uniform: [1.5, 2]"),
+             ("seabed.rocks.diameter_m.1", "uniform: [1.3, 1.5]"), ("seabed.rocks.density_per_m2", "uniform: [0.02, 0.1]"),
+             ("seabed.sediments.0.material", "choice: [Concrete, steel]"), ("seabed.sediments.1.share", "uniform: [0.5, 2]"),
+             ("seabed.class", "choice: [ground, floor]"))
+    MAP_RULES = (("heightmap.file", "choice: [a.png, b.png]"), ("heightmap.origin_m.0", "uniform: [18, 22]"),
+                 ("heightmap.height_scale", "uniform: [0.1, 0.3]"), ("heightmap.material", "choice: [steel, Concrete]"),
+                 ("sediment_map.materials.3", "choice: [Concrete, steel]"), ("sediment_map.no_data", "choice: [0, 1]"),
+                 ("backscatter_map.scale_db", "uniform: [1, 3]"), ("backscatter_map.pixel_m", "uniform: [0.9, 1.1]"))
+    SEABED = """\
+  seabed:
+    cell_m: 0.3
+    size_m: [40, 40]
+    origin_m: [20, 20]
+    sediments: [{material: Concrete, share: 2}, {material: steel, share: 1}]
+    rocks: {density_per_m2: 0.1, diameter_m: [0.3, 1.5], buried: [0.2, 0.6]}
+    roughness: {spectral_strength_cm4: 0.003}
+    ripples: {height_m: 0.1, length_m: 1.5}
+"""
+    MAPS = """\
+  heightmap: {file: a.png, SIZE, height_offset_m: -5, material: Concrete}
+  sediment_map: {file: a.png, SIZE, instances: [heightmap], materials: {0: Concrete, 1: steel, 2: steel, 3: steel}}
+  backscatter_map: {file: b.png, SIZE, instances: [heightmap]}
+""".replace("SIZE", "pixel_m: 1, origin_m: [20, 20]")
+
+    def assert_draws(self, scene, rules):
+        mission = ("seed: 5\nscene:\n  materials: materials.csv\n" + scene + BED[BED.index("trajectory:"):]
+                   .replace("labels: true", "meta: false, labels: [material]"))
+        self.write("mission.yaml", mission)
+        self.write("varied.yaml", mission + "variants: 2\nvary:\n" +
+                   "".join(f"  - {{key: scene.{key}, {rule}}}\n" for key, rule in rules))
+        self.succeeds("render", "varied.yaml", "--overwrite", "--out", "varied")
+        for one in json.loads((self.folder / "varied/variants.json").read_text())["variants"]:
+            self.assertEqual(list(one["drawn"]), [f"scene.{key}" for key, _ in rules])
+            sets = [word for key, value in one["drawn"].items() for word in ("--set", f"{key}={value}")]
+            self.assert_renders("--overwrite", *sets, "--set", f"seed={one['seed']}")
+            self.assertEqual(digest(self.out / "fls"), digest(self.folder / "varied" / one["folder"] / "fls"))
+
+    def test_a_bed_and_maps(self):
+        for name, step in (("a.png", 5), ("b.png", 7)):
+            self.write(name, png([[step * (r + c * c) % 4 for c in range(40)] for r in range(40)]))
+        self.assert_draws(self.SEABED, self.RULES)
+        self.assert_draws(self.MAPS, self.MAP_RULES)
+
+
+if __name__ == "__main__":
+    unittest.main()

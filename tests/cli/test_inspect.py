@@ -1,0 +1,155 @@
+"""sonarsim inspect, preset and preview: what a user looks at before a render."""
+import json
+import math
+import struct
+import subprocess
+import unittest
+
+from sandbox import ROOT, SONARSIM, Sandbox, box_gltf, python_with
+
+
+class Inspect(Sandbox):
+    def test_a_scene(self):
+        text = self.succeeds("inspect", "box.gltf").stdout
+        self.assertIn("Concrete", text)
+        self.assertIn("walls", text)
+        scene = json.loads(self.succeeds("inspect", "box.gltf", "--json").stdout)
+        # Half-extents 2, 1.5, 2 in glTF axes; (x, y, z)_world = (x, -z, y)_gltf.
+        self.assertEqual((scene["triangles"], scene["bounds_min_m"], scene["bounds_max_m"]), (12, [-2, -2, -1.5], [2, 2, 1.5]))
+
+    def test_a_csv_to_fill_in(self):
+        self.write("box.gltf", box_gltf(material="Con, crete"))
+        result = self.succeeds("inspect", "box.gltf", "--materials-csv")
+        self.assertEqual(result.stdout, 'material,density_kg_m3,sound_speed_m_s\n"Con, crete",,\n')
+        self.write("materials.csv", result.stdout)
+        self.assert_refused(self.render(), "materials.csv:2: density '' is not a number")
+        self.write("materials.csv", result.stdout.replace(",,", ",2400,3200"))
+        self.succeeds("validate", "mission.yaml")
+        again = self.succeeds("inspect", "box.gltf", "--materials-csv", "--materials", "materials.csv")
+        self.assertEqual(again.stdout, result.stdout.replace(",,", ",2400,3200"))
+
+    def test_reflection_coefficients(self):
+        """((2400 * 3200 - 997 * 1480) / (2400 * 3200 + 997 * 1480))^2 = 0.459."""
+        z, water = 2400 * 3200, 997 * 1480
+        reflection = ((z - water) / (z + water)) ** 2
+        result = self.succeeds("inspect", "box.gltf", "--materials", "materials.csv")
+        row = result.stdout.split("reflection\n")[1].splitlines()[0].split()
+        self.assertEqual(row, ["Concrete", "2400", "3200", f"{reflection:.3f}"])
+        self.write("box.gltf", box_gltf(material="Granite"))
+        result = self.succeeds("inspect", "box.gltf", "--materials", "materials.csv")
+        self.assertIn("Granite   not in materials.csv", result.stdout)
+
+    def test_the_tables_of_scattering_in_the_docs(self):
+        """Every row of docs/calibrated.md under `| 100 kHz |` and `| 400 kHz |` is what is printed."""
+        rows = [[cell.strip() for cell in line.strip("|").split("|")]
+                for line in (ROOT / "docs/calibrated.md").read_text().splitlines() if line.startswith("|")]
+        for khz in (100, 400):
+            start = [row[0] for row in rows].index(f"{khz} kHz")
+            printed = self.succeeds("inspect", ROOT / "scenes/materials.csv", "--frequency-khz", khz).stdout.splitlines()
+            self.assertEqual(printed[1].split(), rows[start][1:])
+            reported = {line.split()[0]: line.split()[1:] for line in printed[2:]}
+            for name, *strengths in rows[start + 2:start + 7]:
+                self.assertEqual(reported[name], strengths, f"{name} at {khz} kHz")
+        self.write("beds.csv", "material,density_kg_m3,sound_speed_m_s,grain_phi\nsand,1900,1650,12\n")
+        self.assert_refused(self.run_sonarsim("inspect", "beds.csv"),
+                            "beds.csv:2: grain_phi is 12; expected a number from -10 to 9")
+
+    @unittest.skipUnless(python_with("matplotlib"), "needs matplotlib")
+    def test_the_picture_of_scattering_in_the_docs(self):
+        done = subprocess.run([python_with("matplotlib"), ROOT / "scripts/plot_scattering.py", SONARSIM,
+                               ROOT / "scenes/materials.csv", self.folder / "picture.svg"],
+                              text=True, capture_output=True, timeout=120, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for name in ("mud", "rock", "100 kHz"):
+            self.assertIn(name, (self.folder / "picture.svg").read_text())
+
+
+class Preset(Sandbox):
+    def reported(self, *arguments):
+        return json.loads(self.succeeds("preset", *arguments, "--json").stdout)
+
+    def test_a_preset_that_came_with_the_program(self):
+        text = self.succeeds("preset", "gemini_720is").stdout
+        for line in ("preset      gemini_720is\n", "source      ", " dB re 1 uPa, auto\n",
+                     "Mean echo and noise are equal at (bottoms at 20 degrees of grazing)", "sphere "):
+            self.assertIn(line, text)
+        base = self.reported("gemini_720is")
+        ranges = base["noise_range_m"]
+        self.assertTrue(ranges["mud"] < ranges["sand"] < ranges["rock"], ranges)
+        # The range of a sphere is the sonar equation; more source level and less noise reach farther.
+        r = ranges["sphere"]
+        echo = base["source_level_db"] - 20 - 40 * math.log10(r) - 2 * base["absorption_db_per_m"] * r
+        self.assertAlmostEqual(echo, base["noise_db"], places=6)
+        for key, name, by in (("source_level_db", "source_level_db", 10.0), ("noise_db", "receiver.noise_db", -3.0)):
+            other = self.reported("gemini_720is", "--set", f"sensors.sonar.instrument.{name}={base[key] + by}")
+            self.assertAlmostEqual(other[key] - base[key], by, places=1)
+            self.assertGreater(other["noise_range_m"]["sand"], ranges["sand"])
+
+    def test_a_file_and_all_of_them(self):
+        self.write("mine.yaml", "kind: echosounder\nmodel: calibrated\n")
+        self.assertEqual(self.reported("mine.yaml")["grazing_angle_deg"], 90)
+        self.write("mine.yaml", "kind: echosounder\n")
+        self.assert_refused(self.run_sonarsim("preset", "mine.yaml"), "mine.yaml", "model: calibrated")
+        self.write("mine.yaml", "kind: echosounder\nmodel: calibrated\nazimut_bins: 3\n")
+        self.assert_refused(self.run_sonarsim("preset", "mine.yaml"), "mine.yaml:3:1", "azimut_bins")
+        self.assert_refused(self.run_sonarsim("preset", "gemini_720"), "did you mean 'gemini_720is'?",
+                            "there are: aris_3000")
+        names = [one["preset"] for one in self.reported()]
+        self.assertEqual(names, sorted(p.stem for p in (ROOT / "configs/sensors").glob("*.yaml")))
+
+    def calibrated(self, instrument):
+        text = (self.folder / "mission.yaml").read_text()
+        noise = text[text.index("    noise:"):text.index("output:")]
+        self.edit("mission.yaml", noise, f"    model: calibrated\n    instrument: {instrument}\n")
+
+    def test_a_dataset_has_the_numbers_that_auto_came_to(self):
+        self.calibrated("{frequency_hz: 9e5, receiver: {tvg_from_m: 1.5}}")
+        self.assert_renders()
+        reported = self.dataset()["sensors"][0]["instrument"]
+        self.assertEqual((reported["echo_level_unit"], reported["tvg_from_m"]), ("dB re 1 uPa", 1.5))
+        self.assertIn("tvg_log log10(max(range_m, tvg_from_m))", reported["echo_level"])
+        self.assertGreater(reported["source_level_db"], 150)
+        self.assertTrue(0 < reported["noise_db"] < reported["full_scale_db"])
+        self.assertIn("noise_db: auto", (self.out / "mission.resolved.yaml").read_text())
+
+    def test_levels_that_do_not_fit(self):
+        self.calibrated("{source_level_db: 210, receiver: {noise_db: -100}}")
+        self.refused("mission.yaml:17:", "source_level_db: 0")
+        self.edit("mission.yaml", "source_level_db: 210, receiver: {noise_db: -100}",
+                  "source_level_db: 0, receiver: {noise_db: -20}")
+        self.assertRegex(self.succeeds("validate", "mission.yaml").stderr,
+                         r"W18.*lower instrument.receiver.noise_db \(-20\) by \d+ dB")
+        self.edit("mission.yaml", "source_level_db: 0, receiver: {noise_db: -20}", "source_level_db: 120, frequency_hz: 2.5e6")
+        self.assertRegex(self.succeeds("validate", "mission.yaml").stderr,
+                         r"W18.*raise instrument.source_level_db by \d+ dB")
+
+
+class Preview(Sandbox):
+    def test_one_picture_of_every_kind(self):
+        text = (self.folder / "mission.yaml").read_text()
+        self.write("mission.yaml", text[:text.index("sensors:")] + """\
+sensors:
+  fls: {kind: imaging, range_max_m: 6, range_bins: 48, azimuth_bins: 32}
+  mbes: {kind: profiling, range_max_m: 6, range_bins: 48, azimuth_bins: 32}
+  sss: {kind: sidescan, range_max_m: 6, range_bins: 48, every: 2}
+  sounder: {kind: echosounder, range_max_m: 6, range_bins: 48}
+  head: {kind: scanning, range_max_m: 6, range_bins: 48, step_deg: 45}
+output: {folder: out}
+""")
+        self.assertIn("box_preview.png: ping 5 of box", self.succeeds("preview", "mission.yaml", "--ping", 5).stderr)
+        picture = (self.folder / "box_preview.png").read_bytes()
+        # Five sonars and a plan: two rows of three tiles, RGB.
+        self.assertEqual(struct.unpack(">II", picture[16:24]) + (picture[25],), (3 * 612 + 12, 30 + 2 * 452, 2))
+        self.assertFalse(self.out.exists())
+        # The same bytes once more; another ping is another picture.
+        self.succeeds("preview", "mission.yaml", "--ping", 5, "--out", "again.png")
+        self.assertEqual((self.folder / "again.png").read_bytes(), picture)
+        self.succeeds("preview", "mission.yaml", "--ping", 0, "--out", "other.png", "-q")
+        self.assertNotEqual((self.folder / "other.png").read_bytes(), picture)
+        self.assert_refused(self.run_sonarsim("preview", "mission.yaml", "--ping", 6, "--out", "none.png"),
+                            "--ping 6: the mission has the pings 0 to 5")
+        self.assertFalse((self.folder / "none.png").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

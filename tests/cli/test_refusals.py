@@ -1,0 +1,400 @@
+"""Mistakes that users make: which are errors and which are warnings, and in which words. A refusal ends with
+exit code 2 and a message that names file, place and cure, and writes nothing. Ranges and names of keys are
+tested in tests/mission.
+
+A survey of a sandy sea floor with a mine on it, which is sound; each row spoils one thing."""
+import json
+import math
+import unittest
+
+from sandbox import Composed, Sandbox, box_gltf, box_mesh, digest, gltf, png, sheet_mesh
+
+MINE = "{name: mine, file: mine.gltf, position_m: [20, 4, 0.3]}"
+MISSION = f"""\
+name: bay
+scene:
+  file: bottom.gltf
+  materials: materials.csv
+  objects:
+    - {MINE}
+trajectory: {{file: path.csv}}
+sensors:
+  fls:
+    kind: imaging
+    azimuth_deg: 90
+    elevation_deg: 20
+    range_max_m: 12
+    range_bins: 48
+    azimuth_bins: 24
+    mount: {{rpy_deg: [0, 30, 0]}}
+    noise: {{add_sigma: 0.01}}
+output: {{folder: out}}
+"""
+MATERIALS = "material,density_kg_m3,sound_speed_m_s\nSand,1900,1650\nSteel,7850,5900\n"
+GLB = b"glTF\x02\0\0\0" + bytes(30)
+TIFF = b"II*\0\x08\0\0\0" + bytes(30)
+
+
+def bottom(scale=1.0, z=0.0):
+    """A square of 100 m about the origin, with a ripple so that it has some height; its triangles face up."""
+    points, indices, material = sheet_mesh(50.0, 4, lambda x, _: 0.02 * (round(x / 25) % 2))
+    points = [tuple(scale * p for p in point) for point in points]
+    return gltf([{"name": "sand", "mesh": 0, "translation": [0, z, 0]}],
+                [(points, indices[::-1], material)], ("Sand",))
+
+
+def mine(half):
+    return gltf([{"name": "steel", "mesh": 0}], [box_mesh((half,) * 3)], ("Steel",))
+
+
+def path(z=5.0, offset=(0.0, 0.0)):
+    """From west to east over the bottom and then north, ten poses."""
+    places = [(-20 + 8 * i, 0, 0) if i < 5 else (20, 8 * (i - 5), 90) for i in range(10)]
+    rows = [f"{i},{x + offset[0]},{y + offset[1]},{z},0,0,{yaw}" for i, (x, y, yaw) in enumerate(places)]
+    return "\n".join(["t_s,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg", *rows]) + "\n"
+
+
+FILES = {"mission.yaml": MISSION, "materials.csv": MATERIALS, "bottom.gltf": bottom(), "mine.gltf": mine(0.4),
+         "path.csv": path(), "quarters.png": png([[1, 2], [3, 4]]),
+         "bed.png": png([[r * c % 7 for c in range(20)] for r in range(20)])}
+
+
+def edited(*pairs, text=MISSION):
+    for old, new in zip(pairs[::2], pairs[1::2], strict=True):
+        assert old in text, old
+        text = text.replace(old, new, 1)
+    return {"mission.yaml": text}
+
+
+def mine_as(line):
+    return edited(MINE, line)
+
+
+def crate(keys):
+    return mine_as("{name: a, file: mine.gltf, position_m: [5, 0, 0.5], " + keys + "}")
+
+
+def ground(line):
+    """The scene's file is left out, `line` comes in its place; the mine is above it."""
+    return edited("  file: bottom.gltf\n", f"  {line}\n", "0.3]", "50]")
+
+
+def heightmap(options, file="bed.png"):
+    return ground(f"heightmap: {{file: {file}, material: Sand{options}}}")
+
+
+def seabed(keys):
+    return ground(f"seabed: {{cell_m: 0.5, size_m: [60, 60], origin_m: [30, 30], material: Sand{keys}}}")
+
+
+def sediments(old, new):
+    sound = ("sediment_map: {file: quarters.png, size_m: [100, 100], origin_m: [50, 50], instances: [sand], "
+             "materials: {1: Sand, 2: Steel, 3: Sand, 4: Steel}}")
+    assert old in sound
+    return edited("  objects:\n", f"  {sound.replace(old, new)}\n  objects:\n")
+
+
+def decibels(options):
+    return edited("  objects:\n", "  backscatter_map: {file: quarters.png, size_m: [100, 100], origin_m: "
+                  f"[50, 50], instances: [sand]{options}}}\n  objects:\n")
+
+
+def moving(keys, more="name: fish, "):
+    return mine_as(f"{{{more}file: mine.gltf, trajectory: {{{keys}}}}}")
+
+
+WAY = "waypoints: [{position_m: [4, -2, 1]}, {position_m: [4, 2, 1]}], rate_hz: 5, speed_m_s: "
+
+
+# What is done, and words of the message.
+REFUSED = (
+    # Files of other kinds, and names of files.
+    ({"mission.yaml": GLB}, "is a .glb mesh, not YAML"),
+    ({"mission.yaml": "name: [1, 2\n"}, "mission.yaml:"),
+    (edited("range_max_m", "range_mx_m"), "mission.yaml:13:5", "did you mean 'range_max_m'?"),
+    (edited("sensors:\n", "noise: {add_sigma: 0.01}\nsensors:\n"),
+     "unknown key 'noise'; it belongs to a sensor: sensors.NAME.noise"),
+    (edited("    noise: {add_sigma: 0.01}\n", "    instrument: {frequency_hz: 400000}\n"),
+     "unknown key 'instrument'; it needs model: calibrated"),
+    (edited("kind: imaging", "kind: sidescan"), "unknown key 'azimuth_bins'; this kind of sonar has none, leave it out"),
+    (edited("kind: imaging\n    azimuth_deg: 90", "kind: sidescan\n    multipath: {method: exact, columns_per_beam: 2}",
+            "    azimuth_bins: 24\n", ""), "columns_per_beam is for the beams of a fan"),
+    (edited("kind: imaging", "preset: gemini_720"),
+     "mission.yaml:10:13", "did you mean 'gemini_720is'?", "micron", "sensors/NAME.yaml"),
+    (edited("kind: imaging", "preset: oculus_m750d_750khz"), "did you mean 'sensors/oculus_m750d_750khz.yaml'?"),
+    (edited("bottom.gltf", "BOTTOM.GLTF"), "did you mean 'bottom.gltf'?"),
+    (edited("bottom.gltf", "botom.gltf"),
+     "botom.gltf: cannot open", "did you mean 'bottom.gltf'?", "mission.yaml:3:3 names it"),
+    (edited("mine.gltf", "meshes/mine.gltf"), "there is no folder", "mission.yaml:6:7"),
+    (edited("path.csv", "pth.csv"), "pth.csv", "No such file"),
+    (edited("bottom.gltf", "scenes\\bottom.gltf"), "separate folders by '/'"),
+    (edited("bottom.gltf", "~/bottom.gltf"), "'~' is not replaced"),
+    (edited("bottom.gltf", "."), "is a folder; a file is expected here"),
+    (edited("bottom.gltf", "path.csv"), "path.csv: is not glTF", "mission.yaml:3:3 names it"),
+    (edited("bottom.gltf", "bathy.tif") | {"bathy.tif": TIFF},
+     "is a TIFF picture, such as a GeoTIFF, not glTF; an image of heights belongs into scene.heightmap"),
+    (edited("materials.csv", "bathy.tif") | {"bathy.tif": TIFF}, "is a TIFF picture, such as a GeoTIFF, not a CSV"),
+    (edited("bottom.gltf", "hull.DAE") | {"hull.DAE": "solid"}, "convert it: assimp export hull.DAE hull.glb"),
+    ({"bottom.gltf": "version https://git-lfs.github.com/spec/v1\n"}, "`git lfs pull`"),
+    ({"bottom.gltf": bottom()[:-40]}, "bottom.gltf"),
+    ({"path.csv": path().replace(",", ";")}, "path.csv:1: the header has no comma", "not by ';'"),
+    ({"path.csv": path().replace(",", "\t")}, "path.csv:1:", "not by tabs"),
+    ({"path.csv": path() + "10,nan,0,0,0,0,0\n"}, "path.csv:12", "x_m"),
+    ({"materials.csv": (MATERIALS + "B\xe9ton,2400,3200\n").encode("latin-1")},
+     "materials.csv:4: is not UTF-8 text; save the file as UTF-8"),
+    (edited("{file: path.csv}", "{lawnmower: {area_min_m: [-40, -40], area_max_m: [40, 40], z_m: 5, "
+            "line_spacing_m: 0.01, speed_m_s: 0.1, rate_hz: 50}}"), "mission.yaml: trajectory: rate_hz of 50 gives"),
+    (edited("scene:\n", "engine: octree\noctree: {leaf_m: 0.001}\nscene:\n", MINE, "{name: far, file: bottom.gltf, scale: 20000}"),
+     "error: octree.leaf_m of 0.001 is too small for a scene 2e+06 m long; use engine: auto or larger leaves"),
+    # Materials and objects.
+    ({"materials.csv": MATERIALS.replace("Steel", "steel")}, "materials.csv: lacks the material 'Steel' of 'mine' in",
+     "mine.gltf", "(mission.yaml:6:7)", "did you mean 'steel'?", "add it to the CSV", "materials_map: {'Steel': NAME}",
+     "scene.material_default"),
+    ({"materials.csv": MATERIALS.replace("1900", "0")}, "materials.csv:2", "density"),
+    ({"mine.gltf": box_gltf(material="Con\x1b[2Jcrete")}, "Con\\x1b[2Jcrete"),
+    (crate("material: steal"), "mission.yaml:6:7: unknown material 'steal' (did you mean 'Steel'?)", "materials.csv"),
+    (crate("materials_map: {Stel: Sand}"), "mission.yaml:6:7: materials_map:", "mine.gltf has no material 'Stel'",
+     "did you mean 'Steel'?"),
+    (crate("exclude: [lid]"), "mission.yaml:6:7: exclude: no node of", "fits 'lid'", "sonarsim inspect"),
+    (crate("exclude: ['*']"), "mission.yaml:6:7: 'a': there is no surface in", "`exclude`"),
+    (crate("bury_m: 0.1"), "mission.yaml:6:", "bury_m and align need place: on_bottom"),
+    (edited("  objects:\n", "  exclude: ['*']\n  objects:\n"), "mission.yaml:3:3: exclude leaves nothing of", "bottom.gltf"),
+    (edited("  objects:\n", "  bottom: [flor]\n  objects:\n"), "mission.yaml:3:3: ", "bottom: no node of", "fits 'flor'"),
+    (mine_as(MINE + "\n    - " + MINE), "mission.yaml:7:7: there is an object 'mine' already"),
+    (mine_as(MINE.replace("0.3", "-9")), "mission.yaml:6:7: 'mine' lies wholly below the bottom", "place: on_bottom"),
+    (mine_as("{name: a, file: mine.gltf, position_m: [49.8, 0, 0], place: on_bottom}"),
+     "mission.yaml:6:7: 'a' reaches beyond the bottom", "from (-50, -50) to (50, 50)", "position_m"),
+    (mine_as("{name: a, file: mine.gltf, place: on_bottom, bury_m: 0.81}"), "'a' lies wholly below the bottom; lower bury_m"),
+    (edited("  file: bottom.gltf\n", "", f"  objects:\n    - {MINE}\n", ""),
+     "mission.yaml:3:3: 'scene' needs the key 'file', a heightmap, a seabed or objects"),
+    (edited("  objects:\n    - " + MINE, "  scatter:\n    - {name: mine, files: [mine.gltf], count: 50, "
+            "area_min_m: [2, -2], area_max_m: [8, 2]}"),
+     "mission.yaml:6:7", "'mine': object", "of 50 finds no room in 1000 tries", "larger area, fewer or smaller objects"),
+    (moving(WAY + "8"), "mission.yaml:6:7", "'fish' moves from 0 s to", "ping from 0 s to 9 s",
+     "let its trajectory last as long"),
+    (moving(WAY + "0.1", ""), "mission.yaml:6:", "an object that moves needs a name"),
+    (moving(WAY + "0.1", "name: fish, place: on_bottom, "), "mission.yaml:6:", "an object that moves cannot rest on the bottom"),
+    # Grounds.
+    (ground("heightmap: {file: bed.png, pixel_m: 5}"),
+     "the heightmap has no material; write scene.heightmap.material: NAME"),
+    (heightmap(""), "bed.png", "no world file lies next to it", "scene.heightmap.pixel_m", "mission.yaml:3:"),
+    (heightmap(", pixel_m: 1, size_m: [1, 1]"), "give pixel_m or size_m, not both"),
+    (heightmap(", pixel_m: 1, height_scale: 0"), "height_scale of 0 makes all flat"),
+    (heightmap(", pixel_m: 1", "mine.gltf"), "mine.gltf: is JSON, such as a .gltf mesh; PNG, TIFF and OpenEXR are read"),
+    (heightmap(", pixel_m: 1") | {"bed.png": FILES["bed.png"][:60]}, "bed.png: ", "mission.yaml:3:", "cannot be read"),
+    (heightmap(", pixel_m: 1") | {"bed.png": png([[5] * 96] * 40, 16, 3)},
+     "has 3 channels, and a heightmap has one", "gdal_translate -b 1"),
+    (heightmap(", pixel_m: 1") | {"bed.png": png([[5]], size=(30000, 30000))},
+     "has 30000 x 30000 pixels of 1 value, and at most 2^26", "gdal_translate"),
+    (heightmap(", pixel_m: 1") | {"bed.png": png([[5]], size=(2**31 - 1, 2**31 - 1))}, "bed.png: "),
+    (heightmap(", pixel_m: 5}\n  seabed: {cell_m: 1, material: Sand"), "are both the bottom"),
+    (heightmap(", pixel_m: 5") | edited("name: mine", "name: heightmap", text=heightmap(", pixel_m: 5")["mission.yaml"]),
+     "an object has the name of the ground"),
+    (sediments("4: Steel", "5: Steel"), "quarters.png: row 1, column 1: 4 has no material; add 4: MATERIAL to "
+     "scene.sediment_map.materials, or write no_data: 4", "mission.yaml:5:"),
+    (sediments("4: Steel", '"#102030": Steel'),
+     "one channel of numbers, and scene.sediment_map.materials has '#102030'; write 7: MATERIAL"),
+    (sediments("[sand]", "[snd]"), "no instance at rest is named 'snd' (did you mean 'sand'?)"),
+    (sediments(", instances: [sand]", ""), "scene.sediment_map does not say what it lies on; write instances: [NAME]"),
+    (sediments("size_m: [100, 100], ", ""), "quarters.png: does not say how large its pixels are", "scene.sediment_map.pixel_m"),
+    (decibels(", scale_db: 200"), "quarters.png: row 0, column 0: 1 makes 200 dB, and at most 100 are believed"),
+    (decibels("") | {"quarters.png": png([[1, 2, 3, 4]], channels=4)}, "has 4 channels, and a map of decibels has one"),
+    (ground("seabed: {cell_m: 0.5}"), "the seabed has no material; write scene.seabed.material"),
+    (seabed(", ripples: {length_m: 1.9, height_m: 0.1}"), "ripples need 4 cells from crest to crest; lower cell_m"),
+    (seabed(", sediments: [{material: Steel, share: 1}]"), "give material or sediments, not both"),
+    (seabed(", rocks: {density_per_m2: 1, diameter_m: [2, 1]}"), "'diameter_m' is the least and the largest"),
+    (seabed(", rocks: {density_per_m2: 9999, diameter_m: [0.1, 0.2]}"), "and at most 50000 have room", "density_per_m2"),
+    (ground("seabed: {cell_m: 0.002, material: Sand}"), "mission.yaml:3:11: the mission needs", "raise cell_m"),
+    (ground("seabed: {cell_m: 0.1, preset: seabeds/rockie.yaml}"),
+     "none of this name came with the program", "did you mean 'rocky'", "seabeds/NAME.yaml"),
+)
+
+# The same of missions that can be rendered: the number of the warning, and words of it.
+WARNED = (
+    ({"bottom.gltf": bottom(1000)}, "W04", "scene.units: mm"),
+    ({"bottom.gltf": bottom(0.001)} | edited("  objects:\n    - " + MINE + "\n", ""), "W04",
+     "check its units (scene.units: mm"),
+    (edited("range_max_m: 12", "range_max_m: 15000"), "W04", "range_max_m is in metres"),
+    ({"mine.gltf": mine(6000.0)} | mine_as(MINE.replace("0.3", "6001")), "W01", "mine.gltf is 1.2e+04 m long"),
+    ({"materials.csv": MATERIALS.replace("7850", "7.85")}, "W01", "looks like g/cm^3"),
+    ({"materials.csv": MATERIALS.replace("5900", "5.9")}, "W01", "looks like km/s"),
+    ({"materials.csv": MATERIALS.replace("1900,1650", "997,1480")}, "W09", "its impedance is that of the water"),
+    ({"path.csv": path(z=-5)} | edited("\n    - " + MINE, " []"), "W10", "z points up"),
+    ({"mine.gltf": mine(3.0)} | mine_as(MINE.replace("[20, 4, 0.3]", "[4, 0, 5]")), "W11", "it is inside 'mine'"),
+    ({"path.csv": path(offset=(45.0, 0.0))}, "W12", "pings are blind"),
+    ({"path.csv": path(z=30)}, "W13", "raise range_max_m or sail nearer"),
+    ({"path.csv": path(z=95), "bottom.gltf": bottom(z=-100)}
+     | edited("0.3]", "-99.7]", "[0, 30, 0]", "[0, 90, 0]"), "W13", "z points up, and depths are negative"),
+    (edited("range_max_m: 12", "range_min_m: 90\n    range_max_m: 120"), "W14", "lower range_min_m"),
+    (edited("rpy_deg: [0, 30, 0]", "rpy_deg: [0, 0, 0]", "elevation_deg: 20", "elevation_deg: 5"), "W15",
+     "raise elevation_deg, or tilt the sonar"),
+    (edited("rpy_deg: [0, 30, 0]", "rpy_deg: [0, -80, 0]", "azimuth_deg: 90", "azimuth_deg: 20"), "W16",
+     "turn it with mount.rpy_deg"),
+    ({"path.csv": path(offset=(4e5, 6e6))}, "W17", "the nearest ever is 6.01"),
+    (edited("add_sigma: 0.01", "add_sigma: 5"), "W18", "lower noise.add_sigma"),
+    (edited("{folder: out}", "{folder: out, full_scale: 1e-3}"), "W19", "raise output.full_scale"),
+    (edited("{folder: out}", "{folder: out, full_scale: 1e4}"), "W20", "lower output.full_scale"),
+    (mine_as(MINE.replace("[20, 4, 0.3]", "[-45, -45, 0.3]")), "W21", "1 object is not in view"),
+    (mine_as(MINE + "\n    - {name: b, file: mine.gltf, scale: 0.5, position_m: [20, 4, 0.3]}"), "W21",
+     "'b'; these may lie behind"),
+    (edited("output:", "vary: [{key: sensors.fls.mount.rpy_deg.2, uniform: [175, 185], per: ping}]\noutput:", "[20, 4, 0.3]",
+            "[20, 38, 0.3]"), "W21", "'mine'; move these"),
+    (decibels(", scale_db: 0"), None, "scene.backscatter_map changes nothing: each of its pixels is unknown or 0 dB"),
+    (edited("  objects:\n", "  backscatter_map: {file: quarters.png, size_m: [9, 9], origin_m: [1000, 5], instances: "
+            "[sand]}\n  objects:\n"), None, "scene.backscatter_map lies outside the scene and changes nothing: the map has x"),
+    (edited("scene:\n", "scene:\n  water_surface: {height_m: 9}\n"), None, "scene.water_surface has no effect"),
+    (edited("scene:\n", "scene:\n  water_surface: {height_m: 3}\n", "    noise:", "    multipath: {method: exact}\n    noise:"),
+     None, "scene.water_surface at 3 m lies below the sonar in 10 of 10 pings"),
+)
+
+
+class Mistakes(Sandbox):
+    def setUp(self):
+        super().setUp()
+        self.make({})
+
+    def make(self, files):
+        for name, content in {**FILES, **files}.items():
+            self.write(name, content)
+
+    def validate(self, *arguments):
+        return self.run_sonarsim("validate", "mission.yaml", "--json", *arguments)
+
+    def test_a_sound_mission_has_no_warning(self):
+        result = self.validate("--strict")
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        reported = json.loads(result.stdout)
+        self.assertEqual(reported["warnings"], [])
+        surveyed = reported["sensors"]["fls"]["survey"]
+        self.assertEqual((surveyed["pings_tried"], surveyed["blind"]), (10, 0))
+        # Five metres above the bottom, which ripples by two centimetres.
+        low, high = surveyed["altitude_m"]
+        self.assertTrue(4.9 < low <= high <= 5.0, surveyed)
+        # The beam's lower edge is 40 degrees down, the upper 20: 5 m / sin 40 and beyond 12 m.
+        self.assertAlmostEqual(surveyed["first_echo_m"][0], 5 / math.sin(math.radians(40)), delta=0.3)
+        self.assertGreater(reported["set_up_seconds"], 0)
+        self.assertGreater(reported["bytes"], 0)
+        self.assertFalse(self.out.exists())
+
+    def test_refusals(self):
+        for files, *words in REFUSED:
+            with self.subTest(words=words[0]):
+                self.make(files)
+                before = digest(self.folder)
+                result = self.run_sonarsim("render", "mission.yaml")
+                self.assertEqual(result.returncode, 2, result.stderr)
+                for word in words:
+                    self.assertIn(word, result.stderr)
+                # A library may have its own lines.
+                self.assertEqual(len([x for x in result.stderr.splitlines() if x.startswith("error: ")]), 1, result.stderr)
+                self.assertNotIn("\x1b", result.stderr)
+                same = self.run_sonarsim("validate", "mission.yaml")
+                self.assertEqual((same.returncode, same.stderr), (2, result.stderr))
+                self.assertEqual(digest(self.folder), before)
+
+    def test_warnings(self):
+        for files, number, words in WARNED:
+            with self.subTest(number=number, words=words):
+                self.make(files)
+                result = self.validate("--strict")
+                self.assertEqual(result.returncode, 3, result.stderr)
+                lines = [json.loads(line) for line in result.stderr.splitlines()]
+                found = [line for line in lines if words in line["message"]]
+                self.assertEqual(len(found), 1, result.stderr)
+                if number is not None:
+                    self.assertEqual(found[0]["code"], number)
+                    self.assertIn(number, [w["number"] for w in json.loads(result.stdout)["warnings"]])
+
+    def test_all_errors_at_once(self):
+        self.make(edited("azimuth_deg", "azimut_deg", "range_bins: 48", "range_bins: many", "folder: out", "fan: yes"))
+        lines = self.run_sonarsim("validate", "mission.yaml").stderr.splitlines()
+        self.assertEqual([line.split(": ")[1] for line in lines],
+                         ["mission.yaml:14:17", "mission.yaml:11:5", "mission.yaml:18:15"], lines)
+        # Beyond the mission: its trajectory, its materials and its scene are read, all three.
+        self.make({"path.csv": "t_s\n", "materials.csv": "material\n", "bottom.gltf": "{"})
+        result = self.validate()
+        self.assertEqual(result.returncode, 2)
+        for name in ("path.csv", "materials.csv", "bottom.gltf"):
+            self.assertIn(name, result.stderr)
+
+    def test_a_fault_in_json_has_its_place(self):
+        self.make(edited("range_max_m", "range_mx_m"))
+        result = self.run_sonarsim("render", "mission.yaml", "--json")
+        self.assertEqual(result.returncode, 2)
+        fault = json.loads(result.stderr.splitlines()[-1])
+        self.assertEqual((fault["file"], fault["line"], fault["column"]), ("mission.yaml", 13, 5))
+
+    def test_render_warns_of_blind_pings(self):
+        self.make({"path.csv": path(offset=(45.0, 0.0))})
+        result = self.run_sonarsim("render", "mission.yaml", "--no-files", "--strict", "-q")
+        self.assertEqual(result.returncode, 3, result.stderr)
+        self.assertRegex(result.stderr, "W12 sensor 'fls': [0-9] of 10 pings are blind")
+        result = self.run_sonarsim("render", "mission.yaml", "--no-files", "--json", "--set", "output.full_scale=1e4")
+        self.assertEqual([text[:3] for text in json.loads(result.stdout)["warnings"]], ["W12", "W20"])
+
+    def test_log_of_a_run(self):
+        """A triangle without area is in the mesh, and multipath and noise drop footprints."""
+        mesh = json.loads(bottom())
+        mesh["nodes"].append({"name": "line", "mesh": 0, "scale": [1, 1, 0]})
+        self.make(edited("noise: {add_sigma: 0.01}", "noise: {add_sigma: 0.01, mult_sigma: 1, range_lambda_m: 0.1}\n"
+                         "    multipath: {method: cluster}") | {"bottom.gltf": json.dumps(mesh)})
+        lines = self.assert_renders().stderr.splitlines()
+        self.assertEqual(len(lines), 2, lines)
+        self.assertIn("bay: 44 triangles, 10 poses", lines[0])
+        self.assertIn("complete; 10 pings rendered", lines[1])
+        self.assertIn("all of its 10 pings were there already", self.assert_renders().stderr)
+        debug = self.assert_renders("--overwrite", "--log-level", "debug").stderr
+        self.assertIn("footprints dropped", debug)
+        self.assertIn("multipath:", debug)
+
+
+class Usage(Sandbox):
+    def test_what_is_misspelt_is_named(self):
+        for arguments, message in (
+                ([], ""), (["render"], ""), (["render", "mission.yaml", "-j", "0"], ""),
+                (["render", "mission.yaml", "--seed", "-1"], ""), (["render", "mission.yaml", "--shard", "3/2"], ""),
+                (["render", "mission.yaml", "--shard", "0/2"], ""), (["render", "mission.yaml", "--log-level", "loud"], ""),
+                (["render", "mission.yaml", "--set", "seed"], "--set"),
+                (["render", "mission.yaml", "--set", "sensors.fls.noise.add_sgma=0.2"],
+                 "--set sensors.fls.noise.add_sgma=0.2: unknown key 'add_sgma' (did you mean 'add_sigma'?)"),
+                (["rendr", "mission.yaml"], "unknown subcommand 'rendr' (did you mean 'render'?)"),
+                (["--quiet"], "unknown option '--quiet'"),
+                (["render", "mission.yaml", "--overwite"], "unknown option '--overwite' (did you mean '--overwrite'?)"),
+                (["inspect", "box.gltf", "box.gltf"], "one argument too many: 'box.gltf'"),
+                (["inspect", "none.glb"], "none.glb"), (["render", "out"], "out: cannot open"),
+                (["render", "mission.yaml", "--out", "path.csv/out"], f"{self.folder}/path.csv/out: cannot make"),
+                (["render", "mission.yaml", "--out", "/proc/none/out"], "/proc/none/out: cannot make")):
+            with self.subTest(arguments=arguments):
+                result = self.run_sonarsim(*arguments)
+                self.assertEqual(result.returncode, 2)
+                self.assertTrue(any(line.startswith("error: " + message) for line in result.stderr.splitlines()), result.stderr)
+                self.assertFalse(self.out.exists())
+
+
+class Folders(Composed):
+    """What is there already is never harmed; tests/job tries more."""
+
+    def test_what_is_not_a_dataset_stays(self):
+        kept = self.write("out/thesis.txt", "years of work")
+        for more in ((), ("--overwrite",)):
+            self.assert_refused(self.render(*more), "out", "not a sonarsim dataset", "another output.folder")
+        self.assertEqual([(p.name, p.read_text()) for p in self.out.iterdir()], [(kept.name, "years of work")])
+
+    def test_another_mission(self):
+        self.assert_renders()
+        before = digest(self.out)
+        other = self.render("--seed", "3", "--set", "sensors.fls.range_max_m=11")
+        self.assert_refused(other, "of another mission", "seed: 7 there, 3 here",
+                            "sensors.fls.range_max_m: 9 there, 11 here", "--overwrite")
+        self.assert_refused(self.run_sonarsim("validate", "mission.yaml", "--seed", "3"), "seed: 7 there, 3 here")
+        again = ("render", "out/mission.resolved.yaml", "--seed", "9", "--paths-from", ".", "--out", "out", "--overwrite")
+        self.assert_refused(self.run_sonarsim(*again), "mission.resolved.yaml", "the mission itself")
+        self.edit("materials.csv", "2400", "2500")
+        self.assert_refused(self.render(), "other scene, material or trajectory files (materials.csv)")
+        self.assertEqual(digest(self.out), before)
+        self.assert_renders("--seed", "8", "--overwrite")
+        self.assertEqual(self.dataset()["seed"], 8)
+
+
+if __name__ == "__main__":
+    unittest.main()
