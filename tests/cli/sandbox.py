@@ -57,7 +57,7 @@ sensors:
   mbes: {kind: profiling, range_max_m: 6, range_bins: 16, azimuth_bins: 8}
   sss: {kind: sidescan, range_max_m: 6, range_bins: 16}
   sounder: {kind: echosounder, range_max_m: 6, range_bins: 16}
-output: {folder: out, image: true, fan_width_px: 32}
+output: {folder: out, image: true}
 """
 
 MATERIALS = "material,density_kg_m3,sound_speed_m_s\nConcrete,2400,3200\nsteel,7850,5890\n"

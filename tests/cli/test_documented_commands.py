@@ -187,7 +187,7 @@ class Snippets(Sandbox):
         lines = self.run_snippet()
         for name in ("fls", "mbes", "sss", "sounder"):
             self.assertIn(name + " (", lines)
-        self.succeeds(*render, "--overwrite", "--set", "output.meta=false", "--set", "output.polar=false")
+        self.succeeds(*render, "--overwrite", "--set", "output.polar=false")
         self.run_snippet()
 
     def test_the_columns_of_a_waterfall(self):

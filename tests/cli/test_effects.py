@@ -4,7 +4,7 @@ import json
 import math
 import unittest
 
-from sandbox import Composed, Sandbox, digest, numbers_of, relative_difference
+from sandbox import Composed, Sandbox, digest, gltf, numbers_of, relative_difference, sheet_mesh
 
 FISH = ("{name: fish, file: crate.gltf, material: steel, trajectory: {waypoints: [{position_m: [4, -2, 1]}, "
         "{position_m: [4, 2, 1]}], speed_m_s: 4, rate_hz: 5}}")
@@ -60,35 +60,45 @@ class Moving(Composed):
 
 
 class Copies(Composed):
-    def test_shared_is_what_copied_is(self):
-        """One mesh and three transforms: within rounding the picture of three crates."""
-        self.objects("{name: a, class: crate, file: crate.gltf, position_m: [4.25, 1.5, 0.5]}",
-                     "{name: b, class: crate, file: crate.gltf, position_m: [6.5, -0.5, 0.75], scale: 1.5}",
-                     "{name: c, class: crate, file: crate.gltf, position_m: [5, -2.5, 0.625], rpy_deg: [0, 0, 30]}")
-        self.edit("mission.yaml", "output:\n", "output:\n  labels: [instance]\n")
-        scenes, images, boxes, warnings = {}, {}, {}, {}
-        for repeats in ("copied", "shared"):
-            chosen = ("--set", "engine=rays", "--set", f"scene.repeats={repeats}")
-            self.assert_renders("--overwrite", *chosen)
-            scenes[repeats], boxes[repeats] = self.dataset()["scene"], self.boxes()
-            images[repeats] = numbers_of(self.out / "fls/polar/000000.npy")
-            warnings[repeats] = [line for line in self.succeeds("validate", "mission.yaml", "--overwrite", *chosen)
-                                 .stderr.splitlines() if "W" in line]
-        self.assertNotEqual(images["shared"], images["copied"])
-        self.assertLess(relative_difference(images["shared"], images["copied"]), 1e-3)
-        self.assertEqual(warnings["shared"], warnings["copied"])
-        self.assertEqual(scenes["copied"]["triangles"], 128 + 3 * 12)
-        use = scenes["shared"]
-        self.assertEqual((use["triangles"], use["shared_meshes"], use["copies"]), (128, 1, 3))
-        for name, copied in boxes["copied"].items():
-            for end in ("min", "max"):
-                for x, y in zip(boxes["shared"][name][end], copied[end]):
-                    self.assertAlmostEqual(x, y, places=5)
-        self.refused("engine: slices does not support copies of shared meshes", "scene.repeats: copied",
-                     arguments=["--set", "engine=slices", "--set", "scene.repeats=shared", "--out", "new"])
+    CRATES = ("position_m: [4.25, 1.5, 0.5]", "position_m: [6.5, -0.5, 0.75], scale: 1.5",
+              "position_m: [5, -2.5, 0.625], rpy_deg: [0, 0, 30]")
 
-    def refused(self, *fragments, arguments=()):
-        self.assert_refused(self.run_sonarsim("validate", "mission.yaml", *arguments), *fragments)
+    def render_crates(self, files, plates=()):
+        self.objects(*(f"{{name: {name}, class: crate, file: {file}, {where}}}"
+                       for name, file, where in zip("abc", files, self.CRATES, strict=True)), *plates)
+        self.assert_renders("--overwrite", "--set", "engine=rays")
+        return self.dataset()["scene"]
+
+    def test_shared_is_what_copied_is(self):
+        """Beside 45 plates of 100,000 triangles what has one file is kept once: one mesh and three transforms are within
+        rounding the picture of three crates, each of a file of its own. Few triangles are copied."""
+        self.write("plate.gltf", gltf([{"name": "plate", "mesh": 0}], [sheet_mesh(half=0.2, cells=224)]))
+        plates = [f"{{name: p{k}, class: plate, file: plate.gltf, position_m: [{-8 + k % 5}, {k // 5 - 4}, 0.5]}}"
+                  for k in range(45)]
+        self.edit("mission.yaml", "output:\n", "output:\n  labels: [instance]\n")
+        own = [f"crate{k}.gltf" for k in range(3)]
+        for name in own:
+            self.write(name, (self.folder / "crate.gltf").read_bytes())
+        scenes, images, boxes, warnings = [], [], [], []
+        for files in (["crate.gltf"] * 3, own):
+            scenes.append(self.render_crates(files, plates))
+            boxes.append(self.boxes())
+            images.append(numbers_of(self.out / "fls/polar/000000.npy"))
+            warnings.append([line for line in self.succeeds("validate", "mission.yaml", "--set", "engine=rays")
+                             .stderr.splitlines() if "W" in line])
+        self.assertNotEqual(images[0], images[1])
+        self.assertLess(relative_difference(*images), 1e-3)
+        self.assertEqual(warnings[0], warnings[1])
+        for scene, expected in zip(scenes, ((128, 2, 48), (128 + 3 * 12, 1, 45))):
+            self.assertEqual((scene["triangles"], scene["shared_meshes"], scene["copies"]), expected)
+        self.assertEqual(list(boxes[0]), list(boxes[1]))
+        for name, copied in boxes[1].items():
+            for end in ("min", "max"):
+                for x, y in zip(boxes[0][name][end], copied[end], strict=True):
+                    self.assertAlmostEqual(x, y, places=5)
+        few = self.render_crates(["crate.gltf"] * 3)
+        self.assertNotIn("copies", few)
+        self.assertEqual(few["triangles"], 128 + 3 * 12)
 
 
 class Particles(Composed):
@@ -153,7 +163,7 @@ class Others(Sandbox):
         self.assertNotEqual(still, images)
         self.assertEqual(len({z for _, _, z in truth}), 6)
         self.assertFalse((self.out / "navigation.tum").exists())
-        self.add("  navigation: {position_m: 0.5, heading_bias_deg: 2}\n")
+        self.add("  navigation: {position_m: 0.5, heading_deg: 2}\n")
         self.assert_renders("--overwrite")
         self.assertEqual((images, truth), (digest(self.out / "fls/polar"), positions("trajectory.tum")))
         reported = positions("navigation.tum")

@@ -22,7 +22,6 @@ classes:
   - {nodes: "pillar*", class: pillar}
 output:
   folder: out
-  fan_width_px: 64
   labels: true
   image: true
 labels: {background: [none]}

@@ -84,19 +84,19 @@ def heightmap(options, file="bed.png"):
 
 
 def seabed(keys):
-    return ground(f"seabed: {{cell_m: 0.5, size_m: [60, 60], origin_m: [30, 30], material: Sand{keys}}}")
+    return ground(f"seabed: {{cell_m: 0.5, size_m: [60, 60], material: Sand{keys}}}")
 
 
 def sediments(old, new):
-    sound = ("sediment_map: {file: quarters.png, size_m: [100, 100], origin_m: [50, 50], instances: [sand], "
+    sound = ("bottom: [sand]\n  sediment_map: {file: quarters.png, size_m: [100, 100], origin_m: [50, 50], "
              "materials: {1: Sand, 2: Steel, 3: Sand, 4: Steel}}")
     assert old in sound
     return edited("  objects:\n", f"  {sound.replace(old, new)}\n  objects:\n")
 
 
 def decibels(options):
-    return edited("  objects:\n", "  backscatter_map: {file: quarters.png, size_m: [100, 100], origin_m: "
-                  f"[50, 50], instances: [sand]{options}}}\n  objects:\n")
+    return edited("  objects:\n", "  bottom: [sand]\n  backscatter_map: {file: quarters.png, size_m: [100, 100], "
+                  f"origin_m: [50, 50]{options}}}\n  objects:\n")
 
 
 def moving(keys, more="name: fish, "):
@@ -117,8 +117,8 @@ REFUSED = (
     (edited("    noise: {add_sigma: 0.01}\n", "    instrument: {frequency_hz: 400000}\n"),
      "unknown key 'instrument'; it needs model: calibrated"),
     (edited("kind: imaging", "kind: sidescan"), "unknown key 'azimuth_bins'; this kind of sonar has none, leave it out"),
-    (edited("kind: imaging\n    azimuth_deg: 90", "kind: sidescan\n    multipath: {method: exact, columns_per_beam: 2}",
-            "    azimuth_bins: 24\n", ""), "columns_per_beam is for the beams of a fan"),
+    (edited("    noise:", "    multipath: {method: exact, columns_per_beam: 2}\n    noise:"),
+     "mission.yaml:17:32: 'columns_per_beam' is no longer there; accuracy.relative_l1 sets the samples; leave it out"),
     (edited("kind: imaging", "preset: gemini_720"),
      "mission.yaml:10:13", "did you mean 'gemini_720is'?", "micron", "sensors/NAME.yaml"),
     (edited("kind: imaging", "preset: oculus_m750d_750khz"), "did you mean 'sensors/oculus_m750d_750khz.yaml'?"),
@@ -155,10 +155,9 @@ REFUSED = (
     (crate("material: steal"), "mission.yaml:6:7: unknown material 'steal' (did you mean 'Steel'?)", "materials.csv"),
     (crate("materials_map: {Stel: Sand}"), "mission.yaml:6:7: materials_map:", "mine.gltf has no material 'Stel'",
      "did you mean 'Steel'?"),
-    (crate("exclude: [lid]"), "mission.yaml:6:7: exclude: no node of", "fits 'lid'", "sonarsim inspect"),
-    (crate("exclude: ['*']"), "mission.yaml:6:7: 'a': there is no surface in", "`exclude`"),
+    (crate("exclude: [lid]"), "mission.yaml:6:", "'exclude' is no longer there; delete these nodes in the file"),
+    ({"mine.gltf": '{"asset": {"version": "2.0"}}'}, "mission.yaml:6:7: 'mine': there is no surface in", "name another file"),
     (crate("bury_m: 0.1"), "mission.yaml:6:", "bury_m and align need place: on_bottom"),
-    (edited("  objects:\n", "  exclude: ['*']\n  objects:\n"), "mission.yaml:3:3: exclude leaves nothing of", "bottom.gltf"),
     (edited("  objects:\n", "  bottom: [flor]\n  objects:\n"), "mission.yaml:3:3: ", "bottom: no node of", "fits 'flor'"),
     (mine_as(MINE + "\n    - " + MINE), "mission.yaml:7:7: there is an object 'mine' already"),
     (mine_as(MINE.replace("0.3", "-9")), "mission.yaml:6:7: 'mine' lies wholly below the bottom", "place: on_bottom"),
@@ -191,11 +190,10 @@ REFUSED = (
     (heightmap(", pixel_m: 5") | edited("name: mine", "name: heightmap", text=heightmap(", pixel_m: 5")["mission.yaml"]),
      "an object has the name of the ground"),
     (sediments("4: Steel", "5: Steel"), "quarters.png: row 1, column 1: 4 has no material; add 4: MATERIAL to "
-     "scene.sediment_map.materials, or write no_data: 4", "mission.yaml:5:"),
+     "scene.sediment_map.materials, or mark it: gdal_translate -a_nodata 4", "mission.yaml:6:"),
     (sediments("4: Steel", '"#102030": Steel'),
      "one channel of numbers, and scene.sediment_map.materials has '#102030'; write 7: MATERIAL"),
-    (sediments("[sand]", "[snd]"), "no instance at rest is named 'snd' (did you mean 'sand'?)"),
-    (sediments(", instances: [sand]", ""), "scene.sediment_map does not say what it lies on; write instances: [NAME]"),
+    (sediments("bottom: [sand]\n  ", ""), "mission.yaml:3:3: maps need ground to lie on; write scene.bottom: [NAME]"),
     (sediments("size_m: [100, 100], ", ""), "quarters.png: does not say how large its pixels are", "scene.sediment_map.pixel_m"),
     (decibels(", scale_db: 200"), "quarters.png: row 0, column 0: 1 makes 200 dB, and at most 100 are believed"),
     (decibels("") | {"quarters.png": png([[1, 2, 3, 4]], channels=4)}, "has 4 channels, and a map of decibels has one"),
@@ -240,8 +238,8 @@ WARNED = (
     (edited("output:", "vary: [{key: sensors.fls.mount.rpy_deg.2, uniform: [175, 185], per: ping}]\noutput:", "[20, 4, 0.3]",
             "[20, 38, 0.3]"), "W21", "'mine'; move these"),
     (decibels(", scale_db: 0"), None, "scene.backscatter_map changes nothing: each of its pixels is unknown or 0 dB"),
-    (edited("  objects:\n", "  backscatter_map: {file: quarters.png, size_m: [9, 9], origin_m: [1000, 5], instances: "
-            "[sand]}\n  objects:\n"), None, "scene.backscatter_map lies outside the scene and changes nothing: the map has x"),
+    (edited("  objects:\n", "  bottom: [sand]\n  backscatter_map: {file: quarters.png, size_m: [9, 9], origin_m: "
+            "[1000, 5]}\n  objects:\n"), None, "scene.backscatter_map lies outside the scene and changes nothing: the map has x"),
     (edited("scene:\n", "scene:\n  water_surface: {height_m: 9}\n"), None, "scene.water_surface has no effect"),
     (edited("scene:\n", "scene:\n  water_surface: {height_m: 3}\n", "    noise:", "    multipath: {method: exact}\n    noise:"),
      None, "scene.water_surface at 3 m lies below the sonar in 10 of 10 pings"),

@@ -154,8 +154,8 @@ class Signals(Sandbox):
         process.send_signal(number)
         _, stderr = process.communicate(timeout=120)
         self.assertEqual(process.returncode, 128 + number, stderr)
-        self.assertIn("warning: stopped at once; written files are whole, and the same command "
-                      "run again goes on from there", stderr)
+        self.assertIn("warning: stopped at once; written files are complete; run the same command "
+                      "again to continue", stderr)
 
     def test_while_a_scene_is_loaded(self):
         # Copies of a sheet whose triangles have no area, which take time and no memory.

@@ -131,6 +131,7 @@ class SwathFiles(Sandbox):
     def test_mosaic(self):
         path = self.out / "sss/mosaic.tif"
         info, place = gdal_info(path), json.loads((self.out / "sss/mosaic.json").read_text())
+        cell = place["cell_m"]
         self.assertEqual(info["geoTransform"],
                          [place["west_m"], cell, 0, place["north_m"], 0, -cell])
         self.assertTrue(math.isnan(float(info["bands"][0]["noDataValue"])))
@@ -169,7 +170,7 @@ class Bathymetry(Sandbox):
     def setUp(self):
         super().setUp()
         self.edit("mission.yaml", "output:\n", "  mbes: {kind: profiling, azimuth_deg: 60, range_max_m: 6, range_bins: 64, "
-                  "azimuth_bins: 16}\noutput:\n  bathymetry_cell_m: 0.25\n")
+                  "azimuth_bins: 16}\noutput:\n")
         self.assert_renders()
 
     @unittest.skipIf(python_with("meshio") is None, "needs python3-meshio")
@@ -191,9 +192,10 @@ numpy.testing.assert_array_equal(cloud.point_data["quality"], rows[:, 4].astype(
     def test_gdal(self):
         folder = self.out / "mbes"
         place, info = json.loads((folder / "bathymetry.json").read_text()), gdal_info(folder / "bathymetry.tif")
+        cell = place["cell_m"]
         self.assertEqual(info["size"], [place["columns"], place["rows"]])
         # x of the upper left corner, x by column, x by row; then y.
-        self.assertEqual(info["geoTransform"], [place["west_m"], 0.25, 0, place["north_m"], 0, -0.25])
+        self.assertEqual(info["geoTransform"], [place["west_m"], cell, 0, place["north_m"], 0, -cell])
         band = info["bands"][0]
         self.assertEqual(band["type"], "Float32")
         self.assertTrue(math.isnan(float(band["noDataValue"])))

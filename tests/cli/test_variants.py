@@ -241,7 +241,8 @@ class PingDraws(Varied):
         self.assert_refusals((
             ("noise.add_sigma", "range_bins", "mission.yaml:25:5", "'sensors.fls.range_bins' cannot be drawn for every ping",
              "noise.add_sigma", "vehicle.offset_m.0"),
-            ("log_uniform: [0.001, 0.2]", "uniform: [-0.1, 0.2]", "mission.yaml:25:5", "'add_sigma' must be at least 0"),
+            ("log_uniform: [0.001, 0.2]", "uniform: [-0.1, 0.2]", "mission.yaml:25:5",
+             "'sensors.fls.noise.add_sigma' must be at least 0, not -0.1"),
             ("within: [-6, 6]", "within: [40, 41]",
              "mission.yaml:26:5", "less than 5 % of the normal draws", "make it wider"),
             ("within: [-6, 6], ", "", "mission.yaml:26:", "a normal draw for every ping needs 'within'"),

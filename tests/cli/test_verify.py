@@ -97,7 +97,7 @@ class Verify(Sandbox):
         """A byte that was flipped, an end that was cut off and a file that was removed are found, in every kind of
         file."""
         self.write("path.csv", path_csv(1))
-        self.edit("mission.yaml", "fan_width_px: 32", "fan_width_px: 32, labels: [instance, objects]")
+        self.edit("mission.yaml", "image: true", "image: true, labels: [instance, objects]")
         self.assert_renders("--overwrite")
         draw = random.Random(7)
         files = sorted(p for p in self.out.rglob("*") if p.is_file())
