@@ -80,6 +80,10 @@ def section(draw, keys, path, wild, share, kind=None):
         by_kind = key.get("default_by_kind")
         if key["required"] or by_kind and kind not in by_kind or draw.random() > share:
             continue
+        # A section of a sonar has keys for some kinds.
+        inner = keys.get(f"{path}.{key['name']}", []) if key["type"] == "section" else []
+        if inner and all(kind not in one.get("default_by_kind", {kind: None}) for one in inner):
+            continue
         key = {**key, "default": by_kind[kind] if by_kind else key.get("default")}
         name, what = key["name"], key["type"]
         if what in ("number", "whole number"):
@@ -213,7 +217,7 @@ def write_mission(draw, keys, folder):
     at = [far * draw.choice([-1, 0.1, 1]) for _ in range(3)]
     wild = draw.choice([0.0, 0.2, 0.6])
     mission = {name: section(draw, keys, name, wild, 0.3)
-               for name in ("water", "accuracy", "octree", "slices", "output") if draw.random() < 0.5}
+               for name in ("water", "accuracy", "octree", "output") if draw.random() < 0.5}
     mission["seed"] = draw.choice([0, 7, 2**64 - 1])
     mission["engine"] = draw.choice(["auto", "rays", "octree", "slices"])
     mission["name"] = "random"
