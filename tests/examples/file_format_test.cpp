@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
 
 #include "dataset/writer.h"
 #include "support/scenes.h"
@@ -17,29 +19,23 @@ using namespace sonarsim::test;
 namespace {
 
 /// nearest/NNNNNN.csv: the range of the first bin with an echo in each beam, m.
-class NearestWriter final : public Writer {
-  public:
-    explicit NearestWriter(const WriterContext& context) : sonar_(context.sonar()) {}
-
-    WriterOutputs outputs() const override {
-        return {PingFile{"nearest", ".csv"}, 16.0 + 24.0 * sonar_.settings.view.beams, {}};
+std::string encode_nearest(const FinishedPing& finished) {
+    std::string csv = "beam,range_m\n";
+    for (int j = 0; j < finished.ping.beams; ++j) {
+        int i = 0;
+        while (i < finished.ping.range_bins && finished.ping.at(i, j) == 0.0F)
+            ++i;
+        if (i < finished.ping.range_bins)
+            csv += fmt::format("{},{:.4f}\n", j, finished.sonar.range_edges_m[i]);
     }
+    return csv;
+}
 
-    std::string encode(const FinishedPing& finished) const override {
-        std::string csv = "beam,range_m\n";
-        for (int j = 0; j < finished.ping.beams; ++j) {
-            int i = 0;
-            while (i < finished.ping.range_bins && finished.ping.at(i, j) == 0.0F)
-                ++i;
-            if (i < finished.ping.range_bins)
-                csv += fmt::format("{},{:.4f}\n", j, sonar_.range_edges_m[i]);
-        }
-        return csv;
-    }
-
-  private:
-    const Sonar& sonar_;
-};
+std::optional<Writer> make_nearest_writer(const WriterContext& context) {
+    const double bytes_at_most = 16.0 + 24.0 * context.sonar().settings.view.beams;
+    return Writer{.outputs = {PingFile{"nearest", ".csv"}, bytes_at_most, {}},
+                  .encode = encode_nearest};
+}
 
 }  // namespace
 
@@ -60,14 +56,14 @@ TEST_CASE("example of a file format: the nearest echo of each beam") {
     const TracedPing traced = trace(sonar, assembly.scene, *engine, Pose{}, 0);
     const Ping ping = form_image(traced, sonar.settings, assembly.scene, {}, {});
 
-    const NearestWriter writer({mission, assembly, 0, 1});
-    const std::string csv = writer.encode({.id = {},
-                                           .sonar = sonar,
-                                           .traced = traced,
-                                           .ping = ping,
-                                           .measured = {},
-                                           .clipped_pixels = 0});
-    CHECK(static_cast<double>(csv.size()) <= writer.outputs().bytes_per_ping);
+    const auto writer = make_nearest_writer({mission, assembly, 0, 1});
+    const std::string csv = writer->encode({.id = {},
+                                            .sonar = sonar,
+                                            .traced = traced,
+                                            .ping = ping,
+                                            .measured = {},
+                                            .clipped_pixels = 0});
+    CHECK(static_cast<double>(csv.size()) <= writer->outputs.bytes_per_ping);
     std::string expected = "beam,range_m\n";
     for (int j = 0; j < ping.beams; ++j) {
         const auto azimuth = [&](int edge) { return std::fabs(sonar.azimuth_edges_rad[edge]); };

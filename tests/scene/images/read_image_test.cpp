@@ -168,7 +168,7 @@ TEST_CASE("pixels of the file's mark have no value, also where the mark is round
     const auto path = folder.path / "map.tif";
     for (const auto& [mark, value] :
          {std::pair<std::string, float>{"-9999", -9999.0F}, {"-3.4e38", -3.402823e38F}}) {
-        write_geotiff(path, {1, value, 3, -4}, 2, {});
+        write_geotiff(path, std::vector{1.0F, value, 3.0F, -4.0F}, 2, {});
         const Image image = read_image(translated(path, "-a_nodata " + mark, "marked.tif"));
         CHECK(image.has_no_data);
         CHECK(std::isnan(image.values[1]));
