@@ -47,7 +47,7 @@ class LazyBottom {
     const Bottom& get() { return *share(); }
 
     std::shared_ptr<const Bottom> share() {
-        if (!bottom_) bottom_ = std::make_shared<const Bottom>(surface());
+        if (!bottom_) bottom_ = models_.bottom(file(), nodes());
         return bottom_;
     }
 
@@ -101,10 +101,9 @@ class LazyBottom {
         return is_bed ? std::vector<std::string>{seabed_instance} : scene_.bottom;
     }
 
-    Surface surface() const {
-        if (is_ground()) return surface_of(*ground_, models_, nodes());
-        if (!scene_.file.empty())
-            return surface_of(file_of(scene_.file, scene_.mesh, scene_.place), models_, nodes());
+    PlacedFile file() const {
+        if (is_ground()) return *ground_;
+        if (!scene_.file.empty()) return file_of(scene_.file, scene_.mesh, scene_.place);
         const ObjectConfig& first = scene_.objects.front();
         if (!stands_still(first)) {
             throw InputError(first.place.location,
@@ -114,7 +113,7 @@ class LazyBottom {
         PlacedFile file = file_of(first);
         file.T_world_file.translation() = Eigen::Vector3d(first.position_m.data());
         file.T_world_file.linear() = first.scale * attitude_of(first.rpy_deg).toRotationMatrix();
-        return surface_of(file, models_, nodes());
+        return file;
     }
 
     const SceneConfig& scene_;

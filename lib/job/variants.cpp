@@ -1,6 +1,7 @@
 #include "job/variants.h"
 
 #include <algorithm>
+#include <future>
 #include <map>
 #include <stdexcept>
 
@@ -84,8 +85,7 @@ void add(RenderSummary& all, const RenderSummary& one) {
 }
 
 /// InputError for a variant whose objects find no room, before any of the variants is written.
-void require_places(std::span<const Mission* const> variants) {
-    SceneFiles models;
+void require_places(std::span<const Mission* const> variants, SceneFiles& models) {
     for (const Mission* variant : variants) {
         if (variant->scene.scatter.empty()) continue;
         try {
@@ -228,7 +228,8 @@ RenderSummary run_variants(const Mission& mission, std::span<const Mission> vari
         all.skipped += pings.value_or(0);
         if (!pings) todo.push_back(&variants[i]);
     }
-    require_places(todo);
+    SceneFiles models;
+    require_places(todo, models);
     std::optional<ShardLock> lock;
     const auto enter = [&] {
         lock.emplace(folder, options.shard, options.shards);
@@ -241,11 +242,19 @@ RenderSummary run_variants(const Mission& mission, std::span<const Mission> vari
     one_by_one.shards = 1;
     one_by_one.overwrite = false;  // done above
     all.complete = options.files;
-    SceneFiles models;
     Stopwatch watch;
+    // While a variant is rendered, the next one is assembled.
+    const auto when = options.threads == 1 ? std::launch::deferred : std::launch::async;
+    const auto assemble_variant = [&](std::size_t k) {
+        return std::async(when,
+                          [&models, &variant = *todo[k]] { return assemble(variant, models); });
+    };
+    std::future<Assembly> next;
+    if (!todo.empty()) next = assemble_variant(0);
     for (std::size_t k = 0; k < todo.size() && !all.stopped; ++k) {
         const Mission& variant = *todo[k];
-        const Assembly assembly = assemble(variant, models);
+        const Assembly assembly = next.get();
+        if (k + 1 < todo.size()) next = assemble_variant(k + 1);
         if (begin) begin(variant, assembly);
         if (options.files && !lock) enter();  // once the first scene has been read
         const RenderSummary one = run_job(variant, assembly, one_by_one, nullptr, stop);
