@@ -33,7 +33,7 @@ namespace {
 /// glTF files that the variants of a mission share.
 struct SharedModels {
     std::mutex mutex;
-    SceneFiles files;
+    SceneStore files;
 };
 
 /// A mission whose files are read when they are first needed. Its functions may be called by any

@@ -257,7 +257,7 @@ VariantFindings check_variants(const std::vector<Mission>& variants,
     VariantFindings all;
     std::vector<PingCost> costs;
     double set_up_s = 0.0;
-    SceneFiles models;
+    SceneStore models;
     ProgressLine line(arguments.log, "variants");
     for (const Mission& variant : variants) {
         Stopwatch watch;

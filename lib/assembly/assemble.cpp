@@ -23,7 +23,6 @@
 #include "mission/files.h"
 #include "mission/water.h"
 #include "scene/gltf/load.h"
-#include "scene/gltf/scene_files.h"
 #include "scene/maps/ground_maps.h"
 #include "sonar/engine_settings.h"
 #include "sonar/sonar_at_pose.h"
@@ -179,7 +178,7 @@ std::string hash_of(const std::vector<T>& values) {
 }  // namespace
 
 Assembly assemble(const Mission& mission) {
-    SceneFiles models;
+    SceneStore models;
     return assemble(mission, models);
 }
 
@@ -192,7 +191,7 @@ struct PlacedScene {
 };
 
 /// Sets the trajectory and the sonars, and places the scene.
-PlacedScene place(const Mission& mission, const EngineSettings& settings, SceneFiles& models,
+PlacedScene place(const Mission& mission, const EngineSettings& settings, SceneStore& models,
                   Assembly& assembly) {
     ErrorList errors;
     errors.attempt([&] { assembly.trajectory = vehicle_poses(mission); });
@@ -219,12 +218,12 @@ PlacedScene place(const Mission& mission, const EngineSettings& settings, SceneF
 
 }  // namespace
 
-void check_places(const Mission& mission, SceneFiles& models) {
+void check_places(const Mission& mission, SceneStore& models) {
     Assembly assembly;
     place(mission, engine_settings(mission), models, assembly);
 }
 
-Assembly assemble(const Mission& mission, SceneFiles& models) {
+Assembly assemble(const Mission& mission, SceneStore& models) {
     Assembly assembly;
     const EngineSettings settings = engine_settings(mission);
     auto [materials, parts] = place(mission, settings, models, assembly);

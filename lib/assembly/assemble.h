@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "assembly/scene_store.h"
 #include "mission/mission.h"
-#include "scene/gltf/scene_files.h"
 #include "scene/objects.h"
 #include "scene/placing/bottom.h"
 #include "scene/scene.h"
@@ -42,11 +42,11 @@ struct Assembly {
 Assembly assemble(const Mission& mission);
 
 /// The same; `models` may hold files that were read for another mission.
-Assembly assemble(const Mission& mission, SceneFiles& models);
+Assembly assemble(const Mission& mission, SceneStore& models);
 
 /// Finds the place of every object, as assemble() does first. InputError where that fails, as for
 /// objects that find no room.
-void check_places(const Mission& mission, SceneFiles& models);
+void check_places(const Mission& mission, SceneStore& models);
 
 /// The poses of the scene's bodies at a time of the trajectory, world.
 std::vector<Pose> body_poses(const Assembly& assembly, double t_s);

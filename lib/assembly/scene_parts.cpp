@@ -36,7 +36,7 @@ class LazyBottom {
   public:
     /// `ground` is the placed heightmap or seabed, if the scene has one.
     LazyBottom(const SceneConfig& scene, const std::optional<PlacedFile>& ground,
-               SceneFiles& models)
+               SceneStore& models)
         : scene_(scene), ground_(ground), models_(models) {}
 
     /// True if this object is the bottom.
@@ -118,7 +118,7 @@ class LazyBottom {
 
     const SceneConfig& scene_;
     const std::optional<PlacedFile>& ground_;
-    SceneFiles& models_;
+    SceneStore& models_;
     std::shared_ptr<const Bottom> bottom_;
 };
 
@@ -264,7 +264,7 @@ double faster_sound(const Mission& mission) {
 }  // namespace
 
 SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
-                       std::span<const Sonar> sonars, SceneFiles& models) {
+                       std::span<const Sonar> sonars, SceneStore& models) {
     const SceneConfig& scene = mission.scene;
     const Eigen::AlignedBox2d seen =
         ground_in_range(mission, sonars, vehicle, faster_sound(mission));

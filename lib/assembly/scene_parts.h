@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "assembly/scene_store.h"
 #include "mission/mission.h"
-#include "scene/gltf/scene_files.h"
 #include "scene/placed_file.h"
 #include "scene/placing/bottom.h"
 #include "sonar/sonar.h"
@@ -33,6 +33,6 @@ struct SceneParts {
 /// A heightmap or seabed is made where the sonars reach it or objects at rest stand on it. Heights
 /// that the sonars do not resolve are left out, see thin_heights().
 SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
-                       std::span<const Sonar> sonars, SceneFiles& models);
+                       std::span<const Sonar> sonars, SceneStore& models);
 
 }  // namespace sonarsim

@@ -19,7 +19,6 @@
 #include "mission/files.h"
 #include "mission/resolved.h"
 #include "mission/variants.h"
-#include "scene/gltf/scene_files.h"
 #include "sonar/kinds.h"
 
 namespace sonarsim {
@@ -85,7 +84,7 @@ void add(RenderSummary& all, const RenderSummary& one) {
 }
 
 /// InputError for a variant whose objects find no room, before any of the variants is written.
-void require_places(std::span<const Mission* const> variants, SceneFiles& models) {
+void require_places(std::span<const Mission* const> variants, SceneStore& models) {
     for (const Mission* variant : variants) {
         if (variant->scene.scatter.empty()) continue;
         try {
@@ -228,7 +227,7 @@ RenderSummary run_variants(const Mission& mission, std::span<const Mission> vari
         all.skipped += pings.value_or(0);
         if (!pings) todo.push_back(&variants[i]);
     }
-    SceneFiles models;
+    SceneStore models;
     require_places(todo, models);
     std::optional<ShardLock> lock;
     const auto enter = [&] {

@@ -41,7 +41,7 @@ class ColumnFinder {
 
   private:
     const Sonar& sonar_;
-    std::vector<double> sines_;  ///< of the beams' edges
+    std::vector<double> sines_;  ///< sines of the beams' edges
 };
 
 /// T_world_sensor at that pose.

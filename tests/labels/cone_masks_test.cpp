@@ -142,7 +142,7 @@ TEST_SUITE_BEGIN("ping");
 
 TEST_CASE("cone labels: masks of 500 things lie on their echoes" * doctest::skip(test::sanitized)) {
     Uniform draw(7);
-    std::array<Sonar, 3> sonars;
+    std::array<Sonar, spacings.size()> sonars;
     for (const Spacing spacing : spacings)
         sonars[static_cast<std::size_t>(spacing)] = wide_fan(spacing);
     constexpr double noise = 1e-4;  // relative to the brightest bin
@@ -150,7 +150,7 @@ TEST_CASE("cone labels: masks of 500 things lie on their echoes" * doctest::skip
     for (int n = 0; n < 500; ++n) {
         CAPTURE(n);
         const Thing thing = draw_thing(draw);
-        const Sonar& sonar = sonars[static_cast<std::size_t>(n % 3)];
+        const Sonar& sonar = sonars[static_cast<std::size_t>(n) % sonars.size()];
         const View& view = sonar.settings.view;
         const auto engine = make_engine(thing.scene, {.type = EngineKind::slices, .octree = {}});
         const TracedPing traced = trace(sonar, thing.scene, *engine, thing.pose, 0);

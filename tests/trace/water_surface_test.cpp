@@ -117,7 +117,7 @@ TEST_SUITE("ping") {
         Scene scene = empty_scene();
         add_floor(scene, 50.0F, -100.0F, add_material(scene, 0.5F));
         scene.water_surface = {1.0, 0.9F};
-        const Pose up{rotation_from_rpy(0.0, radians(-60.0), 0.0), {}};
+        const Pose up{rotation_from_rpy(0.0, radians(-60.0), 0.0), Eigen::Vector3d::Zero()};
         CHECK(echoes_below(scene, fan(60, 20), clusters_of(5), up).samples.items.empty());
     }
 }

@@ -6,10 +6,8 @@
 
 #include "core/named_at.h"
 #include "scene/gltf/file.h"
-#include "scene/gltf/surface_of.h"
 #include "scene/heightmap/height_model.h"
 #include "scene/meshes/read_mesh.h"
-#include "scene/placing/bottom.h"
 #include "scene/seabed/bed_model.h"
 
 namespace sonarsim {
@@ -20,12 +18,6 @@ tinygltf::Model read_model(const PlacedFile& placed) {
     if (placed.seabed) return bed_model(*placed.seabed);
     if (placed.heightmap) return height_model(placed.file, *placed.heightmap);
     return is_mesh_file(placed.file) ? read_mesh(placed.file) : read_gltf(placed.file);
-}
-
-bool have_same_surface(const PlacedFile& a, const PlacedFile& b) {
-    return a.file == b.file && a.heightmap == b.heightmap && a.seabed == b.seabed &&
-           a.unit_m == b.unit_m && a.z_up == b.z_up &&
-           a.T_world_file.matrix() == b.T_world_file.matrix();
 }
 
 }  // namespace
@@ -40,10 +32,6 @@ struct SceneFiles::Models {
         tinygltf::Model model;
     };
     std::list<Entry> entries;  // a list, so that references stay valid
-
-    PlacedFile bottom_file;
-    std::vector<std::string> bottom_nodes;
-    std::shared_ptr<const Bottom> bottom;
 };
 
 SceneFiles::SceneFiles() : models_(std::make_unique<Models>()) {}
@@ -68,17 +56,6 @@ const tinygltf::Model& SceneFiles::model(const PlacedFile& placed) {
         if (placed.place.file.empty()) throw;
         throw named_at(error, placed.place);
     }
-}
-
-std::shared_ptr<const Bottom> SceneFiles::bottom(const PlacedFile& placed,
-                                                 const std::vector<std::string>& nodes) {
-    if (models_->bottom && models_->bottom_nodes == nodes &&
-        have_same_surface(models_->bottom_file, placed))
-        return models_->bottom;
-    models_->bottom = std::make_shared<const Bottom>(surface_of(placed, *this, nodes));
-    models_->bottom_file = placed;
-    models_->bottom_nodes = nodes;
-    return models_->bottom;
 }
 
 }  // namespace sonarsim

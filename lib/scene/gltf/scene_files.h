@@ -1,8 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
-#include <vector>
 
 #include "scene/placed_file.h"
 
@@ -11,8 +9,6 @@ class Model;
 }
 
 namespace sonarsim {
-
-class Bottom;
 
 /// Reads files of meshes, each only once, and keeps them. Not thread-safe.
 class SceneFiles {
@@ -26,11 +22,6 @@ class SceneFiles {
     /// the mission that names the file. The reference stays valid; a reference to a heightmap or a
     /// seabed only until another one, or another part of it, is read.
     const tinygltf::Model& model(const PlacedFile& placed);
-
-    /// The bottom that the nodes of a file form; no patterns: all nodes. The last one is kept,
-    /// since the variants of a mission often share it.
-    std::shared_ptr<const Bottom> bottom(const PlacedFile& placed,
-                                         const std::vector<std::string>& nodes);
 
   private:
     struct Models;
