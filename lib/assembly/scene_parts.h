@@ -30,8 +30,7 @@ struct SceneParts {
 /// the place in the mission for an object below the bottom or outside it, for one that finds no
 /// room, and for a motion that does not last from the first to the last ping.
 ///
-/// A heightmap or seabed is made where the sonars reach it or objects at rest stand on it. Heights
-/// that the sonars do not resolve are left out, see thin_heights().
+/// A heightmap or seabed is made where the sonars reach it or objects at rest stand on it.
 SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
                        std::span<const Sonar> sonars, SceneStore& models);
 
