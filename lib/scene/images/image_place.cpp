@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
+#include <sstream>
 #include <system_error>
 
 #include "core/file.h"
@@ -16,7 +16,7 @@ namespace {
 
 std::string in_capitals(std::string text) {
     for (char& letter : text)
-        letter = letter >= 'a' && letter <= 'z' ? static_cast<char>(letter - 'a' + 'A') : letter;
+        if (letter >= 'a' && letter <= 'z') letter = static_cast<char>(letter - 'a' + 'A');
     return text;
 }
 
@@ -55,20 +55,16 @@ std::optional<PixelGrid> read_world_file(const std::filesystem::path& image) {
     const std::filesystem::path file = find_world_file(image);
     if (file.empty()) return std::nullopt;
     const Location where{file.string()};
-    const std::string bytes = read_file(file, 10'000);
-    std::string_view rest = bytes;
+    std::istringstream words(read_file(file, 10'000));
     std::array<double, 6> numbers{};
     for (double& number : numbers) {
-        rest = trim(rest);
-        const std::string_view word = rest.substr(0, rest.find_first_of(" \t\r\n"));
-        rest.remove_prefix(word.size());
+        std::string word;
+        words >> word;
         const auto value = parse_number(word);
-        if (!value) {
+        if (!value)
             throw InputError(where,
-                             "is not a world file, which has six numbers: the width of a "
-                             "pixel, 0, 0, its negative height, and x and y of the centre "
-                             "of the first pixel");
-        }
+                             "is not a world file, which has six numbers: the width of a pixel, 0, "
+                             "0, its negative height, and x and y of the first pixel's centre");
         number = *value;
     }
     if (numbers[1] != 0.0 || numbers[2] != 0.0) {
@@ -87,9 +83,9 @@ PixelGrid grid_in_metres(const Image& image, double pixel_m, const std::array<do
         return {0.5 * pixel[0], (image.height - 0.5) * pixel[1], pixel[0], -pixel[1]};
     if (!image.grid) {
         throw InputError(where,
-                         "does not say how large its pixels are: it has no GeoTIFF tags, "
-                         "and no world file lies next to it; write " +
-                             section + ".pixel_m or size_m");
+                         fmt::format("does not say how large its pixels are: no GeoTIFF tags and "
+                                     "no world file; write {0}.pixel_m or {0}.size_m",
+                                     section));
     }
     if (image.in_degrees) {
         throw InputError(where,
@@ -102,11 +98,9 @@ PixelGrid grid_in_metres(const Image& image, double pixel_m, const std::array<do
 PixelWindow pixels_within(const Image& image, const PixelGrid& grid,
                           const Eigen::AlignedBox2d& box_m, std::size_t most,
                           const Location& where) {
-    const auto rows =
-        pixels_between(box_m.min().y(), box_m.max().y(), grid.y_m, grid.row_m, image.height);
-    const auto columns =
-        pixels_between(box_m.min().x(), box_m.max().x(), grid.x_m, grid.column_m, image.width);
-    const PixelWindow window{rows[0], rows[1], columns[0], columns[1]};
+    const PixelWindow window{
+        pixels_between(box_m.min().y(), box_m.max().y(), grid.y_m, grid.row_m, image.height),
+        pixels_between(box_m.min().x(), box_m.max().x(), grid.x_m, grid.column_m, image.width)};
     if (window.width() * window.height() <= most) return window;
     throw InputError(where, fmt::format("the mission needs {} x {} pixels of it, and at most {} "
                                         "have room; make it coarser with gdal_translate -outsize "

@@ -24,19 +24,17 @@ PixelGrid grid_in_metres(const Image& image, double pixel_m, const std::array<do
 
 /// Rows and columns of an image, from the first to before the last.
 struct PixelWindow {
-    int first_row = 0;
-    int last_row = 0;
-    int first_column = 0;
-    int last_column = 0;
+    std::array<int, 2> rows{};
+    std::array<int, 2> columns{};
 
-    std::size_t width() const { return static_cast<std::size_t>(last_column - first_column); }
-    std::size_t height() const { return static_cast<std::size_t>(last_row - first_row); }
+    std::size_t width() const { return static_cast<std::size_t>(columns[1] - columns[0]); }
+    std::size_t height() const { return static_cast<std::size_t>(rows[1] - rows[0]); }
 
     /// Calls use(row, column) for every pixel, row by row.
     template <class Use>
     void for_each(const Use& use) const {
-        for (int row = first_row; row < last_row; ++row) {
-            for (int column = first_column; column < last_column; ++column)
+        for (int row = rows[0]; row < rows[1]; ++row) {
+            for (int column = columns[0]; column < columns[1]; ++column)
                 use(row, column);
         }
     }

@@ -101,9 +101,7 @@ void set_reference(const SonarsimImageHead& head, const std::filesystem::path& p
     image.in_degrees = head.in_degrees != 0;
     if (!image.grid) return;
     const auto& [x_m, y_m, column_m, row_m] = *image.grid;
-    if (std::isfinite(x_m) && std::isfinite(y_m) && std::isfinite(column_m) &&
-        std::isfinite(row_m) && column_m != 0.0 && row_m != 0.0)
-        return;
+    if (std::isfinite(x_m + y_m + column_m + row_m) && column_m != 0.0 && row_m != 0.0) return;
     throw InputError(where, "has no valid pixel size or origin; export it again");
 }
 
@@ -115,7 +113,7 @@ void mark_unknown(const SonarsimImageHead& head, const Location& where, Image& i
     const std::optional<double> mark = parse_number(text);
     if (!mark) {
         throw InputError(where, "has the mark of unknown pixels '" + printable(text) +
-                                    "' (GDAL_NODATA), which is not a number; set it anew, as with "
+                                    "' (GDAL_NODATA), which is not a number; set it again, as with "
                                     "gdal_translate -a_nodata -9999");
     }
     if (std::isnan(*mark)) return;

@@ -38,8 +38,8 @@ TexelFrame for_each_texel(const LaidMapRule& rule, const Image& image, const Use
         use(is_unknown ? nullptr : pixel, row, column);
     });
     // Outer corners of pixels lie half a pixel before their centres.
-    const Eigen::Vector2d corner(grid.x_m + (window.first_column - 0.5) * grid.column_m,
-                                 grid.y_m + (window.first_row - 0.5) * grid.row_m);
+    const Eigen::Vector2d corner(grid.x_m + (window.columns[0] - 0.5) * grid.column_m,
+                                 grid.y_m + (window.rows[0] - 0.5) * grid.row_m);
     return {static_cast<int>(window.width()), static_cast<int>(window.height()), corner - origin,
             Eigen::Vector2d(1.0 / grid.column_m, 1.0 / grid.row_m)};
 }
@@ -52,11 +52,6 @@ std::optional<double> parse_colour(const std::string& text) {
         std::from_chars(text.data() + 1, end, number, 16).ptr != end)
         return std::nullopt;
     return number;
-}
-
-std::string key_text(double key, bool colours) {
-    if (!colours) return number_text(key);
-    return fmt::format("\"#{:06x}\"", static_cast<std::uint32_t>(key));
 }
 
 }  // namespace
@@ -94,7 +89,9 @@ MaterialTexels read_material_map(
         if (colours) key = 65536.0 * key + 256.0 * double{pixel[1]} + double{pixel[2]};
         const auto found = choices.find(key);
         if (found != choices.end()) return out.choice.push_back(found->second);
-        const std::string text = key_text(key, colours);
+        const std::string text = colours
+                                     ? fmt::format("\"#{:06x}\"", static_cast<std::uint32_t>(key))
+                                     : number_text(key);
         throw InputError(
             where, fmt::format("row {}, column {}: {} has no material; add {}: MATERIAL to "
                                "{}.materials{}",
