@@ -43,7 +43,6 @@ def taper(side_lobe_db):
 class Pulse:
     """The effect of a pulse on values. `kind`: "noise" has the spectrum |S|^2, an "echo" of many scatterers |S|^4. An
     echo is shared between two bins before the pulse; "echo of bins": speckle of the ping is drawn for whole bins."""
-
     receiver: dict
     side_lobe_db: float
     kind: str
@@ -171,7 +170,7 @@ def fit_array(measured, covariance, units, sines, statistics):
     found = chi2(fine)
     best = np.unravel_index(np.argmin(found), found.shape)
     near = np.nonzero(found <= found[best] + CHI2_95)
-    half_power = np.array([design[1] for design in designs])
-    width = np.degrees(2.0 * np.arcsin(np.minimum(half_power[:, None] / np.exp(fine), 1.0)))
+    half_power = np.array(designs)[:, 1:]
+    width = np.degrees(2.0 * np.arcsin(np.minimum(half_power / np.exp(fine), 1.0)))
     return (Bounded(width[best], width[near].min(), width[near].max()),
             Bounded(TAPERS_DB[best[0]], TAPERS_DB[near[0]].min(), TAPERS_DB[near[0]].max()))

@@ -26,9 +26,8 @@ class Figure(typing.NamedTuple):
 
 def classified(recording, law, noise, receiver):
     """(patches of log powers less the level of the noise, numbers of noise patches, of echo patches). Patches are
-    noise if all their rows are blocks of `noise` without echoes and zeros, and outside of
-    the middle quarter if all elements share noise, which acts like a wave from there. Even patches 6 dB above the
-    noise are echoes; without `noise`, all even ones."""
+    noise if all their rows are blocks of `noise` without echoes and zeros, outside of the middle quarter if all elements
+    share noise, which acts like a wave from there. Even patches 6 dB above the noise, or without `noise` all, are echoes."""
     level = (noise.at(recording.ranges_m) if noise else np.zeros(recording.values.shape[1]))[:, None] / DB_OF_E
     patches = Patches(recording.values, law.full_value, lambda ping: law.log_power(ping) - level)
     is_noise = np.zeros(len(patches.place), bool)
@@ -70,9 +69,8 @@ def figures_of(recording, instrument, level_db, start, fit):
             count, coefficient, variance = (weights @ sums).T
             return np.stack([coefficient / count, to_shape / np.sqrt(variance / count)], axis=1)
         measured = bootstrap(patches.places, distribution, draws=DRAWS)
-        shape = to_shape / np.sqrt(statistics.variance)
         out += [Figure(f"{where}: variation of the amplitude", 0.1, float(statistics.variation), measured[0]),
-                Figure(f"{where}: Weibull shape of the amplitude", 0.1, float(shape), measured[1])]
+                Figure(f"{where}: Weibull shape of the amplitude", 0.1, to_shape / statistics.variance**0.5, measured[1])]
         measured = bootstrap(patches.places, patches.correlations(chosen), draws=DRAWS)
         predicted = [pulse.correlations(bins)]
         if recording.bearing_rad is not None and len(recording.bearing_rad) > LAGS:

@@ -59,8 +59,7 @@ def fit_law(values, full_value, statistics, places=None, offset=0.0, is_log=None
     logs = Patches(values, full_value, lambda ping: np.log(floored(ping, full_value, offset)))
     # In logarithms no law makes strong patches uneven. Only a logarithm cuts off as much as `loose` allows.
     strict, loose = logs.even(places), logs.even(places, MOST_ZEROS)
-    even = loose if is_log or len(strict) < LEAST_PATCHES else strict
-    require_patches(even)
+    require_patches(even := loose if is_log or len(strict) < LEAST_PATCHES else strict)
     if is_log is None:
         skewness = [moments_of(of, even)[1] for of in (logs, plain)]
         check_speckle(logs, even, skewness, statistics.skewness)
@@ -89,7 +88,7 @@ def require_patches(chosen):
 def moments_of(patches, chosen, left=1.0):
     """The standard deviation and the skewness of patches, of whose variances these shares are left."""
     ones = np.ones(len(patches.place))
-    sums = patches.sums(chosen, ones, left * ones, patches.variance, patches.third)
+    sums = patches.sums(chosen, ones, left * ones, patches.whole_variance(chosen), patches.third)
 
     def moments(weights):
         count, left, variance, third = (weights @ sums).T

@@ -50,8 +50,7 @@ def noise_blocks(recording, law):
     range_m = recording.first_range_m + (row + 0.5 * (ROWS - 1)) * recording.range_step_m
     homogeneous = (zeros < 0.003) & np.where(echo, single, even) & np.isfinite(level_db)
     columns = row, range_m, level_db, homogeneous, ~echo, ~law.cuts_off(np.exp(level_db / DB_OF_E))
-    names = "row,range_m,level_db,homogeneous,without_echo,without_zeros"
-    return np.rec.fromarrays(columns, names=names)[range_m > 0.0]
+    return np.rec.fromarrays(columns, names="row,range_m,level_db,homogeneous,without_echo,without_zeros")[range_m > 0.0]
 
 
 def spread_of_groups(sums, group):
@@ -69,7 +68,6 @@ def spread_of_groups(sums, group):
 @dataclasses.dataclass
 class Noise:
     """The noise after the gain, re full scale: level_db + tvg_log log10(r) + 2 absorption r, r at least from_m."""
-
     level_db: Bounded           # extrapolated to 1 m without absorption
     tvg_log: Bounded
     from_m: float

@@ -26,21 +26,22 @@ class Patches:
         # A gain that grows with range changes the values half a patch apart: the same in all patches of these ranges.
         slope = np.bincount(self.row, self.slope) / np.maximum(np.bincount(self.row), 1)
         self.variance = np.maximum(self.variance - 0.5 * slope[self.row] ** 2, 0.0)
-        # Of all pings at a place: a patch chosen by its own few zeros would lack low values by chance.
-        self.zeros = np.bincount(self.place, self.at_zero, self.places)[self.place] / pings
+        self.between -= slope[self.row] ** 2 / (3.0 if columns > 1 else 2.0)
+        # Of all pings at a place: a patch chosen by its own zeros would lack low values, by its own variance have more.
+        self.zeros, usual = (np.bincount(self.place, x)[self.place] / pings for x in (self.at_zero, self.variance))
+        self.unevenness = self.between / np.maximum(usual, 1e-30)
 
     def moments(self, ping, scaled):
         (rows, columns), (values, x) = self.shape, (self.grid.cut(np.asarray(one, float)) for one in (ping, scaled))
         middle, half = (rows + 1) // 2, max(columns // 2, 1)
         quarters = [x[:, a, b].mean(axis=(1, 2)) for a in (slice(middle), slice(middle, None))
                     for b in (slice(half), slice(half, None)) if x[:, a, b].size]
-        variance = structure(x, rows // 2, columns // 2)
         return {"mean_value": values.mean(axis=(1, 2)), "mean": x.mean(axis=(1, 2)),
                 "at_zero": (values <= 0.0).mean(axis=(1, 2)), "at_full": (values >= self.full_value).mean(axis=(1, 2)),
-                "variance": variance, "slope": slope_of(x, rows // 2), "third": third_moment(x),
+                "variance": structure(x, rows // 2, columns // 2), "slope": slope_of(x, rows // 2), "third": third_moment(x),
                 "along_range": np.stack([structure(x, lag, 0) for lag in range(1, LAGS + 1)], axis=1),
                 "along_beams": np.stack([structure(x, 0, lag) for lag in range(1, LAGS + 1)], axis=1),
-                "unevenness": np.var(quarters, axis=0) / np.maximum(variance, 1e-30)}
+                "between": np.var(quarters, axis=0) * len(quarters) / max(len(quarters) - 1, 1)}
 
     def even(self, places=None, most_zeros=MOST_AT_AN_END):
         """The numbers of the more even half of the patches without clipped and missing values, at some places."""
@@ -52,6 +53,19 @@ class Patches:
         chosen = np.flatnonzero(good)
         order = np.argsort(self.unevenness[chosen], kind="stable")
         return np.sort(chosen[order[:(len(chosen) + 1) // 2]])
+
+    def whole_variance(self, chosen):
+        """The variances with the part between the quarters' means that speckle has: the quarters of even patches are more
+        alike. The mean of n values with correlations r_k has (1 + 2 sum (1 - k / n) r_k) / n of their variance."""
+        halves = np.maximum(np.array(self.shape)[:, None] // 2, 1)
+        weights = 2.0 * np.maximum(1.0 - np.arange(1, LAGS + 1) / halves, 0.0)
+        structures = 1.0 - self.correlations(chosen)(np.ones((1, self.places)))[0]
+        within = (self.variance - self.between)[chosen].sum() / self.variance[chosen].sum()
+        whole = 1.0
+        for _ in range(4):      # correlations are 1 - structure / whole variance
+            share = np.prod((1.0 + np.nansum(weights * (1.0 - structures / whole), axis=1)) / halves[:, 0])
+            whole = within / (1.0 - min(share, 0.5))
+        return whole * self.variance
 
     def sums(self, chosen, *columns):
         """The sums of columns over the chosen patches of each place, [place, column]."""

@@ -14,7 +14,6 @@ class CalibrationError(ValueError):
 
 class Bounded(typing.NamedTuple):
     """A number with the interval that holds the true one in 95 of 100 cases."""
-
     value: float
     low: float
     high: float
@@ -53,7 +52,6 @@ def bootstrap(count, estimate, least=0.0, draws=80):
 class LogStatistics:
     """ln P of the mean power P of n independent looks, which is gamma distributed with shape n. A law P^(g / 2) or
     a + b ln P scales and shifts ln P, so its skewness and its correlations do not depend on the law."""
-
     def __init__(self, looks=1):
         self.looks = looks
         self.mean = special.digamma(looks) - np.log(looks)

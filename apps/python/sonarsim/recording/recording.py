@@ -15,7 +15,6 @@ MOST_POWER = 1e30           # a float32 holds it, and a double its cube
 @dataclasses.dataclass
 class Law:
     """The law from the amplitude A of an echo to a value."""
-
     kind: str = "amplitude"     # amplitude: value ~ A; power: A^2; gamma: A^exponent; decibel: 20 log A
     exponent: float = 0.5       # of gamma
     range_db: float = 0.0       # of decibel: from the value 0 to full_value
