@@ -1,13 +1,13 @@
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <vector>
 
 #include "mission/value_types.h"
 
 namespace sonarsim {
 
-/// The base of a visitor of the keys in schema.h. It passes keys with one value to the visitor's
+/// The base of a visitor of the keys in mission.h. It passes keys with one value to the visitor's
 /// method value(key, value, type, meaning, presence).
 template <class Visitor>
 class KeyVisitor {
@@ -36,14 +36,13 @@ class KeyVisitor {
         self().value(key, values, ArrayType{limits}, meaning, presence);
     }
     template <class T, std::size_t N>
-    void choice(const char* key, T& value, const std::array<Choice<T>, N>& choices,
-                const char* meaning, Presence presence = Presence::optional) {
-        self().value(key, value, ChoiceType<T, N>{choices}, meaning, presence);
+    void choice(const char* key, T& value, const Choice<T> (&choices)[N], const char* meaning) {
+        self().value(key, value, ChoiceType<T>{choices}, meaning, Presence::optional);
     }
     template <class T, std::size_t N>
-    void subset(const char* key, std::vector<T>& values, const std::array<Choice<T>, N>& choices,
+    void subset(const char* key, std::vector<T>& values, const Choice<T> (&choices)[N],
                 const char* meaning) {
-        self().value(key, values, SubsetType<T, N>{choices}, meaning, Presence::optional);
+        self().value(key, values, SubsetType<T>{choices}, meaning, Presence::optional);
     }
 
   private:

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -48,11 +46,11 @@ struct Choice {
     T value;
 };
 
-template <class T, std::size_t N>
-std::vector<std::string> names_of(const std::array<Choice<T>, N>& choices) {
+/// The names of an array of choices.
+template <class Choices>
+std::vector<std::string> names_of(const Choices& choices) {
     std::vector<std::string> names;
-    names.reserve(N);
-    for (const Choice<T>& one : choices)
+    for (const auto& one : choices)
         names.emplace_back(one.name);
     return names;
 }

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "mission/document.h"
-#include "mission/ground_map_config.h"
+#include "mission/ground_map_keys.h"
 #include "mission/limits.h"
 #include "mission/variation_keys.h"
 

@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "mission/key_visitor.h"
-#include "mission/schema.h"
+#include "mission/mission.h"
 
 namespace sonarsim {
 

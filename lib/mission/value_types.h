@@ -7,13 +7,14 @@
 #include <filesystem>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
 
 #include "core/text.h"
 #include "mission/document.h"
-#include "mission/ground_map_config.h"
+#include "mission/ground_map_keys.h"
 #include "mission/limits.h"
 #include "mission/node_values.h"
 #include "mission/variation_keys.h"
@@ -204,9 +205,9 @@ struct PathType {
 };
 
 /// One of some names.
-template <class T, std::size_t N>
+template <class T>
 struct ChoiceType {
-    const std::array<Choice<T>, N>& choices;
+    std::span<const Choice<T>> choices;
 
     void read(const YamlNode& node, const char* key, T& value) const {
         value = choices[index_of(node, key, names_of(choices))].value;
@@ -218,14 +219,14 @@ struct ChoiceType {
 };
 
 /// `true` for all names, `false` for none, or a list of some.
-template <class T, std::size_t N>
+template <class T>
 struct SubsetType {
-    const std::array<Choice<T>, N>& choices;
+    std::span<const Choice<T>> choices;
 
     void read(const YamlNode& node, const char* key, std::vector<T>& values) const {
         const std::vector<bool> chosen = chosen_of(node, key, names_of(choices));
         values.clear();
-        for (std::size_t i = 0; i < N; ++i) {
+        for (std::size_t i = 0; i < chosen.size(); ++i) {
             if (chosen[i]) values.push_back(choices[i].value);
         }
     }

@@ -118,9 +118,9 @@ scene:
 sensors: {side: {kind: sidescan, range_min_m: 2.5, range_max_m: 8, range_bins: 55}}
 output: {folder: out, labels: [material, clean]}
 """
-    QUARTERS = ('  sediment_map: {file: quarters.png, size_m: [20, 20], origin_m: [10, 10],\n'
+    QUARTERS = ('  sediment_map: {file: quarters.png, pixel_m: 10, origin_m: [10, 10],\n'
                 '    materials: {1: north_west, 2: north_east, 3: south_west, 4: Concrete}}\n')
-    DECIBELS = '  backscatter_map: {file: db.png, size_m: [20, 20], origin_m: [10, 10]%s}\n'
+    DECIBELS = '  backscatter_map: {file: db.png, pixel_m: 10, origin_m: [10, 10]%s}\n'
 
     def setUp(self):
         super().setUp()
@@ -153,7 +153,7 @@ output: {folder: out, labels: [material, clean]}
             self.assertAlmostEqual(10 * math.log10(found / before), db, delta=0.01)
         # The same place by a world file, whose coordinates are those of a pixel's centre.
         self.write("quarters.wld", "10\n0\n0\n-10\n4995\n8005\n")
-        self.assert_materials(self.QUARTERS.replace("size_m: [20, 20], origin_m: [10, 10]", "origin_m: [5000, 8000]"), *places)
+        self.assert_materials(self.QUARTERS.replace("pixel_m: 10, origin_m: [10, 10]", "origin_m: [5000, 8000]"), *places)
 
     @unittest.skipIf(shutil.which("gdal_translate") is None, "needs gdal-bin")
     def test_no_data(self):

@@ -25,7 +25,7 @@ template <class Use>
 TexelFrame for_each_texel(const LaidMapRule& rule, const Image& image, const Use& use) {
     const Location where{rule.file.string()};
     const Eigen::Vector2d origin(rule.origin_m[0], rule.origin_m[1]);
-    const PixelGrid grid = grid_in_metres(image, rule.pixel_m, rule.size_m, rule.section, where);
+    const PixelGrid grid = grid_in_metres(image, rule.pixel_m, rule.section, where);
     const PixelWindow window =
         pixels_within(image, grid, {rule.needed_m.min() + origin, rule.needed_m.max() + origin},
                       most_texels, where);

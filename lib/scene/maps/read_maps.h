@@ -16,8 +16,7 @@ namespace sonarsim {
 /// The place of a map's image.
 struct LaidMapRule {
     std::filesystem::path file = {};
-    double pixel_m = 0.0;               ///< size of a pixel; 0: by size_m, or by the file
-    std::array<double, 2> size_m{};     ///< extent of the map; 0: by pixel_m, or by the file
+    double pixel_m = 0.0;               ///< size of a pixel; 0: by the file
     std::array<double, 2> origin_m{};   ///< point of the map that is the world's (0, 0)
     std::string section = {};           ///< section of the mission, for messages
     Eigen::AlignedBox2d needed_m = {};  ///< the part that is kept, world x and y

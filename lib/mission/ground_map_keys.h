@@ -1,26 +1,51 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
 
-#include "mission/ground_map_config.h"
+#include "core/error.h"
 #include "mission/limits.h"
 
-// The keys of the maps that are laid on the ground. As in mission/schema.h.
+// The keys of the maps that are laid on the ground, with their defaults and their descriptions as
+// in mission.h.
 
 namespace sonarsim {
+
+/// Pairs of a name and its replacement, in the order of the file.
+using Renaming = std::vector<std::pair<std::string, std::string>>;
+
+/// An image that is laid on the ground from above.
+struct LaidMapConfig {
+    std::filesystem::path file;
+    double pixel_m = 0.0;              ///< size of a pixel; 0: by the file
+    std::array<double, 2> origin_m{};  ///< point of the map that is the world's (0, 0)
+    Location place = {};
+};
+
+/// An image whose pixels are materials.
+struct SedimentMapConfig {
+    LaidMapConfig laid;
+    Renaming materials;  ///< from a pixel's value or its colour to a material
+};
+
+/// An image whose pixels are decibels.
+struct BackscatterMapConfig {
+    LaidMapConfig laid;
+    double scale_db = 1.0;  ///< decibels of a step of the pixels' values
+    double offset_db = 0.0;
+};
 
 /// The keys that say where an image lies.
 template <class Visitor, class Config>
 void describe_image_place(Visitor& v, Config& c) {
     v.number("pixel_m", c.pixel_m, above(0),
-             "size of a pixel; `auto` takes the GeoTIFF tags or the world file, which "
-             "pixel_m and size_m replace",
-             or_auto);
-    v.array("size_m", c.size_m, above(0),
-            "extent of the map along x and y, from edge to edge, instead of pixel_m");
+             "size of a pixel; `auto` takes the GeoTIFF tags or the world file", or_auto);
     v.array("origin_m", c.origin_m, any_position_m,
             "the point of the map, in its own coordinates, that becomes x = 0, y = 0 of the "
-            "mission. With pixel_m or size_m they begin at the map's south-west corner");
+            "mission. With pixel_m they begin at the map's south-west corner");
 }
 
 template <class Visitor>
@@ -28,8 +53,6 @@ void describe_laid_map(Visitor& v, LaidMapConfig& c) {
     v.path("file", c.file, "an image, PNG, TIFF (GeoTIFF) or OpenEXR, whose first row is the north",
            required);
     describe_image_place(v, c);
-    v.require(c.pixel_m == 0.0 || !c.size_m, {"pixel_m", "size_m"},
-              "give pixel_m or size_m, not both");
 }
 
 template <class Visitor>
