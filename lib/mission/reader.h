@@ -43,7 +43,7 @@ class MissionReader : public KeyVisitor<MissionReader> {
         constexpr bool is_number = std::is_same_v<Type, NumberType> || requires {
             std::tuple_size<T>::value;
         };
-        if constexpr (is_number) numbers_.emplace_back(key, type.yaml(value));
+        if constexpr (is_number) numbers_.emplace_back(key, yaml_of(type, value));
     }
 
     template <class T>
