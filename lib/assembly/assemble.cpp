@@ -21,7 +21,6 @@
 #include "core/sha256.h"
 #include "core/text.h"
 #include "mission/files.h"
-#include "mission/water.h"
 #include "scene/gltf/load.h"
 #include "scene/maps/ground_maps.h"
 #include "sonar/engine_settings.h"

@@ -102,29 +102,26 @@ void lay_ground_maps(const SceneConfig& config, const MaterialTable& table, cons
     std::optional<StrengthTexels> strengths;
     if (config.sediment_map) {
         const std::string section = "scene.sediment_map";
-        const LaidMapConfig& laid = config.sediment_map->laid;
-        const auto of_scene =
-            add_materials(config.sediment_map->materials, table, laid.place, scene);
+        const SedimentMapConfig& map = *config.sediment_map;
+        const auto of_scene = add_materials(map.materials, table, map.place, scene);
         resolve_materials(scene, table, water);
-        materials = read_map(laid, [&] {
-            return read_material_map(rule_of(laid, section, scene), read_image(laid.file),
-                                     of_scene);
+        materials = read_map(map, [&] {
+            return read_material_map(rule_of(map, section, scene), read_image(map.file), of_scene);
         });
         warn_of_place(materials->frame, section, scene);
     }
     if (config.backscatter_map) {
         const std::string section = "scene.backscatter_map";
-        const BackscatterMapConfig& map = *config.backscatter_map;
-        strengths = read_map(map.laid, [&] {
-            return read_strength_map(rule_of(map.laid, section, scene), read_image(map.laid.file),
-                                     map.scale_db, map.offset_db);
+        const LaidMapConfig& map = *config.backscatter_map;
+        strengths = read_map(map, [&] {
+            return read_strength_map(rule_of(map, section, scene), read_image(map.file));
         });
         warn_of_place(strengths->frame, section, scene);
         if (!strengths->factor.empty() &&
             std::ranges::all_of(strengths->factor, [](float x) { return x == 1.0F; })) {
             scene.warnings.push_back(section +
                                      " changes nothing: each of its pixels is unknown or "
-                                     "0 dB; check scale_db and offset_db");
+                                     "0 dB; check its values");
         }
     }
     scene.maps = std::make_shared<const GroundMaps>(std::move(materials), std::move(strengths),

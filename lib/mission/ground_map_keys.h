@@ -17,7 +17,7 @@ namespace sonarsim {
 /// Pairs of a name and its replacement, in the order of the file.
 using Renaming = std::vector<std::pair<std::string, std::string>>;
 
-/// An image that is laid on the ground from above.
+/// An image that is laid on the ground from above. Pixels of a backscatter map are decibels.
 struct LaidMapConfig {
     std::filesystem::path file;
     double pixel_m = 0.0;              ///< size of a pixel; 0: by the file
@@ -26,16 +26,8 @@ struct LaidMapConfig {
 };
 
 /// An image whose pixels are materials.
-struct SedimentMapConfig {
-    LaidMapConfig laid;
+struct SedimentMapConfig : LaidMapConfig {
     Renaming materials;  ///< from a pixel's value or its colour to a material
-};
-
-/// An image whose pixels are decibels.
-struct BackscatterMapConfig {
-    LaidMapConfig laid;
-    double scale_db = 1.0;  ///< decibels of a step of the pixels' values
-    double offset_db = 0.0;
 };
 
 /// The keys that say where an image lies.
@@ -49,7 +41,7 @@ void describe_image_place(Visitor& v, Config& c) {
 }
 
 template <class Visitor>
-void describe_laid_map(Visitor& v, LaidMapConfig& c) {
+void describe(Visitor& v, LaidMapConfig& c) {
     v.path("file", c.file, "an image, PNG, TIFF (GeoTIFF) or OpenEXR, whose first row is the north",
            required);
     describe_image_place(v, c);
@@ -57,19 +49,12 @@ void describe_laid_map(Visitor& v, LaidMapConfig& c) {
 
 template <class Visitor>
 void describe(Visitor& v, SedimentMapConfig& c) {
-    describe_laid_map(v, c.laid);
+    describe(v, static_cast<LaidMapConfig&>(c));
     v.text("materials", c.materials,
            "the material of each value, as {1: sand, 2: gravel}, or of each colour, as "
            "{\"#c8b478\": sand}");
     v.require(!c.materials.empty(), {"materials"},
               "'materials' must name the material of each value of the image, as {1: sand}");
-}
-
-template <class Visitor>
-void describe(Visitor& v, BackscatterMapConfig& c) {
-    describe_laid_map(v, c.laid);
-    v.number("scale_db", c.scale_db, {-1000, 1000}, "decibels for each step of the pixels' values");
-    v.number("offset_db", c.offset_db, {-1000, 1000}, "decibels of the value 0");
 }
 
 }  // namespace sonarsim

@@ -171,4 +171,14 @@ void describe(Visitor& v, Mission& c) {
               "its rules");
 }
 
+/// True if the water scatters sound back to some sonar.
+inline bool some_water_scatters(const Mission& mission) {
+    const bool is_usual = mission.water.content == WaterContent::automatic;
+    return scatters(mission.water) ||
+           std::ranges::any_of(mission.sensors, [&](const SonarConfig& sensor) {
+               return is_usual && sensor.model == ModelKind::calibrated &&
+                      sensor.instrument.usual_water != WaterContent::none;
+           });
+}
+
 }  // namespace sonarsim

@@ -14,7 +14,6 @@
 #include "mission/ping_draws.h"
 #include "mission/preset.h"
 #include "mission/reader.h"
-#include "mission/water.h"
 
 namespace sonarsim {
 
@@ -66,12 +65,6 @@ void check_rules(const Mission& mission) {
 }
 
 }  // namespace
-
-Mission load_mission(const std::filesystem::path& file, std::span<const std::string> overrides,
-                     SonarKeyTable sonars) {
-    return parse_mission(read_file(file, largest_file), file.string(), file.parent_path(),
-                         overrides, sonars);
-}
 
 Mission parse_mission(std::string_view text, const std::string& file_name,
                       const std::filesystem::path& base_folder,

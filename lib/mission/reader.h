@@ -109,7 +109,6 @@ class MissionReader : public KeyVisitor<MissionReader> {
         errors_.attempt([&] {
             MissionReader reader(node, std::move(name), base_folder_, sonars_, errors_);
             if constexpr (requires { value.place; }) value.place = node.place.location();
-            if constexpr (requires { value.laid; }) value.laid.place = node.place.location();
             describe(reader, value);
             reader.finish();
         });

@@ -92,6 +92,8 @@ inline constexpr RemovedKey removed_keys[] = {
     {"labels", "semantic", "write labels: [class], whose files hold the same ids"},
     {"scene objects scatter", "materials_map", "name the file's materials in the CSV"},
     {"heightmap sediment_map backscatter_map", "size_m", "write pixel_m, the size of a pixel"},
+    {"backscatter_map", "scale_db offset_db",
+     "write decibels into the file: gdal_translate -ot Float32 -scale"},
     {"rocks", "class", "rocks have the class rock; write a rule of `classes` for the nodes rock_*"},
 };
 

@@ -70,15 +70,11 @@ struct ScatterConfig {
 };
 
 /// An image whose pixels are heights, which becomes the bottom.
-struct HeightmapConfig {
-    std::filesystem::path file;
-    double pixel_m = 0.0;              ///< size of a pixel; 0: by the file
-    std::array<double, 2> origin_m{};  ///< point of the map that is the world's (0, 0)
-    double height_scale = 1.0;         ///< metres of a step of the pixels' values
+struct HeightmapConfig : LaidMapConfig {
+    double height_scale = 1.0;  ///< metres of a step of the pixels' values
     double height_offset_m = 0.0;
     std::string material;
     std::string class_name;
-    Location place = {};
 };
 
 /// The instance that a heightmap makes.
@@ -99,7 +95,7 @@ struct SceneConfig {
     std::vector<std::string> bottom = {};  ///< patterns of the nodes of `file` that objects rest on
     std::optional<HeightmapConfig> heightmap = {};
     std::optional<SedimentMapConfig> sediment_map = {};
-    std::optional<BackscatterMapConfig> backscatter_map = {};
+    std::optional<LaidMapConfig> backscatter_map = {};
     std::optional<SeabedConfig> seabed = {};
     std::vector<ObjectConfig> objects = {};
     std::vector<ScatterConfig> scatter = {};

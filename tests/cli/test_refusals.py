@@ -194,7 +194,8 @@ REFUSED = (
      "one channel of numbers, and scene.sediment_map.materials has '#102030'; write 7: MATERIAL"),
     (sediments("bottom: [sand]\n  ", ""), "mission.yaml:3:3: maps need ground to lie on; write scene.bottom: [NAME]"),
     (sediments("pixel_m: 50, ", ""), "quarters.png: does not say how large its pixels are", "scene.sediment_map.pixel_m"),
-    (decibels(", scale_db: 200"), "quarters.png: row 0, column 0: 1 makes 200 dB, and at most 100 are believed"),
+    (decibels("") | {"quarters.png": png([[200]])}, "quarters.png: row 0, column 0: 200 dB, and at most 100 are believed"),
+    (decibels(", scale_db: 2"), "'scale_db' is no longer there; write decibels into the file"),
     (decibels("") | {"quarters.png": png([[1, 2, 3, 4]], channels=4)}, "has 4 channels, and a map of decibels has one"),
     (ground("seabed: {cell_m: 0.5}"), "the seabed has no material; write scene.seabed.material"),
     (seabed(", ripples: {length_m: 1.9, height_m: 0.1}"), "ripples need 4 cells from crest to crest; lower cell_m"),
@@ -236,7 +237,7 @@ WARNED = (
      "'b'; these may lie behind"),
     (edited("output:", "vary: [{key: sensors.fls.mount.rpy_deg.2, uniform: [175, 185], per: ping}]\noutput:", "[20, 4, 0.3]",
             "[20, 38, 0.3]"), "W21", "'mine'; move these"),
-    (decibels(", scale_db: 0"), None, "scene.backscatter_map changes nothing: each of its pixels is unknown or 0 dB"),
+    (decibels("") | {"quarters.png": png([[0]])}, None, "scene.backscatter_map changes nothing: each of its pixels is unknown or 0 dB"),
     (edited("  objects:\n", "  bottom: [sand]\n  backscatter_map: {file: quarters.png, pixel_m: 4.5, origin_m: "
             "[1000, 5]}\n  objects:\n"), None, "scene.backscatter_map lies outside the scene and changes nothing: the map has x"),
     (edited("scene:\n", "scene:\n  water_surface: {height_m: 9}\n"), None, "scene.water_surface has no effect"),

@@ -105,21 +105,20 @@ TEST_CASE("the name of a mission cannot leave the output folder") {
 }
 
 TEST_CASE("load_mission reads a file and refuses what is none") {
-    const std::vector<std::string> none;
     const auto folder = std::filesystem::temp_directory_path() / "sonarsim_mission_test";
     std::filesystem::create_directories(folder);
     const auto file = folder / "harbour.v2.yaml";
     std::ofstream(file) << smallest_mission;
-    const Mission mission = load_mission(file, none, sonar_keys());
+    const Mission mission = load_mission({file, folder}, sonar_keys());
     CHECK(mission.name == "harbour.v2");
     CHECK(mission.scene.file == folder / "a.glb");
 
     std::ofstream(file) << std::string((1U << 20) + 1, '#');
     CHECK_THROWS_WITH_AS(
-        load_mission(file, none, sonar_keys()),
+        load_mission({file, folder}, sonar_keys()),
         (file.string() + ": is 1048577 bytes long; at most 1048576 are read").c_str(), InputError);
-    CHECK_THROWS_AS(load_mission(folder, none, sonar_keys()), InputError);
-    CHECK_THROWS_AS(load_mission(folder / "missing.yaml", none, sonar_keys()), InputError);
+    CHECK_THROWS_AS(load_mission({folder, folder}, sonar_keys()), InputError);
+    CHECK_THROWS_AS(load_mission({folder / "missing.yaml", folder}, sonar_keys()), InputError);
     std::filesystem::remove_all(folder);
     CHECK(refusal(std::string((1U << 20) + 1, '#')) == "m.yaml: is larger than 1 MiB");
 }

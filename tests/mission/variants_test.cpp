@@ -114,8 +114,8 @@ TEST_CASE("variants are missions with other seeds and values") {
                          "  - {key: water.density_kg_m3, uniform: [990, 1030], per: dataset}\n"
                          "  - {key: trajectory, choice: [{file: b.tum}]}\n");
     const auto draw = [&](const std::vector<std::string>& overrides) {
-        const Mission mission = load_mission(file, overrides, sonar_keys());
-        return draw_variants(mission, {file, folder.path, overrides}, sonar_keys());
+        const MissionSource source{file, folder.path, overrides};
+        return draw_variants(load_mission(source, sonar_keys()), source, sonar_keys());
     };
     const std::vector<Mission> four = draw({"output.folder=/out"});
     REQUIRE(four.size() == 4);

@@ -30,9 +30,8 @@ MaterialTexels read_material_map(
     const LaidMapRule& rule, const Image& image,
     const std::vector<std::pair<std::string, std::uint32_t>>& materials);
 
-/// A map of decibels, from an image of one channel, or one and alpha: scale_db times the pixel's
-/// value plus offset_db. Throws as the above, and for more than 100 dB.
-StrengthTexels read_strength_map(const LaidMapRule& rule, const Image& image, double scale_db,
-                                 double offset_db);
+/// A map of decibels, from an image of one channel, or one and alpha. Throws as the above, and for
+/// more than 100 dB.
+StrengthTexels read_strength_map(const LaidMapRule& rule, const Image& image);
 
 }  // namespace sonarsim
