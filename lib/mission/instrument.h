@@ -13,8 +13,6 @@
 
 namespace sonarsim {
 
-// The instrument that `model: calibrated` simulates, with its defaults. Names are the YAML keys.
-
 /// The volume scattering of the water, by its content. `automatic`: the usual water of each
 /// instrument.
 enum class WaterContent { automatic, none, clear, coastal, plankton, plume };

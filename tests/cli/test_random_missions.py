@@ -226,6 +226,12 @@ def write_mission(draw, keys, folder):
     kinds = next(key["choices"] for key in keys["sensors.NAME"] if key["name"] == "kind")
     mission["sensors"] = {f"s{i}": sensor(draw, keys, draw.choice(kinds), size, wild)
                           for i in range(draw.choice([1, 1, 2]))}
+    # What is refused by rule is a matter of test_refusals.py.
+    if any(s.get("model") == "calibrated" for s in mission["sensors"].values()) and mission["engine"] == "octree":
+        mission["engine"] = "rays"
+    if profile := mission.get("water", {}).get("profile"):
+        profile["named"] = draw.choice(["isothermal", "mixed_layer", "summer"])
+        mission["scene"]["water_surface"] = {"height_m": at[2] + 3 * size}
     output = mission.setdefault("output", {})
     output["folder"] = "out"
     # The finest goals and the widest images together are long work, and no fault.
