@@ -88,7 +88,7 @@ def section(draw, keys, path, wild, share, kind=None):
         name, what = key["name"], key["type"]
         if what in ("number", "whole number"):
             out[name] = number(draw, key, wild)
-        elif what.endswith(" numbers") and what != "list of numbers":
+        elif what.endswith(" numbers"):
             one = {**key, "type": "number", "default": 1.0}
             out[name] = [number(draw, one, wild) for _ in range(int(what.split()[0]))]
         elif what == "true or false":
