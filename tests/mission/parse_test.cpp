@@ -22,7 +22,8 @@ TEST_CASE("what a mission leaves out takes the defaults of the structs") {
     Mission defaults = mission;
     defaults.water = {};
     defaults.accuracy = {};
-    defaults.sensors = {SonarConfig{.name = "fls"}};
+    defaults.sensors[0] = {};
+    defaults.sensors[0].name = "fls";
     CHECK(yaml_of(mission) == yaml_of(defaults));
 }
 

@@ -54,7 +54,7 @@ TEST_CASE("the keys of a composed scene") {
     CHECK(scene.scatter[0].yaw_deg == std::array{7.0, 7.0});
     CHECK(scene.scatter[1].files == std::vector<std::filesystem::path>{"/base/t.glb"});
     CHECK(scene.scatter[1].yaw_deg == std::array{0.0, 360.0});
-    CHECK(scene.water_surface == WaterSurfaceConfig{3.0, 0.2});
+    CHECK(scene.water_surface->roughness == 0.2);
     CHECK(mission.vary[1].choice.items == std::vector<std::string>{"\"w.glb\"", "\"x y.glb\""});
     CHECK(files_of(mission) ==
           std::vector<std::filesystem::path>{"/base/a.glb", "/base/a.csv", "/base/w.glb",
