@@ -140,9 +140,8 @@ void describe(Visitor& v, Mission& c) {
                                                   return s.model == ModelKind::calibrated;
                                               }),
               {"scene", "sensors"},
-              "scene.particles and scene.water_surface.scatters are for the calibrated model: the "
-              "paper's has no energies that a point could add to. Give all "
-              "sensors model: calibrated, or leave these keys out");
+              "scene.particles and scene.water_surface.scatters need model: calibrated on all "
+              "sensors");
     v.require(
         !is_seen || !c.water.profile, {"scene", "water"},
         "scene.particles and scene.water_surface.scatters need straight paths of sound: leave "
@@ -162,8 +161,7 @@ void describe(Visitor& v, Mission& c) {
               "which objects are annotated in COCO files and for YOLO, and how");
     v.section("output", c.output, "files to write, and their folder");
     v.number("variants", c.variants, between(0, 1e6),
-             "number of variants of the mission, each a dataset with a seed of its own; 0 renders "
-             "the mission as it stands");
+             "number of variants of the mission, each a dataset with a seed of its own; 0: none");
     v.list_of("vary", c.vary, 0, "keys that are drawn at random");
     const auto is_of_pings = [](const VaryConfig& rule) { return rule.per == VaryPer::ping; };
     v.require(c.variants > 0 || std::ranges::all_of(c.vary, is_of_pings), {"vary", "variants"},

@@ -25,7 +25,7 @@ namespace sonarsim {
 class MissionReader : public KeyVisitor<MissionReader> {
   public:
     /// `name` is the section's name in messages. Relative paths start at `base_folder`. Throws
-    /// InputError when the node is no section.
+    /// InputError when the node is not a section.
     MissionReader(const YamlNode& node, std::string name, const std::filesystem::path& base_folder,
                   SonarKeyTable sonars, ErrorList& errors);
 
