@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "mission/limits.h"
@@ -132,11 +133,10 @@ inline constexpr Choice<SpeckleMode> speckle_modes[]{
 inline constexpr Choice<Companding> compandings[]{
     {"gamma", Companding::gamma}, {"log", Companding::log}, {"linear", Companding::linear}};
 
-inline constexpr Choice<WaterContent> usual_waters[]{{"none", WaterContent::none},
-                                                     {"clear", WaterContent::clear},
-                                                     {"coastal", WaterContent::coastal},
-                                                     {"plankton", WaterContent::plankton},
-                                                     {"plume", WaterContent::plume}};
+inline constexpr Choice<WaterContent> water_contents[]{
+    {"auto", WaterContent::automatic},    {"none", WaterContent::none},
+    {"clear", WaterContent::clear},       {"coastal", WaterContent::coastal},
+    {"plankton", WaterContent::plankton}, {"plume", WaterContent::plume}};
 inline constexpr Limits any_level_db{-300.0, 300.0};
 inline constexpr Choice<SampleRule> sample_rules[]{
     {"max", SampleRule::maximum}, {"mean", SampleRule::mean}, {"rms", SampleRule::rms}};
@@ -289,7 +289,7 @@ void describe(Visitor& v, InstrumentConfig& c) {
     v.section("pulse", c.pulse, "the pulse after compression");
     v.section("speckle", c.speckle, "interference of the echoes of many scatterers");
     v.section("receiver", c.receiver, "noise, TVG and the values of raw/");
-    v.choice("usual_water", c.usual_water, usual_waters,
+    v.choice("usual_water", c.usual_water, std::span(water_contents).subspan(1),
              "content of the water if water.content is `auto`: the water in which such an "
              "instrument is used");
     v.flag("below_bottom", c.below_bottom,

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstddef>
+#include <type_traits>
 #include <vector>
 
 #include "mission/value_types.h"
@@ -35,12 +35,13 @@ class KeyVisitor {
                Presence presence = Presence::optional) {
         self().value(key, values, ArrayType{limits}, meaning, presence);
     }
-    template <class T, std::size_t N>
-    void choice(const char* key, T& value, const Choice<T> (&choices)[N], const char* meaning) {
+    template <class T>
+    void choice(const char* key, T& value, std::type_identity_t<Choices<T>> choices,
+                const char* meaning) {
         self().value(key, value, ChoiceType<T>{choices}, meaning, Presence::optional);
     }
-    template <class T, std::size_t N>
-    void subset(const char* key, std::vector<T>& values, const Choice<T> (&choices)[N],
+    template <class T>
+    void subset(const char* key, std::vector<T>& values, std::type_identity_t<Choices<T>> choices,
                 const char* meaning) {
         self().value(key, values, SubsetType<T>{choices}, meaning, Presence::optional);
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,9 +47,12 @@ struct Choice {
     T value;
 };
 
+template <class T>
+using Choices = std::span<const Choice<T>>;
+
 /// The names of an array of choices.
-template <class Choices>
-std::vector<std::string> names_of(const Choices& choices) {
+template <class SomeChoices>
+std::vector<std::string> names_of(const SomeChoices& choices) {
     std::vector<std::string> names;
     for (const auto& one : choices)
         names.emplace_back(one.name);

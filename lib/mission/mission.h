@@ -157,8 +157,7 @@ void describe(Visitor& v, Mission& c) {
     v.list_of("classes", c.classes, 0,
               "rules that give nodes of the scene a class, for labels; the first rule that fits a "
               "node applies");
-    v.section("labels", c.labels,
-              "which objects are annotated in COCO files and for YOLO, and how");
+    v.section("labels", c.labels, "which classes are background");
     v.section("output", c.output, "files to write, and their folder");
     v.number("variants", c.variants, between(0, 1e6),
              "number of variants of the mission, each a dataset with a seed of its own; 0: none");

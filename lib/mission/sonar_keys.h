@@ -59,7 +59,7 @@ struct SonarConfig {
     SonarKind kind = SonarKind::imaging;
     MountConfig mount;
     int every = 1;                ///< the sonar pings at every n-th pose
-    bool moves_in_ping = false;   ///< sonar and objects move during a ping
+    bool moves_in_ping = false;   ///< the sonar moves during a ping
     ShutterConfig shutter;        ///< imaging sonars
     double azimuth_deg = 120.0;   ///< full angle
     double elevation_deg = 20.0;  ///< full angle

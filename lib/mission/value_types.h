@@ -201,7 +201,7 @@ struct PathType {
 /// One of some names.
 template <class T>
 struct ChoiceType {
-    std::span<const Choice<T>> choices;
+    Choices<T> choices;
 
     void read(const YamlNode& node, const char* key, T& value) const {
         value = choices[index_of(node, key, names_of(choices))].value;
@@ -215,7 +215,7 @@ struct ChoiceType {
 /// `true` for all names, `false` for none, or a list of some.
 template <class T>
 struct SubsetType {
-    std::span<const Choice<T>> choices;
+    Choices<T> choices;
 
     void read(const YamlNode& node, const char* key, std::vector<T>& values) const {
         const std::vector<bool> chosen = chosen_of(node, key, names_of(choices));

@@ -43,10 +43,6 @@ struct WaterConfig {
     std::optional<SoundProfileConfig> profile = {};  ///< bends sound; none: paths are straight
 };
 
-inline constexpr Choice<WaterContent> water_contents[]{
-    {"auto", WaterContent::automatic},    {"none", WaterContent::none},
-    {"clear", WaterContent::clear},       {"coastal", WaterContent::coastal},
-    {"plankton", WaterContent::plankton}, {"plume", WaterContent::plume}};
 /// All water scatters more than -200 dB, and every cloud of bubbles less than 0 dB.
 inline constexpr Limits volume_strengths_db{-200.0, 0.0};
 
