@@ -14,8 +14,7 @@
 
 namespace sonarsim {
 
-/// The volume scattering of the water, by its content. `automatic`: the usual water of each
-/// instrument.
+/// What scatters in the water. `automatic`: the usual water of each instrument.
 enum class WaterContent { automatic, none, clear, coastal, plankton, plume };
 
 /// The transducer's shape. It has no key: it follows from the kind of sonar.
