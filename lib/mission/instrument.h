@@ -14,7 +14,7 @@
 
 namespace sonarsim {
 
-/// What scatters in the water. `automatic`: the usual water of each instrument.
+/// The content of the water, which scatters. `automatic`: the usual water of each instrument.
 enum class WaterContent { automatic, none, clear, coastal, plankton, plume };
 
 /// The transducer's shape. It has no key: it follows from the kind of sonar.
