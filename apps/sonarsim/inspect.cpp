@@ -11,7 +11,7 @@
 #include "commands.h"
 #include "logging.h"
 #include "materials.h"
-#include "mission/scene_schema.h"
+#include "mission/scene_keys.h"
 #include "scene/gltf/load.h"
 #include "scene/gltf/surface_of.h"
 #include "scene/images/read_image.h"
@@ -89,7 +89,7 @@ Json acoustics_json(const Scene& scene, const MaterialTable& table) {
 
 /// The value of a choice that the command line has checked; `fallback` for "".
 template <class T, std::size_t N>
-T chosen(const std::array<Choice<T>, N>& choices, const std::string& name, T fallback) {
+T chosen(const Choice<T> (&choices)[N], const std::string& name, T fallback) {
     for (const Choice<T>& choice : choices) {
         if (choice.name == name) return choice.value;
     }

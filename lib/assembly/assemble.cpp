@@ -21,7 +21,6 @@
 #include "core/sha256.h"
 #include "core/text.h"
 #include "mission/files.h"
-#include "mission/water.h"
 #include "scene/gltf/load.h"
 #include "scene/maps/ground_maps.h"
 #include "sonar/engine_settings.h"
@@ -129,8 +128,8 @@ MaterialTable materials_of(const SceneConfig& scene) {
     try {
         return read_materials(scene.materials);
     } catch (const InputError& error) {
-        if (scene.place.location.file.empty()) throw;
-        throw named_at(error, scene.place.location);
+        if (scene.place.file.empty()) throw;
+        throw named_at(error, scene.place);
     }
 }
 
@@ -146,9 +145,9 @@ Sonar checked_sonar(const Mission& mission, const SonarConfig& sensor,
 /// Throws InputError for the files of the scene that cannot be read.
 void read_scene_files(const Mission& mission, SceneFiles& models) {
     ErrorList errors;
-    const auto read = [&](const std::filesystem::path& file, const SourceLocation& place) {
+    const auto read = [&](const std::filesystem::path& file, const Location& place) {
         if (file.empty()) return;
-        errors.attempt([&] { models.model({.file = file, .place = place.location}); });
+        errors.attempt([&] { models.model({.file = file, .place = place}); });
     };
     read(mission.scene.file, mission.scene.place);
     if (mission.scene.heightmap)
@@ -203,8 +202,7 @@ PlacedScene place(const Mission& mission, const EngineSettings& settings, SceneS
     errors.attempt([&] {
         materials = materials_of(mission.scene);
         if (!mission.scene.material_default.empty()) {
-            require_material(materials, mission.scene.material_default,
-                             mission.scene.place.location);
+            require_material(materials, mission.scene.material_default, mission.scene.place);
         }
     });
     // Checks of motions need the trajectory, and checks of surfaces need the materials. Without
@@ -245,7 +243,7 @@ Assembly assemble(const Mission& mission, SceneStore& models) {
     if (!mission.output.labels.empty() || !mission.classes.empty()) {
         std::vector<ClassRule> rules;
         for (const ClassConfig& rule : mission.classes)
-            rules.push_back({rule.nodes, rule.name, rule.instance, rule.place.location});
+            rules.push_back({rule.nodes, rule.name, rule.instance, rule.place});
         assembly.objects =
             group_objects(assembly.scene, rules, possible_objects(mission, assembly.scene));
         assembly.objects.background = background_classes(mission, assembly.scene, assembly.objects);

@@ -69,7 +69,7 @@ std::vector<std::uint8_t> background_classes(const Mission& mission, const Scene
             std::string all;
             for (const std::string& one : objects.classes)
                 all += (all.empty() ? "" : ", ") + printable(one);
-            throw InputError(mission.labels.place.location,
+            throw InputError(mission.labels.place,
                              "labels.background: there is no class '" + printable(name) + "'" +
                                  did_you_mean(name, objects.classes) + "; there are: " + all);
         }

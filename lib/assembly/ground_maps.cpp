@@ -24,7 +24,7 @@ namespace {
 std::vector<char> ground_of(const SceneConfig& config, const Scene& scene) {
     const std::vector<std::string> patterns = bottom_patterns(config);
     if (patterns.empty()) {
-        throw InputError(config.place.location,
+        throw InputError(config.place,
                          "maps need ground to lie on; write scene.bottom: [NAME] with the nodes of "
                          "scene.file that are the ground");
     }
@@ -42,7 +42,6 @@ std::vector<char> ground_of(const SceneConfig& config, const Scene& scene) {
 LaidMapRule rule_of(const LaidMapConfig& map, const std::string& section, const Scene& scene) {
     return {.file = map.file,
             .pixel_m = map.pixel_m,
-            .size_m = map.size_m.value_or(std::array{0.0, 0.0}),
             .origin_m = map.origin_m,
             .section = section,
             .needed_m = {scene.bounds_min.head<2>(), scene.bounds_max.head<2>()}};
@@ -89,8 +88,8 @@ auto read_map(const LaidMapConfig& map, const Read& read) {
     try {
         return read();
     } catch (const InputError& error) {
-        if (map.place.location.file.empty()) throw;
-        throw named_at(error, map.place.location);
+        if (map.place.file.empty()) throw;
+        throw named_at(error, map.place);
     }
 }
 
@@ -103,29 +102,26 @@ void lay_ground_maps(const SceneConfig& config, const MaterialTable& table, cons
     std::optional<StrengthTexels> strengths;
     if (config.sediment_map) {
         const std::string section = "scene.sediment_map";
-        const LaidMapConfig& laid = config.sediment_map->laid;
-        const auto of_scene =
-            add_materials(config.sediment_map->materials, table, laid.place.location, scene);
+        const SedimentMapConfig& map = *config.sediment_map;
+        const auto of_scene = add_materials(map.materials, table, map.place, scene);
         resolve_materials(scene, table, water);
-        materials = read_map(laid, [&] {
-            return read_material_map(rule_of(laid, section, scene), read_image(laid.file),
-                                     of_scene);
+        materials = read_map(map, [&] {
+            return read_material_map(rule_of(map, section, scene), read_image(map.file), of_scene);
         });
         warn_of_place(materials->frame, section, scene);
     }
     if (config.backscatter_map) {
         const std::string section = "scene.backscatter_map";
-        const BackscatterMapConfig& map = *config.backscatter_map;
-        strengths = read_map(map.laid, [&] {
-            return read_strength_map(rule_of(map.laid, section, scene), read_image(map.laid.file),
-                                     map.scale_db, map.offset_db);
+        const LaidMapConfig& map = *config.backscatter_map;
+        strengths = read_map(map, [&] {
+            return read_strength_map(rule_of(map, section, scene), read_image(map.file));
         });
         warn_of_place(strengths->frame, section, scene);
         if (!strengths->factor.empty() &&
             std::ranges::all_of(strengths->factor, [](float x) { return x == 1.0F; })) {
             scene.warnings.push_back(section +
                                      " changes nothing: each of its pixels is unknown or "
-                                     "0 dB; check scale_db and offset_db");
+                                     "0 dB; check its values");
         }
     }
     scene.maps = std::make_shared<const GroundMaps>(std::move(materials), std::move(strengths),

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mission/scene_config.h"
+#include "mission/scene_keys.h"
 #include "scene/materials.h"
 #include "scene/scene.h"
 

@@ -122,9 +122,9 @@ void require_new_name(const ParticlesConfig& config, const Scene& scene) {
         return name == config.name || name.starts_with(config.name + "_");
     };
     if (std::ranges::none_of(scene.instances, is_it)) return;
-    throw InputError(config.place.location, "'" + printable(config.name) +
-                                                "': the scene has an object of that name, or one "
-                                                "that begins with it and _; choose another name");
+    throw InputError(config.place, "'" + printable(config.name) +
+                                       "': the scene has an object of that name, or one "
+                                       "that begins with it and _; choose another name");
 }
 
 void add_group(ParticleGroup& group, Scene& scene) {

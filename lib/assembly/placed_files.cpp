@@ -25,13 +25,12 @@ double metres(LengthUnit unit) {
 }
 
 PlacedFile file_of(const std::filesystem::path& path, const MeshConfig& mesh,
-                   const SourceLocation& place) {
+                   const Location& place) {
     return {.file = path,
             .unit_m = metres(mesh.units),
             .z_up = mesh.up == UpAxis::z,
             .material = mesh.material,
-            .renamed_materials = mesh.materials_map,
-            .place = place.location};
+            .place = place};
 }
 
 PlacedFile file_of(const ObjectConfig& object) {
@@ -47,8 +46,8 @@ PlacedFile file_of(const HeightmapConfig& map) {
                     .z_up = true,
                     .material = map.material,
                     .class_name = map.class_name,
-                    .place = map.place.location};
-    file.heightmap = HeightmapRule{map.pixel_m, map.size_m.value_or(std::array{0.0, 0.0})};
+                    .place = map.place};
+    file.heightmap = HeightmapRule{map.pixel_m};
     file.T_world_file.linear() = Eigen::Vector3d(1.0, 1.0, map.height_scale).asDiagonal();
     file.T_world_file.translation() =
         Eigen::Vector3d(-map.origin_m[0], -map.origin_m[1], map.height_offset_m);

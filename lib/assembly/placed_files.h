@@ -13,7 +13,7 @@ double metres(LengthUnit unit);
 
 /// A file with the mission's options for reading it, not placed yet.
 PlacedFile file_of(const std::filesystem::path& path, const MeshConfig& mesh,
-                   const SourceLocation& place);
+                   const Location& place);
 PlacedFile file_of(const ObjectConfig& object);
 /// A heightmap, placed.
 PlacedFile file_of(const HeightmapConfig& map);

@@ -86,7 +86,7 @@ Trajectory vehicle_poses(const Mission& mission) {
     try {
         poses = poses_of(mission.trajectory);
     } catch (const InputError& error) {
-        const Location mission_file{mission.scene.place.location.file};
+        const Location mission_file{mission.scene.place.file};
         const bool has_file = std::holds_alternative<FileTrajectoryConfig>(mission.trajectory);
         if (has_file || mission_file.file.empty()) throw;
         throw InputError(mission_file, std::string("trajectory: ") + error.what());

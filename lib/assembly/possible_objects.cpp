@@ -103,7 +103,7 @@ PossibleObjects possible_objects(const Mission& mission, const Scene& scene) {
         possible.instances.push_back({name, scene.instance_classes[i]});
         if (name != seabed_instance || !mission.scene.seabed) continue;
         const SeabedConfig& seabed = *mission.scene.seabed;
-        if (seabed.rocks) possible.instances.push_back({rock_name(0), seabed.rocks->class_name});
+        if (seabed.rocks) possible.instances.push_back({rock_name(0), rock_class});
     }
     possible.instances.insert(possible.instances.end(), drawn.begin(), drawn.end());
     return possible;

@@ -106,7 +106,7 @@ class LazyBottom {
         if (!scene_.file.empty()) return file_of(scene_.file, scene_.mesh, scene_.place);
         const ObjectConfig& first = scene_.objects.front();
         if (!stands_still(first)) {
-            throw InputError(first.place.location,
+            throw InputError(first.place,
                              "without scene.file the first object is the bottom that others rest "
                              "on: it must neither move nor rest on the bottom itself");
         }
@@ -132,7 +132,7 @@ Eigen::Affine3d transform_of(const ObjectConfig& object, const Surface& shape, L
             put_on_bottom(bottom.get(), shape, position.head<2>(),
                           {attitude, object.scale, object.align, object.bury_m});
         if (T_world_file) return *T_world_file;
-        throw InputError(object.place.location,
+        throw InputError(object.place,
                          title_of(object) + " reaches beyond the bottom, which lies" +
                              bottom.reach() + "; move it by position_m, or place: free" +
                              bottom.unit_questions(title_of(object),
@@ -151,7 +151,7 @@ Trajectory motion_of(const ObjectConfig& object, const Trajectory& vehicle) {
     try {
         motion = poses_of(*object.trajectory);
     } catch (const InputError& error) {
-        throw named_at(error, object.place.location);
+        throw named_at(error, object.place);
     }
     const double start_s = vehicle.front().t_s;
     const double end_s = vehicle.back().t_s;
@@ -160,7 +160,7 @@ Trajectory motion_of(const ObjectConfig& object, const Trajectory& vehicle) {
             pose.t_s += start_s;
     }
     if (motion.front().t_s <= start_s && motion.back().t_s >= end_s) return motion;
-    throw InputError(object.place.location,
+    throw InputError(object.place,
                      title_of(object) + " moves from " + number_text(motion.front().t_s) +
                          " s to " + number_text(motion.back().t_s) +
                          " s and the sonars ping from " + number_text(start_s) + " s to " +
@@ -182,7 +182,7 @@ ScatterRule rule_of(const ScatterConfig& config) {
             .spacing_m = config.spacing_m,
             .align = config.align,
             .tries = 1000,
-            .place = config.place.location};
+            .place = config.place};
 }
 
 /// An object that is turned by more than this is not expected to stand upright in its file.
@@ -228,7 +228,7 @@ void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64
         kinds.back().class_name = config.class_name.empty() ? config.name : config.class_name;
         shapes.push_back(surface_of(kinds.back(), models));
         if (!shapes.back().triangles.empty()) continue;
-        throw InputError(config.place.location, path.string() + " has no surface to scatter");
+        throw InputError(config.place, path.string() + " has no surface to scatter");
     }
     ScatterRule rule = rule_of(config);
     for (const Surface& shape : shapes)
@@ -247,9 +247,8 @@ void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64
         file.T_world_file = object.T_world_shape;
         if (config.bury_m[1] > 0.0 &&
             lies_below(bottom.get(), moved(shapes[object.shape], file.T_world_file))) {
-            throw InputError(
-                config.place.location,
-                "'" + printable(file.name) + "' lies wholly below the bottom; lower bury_m");
+            throw InputError(config.place, "'" + printable(file.name) +
+                                               "' lies wholly below the bottom; lower bury_m");
         }
     }
 }
@@ -284,9 +283,8 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
         PlacedFile& file = parts.files.emplace_back(file_of(object));
         const Surface& shape = shapes.of(file, object.mesh);
         if (shape.triangles.empty()) {
-            throw InputError(object.place.location, title_of(object) + ": there is no surface in " +
-                                                        object.file.string() +
-                                                        "; name another file");
+            throw InputError(object.place, title_of(object) + ": there is no surface in " +
+                                               object.file.string() + "; name another file");
         }
         if (is_upright(object)) add_orientation_warning(up_question(file, shape), parts);
         file.T_world_file = transform_of(object, shape, bottom, range_m);
@@ -297,7 +295,7 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
         if (bottom.is(object)) continue;
         const Surface placed = moved(shape, file.T_world_file);
         if (bottom.exists() && lies_below(bottom.get(), placed)) {
-            throw InputError(object.place.location,
+            throw InputError(object.place,
                              title_of(object) + " lies wholly below the bottom; " +
                                  (object.place_on == ObjectPlace::free
                                       ? "raise it by position_m, or let it rest there with place: "

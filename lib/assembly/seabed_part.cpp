@@ -19,8 +19,7 @@ BedRocks rocks_of(const BedRockConfig& config) {
             .diameter_m = config.diameter_m,
             .exponent = config.exponent,
             .buried = config.buried,
-            .material = config.material,
-            .class_name = config.class_name};
+            .material = config.material};
 }
 
 }  // namespace
@@ -44,7 +43,7 @@ SeabedRule rule_of(const SeabedConfig& config, std::uint64_t seed) {
     rule.patch_m = config.patch_m;
     rule.material = config.material;
     rule.class_name = config.class_name;
-    rule.place = config.place.location;
+    rule.place = config.place;
     return rule;
 }
 
@@ -56,7 +55,7 @@ PlacedFile seabed_of(const SeabedConfig& config, std::uint64_t seed,
     const Eigen::Vector2d low = needed.min() - Eigen::Vector2d::Constant(margin_m);
     const Eigen::Vector2d high = needed.max() + Eigen::Vector2d::Constant(margin_m);
     rule.window = {low.x(), low.y(), high.x(), high.y()};
-    PlacedFile file{.file = "scene.seabed", .z_up = true, .place = config.place.location};
+    PlacedFile file{.file = "scene.seabed", .z_up = true, .place = config.place};
     file.seabed = std::make_shared<const Seabed>(make_seabed(rule));
     return file;
 }

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 
-#include "mission/seabed_config.h"
+#include "mission/seabed_keys.h"
 #include "scene/placed_file.h"
 #include "scene/seabed/seabed.h"
 

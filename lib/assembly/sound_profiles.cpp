@@ -8,7 +8,6 @@
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "mission/water.h"
 
 namespace sonarsim {
 

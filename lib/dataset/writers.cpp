@@ -51,7 +51,7 @@ void check_fan_label(const Mission& mission) {
             return kind_of(sensor.kind).has_images;
         });
     if (all || has_fans || !is_asked(mission, Label::fan)) return;
-    throw InputError(mission.output.place.location,
+    throw InputError(mission.output.place,
                      "the label 'fan' needs output.fan: true and an imaging or profiling sonar");
 }
 

@@ -36,7 +36,7 @@ double draw_normal(const VaryConfig& rule, PhiloxKey key) {
         if (!rule.within || ((*rule.within)[0] <= value && value <= (*rule.within)[1]))
             return value;
     }
-    throw InputError(rule.place.location,
+    throw InputError(rule.place,
                      "a thousand normal draws of '" + printable(rule.key) +
                          "' lie outside of 'within'; make it wider or the deviation larger");
 }
@@ -73,8 +73,7 @@ std::string draw_value(const VaryConfig& rule, std::uint64_t seed, std::uint32_t
     if (rule.whole) {
         const double low = std::ceil((*rule.whole)[0]);
         const double count = std::floor((*rule.whole)[1]) - low + 1.0;
-        if (count < 1.0)
-            throw InputError(rule.place.location, "there is no whole number in 'whole'");
+        if (count < 1.0) throw InputError(rule.place, "there is no whole number in 'whole'");
         // No exponent, which keys of whole numbers refuse.
         return std::to_string(static_cast<std::int64_t>(low) +
                               static_cast<std::int64_t>(one_of(count, share)));

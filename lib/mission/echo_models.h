@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-
 #include "mission/limits.h"
 
 namespace sonarsim {
@@ -10,7 +8,7 @@ namespace sonarsim {
 enum class ModelKind { paper, calibrated };
 
 /// The models by name; the first is the default.
-inline constexpr std::array echo_models{Choice<ModelKind>{"paper", ModelKind::paper},
-                                        Choice<ModelKind>{"calibrated", ModelKind::calibrated}};
+inline constexpr Choice<ModelKind> echo_models[]{{"paper", ModelKind::paper},
+                                                 {"calibrated", ModelKind::calibrated}};
 
 }  // namespace sonarsim

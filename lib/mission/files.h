@@ -16,8 +16,8 @@ void for_each_file(SomeMission& mission, const Visit& visit) {
     };
     if (!mission.scene.file.empty()) visit(mission.scene.file);
     if (mission.scene.heightmap) visit(mission.scene.heightmap->file);
-    if (mission.scene.sediment_map) visit(mission.scene.sediment_map->laid.file);
-    if (mission.scene.backscatter_map) visit(mission.scene.backscatter_map->laid.file);
+    if (mission.scene.sediment_map) visit(mission.scene.sediment_map->file);
+    if (mission.scene.backscatter_map) visit(mission.scene.backscatter_map->file);
     visit(mission.scene.materials);
     for (auto& object : mission.scene.objects) {
         visit(object.file);

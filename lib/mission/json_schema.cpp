@@ -50,7 +50,6 @@ Json type_json(const KeyReference& key) {
     if (key.type == "whole number") return within("integer", *key.limits);
     if (key.type == "number or [least, largest]")
         return {{"anyOf", {number, list_json(number, 2, 2)}}};
-    if (key.type == "list of numbers") return list_json(number, 0);
     if (key.type.ends_with(" numbers")) {
         const std::size_t count = std::stoul(key.type);
         return list_json(number, count, count);

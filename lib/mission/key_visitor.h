@@ -1,13 +1,13 @@
 #pragma once
 
-#include <array>
+#include <type_traits>
 #include <vector>
 
 #include "mission/value_types.h"
 
 namespace sonarsim {
 
-/// The base of a visitor of the keys in schema.h. It passes keys with one value to the visitor's
+/// The base of a visitor of the keys in mission.h. It passes keys with one value to the visitor's
 /// method value(key, value, type, meaning, presence).
 template <class Visitor>
 class KeyVisitor {
@@ -35,15 +35,15 @@ class KeyVisitor {
                Presence presence = Presence::optional) {
         self().value(key, values, ArrayType{limits}, meaning, presence);
     }
-    template <class T, std::size_t N>
-    void choice(const char* key, T& value, const std::array<Choice<T>, N>& choices,
-                const char* meaning, Presence presence = Presence::optional) {
-        self().value(key, value, ChoiceType<T, N>{choices}, meaning, presence);
-    }
-    template <class T, std::size_t N>
-    void subset(const char* key, std::vector<T>& values, const std::array<Choice<T>, N>& choices,
+    template <class T>
+    void choice(const char* key, T& value, std::type_identity_t<Choices<T>> choices,
                 const char* meaning) {
-        self().value(key, values, SubsetType<T, N>{choices}, meaning, Presence::optional);
+        self().value(key, value, ChoiceType<T>{choices}, meaning, Presence::optional);
+    }
+    template <class T>
+    void subset(const char* key, std::vector<T>& values, std::type_identity_t<Choices<T>> choices,
+                const char* meaning) {
+        self().value(key, values, SubsetType<T>{choices}, meaning, Presence::optional);
     }
 
   private:

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,11 +47,14 @@ struct Choice {
     T value;
 };
 
-template <class T, std::size_t N>
-std::vector<std::string> names_of(const std::array<Choice<T>, N>& choices) {
+template <class T>
+using Choices = std::span<const Choice<T>>;
+
+/// The names of an array of choices.
+template <class SomeChoices>
+std::vector<std::string> names_of(const SomeChoices& choices) {
     std::vector<std::string> names;
-    names.reserve(N);
-    for (const Choice<T>& one : choices)
+    for (const auto& one : choices)
         names.emplace_back(one.name);
     return names;
 }

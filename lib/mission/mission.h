@@ -1,144 +1,36 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "core/engine_kind.h"
-#include "mission/echo_models.h"
-#include "mission/instrument.h"
-#include "mission/paper_keys.h"
-#include "mission/scene_config.h"
-#include "mission/source_location.h"
+#include "mission/dataset_names.h"
+#include "mission/limits.h"
+#include "mission/output_keys.h"
+#include "mission/scene_keys.h"
+#include "mission/sonar_keys.h"
 #include "mission/trajectory_keys.h"
 #include "mission/variation_keys.h"
+#include "mission/water_keys.h"
+
+// The keys of a mission, each written once, here and in the headers that this one includes: its
+// name, which carries the unit, its default, its limits, its meaning and its checks. A visitor gets
+// every key: the MissionReader fills the value from YAML, the MissionWriter turns it into YAML, and
+// the ReferenceBuilder makes the tables of keys, of which the JSON Schema is made.
 
 namespace sonarsim {
 
-// The defaults of a mission are here and in the headers above. Names carry the unit and are the
-// YAML keys.
-
-/// A layer of water that scatters more than the rest.
-struct WaterLayerConfig {
-    std::array<double, 2> depth_m{};  ///< top and bottom, below scene.water_surface
-    double scattering_db_per_m3 = 0.0;
-
-    bool operator==(const WaterLayerConfig&) const = default;
-};
-
-/// Profiles of sound speed that are made from temperatures, see assembly/sound_profiles.h.
-enum class NamedProfile { none, isothermal, mixed_layer, summer };
-
-/// The speed of sound by depth, in one of two forms.
-struct SoundProfileConfig {
-    NamedProfile named = NamedProfile::none;
-    std::filesystem::path file;  ///< CSV with depth_m and sound_speed_m_s; "": none
-
-    bool operator==(const SoundProfileConfig&) const = default;
-};
-
-struct WaterConfig {
-    double density_kg_m3 = 997.0;
-    double sound_speed_m_s = 1480.0;
-    // The calibrated model computes absorption from these.
-    double temperature_c = 10.0;
-    double salinity_psu = 35.0;
-    double depth_m = 10.0;
-    // A gentle breeze. Above 100 kHz the noise of wind lies below that of heat.
-    double wind_m_s = 5.0;
-    WaterContent content = WaterContent::automatic;
-    /// Volume backscattering strength, dB re 1 m^2 per m^3; empty: that of `content`.
-    std::optional<double> scattering_db_per_m3 = {};
-    std::vector<WaterLayerConfig> layers = {};       ///< their scattering is added to the above
-    std::optional<SoundProfileConfig> profile = {};  ///< bends sound; none: paths are straight
-
-    bool operator==(const WaterConfig&) const = default;
-};
-
-/// The position of a sonar on the vehicle, relative to the default mount of its kind.
-struct MountConfig {
-    std::array<double, 3> translation_m{};  ///< vehicle frame
-    std::array<double, 3> rpy_deg{};        ///< roll, pitch, yaw; applied after the default mount
-
-    bool operator==(const MountConfig&) const = default;
-};
-
-enum class MultipathMethod { none, cluster, exact };
-
-/// Multipath via a second surface, Eq. 1-3. Off by default, since it adds half of a ping's time.
-struct MultipathConfig {
-    MultipathMethod method = MultipathMethod::none;
-    int epsilon_bins = 5;  ///< size of a cluster in range, beam and elevation
-    /// Largest angle between normals within a cluster. The paper's 15 miss more than 5 % of the
-    /// bins on a rough sea floor; 5 miss 2 % and take a tenth more rays.
-    double delta_deg = 5.0;
-
-    bool operator==(const MultipathConfig&) const = default;
-};
-
-/// The order in which the beams of a fan transmit: a group holds neighbouring beams (in_turn), or
-/// every n-th beam.
-enum class ShutterOrder { in_turn, interleaved };
-
-/// A sonar whose beams transmit in groups, one after the other.
-struct ShutterConfig {
-    int groups = 1;  ///< 1: all beams transmit at once
-    ShutterOrder order = ShutterOrder::in_turn;
-    double period_s = 0.0;  ///< from one group to the next; 0: the two-way time of range_max_m
-
-    bool operator==(const ShutterConfig&) const = default;
-};
-
-/// The kinds of sonar; the table in sonar/kinds.h defines them.
-enum class SonarKind {
-    imaging,
-    profiling,
-    sidescan,
-    echosounder,
-    scanning,
-};
-
-struct SonarConfig {
-    std::string name;  ///< the key below `sensors`
-    SonarKind kind = SonarKind::imaging;
-    MountConfig mount;
-    int every = 1;                ///< the sonar pings at every n-th pose
-    bool moves_in_ping = false;   ///< sonar and objects move during a ping
-    ShutterConfig shutter;        ///< imaging sonars
-    double azimuth_deg = 120.0;   ///< full angle
-    double elevation_deg = 20.0;  ///< full angle
-    double opening_deg = 30.0;    ///< full angle of a cone, in place of azimuth and elevation
-    double sector_deg = 360.0;    ///< full angle that a turning head covers
-    double step_deg = 0.9;        ///< angle that the head turns from ping to ping
-    double range_min_m = 0.1;
-    double range_max_m = 10.0;
-    int range_bins = 512;
-    int azimuth_bins = 512;
-    MultipathConfig multipath;
-    NoiseConfig noise;
-    StreaksConfig streaks;
-    std::filesystem::path preset;  ///< empty after reading: its keys are filled in
-    ModelKind model = ModelKind::paper;
-    InstrumentConfig instrument;  ///< for the calibrated model only
-
-    bool operator==(const SonarConfig&) const = default;
-};
-
 struct AccuracyConfig {
     double relative_l1 = 0.03;  ///< error goal of the noise-free image
-
-    bool operator==(const AccuracyConfig&) const = default;
 };
 
 struct OctreeConfig {
     double leaf_m = 0.02;  ///< edge of the leaves
-
-    bool operator==(const OctreeConfig&) const = default;
 };
 
 /// Gives a class to all nodes whose names match a pattern.
@@ -146,53 +38,13 @@ struct ClassConfig {
     std::string nodes;     ///< `*` stands for any text, `?` for any one byte
     std::string name;      ///< the class
     std::string instance;  ///< one instance of all these nodes; "": each is its own
-    SourceLocation place;
-
-    bool operator==(const ClassConfig&) const = default;
+    Location place = {};
 };
 
 /// The classes that are background: they have neither contrast, shadow nor visible share.
 struct LabelConfig {
     std::vector<std::string> background{"auto"};  ///< classes that are not objects
-    SourceLocation place;
-
-    bool operator==(const LabelConfig&) const = default;
-};
-
-/// Labels that may be written with the image of a ping.
-enum class Label {
-    instance,
-    share,
-    second,
-    class_name,
-    material,
-    elevation,
-    height,
-    shadow,
-    multipath,
-    clean,
-    direct_only,
-    multipath_only,
-    objects,
-    fan,
-};
-
-struct OutputConfig {
-    std::filesystem::path folder;
-    bool polar = true;        ///< float32 in .npy
-    bool image = false;       ///< 16-bit polar PNG
-    bool fan = true;          ///< 8-bit PNG
-    bool stages = false;      ///< 8-bit PNG of five fans that add the model's terms one by one
-    double full_scale = 0.0;  ///< intensity that becomes white; 0: automatic, by sonar
-    std::vector<Label> labels = {};  ///< each at most once, in the order of the enumeration
-    bool raw = true;                 ///< the instrument's output with the calibrated model
-
-    // Products of all pings of a sonar.
-    bool xtf = false;                ///< side-scan sonars: the waterfall as XTF
-    bool mosaic = false;             ///< side-scan sonars: the waterfall georeferenced
-    SourceLocation place = {};
-
-    bool operator==(const OutputConfig&) const = default;
+    Location place = {};
 };
 
 struct Mission {
@@ -212,8 +64,118 @@ struct Mission {
     int variants = 0;              ///< number of datasets to draw; 0: the mission as it stands
     std::vector<VaryConfig> vary;  ///< rules of what is drawn, in the order of the file
     Variant variant;               ///< the variant that this mission is
-
-    bool operator==(const Mission&) const = default;
 };
+
+inline constexpr Choice<EngineKind> engine_names[]{{"auto", EngineKind::automatic},
+                                                   {"rays", EngineKind::rays},
+                                                   {"octree", EngineKind::octree},
+                                                   {"slices", EngineKind::slices}};
+
+/// True if a mission may have the name. It names a folder that holds nothing but this mission.
+inline bool is_folder_name(std::string_view name) {
+    return !name.empty() && name != "." && name != ".." && name.size() <= 200 &&
+           name.find('/') == std::string_view::npos && name != checksums_name;
+}
+
+template <class Visitor>
+void describe(Visitor& v, AccuracyConfig& c) {
+    v.number("relative_l1", c.relative_l1, between(1e-4, 0.5),
+             "error goal of the image without noise: the sum of its absolute errors over its sum. "
+             "The sampling is derived from it");
+}
+
+template <class Visitor>
+void describe(Visitor& v, OctreeConfig& c) {
+    // Leaves below a millimetre are finer than any sonar's bins.
+    v.number("leaf_m", c.leaf_m, between(1e-3, 1e3),
+             "edge of the octree's leaves; the octree is the paper's, a baseline");
+}
+
+template <class Visitor>
+void describe(Visitor& v, ClassConfig& c) {
+    v.text("nodes", c.nodes,
+           "names of nodes of the scene; `*` stands for any text and `?` for any one byte");
+    v.text("class", c.name, "class of these nodes");
+    v.text("instance", c.instance,
+           "name of the one instance that these nodes form; without it each node is an instance of "
+           "its own");
+    v.require(!c.nodes.empty() && !c.name.empty(), {},
+              "a rule for classes needs the keys 'nodes' and 'class'");
+}
+
+template <class Visitor>
+void describe(Visitor& v, LabelConfig& c) {
+    v.text("background", c.background,
+           "background classes, which are not objects and have no contrast, shadow or visible "
+           "share. `auto` stands "
+           "for the classes of the nodes that scene.bottom names and for the class of the largest "
+           "surface; `none` for no class");
+    v.require(!c.background.empty(), {"background"},
+              "'background' names classes, auto or none; with [none] all classes are objects");
+}
+
+template <class Visitor>
+void describe(Visitor& v, Mission& c) {
+    v.text("name", c.name, "name of the dataset; default: the name of the mission's file");
+    v.require(is_folder_name(c.name), {"name"},
+              "'name' names a folder: at most 200 bytes, without '/', not SHA256SUMS");
+    v.number("seed", c.seed, any_unsigned, "seed of all random draws; 0 is a seed like any other");
+    v.section("water", c.water, "the water");
+    v.section("scene", c.scene, "what the sonars look at", required);
+    v.section("trajectory", c.trajectory, "path of the vehicle; exactly one of the three forms",
+              required);
+    v.section("vehicle", c.vehicle,
+              "offset of the vehicle from its trajectory, its movements and its navigation");
+    v.require(c.water.layers.empty() || c.scene.water_surface, {"water", "scene"},
+              "water.layers are depths below the water's surface: give its height by "
+              "scene.water_surface");
+    v.require(!c.water.profile || c.scene.water_surface, {"water", "scene"},
+              "water.profile has depths below the water's surface: give its height by "
+              "scene.water_surface");
+    v.named("sensors", c.sensors, "one section per sonar; NAME is its folder in the dataset");
+    const bool is_seen =
+        !c.scene.particles.empty() || (c.scene.water_surface && c.scene.water_surface->scatters);
+    v.require(!is_seen || std::ranges::all_of(c.sensors,
+                                              [](const SonarConfig& s) {
+                                                  return s.model == ModelKind::calibrated;
+                                              }),
+              {"scene", "sensors"},
+              "scene.particles and scene.water_surface.scatters need model: calibrated on all "
+              "sensors");
+    v.require(
+        !is_seen || !c.water.profile, {"scene", "water"},
+        "scene.particles and scene.water_surface.scatters need straight paths of sound: leave "
+        "out water.profile or these keys");
+    v.section("accuracy", c.accuracy, "error goal of the images");
+    v.choice(
+        "engine", c.engine, engine_names,
+        "method that finds the visible surface. `auto` takes the slices; it takes the rays "
+        "for a sonar with multipath or more than 90 degrees of elevation, for side-scan sonars "
+        "and cones of the calibrated model, where objects move or sound bends, and over more "
+        "than half a million triangles");
+    v.section("octree", c.octree, "settings of the octree");
+    v.list_of("classes", c.classes, 0,
+              "rules that give nodes of the scene a class, for labels; the first rule that fits a "
+              "node applies");
+    v.section("labels", c.labels, "which classes are background");
+    v.section("output", c.output, "files to write, and their folder");
+    v.number("variants", c.variants, between(0, 1e6),
+             "number of variants of the mission, each a dataset with a seed of its own; 0: none");
+    v.list_of("vary", c.vary, 0, "keys that are drawn at random");
+    const auto is_of_pings = [](const VaryConfig& rule) { return rule.per == VaryPer::ping; };
+    v.require(c.variants > 0 || std::ranges::all_of(c.vary, is_of_pings), {"vary", "variants"},
+              "'vary' needs 'variants', the number of variants to draw, or per: ping in each of "
+              "its rules");
+}
+
+/// True if the water scatters sound back to some sonar.
+inline bool some_water_scatters(const Mission& mission) {
+    const bool is_usual = mission.water.content == WaterContent::automatic;
+    return scatters(mission.water) ||
+           std::ranges::any_of(mission.sensors, [&](const SonarConfig& sensor) {
+               return is_usual && sensor.model == ModelKind::calibrated &&
+                      sensor.instrument.usual_water != WaterContent::none;
+           });
+}
 
 }  // namespace sonarsim

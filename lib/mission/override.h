@@ -11,7 +11,7 @@ namespace sonarsim {
 /// keys, and of indices (from 0) into lists. Missing sections are created, missing list items are
 /// not. The value is YAML and replaces the old one, even a whole section. Its place is
 /// "--set a.b.c=value", so that later messages name the override. Throws InputError when the path
-/// or the value cannot be read, or when the path leads through a value that is no section.
+/// or the value cannot be read, or when the path leads through a value that is not a section.
 void apply_override(YamlNode& root, const std::string& setting);
 
 /// Sets the value at the path "a.b.c" in the same way. The value is YAML text; `where` becomes the

@@ -4,7 +4,7 @@
 
 #include "mission/limits.h"
 
-// The keys of the paper's model, with their defaults and their descriptions as in schema.h.
+// The keys of the paper's model, with their defaults and their descriptions as in mission.h.
 
 namespace sonarsim {
 
@@ -32,9 +32,8 @@ struct StreaksConfig {
     bool operator==(const StreaksConfig&) const = default;
 };
 
-inline constexpr std::array streak_modes{Choice<StreakMode>{"none", StreakMode::none},
-                                         Choice<StreakMode>{"add", StreakMode::add},
-                                         Choice<StreakMode>{"reduce", StreakMode::reduce}};
+inline constexpr Choice<StreakMode> streak_modes[]{
+    {"none", StreakMode::none}, {"add", StreakMode::add}, {"reduce", StreakMode::reduce}};
 
 template <class Visitor>
 void describe(Visitor& v, NoiseConfig& c) {

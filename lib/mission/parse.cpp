@@ -9,12 +9,11 @@
 #include "core/text.h"
 #include "mission/dataset_names.h"
 #include "mission/files.h"
+#include "mission/mission.h"
 #include "mission/override.h"
 #include "mission/ping_draws.h"
 #include "mission/preset.h"
 #include "mission/reader.h"
-#include "mission/schema.h"
-#include "mission/water.h"
 
 namespace sonarsim {
 
@@ -49,7 +48,7 @@ void check_rules(const Mission& mission) {
     ErrorList errors;
     for (auto rule = mission.vary.begin(); rule != mission.vary.end(); ++rule) {
         const auto refuse = [&](const std::string& what) {
-            errors.add(InputError(rule->place.location, "'" + printable(rule->key) + "' " + what));
+            errors.add(InputError(rule->place, "'" + printable(rule->key) + "' " + what));
         };
         for (const Reserved& one : reserved) {
             if (is_within(rule->key, one.key)) refuse(std::string("cannot vary: ") + one.why);
@@ -66,12 +65,6 @@ void check_rules(const Mission& mission) {
 }
 
 }  // namespace
-
-Mission load_mission(const std::filesystem::path& file, std::span<const std::string> overrides,
-                     SonarKeyTable sonars) {
-    return parse_mission(read_file(file, largest_file), file.string(), file.parent_path(),
-                         overrides, sonars);
-}
 
 Mission parse_mission(std::string_view text, const std::string& file_name,
                       const std::filesystem::path& base_folder,

@@ -17,21 +17,17 @@ namespace sonarsim {
 struct MissionSource {
     std::filesystem::path file;         ///< in memory the name for messages
     std::filesystem::path base_folder;  ///< relative paths of the mission start here
-    std::vector<std::string> overrides;
+    std::vector<std::string> overrides = {};
     std::optional<std::string> text = {};  ///< in memory; its lines are not in messages
 };
 
 /// Reads and checks a mission, at most 1 MiB of strict YAML. Paths become absolute and normalised;
-/// relative ones start at the folder of the mission file. A mission without a name gets the
-/// name of its file, one without an output folder gets out/<name> below the current directory.
+/// relative ones start at the base folder. A mission without a name gets the name of its file, one
+/// without an output folder gets out/<name> below the current directory.
 /// `overrides` are settings "a.b.c=value" that replace or add keys; the last one wins. `sonars` are
 /// the kinds of sonar that a mission may name: sonar_keys() of sonar/kinds.h. Throws InputError
-/// with file:line:column, or with the override, for anything wrong.
-Mission load_mission(const std::filesystem::path& file, std::span<const std::string> overrides,
-                     SonarKeyTable sonars);
-
-/// The same for a source. InputError also for the mission of a dataset if `base_folder` is the
-/// folder of the dataset and the files of the scene are not there.
+/// with file:line:column, or with the override, for anything wrong; also for the mission of a
+/// dataset if `base_folder` is the folder of the dataset and the files of the scene are not there.
 Mission load_mission(const MissionSource& source, SonarKeyTable sonars);
 
 /// The same for a mission in memory. `file_name` is for messages and for the default name.

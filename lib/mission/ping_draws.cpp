@@ -9,7 +9,7 @@
 #include "core/text.h"
 #include "mission/draw_value.h"
 #include "mission/key_visitor.h"
-#include "mission/sonar_schema.h"
+#include "mission/sonar_keys.h"
 #include "mission/trajectory_keys.h"
 
 namespace sonarsim {
@@ -134,9 +134,7 @@ std::optional<Limits> limits_of(const Mission& mission, const std::string& key) 
 
 void check_rule(const Mission& mission, const VaryConfig& rule) {
     constexpr double min_share = 0.05;
-    const auto refuse = [&](const std::string& what) {
-        throw InputError(rule.place.location, what);
-    };
+    const auto refuse = [&](const std::string& what) { throw InputError(rule.place, what); };
     const std::optional<Limits> limits = limits_of(mission, rule.key);
     if (!limits) {
         std::string keys;

@@ -9,7 +9,7 @@
 #include "core/file.h"
 #include "core/module.h"
 #include "core/text.h"
-#include "mission/node_values.h"
+#include "mission/value_types.h"
 
 namespace sonarsim {
 

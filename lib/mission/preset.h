@@ -26,8 +26,8 @@ std::filesystem::path preset_file(const std::filesystem::path& name,
 
 /// Fills the sections `sensors.NAME` and `scene.seabed` with the keys of the file that their key
 /// `preset` names, and removes that key. Keys that a section already has stay as they are. Relative
-/// paths start at `base_folder`. InputError for a file that cannot be read, is no section or names
-/// a preset itself.
+/// paths start at `base_folder`. InputError for a file that cannot be read, is not a section or
+/// names a preset itself.
 void fill_in_presets(YamlNode& mission, const std::filesystem::path& base_folder);
 
 }  // namespace sonarsim

@@ -25,7 +25,7 @@ namespace sonarsim {
 class MissionReader : public KeyVisitor<MissionReader> {
   public:
     /// `name` is the section's name in messages. Relative paths start at `base_folder`. Throws
-    /// InputError when the node is no section.
+    /// InputError when the node is not a section.
     MissionReader(const YamlNode& node, std::string name, const std::filesystem::path& base_folder,
                   SonarKeyTable sonars, ErrorList& errors);
 
@@ -43,7 +43,7 @@ class MissionReader : public KeyVisitor<MissionReader> {
         constexpr bool is_number = std::is_same_v<Type, NumberType> || requires {
             std::tuple_size<T>::value;
         };
-        if constexpr (is_number) numbers_.emplace_back(key, type.yaml(value));
+        if constexpr (is_number) numbers_.emplace_back(key, yaml_of(type, value));
     }
 
     template <class T>
@@ -108,9 +108,7 @@ class MissionReader : public KeyVisitor<MissionReader> {
     void read(const YamlNode& node, std::string name, T& value) {
         errors_.attempt([&] {
             MissionReader reader(node, std::move(name), base_folder_, sonars_, errors_);
-            if constexpr (requires { value.place; }) value.place.location = node.place.location();
-            if constexpr (requires { value.laid; })
-                value.laid.place.location = node.place.location();
+            if constexpr (requires { value.place; }) value.place = node.place.location();
             describe(reader, value);
             reader.finish();
         });

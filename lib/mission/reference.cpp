@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "mission/key_visitor.h"
-#include "mission/schema.h"
+#include "mission/mission.h"
 
 namespace sonarsim {
 
@@ -46,7 +46,7 @@ class ReferenceBuilder : public KeyVisitor<ReferenceBuilder> {
     void value(const char* key, const T& value, const Type& type, const char* meaning,
                Presence presence) {
         const TypeNote note = type.note(value);
-        const std::string yaml = type.yaml(value);
+        const std::string yaml = yaml_of(type, value);
         add(key, note, meaning, presence == required, yaml.empty() ? note.empty : yaml);
     }
 

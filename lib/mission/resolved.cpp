@@ -2,7 +2,7 @@
 
 #include "core/hash.h"
 #include "mission/files.h"
-#include "mission/schema.h"
+#include "mission/mission.h"
 #include "mission/writer.h"
 
 namespace sonarsim {

@@ -7,7 +7,7 @@
 
 #include "mission/limits.h"
 
-// The keys of a trajectory, of the vehicle or of a moving object, as in schema.h.
+// The keys of a trajectory, of the vehicle or of a moving object, as in mission.h.
 
 namespace sonarsim {
 
@@ -15,15 +15,11 @@ namespace sonarsim {
 struct FileTrajectoryConfig {
     std::filesystem::path file;  ///< .csv or TUM .txt/.tum
     double rate_hz = 0.0;        ///< 0: one ping per pose of the file
-
-    bool operator==(const FileTrajectoryConfig&) const = default;
 };
 
 struct WaypointConfig {
     std::array<double, 3> position_m{};
     std::array<double, 3> rpy_deg{};
-
-    bool operator==(const WaypointConfig&) const = default;
 };
 
 /// Straight legs from waypoint to waypoint at constant speed.
@@ -31,8 +27,6 @@ struct WaypointTrajectoryConfig {
     std::vector<WaypointConfig> waypoints;
     double speed_m_s = 1.0;
     double rate_hz = 10.0;
-
-    bool operator==(const WaypointTrajectoryConfig&) const = default;
 };
 
 /// Parallel lines over a rectangle at constant height, in alternating directions.
@@ -44,8 +38,6 @@ struct LawnmowerTrajectoryConfig {
     double line_spacing_m = 5.0;
     double speed_m_s = 1.0;
     double rate_hz = 10.0;
-
-    bool operator==(const LawnmowerTrajectoryConfig&) const = default;
 };
 
 /// Standard deviations of the movements that waves add to a trajectory.
@@ -53,8 +45,6 @@ struct MotionConfig {
     std::array<double, 3> position_m{};  ///< surge, sway, heave
     std::array<double, 3> turn_deg{};    ///< roll, pitch, yaw
     double period_s = 8.0;               ///< at the spectrum's peak
-
-    bool operator==(const MotionConfig&) const = default;
 };
 
 /// Standard deviations of the errors of a vehicle's navigation.
@@ -73,8 +63,6 @@ struct VehicleConfig {
     std::array<double, 3> turn_deg{};  ///< roll, pitch, yaw, vehicle frame
     MotionConfig motion = {};
     NavigationConfig navigation = {};
-
-    bool operator==(const VehicleConfig&) const = default;
 };
 
 using TrajectoryConfig =

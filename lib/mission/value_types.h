@@ -5,23 +5,54 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <string>
-#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "core/text.h"
 #include "mission/document.h"
-#include "mission/ground_map_config.h"
+#include "mission/ground_map_keys.h"
 #include "mission/limits.h"
-#include "mission/node_values.h"
 #include "mission/variation_keys.h"
 
 // The types of the keys that have one value. A type reads a value from YAML, writes it as YAML, and
-// is described in the tables of keys.
+// is described in the tables of keys. `key` is a name in messages: read() throws InputError with
+// the place of a wrong value.
 
 namespace sonarsim {
+
+[[noreturn]] void refuse(const YamlNode& node, const std::string& what);
+
+/// Throws "'key' must be WANTED, not FOUND".
+[[noreturn]] void refuse_type(const YamlNode& node, const std::string& key,
+                              const std::string& wanted);
+
+/// "at least 0" for a number that is not within the limits, else "".
+std::string fault_of(double value, const Limits& limits);
+
+/// "a, b, c".
+std::string listed(const std::vector<std::string>& names);
+
+/// Values as text, by key.
+using KeyTexts = std::vector<std::pair<std::string, std::string>>;
+
+/// " (key is 1, other is 2)": those of `keys` that have a value; "" if none has.
+std::string values_text(const KeyTexts& values, std::initializer_list<const char*> keys);
+
+/// Returns the index of the node's text in `names`.
+std::size_t index_of(const YamlNode& node, const char* key, const std::vector<std::string>& names);
+
+/// Reads a list of exactly as many numbers as `values` has.
+void read_numbers(const YamlNode& node, const char* key, std::span<double> values,
+                  const Limits& limits);
+
+/// Returns for each name whether it is chosen: `true` chooses all, `false` none, a list some.
+std::vector<bool> chosen_of(const YamlNode& node, const char* key,
+                            const std::vector<std::string>& names);
 
 // The value of a key as YAML; "": the key is not written.
 
@@ -33,6 +64,9 @@ inline std::string yaml_text(int value) {
 }
 inline std::string yaml_text(std::uint64_t value) {
     return std::to_string(value);
+}
+inline std::string yaml_text(bool value) {
+    return value ? "true" : "false";
 }
 inline std::string yaml_text(const std::optional<double>& value) {
     return value ? number_text(*value) : "auto";
@@ -90,18 +124,11 @@ struct NumberType {
     Limits limits;
     bool automatic = false;  ///< takes the word auto, which is kept as 0
 
-    template <class T>
-    void read(const YamlNode& node, const char* key, T& value) const {
-        if constexpr (std::is_same_v<T, double>) {
-            if (automatic) {
-                std::optional<double> number;
-                read_value(node, key, limits, number);
-                value = number.value_or(0.0);
-                return;
-            }
-        }
-        read_value(node, key, limits, value);
-    }
+    void read(const YamlNode& node, const char* key, double& value) const;
+    void read(const YamlNode& node, const char* key, int& value) const;
+    void read(const YamlNode& node, const char* key, std::uint64_t& value) const;
+    void read(const YamlNode& node, const char* key, std::optional<double>& value) const;
+    void read(const YamlNode& node, const char* key, std::array<double, 2>& value) const;
     template <class T>
     std::string yaml(const T& value) const {
         return automatic && value == T{} ? "auto" : yaml_text(value);
@@ -130,15 +157,6 @@ struct ArrayType {
               std::optional<std::array<double, N>>& values) const {
         read_numbers(node, key, values.emplace(), limits);
     }
-    void read(const YamlNode& node, const char* key, std::vector<double>& values) const {
-        if (node.kind != YamlNode::Kind::list) refuse_type(node, key, "a list of numbers");
-        values.resize(node.items.size());
-        read_numbers(node, key, values, limits);
-    }
-    template <class T>
-    std::string yaml(const T& values) const {
-        return yaml_text(values);
-    }
     template <std::size_t N>
     TypeNote note(const std::array<double, N>&) const {
         return {std::to_string(N) + " numbers", limits};
@@ -147,21 +165,14 @@ struct ArrayType {
     TypeNote note(const std::optional<std::array<double, N>>&) const {
         return {std::to_string(N) + " numbers", limits};
     }
-    TypeNote note(const std::vector<double>&) const {
-        return {.name = "list of numbers", .limits = limits, .empty = "[]"};
-    }
 };
 
 /// A text, a list of texts, a map from texts to texts, or a list of any values.
 struct TextType {
-    template <class T>
-    void read(const YamlNode& node, const char* key, T& value) const {
-        read_value(node, key, value);
-    }
-    template <class T>
-    std::string yaml(const T& value) const {
-        return yaml_text(value);
-    }
+    void read(const YamlNode& node, const char* key, std::string& value) const;
+    void read(const YamlNode& node, const char* key, std::vector<std::string>& values) const;
+    void read(const YamlNode& node, const char* key, Renaming& values) const;
+    void read(const YamlNode& node, const char* key, YamlValues& values) const;
     TypeNote note(const std::string&) const { return {"text"}; }
     TypeNote note(const std::vector<std::string>&) const {
         return {.name = "list of texts", .empty = "[]"};
@@ -171,32 +182,16 @@ struct TextType {
 };
 
 struct FlagType {
-    void read(const YamlNode& node, const char* key, bool& value) const {
-        value = read_flag(node, key);
-    }
-    std::string yaml(bool value) const { return value ? "true" : "false"; }
+    void read(const YamlNode& node, const char* key, bool& value) const;
     TypeNote note(bool) const { return {"true or false"}; }
 };
 
 /// A path, or a list of one or more. Relative ones start at the base folder of the mission.
 struct PathType {
     void read(const YamlNode& node, const char* key, std::filesystem::path& path,
-              const std::filesystem::path& base_folder) const {
-        path = read_path(node, key, base_folder);
-    }
+              const std::filesystem::path& base_folder) const;
     void read(const YamlNode& node, const char* key, std::vector<std::filesystem::path>& paths,
-              const std::filesystem::path& base_folder) const {
-        const bool is_list = node.kind == YamlNode::Kind::list;
-        if (is_list && node.items.empty())
-            refuse_type(node, key, "a path or a list of one or more");
-        paths.clear();
-        for (const YamlNode& item : is_list ? node.items : std::vector{node})
-            paths.push_back(read_path(item, key, base_folder));
-    }
-    template <class T>
-    std::string yaml(const T& value) const {
-        return yaml_text(value);
-    }
+              const std::filesystem::path& base_folder) const;
     TypeNote note(const std::filesystem::path&) const { return {"path"}; }
     TypeNote note(const std::vector<std::filesystem::path>&) const {
         return {"path or list of paths"};
@@ -204,9 +199,9 @@ struct PathType {
 };
 
 /// One of some names.
-template <class T, std::size_t N>
+template <class T>
 struct ChoiceType {
-    const std::array<Choice<T>, N>& choices;
+    Choices<T> choices;
 
     void read(const YamlNode& node, const char* key, T& value) const {
         value = choices[index_of(node, key, names_of(choices))].value;
@@ -218,14 +213,14 @@ struct ChoiceType {
 };
 
 /// `true` for all names, `false` for none, or a list of some.
-template <class T, std::size_t N>
+template <class T>
 struct SubsetType {
-    const std::array<Choice<T>, N>& choices;
+    Choices<T> choices;
 
     void read(const YamlNode& node, const char* key, std::vector<T>& values) const {
         const std::vector<bool> chosen = chosen_of(node, key, names_of(choices));
         values.clear();
-        for (std::size_t i = 0; i < N; ++i) {
+        for (std::size_t i = 0; i < chosen.size(); ++i) {
             if (chosen[i]) values.push_back(choices[i].value);
         }
     }
@@ -241,5 +236,15 @@ struct SubsetType {
         return {"true, false or a list", {}, names_of(choices)};
     }
 };
+
+/// A value as YAML.
+template <class Type, class T>
+std::string yaml_of(const Type& type, const T& value) {
+    if constexpr (requires { type.yaml(value); }) {
+        return type.yaml(value);
+    } else {
+        return yaml_text(value);
+    }
+}
 
 }  // namespace sonarsim

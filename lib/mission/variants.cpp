@@ -67,7 +67,7 @@ class VariantMaker {
         for (std::size_t k = 0; k < values.size(); ++k) {
             const VaryConfig& rule = mission_.vary[k];
             if (rule.per == VaryPer::ping) continue;
-            set_text(root, rule.key, values[k], rule.place.location);
+            set_text(root, rule.key, values[k], rule.place);
             variant.drawn.emplace_back(rule.key, values[k]);
         }
         Mission drawn = parse_mission(root, source_.file.string(), source_.base_folder, sonars_);

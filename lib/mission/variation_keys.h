@@ -7,18 +7,16 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.h"
 #include "mission/limits.h"
-#include "mission/source_location.h"
 
-// The keys of what varies, with their defaults and their descriptions as in schema.h.
+// The keys of what varies, with their defaults and their descriptions as in mission.h.
 
 namespace sonarsim {
 
 /// Values of any kind, as YAML.
 struct YamlValues {
     std::vector<std::string> items;
-
-    bool operator==(const YamlValues&) const = default;
 };
 
 /// When a key is drawn: for each variant, once for all variants, or for every ping.
@@ -34,9 +32,7 @@ struct VaryConfig {
     std::optional<std::array<double, 2>> normal;       ///< mean and standard deviation
     std::optional<std::array<double, 2>> within;       ///< limits of a normal draw
     YamlValues choice;                                 ///< all equally likely
-    SourceLocation place;
-
-    bool operator==(const VaryConfig&) const = default;
+    Location place = {};
 };
 
 /// Keys of a mission and the values drawn for them, as YAML text.
@@ -50,13 +46,10 @@ struct Variant {
     std::vector<std::string> classes;  ///< classes of all choices of `vary`
     /// Likewise the instances, each with the class that its file gives it.
     std::vector<std::pair<std::string, std::string>> instances;
-
-    bool operator==(const Variant&) const = default;
 };
 
-inline constexpr std::array vary_pers{Choice<VaryPer>{"variant", VaryPer::variant},
-                                      Choice<VaryPer>{"dataset", VaryPer::dataset},
-                                      Choice<VaryPer>{"ping", VaryPer::ping}};
+inline constexpr Choice<VaryPer> vary_pers[]{
+    {"variant", VaryPer::variant}, {"dataset", VaryPer::dataset}, {"ping", VaryPer::ping}};
 
 template <class Visitor>
 void describe(Visitor& v, VaryConfig& c) {

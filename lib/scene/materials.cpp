@@ -165,12 +165,11 @@ void resolve_materials(Scene& scene, const MaterialTable& table, const Water& wa
         const auto found = by_name.find(material.name);
         if (found == by_name.end()) {
             const std::string name = "'" + printable(material.name) + "'";
-            errors.add(InputError(
-                Location{table.file},
-                "lacks the material " + name + (i < users.size() ? " of " + users[i] : "") +
-                    did_you_mean(material.name, names) +
-                    "; add it to the CSV, write materials_map: {" + name +
-                    ": NAME} with a name of the CSV, or give scene.material_default"));
+            errors.add(InputError(Location{table.file},
+                                  "lacks the material " + name +
+                                      (i < users.size() ? " of " + users[i] : "") +
+                                      did_you_mean(material.name, names) +
+                                      "; add it to the CSV or give scene.material_default"));
             continue;
         }
         material = *found->second;

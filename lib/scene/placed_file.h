@@ -19,10 +19,8 @@ struct Seabed;
 /// The way in which an image becomes a surface: each pixel is a height.
 struct HeightmapRule {
     static constexpr double unlimited = std::numeric_limits<double>::infinity();
-    /// The size of a pixel, or the extent of the map along x and y, from edge to edge. If one is
-    /// given, the south-west corner lies at (0, 0). If both are 0, the file places its pixels.
+    /// The size of a pixel; the south-west corner lies at (0, 0). 0: the file places its pixels.
     double pixel_m = 0.0;
-    std::array<double, 2> size_m{};
     /// The part that is read, in the coordinates of the map: least x and y, largest x and y.
     /// If it lies outside the map, all is read.
     std::array<double, 4> window{-unlimited, -unlimited, unlimited, unlimited};
@@ -36,7 +34,6 @@ struct PlacedFile {
     double unit_m = 1.0;        ///< length of the file's unit
     bool z_up = false;          ///< the file's z points up, not its y
     std::string material = {};  ///< material of every triangle; "": the file's own
-    std::vector<std::pair<std::string, std::string>> renamed_materials = {};
     std::optional<HeightmapRule> heightmap = {};  ///< the file is an image of heights
     std::shared_ptr<const Seabed> seabed = {};    ///< generated sea bed, in place of the file
 

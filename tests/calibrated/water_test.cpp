@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "mission/water.h"
+#include "mission/mission.h"
 
 using namespace sonarsim;
 

@@ -118,16 +118,16 @@ scene:
 sensors: {side: {kind: sidescan, range_min_m: 2.5, range_max_m: 8, range_bins: 55}}
 output: {folder: out, labels: [material, clean]}
 """
-    QUARTERS = ('  sediment_map: {file: quarters.png, size_m: [20, 20], origin_m: [10, 10],\n'
+    QUARTERS = ('  sediment_map: {file: quarters.png, pixel_m: 10, origin_m: [10, 10],\n'
                 '    materials: {1: north_west, 2: north_east, 3: south_west, 4: Concrete}}\n')
-    DECIBELS = '  backscatter_map: {file: db.png, size_m: [20, 20], origin_m: [10, 10]%s}\n'
+    DECIBELS = '  backscatter_map: {file: db.png, pixel_m: 10, origin_m: [10, 10]}\n'
 
     def setUp(self):
         super().setUp()
         self.write("materials.csv", "material,density_kg_m3,sound_speed_m_s\nConcrete,2400,3200\n"
                    "north_west,1500,1600\nnorth_east,1700,1700\nsouth_west,1900,1900\n")
         self.write("quarters.png", png([[1, 2], [3, 4]]))
-        self.write("db.png", png([[10, 16], [13, 10]]))
+        self.write("db.png", png([[0, 6], [3, 0]]))
 
     def rows(self, maps, what):
         """The values of the first and the last ping, at port and at starboard, in the middle of each."""
@@ -148,21 +148,21 @@ output: {folder: out, labels: [material, clean]}
         places = ("north_west", "south_west", "north_east", "Concrete")
         self.assert_materials(self.QUARTERS, *places)
         plain = self.rows(self.QUARTERS, "clean")
-        with_maps = self.rows(self.QUARTERS + self.DECIBELS % ", offset_db: -10", "clean")
+        with_maps = self.rows(self.QUARTERS + self.DECIBELS, "clean")
         for found, before, db in zip(with_maps, plain, (0, 3, 6, 0), strict=True):
             self.assertAlmostEqual(10 * math.log10(found / before), db, delta=0.01)
         # The same place by a world file, whose coordinates are those of a pixel's centre.
         self.write("quarters.wld", "10\n0\n0\n-10\n4995\n8005\n")
-        self.assert_materials(self.QUARTERS.replace("size_m: [20, 20], origin_m: [10, 10]", "origin_m: [5000, 8000]"), *places)
+        self.assert_materials(self.QUARTERS.replace("pixel_m: 10, origin_m: [10, 10]", "origin_m: [5000, 8000]"), *places)
 
     @unittest.skipIf(shutil.which("gdal_translate") is None, "needs gdal-bin")
     def test_no_data(self):
         """A pixel that the file marks leaves the material of the mesh, and its strength."""
-        for name, value in (("quarters", 3), ("db", 16)):
+        for name, value in (("quarters", 3), ("db", 6)):
             subprocess.run(["gdal_translate", "-q", "-a_nodata", str(value), f"{name}.png", f"{name}.tif"], cwd=self.folder,
                            timeout=60, check=True)
         quarters = self.QUARTERS.replace(", 3: south_west", "").replace(".png", ".tif")
-        decibels = (self.DECIBELS % ", offset_db: -10").replace(".png", ".tif")
+        decibels = self.DECIBELS.replace(".png", ".tif")
         self.assert_materials(quarters, "north_west", "Concrete", "north_east", "Concrete")
         plain, with_maps = self.rows(quarters, "clean"), self.rows(quarters + decibels, "clean")
         for found, before, db in zip(with_maps, plain, (0, 3, 0, 0), strict=True):
@@ -281,7 +281,7 @@ class Vary(Composed):
     MAP_RULES = (("heightmap.file", "choice: [a.png, b.png]"), ("heightmap.origin_m.0", "uniform: [-2, 2]"),
                  ("heightmap.height_scale", "uniform: [0.1, 0.3]"), ("heightmap.material", "choice: [steel, Concrete]"),
                  ("sediment_map.materials.3", "choice: [Concrete, steel]"),
-                 ("backscatter_map.scale_db", "uniform: [1, 3]"), ("backscatter_map.pixel_m", "uniform: [0.9, 1.1]"))
+                 ("backscatter_map.pixel_m", "uniform: [0.9, 1.1]"))
     SEABED = """\
   seabed:
     cell_m: 0.3

@@ -88,7 +88,7 @@ def section(draw, keys, path, wild, share, kind=None):
         name, what = key["name"], key["type"]
         if what in ("number", "whole number"):
             out[name] = number(draw, key, wild)
-        elif what.endswith(" numbers") and what != "list of numbers":
+        elif what.endswith(" numbers"):
             one = {**key, "type": "number", "default": 1.0}
             out[name] = [number(draw, one, wild) for _ in range(int(what.split()[0]))]
         elif what == "true or false":
@@ -210,6 +210,28 @@ def medium(draw, keys):
     return number(draw, {**density, "low": 1e-9, "high": 1e9, "default": 2000.0}, 0.3)
 
 
+def keep_rules(draw, mission, surface_m):
+    """Mends what a rule across keys refuses; test_refusals.py has these rules."""
+    profile = mission.get("water", {}).get("profile")
+    for sonar in mission["sensors"].values():
+        span = sonar.get("range_max_m", 10) - sonar.get("range_min_m", 0.5)
+        sonar["range_bins"] = min(sonar["range_bins"], max(1, int(span / 1.1e-6)))
+        if "sector_deg" in sonar or "step_deg" in sonar:
+            sonar["step_deg"] = min(sonar.get("step_deg", 0.9), sonar.get("sector_deg", 360))
+        if sonar.get("moves_in_ping") or profile is not None:
+            sonar.pop("multipath", None)
+        for part, key, least in (("speckle", "clutter_shape", 0.05), ("beam", "elevation_width_deg", 0.01)):
+            values = sonar.get("instrument", {}).get(part, {})
+            if 0 < values.get(key, 0) < least:
+                values[key] = least
+    if profile is not None:
+        profile["named"] = draw.choice(["isothermal", "mixed_layer", "summer"])
+        mission["scene"]["water_surface"] = {"height_m": surface_m}
+    calibrated = any(sonar.get("model") == "calibrated" for sonar in mission["sensors"].values())
+    if mission["engine"] == "octree" and (calibrated or profile is not None):
+        mission["engine"] = "rays"
+
+
 def write_mission(draw, keys, folder):
     """A mission and its files; returns the mission."""
     size = draw.choice([2.0, 2.0, 2.0, 10 ** draw.uniform(-5, 7), 1e-5, 1e7])
@@ -226,6 +248,7 @@ def write_mission(draw, keys, folder):
     kinds = next(key["choices"] for key in keys["sensors.NAME"] if key["name"] == "kind")
     mission["sensors"] = {f"s{i}": sensor(draw, keys, draw.choice(kinds), size, wild)
                           for i in range(draw.choice([1, 1, 2]))}
+    keep_rules(draw, mission, at[2] + 3 * size)
     output = mission.setdefault("output", {})
     output["folder"] = "out"
     # The finest goals and the widest images together are long work, and no fault.

@@ -89,14 +89,14 @@ def seabed(keys):
 
 
 def sediments(old, new):
-    sound = ("bottom: [sand]\n  sediment_map: {file: quarters.png, size_m: [100, 100], origin_m: [50, 50], "
+    sound = ("bottom: [sand]\n  sediment_map: {file: quarters.png, pixel_m: 50, origin_m: [50, 50], "
              "materials: {1: Sand, 2: Steel, 3: Sand, 4: Steel}}")
     assert old in sound
     return edited("  objects:\n", f"  {sound.replace(old, new)}\n  objects:\n")
 
 
 def decibels(options):
-    return edited("  objects:\n", "  bottom: [sand]\n  backscatter_map: {file: quarters.png, size_m: [100, 100], "
+    return edited("  objects:\n", "  bottom: [sand]\n  backscatter_map: {file: quarters.png, pixel_m: 50, "
                   f"origin_m: [50, 50]{options}}}\n  objects:\n")
 
 
@@ -149,13 +149,11 @@ REFUSED = (
      "error: octree.leaf_m of 0.001 is too small for a scene 2e+06 m long; use engine: auto or larger leaves"),
     # Materials and objects.
     ({"materials.csv": MATERIALS.replace("Steel", "steel")}, "materials.csv: lacks the material 'Steel' of 'mine' in",
-     "mine.gltf", "(mission.yaml:6:7)", "did you mean 'steel'?", "add it to the CSV", "materials_map: {'Steel': NAME}",
-     "scene.material_default"),
+     "mine.gltf", "(mission.yaml:6:7)", "did you mean 'steel'?", "add it to the CSV or give scene.material_default"),
     ({"materials.csv": MATERIALS.replace("1900", "0")}, "materials.csv:2", "density"),
     ({"mine.gltf": box_gltf(material="Con\x1b[2Jcrete")}, "Con\\x1b[2Jcrete"),
     (crate("material: steal"), "mission.yaml:6:7: unknown material 'steal' (did you mean 'Steel'?)", "materials.csv"),
-    (crate("materials_map: {Stel: Sand}"), "mission.yaml:6:7: materials_map:", "mine.gltf has no material 'Stel'",
-     "did you mean 'Steel'?"),
+    (crate("materials_map: {Steel: Sand}"), "'materials_map' is no longer there; name the file's materials in the CSV"),
     (crate("exclude: [lid]"), "mission.yaml:6:", "'exclude' is no longer there; delete these nodes in the file"),
     ({"mine.gltf": '{"asset": {"version": "2.0"}}'}, "mission.yaml:6:7: 'mine': there is no surface in", "name another file"),
     (crate("bury_m: 0.1"), "mission.yaml:6:", "bury_m and align need place: on_bottom"),
@@ -178,7 +176,7 @@ REFUSED = (
     (ground("heightmap: {file: bed.png, pixel_m: 5}"),
      "the heightmap has no material; write scene.heightmap.material: NAME"),
     (heightmap(""), "bed.png", "no world file lies next to it", "scene.heightmap.pixel_m", "mission.yaml:3:"),
-    (heightmap(", pixel_m: 1, size_m: [1, 1]"), "give pixel_m or size_m, not both"),
+    (heightmap(", size_m: [1, 1]"), "'size_m' is no longer there; write pixel_m, the size of a pixel"),
     (heightmap(", pixel_m: 1, height_scale: 0"), "height_scale of 0 makes all flat"),
     (heightmap(", pixel_m: 1", "mine.gltf"), "mine.gltf: is JSON, such as a .gltf mesh; PNG, TIFF and OpenEXR are read"),
     (heightmap(", pixel_m: 1") | {"bed.png": FILES["bed.png"][:60]}, "bed.png: ", "mission.yaml:3:", "cannot be read"),
@@ -195,8 +193,9 @@ REFUSED = (
     (sediments("4: Steel", '"#102030": Steel'),
      "one channel of numbers, and scene.sediment_map.materials has '#102030'; write 7: MATERIAL"),
     (sediments("bottom: [sand]\n  ", ""), "mission.yaml:3:3: maps need ground to lie on; write scene.bottom: [NAME]"),
-    (sediments("size_m: [100, 100], ", ""), "quarters.png: does not say how large its pixels are", "scene.sediment_map.pixel_m"),
-    (decibels(", scale_db: 200"), "quarters.png: row 0, column 0: 1 makes 200 dB, and at most 100 are believed"),
+    (sediments("pixel_m: 50, ", ""), "quarters.png: does not say how large its pixels are", "scene.sediment_map.pixel_m"),
+    (decibels("") | {"quarters.png": png([[200]])}, "quarters.png: row 0, column 0: 200 dB, and at most 100 are believed"),
+    (decibels(", scale_db: 2"), "'scale_db' is no longer there; write decibels into the file"),
     (decibels("") | {"quarters.png": png([[1, 2, 3, 4]], channels=4)}, "has 4 channels, and a map of decibels has one"),
     (ground("seabed: {cell_m: 0.5}"), "the seabed has no material; write scene.seabed.material"),
     (seabed(", ripples: {length_m: 1.9, height_m: 0.1}"), "ripples need 4 cells from crest to crest; lower cell_m"),
@@ -238,8 +237,8 @@ WARNED = (
      "'b'; these may lie behind"),
     (edited("output:", "vary: [{key: sensors.fls.mount.rpy_deg.2, uniform: [175, 185], per: ping}]\noutput:", "[20, 4, 0.3]",
             "[20, 38, 0.3]"), "W21", "'mine'; move these"),
-    (decibels(", scale_db: 0"), None, "scene.backscatter_map changes nothing: each of its pixels is unknown or 0 dB"),
-    (edited("  objects:\n", "  bottom: [sand]\n  backscatter_map: {file: quarters.png, size_m: [9, 9], origin_m: "
+    (decibels("") | {"quarters.png": png([[0]])}, None, "scene.backscatter_map changes nothing: each of its pixels is unknown or 0 dB"),
+    (edited("  objects:\n", "  bottom: [sand]\n  backscatter_map: {file: quarters.png, pixel_m: 4.5, origin_m: "
             "[1000, 5]}\n  objects:\n"), None, "scene.backscatter_map lies outside the scene and changes nothing: the map has x"),
     (edited("scene:\n", "scene:\n  water_surface: {height_m: 9}\n"), None, "scene.water_surface has no effect"),
     (edited("scene:\n", "scene:\n  water_surface: {height_m: 3}\n", "    noise:", "    multipath: {method: exact}\n    noise:"),

@@ -87,13 +87,11 @@ class Objects(Composed):
         self.objects("{file: floor.gltf}", *crates, head="  materials: materials.csv\n")
         self.assert_images(whole)
 
-    def test_materials_by_other_names(self):
+    def test_default_material(self):
         self.write("crate.gltf", box_gltf((0.5, 0.5, 0.5), "0137_Black"))
         line = "{name: a, file: crate.gltf, position_m: [5, 0, 0.5]%s}"
         self.objects(line % ", material: steel")
         images = self.assert_images()
-        self.objects(line % ', materials_map: {"0137_Black": steel}')
-        self.assert_images(images)
         self.objects(line % "", head="  file: floor.gltf\n  materials: materials.csv\n  material_default: steel\n")
         self.assert_images(images)
 

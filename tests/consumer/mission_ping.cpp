@@ -1,6 +1,7 @@
 // The first ping of each sonar of a mission: prints the sonar's name and the number of its bins with an
 // echo, without noise.
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 
 #include "assembly/assemble.h"
@@ -16,7 +17,8 @@ int main(int argc, char** argv) {
         std::cerr << "usage: mission_ping mission.yaml\n";
         return 2;
     }
-    const Mission mission = load_mission(argv[1], {}, sonar_keys());
+    const std::filesystem::path file = argv[1];
+    const Mission mission = load_mission({file, file.parent_path()}, sonar_keys());
     const Assembly assembly = assemble(mission);
     const auto engine = make_engine(assembly.scene, EngineSettings{});
     for (const Sonar& sonar : assembly.sonars) {

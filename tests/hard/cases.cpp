@@ -11,7 +11,7 @@
 
 #include "core/clock.h"
 #include "core/error.h"
-#include "mission/instrument_schema.h"
+#include "mission/instrument.h"
 #include "sonar/engine_settings.h"
 #include "sonar/kinds.h"
 

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "mission/parse.h"
+#include "mission/resolved.h"
 #include "sonar/kinds.h"
 
 namespace sonarsim {
@@ -21,6 +22,16 @@ inline const std::string smallest_mission =
 
 inline Mission parse(const std::string& text, const std::vector<std::string>& overrides = {}) {
     return parse_mission(text, "m.yaml", "/base", overrides, sonar_keys());
+}
+
+/// All values of a mission, for comparisons.
+inline std::string yaml_of(const Mission& mission) {
+    return resolved_yaml(mission, sonar_keys());
+}
+
+/// True if the mission, written as YAML, is read as the same mission.
+inline bool reads_back(const Mission& mission) {
+    return yaml_of(parse(yaml_of(mission))) == yaml_of(mission);
 }
 
 /// The first fault of the InputError that reading `text` ends in; "" when it does not.

@@ -14,16 +14,17 @@ TEST_CASE("what a mission leaves out takes the defaults of the structs") {
     const Mission mission = parse(smallest_mission);
     CHECK(mission.name == "m");
     CHECK(mission.seed == 0);
-    CHECK(mission.water == WaterConfig{});
-    CHECK(mission.accuracy == AccuracyConfig{});
     CHECK(mission.scene.file == "/base/a.glb");
     CHECK(mission.scene.materials == "/base/a.csv");
     CHECK(std::get<FileTrajectoryConfig>(mission.trajectory).file == "/base/a.tum");
     CHECK(std::get<FileTrajectoryConfig>(mission.trajectory).rate_hz == 0.0);
     CHECK(mission.output.folder == std::filesystem::current_path() / "out" / "m");
-    SonarConfig sonar;
-    sonar.name = "fls";
-    CHECK(mission.sensors == std::vector{sonar});
+    Mission defaults = mission;
+    defaults.water = {};
+    defaults.accuracy = {};
+    defaults.sensors[0] = {};
+    defaults.sensors[0].name = "fls";
+    CHECK(yaml_of(mission) == yaml_of(defaults));
 }
 
 TEST_CASE("waypoints") {
@@ -34,8 +35,10 @@ TEST_CASE("waypoints") {
                                   "    - position_m: [0, 0, 1]\n"
                                   "    - {position_m: [4, 0, 1], rpy_deg: [0, 0, 90]}\n"
                                   "  speed_m_s: 2\n");
-    CHECK(std::get<WaypointTrajectoryConfig>(mission.trajectory) ==
-          WaypointTrajectoryConfig{{{{0, 0, 1}, {0, 0, 0}}, {{4, 0, 1}, {0, 0, 90}}}, 2, 10});
+    Mission expected = mission;
+    expected.trajectory =
+        WaypointTrajectoryConfig{{{{0, 0, 1}, {0, 0, 0}}, {{4, 0, 1}, {0, 0, 90}}}, 2, 10};
+    CHECK(yaml_of(mission) == yaml_of(expected));
 
     CHECK(refusal(rest + "  waypoints: [{position_m: [0, 0, 1]}]\n") ==
           "m.yaml:4:14: 'waypoints' must have at least 2 items, not 1");
@@ -103,21 +106,20 @@ TEST_CASE("the name of a mission cannot leave the output folder") {
 }
 
 TEST_CASE("load_mission reads a file and refuses what is none") {
-    const std::vector<std::string> none;
     const auto folder = std::filesystem::temp_directory_path() / "sonarsim_mission_test";
     std::filesystem::create_directories(folder);
     const auto file = folder / "harbour.v2.yaml";
     std::ofstream(file) << smallest_mission;
-    const Mission mission = load_mission(file, none, sonar_keys());
+    const Mission mission = load_mission({file, folder}, sonar_keys());
     CHECK(mission.name == "harbour.v2");
     CHECK(mission.scene.file == folder / "a.glb");
 
     std::ofstream(file) << std::string((1U << 20) + 1, '#');
     CHECK_THROWS_WITH_AS(
-        load_mission(file, none, sonar_keys()),
+        load_mission({file, folder}, sonar_keys()),
         (file.string() + ": is 1048577 bytes long; at most 1048576 are read").c_str(), InputError);
-    CHECK_THROWS_AS(load_mission(folder, none, sonar_keys()), InputError);
-    CHECK_THROWS_AS(load_mission(folder / "missing.yaml", none, sonar_keys()), InputError);
+    CHECK_THROWS_AS(load_mission({folder, folder}, sonar_keys()), InputError);
+    CHECK_THROWS_AS(load_mission({folder / "missing.yaml", folder}, sonar_keys()), InputError);
     std::filesystem::remove_all(folder);
     CHECK(refusal(std::string((1U << 20) + 1, '#')) == "m.yaml: is larger than 1 MiB");
 }

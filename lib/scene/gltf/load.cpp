@@ -59,7 +59,6 @@ std::vector<SurfaceExtent> find_extents(const std::vector<OpenFile>& open, const
     std::set<std::pair<std::string, double>> warned;
     for (std::size_t i = 0; i < open.size(); ++i) {
         const RepeatedFile* const repeated = repeats.of_file[i];
-        if (!repeated) require_renamed(open[i]);
         const SurfaceExtent& extent =
             extents.emplace_back(repeated ? moved(repeated->extent, open[i].placed->T_world_file)
                                           : find_extent(open[i], limit));
@@ -141,8 +140,6 @@ void require_materials(std::span<const PlacedFile> files, const MaterialTable& t
             for (const std::string& material : materials_of(*file.seabed))
                 require_material(table, material, file.place);
         }
-        for (const auto& renamed : file.renamed_materials)
-            require_material(table, renamed.second, file.place);
     }
 }
 

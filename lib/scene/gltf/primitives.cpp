@@ -43,9 +43,6 @@ std::string material_name(const PlacedPrimitive& primitive, const MaterialRules&
     const PlacedFile& placed = *primitive.file.placed;
     if (!placed.material.empty()) return placed.material;
     std::string name = name_in_file(primitive);
-    for (const auto& [from, to] : placed.renamed_materials) {
-        if (from == name) return to;
-    }
     if (!rules.fallback.empty() && !rules.known.contains(name)) return rules.fallback;
     if (!name.empty()) return name;
     if (rules.nameless_allowed) return "(no material)";
@@ -86,24 +83,6 @@ void take_class_of_material(const PlacedPrimitive& primitive, std::string& class
                          class_name + "'; give the node a class as its extras.sonar.class");
     }
     class_name = own;
-}
-
-void require_renamed(const OpenFile& file) {
-    const PlacedFile& placed = *file.placed;
-    if (placed.renamed_materials.empty()) return;
-    std::set<std::string> names;
-    ReadingLimit limit;
-    for_each_primitive(file, limit, [&](const PlacedPrimitive& primitive) {
-        names.insert(name_in_file(primitive));
-    });
-    for (const auto& [from, to] : placed.renamed_materials) {
-        if (names.contains(from)) continue;
-        const std::vector<std::string> candidates(names.begin(), names.end());
-        throw InputError(placed.place, "materials_map: " + placed.file.string() +
-                                           " has no material '" + printable(from) + "'" +
-                                           did_you_mean(from, candidates) +
-                                           "; `sonarsim inspect` lists those it has");
-    }
 }
 
 }  // namespace sonarsim

@@ -86,7 +86,4 @@ std::string user_of(const PlacedPrimitive& primitive);
 /// Gives an instance without a class the class of its materials. InputError if they differ.
 void take_class_of_material(const PlacedPrimitive& primitive, std::string& class_name);
 
-/// InputError at the place of `file` if its materials_map names a material that the file lacks.
-void require_renamed(const OpenFile& file);
-
 }  // namespace sonarsim

@@ -11,8 +11,7 @@ namespace {
 
 /// The settings that decide how a file is read, without its place.
 auto reading_of(const PlacedFile& file) {
-    return std::tie(file.file, file.unit_m, file.z_up, file.material, file.renamed_materials,
-                    file.class_name);
+    return std::tie(file.file, file.unit_m, file.z_up, file.material, file.class_name);
 }
 
 struct LessReading {
@@ -73,7 +72,6 @@ Repeats find_repeats(const std::vector<OpenFile>& open, std::size_t sharing_thre
         UniqueNames names;
         repeated.open.placed = &repeated.placed;
         repeated.open.meshes = place_meshes(*first.model, repeated.placed, names);
-        require_renamed(repeated.open);
         repeated.extent = find_extent(repeated.open, limit);
         for (const std::size_t file : group.second)
             repeats.of_file[file] = &repeated;

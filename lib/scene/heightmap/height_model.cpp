@@ -80,8 +80,7 @@ tinygltf::Model height_model(const std::filesystem::path& path, const HeightmapR
     const Location where{path.string()};
     const Image image = read_image(path);
     require_heights(image, where);
-    const PixelGrid grid =
-        grid_in_metres(image, rule.pixel_m, rule.size_m, "scene.heightmap", where);
+    const PixelGrid grid = grid_in_metres(image, rule.pixel_m, "scene.heightmap", where);
     const PixelWindow window = pixels_within(image, grid,
                                              {Eigen::Vector2d(rule.window[0], rule.window[1]),
                                               Eigen::Vector2d(rule.window[2], rule.window[3])},

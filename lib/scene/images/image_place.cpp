@@ -75,17 +75,14 @@ std::optional<PixelGrid> read_world_file(const std::filesystem::path& image) {
     return PixelGrid{numbers[4], numbers[5], numbers[0], numbers[3]};
 }
 
-PixelGrid grid_in_metres(const Image& image, double pixel_m, const std::array<double, 2>& size_m,
-                         const std::string& section, const Location& where) {
-    std::array<double, 2> pixel{pixel_m, pixel_m};
-    if (size_m[0] > 0.0) pixel = {size_m[0] / image.width, size_m[1] / image.height};
-    if (pixel[0] > 0.0)
-        return {0.5 * pixel[0], (image.height - 0.5) * pixel[1], pixel[0], -pixel[1]};
+PixelGrid grid_in_metres(const Image& image, double pixel_m, const std::string& section,
+                         const Location& where) {
+    if (pixel_m > 0.0) return {0.5 * pixel_m, (image.height - 0.5) * pixel_m, pixel_m, -pixel_m};
     if (!image.grid) {
         throw InputError(where,
-                         fmt::format("does not say how large its pixels are: no GeoTIFF tags and "
-                                     "no world file; write {0}.pixel_m or {0}.size_m",
-                                     section));
+                         "does not say how large its pixels are: no GeoTIFF tags and no world "
+                         "file; write " +
+                             section + ".pixel_m");
     }
     if (image.in_degrees) {
         throw InputError(where,

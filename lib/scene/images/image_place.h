@@ -15,12 +15,11 @@ namespace sonarsim {
 /// there is none. InputError if it has not six numbers, or for a grid that is turned.
 std::optional<PixelGrid> read_world_file(const std::filesystem::path& image);
 
-/// The pixels of an image in the coordinates of its map, m. If `pixel_m` (the size of a pixel) or
-/// `size_m` (the extent from edge to edge) is above 0, the south-west corner is (0, 0); else the
-/// file places the pixels. InputError if the file has no place for them, or one in degrees;
-/// `section` is the mission's section of the keys pixel_m and size_m.
-PixelGrid grid_in_metres(const Image& image, double pixel_m, const std::array<double, 2>& size_m,
-                         const std::string& section, const Location& where);
+/// The pixels of an image in the coordinates of its map, m. If `pixel_m`, the size of a pixel, is
+/// above 0, the south-west corner is (0, 0); else the file places the pixels. InputError if the
+/// file has no place for them, or one in degrees; `section` is the mission's section of pixel_m.
+PixelGrid grid_in_metres(const Image& image, double pixel_m, const std::string& section,
+                         const Location& where);
 
 /// Rows and columns of an image, from the first to before the last.
 struct PixelWindow {

@@ -25,7 +25,7 @@ template <class Use>
 TexelFrame for_each_texel(const LaidMapRule& rule, const Image& image, const Use& use) {
     const Location where{rule.file.string()};
     const Eigen::Vector2d origin(rule.origin_m[0], rule.origin_m[1]);
-    const PixelGrid grid = grid_in_metres(image, rule.pixel_m, rule.size_m, rule.section, where);
+    const PixelGrid grid = grid_in_metres(image, rule.pixel_m, rule.section, where);
     const PixelWindow window =
         pixels_within(image, grid, {rule.needed_m.min() + origin, rule.needed_m.max() + origin},
                       most_texels, where);
@@ -101,8 +101,7 @@ MaterialTexels read_material_map(
     return out;
 }
 
-StrengthTexels read_strength_map(const LaidMapRule& rule, const Image& image, double scale_db,
-                                 double offset_db) {
+StrengthTexels read_strength_map(const LaidMapRule& rule, const Image& image) {
     const Location where{rule.file.string()};
     if (image.colours() > 1)
         throw InputError(where, "has " + std::to_string(image.channels) +
@@ -112,14 +111,14 @@ StrengthTexels read_strength_map(const LaidMapRule& rule, const Image& image, do
     out.frame = for_each_texel(rule, image, [&](const float* pixel, int row, int column) {
         if (pixel == nullptr) return out.factor.push_back(1.0F);
         constexpr double most_db = 100.0;
-        const double db = scale_db * double{*pixel} + offset_db;
+        const double db = *pixel;
         if (!(std::fabs(db) <= most_db)) {
-            const std::string value = number_text(double{*pixel});
             throw InputError(where,
-                             fmt::format("row {}, column {}: {} makes {} dB, and at most 100 are "
+                             fmt::format("row {0}, column {1}: {2} dB, and at most 100 are "
                                          "believed; mark it if it is unknown (gdal_translate "
-                                         "-a_nodata {}), else set scale_db and offset_db",
-                                         row, column, value, number_text(db), value));
+                                         "-a_nodata {2}), else make it decibels (gdal_translate "
+                                         "-ot Float32 -scale)",
+                                         row, column, number_text(db)));
         }
         constexpr double per_db = 0.23025850929940457;  // ln(10) / 10
         out.factor.push_back(static_cast<float>(exponential(per_db * db)));

@@ -16,8 +16,7 @@ namespace sonarsim {
 /// The place of a map's image.
 struct LaidMapRule {
     std::filesystem::path file = {};
-    double pixel_m = 0.0;               ///< size of a pixel; 0: by size_m, or by the file
-    std::array<double, 2> size_m{};     ///< extent of the map; 0: by pixel_m, or by the file
+    double pixel_m = 0.0;               ///< size of a pixel; 0: by the file
     std::array<double, 2> origin_m{};   ///< point of the map that is the world's (0, 0)
     std::string section = {};           ///< section of the mission, for messages
     Eigen::AlignedBox2d needed_m = {};  ///< the part that is kept, world x and y
@@ -31,9 +30,8 @@ MaterialTexels read_material_map(
     const LaidMapRule& rule, const Image& image,
     const std::vector<std::pair<std::string, std::uint32_t>>& materials);
 
-/// A map of decibels, from an image of one channel, or one and alpha: scale_db times the pixel's
-/// value plus offset_db. Throws as the above, and for more than 100 dB.
-StrengthTexels read_strength_map(const LaidMapRule& rule, const Image& image, double scale_db,
-                                 double offset_db);
+/// A map of decibels, from an image of one channel, or one and alpha. Throws as the above, and for
+/// more than 100 dB.
+StrengthTexels read_strength_map(const LaidMapRule& rule, const Image& image);
 
 }  // namespace sonarsim

@@ -92,7 +92,7 @@ tinygltf::Model bed_model(const Seabed& bed) {
         const Eigen::Matrix4d& matrix = rock.T_world_shape.matrix();
         tinygltf::Node& placed = add_node(model, rock_name(i), mesh);
         placed.matrix.assign(matrix.data(), matrix.data() + matrix.size());
-        set_class(bed.rock_class, placed);
+        set_class(rock_class, placed);
     }
     return model;
 }

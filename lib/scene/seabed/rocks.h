@@ -18,7 +18,6 @@ struct BedRocks {
     double exponent = 3.0;           ///< rocks above D are as frequent as D^-exponent
     std::array<double, 2> buried{};  ///< share of a rock's height, uniform
     std::string material = {};       ///< "": that of the bed
-    std::string class_name = {};
 };
 
 /// A rock, in the world.

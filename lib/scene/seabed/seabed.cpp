@@ -88,7 +88,6 @@ void add_rocks(const SeabedRule& rule, Seabed& bed) {
     bed.rock_shapes = rock_shapes(rule.seed);
     bed.rocks = rocks_in(area, *rule.rocks, rule.cell_m, rule.seed);
     bed.rock_material = rule.rocks->material;
-    bed.rock_class = rule.rocks->class_name;
     for (Rock& rock : bed.rocks) {
         auto at = rock.T_world_shape.translation();
         const Eigen::AlignedBox3d box = box_of(bed.rock_shapes[rock.shape]);

@@ -42,8 +42,10 @@ struct Seabed {
     std::vector<Surface> rock_shapes;
     std::vector<Rock> rocks;
     std::string rock_material;
-    std::string rock_class;
 };
+
+/// The class of the rocks, for labels.
+inline constexpr const char* rock_class = "rock";
 
 /// "rock_1", the node of the first rock.
 std::string rock_name(std::size_t index);

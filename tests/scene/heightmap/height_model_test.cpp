@@ -90,14 +90,11 @@ TEST_CASE("the first row of a heightmap is the north, its first column the west"
     CHECK(*bottom.highest({102, 48}) == test::approx(0.5 * (1 + 5)));
 }
 
-TEST_CASE("the mission's pixel size or extent replaces the place in the file") {
+TEST_CASE("the mission's pixel size replaces the place in the file") {
     const std::vector<float> heights{1, 2, 3, 4, 5, 6};
     const MapFile pixels(heights, 3, {.west_m = 100, .north_m = 50}, {.pixel_m = 2.0});
     CHECK(has_vertex(pixels.surface(), {1, 3, 1}));
     CHECK(has_vertex(pixels.surface(), {5, 1, 6}));
-    const MapFile extent(heights, 3, {.west_m = 100, .north_m = 50}, {.size_m = {6.0, 8.0}});
-    CHECK(has_vertex(extent.surface(), {1, 6, 1}));
-    CHECK(has_vertex(extent.surface(), {5, 2, 6}));
 }
 
 TEST_CASE("a pixel without a height is a hole of the triangles that need it") {

@@ -181,7 +181,7 @@ TEST_CASE("a bed becomes instances with classes and materials") {
     rule.class_name = "bottom";
     rule.sediments = {{"mud", 1.0}, {"sand", 2.0}};
     rule.patch_m = 2.0;
-    rule.rocks = BedRocks{0.3, {0.1, 2.0}, 2.4, {0.1, 0.5}, "rock", "boulder"};
+    rule.rocks = BedRocks{0.3, {0.1, 2.0}, 2.4, {0.1, 0.5}, "rock"};
     PlacedFile placed;
     placed.file = "scene.seabed";
     placed.z_up = true;
@@ -194,7 +194,7 @@ TEST_CASE("a bed becomes instances with classes and materials") {
     CHECK(scene.instances[0] == "seabed");
     CHECK(scene.instances[1] == "rock_1");
     CHECK(scene.instance_classes[0] == "bottom");
-    CHECK(scene.instance_classes[1] == "boulder");
+    CHECK(scene.instance_classes[1] == "rock");
     const auto area_of = [&](const char* material) {
         std::size_t count = 0;
         for (const std::uint32_t m : scene.triangle_material)

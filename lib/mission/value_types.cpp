@@ -1,4 +1,4 @@
-#include "mission/node_values.h"
+#include "mission/value_types.h"
 
 #include <algorithm>
 #include <cmath>
@@ -70,23 +70,40 @@ void refuse_type(const YamlNode& node, const std::string& key, const std::string
     refuse(node, "'" + key + "' must be " + wanted + ", not " + found(node));
 }
 
-bool read_flag(const YamlNode& node, const char* key) {
-    if (is_plain(node) && (node.text == "true" || node.text == "false")) return node.text == "true";
+void FlagType::read(const YamlNode& node, const char* key, bool& value) const {
+    value = node.text == "true";
+    if (is_plain(node) && (value || node.text == "false")) return;
     const std::string removed = instead_of_removed(key, node.text);
     if (!removed.empty()) refuse(node, removed);
     refuse_type(node, key, "true or false");
 }
 
-std::filesystem::path read_path(const YamlNode& node, const char* key,
-                                const std::filesystem::path& base_folder) {
-    return std::filesystem::absolute(base_folder / read_text(node, key)).lexically_normal();
+void PathType::read(const YamlNode& node, const char* key, std::filesystem::path& path,
+                    const std::filesystem::path& base_folder) const {
+    path = std::filesystem::absolute(base_folder / read_text(node, key)).lexically_normal();
 }
 
-void read_value(const YamlNode& node, const char* key, const Limits& limits, double& value) {
-    value = read_number(node, key, limits);
+void PathType::read(const YamlNode& node, const char* key,
+                    std::vector<std::filesystem::path>& paths,
+                    const std::filesystem::path& base_folder) const {
+    const bool is_list = node.kind == YamlNode::Kind::list;
+    if (is_list && node.items.empty()) refuse_type(node, key, "a path or a list of one or more");
+    paths.clear();
+    for (const YamlNode& item : is_list ? node.items : std::vector{node})
+        read(item, key, paths.emplace_back(), base_folder);
 }
 
-void read_value(const YamlNode& node, const char* key, const Limits& limits, int& value) {
+void NumberType::read(const YamlNode& node, const char* key, double& value) const {
+    std::optional<double> number;
+    if (automatic) {
+        read(node, key, number);
+    } else {
+        number = read_number(node, key, limits);
+    }
+    value = number.value_or(0.0);
+}
+
+void NumberType::read(const YamlNode& node, const char* key, int& value) const {
     const std::optional<std::int64_t> number =
         is_plain(node) ? parse_integer(node.text) : std::nullopt;
     if (!number) refuse_type(node, key, "a whole number");
@@ -94,24 +111,21 @@ void read_value(const YamlNode& node, const char* key, const Limits& limits, int
     value = static_cast<int>(*number);
 }
 
-void read_value(const YamlNode& node, const char* key, const Limits& /*limits*/,
-                std::uint64_t& value) {
+void NumberType::read(const YamlNode& node, const char* key, std::uint64_t& value) const {
     const std::optional<std::uint64_t> number =
         is_plain(node) ? parse_unsigned(node.text) : std::nullopt;
     if (!number) refuse_type(node, key, "a whole number from 0 to 2^64 - 1");
     value = *number;
 }
 
-void read_value(const YamlNode& node, const char* key, const Limits& limits,
-                std::optional<double>& value) {
+void NumberType::read(const YamlNode& node, const char* key, std::optional<double>& value) const {
     value.reset();
     if (node.kind == YamlNode::Kind::scalar && node.text == "auto") return;
     if (!is_plain(node) || !parse_number(node.text)) refuse_type(node, key, "auto or a number");
     value = read_number(node, key, limits);
 }
 
-void read_value(const YamlNode& node, const char* key, const Limits& limits,
-                std::array<double, 2>& value) {
+void NumberType::read(const YamlNode& node, const char* key, std::array<double, 2>& value) const {
     if (node.kind != YamlNode::Kind::list) {
         value.fill(read_number(node, key, limits));
         return;
@@ -122,25 +136,25 @@ void read_value(const YamlNode& node, const char* key, const Limits& limits,
                      number_text(value[0]) + ", " + number_text(value[1]) + "]");
 }
 
-void read_value(const YamlNode& node, const char* key, std::string& value) {
+void TextType::read(const YamlNode& node, const char* key, std::string& value) const {
     value = read_text(node, key);
 }
 
-void read_value(const YamlNode& node, const char* key, std::vector<std::string>& values) {
+void TextType::read(const YamlNode& node, const char* key, std::vector<std::string>& values) const {
     if (node.kind != YamlNode::Kind::list) refuse_type(node, key, "a list of texts");
     values.clear();
     for (const YamlNode& item : node.items)
         values.push_back(read_text(item, key));
 }
 
-void read_value(const YamlNode& node, const char* key, Renaming& values) {
+void TextType::read(const YamlNode& node, const char* key, Renaming& values) const {
     if (node.kind != YamlNode::Kind::map) refuse_type(node, key, "a section of names");
     values.clear();
     for (const YamlNode& item : node.items)
         values.emplace_back(item.key, read_text(item, key));
 }
 
-void read_value(const YamlNode& node, const char* key, YamlValues& values) {
+void TextType::read(const YamlNode& node, const char* key, YamlValues& values) const {
     if (node.kind != YamlNode::Kind::list || node.items.empty())
         refuse_type(node, key, "a list of one or more values");
     values.items.clear();

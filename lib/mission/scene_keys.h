@@ -3,24 +3,113 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
-#include "mission/ground_map_schema.h"
+#include "core/error.h"
+#include "mission/ground_map_keys.h"
 #include "mission/limits.h"
-#include "mission/particles_schema.h"
-#include "mission/scene_config.h"
-#include "mission/seabed_schema.h"
+#include "mission/particles_keys.h"
+#include "mission/seabed_keys.h"
+#include "mission/trajectory_keys.h"
 
-// The keys of the scene. As in mission/schema.h.
+// The keys of the scene, with their defaults and their descriptions as in mission.h.
 
 namespace sonarsim {
 
-inline constexpr std::array length_units{
-    Choice<LengthUnit>{"m", LengthUnit::m},     Choice<LengthUnit>{"mm", LengthUnit::mm},
-    Choice<LengthUnit>{"cm", LengthUnit::cm},   Choice<LengthUnit>{"km", LengthUnit::km},
-    Choice<LengthUnit>{"in", LengthUnit::inch}, Choice<LengthUnit>{"ft", LengthUnit::foot}};
-inline constexpr std::array up_axes{Choice<UpAxis>{"y", UpAxis::y}, Choice<UpAxis>{"z", UpAxis::z}};
-inline constexpr std::array object_places{Choice<ObjectPlace>{"free", ObjectPlace::free},
-                                          Choice<ObjectPlace>{"on_bottom", ObjectPlace::on_bottom}};
+enum class LengthUnit { m, mm, cm, km, inch, foot };
+enum class UpAxis { y, z };
+
+/// Options for reading a file of a mesh.
+struct MeshConfig {
+    LengthUnit units = LengthUnit::m;
+    UpAxis up = UpAxis::y;
+    std::string material;  ///< for all triangles; "": the file's materials
+
+    bool operator==(const MeshConfig&) const = default;
+};
+
+enum class ObjectPlace { free, on_bottom };
+
+/// A file that is placed in the scene.
+struct ObjectConfig {
+    std::string name;        ///< name of the instance that all nodes form; "": each is its own
+    std::string class_name;  ///< "": the class in the file
+    std::filesystem::path file;
+    MeshConfig mesh;
+    std::array<double, 3> position_m{};  ///< the file's origin in the world
+    std::array<double, 3> rpy_deg{};
+    double scale = 1.0;
+    ObjectPlace place_on = ObjectPlace::free;
+    double bury_m = 0.0;  ///< burial depth of an object on the bottom
+    bool align = false;   ///< upright on the bottom's slope
+    std::optional<TrajectoryConfig> trajectory;
+    Location place = {};
+};
+
+/// Objects placed on the bottom at random. Pairs are limits of uniform draws.
+struct ScatterConfig {
+    std::string name;  ///< the objects are NAME_1, NAME_2, ...
+    std::string class_name;
+    std::vector<std::filesystem::path> files;  ///< all equally likely
+    MeshConfig mesh;
+    std::array<double, 2> count{1, 1};
+    std::array<double, 2> area_min_m{};  ///< x, y
+    std::array<double, 2> area_max_m{};
+    std::array<double, 2> roll_deg{};
+    std::array<double, 2> pitch_deg{};
+    std::array<double, 2> yaw_deg{0, 360};
+    std::array<double, 2> scale{1, 1};
+    std::array<double, 2> bury_m{};
+    double spacing_m = 0.0;  ///< least distance between objects, seen from above
+    bool align = false;
+    Location place = {};
+};
+
+/// An image whose pixels are heights, which becomes the bottom.
+struct HeightmapConfig : LaidMapConfig {
+    double height_scale = 1.0;  ///< metres of a step of the pixels' values
+    double height_offset_m = 0.0;
+    std::string material;
+    std::string class_name;
+};
+
+/// The instance that a heightmap makes.
+inline constexpr const char* heightmap_instance = "heightmap";
+
+/// The surface of the water, which reflects sound from below.
+struct WaterSurfaceConfig {
+    double height_m = 0.0;
+    double roughness = 0.0;  ///< share of the sound that is not reflected specularly
+    bool scatters = false;   ///< scatters sound back, by the speed of the wind
+};
+
+struct SceneConfig {
+    std::filesystem::path file;            ///< .gltf or .glb; "": objects alone make the scene
+    std::filesystem::path materials;       ///< CSV
+    std::string material_default = {};     ///< for surfaces without a known material; "": an error
+    MeshConfig mesh = {};                  ///< options for `file`
+    std::vector<std::string> bottom = {};  ///< patterns of the nodes of `file` that objects rest on
+    std::optional<HeightmapConfig> heightmap = {};
+    std::optional<SedimentMapConfig> sediment_map = {};
+    std::optional<LaidMapConfig> backscatter_map = {};
+    std::optional<SeabedConfig> seabed = {};
+    std::vector<ObjectConfig> objects = {};
+    std::vector<ScatterConfig> scatter = {};
+    std::vector<ParticlesConfig> particles = {};
+    std::optional<WaterSurfaceConfig> water_surface = {};
+    Location place = {};
+};
+
+inline constexpr Choice<LengthUnit> length_units[]{
+    {"m", LengthUnit::m},   {"mm", LengthUnit::mm},   {"cm", LengthUnit::cm},
+    {"km", LengthUnit::km}, {"in", LengthUnit::inch}, {"ft", LengthUnit::foot}};
+inline constexpr Choice<UpAxis> up_axes[]{{"y", UpAxis::y}, {"z", UpAxis::z}};
+inline constexpr Choice<ObjectPlace> object_places[]{{"free", ObjectPlace::free},
+                                                     {"on_bottom", ObjectPlace::on_bottom}};
 
 /// The largest factor by which an object is enlarged or made smaller.
 inline constexpr double largest_scale = 1e6;
@@ -31,9 +120,6 @@ void describe_mesh(Visitor& v, MeshConfig& c) {
     v.choice(
         "up", c.up, up_axes,
         "axis of the file that points up; glTF says y, and STL, PLY and OBJ files often have z");
-    v.text("materials_map", c.materials_map,
-           "materials of the file that have another name in the CSV, as {\"0137_Black\": "
-           "rubber}");
 }
 
 template <class Visitor>
@@ -113,8 +199,6 @@ void describe(Visitor& v, HeightmapConfig& c) {
              "height of the value 0 in the world");
     v.text("material", c.material, "material of the bottom; default: scene.material_default");
     v.text("class", c.class_name, "class of the bottom, for labels");
-    v.require(c.pixel_m == 0.0 || !c.size_m, {"pixel_m", "size_m"},
-              "give pixel_m or size_m, not both");
     v.require(c.height_scale != 0.0, {"height_scale"}, "height_scale of 0 makes all flat");
 }
 

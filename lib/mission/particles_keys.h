@@ -2,20 +2,45 @@
 
 #include <array>
 #include <cmath>
+#include <string>
 
+#include "core/error.h"
 #include "mission/limits.h"
-#include "mission/particles_config.h"
 
-// The keys of scene.particles. As in mission/schema.h.
+// The keys of scene.particles, with their defaults and their descriptions as in mission.h.
 
 namespace sonarsim {
 
-inline constexpr std::array particle_kinds{Choice<ParticleKind>{"points", ParticleKind::points},
-                                           Choice<ParticleKind>{"fish", ParticleKind::fish},
-                                           Choice<ParticleKind>{"bubbles", ParticleKind::bubbles}};
-inline constexpr std::array particle_regions{
-    Choice<ParticleRegion>{"box", ParticleRegion::box},
-    Choice<ParticleRegion>{"ellipsoid", ParticleRegion::ellipsoid}};
+enum class ParticleKind { points, fish, bubbles };
+enum class ParticleRegion { box, ellipsoid };
+
+/// Point targets in the water. Pairs are limits of uniform draws.
+struct ParticlesConfig {
+    std::string name;        ///< the targets are NAME_1, NAME_2, ...
+    std::string class_name;  ///< "": the name
+    ParticleKind kind = ParticleKind::points;
+    std::array<double, 2> target_strength_db{};  ///< for points, dB re 1 m^2
+    std::array<double, 2> length_m{};            ///< for fish; 0: not given
+    std::array<double, 2> radius_m{};            ///< for bubbles; 0: not given
+    std::array<double, 2> count{};
+    ParticleRegion region = ParticleRegion::box;
+    std::array<double, 3> position_m{};  ///< middle of the region, world
+    std::array<double, 3> size_m{};      ///< from end to end along x, y and z
+    std::array<double, 3> drift_m_s{};
+    double rise_m_s = 0.0;  ///< for bubbles, which come back at the bottom of the region
+    Location place = {};
+};
+
+/// The most particles of a group.
+inline constexpr double most_particles = 1e6;
+/// Larger groups are one object of the labels each.
+inline constexpr double most_single_particles = 100;
+
+inline constexpr Choice<ParticleKind> particle_kinds[]{{"points", ParticleKind::points},
+                                                       {"fish", ParticleKind::fish},
+                                                       {"bubbles", ParticleKind::bubbles}};
+inline constexpr Choice<ParticleRegion> particle_regions[]{
+    {"box", ParticleRegion::box}, {"ellipsoid", ParticleRegion::ellipsoid}};
 
 /// From a grain of dust to a ship.
 inline constexpr Limits target_strengths_db{-200.0, 60.0};
