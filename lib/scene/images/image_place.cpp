@@ -80,8 +80,8 @@ PixelGrid grid_in_metres(const Image& image, double pixel_m, const std::string& 
     if (pixel_m > 0.0) return {0.5 * pixel_m, (image.height - 0.5) * pixel_m, pixel_m, -pixel_m};
     if (!image.grid) {
         throw InputError(where,
-                         "does not say how large its pixels are: no GeoTIFF tags and no world "
-                         "file; write " +
+                         "does not say how large its pixels are: it has no GeoTIFF tags, "
+                         "and no world file lies next to it; write " +
                              section + ".pixel_m");
     }
     if (image.in_degrees) {
