@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+
+#include "visibility/slices/parallelogram.h"
 
 namespace sonarsim {
 
@@ -47,8 +48,9 @@ QuadSampler::QuadSampler(const FrameScan& scan, const PatchLimits& limits, std::
       R_sensor_frame_(scan.frame().R_frame_sensor.transpose()) {}
 
 void QuadSampler::add(const Quad& quad) {
-    if (any_width_ && is_small(quad)) {
-        divide_across(quad);
+    const QuadPoints corners = quad.corners();
+    if (any_width_ && is_small(corners)) {
+        divide_across(quad, corners);
     } else {
         cut_along(quad);
     }
@@ -56,8 +58,7 @@ void QuadSampler::add(const Quad& quad) {
 
 /// True if cut_along() would not cut the quadrilateral. The foot of the perpendicular is not
 /// farther than the nearest point, h <= r, which is at least 0.9 of the nearest corner.
-bool QuadSampler::is_small(const Quad& quad) const {
-    const QuadPoints corners = quad.corners(quad.low, quad.high);
+bool QuadSampler::is_small(const QuadPoints& corners) const {
     const float nearest = corners.range.minCoeff();
     const float length2 = (corners.middle(2, 3) - corners.middle(0, 1)).squaredNorm();
     return corners.range.maxCoeff() <= limits_.range_max_m &&
@@ -166,18 +167,18 @@ void QuadSampler::add_part(const Quad& quad, float from, float to) {
     Quad out = quad;
     out.low = part(quad.low);
     out.high = part(quad.high);
-    divide_across(out);
+    divide_across(out, out.corners());
 }
 
 /// Divides a quadrilateral of long, grazing surface across into equal parts, since its ranges are
 /// not those of a parallelogram.
-void QuadSampler::divide_across(const Quad& quad) {
-    if (limits_.long_grazing_m == unbounded) return push(quad);
-    const Eigen::Array4f r = quad.corners(quad.low, quad.high).range;
+void QuadSampler::divide_across(const Quad& quad, const QuadPoints& corners) {
+    if (limits_.long_grazing_m == unbounded) return add_sample(quad, corners);
+    const Eigen::Array4f& r = corners.range;
     const float farthest = r.maxCoeff();
     const bool is_long = farthest - r.minCoeff() > limits_.long_grazing_m;
     const float wedge = std::fabs(std::fabs(r[3] - r[0]) - std::fabs(r[2] - r[1]));
-    if (!is_long || !(quad.height_m < grazing_cosine * farthest)) return push(quad);
+    if (!is_long || !(quad.height_m < grazing_cosine * farthest)) return add_sample(quad, corners);
     const float parts = std::clamp(std::ceil(wedge / limits_.grazing_wedge_m), 1.0F, most_parts);
     Quad part = quad;
     for (int i = 1; i <= static_cast<int>(parts); ++i) {
@@ -185,37 +186,23 @@ void QuadSampler::divide_across(const Quad& quad) {
         const auto between = [&](float x, float y) { return x + share * (y - x); };
         part.high = {between(quad.low.u, quad.high.u), between(quad.low.low, quad.high.low),
                      between(quad.low.high, quad.high.high)};
-        push(part);
+        add_sample(part, part.corners());
         part.low = part.high;
     }
 }
 
-void QuadSampler::push(const Quad& quad) {
-    queue_[waiting_++] = quad;
-    if (waiting_ == lanes) flush();
-}
-
-void QuadSampler::flush() {
-    if (waiting_ == 0) return;
-    const Parallelograms patches =
-        fit_parallelograms(corners_of(queue_), R_sensor_frame_, !any_width_);
-    const int count = std::exchange(waiting_, 0);
-    for (int k = 0; k < count; ++k)
-        add_sample(queue_[k], patches, k);
-}
-
-void QuadSampler::add_sample(const Quad& quad, const Parallelograms& patches, int k) {
-    const float area = patches.area_m2[k];
-    if (!(area > 0.0F)) return;
+void QuadSampler::add_sample(const Quad& quad, const QuadPoints& corners) {
+    const Parallelogram patch = fit_parallelogram(quad, corners, R_sensor_frame_, !any_width_);
+    if (!(patch.area_m2 > 0.0F)) return;
     const FrontFacet& seen = scan_.scene().facets[quad.facet_index];
     const SliceFacet& facet = scan_.mesh().facets[seen.facet];
     Sample& sample = out_.emplace_back();
-    sample.position = patches.position.at(k);
-    sample.edge_u = patches.edge_u.at(k);
-    sample.edge_v = patches.edge_v.at(k);
+    sample.position = patch.position;
+    sample.edge_u = patch.edge_u;
+    sample.edge_v = patch.edge_v;
     sample.normal = R_sensor_frame_ * seen.normal;
     sample.height_m = seen.height_m;
-    sample.area_m2 = area;
+    sample.area_m2 = patch.area_m2;
     sample.material = facet.material;
     sample.instance = facet.instance;
 }

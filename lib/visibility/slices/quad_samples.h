@@ -1,11 +1,9 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "visibility/engine.h"
 #include "visibility/slices/frame_scan.h"
-#include "visibility/slices/patch_corners.h"
 #include "visibility/slices/patch_limits.h"
 #include "visibility/slices/quad.h"
 
@@ -30,18 +28,14 @@ class QuadSampler {
 
     void add(const Quad& quad);
 
-    /// Adds the samples of the quadrilaterals that wait, at the end of a beam.
-    void flush();
-
   private:
-    bool is_small(const Quad& quad) const;
+    bool is_small(const QuadPoints& corners) const;
     void cut_along(const Quad& quad);
     void find_cuts(const RangeLine& line);
     void cut_narrow(const Quad& quad, float from, float to);
     void add_part(const Quad& quad, float from, float to);
-    void divide_across(const Quad& quad);
-    void push(const Quad& quad);
-    void add_sample(const Quad& quad, const Parallelograms& patches, int k);
+    void divide_across(const Quad& quad, const QuadPoints& corners);
+    void add_sample(const Quad& quad, const QuadPoints& corners);
 
     const FrameScan& scan_;
     const PatchLimits limits_;
@@ -49,8 +43,6 @@ class QuadSampler {
     std::vector<Sample>& out_;
     const Eigen::Matrix3f R_sensor_frame_;
     std::vector<float> cuts_;
-    std::array<Quad, lanes> queue_{};
-    int waiting_ = 0;
 };
 
 }  // namespace sonarsim

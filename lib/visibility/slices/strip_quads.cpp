@@ -45,7 +45,6 @@ void StripQuads::add(const SliceResult& result, const MovedEnds& low, const Move
 void StripQuads::end_beam() {
     for (const Quad& quad : open_)
         out_.add(quad);
-    out_.flush();
     open_.clear();
     last_uncovered_.clear();
 }
@@ -138,7 +137,9 @@ bool StripQuads::go_on(const Quad& open, const Quad& quad) const {
           scan_.one_plane(open.facet_index, quad.facet_index, quad.range_m.to))) {
         return false;
     }
-    const Eigen::Array4f r = quad.corners(open.low, quad.high).range;
+    Quad both = quad;
+    both.low = open.low;
+    const Eigen::Array4f r = both.corners().range;
     const float wedge = std::fabs(r[3] - r[0]) - std::fabs(r[2] - r[1]);
     return std::fabs(wedge) < most_wedge_m_;
 }
