@@ -3,11 +3,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
+#include "scene/mesh_topology.h"
 #include "visibility/cut_triangle.h"
 #include "visibility/view_volume.h"
 
@@ -23,25 +23,6 @@ constexpr float resolved_spacings = 2.0F;
 
 // The size of a piece, in the smaller spacing. The lifeboat's worst pose is 5.2 % off with 1.
 constexpr float piece_spacings = 0.7F;
-
-/// For each vertex the first one at its place. Files repeat vertices at creases.
-std::vector<std::uint32_t> first_at_place(const std::vector<Eigen::Vector3f>& vertices) {
-    constexpr std::uint32_t none = 0xFFFFFFFFU;
-    const std::size_t slots = std::bit_ceil(2 * vertices.size() + 1);
-    std::vector<std::uint32_t> table(slots, none);
-    std::vector<std::uint32_t> first(vertices.size());
-    for (std::uint32_t v = 0; v < vertices.size(); ++v) {
-        std::uint64_t hash = 0;
-        for (const float x : vertices[v])
-            hash = (hash ^ std::bit_cast<std::uint32_t>(x + 0.0F)) * 0x9E3779B97F4A7C15U;
-        std::size_t slot = hash >> 32U & (slots - 1);
-        while (table[slot] != none && vertices[table[slot]] != vertices[v])
-            slot = (slot + 1) & (slots - 1);
-        if (table[slot] == none) table[slot] = v;
-        first[v] = table[slot];
-    }
-    return first;
-}
 
 /// The triangles around a place.
 struct Surroundings {
