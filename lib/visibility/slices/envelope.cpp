@@ -198,10 +198,10 @@ class Sweep {
 }  // namespace
 
 void visible_spans(std::span<const Segment> segments, const SliceScene& scene, const Slice& slice,
-                   FacetExtents& facet_extents, EnvelopeScratch& scratch,
+                   FacetExtents& facet_extents, std::vector<std::uint32_t>& open,
                    std::vector<VisibleSpan>& out) {
     out.clear();
-    Sweep(segments, scene, slice, facet_extents, scratch.open, out).run();
+    Sweep(segments, scene, slice, facet_extents, open, out).run();
 }
 
 }  // namespace sonarsim

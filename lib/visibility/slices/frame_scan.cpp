@@ -1,8 +1,7 @@
 #include "visibility/slices/frame_scan.h"
 
 #include <algorithm>
-
-#include "visibility/slices/merge_spans.h"
+#include <cmath>
 
 namespace sonarsim {
 
@@ -11,6 +10,20 @@ namespace {
 // If a gap holds more triangles than this, only every n-th is used and stands for n of them: a
 // finely cut surface has thousands, and the neighbouring slices predict it well.
 constexpr std::uint32_t most_unseen = 16;
+
+constexpr int slices_per_component = 4;
+
+// Planes are equal if their normals differ by less than this, and their heights by less than this
+// share of the distance: float corners of a flat wall differ by as much.
+constexpr float most_tilt = 2e-5F;
+
+Interval around(const Interval& a, const Interval& b) {
+    return {std::min(a.from, b.from), std::max(a.to, b.to)};
+}
+
+bool touch(const VisibleSpan& a, const VisibleSpan& b) {
+    return b.w_low - a.w_high <= 4e-6F * (1.0F + std::fabs(a.w_high));
+}
 
 Groups by_gap(const SliceScene& scene, const SliceFrame& frame) {
     std::vector<std::uint32_t> gaps;
@@ -28,10 +41,33 @@ FrameScan::FrameScan(const ClusterMesh& mesh, const Scene& scene, const SliceFra
       materials_(scene.materials),
       frame_(frame),
       setup_(mesh, frame, pose, range_max_m, scene_),
-      facet_extents_(mesh, scene.vertices, setup_, scene_) {
+      facet_extents_(mesh, scene.vertices, setup_, scene_),
+      walk_(scene_, frame) {
     setup_.run();
-    requested_ = slices_through_narrow_components(scene_, frame_);
-    walk_.start(scene_, frame_);
+    request_slices();
+}
+
+/// Requests slices through the narrow components.
+void FrameScan::request_slices() {
+    const std::vector<Slice>& slices = frame_.slices;
+    const auto gap_of = [&](float u) {
+        const auto behind = std::ranges::upper_bound(slices, u, {}, &Slice::u);
+        return static_cast<std::ptrdiff_t>(behind - slices.begin()) - 1;
+    };
+    const auto gaps = static_cast<std::ptrdiff_t>(frame_.gaps());
+    for (const Interval& component : scene_.component_u) {
+        if (!(component.from < component.to)) continue;  // out of view
+        const std::ptrdiff_t gap = gap_of(component.from);
+        const float width = component.to - component.from;
+        if (gap < 0 || gap >= gaps || width > slices[gap + 1].u - slices[gap].u) continue;
+        for (int k = 0; k < slices_per_component; ++k) {
+            const float u =
+                component.from + (static_cast<float>(k) + 0.5F) * width / slices_per_component;
+            const std::ptrdiff_t at = gap_of(u);
+            if (at < gaps) requested_.push_back({static_cast<std::uint32_t>(at), u});
+        }
+    }
+    std::ranges::sort(requested_, {}, &RequestedSlice::u);
 }
 
 void FrameScan::scan_next(SliceResult& out) {
@@ -89,12 +125,41 @@ void FrameScan::scan_slice(float u, std::span<const Candidate> candidates, Slice
 void FrameScan::scan_slice(const Slice& slice, std::span<const Segment> segments,
                            SliceResult& out) {
     out.slice = slice;
-    visible_spans(segments, scene_, slice, facet_extents_, envelope_, out.spans);
-    merge_coplanar_spans(mesh_, scene_, out.spans);
+    visible_spans(segments, scene_, slice, facet_extents_, open_, out.spans);
+    merge_coplanar(out.spans);
 }
 
 bool FrameScan::one_plane(std::uint32_t a, std::uint32_t b, float range_m) const {
-    return sonarsim::one_plane(mesh_, scene_, a, b, range_m);
+    if (a == b) return true;
+    const FrontFacet& f = scene_.facets[a];
+    const FrontFacet& g = scene_.facets[b];
+    if ((f.normal - g.normal).squaredNorm() > most_tilt * most_tilt) return false;
+    if (std::fabs(f.height_m - g.height_m) > most_tilt * range_m) return false;
+    const SliceFacet& s = mesh_.facets[f.facet];
+    const SliceFacet& t = mesh_.facets[g.facet];
+    return s.material == t.material && s.instance == t.instance;
+}
+
+/// Merges neighbouring spans in one plane with one material and instance: a flat wall is one span,
+/// however it is divided into triangles.
+void FrameScan::merge_coplanar(std::vector<VisibleSpan>& spans) const {
+    if (spans.empty()) return;
+    std::size_t last = 0;
+    for (std::size_t i = 1; i < spans.size(); ++i) {
+        VisibleSpan& a = spans[last];
+        const VisibleSpan& b = spans[i];
+        const float farthest = std::min(a.facet_extent.range_m.to, b.facet_extent.range_m.to);
+        if (!touch(a, b) || !one_plane(a.facet_index, b.facet_index, farthest)) {
+            spans[++last] = b;
+            continue;
+        }
+        a.w_high = b.w_high;
+        a.q_high = b.q_high;
+        a.high = b.high;
+        a.facet_extent.u = around(a.facet_extent.u, b.facet_extent.u);
+        a.facet_extent.range_m = around(a.facet_extent.range_m, b.facet_extent.range_m);
+    }
+    spans.resize(last + 1);
 }
 
 std::span<const RequestedSlice> FrameScan::requested_in(std::uint32_t gap) const {

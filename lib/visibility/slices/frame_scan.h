@@ -9,7 +9,6 @@
 #include "visibility/slices/envelope.h"
 #include "visibility/slices/facet_extent.h"
 #include "visibility/slices/moved_ends.h"
-#include "visibility/slices/narrow_components.h"
 #include "visibility/slices/setup.h"
 #include "visibility/slices/slice_walk.h"
 #include "visibility/slices/unseen_pieces.h"
@@ -22,6 +21,12 @@ struct SliceResult {
     std::vector<VisibleSpan> spans;
     MovedEnds low;  ///< moved to the begin of its strip
     MovedEnds high;
+};
+
+/// A slice that is requested within a gap.
+struct RequestedSlice {
+    std::uint32_t gap;
+    float u;
 };
 
 /// Scans the slices of a frame from one pose, and any slice between them, for visible surface.
@@ -45,15 +50,13 @@ class FrameScan {
     /// Finds pieces of the triangles that lie between the slices of a gap; `out` is empty before.
     void find_unseen(std::uint32_t gap, std::vector<UnseenPiece>& out);
 
-    /// True if a triangle, or a part of one up to a corner, lies between the slices of a gap.
-    bool has_triangles(std::uint32_t gap) const {
-        return by_gap_ && by_gap_->begin[gap] < by_gap_->begin[gap + 1];
-    }
-
     /// Scans the slice at u, which may meet only `candidates`.
     void scan_slice(float u, std::span<const Candidate> candidates, SliceResult& out);
 
-    /// The slices requested within a gap, from low u to high.
+    /// The slices requested within a gap, from low u to high: those through the components of the
+    /// mesh that are narrower than a gap, such as a wire or a small ball. The echo of such a
+    /// component is the mean over facets of all orientations, but a slice of the frame meets one
+    /// facet or none.
     std::span<const RequestedSlice> requested_in(std::uint32_t gap) const;
 
     /// True if two facets of the scene, at `range_m`, lie in one plane and have one material and
@@ -71,18 +74,20 @@ class FrameScan {
 
   private:
     const Groups& notes_by_gap();
+    void request_slices();
     void scan_slice(const Slice& slice, std::span<const Segment> segments, SliceResult& out);
+    void merge_coplanar(std::vector<VisibleSpan>& spans) const;
 
     const ClusterMesh& mesh_;
     std::span<const Material> materials_;
     const SliceFrame& frame_;
     SliceScene scene_;
     SliceSetup setup_;
-    std::vector<RequestedSlice> requested_;
-    mutable FacetExtents facet_extents_;  ///< computed on demand
+    std::vector<RequestedSlice> requested_;  ///< by u
+    mutable FacetExtents facet_extents_;     ///< computed on demand
     SliceWalk walk_;
     int next_ = 0;
-    EnvelopeScratch envelope_;
+    std::vector<std::uint32_t> open_;  ///< memory of visible_spans()
     std::vector<std::uint64_t> places_;
     std::vector<Segment> segments_;
     std::optional<Groups> by_gap_;  ///< indices into scene_.in_gaps by gap

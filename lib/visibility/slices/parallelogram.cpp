@@ -75,7 +75,8 @@ Parallelogram fit_parallelogram(const Quad& quad, const QuadPoints& corners,
     const Eigen::Vector3f a = corners.at(0), b = corners.at(1);
     const Eigen::Vector3f c = corners.at(2), d = corners.at(3);
     Parallelogram out;
-    out.position = R_sensor_frame * (centroid ? centroid_of(corners) : Eigen::Vector3f(0.25F * (a + b + c + d)));
+    out.position = R_sensor_frame *
+                   (centroid ? centroid_of(corners) : Eigen::Vector3f(0.25F * (a + b + c + d)));
     out.edge_u = R_sensor_frame * (0.25F * (b + c - a - d));
     out.edge_v = R_sensor_frame * (0.25F * (c + d - a - b));
     out.area_m2 = area_of(quad, corners, nearest_m, farthest_m);

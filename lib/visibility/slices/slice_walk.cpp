@@ -84,31 +84,20 @@ void segments_at(const SliceScene& scene, float u, std::span<const Candidate> ca
     evaluate(scene, u, out);
 }
 
-void SliceWalk::start(const SliceScene& scene, const SliceFrame& frame) {
-    scene_ = &scene;
-    frame_ = &frame;
-    before_.clear();
-    active_.clear();
-}
-
 const std::vector<Segment>& SliceWalk::step(int s) {
-    const float u = frame_->slices[s].u;
+    const float u = frame_.slices[s].u;
     std::swap(before_, active_);
     kept_.clear();
     for (const Segment& segment : before_) {
-        if (scene_->trapezoids[segment.trapezoid].u_to > u) kept_.push_back(segment);
+        if (scene_.trapezoids[segment.trapezoid].u_to > u) kept_.push_back(segment);
     }
-    evaluate(*scene_, u, kept_);
+    evaluate(scene_, u, kept_);
     insertion_sort(kept_);
     entered_.clear();
-    const Groups& by_slice = scene_->by_slice;
+    const Groups& by_slice = scene_.by_slice;
     for (std::uint32_t k = by_slice.begin[s]; k < by_slice.begin[s + 1]; ++k)
         entered_.push_back(not_evaluated(by_slice.items[k]));
-    evaluate(*scene_, u, entered_);
-    if (entered_.empty()) {
-        std::swap(active_, kept_);
-        return active_;
-    }
+    evaluate(scene_, u, entered_);
     std::ranges::sort(entered_, before);
     active_.resize(kept_.size() + entered_.size());
     std::ranges::merge(kept_, entered_, active_.begin(), before);

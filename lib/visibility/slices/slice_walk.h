@@ -26,7 +26,8 @@ void segments_at(const SliceScene& scene, float u, std::span<const Candidate> ca
 /// Walks the slices of a frame in order and keeps the segments that each of them meets sorted.
 class SliceWalk {
   public:
-    void start(const SliceScene& scene, const SliceFrame& frame);
+    /// Both must outlive it.
+    SliceWalk(const SliceScene& scene, const SliceFrame& frame) : scene_(scene), frame_(frame) {}
 
     /// Steps to the next slice, of index `s`, and returns its segments, sorted by w_low.
     const std::vector<Segment>& step(int s);
@@ -35,8 +36,8 @@ class SliceWalk {
     void around_last_gap(std::vector<std::uint32_t>& out) const;
 
   private:
-    const SliceScene* scene_ = nullptr;
-    const SliceFrame* frame_ = nullptr;
+    const SliceScene& scene_;
+    const SliceFrame& frame_;
     std::vector<Segment> before_;  ///< segments of the slice before
     std::vector<Segment> active_;
     std::vector<Segment> kept_;

@@ -4,11 +4,9 @@
 #include "visibility/intersect.h"
 #include "visibility/local_pose.h"
 #include "visibility/slices/adaptive_slices.h"
-#include "visibility/slices/beam_cutter.h"
 #include "visibility/slices/clusters.h"
 #include "visibility/slices/frame_scan.h"
 #include "visibility/slices/patch_limits.h"
-#include "visibility/slices/quad_samples.h"
 #include "visibility/slices/scan.h"
 #include "visibility/slices/strip_quads.h"
 
@@ -19,10 +17,7 @@ namespace {
 class SlicesEngine final : public VisibilityEngine {
   public:
     SlicesEngine(const Scene& scene, const Caster& caster, const SlicesOptions& options)
-        : scene_(&scene),
-          options_(options),
-          caster_(caster),
-          mesh_(make_clusters(scene)) {}
+        : scene_(&scene), options_(options), caster_(caster), mesh_(make_clusters(scene)) {}
 
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
         const LocalPose pose = local_pose(T_world_sensor, scene_->origin);
@@ -50,12 +45,10 @@ class SlicesEngine final : public VisibilityEngine {
         const PatchLimits limits = patch_limits(view);
         FrameScan scan(mesh_, *scene_, frame, pose, limits.range_max_m);
         AdaptiveSlices adaptive(view, scene_->materials, scan);
-        QuadSampler sampler(scan, limits, samples.items);
-        StripQuads quads(scan, limits, sampler);
-        BeamCutter cutter(frame, quads, samples);
+        StripQuads quads(scan, limits, samples);
         while (adaptive.scan_next(share)) {
             for (const SliceResult* result : adaptive.slices())
-                cutter.add(*result);
+                quads.add(*result);
         }
         samples.dropped += scan.scene().dropped;
     }
