@@ -37,7 +37,7 @@ class AutoEngine final : public VisibilityEngine {
   private:
     static std::unique_ptr<VisibilityEngine> make_others(const Scene& scene, const Caster& caster) {
         const std::size_t triangles = scene.triangles.size();
-        if (triangles <= slices_triangles_max) return make_slices_engine(scene, caster, {});
+        if (triangles <= slices_triangles_max) return make_slices_engine(scene, caster);
         return make_rays_engine(scene, caster,
                                 triangles > many_triangles ? density_over_many_triangles : 1);
     }

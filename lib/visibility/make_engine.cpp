@@ -15,7 +15,7 @@ constexpr double least_error_in_cones = 0.01;
 std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSettings& settings) {
     if (settings.type == EngineKind::octree) return make_octree_engine(scene, settings.octree);
     const Caster caster = settings.caster ? *settings.caster : Caster(scene);
-    if (settings.type == EngineKind::slices) return make_slices_engine(scene, caster, {});
+    if (settings.type == EngineKind::slices) return make_slices_engine(scene, caster);
     if (settings.type == EngineKind::automatic && !scene.sound_profile)
         return make_auto_engine(scene, caster, settings.by_rays);
     return make_rays_engine(scene, caster);

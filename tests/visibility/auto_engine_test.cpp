@@ -44,7 +44,7 @@ TEST_CASE("auto takes slices, and rays for the views that need them") {
     const auto seen = [&](const std::vector<View>& by_rays) {
         return make_auto_engine(scene, caster, by_rays)->visible_surface(view, pose);
     };
-    const Samples by_slices = make_slices_engine(scene, {})->visible_surface(view, pose);
+    const Samples by_slices = make_slices_engine(scene, Caster(scene))->visible_surface(view, pose);
     const Samples by_rays = make_rays_engine(scene)->visible_surface(view, pose);
     CHECK(same(seen({}), by_slices));
     CHECK(same(seen({view}), by_rays));

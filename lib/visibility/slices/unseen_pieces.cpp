@@ -11,19 +11,6 @@ namespace {
 constexpr float per_height = 8.0F;
 constexpr float most_pieces = 4.0F;
 
-/// The part of a line of constant w in a triangle of the picture plane.
-Interval chord(const Corners& corners, float w) {
-    Interval u{unbounded, -unbounded};
-    for (int k = 0; k < 3; ++k) {
-        const Corner& a = corners[k];
-        const Corner& b = corners[(k + 1) % 3];
-        if ((a.w <= w) == (b.w <= w)) continue;
-        const float at = a.u + (w - a.w) / (b.w - a.w) * (b.u - a.u);
-        u = {std::min(u.from, at), std::max(u.to, at)};
-    }
-    return u;
-}
-
 }  // namespace
 
 void add_unseen_pieces(const Corners& corners, const Eigen::Vector3f& normal, float reflection,
@@ -38,7 +25,7 @@ void add_unseen_pieces(const Corners& corners, const Eigen::Vector3f& normal, fl
     const float step = (w.to - w.from) / pieces;
     for (int k = 0; k < static_cast<int>(pieces); ++k) {
         const float at = w.from + (static_cast<float>(k) + 0.5F) * step;
-        const Interval across = chord(corners, at);
+        const Interval across = u_between(corners, {at, at});
         if (!(across.from < across.to)) continue;
         const float u = 0.5F * (across.from + across.to);
         // On a plane -h q = n . (1, u, w), and dA = X^3 du dw / h.
