@@ -14,8 +14,6 @@ namespace sonarsim {
 struct SliceError {
     double difference = 0.0;
     double signal = 0.0;  ///< sum of the intensities
-
-    double share() const { return signal > 0.0 ? difference / signal : 0.0; }
 };
 
 /// The border between the strips of two neighbouring slices: midway, or where all surface of one of

@@ -44,6 +44,7 @@ FrameScan::FrameScan(const ClusterMesh& mesh, const Scene& scene, const SliceFra
       facet_extents_(mesh, scene.vertices, setup_, scene_),
       walk_(scene_, frame) {
     setup_.run();
+    by_gap_ = by_gap(scene_, frame_);
     request_slices();
 }
 
@@ -80,10 +81,9 @@ void FrameScan::find_candidates(std::uint32_t gap, std::span<const std::uint32_t
     out.clear();
     for (const std::uint32_t trapezoid : around)
         out.push_back(candidate(scene_, trapezoid));
-    const Groups& notes = notes_by_gap();
     facets_.clear();
-    for (std::uint32_t k = notes.begin[gap]; k < notes.begin[gap + 1]; ++k)
-        facets_.push_back(scene_.in_gaps[notes.items[k]].facet);
+    for (std::uint32_t k = by_gap_.begin[gap]; k < by_gap_.begin[gap + 1]; ++k)
+        facets_.push_back(scene_.in_gaps[by_gap_.items[k]].facet);
     // A triangle with two parts in this gap was noted twice.
     facets_.erase(std::unique(facets_.begin(), facets_.end()), facets_.end());
     const auto first = static_cast<std::uint32_t>(scene_.trapezoids.size());
@@ -95,19 +95,13 @@ void FrameScan::find_candidates(std::uint32_t gap, std::span<const std::uint32_t
     }
 }
 
-const Groups& FrameScan::notes_by_gap() {
-    if (!by_gap_) by_gap_ = by_gap(scene_, frame_);
-    return *by_gap_;
-}
-
 void FrameScan::find_unseen(std::uint32_t gap, std::vector<UnseenPiece>& out) {
-    const Groups& notes = notes_by_gap();
-    const std::uint32_t begin = notes.begin[gap];
-    const std::uint32_t end = notes.begin[gap + 1];
+    const std::uint32_t begin = by_gap_.begin[gap];
+    const std::uint32_t end = by_gap_.begin[gap + 1];
     const std::uint32_t step = 1 + (end - begin) / most_unseen;
     const Interval w = w_over(frame_, {frame_.slices[gap].u, frame_.slices[gap + 1].u});
     for (std::uint32_t k = begin; k < end; k += step) {
-        const FacetInGap& note = scene_.in_gaps[notes.items[k]];
+        const FacetInGap& note = scene_.in_gaps[by_gap_.items[k]];
         if (!note.whole) continue;
         const SliceFacet& facet = mesh_.facets[note.facet];
         add_unseen_pieces(setup_.corners_of(note.facet), setup_.turned(facet.normal),

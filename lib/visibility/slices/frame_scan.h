@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -73,7 +72,6 @@ class FrameScan {
     const SliceScene& scene() const { return scene_; }
 
   private:
-    const Groups& notes_by_gap();
     void request_slices();
     void scan_slice(const Slice& slice, std::span<const Segment> segments, SliceResult& out);
     void merge_coplanar(std::vector<VisibleSpan>& spans) const;
@@ -90,7 +88,7 @@ class FrameScan {
     std::vector<std::uint32_t> open_;  ///< memory of visible_spans()
     std::vector<std::uint64_t> places_;
     std::vector<Segment> segments_;
-    std::optional<Groups> by_gap_;  ///< indices into scene_.in_gaps by gap
+    Groups by_gap_;  ///< indices into scene_.in_gaps by gap
     std::vector<std::uint32_t> facets_;
 };
 

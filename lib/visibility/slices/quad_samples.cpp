@@ -12,8 +12,7 @@ namespace {
 // Largest number of parts across a patch.
 constexpr float most_parts = 8.0F;
 
-// Surface at a smaller cosine to the line of sight is grazing: so dark that it dims a bin of other
-// surface by its area alone. Chosen.
+// Surface at a smaller cosine to the line of sight is grazing: it dims a bin by its area alone.
 constexpr float grazing_cosine = 0.1F;
 
 // Towards the line in which all slices meet, a patch is divided into narrower ones down to this
