@@ -7,6 +7,22 @@
 
 namespace sonarsim {
 
+Ball ball_around(std::span<const Eigen::Vector3f> vertices,
+                 std::span<const TriangleCorners> triangles) {
+    if (triangles.empty()) return {};
+    Eigen::AlignedBox3f box;
+    for (const TriangleCorners& triangle : triangles) {
+        for (const std::uint32_t corner : triangle)
+            box.extend(vertices[corner]);
+    }
+    Ball ball{box.center()};
+    for (const TriangleCorners& triangle : triangles) {
+        for (const std::uint32_t corner : triangle)
+            ball.radius_m = std::max(ball.radius_m, (vertices[corner] - ball.centre).norm());
+    }
+    return ball;
+}
+
 std::vector<std::uint32_t> first_at_place(std::span<const Eigen::Vector3f> vertices) {
     // A hash table with linear probing.
     constexpr std::uint32_t none = 0xFFFFFFFFU;

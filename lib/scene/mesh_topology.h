@@ -22,6 +22,14 @@ inline Eigen::Vector3d cross_of(std::span<const Eigen::Vector3f> vertices,
         .cross(vertices[triangle[2]].cast<double>() - a);
 }
 
+/// A ball around the vertices of some triangles.
+struct Ball {
+    Eigen::Vector3f centre = Eigen::Vector3f::Zero();
+    float radius_m = 0.0F;
+};
+Ball ball_around(std::span<const Eigen::Vector3f> vertices,
+                 std::span<const TriangleCorners> triangles);
+
 /// For each vertex the first one at its place. Files repeat vertices at creases and seams.
 std::vector<std::uint32_t> first_at_place(std::span<const Eigen::Vector3f> vertices);
 

@@ -18,20 +18,6 @@ constexpr float max_height_ratio = 5.0F;
 // Vertices closer than this share of the object's size are one.
 constexpr float weld_share = 1e-5F;
 
-void find_ball(std::span<const Eigen::Vector3f> vertices,
-               std::span<const TriangleCorners> triangles, TargetShape& shape) {
-    Eigen::AlignedBox3f box;
-    for (const TriangleCorners& triangle : triangles) {
-        for (const std::uint32_t corner : triangle)
-            box.extend(vertices[corner]);
-    }
-    shape.centre = box.center();
-    for (const TriangleCorners& triangle : triangles) {
-        for (const std::uint32_t corner : triangle)
-            shape.radius_m = std::max(shape.radius_m, (vertices[corner] - shape.centre).norm());
-    }
-}
-
 /// Gives corners at one place one number. Files repeat vertices at seams of their textures.
 void weld(std::span<const Eigen::Vector3f> vertices, std::vector<TriangleCorners>& triangles,
           TargetShape& shape) {
@@ -204,7 +190,9 @@ void set_smooth_normals(TargetShape& shape, const std::vector<MeshSide>& edges) 
 TargetShape target_shape(const TargetMesh& mesh) {
     TargetShape shape;
     std::vector<TriangleCorners> triangles = mesh.triangles;
-    find_ball(mesh.vertices, triangles, shape);
+    const Ball ball = ball_around(mesh.vertices, triangles);
+    shape.centre = ball.centre;
+    shape.radius_m = ball.radius_m;
     weld(mesh.vertices, triangles, shape);
     add_triangles(triangles, mesh.materials, shape);
     std::vector<TriangleCorners> kept;

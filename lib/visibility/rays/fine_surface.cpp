@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 
 #include "scene/mesh_topology.h"
 #include "visibility/cut_triangle.h"
@@ -124,14 +125,11 @@ FineSurface::FineSurface(const Scene& scene) : scene_(scene) {
 }
 
 void FineSurface::add_run(std::size_t first) {
-    Eigen::AlignedBox3f box;
-    float least_m = std::numeric_limits<float>::infinity();
-    for (std::size_t t = first; t < std::min(first + run_triangles, radii_m_.size()); ++t) {
-        for (const std::uint32_t v : scene_.triangles[t])
-            box.extend(scene_.vertices[v]);
-        least_m = std::min(least_m, radii_m_[t]);
-    }
-    runs_.push_back({box.center(), 0.5F * box.diagonal().norm(), least_m});
+    const std::size_t count = std::min(run_triangles, radii_m_.size() - first);
+    const auto radii = std::span(radii_m_).subspan(first, count);
+    runs_.push_back(
+        {ball_around(scene_.vertices, std::span(scene_.triangles).subspan(first, count)),
+         *std::ranges::min_element(radii)});
 }
 
 /// The numbers of the triangles whose runs may reach into the view.
@@ -140,10 +138,11 @@ std::vector<std::uint32_t> FineSurface::in_view(const ViewVolume& volume, const 
     std::vector<std::uint32_t> found;
     for (std::size_t r = 0; r < runs_.size(); ++r) {
         const Run& run = runs_[r];
-        if (run.least_radius_m >= resolved_m(reach_m + 2.0F * run.ball_m, spacing)) continue;
-        const Eigen::Vector3f centre = run.centre - pose.position;
-        if (run.least_radius_m >= resolved_m(centre.norm() + run.ball_m, spacing) ||
-            volume.containment(centre, run.ball_m + volume.rounding_m()) == Containment::outside)
+        if (run.least_radius_m >= resolved_m(reach_m + 2.0F * run.ball.radius_m, spacing)) continue;
+        const Eigen::Vector3f centre = run.ball.centre - pose.position;
+        if (run.least_radius_m >= resolved_m(centre.norm() + run.ball.radius_m, spacing) ||
+            volume.containment(centre, run.ball.radius_m + volume.rounding_m()) ==
+                Containment::outside)
             continue;
         const std::size_t end = std::min((r + 1) * run_triangles, radii_m_.size());
         for (auto t = static_cast<std::uint32_t>(r * run_triangles); t < end; ++t) {

@@ -1,7 +1,6 @@
 #include "visibility/slices/clusters.h"
 
 #include <algorithm>
-#include <limits>
 #include <span>
 #include <utility>
 
@@ -31,19 +30,14 @@ Eigen::Vector3f centre_of(const Scene& scene, const std::array<std::uint32_t, 3>
 /// Indices of the triangles along the Morton curve; triangles with equal codes keep the scene's
 /// order.
 std::vector<std::uint32_t> along_morton_curve(const Scene& scene) {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
-    Eigen::Vector3f low = Eigen::Vector3f::Constant(infinity);
-    Eigen::Vector3f high = -low;
-    for (const auto& triangle : scene.triangles) {
-        const Eigen::Vector3f centre = centre_of(scene, triangle);
-        low = low.cwiseMin(centre);
-        high = high.cwiseMax(centre);
-    }
-    const float length = (high - low).maxCoeff();
+    Eigen::AlignedBox3f box;
+    for (const auto& triangle : scene.triangles)
+        box.extend(centre_of(scene, triangle));
+    const float length = scene.triangles.empty() ? 0.0F : box.sizes().maxCoeff();
     const float cells = length > 0.0F ? static_cast<float>(0x1fffff) / length : 0.0F;
     std::vector<std::pair<std::uint64_t, std::uint32_t>> keys(scene.triangles.size());
     for (std::uint32_t i = 0; i < keys.size(); ++i) {
-        const Eigen::Vector3f at = (centre_of(scene, scene.triangles[i]) - low) * cells;
+        const Eigen::Vector3f at = (centre_of(scene, scene.triangles[i]) - box.min()) * cells;
         keys[i] = {spread_bits(static_cast<std::uint64_t>(at.x())) |
                        spread_bits(static_cast<std::uint64_t>(at.y())) << 1U |
                        spread_bits(static_cast<std::uint64_t>(at.z())) << 2U,
@@ -90,15 +84,12 @@ void add_cluster(const Scene& scene, std::span<const std::uint32_t> triangles, C
     cluster.vertices = static_cast<std::uint32_t>(used.size());
     cluster.first_triangle = static_cast<std::uint32_t>(mesh.corners.size());
     cluster.triangles = static_cast<std::uint32_t>(triangles.size());
-    Eigen::Vector3f low = scene.vertices[used[0]];
-    Eigen::Vector3f high = low;
+    Eigen::AlignedBox3f box;
     for (const std::uint32_t vertex : used) {
-        const Eigen::Vector3f& p = scene.vertices[vertex];
-        low = low.cwiseMin(p);
-        high = high.cwiseMax(p);
-        mesh.vertices.push_back(p);
+        box.extend(scene.vertices[vertex]);
+        mesh.vertices.push_back(scene.vertices[vertex]);
     }
-    cluster.centre = 0.5F * (low + high);
+    cluster.centre = box.center();
     for (const std::uint32_t vertex : used) {
         cluster.radius_m =
             std::max(cluster.radius_m, (scene.vertices[vertex] - cluster.centre).norm());

@@ -81,7 +81,7 @@ class FrameScan {
     const SliceFrame& frame_;
     SliceScene scene_;
     SliceSetup setup_;
-    std::vector<RequestedSlice> requested_;  ///< by u
+    std::vector<RequestedSlice> requested_;  ///< from low u to high
     mutable FacetExtents facet_extents_;     ///< computed on demand
     SliceWalk walk_;
     int next_ = 0;

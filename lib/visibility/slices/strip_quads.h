@@ -10,7 +10,7 @@
 
 namespace sonarsim {
 
-/// Converts the strips of slices to the samples of beams, by way of quadrilaterals. A strip is
+/// Converts the strips of slices to quadrilaterals, and these to the samples of beams. A strip is
 /// divided at the borders of beams. If two adjacent strips show the same surface between the same
 /// lines, their quadrilaterals are joined. If surface ends within its strip, the surface of the
 /// adjacent slice continues up to that end.
@@ -47,7 +47,7 @@ class StripQuads {
     std::vector<UncoveredPart> last_uncovered_;  ///< holes of the last strip that reach its end
     std::vector<UncoveredPart> begin_;           ///< holes of this strip that reach its begin
     std::vector<UncoveredPart> end_;             ///< holes of this strip that reach its end
-    MovedEnds at_border_[2];                     ///< of the strip that a beam's border divides
+    MovedEnds at_border_[2];                     ///< ends of a strip at the borders of beams in it
     int beam_ = 0;  ///< beam of the frame in which the next strip begins
 };
 
