@@ -183,12 +183,6 @@ inline Floats8 picked(Floats8 values, Ints8 at) {
     return _mm256_permutevar8x32_ps(values.v, at.v);
 }
 
-/// The real parts of 8 complex numbers.
-inline Floats8 real_parts(const float* complex) {
-    const __m256 even = _mm256_shuffle_ps(
-        _mm256_loadu_ps(complex), _mm256_loadu_ps(complex + lanes), _MM_SHUFFLE(2, 0, 2, 0));
-    return _mm256_castpd_ps(_mm256_permute4x64_pd(_mm256_castps_pd(even), _MM_SHUFFLE(3, 1, 2, 0)));
-}
 /// Writes 8 complex numbers.
 inline void store_complex(Floats8 re, Floats8 im, float* to) {
     const __m256 low = _mm256_unpacklo_ps(re.v, im.v);
@@ -197,9 +191,9 @@ inline void store_complex(Floats8 re, Floats8 im, float* to) {
     _mm256_storeu_ps(to + lanes, _mm256_permute2f128_ps(low, high, 0x31));
 }
 
-/// The columns of 8 rows of 8 numbers. Row k + 1 begins `stride` numbers after row k.
-inline std::array<Floats8, lanes> columns_of_eight(const float* rows, std::ptrdiff_t stride = 8) {
-    const auto row = [&](int k) { return _mm256_loadu_ps(rows + stride * k); };
+/// The columns of 8 rows of 8 numbers.
+inline std::array<Floats8, lanes> columns_of_eight(const float* rows) {
+    const auto row = [&](int k) { return _mm256_loadu_ps(rows + 8 * k); };
     const auto pairs = [&](int k, bool upper) {
         return upper ? _mm256_unpackhi_ps(row(k), row(k + 1))
                      : _mm256_unpacklo_ps(row(k), row(k + 1));

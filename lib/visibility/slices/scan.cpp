@@ -21,9 +21,8 @@ constexpr double widest_strip = 0.0088;      // fan, rad
 constexpr double widest_side_strip = 0.035;  // port_starboard, rad
 constexpr int cone_slices = 96;              // at one per beam
 
-// The poles of a view lie at w = infinity. Surface within 1e-3 rad of the poles of elevation is
-// ignored: within 1e-5 rad, the area of a sphere would be 5 % too large. The ends of a sector of
-// 180 degrees lie at infinity, too.
+// The poles of a view lie at w = infinity, and so do the ends of a sector of 180 degrees. Surface
+// within 1e-3 rad of the poles of elevation is ignored.
 constexpr double steepest = 1e3;
 constexpr double steepest_at_most = 1e5;
 
