@@ -20,12 +20,12 @@ constexpr float area_rounding = 1.01F;
 float area_of(const Quad& quad, const QuadPoints& c, float nearest_m, float farthest_m) {
     const float picture =
         std::fabs((c.u[2] - c.u[0]) * (c.w[3] - c.w[1]) - (c.u[3] - c.u[1]) * (c.w[2] - c.w[0]));
-    const auto area_at = [&](float X3) { return 0.5F * picture * X3 / quad.height_m; };
     const Eigen::Array4f X3 = c.X * c.X * c.X;
-    if (nearest_m <= quad.range_m.from || farthest_m >= quad.range_m.to)
-        return area_at(0.25F * ((X3[0] + X3[2]) + (X3[1] + X3[3])));
-    const float area = 0.5F * (c.at(2) - c.at(0)).cross(c.at(3) - c.at(1)).norm();
-    return std::min(area, area_rounding * area_at(X3.maxCoeff()));
+    const bool moved = nearest_m <= quad.range_m.from || farthest_m >= quad.range_m.to;
+    const float mean_X3 = 0.25F * ((X3[0] + X3[2]) + (X3[1] + X3[3]));
+    const float in_picture = 0.5F * picture * (moved ? mean_X3 : X3.maxCoeff()) / quad.height_m;
+    const float in_space = 0.5F * (c.at(2) - c.at(0)).cross(c.at(3) - c.at(1)).norm();
+    return moved ? in_picture : std::min(in_space, area_rounding * in_picture);
 }
 
 /// The centroid of a trapezoid lies towards its wide end.
@@ -61,9 +61,13 @@ void fit_range(float nearest_m, float farthest_m, Parallelogram& out) {
     const float more = 0.5F * (farthest_m - nearest_m) - depth_u - depth_v;
     const float shift = 0.5F * (farthest_m + nearest_m) - r - bend;
     const bool by_u = depth_u > depth_v;
-    Eigen::Vector3f& edge = by_u ? out.edge_u : out.edge_v;
-    out.position += std::clamp(shift, -limit, limit) / (by_u ? u : v) * edge;
-    edge *= 1.0F + std::clamp(more, -limit, limit) / deeper;
+    const float move = std::clamp(shift, -limit, limit) / (by_u ? u : v);
+    const float stretch = 1.0F + std::clamp(more, -limit, limit) / deeper;
+    // No branches, since either edge is as likely.
+    for (int k = 0; k < 3; ++k)
+        out.position[k] += move * (by_u ? out.edge_u[k] : out.edge_v[k]);
+    out.edge_u *= by_u ? stretch : 1.0F;
+    out.edge_v *= by_u ? 1.0F : stretch;
 }
 
 }  // namespace
