@@ -40,7 +40,7 @@ TEST_CASE("auto takes slices, and rays for the views that need them") {
     Pose pose;
     pose.translation = {0.0, 0.0, 1.5};
     const auto seen = [&](const std::vector<View>& by_rays) {
-        return make_engine(scene, {.type = EngineKind::automatic, .by_rays = by_rays})
+        return make_engine(scene, {.type = EngineKind::automatic, .octree = {}, .by_rays = by_rays})
             ->visible_surface(view, pose);
     };
     const Samples by_slices = make_slices_engine(scene, Caster(scene))->visible_surface(view, pose);
@@ -63,8 +63,8 @@ TEST_CASE("auto takes rays over many triangles, denser than the goal alone asks 
     Pose pose;
     pose.translation = {-4.0, 0.0, 2.0};
     pose.rotation = Eigen::AngleAxisd(radians(25.0), Eigen::Vector3d::UnitY());
-    const Samples seen =
-        make_engine(scene, {.type = EngineKind::automatic})->visible_surface(view, pose);
+    const Samples seen = make_engine(scene, {.type = EngineKind::automatic, .octree = {}})
+                             ->visible_surface(view, pose);
     CHECK(same(seen, make_rays_engine(scene, caster, 4)->visible_surface(view, pose)));
 }
 
