@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <tuple>
 
 #include "core/groups.h"
 
@@ -59,8 +60,8 @@ std::vector<MeshSide> sides_by_edge(std::span<const TriangleCorners> triangles,
     }
     // Few sides share a vertex.
     for (std::size_t v = 0; v < vertices; ++v) {
-        std::ranges::stable_sort(sides.begin() + groups.begin[v],
-                                 sides.begin() + groups.begin[v + 1], {}, &MeshSide::high);
+        std::ranges::sort(sides.begin() + groups.begin[v], sides.begin() + groups.begin[v + 1], {},
+                          [](const MeshSide& s) { return std::tuple(s.high, s.triangle, s.side); });
     }
     return sides;
 }
