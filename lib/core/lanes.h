@@ -191,9 +191,9 @@ inline void store_complex(Floats8 re, Floats8 im, float* to) {
     _mm256_storeu_ps(to + lanes, _mm256_permute2f128_ps(low, high, 0x31));
 }
 
-/// The columns of 8 rows of 8 numbers.
-inline std::array<Floats8, lanes> columns_of_eight(const float* rows) {
-    const auto row = [&](int k) { return _mm256_loadu_ps(rows + 8 * k); };
+/// The columns of 8 rows of 8 numbers. Row k + 1 begins `stride` numbers after row k.
+inline std::array<Floats8, lanes> columns_of_eight(const float* rows, std::ptrdiff_t stride = 8) {
+    const auto row = [&](int k) { return _mm256_loadu_ps(rows + stride * k); };
     const auto pairs = [&](int k, bool upper) {
         return upper ? _mm256_unpackhi_ps(row(k), row(k + 1))
                      : _mm256_unpacklo_ps(row(k), row(k + 1));

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "visibility/slices/parallelogram.h"
+#include <utility>
 
 namespace sonarsim {
 
@@ -172,12 +171,12 @@ void QuadSampler::add_part(const Quad& quad, float from, float to) {
 /// Divides a quadrilateral of long, grazing surface across into equal parts, since its ranges are
 /// not those of a parallelogram.
 void QuadSampler::divide_across(const Quad& quad, const QuadPoints& corners) {
-    if (limits_.long_grazing_m == unbounded) return add_sample(quad, corners);
+    if (limits_.long_grazing_m == unbounded) return push(quad, corners);
     const Eigen::Array4f& r = corners.range;
     const float farthest = r.maxCoeff();
     const bool is_long = farthest - r.minCoeff() > limits_.long_grazing_m;
     const float wedge = std::fabs(std::fabs(r[3] - r[0]) - std::fabs(r[2] - r[1]));
-    if (!is_long || !(quad.height_m < grazing_cosine * farthest)) return add_sample(quad, corners);
+    if (!is_long || !(quad.height_m < grazing_cosine * farthest)) return push(quad, corners);
     const float parts = std::clamp(std::ceil(wedge / limits_.grazing_wedge_m), 1.0F, most_parts);
     Quad part = quad;
     for (int i = 1; i <= static_cast<int>(parts); ++i) {
@@ -185,23 +184,37 @@ void QuadSampler::divide_across(const Quad& quad, const QuadPoints& corners) {
         const auto between = [&](float x, float y) { return x + share * (y - x); };
         part.high = {between(quad.low.u, quad.high.u), between(quad.low.low, quad.high.low),
                      between(quad.low.high, quad.high.high)};
-        add_sample(part, part.corners());
+        push(part, part.corners());
         part.low = part.high;
     }
 }
 
-void QuadSampler::add_sample(const Quad& quad, const QuadPoints& corners) {
-    const Parallelogram patch = fit_parallelogram(quad, corners, R_sensor_frame_, !any_width_);
-    if (!(patch.area_m2 > 0.0F)) return;
-    const FrontFacet& seen = scan_.scene().facets[quad.facet_index];
+void QuadSampler::push(const Quad& quad, const QuadPoints& corners) {
+    facets_[waiting_] = quad.facet_index;
+    queue_.set(waiting_++, quad, corners);
+    if (waiting_ == lanes) flush();
+}
+
+void QuadSampler::flush() {
+    if (waiting_ == 0) return;
+    const Parallelograms patches = fit_parallelograms(queue_, R_sensor_frame_, !any_width_);
+    const int count = std::exchange(waiting_, 0);
+    for (int k = 0; k < count; ++k)
+        add_sample(facets_[k], patches, k);
+}
+
+void QuadSampler::add_sample(std::uint32_t facet_index, const Parallelograms& patches, int lane) {
+    const float area = patches.area_m2[lane];
+    if (!(area > 0.0F)) return;
+    const FrontFacet& seen = scan_.scene().facets[facet_index];
     const SliceFacet& facet = scan_.mesh().facets[seen.facet];
     Sample& sample = out_.emplace_back();
-    sample.position = patch.position;
-    sample.edge_u = patch.edge_u;
-    sample.edge_v = patch.edge_v;
+    sample.position = patches.position.at(lane);
+    sample.edge_u = patches.edge_u.at(lane);
+    sample.edge_v = patches.edge_v.at(lane);
     sample.normal = R_sensor_frame_ * seen.normal;
     sample.height_m = seen.height_m;
-    sample.area_m2 = patch.area_m2;
+    sample.area_m2 = area;
     sample.material = facet.material;
     sample.instance = facet.instance;
 }

@@ -75,14 +75,18 @@ TEST_CASE("slices: a parallelogram has the area and the range of its quadrilater
         // Short along w: the ranges of a parallelogram are linear.
         quad.low.high = quad.low.low + 0.1F;
         quad.high.high = quad.high.low + 0.1F;
-        const Parallelogram patch =
-            fit_parallelogram(quad, quad.corners(), Eigen::Matrix3f::Identity(), false);
+        const int lane = run % lanes;
+        QuadBatch batch{};
+        batch.set(lane, quad, quad.corners());
+        const Parallelograms patches =
+            fit_parallelograms(batch, Eigen::Matrix3f::Identity(), false);
         const Surface surface = surface_of(quad);
-        CHECK(patch.area_m2 == test::approx(surface.area_m2).epsilon(1e-3));
+        CHECK(patches.area_m2[lane] == test::approx(surface.area_m2).epsilon(1e-3));
         // The range of a parallelogram that bends little, from its edges.
-        const Eigen::Vector3f& at = patch.position;
-        const float half_m =
-            (std::fabs(at.dot(patch.edge_u)) + std::fabs(at.dot(patch.edge_v))) / at.norm();
+        const Eigen::Vector3f at = patches.position.at(lane);
+        const float half_m = (std::fabs(at.dot(patches.edge_u.at(lane))) +
+                              std::fabs(at.dot(patches.edge_v.at(lane)))) /
+                             at.norm();
         CHECK(at.norm() - half_m == test::approx(surface.nearest_m).epsilon(5e-3));
         CHECK(at.norm() + half_m == test::approx(surface.farthest_m).epsilon(5e-3));
     }
