@@ -5,12 +5,12 @@
 
 #include "scene/scene.h"
 #include "visibility/local_pose.h"
+#include "visibility/slices/edge_line.h"
 #include "visibility/slices/envelope.h"
 #include "visibility/slices/facet_extent.h"
 #include "visibility/slices/moved_ends.h"
 #include "visibility/slices/setup.h"
 #include "visibility/slices/slice_walk.h"
-#include "visibility/slices/unseen_pieces.h"
 
 namespace sonarsim {
 
@@ -20,6 +20,16 @@ struct SliceResult {
     std::vector<VisibleSpan> spans;
     MovedEnds low;  ///< moved to the begin of its strip
     MovedEnds high;
+};
+
+/// A piece of a triangle that lies between two slices, so that no slice meets it.
+struct UnseenPiece {
+    Interval facet_u;  ///< extent of its triangle within the view
+    float u, w, q;     ///< its middle; q = 1 / X
+    float area_m2;
+    Interval range_m;
+    float height_m;  ///< distance of the sensor from its plane
+    float reflection;
 };
 
 /// A slice that is requested within a gap.
