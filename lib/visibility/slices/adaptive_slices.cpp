@@ -131,7 +131,7 @@ void AdaptiveSlices::split(std::size_t i, float u) {
     estimate(subgaps_.back());
 }
 
-const std::vector<Candidate>& AdaptiveSlices::candidates(std::uint32_t gap) {
+const std::vector<std::uint32_t>& AdaptiveSlices::candidates(std::uint32_t gap) {
     AroundGap& around = around_[gap - first_gap_];
     if (around.all.empty()) scan_.find_candidates(gap, around.of_slices, around.all);
     return around.all;

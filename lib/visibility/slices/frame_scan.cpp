@@ -123,10 +123,8 @@ void FrameScan::scan_next(SliceResult& out) {
 }
 
 void FrameScan::find_candidates(std::uint32_t gap, std::span<const std::uint32_t> around,
-                                std::vector<Candidate>& out) {
-    out.clear();
-    for (const std::uint32_t trapezoid : around)
-        out.push_back(candidate(scene_, trapezoid));
+                                std::vector<std::uint32_t>& out) {
+    out.assign(around.begin(), around.end());
     facets_.clear();
     for (std::uint32_t k = by_gap_.begin[gap]; k < by_gap_.begin[gap + 1]; ++k)
         facets_.push_back(scene_.in_gaps[by_gap_.items[k]].facet);
@@ -135,9 +133,9 @@ void FrameScan::find_candidates(std::uint32_t gap, std::span<const std::uint32_t
     const auto first = static_cast<std::uint32_t>(scene_.trapezoids.size());
     setup_.add_between(facets_);
     for (auto i = first; i < scene_.trapezoids.size(); ++i) {
-        const Candidate c = candidate(scene_, i);
-        if (frame_.slices[gap].u <= c.u_from && c.u_to <= frame_.slices[gap + 1].u)
-            out.push_back(c);
+        const Trapezoid& t = scene_.trapezoids[i];
+        if (frame_.slices[gap].u <= t.u_from && t.u_to <= frame_.slices[gap + 1].u)
+            out.push_back(i);
     }
 }
 
@@ -157,7 +155,7 @@ void FrameScan::find_unseen(std::uint32_t gap, std::vector<UnseenPiece>& out) {
         piece.area_m2 *= static_cast<float>(step);
 }
 
-void FrameScan::scan_slice(float u, std::span<const Candidate> candidates, SliceResult& out) {
+void FrameScan::scan_slice(float u, std::span<const std::uint32_t> candidates, SliceResult& out) {
     segments_at(scene_, u, candidates, places_, segments_);
     scan_slice(slice_at(frame_, u), segments_, out);
 }

@@ -54,13 +54,13 @@ class FrameScan {
     /// Finds all trapezoids that slices within a gap may meet: `around`, which its own two slices
     /// meet, and those that lie between them.
     void find_candidates(std::uint32_t gap, std::span<const std::uint32_t> around,
-                         std::vector<Candidate>& out);
+                         std::vector<std::uint32_t>& out);
 
     /// Finds pieces of the triangles that lie between the slices of a gap; `out` is empty before.
     void find_unseen(std::uint32_t gap, std::vector<UnseenPiece>& out);
 
     /// Scans the slice at u, which may meet only `candidates`.
-    void scan_slice(float u, std::span<const Candidate> candidates, SliceResult& out);
+    void scan_slice(float u, std::span<const std::uint32_t> candidates, SliceResult& out);
 
     /// The slices requested within a gap, from low u to high: those through the components of the
     /// mesh that are narrower than a gap, such as a wire or a small ball. The echo of such a

@@ -19,6 +19,11 @@ constexpr float widest_ratio = 1.5F;
 // Error of an image per root of the share by which neighbouring slices differ, of drawn lattices.
 constexpr double error_per_root = 0.22;
 
+/// True for error goals that allow coarse patches.
+bool is_coarse(double relative_l1) {
+    return relative_l1 >= 0.02;
+}
+
 }  // namespace
 
 SliceDensity slice_density(const View& view) {

@@ -9,18 +9,9 @@
 
 namespace sonarsim {
 
-/// A trapezoid that slices between two others may meet.
-struct Candidate {
-    float u_from;
-    float u_to;  ///< exclusive
-    std::uint32_t trapezoid;
-};
-
-Candidate candidate(const SliceScene& scene, std::uint32_t trapezoid);
-
-/// The segments of the candidates that a slice at u meets, sorted by w_low. The memory of `places`
-/// is reused.
-void segments_at(const SliceScene& scene, float u, std::span<const Candidate> candidates,
+/// The segments of those of some trapezoids that a slice at u meets, sorted by w_low. The memory of
+/// `places` is reused.
+void segments_at(const SliceScene& scene, float u, std::span<const std::uint32_t> trapezoids,
                  std::vector<std::uint64_t>& places, std::vector<Segment>& out);
 
 /// Walks the slices of a frame in order and keeps the segments that each of them meets sorted.
