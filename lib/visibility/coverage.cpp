@@ -7,7 +7,7 @@
 
 #include "core/elementary.h"
 #include "visibility/angles.h"
-#include "visibility/polygon.h"
+#include "visibility/view_polygon.h"
 
 namespace sonarsim {
 
@@ -21,7 +21,7 @@ constexpr double widest_sector_rad = 0.0125;
 
 // The number of sides of the pyramid that replaces an echosounder's cone. Its sides touch the cone,
 // and its edges lie 0.5 % further out.
-constexpr int cone_planes = most_view_planes;
+constexpr int cone_planes = ViewPolygon::most_planes;
 
 // Surface that reaches into a neighbouring bin by less than this does not cover that bin.
 constexpr float least_overlap_bins = 1e-3F;

@@ -12,6 +12,24 @@ namespace {
 constexpr std::size_t most_groups = 6;
 constexpr double same_direction = 0.85;  // cosine
 
+/// Keeps the part of a polygon with x[axis] >= bound, or the part with x[axis] < bound.
+void cut(const Polygon& from, int axis, double bound, bool keep_above, Polygon& to) {
+    to.corners = 0;
+    for (int i = 0; i < from.corners; ++i) {
+        const Eigen::Vector3d& a = from.corner[i];
+        const Eigen::Vector3d& b = from.corner[i + 1 < from.corners ? i + 1 : 0];
+        const bool a_in = (a[axis] >= bound) == keep_above;
+        const bool b_in = (b[axis] >= bound) == keep_above;
+        if (a_in) to.corner[to.corners++] = a;
+        if (a_in != b_in) {
+            const double t = (bound - a[axis]) / (b[axis] - a[axis]);
+            to.corner[to.corners] = a + t * (b - a);
+            to.corner[to.corners++][axis] = bound;
+        }
+    }
+    if (to.corners < 3) to.corners = 0;
+}
+
 /// True if the part of a triangle in a cube is real surface, false if it is rounding where the
 /// triangle touches the cube: then its area is tiny compared to the triangle. All area of a
 /// triangle without area is rounding.
@@ -43,8 +61,7 @@ void add_to_groups(double area, const Facet& facet, std::uint32_t triangle,
         }
     }
     if (!home || (best < same_direction && groups.size() < most_groups)) {
-        groups.push_back(
-            {area, area * normal, area, {Eigen::Vector3f::Zero(), triangle}, facet.material});
+        groups.push_back({area, area * normal, area, {Eigen::Vector3f::Zero(), triangle}, facet.material});
         return;
     }
     home->area += area;
@@ -69,31 +86,30 @@ bool overlaps(const Triangle& triangle, const Cube& cube) {
     return true;
 }
 
-CubePolygon clip(const Triangle& triangle, const Cube& cube) {
-    CubePolygon polygon;
-    std::ranges::copy(triangle, polygon.corner.begin());
+Polygon clip(const Triangle& triangle, const Cube& cube) {
+    Polygon polygon;
+    for (int i = 0; i < 3; ++i)
+        polygon.corner[i] = triangle[i];
     polygon.corners = 3;
-    CubePolygon next;
+    Polygon next;
     for (int axis = 0; axis < 3; ++axis) {
         const double low = cube.min[axis];
         const double high = low + cube.edge;
-        const auto [least, most] =
-            std::minmax({triangle[0][axis], triangle[1][axis], triangle[2][axis]});
+        const double least = std::min({triangle[0][axis], triangle[1][axis], triangle[2][axis]});
+        const double most = std::max({triangle[0][axis], triangle[1][axis], triangle[2][axis]});
         if (least < low) {
-            cut(
-                polygon, [=](const Eigen::Vector3d& p) { return p[axis] - low; }, next);
+            cut(polygon, axis, low, true, next);
             std::swap(polygon, next);
         }
         if (most >= high) {
-            cut(
-                polygon, [=](const Eigen::Vector3d& p) { return high - p[axis]; }, next);
+            cut(polygon, axis, high, false, next);
             std::swap(polygon, next);
         }
     }
     return polygon;
 }
 
-double area_m2(const CubePolygon& polygon) {
+double area_m2(const Polygon& polygon) {
     double sum = 0.0;
     for (int i = 1; i + 1 < polygon.corners; ++i) {
         sum += 0.5 * (polygon.corner[i] - polygon.corner[0])

@@ -7,7 +7,6 @@
 #include <span>
 
 #include "visibility/caster.h"
-#include "visibility/polygon.h"
 
 namespace sonarsim {
 
@@ -19,17 +18,20 @@ struct Cube {
 
 using Triangle = std::array<Eigen::Vector3d, 3>;
 
-/// A triangle that the faces of a cube have cut.
-using CubePolygon = Polygon<double, 6>;
+/// A convex, planar polygon: a triangle after clipping by up to six planes.
+struct Polygon {
+    std::array<Eigen::Vector3d, 9> corner;
+    int corners = 0;
+};
 
 /// False if no part of the triangle's bounding box is in the cube.
 bool overlaps(const Triangle& triangle, const Cube& cube);
 
 /// The part of a triangle inside a cube; no corners if there is none. Surface in a face between two
 /// cubes belongs to the cube above the face.
-CubePolygon clip(const Triangle& triangle, const Cube& cube);
+Polygon clip(const Triangle& triangle, const Cube& cube);
 
-double area_m2(const CubePolygon& polygon);
+double area_m2(const Polygon& polygon);
 
 /// The surface inside a cube: that of the direction and material with the largest area.
 struct Leaf {

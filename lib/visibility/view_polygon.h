@@ -9,39 +9,16 @@
 
 namespace sonarsim {
 
-/// A convex, planar polygon: a triangle that up to `most_cuts` planes have cut.
-template <class Real, int most_cuts>
-struct Polygon {
-    using Corner = Eigen::Matrix<Real, 3, 1>;
-
-    std::array<Corner, 3 + most_cuts> corner;
-    int corners = 0;
-};
-
-/// Keeps the part of a polygon where height(corner), the distance from a plane, is not negative.
-template <class Cut, class Height>
-void cut(const Cut& from, const Height& height, Cut& to) {
-    to.corners = 0;
-    if (from.corners == 0) return;
-    const typename Cut::Corner* a = &from.corner[from.corners - 1];
-    auto height_a = height(*a);
-    for (int i = 0; i < from.corners; ++i) {
-        const typename Cut::Corner* b = &from.corner[i];
-        const auto height_b = height(*b);
-        if ((height_a >= 0) != (height_b >= 0))
-            to.corner[to.corners++] = *a + height_a / (height_a - height_b) * (*b - *a);
-        if (height_b >= 0) to.corner[to.corners++] = *b;
-        a = b;
-        height_a = height_b;
-    }
-    if (to.corners < 3) to.corners = 0;
-}
-
 /// A convex part of the view: planes through the sonar, given by normals that point inwards.
 using ConvexView = std::span<const Eigen::Vector3f>;
 
-inline constexpr int most_view_planes = 32;
-using ViewPolygon = Polygon<float, most_view_planes>;
+/// A triangle of the sensor frame that up to `most_planes` planes have cut.
+struct ViewPolygon {
+    static constexpr int most_planes = 32;
+
+    std::array<Eigen::Vector3f, 3 + most_planes> corner;
+    int corners = 0;
+};
 
 /// Least and greatest distance from the sonar, m; least > greatest if it is empty.
 struct RangeInterval {
@@ -53,6 +30,22 @@ struct RangeInterval {
         greatest = std::max(greatest, range_m);
     }
 };
+
+/// Keeps the part of a polygon on the inner side of a plane through the sonar.
+inline void cut(const ViewPolygon& from, const Eigen::Vector3f& inwards, ViewPolygon& to) {
+    to.corners = 0;
+    const Eigen::Vector3f* a = &from.corner[from.corners - 1];
+    float height_a = inwards.dot(*a);
+    for (int i = 0; i < from.corners; ++i) {
+        const Eigen::Vector3f* b = &from.corner[i];
+        const float height_b = inwards.dot(*b);
+        if ((height_a >= 0.0F) != (height_b >= 0.0F))
+            to.corner[to.corners++] = *a + height_a / (height_a - height_b) * (*b - *a);
+        if (height_b >= 0.0F) to.corner[to.corners++] = *b;
+        a = b;
+        height_a = height_b;
+    }
+}
 
 /// The interval of distances of a convex, planar polygon.
 inline RangeInterval ranges_of(const ViewPolygon& polygon, const Eigen::Vector3f& normal) {
@@ -88,9 +81,7 @@ inline RangeInterval ranges_within(const std::array<Eigen::Vector3f, 3>& triangl
     polygons[0].corners = 3;
     int now = 0;
     for (const Eigen::Vector3f& inwards : view) {
-        cut(
-            polygons[now], [&](const Eigen::Vector3f& p) { return inwards.dot(p); },
-            polygons[1 - now]);
+        cut(polygons[now], inwards, polygons[1 - now]);
         now = 1 - now;
         if (polygons[now].corners == 0) return {};
     }
