@@ -1,21 +1,6 @@
 #include "core/atomic_file.h"
 
-#include "core/file.h"
-
 namespace sonarsim {
-
-AtomicFile::AtomicFile(const std::filesystem::path& path)
-    : path_(path), part_(temporary_name(path)) {}
-
-AtomicFile::~AtomicFile() {
-    std::error_code ignored;
-    if (!committed_) std::filesystem::remove(part_, ignored);
-}
-
-void AtomicFile::commit() {
-    std::filesystem::rename(part_, path_);
-    committed_ = true;
-}
 
 StreamedFile::StreamedFile(const std::filesystem::path& path)
     : atomic_file_(path), file_(std::fopen(atomic_file_.part().c_str(), "wbe")) {

@@ -6,26 +6,9 @@
 #include <string>
 #include <string_view>
 
+#include "core/file.h"
+
 namespace sonarsim {
-
-/// A file that has a temporary name while it is written: a reader sees the old file or the whole
-/// new one. The destructor removes a file that was not committed.
-class AtomicFile {
-  public:
-    explicit AtomicFile(const std::filesystem::path& path);
-    ~AtomicFile();
-    AtomicFile(const AtomicFile&) = delete;
-    AtomicFile& operator=(const AtomicFile&) = delete;
-
-    const std::filesystem::path& part() const { return part_; }
-    /// Renames the file to its final name. std::system_error when the disk refuses.
-    void commit();
-
-  private:
-    std::filesystem::path path_;
-    std::filesystem::path part_;
-    bool committed_ = false;
-};
 
 /// A file of any length that is written in pieces. std::system_error when the disk refuses.
 class StreamedFile {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -83,14 +84,9 @@ void sync_folder(const std::filesystem::path& folder) {
 }
 
 void write_and_rename(const std::filesystem::path& path, std::string_view bytes, Durable durable) {
-    const std::filesystem::path part = temporary_name(path);
-    try {
-        write_bytes(part, bytes, durable);
-        if (::rename(part.c_str(), path.c_str()) != 0) throw_errno("cannot write", path);
-    } catch (...) {
-        ::unlink(part.c_str());
-        throw;
-    }
+    AtomicFile file(path);
+    write_bytes(file.part(), bytes, durable);
+    file.commit();
     if (durable == Durable::yes) sync_folder(path.parent_path());
 }
 
@@ -159,6 +155,19 @@ std::string final_name(std::string_view name) {
     name.remove_prefix(1);
     name.remove_suffix(temporary_ending.size());
     return std::string(name.substr(0, name.rfind('.')));
+}
+
+AtomicFile::AtomicFile(const std::filesystem::path& path)
+    : path_(path), part_(temporary_name(path)) {}
+
+AtomicFile::~AtomicFile() {
+    std::error_code ignored;
+    if (!committed_) std::filesystem::remove(part_, ignored);
+}
+
+void AtomicFile::commit() {
+    if (std::rename(part_.c_str(), path_.c_str()) != 0) throw_errno("cannot write", path_);
+    committed_ = true;
 }
 
 void write_file(const std::filesystem::path& path, std::string_view bytes) {

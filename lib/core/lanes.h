@@ -183,12 +183,6 @@ inline Floats8 picked(Floats8 values, Ints8 at) {
     return _mm256_permutevar8x32_ps(values.v, at.v);
 }
 
-/// The real parts of 8 complex numbers.
-inline Floats8 real_parts(const float* complex) {
-    const __m256 even = _mm256_shuffle_ps(
-        _mm256_loadu_ps(complex), _mm256_loadu_ps(complex + lanes), _MM_SHUFFLE(2, 0, 2, 0));
-    return _mm256_castpd_ps(_mm256_permute4x64_pd(_mm256_castps_pd(even), _MM_SHUFFLE(3, 1, 2, 0)));
-}
 /// Writes 8 complex numbers.
 inline void store_complex(Floats8 re, Floats8 im, float* to) {
     const __m256 low = _mm256_unpacklo_ps(re.v, im.v);

@@ -64,7 +64,7 @@ void cut_for_cells(float bin_m, float cell_m, Footprints& f) {
         const float u_m = std::sqrt(squared(f.edge_u[0][k], f.edge_u[1][k], f.edge_u[2][k]));
         const float v_m = std::sqrt(squared(f.edge_v[0][k], f.edge_v[1][k], f.edge_v[2][k]));
         const float bins = 2.0F + 2.0F * (f.depth_u_m[k] + f.depth_v_m[k]) / bin_m;
-        const Pieces wanted = one_piece_per_cell(u_m, v_m, cell_m, max_pieces_per_bin * bins);
+        const PieceCounts wanted = one_piece_per_cell(u_m, v_m, cell_m, max_pieces_per_bin * bins);
         f.u[k] = std::ceil(wanted.u);
         f.v[k] = std::ceil(wanted.v);
     }

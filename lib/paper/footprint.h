@@ -12,15 +12,10 @@
 
 namespace sonarsim {
 
-/// Pieces along either edge of a footprint; at least 1, before rounding to whole numbers.
-struct Pieces {
-    float u = 1.0F;
-    float v = 1.0F;
-};
-
 /// One piece per scatterer cell of edge `cell_m` that a footprint with half edges of length `u_m`
-/// and `v_m` spans. Where this makes more than `most` pieces in all, fewer along both edges.
-inline Pieces one_piece_per_cell(float u_m, float v_m, float cell_m, float most) {
+/// and `v_m` spans, before rounding to whole numbers. Where this makes more than `most` pieces in
+/// all, fewer along both edges.
+inline PieceCounts one_piece_per_cell(float u_m, float v_m, float cell_m, float most) {
     const float u = std::max(2.0F * u_m / cell_m, 1.0F);
     const float v = std::max(2.0F * v_m / cell_m, 1.0F);
     const float shrink = 1.0F / std::sqrt(std::max(u * v / most, 1.0F));

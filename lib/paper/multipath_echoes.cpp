@@ -34,11 +34,11 @@ struct Cut {
 
 /// The pieces of a bounce: none is wider than a beam or, with range noise, a scatterer cell.
 Cut cut(const BouncePath& b, const Sample& sample, float bin_m, const ScattererLattice& lattice) {
-    Pieces wanted{.u = 2.0F * std::fabs(b.beam_u), .v = 2.0F * std::fabs(b.beam_v)};
+    PieceCounts wanted{.u = 2.0F * std::fabs(b.beam_u), .v = 2.0F * std::fabs(b.beam_v)};
     if (lattice.exists()) {
         const float bins = (2.0F + 2.0F * (std::fabs(b.range_u) + std::fabs(b.range_v)) / bin_m) *
                            (1.0F + wanted.u + wanted.v);
-        const Pieces cells = one_piece_per_cell(sample.edge_u.norm(), sample.edge_v.norm(),
+        const PieceCounts cells = one_piece_per_cell(sample.edge_u.norm(), sample.edge_v.norm(),
                                                 lattice.edge_m, max_bounce_pieces_per_bin * bins);
         wanted = {.u = std::max(wanted.u, cells.u), .v = std::max(wanted.v, cells.v)};
     }

@@ -1,13 +1,11 @@
 #include "trace/lay_target_maps.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <utility>
 
 #include "trace/arrivals.h"
-#include "visibility/cut_triangle.h"
 
 namespace sonarsim {
 
@@ -61,30 +59,20 @@ class TargetMapLayer {
 
     void add_part(const TargetFacet& facet, const TrianglePart& part,
                   std::vector<TargetFacet>& out) {
-        const auto at = [&](const TrianglePlace& place, const auto& of) -> Eigen::Vector3f {
+        const auto at = [&](const TrianglePlace& place) -> Eigen::Vector3f {
+            const auto& of = facet.corners;
             return of[0] + place.u * (of[1] - of[0]) + place.v * (of[2] - of[0]);
         };
-        std::array<Eigen::Vector3f, 4> corners, normals;
-        for (std::size_t k = 0; k < 4; ++k) {
-            corners[k] = at(part.corners[k], facet.corners);
-            normals[k] = at(part.corners[k], facet.normals);
-        }
-        const auto& [a, b, c, d] = corners;
-        maps_.shares_over(facet.instance, facet.material,
-                          footprint(at(part.centroid, facet.corners), 0.25F * (b + c - a - d),
-                                    0.25F * (c + d - a - b)),
-                          shares_);
+        const Eigen::Vector3f a = at(part.corners[0]), b = at(part.corners[1]);
+        const Eigen::Vector3f c = at(part.corners[2]), d = at(part.corners[3]);
+        maps_.shares_over(
+            facet.instance, facet.material,
+            footprint(at(part.centroid), 0.25F * (b + c - a - d), 0.25F * (c + d - a - b)),
+            shares_);
         for (const MaterialShare& share : shares_) {
-            const auto add_triangle = [&](std::size_t second, std::size_t third) {
-                TargetFacet piece = facet;
-                piece.corners = {corners[0], corners[second], corners[third]};
-                piece.normals = {normals[0], normals[second], normals[third]};
+            for_each_triangle(facet, part, [&](const TargetFacet& piece) {
                 add(piece, share.material, static_cast<float>(share.power), out);
-            };
-            add_triangle(1, 2);
-            const bool is_triangle =
-                part.corners[0].u == part.corners[3].u && part.corners[0].v == part.corners[3].v;
-            if (!is_triangle) add_triangle(2, 3);
+            });
         }
     }
 

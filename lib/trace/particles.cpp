@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "visibility/view_volume.h"
-
 namespace sonarsim {
 
 Eigen::Vector3d place_at(const Particle& particle, double time_s) {
@@ -30,14 +28,8 @@ void move_point(const PingMotion& motion, ViewShape shape, Sample& sample) {
 SeenParticles seen_particles(const Particles& particles, double time_s, const View& view,
                              const GuardBeams& guard_beams, const VisibilityEngine& engine,
                              const Pose& T_world_sensor, const PingMotion& motion) {
-    const BeamLocator field(widened_view(view, guard_beams));
+    const GuardedField field(view, guard_beams);
     const Eigen::Quaterniond to_sensor = T_world_sensor.rotation.conjugate();
-    const auto is_in_view = [&](const Eigen::Vector3f& place) {
-        const float range = place.norm();
-        if (range >= static_cast<float>(view.range_max_m) || field.beam(place, range) < 0.0F)
-            return false;
-        return guard_beams.count == 0 || in_array_cones(view, place);
-    };
     SeenParticles found;
     std::vector<Ray> rays;
     for (std::uint32_t k = 0; k < particles.all.size(); ++k) {
@@ -45,7 +37,9 @@ SeenParticles seen_particles(const Particles& particles, double time_s, const Vi
         const Eigen::Vector3f place =
             (to_sensor * (place_at(particle, time_s) - T_world_sensor.translation)).cast<float>();
         const float range = place.norm();
-        if (!(range > 0.0F && is_in_view(place))) continue;
+        if (!(range > 0.0F && range < static_cast<float>(view.range_max_m)) ||
+            !field.contains(place))
+            continue;
         rays.push_back({Eigen::Vector3f::Zero(), place / range});
         found.numbers.push_back(k);
         found.samples.push_back({.position = place,

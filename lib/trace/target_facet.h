@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "trace/arrivals.h"
+#include "visibility/cut_triangle.h"
 
 namespace sonarsim {
 
@@ -23,6 +24,28 @@ struct TargetFacet {
     std::uint32_t region;                    ///< as in TargetTriangle
     float strength = 1.0F;                   ///< factor on its power, from a map
 };
+
+/// Calls use(facet) for the one or two triangles of a part of a facet.
+template <class Use>
+void for_each_triangle(const TargetFacet& facet, const TrianglePart& part, Use use) {
+    TargetFacet piece = facet;
+    const auto set_corner = [&](int to, const TrianglePlace& place) {
+        const auto mean = [&](const std::array<Eigen::Vector3f, 3>& of) -> Eigen::Vector3f {
+            return of[0] + place.u * (of[1] - of[0]) + place.v * (of[2] - of[0]);
+        };
+        piece.corners[to] = mean(facet.corners);
+        piece.normals[to] = mean(facet.normals);
+    };
+    const auto& [a, b, c, d] = part.corners;
+    set_corner(0, a);
+    set_corner(1, b);
+    set_corner(2, c);
+    use(piece);
+    if (a.u == d.u && a.v == d.v) return;
+    set_corner(1, c);
+    set_corner(2, d);
+    use(piece);
+}
 
 /// The differences between the normals of a facet and the directions to the sonar, as vectors. A
 /// highlight lies where they are shorter than a few slopes of the material.

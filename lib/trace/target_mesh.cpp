@@ -3,10 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 #include <utility>
 
-#include "trace/joined_sets.h"
+#include "scene/mesh_topology.h"
 
 namespace sonarsim {
 
@@ -19,56 +18,34 @@ constexpr float max_height_ratio = 5.0F;
 // Vertices closer than this share of the object's size are one.
 constexpr float weld_share = 1e-5F;
 
-using Corners = std::array<std::uint32_t, 3>;
-
-void find_ball(std::span<const Eigen::Vector3f> vertices, std::span<const Corners> triangles,
-               TargetShape& shape) {
-    Eigen::AlignedBox3f box;
-    for (const Corners& triangle : triangles) {
-        for (const std::uint32_t corner : triangle)
-            box.extend(vertices[corner]);
-    }
-    shape.centre = box.center();
-    for (const Corners& triangle : triangles) {
-        for (const std::uint32_t corner : triangle)
-            shape.radius_m = std::max(shape.radius_m, (vertices[corner] - shape.centre).norm());
-    }
-}
-
 /// Gives corners at one place one number. Files repeat vertices at seams of their textures.
-void weld(std::span<const Eigen::Vector3f> vertices, std::vector<Corners>& triangles,
+void weld(std::span<const Eigen::Vector3f> vertices, std::vector<TriangleCorners>& triangles,
           TargetShape& shape) {
     const float per_cell = 1.0F / (weld_share * std::max(shape.radius_m, 1e-6F));
-    std::unordered_map<std::uint64_t, std::uint32_t> known;
-    const auto number_of = [&](const Eigen::Vector3f& p) {
-        std::uint64_t cell = 0;
-        for (int axis = 0; axis < 3; ++axis) {
-            const long at = std::lround((p[axis] - shape.centre[axis]) * per_cell);
-            cell = cell << 21U | (static_cast<std::uint64_t>(at) & 0x1FFFFFU);
-        }
-        const auto [place, is_new] =
-            known.try_emplace(cell, static_cast<std::uint32_t>(shape.vertices.size()));
-        if (is_new) shape.vertices.push_back(p);
-        return place->second;
-    };
-    for (Corners& triangle : triangles) {
-        for (std::uint32_t& corner : triangle)
-            corner = number_of(vertices[corner]);
+    std::vector<Eigen::Vector3f> cells;
+    for (const TriangleCorners& triangle : triangles) {
+        for (const std::uint32_t corner : triangle)
+            cells.emplace_back(((vertices[corner] - shape.centre) * per_cell).array().round());
     }
-}
-
-Eigen::Vector3d cross_of(const TargetShape& shape, const Corners& c) {
-    const Eigen::Vector3d a = shape.vertices[c[0]].cast<double>();
-    return (shape.vertices[c[1]].cast<double>() - a).cross(shape.vertices[c[2]].cast<double>() - a);
+    const std::vector<std::uint32_t> first = first_at_place(cells);
+    std::vector<std::uint32_t> number(first.size());
+    for (std::uint32_t k = 0; k < first.size(); ++k) {
+        std::uint32_t& corner = triangles[k / 3][k % 3];
+        if (first[k] == k) {
+            number[k] = static_cast<std::uint32_t>(shape.vertices.size());
+            shape.vertices.push_back(vertices[corner]);
+        }
+        corner = number[first[k]];
+    }
 }
 
 /// Adds the triangles to the shape: each once, none without area. A triangle that occurs twice,
 /// once for each side, is one surface and has one echo.
-void add_triangles(const std::vector<Corners>& triangles, std::span<const std::uint32_t> materials,
-                   TargetShape& shape) {
-    std::vector<std::pair<Corners, std::size_t>> sorted;
+void add_triangles(const std::vector<TriangleCorners>& triangles,
+                   std::span<const std::uint32_t> materials, TargetShape& shape) {
+    std::vector<std::pair<TriangleCorners, std::size_t>> sorted;
     for (std::size_t t = 0; t < triangles.size(); ++t) {
-        Corners c = triangles[t];
+        TriangleCorners c = triangles[t];
         std::ranges::sort(c);
         sorted.emplace_back(c, t);
     }
@@ -78,8 +55,8 @@ void add_triangles(const std::vector<Corners>& triangles, std::span<const std::u
         if (sorted[k].first == sorted[k - 1].first) kept[sorted[k].second] = false;
     }
     for (std::size_t t = 0; t < triangles.size(); ++t) {
-        const Corners& corners = triangles[t];
-        const Eigen::Vector3d cross = cross_of(shape, corners);
+        const TriangleCorners& corners = triangles[t];
+        const Eigen::Vector3d cross = cross_of(shape.vertices, corners);
         if (!kept[t] || !(cross.norm() > 0.0)) continue;
         const Eigen::Vector3f normal = cross.normalized().cast<float>();
         shape.triangles.push_back({.corners = corners,
@@ -91,38 +68,16 @@ void add_triangles(const std::vector<Corners>& triangles, std::span<const std::u
     }
 }
 
-/// A side of a triangle, from corner `side` to the next.
-struct MeshEdge {
-    std::uint32_t low, high;  ///< vertices
-    std::uint32_t triangle;
-    std::uint32_t side;
-    bool forward;  ///< from the low vertex to the high one
-};
-
-std::vector<MeshEdge> sorted_edges(const TargetShape& shape) {
-    std::vector<MeshEdge> edges;
-    for (std::uint32_t t = 0; t < shape.triangles.size(); ++t) {
-        const Corners& c = shape.triangles[t].corners;
-        for (std::uint32_t side = 0; side < 3; ++side) {
-            const std::uint32_t from = c[side];
-            const std::uint32_t to = c[(side + 1) % 3];
-            edges.push_back({std::min(from, to), std::max(from, to), t, side, from < to});
-        }
-    }
-    std::ranges::stable_sort(edges, {}, [](const MeshEdge& e) { return std::pair(e.low, e.high); });
-    return edges;
-}
-
 /// The distance of a triangle's third corner from one of its sides.
-float height_over(const TargetShape& shape, const MeshEdge& edge) {
-    const Corners& c = shape.triangles[edge.triangle].corners;
+float height_over(const TargetShape& shape, const MeshSide& edge) {
+    const TriangleCorners& c = shape.triangles[edge.triangle].corners;
     const Eigen::Vector3f along =
         (shape.vertices[edge.high] - shape.vertices[edge.low]).normalized();
     const Eigen::Vector3f to = shape.vertices[c[(edge.side + 2) % 3]] - shape.vertices[edge.low];
     return (to - to.dot(along) * along).norm();
 }
 
-bool is_smooth(const TargetShape& shape, const MeshEdge& a, const MeshEdge& b) {
+bool is_smooth(const TargetShape& shape, const MeshSide& a, const MeshSide& b) {
     const float cosine = shape.triangles[a.triangle].normal.dot(shape.triangles[b.triangle].normal);
     const float of_a = height_over(shape, a);
     const float of_b = height_over(shape, b);
@@ -134,7 +89,7 @@ bool is_smooth(const TargetShape& shape, const MeshEdge& a, const MeshEdge& b) {
 /// Skips edges of one triangle or of three and more, and edges whose triangles differ in winding.
 /// Returns true if no edge was skipped.
 template <class Use>
-bool each_shared_edge(const std::vector<MeshEdge>& edges, Use use) {
+bool each_shared_edge(const std::vector<MeshSide>& edges, Use use) {
     bool all = true;
     for (std::size_t k = 0; k < edges.size();) {
         std::size_t end = k + 1;
@@ -150,15 +105,15 @@ bool each_shared_edge(const std::vector<MeshEdge>& edges, Use use) {
 }
 
 /// Turns the normals of each closed part of a closed mesh outwards: its volume is positive then.
-void turn_outwards(TargetShape& shape, const std::vector<MeshEdge>& edges) {
+void turn_outwards(TargetShape& shape, const std::vector<MeshSide>& edges) {
     JoinedSets parts(shape.triangles.size());
     each_shared_edge(
-        edges, [&](const MeshEdge& a, const MeshEdge& b) { parts.join(a.triangle, b.triangle); });
+        edges, [&](const MeshSide& a, const MeshSide& b) { parts.join(a.triangle, b.triangle); });
     std::vector<double> volume(shape.triangles.size(), 0.0);
     for (std::uint32_t t = 0; t < shape.triangles.size(); ++t) {
-        const Corners& c = shape.triangles[t].corners;
+        const TriangleCorners& c = shape.triangles[t].corners;
         volume[parts.of(t)] +=
-            cross_of(shape, c).dot((shape.vertices[c[0]] - shape.centre).cast<double>());
+            cross_of(shape.vertices, c).dot((shape.vertices[c[0]] - shape.centre).cast<double>());
     }
     for (std::uint32_t t = 0; t < shape.triangles.size(); ++t) {
         TargetTriangle& triangle = shape.triangles[t];
@@ -175,7 +130,7 @@ void turn_outwards(TargetShape& shape, const std::vector<MeshEdge>& edges) {
 /// normals", Journal of Graphics Tools 4 (1999), 1-6).
 Eigen::Vector3f weighted_normal(const TargetShape& shape, const TargetTriangle& triangle,
                                 int corner) {
-    const Corners& c = triangle.corners;
+    const TriangleCorners& c = triangle.corners;
     const Eigen::Vector3f p = shape.vertices[c[corner]];
     const Eigen::Vector3f a = shape.vertices[c[(corner + 1) % 3]] - p;
     const Eigen::Vector3f b = shape.vertices[c[(corner + 2) % 3]] - p;
@@ -200,13 +155,13 @@ float curvature_of(const TargetShape& shape, const TargetTriangle& triangle) {
 }
 
 /// Sets the normals at corners: weighted means over the triangles that join smoothly there.
-void set_smooth_normals(TargetShape& shape, const std::vector<MeshEdge>& edges) {
+void set_smooth_normals(TargetShape& shape, const std::vector<MeshSide>& edges) {
     JoinedSets regions(shape.triangles.size());
     JoinedSets corners(3 * shape.triangles.size());
-    each_shared_edge(edges, [&](const MeshEdge& a, const MeshEdge& b) {
+    each_shared_edge(edges, [&](const MeshSide& a, const MeshSide& b) {
         if (!is_smooth(shape, a, b)) return;
         regions.join(a.triangle, b.triangle);
-        const auto corner = [](const MeshEdge& edge, bool low) {
+        const auto corner = [](const MeshSide& edge, bool low) {
             const bool first = edge.forward == low;
             return 3 * edge.triangle + (first ? edge.side : (edge.side + 1) % 3);
         };
@@ -234,12 +189,17 @@ void set_smooth_normals(TargetShape& shape, const std::vector<MeshEdge>& edges) 
 
 TargetShape target_shape(const TargetMesh& mesh) {
     TargetShape shape;
-    std::vector<Corners> triangles = mesh.triangles;
-    find_ball(mesh.vertices, triangles, shape);
+    std::vector<TriangleCorners> triangles = mesh.triangles;
+    const Ball ball = ball_around(mesh.vertices, triangles);
+    shape.centre = ball.centre;
+    shape.radius_m = ball.radius_m;
     weld(mesh.vertices, triangles, shape);
     add_triangles(triangles, mesh.materials, shape);
-    const std::vector<MeshEdge> edges = sorted_edges(shape);
-    shape.closed = each_shared_edge(edges, [](const MeshEdge&, const MeshEdge&) {});
+    std::vector<TriangleCorners> kept;
+    for (const TargetTriangle& triangle : shape.triangles)
+        kept.push_back(triangle.corners);
+    const std::vector<MeshSide> edges = sides_by_edge(kept, shape.vertices.size());
+    shape.closed = each_shared_edge(edges, [](const MeshSide&, const MeshSide&) {});
     if (shape.closed) turn_outwards(shape, edges);
     set_smooth_normals(shape, edges);
     std::ranges::stable_sort(shape.triangles, {}, &TargetTriangle::region);

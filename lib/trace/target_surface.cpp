@@ -7,9 +7,7 @@
 
 #include "core/elementary.h"
 #include "trace/arrivals.h"
-#include "trace/ball_in_view.h"
 #include "trace/lay_target_maps.h"
-#include "visibility/cut_triangle.h"
 #include "visibility/view_volume.h"
 
 namespace sonarsim {
@@ -53,9 +51,8 @@ class TargetSampler {
   public:
     TargetSampler(const View& view, const GuardBeams& guard_beams)
         : view_(view),
-          guarded_(guard_beams.count > 0),
-          widened_(widened_view(view, guard_beams)),
-          field_(widened_) {}
+          field_(view, guard_beams),
+          volume_(widened_view(view, guard_beams), Pose{}) {}
 
     /// The object as a target of this view; nothing if it lies outside or is large enough for an
     /// engine's samples.
@@ -65,12 +62,13 @@ class TargetSampler {
         const Eigen::Vector3f centre = T_sensor_shape * shape.centre;
         const float radius = scale * shape.radius_m;
         const float range = arrival_range(centre);
-        if (range - radius > static_cast<float>(view_.range_max_m) ||
-            range < min_distance_by_radius * radius)
-            return std::nullopt;
+        if (range < min_distance_by_radius * radius) return std::nullopt;
         const Containment contained =
-            ball_in_view(view_, widened_, guarded_, {centre, range, radius});
+            volume_.of_sensor_frame(centre, radius + volume_.rounding_m());
         if (contained == Containment::outside) return std::nullopt;
+        // The cones of a fan's beams do not fill the guard beams, nor does a cone its volume.
+        const bool inside = contained == Containment::inside && !field_.is_guarded() &&
+                            view_.shape != ViewShape::cone;
         const float cell = std::max(static_cast<float>(resolved_width(view_)) * range,
                                     static_cast<float>(view_.bin_m()));
         const float highlight =
@@ -79,8 +77,7 @@ class TargetSampler {
         const bool is_smooth = shape.turn <= placed.min_slope;
         if (highlight > most_cells * cell && is_smooth) return std::nullopt;
         const float part = part_by_diameter * 2.0F * radius;
-        return Target{
-            &placed, &shape, T_sensor_shape, scale, cell, part, contained == Containment::inside};
+        return Target{&placed, &shape, T_sensor_shape, scale, cell, part, inside};
     }
 
     void add(const Target& target) {
@@ -142,11 +139,6 @@ class TargetSampler {
         return hit.distance_m + slack >= aim.range_m;
     }
 
-    bool is_in_view(const Eigen::Vector3f& p) const {
-        if (field_.beam(p, arrival_range(p)) < 0.0F) return false;
-        return !guarded_ || in_array_cones(view_, p);
-    }
-
     /// Cuts a facet into parts. Where a highlight may lie, the normal turns by about a slope over
     /// each part.
     void add_parts(const TargetFacet& facet, const Target& target) {
@@ -168,34 +160,16 @@ class TargetSampler {
             if (!may_highlight) return by_part;
             return std::max(by_part, per_turn * (du * turn->along_u + dv * turn->along_v).norm());
         };
-        TargetFacet part = facet;
-        const auto corner = [&](int to, const TrianglePlace& place) {
-            const auto mean = [&](const std::array<Eigen::Vector3f, 3>& of) -> Eigen::Vector3f {
-                return of[0] + place.u * (of[1] - of[0]) + place.v * (of[2] - of[0]);
-            };
-            part.corners[to] = mean(facet.corners);
-            part.normals[to] = mean(facet.normals);
-        };
         cut_triangle(size, [&](const TrianglePart& cut) {
             const Eigen::Vector3f middle =
                 facet.corners[0] + cut.centroid.u * u + cut.centroid.v * v;
-            if (!target.inside && !is_in_view(middle)) return;
+            if (!target.inside && !field_.contains(middle)) return;
             find_ray(middle, facet.normal, target, alike_m);
-            corner(0, cut.corners[0]);
-            corner(1, cut.corners[1]);
-            corner(2, cut.corners[2]);
-            add_part(part);
-            if (cut.corners[0].u == cut.corners[3].u && cut.corners[0].v == cut.corners[3].v)
-                return;
-            corner(1, cut.corners[2]);
-            corner(2, cut.corners[3]);
-            add_part(part);
+            for_each_triangle(facet, cut, [&](const TargetFacet& part) {
+                parts_.push_back(part);
+                ray_of_.push_back(static_cast<std::uint32_t>(rays_.size() - 1));
+            });
         });
-    }
-
-    void add_part(const TargetFacet& part) {
-        parts_.push_back(part);
-        ray_of_.push_back(static_cast<std::uint32_t>(rays_.size() - 1));
     }
 
     /// Aims a ray at a part, unless the last one arrives within `near_m` of it.
@@ -217,9 +191,8 @@ class TargetSampler {
     static constexpr float weld_slack = 2e-5F;
 
     const View& view_;
-    bool guarded_;
-    View widened_;
-    BeamLocator field_;
+    GuardedField field_;
+    ViewVolume volume_;
     std::vector<Eigen::Vector3f> vertices_;
     std::vector<TargetFacet> parts_;
     std::vector<std::uint32_t> ray_of_;

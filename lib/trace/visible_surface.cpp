@@ -79,6 +79,11 @@ bool in_array_cones(const View& view, const Eigen::Vector3f& position) {
     return std::fabs(position.y()) <= widest * arrival_range(position);
 }
 
+bool GuardedField::contains(const Eigen::Vector3f& point) const {
+    return !(field_.beam(point, arrival_range(point)) < 0.0F) &&
+           (!guarded_ || in_array_cones(view_, point));
+}
+
 std::vector<Sight> sights(const View& view, const GuardBeams& guard_beams,
                           const Pose& T_world_sensor) {
     if (!(guard_beams.beam_rad > 0.0)) return {{traced_view(view, guard_beams), T_world_sensor}};

@@ -28,6 +28,24 @@ View widened_view(const View& view, const GuardBeams& guard_beams);
 /// The widened view with the beams in which an engine traces it.
 View traced_view(const View& view, const GuardBeams& guard_beams);
 
+/// The field of view with its guard beams.
+class GuardedField {
+  public:
+    /// `view` must outlive it.
+    GuardedField(const View& view, const GuardBeams& guard_beams)
+        : view_(view), guarded_(guard_beams.count > 0), field_(widened_view(view, guard_beams)) {}
+
+    bool is_guarded() const { return guarded_; }
+    /// True if it contains a point of the sensor frame; in guard beams, if the cones of a fan's
+    /// beams reach it.
+    bool contains(const Eigen::Vector3f& point) const;
+
+  private:
+    const View& view_;
+    bool guarded_;
+    BeamLocator field_;
+};
+
 /// The views that visible_surface() traces.
 std::vector<Sight> sights(const View& view, const GuardBeams& guard_beams,
                           const Pose& T_world_sensor);

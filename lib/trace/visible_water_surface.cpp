@@ -37,10 +37,8 @@ class SurfaceCutter {
   public:
     SurfaceCutter(const WaterMirror& surface, const View& view, const GuardBeams& guard_beams)
         : surface_(surface),
-          view_(view),
-          guarded_(guard_beams.count > 0),
           all_around_(view.shape == ViewShape::port_starboard),
-          field_(widened_view(view, guard_beams)),
+          field_(view, guard_beams),
           reach_m_(static_cast<float>(view.range_max_m)),
           depth_m_(most_bins * static_cast<float>(view.bin_m())) {}
 
@@ -105,7 +103,7 @@ class SurfaceCutter {
             return range(towards) * towards;
         };
         const Eigen::Vector3f middle = point(0.0, 0.0);
-        if (!is_in_view(middle)) return;
+        if (!all_around_ && !field_.contains(middle)) return;
         const Eigen::Vector3f edge_u = 0.5F * (point(1.0, 0.0) - point(-1.0, 0.0));
         const Eigen::Vector3f edge_v = 0.5F * (point(0.0, 1.0) - point(0.0, -1.0));
         samples_.push_back({.position = middle,
@@ -118,16 +116,9 @@ class SurfaceCutter {
                             .instance = 0});
     }
 
-    bool is_in_view(const Eigen::Vector3f& place) const {
-        if (all_around_) return true;
-        if (field_.beam(place, place.norm()) < 0.0F) return false;
-        return !guarded_ || in_array_cones(view_, place);
-    }
-
     const WaterMirror& surface_;
-    const View& view_;
-    bool guarded_, all_around_;
-    BeamLocator field_;
+    bool all_around_;
+    GuardedField field_;
     float reach_m_, depth_m_;
     std::vector<Sample> samples_;
 };

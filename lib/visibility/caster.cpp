@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "scene/mesh_topology.h"
 #include "visibility/embree_build.h"
 #include "visibility/embree_trace.h"
 
@@ -22,16 +23,11 @@ static_assert(Caster::nothing == RTC_INVALID_GEOMETRY_ID);
 // Facets of all placed trees have numbers of 32 bits, and `nothing` is none of them.
 constexpr std::size_t most_facets = 0xFFFF0000U;
 
-/// The normal is computed from edges in double: in float, a needle's cross product is mostly
-/// cancellation.
 template <class Mesh>
 Facet make_facet(const Mesh& mesh, std::size_t triangle, std::uint32_t instance) {
     const auto& corners = mesh.triangles[triangle];
-    const Eigen::Vector3d a = mesh.vertices[corners[0]].template cast<double>();
-    const Eigen::Vector3d b = mesh.vertices[corners[1]].template cast<double>();
-    const Eigen::Vector3d c = mesh.vertices[corners[2]].template cast<double>();
     return {mesh.vertices[corners[0]], mesh.triangle_material[triangle],
-            (b - a).cross(c - a).normalized().template cast<float>(), instance};
+            cross_of(mesh.vertices, corners).normalized().template cast<float>(), instance};
 }
 
 }  // namespace

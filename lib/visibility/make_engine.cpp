@@ -1,11 +1,54 @@
 #include "visibility/make_engine.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "visibility/octree/tree.h"
 #include "visibility/rays/rays_engine.h"
+#include "visibility/slices/slices_engine.h"
 
 namespace sonarsim {
 
 namespace {
+
+/// With more triangles than this `auto` takes rays, whose time hardly depends on their number.
+constexpr std::size_t slices_triangles_max = std::size_t{1} << 19;
+
+/// Factor on the density of rays over many triangles if a bin holds a mean.
+constexpr int density_over_many_triangles = 4;
+
+/// Rays for the views that need them; slices, or dense rays over many triangles, for others.
+class AutoEngine final : public VisibilityEngine {
+  public:
+    AutoEngine(const Scene& scene, const Caster& caster, std::vector<View> by_rays)
+        : is_large_(scene.triangles.size() > many_triangles),
+          others_(make_others(scene, caster)),
+          rays_(make_rays_engine(scene, caster)),
+          by_rays_(std::move(by_rays)) {}
+
+    Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
+        const bool by_rays =
+            (is_large_ && view.energies_add) || std::ranges::find(by_rays_, view) != by_rays_.end();
+        return (by_rays ? rays_ : others_)->visible_surface(view, T_world_sensor);
+    }
+
+    void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
+                   std::span<Intersection> intersections) const override {
+        rays_->intersect(T_world_sensor, rays, intersections);
+    }
+
+  private:
+    static std::unique_ptr<VisibilityEngine> make_others(const Scene& scene, const Caster& caster) {
+        const std::size_t triangles = scene.triangles.size();
+        if (triangles <= slices_triangles_max) return make_slices_engine(scene, caster);
+        return make_rays_engine(scene, caster,
+                                triangles > many_triangles ? density_over_many_triangles : 1);
+    }
+
+    bool is_large_;
+    std::unique_ptr<VisibilityEngine> others_, rays_;
+    std::vector<View> by_rays_;
+};
 
 /// The error of the slices in cones, for the calibrated model.
 constexpr double least_error_in_cones = 0.01;
@@ -15,9 +58,10 @@ constexpr double least_error_in_cones = 0.01;
 std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSettings& settings) {
     if (settings.type == EngineKind::octree) return make_octree_engine(scene, settings.octree);
     const Caster caster = settings.caster ? *settings.caster : Caster(scene);
-    if (settings.type == EngineKind::slices) return make_slices_engine(scene, caster, {});
-    if (settings.type == EngineKind::automatic && !scene.sound_profile)
-        return make_auto_engine(scene, caster, settings.by_rays);
+    if (settings.type == EngineKind::slices) return make_slices_engine(scene, caster);
+    if (settings.type == EngineKind::automatic && !scene.sound_profile && scene.bodies.empty() &&
+        scene.copies.empty())
+        return std::make_unique<AutoEngine>(scene, caster, settings.by_rays);
     return make_rays_engine(scene, caster);
 }
 

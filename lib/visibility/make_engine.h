@@ -1,23 +1,27 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "core/engine_kind.h"
 #include "scene/scene.h"
-#include "visibility/auto_engine.h"
 #include "visibility/caster.h"
 #include "visibility/engine.h"
 #include "visibility/octree/octree_engine.h"
-#include "visibility/slices/slices_engine.h"
 
 namespace sonarsim {
 
+/// With more triangles than this rays are dense where a bin holds a mean.
+constexpr std::size_t many_triangles = std::size_t{1} << 21;
+
 struct EngineSettings {
     EngineKind type = EngineKind::rays;
-    OctreeOptions octree;            ///< for the octree only
-    std::vector<View> by_rays = {};  ///< for `automatic` only: the views that rays trace
+    OctreeOptions octree;  ///< for the octree only
+    /// For `automatic` only: the views that rays trace. Slices trace the others, or rays in scenes
+    /// with bodies, copies or many triangles.
+    std::vector<View> by_rays = {};
     /// A caster over the scene, whose trees the rays and the slices then use; null: they make one.
     std::shared_ptr<const Caster> caster = {};
 };

@@ -21,7 +21,7 @@ inline RangeExtent extent_of(float squared_edge, float depth_m, float range_m) {
             .after = depth_m + bend};
 }
 
-/// Pieces along either edge of a patch; whole numbers.
+/// Pieces along either edge of a patch, at least 1.
 struct PieceCounts {
     float u;
     float v;

@@ -1,7 +1,6 @@
 #include "visibility/triangle_runs.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace sonarsim {
 
@@ -17,21 +16,11 @@ TriangleRuns::TriangleRuns(const Scene& scene) : origin_(scene.origin) {
 
 void TriangleRuns::add_mesh(std::span<const Eigen::Vector3f> vertices,
                             std::span<const std::array<std::uint32_t, 3>> triangles) {
-    const auto ball_around = [&](std::size_t first, std::size_t count) {
-        Eigen::Vector3f low = Eigen::Vector3f::Constant(std::numeric_limits<float>::infinity());
-        Eigen::Vector3f high = -low;
-        for (const auto& triangle : triangles.subspan(first, count)) {
-            for (const std::uint32_t vertex : triangle) {
-                low = low.cwiseMin(vertices[vertex]);
-                high = high.cwiseMax(vertices[vertex]);
-            }
-        }
-        return Ball{0.5F * (low + high), 0.5F * (high - low).norm()};
-    };
     Mesh mesh{vertices, triangles, {}, {}};
     for (std::size_t first = 0; first < triangles.size(); first += run_triangles)
-        mesh.runs.push_back(ball_around(first, std::min(run_triangles, triangles.size() - first)));
-    mesh.whole = ball_around(0, triangles.size());
+        mesh.runs.push_back(ball_around(
+            vertices, triangles.subspan(first, std::min(run_triangles, triangles.size() - first))));
+    mesh.whole = ball_around(vertices, triangles);
     meshes_.push_back(std::move(mesh));
 }
 

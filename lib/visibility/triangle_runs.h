@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/pose.h"
+#include "scene/mesh_topology.h"
 #include "scene/scene.h"
 #include "visibility/view_volume.h"
 
@@ -38,11 +39,6 @@ class TriangleRuns {
     }
 
   private:
-    struct Ball {
-        Eigen::Vector3f centre;
-        float radius_m;
-    };
-
     struct Mesh {
         std::span<const Eigen::Vector3f> vertices;
         std::span<const std::array<std::uint32_t, 3>> triangles;

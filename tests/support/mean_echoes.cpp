@@ -3,11 +3,27 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/overlapped_bins.h"
-
 namespace sonarsim::test {
 
 namespace {
+
+/// The bins [i, i + 1), i from 0 to count - 1, that an interval overlaps. All lengths are in bins.
+struct OverlappedBins {
+    double from, to;  ///< the interval, clipped to the bins
+    int begin = 0;    ///< the first bin
+    int end = 0;      ///< one behind the last bin; equal to `begin` if there is none
+
+    OverlappedBins(double low, double high, int count)
+        : from(std::max(low, 0.0)), to(std::min(high, static_cast<double>(count))) {
+        if (!(from < to)) return;
+        begin = static_cast<int>(from);
+        end = std::min(static_cast<int>(std::ceil(to)), count);
+    }
+
+    double overlap(int i) const {
+        return std::min(to, static_cast<double>(i + 1)) - std::max(from, static_cast<double>(i));
+    }
+};
 
 /// Sums over the samples in each bin of a beam. Their quotient is the mean echo.
 struct BeamSums {

@@ -1,5 +1,3 @@
-#include "visibility/auto_engine.h"
-
 #include <doctest/doctest.h>
 
 #include <cstring>
@@ -11,6 +9,7 @@
 #include "support/scenes.h"
 #include "visibility/make_engine.h"
 #include "visibility/rays/rays_engine.h"
+#include "visibility/slices/slices_engine.h"
 
 using namespace sonarsim;
 
@@ -37,14 +36,14 @@ TEST_SUITE_BEGIN("auto engine");
 
 TEST_CASE("auto takes slices, and rays for the views that need them") {
     const Scene scene = test::tank();
-    const Caster caster(scene);
     const View view = auto_view();
     Pose pose;
     pose.translation = {0.0, 0.0, 1.5};
     const auto seen = [&](const std::vector<View>& by_rays) {
-        return make_auto_engine(scene, caster, by_rays)->visible_surface(view, pose);
+        return make_engine(scene, {.type = EngineKind::automatic, .octree = {}, .by_rays = by_rays})
+            ->visible_surface(view, pose);
     };
-    const Samples by_slices = make_slices_engine(scene, {})->visible_surface(view, pose);
+    const Samples by_slices = make_slices_engine(scene, Caster(scene))->visible_surface(view, pose);
     const Samples by_rays = make_rays_engine(scene)->visible_surface(view, pose);
     CHECK(same(seen({}), by_slices));
     CHECK(same(seen({view}), by_rays));
@@ -64,7 +63,8 @@ TEST_CASE("auto takes rays over many triangles, denser than the goal alone asks 
     Pose pose;
     pose.translation = {-4.0, 0.0, 2.0};
     pose.rotation = Eigen::AngleAxisd(radians(25.0), Eigen::Vector3d::UnitY());
-    const Samples seen = make_auto_engine(scene, caster, {})->visible_surface(view, pose);
+    const Samples seen = make_engine(scene, {.type = EngineKind::automatic, .octree = {}})
+                             ->visible_surface(view, pose);
     CHECK(same(seen, make_rays_engine(scene, caster, 4)->visible_surface(view, pose)));
 }
 

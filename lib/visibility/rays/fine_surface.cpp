@@ -3,11 +3,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 
+#include "scene/mesh_topology.h"
 #include "visibility/cut_triangle.h"
 #include "visibility/view_volume.h"
 
@@ -17,31 +18,10 @@ namespace {
 
 using Corners = std::array<Eigen::Vector3f, 3>;
 
-// Surface is resolved if its radius is this many of the larger spacing. With 1 the wreck was 31 %
-// off from a pose before its plates, with 2 it was 7 % off.
+// Surface is resolved if its radius is this many of the larger spacing.
 constexpr float resolved_spacings = 2.0F;
-
-// The size of a piece, in the smaller spacing. The lifeboat's worst pose is 5.2 % off with 1.
+// The size of a piece, in the smaller spacing.
 constexpr float piece_spacings = 0.7F;
-
-/// For each vertex the first one at its place. Files repeat vertices at creases.
-std::vector<std::uint32_t> first_at_place(const std::vector<Eigen::Vector3f>& vertices) {
-    constexpr std::uint32_t none = 0xFFFFFFFFU;
-    const std::size_t slots = std::bit_ceil(2 * vertices.size() + 1);
-    std::vector<std::uint32_t> table(slots, none);
-    std::vector<std::uint32_t> first(vertices.size());
-    for (std::uint32_t v = 0; v < vertices.size(); ++v) {
-        std::uint64_t hash = 0;
-        for (const float x : vertices[v])
-            hash = (hash ^ std::bit_cast<std::uint32_t>(x + 0.0F)) * 0x9E3779B97F4A7C15U;
-        std::size_t slot = hash >> 32U & (slots - 1);
-        while (table[slot] != none && vertices[table[slot]] != vertices[v])
-            slot = (slot + 1) & (slots - 1);
-        if (table[slot] == none) table[slot] = v;
-        first[v] = table[slot];
-    }
-    return first;
-}
 
 /// The triangles around a place.
 struct Surroundings {
@@ -143,14 +123,11 @@ FineSurface::FineSurface(const Scene& scene) : scene_(scene) {
 }
 
 void FineSurface::add_run(std::size_t first) {
-    Eigen::AlignedBox3f box;
-    float least_m = std::numeric_limits<float>::infinity();
-    for (std::size_t t = first; t < std::min(first + run_triangles, radii_m_.size()); ++t) {
-        for (const std::uint32_t v : scene_.triangles[t])
-            box.extend(scene_.vertices[v]);
-        least_m = std::min(least_m, radii_m_[t]);
-    }
-    runs_.push_back({box.center(), 0.5F * box.diagonal().norm(), least_m});
+    const std::size_t count = std::min(run_triangles, radii_m_.size() - first);
+    const auto radii = std::span(radii_m_).subspan(first, count);
+    runs_.push_back(
+        {ball_around(scene_.vertices, std::span(scene_.triangles).subspan(first, count)),
+         *std::ranges::min_element(radii)});
 }
 
 /// The numbers of the triangles whose runs may reach into the view.
@@ -159,10 +136,11 @@ std::vector<std::uint32_t> FineSurface::in_view(const ViewVolume& volume, const 
     std::vector<std::uint32_t> found;
     for (std::size_t r = 0; r < runs_.size(); ++r) {
         const Run& run = runs_[r];
-        if (run.least_radius_m >= resolved_m(reach_m + 2.0F * run.ball_m, spacing)) continue;
-        const Eigen::Vector3f centre = run.centre - pose.position;
-        if (run.least_radius_m >= resolved_m(centre.norm() + run.ball_m, spacing) ||
-            volume.containment(centre, run.ball_m + volume.rounding_m()) == Containment::outside)
+        if (run.least_radius_m >= resolved_m(reach_m + 2.0F * run.ball.radius_m, spacing)) continue;
+        const Eigen::Vector3f centre = run.ball.centre - pose.position;
+        if (run.least_radius_m >= resolved_m(centre.norm() + run.ball.radius_m, spacing) ||
+            volume.containment(centre, run.ball.radius_m + volume.rounding_m()) ==
+                Containment::outside)
             continue;
         const std::size_t end = std::min((r + 1) * run_triangles, radii_m_.size());
         for (auto t = static_cast<std::uint32_t>(r * run_triangles); t < end; ++t) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/pose.h"
+#include "scene/mesh_topology.h"
 #include "scene/scene.h"
 #include "visibility/caster.h"
 #include "visibility/engine.h"
@@ -40,8 +41,7 @@ class FineSurface {
   private:
     /// Neighbouring triangles, and a ball around them.
     struct Run {
-        Eigen::Vector3f centre;
-        float ball_m;
+        Ball ball;
         float least_radius_m;
     };
     static constexpr std::size_t run_triangles = 32;

@@ -15,9 +15,7 @@ constexpr float least_cosine = 0.02F;
 // cosine between them there, and a quarter of it on average.
 constexpr float mean_cosine_error = 0.25F;
 
-// Cosine of five degrees. A ball may fill a single bin, and a corner two, with little range
-// uncertainty; but their specular reflections diverge, and multipath in the tank misses less when
-// such gaps are split once more.
+// Cosine of five degrees: the specular reflections of such surface diverge.
 constexpr float cosine_of_bend = 0.9962F;
 
 // Relative error of a product of a height and a cosine: a few roundings of a float.

@@ -23,8 +23,7 @@ namespace {
 // rough ground splitting makes up to ten times as many, 64 bytes each: 40 MB.
 constexpr int most_rays_together = 1 << 16;
 
-// Columns of a side-scan where energies add, per column that resolves surface. Fitted: at a goal of
-// 3 % the median error over sand, gravel and a wreck is 2.4 to 2.8 %.
+// Columns of a side-scan where energies add, per column that resolves surface; fitted.
 constexpr int columns_along_track = 4;
 
 // A bent ray is cast as chords that are off by this share of a bin at most.

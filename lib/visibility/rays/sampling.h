@@ -5,9 +5,8 @@
 namespace sonarsim {
 
 /// A column of rays that disagrees with its neighbour is divided into a wide middle strip and two
-/// narrow edge strips, each this share of the column's width. In a bin a sliver of surface is as
-/// bright as a full view of it, so a silhouette within the column needs rays on both sides: three
-/// equal strips miss one silhouette in three, these miss one in ten.
+/// narrow edge strips, each this share of the column's width: in a bin a sliver of surface is as
+/// bright as a full view of it, so a silhouette within the column needs rays on both sides.
 inline constexpr float edge_strip_share = 0.1F;
 
 /// Rays extend beyond the greatest range by this share of it. Surface there has no echo in range

@@ -8,9 +8,7 @@ namespace sonarsim {
 namespace {
 
 // The expected error in a gap is this times share^(5/8) of the difference midway between its two
-// slices, where the gap covers `share` of a beam. The error is zero at the slices, hence a mean of
-// a third. In bins that other gaps fill as well, the difference counts by the share. In bins that
-// only this gap fills it counts in full, since a sliver makes a bin as bright as a wall does.
+// slices, where the gap covers `share` of a beam. The error is zero at the slices, hence a third.
 constexpr float mean_of_difference = 0.33F;
 
 // The share of the allowance left by earlier beams that a beam may use.
@@ -133,7 +131,7 @@ void AdaptiveSlices::split(std::size_t i, float u) {
     estimate(subgaps_.back());
 }
 
-const std::vector<Candidate>& AdaptiveSlices::candidates(std::uint32_t gap) {
+const std::vector<std::uint32_t>& AdaptiveSlices::candidates(std::uint32_t gap) {
     AroundGap& around = around_[gap - first_gap_];
     if (around.all.empty()) scan_.find_candidates(gap, around.of_slices, around.all);
     return around.all;
@@ -222,18 +220,12 @@ bool AdaptiveSlices::is_nearer_than_predicted(const UnseenPiece& piece, const Sl
         return end.at_slice + share * (end.w - end.at_slice);
     };
     // Ends are in order, so the first span that ends above the piece holds it, or no span does.
-    std::size_t i = 0;
-    std::size_t behind = near.spans.size();
-    while (i < behind) {
-        const std::size_t middle = (i + behind) / 2;
-        if (place(ends.ends[2 * middle + 1]) < piece.w) {
-            i = middle + 1;
-        } else {
-            behind = middle;
-        }
-    }
-    if (i == near.spans.size() || place(ends.ends[2 * i]) > piece.w) return true;
-    const FrontFacet& front = scan_.scene().facets[near.spans[i].facet_index];
+    const VisibleSpan* const first = near.spans.data();
+    const auto span = std::ranges::partition_point(near.spans, [&](const VisibleSpan& at) {
+        return place(ends.ends[2 * (&at - first) + 1]) < piece.w;
+    });
+    if (span == near.spans.end() || place(ends.ends[2 * (&*span - first)]) > piece.w) return true;
+    const FrontFacet& front = scan_.scene().facets[span->facet_index];
     const float along = front.normal.x() + front.normal.y() * piece.u + front.normal.z() * piece.w;
     const float q = -along / front.height_m;
     const float secant = std::sqrt(1.0F + piece.u * piece.u + piece.w * piece.w);

@@ -14,8 +14,6 @@ namespace sonarsim {
 struct SliceError {
     double difference = 0.0;
     double signal = 0.0;  ///< sum of the intensities
-
-    double share() const { return signal > 0.0 ? difference / signal : 0.0; }
 };
 
 /// The border between the strips of two neighbouring slices: midway, or where all surface of one of
@@ -35,7 +33,7 @@ struct Subgap {
 /// A gap of the frame, and the trapezoids that a slice in it may meet.
 struct AroundGap {
     std::vector<std::uint32_t> of_slices;  ///< trapezoids that its own slices meet
-    std::vector<Candidate> all;            ///< filled when the gap is split
+    std::vector<std::uint32_t> all;        ///< filled when the gap is split
     std::vector<UnseenPiece> unseen;       ///< pieces that its own slices do not meet
 };
 
@@ -67,7 +65,7 @@ class AdaptiveSlices {
     bool is_nearer_than_predicted(const UnseenPiece& piece, const SliceResult& near,
                                   const MovedEnds& ends) const;
     bool alike(const SliceResult& a, const SliceResult& b) const;
-    const std::vector<Candidate>& candidates(std::uint32_t gap);
+    const std::vector<std::uint32_t>& candidates(std::uint32_t gap);
     float width(const Subgap& subgap) const;
     float least_width(std::uint32_t gap) const;
     std::uint32_t new_slice();

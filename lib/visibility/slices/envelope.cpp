@@ -15,9 +15,8 @@ constexpr Interval everywhere{-never, never};
 // step. Spans narrower than this are such cracks.
 constexpr float narrowest_span = 2e-6F;
 
-// A narrow span is no crack if a whole face is as narrow and spans this share of its range: the
-// face is foreshortened to less than 2 % of its width. It may have more area than all other surface
-// in its bins. Chosen.
+// A narrow span is no crack if a whole face is as narrow and spans this share of its range: it may
+// have more area than all other surface in its bins.
 constexpr float least_depth = 1e-4F;
 
 /// A sweep over w. One segment is on top; those below it are open.
@@ -198,10 +197,10 @@ class Sweep {
 }  // namespace
 
 void visible_spans(std::span<const Segment> segments, const SliceScene& scene, const Slice& slice,
-                   FacetExtents& facet_extents, EnvelopeScratch& scratch,
+                   FacetExtents& facet_extents, std::vector<std::uint32_t>& open,
                    std::vector<VisibleSpan>& out) {
     out.clear();
-    Sweep(segments, scene, slice, facet_extents, scratch.open, out).run();
+    Sweep(segments, scene, slice, facet_extents, open, out).run();
 }
 
 }  // namespace sonarsim

@@ -39,14 +39,10 @@ struct VisibleSpan {
     std::uint32_t facet_index;  ///< index of its FrontFacet
 };
 
-struct EnvelopeScratch {
-    std::vector<std::uint32_t> open;
-};
-
 /// The upper envelope of q over the segments, which are sorted by w_low: the nearest surface at
-/// each w of the slice.
+/// each w of the slice. The memory of `open` is reused.
 void visible_spans(std::span<const Segment> segments, const SliceScene& scene, const Slice& slice,
-                   FacetExtents& facet_extents, EnvelopeScratch& scratch,
+                   FacetExtents& facet_extents, std::vector<std::uint32_t>& open,
                    std::vector<VisibleSpan>& out);
 
 }  // namespace sonarsim

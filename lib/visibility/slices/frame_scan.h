@@ -1,18 +1,16 @@
 #pragma once
 
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "scene/scene.h"
 #include "visibility/local_pose.h"
+#include "visibility/slices/edge_line.h"
 #include "visibility/slices/envelope.h"
 #include "visibility/slices/facet_extent.h"
 #include "visibility/slices/moved_ends.h"
-#include "visibility/slices/narrow_components.h"
 #include "visibility/slices/setup.h"
 #include "visibility/slices/slice_walk.h"
-#include "visibility/slices/unseen_pieces.h"
 
 namespace sonarsim {
 
@@ -22,6 +20,22 @@ struct SliceResult {
     std::vector<VisibleSpan> spans;
     MovedEnds low;  ///< moved to the begin of its strip
     MovedEnds high;
+};
+
+/// A piece of a triangle that lies between two slices, so that no slice meets it.
+struct UnseenPiece {
+    Interval facet_u;  ///< extent of its triangle within the view
+    float u, w, q;     ///< its middle; q = 1 / X
+    float area_m2;
+    Interval range_m;
+    float height_m;  ///< distance of the sensor from its plane
+    float reflection;
+};
+
+/// A slice that is requested within a gap.
+struct RequestedSlice {
+    std::uint32_t gap;
+    float u;
 };
 
 /// Scans the slices of a frame from one pose, and any slice between them, for visible surface.
@@ -40,20 +54,18 @@ class FrameScan {
     /// Finds all trapezoids that slices within a gap may meet: `around`, which its own two slices
     /// meet, and those that lie between them.
     void find_candidates(std::uint32_t gap, std::span<const std::uint32_t> around,
-                         std::vector<Candidate>& out);
+                         std::vector<std::uint32_t>& out);
 
     /// Finds pieces of the triangles that lie between the slices of a gap; `out` is empty before.
     void find_unseen(std::uint32_t gap, std::vector<UnseenPiece>& out);
 
-    /// True if a triangle, or a part of one up to a corner, lies between the slices of a gap.
-    bool has_triangles(std::uint32_t gap) const {
-        return by_gap_ && by_gap_->begin[gap] < by_gap_->begin[gap + 1];
-    }
-
     /// Scans the slice at u, which may meet only `candidates`.
-    void scan_slice(float u, std::span<const Candidate> candidates, SliceResult& out);
+    void scan_slice(float u, std::span<const std::uint32_t> candidates, SliceResult& out);
 
-    /// The slices requested within a gap, from low u to high.
+    /// The slices requested within a gap, from low u to high: those through the components of the
+    /// mesh that are narrower than a gap, such as a wire or a small ball. The echo of such a
+    /// component is the mean over facets of all orientations, but a slice of the frame meets one
+    /// facet or none.
     std::span<const RequestedSlice> requested_in(std::uint32_t gap) const;
 
     /// True if two facets of the scene, at `range_m`, lie in one plane and have one material and
@@ -70,22 +82,23 @@ class FrameScan {
     const SliceScene& scene() const { return scene_; }
 
   private:
-    const Groups& notes_by_gap();
+    void request_slices();
     void scan_slice(const Slice& slice, std::span<const Segment> segments, SliceResult& out);
+    void merge_coplanar(std::vector<VisibleSpan>& spans) const;
 
     const ClusterMesh& mesh_;
     std::span<const Material> materials_;
     const SliceFrame& frame_;
     SliceScene scene_;
     SliceSetup setup_;
-    std::vector<RequestedSlice> requested_;
-    mutable FacetExtents facet_extents_;  ///< computed on demand
+    std::vector<RequestedSlice> requested_;  ///< from low u to high
+    mutable FacetExtents facet_extents_;     ///< computed on demand
     SliceWalk walk_;
     int next_ = 0;
-    EnvelopeScratch envelope_;
+    std::vector<std::uint32_t> open_;  ///< memory of visible_spans()
     std::vector<std::uint64_t> places_;
     std::vector<Segment> segments_;
-    std::optional<Groups> by_gap_;  ///< indices into scene_.in_gaps by gap
+    Groups by_gap_;  ///< indices into scene_.in_gaps by gap
     std::vector<std::uint32_t> facets_;
 };
 

@@ -39,7 +39,7 @@ void move_ends(const Slice& slice, std::span<const VisibleSpan> spans, float u, 
         for (std::size_t k = first; k <= i; ++k) {
             ends[k].w = leader.w;
             ends[k].q = leader.q;
-            ends[k].by = leader.by;
+            ends[k].follows = leader.follows;
             ends[k].stop = 1.0F;
             ends[k].w_stop = leader.w;
         }

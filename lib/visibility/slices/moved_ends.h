@@ -10,11 +10,11 @@ namespace sonarsim {
 
 /// An end of a visible span, moved to a vertical next to its slice.
 struct MovedEnd {
-    float at_slice;    ///< w
-    float alone;       ///< w if it moves by itself
-    float w;           ///< w that it is moved to
-    float q;           ///< q of the surface that it follows
-    std::uint32_t by;  ///< index of the end that it follows
+    float at_slice;         ///< w
+    float w_by_itself;      ///< w if it moves by itself
+    float w;                ///< w that it is moved to
+    float q;                ///< q of the surface that it follows
+    std::uint32_t follows;  ///< index of the end that it follows
     /// Share of the way at which it reaches the view's border, on which it then stays, and w there;
     /// 1: it does not reach the border.
     float stop;

@@ -6,35 +6,23 @@ namespace sonarsim {
 
 namespace {
 
-// In range bins, at an error goal of 3 %. Compared with a third of the sag, four poses each: error
-// of the tank 0.83 % instead of 0.68 % with a quarter fewer samples; no change for a lifeboat and a
-// rough sea floor.
+// In range bins, at an error goal of 3 %: a quarter fewer samples of the tank than with a third.
 constexpr float most_sag = 0.09F;
 constexpr float shortest_patch = 0.25F;
-
-// In range bins, at coarse goals. At 3 % and eight poses each, compared with no wedge: errors of
-// the tank 0.78 instead of 0.69 %, of a lifeboat 1.43 instead of 1.31 %, with a third fewer
-// samples. At 1 % errors would grow by a tenth, and four pings of a wreck would miss the goal
-// without a warning.
+// In range bins, at coarse goals: a third fewer samples of the tank and of a lifeboat than with 0.
 constexpr float most_wedge = 1.0F;
-
-// In range bins, at fine goals; in proportion to the goal, and for patches longer than
-// `long_patch`. The tread of a stair is seen edge-on between an oblique edge and a straight one. A
-// parallelogram had a third of its area in the last bin, where it outweighs the riser: the error of
-// the drawn lattice 24150 was 1.8 times the goal of 1 %. At 3 % its error would fall from 4.6 to
-// 3.8 %, but a ping of the lifeboat would take 6 % longer.
+// In range bins, at fine goals, in proportion to the goal: treads of stairs that are seen edge-on.
 constexpr float most_grazing_wedge = 1.0F;
 constexpr float long_patch = 2.0F;
-
-// With this limit the energy of a flat floor in a cone is off by 0.5 %, without it by 54 %; the
-// mean of its echo over all ranges by 0.4 % instead of 8 %, since a wedge lies farther out than its
-// middle.
+// The energy of a flat floor in a cone is off by 0.5 % with it, by 54 % without a limit.
 constexpr float widest_ratio = 1.5F;
-
-// An image is off by that of its boxes in range plus this times the root of the share by which
-// neighbouring slices differ: slices are added where they differ most, so the rest of the error
-// falls more slowly. Fitted to drawn lattices at a goal of 3 %.
+// Error of an image per root of the share by which neighbouring slices differ, of drawn lattices.
 constexpr double error_per_root = 0.22;
+
+/// True for error goals that allow coarse patches.
+bool is_coarse(double relative_l1) {
+    return relative_l1 >= 0.02;
+}
 
 }  // namespace
 

@@ -6,11 +6,6 @@
 
 namespace sonarsim {
 
-/// True for error goals that allow coarse patches.
-inline bool is_coarse(double relative_l1) {
-    return relative_l1 >= 0.02;
-}
-
 /// Limits on samples that keep a view's image within its error goal.
 struct PatchLimits {
     float sag_m;       ///< largest deviation of a patch's range from the linear one

@@ -24,7 +24,7 @@ struct QuadPoints {
 };
 
 /// A visible part of a plane of the scene, between two verticals of the picture plane and two
-/// lines. It has 16 numbers, which corners_of() reads in this order.
+/// lines.
 struct Quad {
     std::uint32_t facet_index;  ///< index of its FrontFacet
     bool widens;                ///< its u is that of w = 0 and grows with sqrt(1 + w^2)
@@ -41,11 +41,10 @@ struct Quad {
     float middle_low() const { return 0.5F * (low.low + high.low); }
     float middle_high() const { return 0.5F * (low.high + high.high); }
 
-    /// Corners between two sides: the low end of the low side and of the high side, the high end of
-    /// the high side and of the low side.
-    QuadPoints corners(const QuadSide& low_side, const QuadSide& high_side) const {
-        return points({low_side.u, high_side.u, high_side.u, low_side.u},
-                      {low_side.low, high_side.low, high_side.high, low_side.high});
+    /// The low end of the low side and of the high side, the high end of the high side and of the
+    /// low side.
+    QuadPoints corners() const {
+        return points({low.u, high.u, high.u, low.u}, {low.low, high.low, high.high, low.high});
     }
 
     /// The points of the plane in four directions.

@@ -11,8 +11,7 @@ namespace {
 // Largest number of parts across a patch.
 constexpr float most_parts = 8.0F;
 
-// Surface at a smaller cosine to the line of sight is grazing: so dark that it dims a bin of other
-// surface by its area alone. Chosen.
+// Surface at a smaller cosine to the line of sight is grazing: it dims a bin by its area alone.
 constexpr float grazing_cosine = 0.1F;
 
 // Towards the line in which all slices meet, a patch is divided into narrower ones down to this
@@ -47,8 +46,9 @@ QuadSampler::QuadSampler(const FrameScan& scan, const PatchLimits& limits, std::
       R_sensor_frame_(scan.frame().R_frame_sensor.transpose()) {}
 
 void QuadSampler::add(const Quad& quad) {
-    if (any_width_ && is_small(quad)) {
-        divide_across(quad);
+    const QuadPoints corners = quad.corners();
+    if (any_width_ && is_small(corners)) {
+        divide_across(quad, corners);
     } else {
         cut_along(quad);
     }
@@ -56,8 +56,7 @@ void QuadSampler::add(const Quad& quad) {
 
 /// True if cut_along() would not cut the quadrilateral. The foot of the perpendicular is not
 /// farther than the nearest point, h <= r, which is at least 0.9 of the nearest corner.
-bool QuadSampler::is_small(const Quad& quad) const {
-    const QuadPoints corners = quad.corners(quad.low, quad.high);
+bool QuadSampler::is_small(const QuadPoints& corners) const {
     const float nearest = corners.range.minCoeff();
     const float length2 = (corners.middle(2, 3) - corners.middle(0, 1)).squaredNorm();
     return corners.range.maxCoeff() <= limits_.range_max_m &&
@@ -166,18 +165,18 @@ void QuadSampler::add_part(const Quad& quad, float from, float to) {
     Quad out = quad;
     out.low = part(quad.low);
     out.high = part(quad.high);
-    divide_across(out);
+    divide_across(out, out.corners());
 }
 
 /// Divides a quadrilateral of long, grazing surface across into equal parts, since its ranges are
 /// not those of a parallelogram.
-void QuadSampler::divide_across(const Quad& quad) {
-    if (limits_.long_grazing_m == unbounded) return push(quad);
-    const Eigen::Array4f r = quad.corners(quad.low, quad.high).range;
+void QuadSampler::divide_across(const Quad& quad, const QuadPoints& corners) {
+    if (limits_.long_grazing_m == unbounded) return push(quad, corners);
+    const Eigen::Array4f& r = corners.range;
     const float farthest = r.maxCoeff();
     const bool is_long = farthest - r.minCoeff() > limits_.long_grazing_m;
     const float wedge = std::fabs(std::fabs(r[3] - r[0]) - std::fabs(r[2] - r[1]));
-    if (!is_long || !(quad.height_m < grazing_cosine * farthest)) return push(quad);
+    if (!is_long || !(quad.height_m < grazing_cosine * farthest)) return push(quad, corners);
     const float parts = std::clamp(std::ceil(wedge / limits_.grazing_wedge_m), 1.0F, most_parts);
     Quad part = quad;
     for (int i = 1; i <= static_cast<int>(parts); ++i) {
@@ -185,34 +184,34 @@ void QuadSampler::divide_across(const Quad& quad) {
         const auto between = [&](float x, float y) { return x + share * (y - x); };
         part.high = {between(quad.low.u, quad.high.u), between(quad.low.low, quad.high.low),
                      between(quad.low.high, quad.high.high)};
-        push(part);
+        push(part, part.corners());
         part.low = part.high;
     }
 }
 
-void QuadSampler::push(const Quad& quad) {
-    queue_[waiting_++] = quad;
+void QuadSampler::push(const Quad& quad, const QuadPoints& corners) {
+    facets_[waiting_] = quad.facet_index;
+    queue_.set(waiting_++, quad, corners);
     if (waiting_ == lanes) flush();
 }
 
 void QuadSampler::flush() {
     if (waiting_ == 0) return;
-    const Parallelograms patches =
-        fit_parallelograms(corners_of(queue_), R_sensor_frame_, !any_width_);
+    const Parallelograms patches = fit_parallelograms(queue_, R_sensor_frame_, !any_width_);
     const int count = std::exchange(waiting_, 0);
     for (int k = 0; k < count; ++k)
-        add_sample(queue_[k], patches, k);
+        add_sample(facets_[k], patches, k);
 }
 
-void QuadSampler::add_sample(const Quad& quad, const Parallelograms& patches, int k) {
-    const float area = patches.area_m2[k];
+void QuadSampler::add_sample(std::uint32_t facet_index, const Parallelograms& patches, int lane) {
+    const float area = patches.area_m2[lane];
     if (!(area > 0.0F)) return;
-    const FrontFacet& seen = scan_.scene().facets[quad.facet_index];
+    const FrontFacet& seen = scan_.scene().facets[facet_index];
     const SliceFacet& facet = scan_.mesh().facets[seen.facet];
     Sample& sample = out_.emplace_back();
-    sample.position = patches.position.at(k);
-    sample.edge_u = patches.edge_u.at(k);
-    sample.edge_v = patches.edge_v.at(k);
+    sample.position = patches.position.at(lane);
+    sample.edge_u = patches.edge_u.at(lane);
+    sample.edge_v = patches.edge_v.at(lane);
     sample.normal = R_sensor_frame_ * seen.normal;
     sample.height_m = seen.height_m;
     sample.area_m2 = area;

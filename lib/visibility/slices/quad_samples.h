@@ -1,11 +1,10 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "visibility/engine.h"
 #include "visibility/slices/frame_scan.h"
-#include "visibility/slices/patch_corners.h"
+#include "visibility/slices/parallelogram.h"
 #include "visibility/slices/patch_limits.h"
 #include "visibility/slices/quad.h"
 
@@ -34,14 +33,14 @@ class QuadSampler {
     void flush();
 
   private:
-    bool is_small(const Quad& quad) const;
+    bool is_small(const QuadPoints& corners) const;
     void cut_along(const Quad& quad);
     void find_cuts(const RangeLine& line);
     void cut_narrow(const Quad& quad, float from, float to);
     void add_part(const Quad& quad, float from, float to);
-    void divide_across(const Quad& quad);
-    void push(const Quad& quad);
-    void add_sample(const Quad& quad, const Parallelograms& patches, int k);
+    void divide_across(const Quad& quad, const QuadPoints& corners);
+    void push(const Quad& quad, const QuadPoints& corners);
+    void add_sample(std::uint32_t facet_index, const Parallelograms& patches, int lane);
 
     const FrameScan& scan_;
     const PatchLimits limits_;
@@ -49,7 +48,8 @@ class QuadSampler {
     std::vector<Sample>& out_;
     const Eigen::Matrix3f R_sensor_frame_;
     std::vector<float> cuts_;
-    std::array<Quad, lanes> queue_{};
+    QuadBatch queue_{};
+    std::array<std::uint32_t, lanes> facets_{};  ///< their FrontFacets
     int waiting_ = 0;
 };
 

@@ -5,22 +5,22 @@
 #include <cmath>
 
 #include "core/lanes.h"
-#include "core/overlapped_bins.h"
 
 namespace sonarsim {
 
 namespace {
 
-// The number of parts of sums over bins, so that loops vectorise. Arrays have room for this many
-// dark bins behind the last one.
-constexpr int parts_of_sum = lanes;
+// The least depth of surface, in bins, since areas are divided by depths. The step of a float just
+// below 8192 bins is half of this.
+constexpr float least_depth_bins = 1e-3F;
 
-/// The sum of term(i) over the bins [first, last), and over dark bins up to a whole vector.
+/// The sum of term(i) over the bins [first, last), and over dark bins up to a whole vector, in
+/// parts, so that the loop vectorises.
 template <class Term>
 float sum_over_bins(int first, int last, const Term& term) {
-    std::array<float, parts_of_sum> parts{};
-    for (int begin = first; begin < last; begin += parts_of_sum) {
-        for (int k = 0; k < parts_of_sum; ++k)
+    std::array<float, lanes> parts{};
+    for (int begin = first; begin < last; begin += lanes) {
+        for (int k = 0; k < lanes; ++k)
             parts[k] += term(begin + k);
     }
     float sum = 0.0F;
@@ -52,9 +52,9 @@ RangeProfile::RangeProfile(const View& view)
     : min_bins_(static_cast<float>(view.range_min_m / view.bin_m())),
       per_m_(static_cast<float>(1.0 / view.bin_m())),
       bins_(view.range_bins),
-      per_range_(view.range_bins + parts_of_sum, 0.0F),
-      weight_(view.range_bins + parts_of_sum, 0.0F),
-      echo_(view.range_bins + parts_of_sum, 0.0F) {
+      per_range_(view.range_bins + lanes, 0.0F),
+      weight_(view.range_bins + lanes, 0.0F),
+      echo_(view.range_bins + lanes, 0.0F) {
     for (int i = 0; i < bins_; ++i)
         per_range_[i] = per_m_ / (min_bins_ + static_cast<float>(i) + 0.5F);
 }
@@ -110,8 +110,11 @@ void RangeProfile::add(float from_m, float to_m, float weight, float height_m, f
     const int end = static_cast<int>(std::ceil(to));
     first_ = last_ == 0 ? first : std::min(first_, first);
     last_ = std::max(last_, end);
+    // In multiples of 8: a load that overlaps the last store only in part waits for that store.
     for (int i = first / lanes * lanes; i < end; i += lanes) {
-        const Floats8 w = density * overlaps_of_eight(low, to, i);
+        const Floats8 bins = static_cast<float>(i) + to_floats(lane_numbers());
+        const Floats8 overlaps = greatest(least(to, bins + 1.0F) - greatest(low, bins), 0.0F);
+        const Floats8 w = density * overlaps;
         const Floats8 cosine = least(height_m * Floats8::load(&per_range_[i]), 1.0F);
         add_to(&weight_[i], w);
         add_to(&echo_[i], w * reflection * cosine);

@@ -21,14 +21,12 @@ constexpr double widest_strip = 0.0088;      // fan, rad
 constexpr double widest_side_strip = 0.035;  // port_starboard, rad
 constexpr int cone_slices = 96;              // at one per beam
 
-// The poles of a view lie at w = infinity. Surface within 1e-3 rad of the poles of elevation is
-// ignored: within 1e-5 rad, the area of a sphere would be 5 % too large. The ends of a sector of
-// 180 degrees lie at infinity, too.
+// The poles of a view lie at w = infinity, and so do the ends of a sector of 180 degrees. Surface
+// within 1e-3 rad of the poles of elevation is ignored.
 constexpr double steepest = 1e3;
 constexpr double steepest_at_most = 1e5;
 
 // The axis of a cone is a pole as well. Surface within this share of half the opening is ignored.
-// Chosen: with 1e-5 rad for every cone, a ping of 40 degrees of opening takes 1.3 times as long.
 constexpr double ignored_at_axis = 1e-3;
 
 double tangent(double angle, double steepest_slope = steepest) {

@@ -15,6 +15,13 @@ constexpr float nearest_share = 1e-5F;
 // edge-on to within rounding.
 constexpr float edge_on_share = 1e-7F;
 
+std::vector<float> u_of_slices(const SliceFrame& frame) {
+    std::vector<float> u;
+    for (const Slice& slice : frame.slices)
+        u.push_back(slice.u);
+    return u;
+}
+
 /// The line in the near plane between two corners on it.
 EdgeLine near_line(const Corner& a, const Corner& b) {
     const float slope = b.u != a.u ? (b.w - a.w) / (b.u - a.u) : 0.0F;
@@ -41,7 +48,7 @@ SliceSetup::SliceSetup(const ClusterMesh& mesh, const SliceFrame& frame, const L
       nearest_m_(nearest_share * range_max_m),
       u_low_(frame.slices.front().u),
       u_high_(frame.slices.back().u),
-      find_slice_(frame.slices),
+      find_slice_(u_of_slices(frame)),
       out_(out) {}
 
 void SliceSetup::run() {

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "core/groups.h"
+#include "core/sorted_table.h"
 #include "visibility/local_pose.h"
 #include "visibility/slices/clusters.h"
 #include "visibility/slices/edge_line.h"
 #include "visibility/slices/scan.h"
-#include "visibility/slices/slice_finder.h"
 
 namespace sonarsim {
 
@@ -102,7 +102,7 @@ class SliceSetup {
     const float nearest_m_;
     const float u_low_;
     const float u_high_;
-    const SliceFinder find_slice_;
+    const SortedTable find_slice_;  ///< the first slice at or behind a u
     SliceScene& out_;
     std::vector<Corner> cluster_corners_;
     std::vector<std::uint32_t> first_slice_;  ///< first slice that meets each trapezoid

@@ -9,24 +9,16 @@
 
 namespace sonarsim {
 
-/// A trapezoid that slices between two others may meet.
-struct Candidate {
-    float u_from;
-    float u_to;  ///< exclusive
-    std::uint32_t trapezoid;
-};
-
-Candidate candidate(const SliceScene& scene, std::uint32_t trapezoid);
-
-/// The segments of the candidates that a slice at u meets, sorted by w_low. The memory of `places`
-/// is reused.
-void segments_at(const SliceScene& scene, float u, std::span<const Candidate> candidates,
+/// The segments of those of some trapezoids that a slice at u meets, sorted by w_low. The memory of
+/// `places` is reused.
+void segments_at(const SliceScene& scene, float u, std::span<const std::uint32_t> trapezoids,
                  std::vector<std::uint64_t>& places, std::vector<Segment>& out);
 
 /// Walks the slices of a frame in order and keeps the segments that each of them meets sorted.
 class SliceWalk {
   public:
-    void start(const SliceScene& scene, const SliceFrame& frame);
+    /// Both must outlive it.
+    SliceWalk(const SliceScene& scene, const SliceFrame& frame) : scene_(scene), frame_(frame) {}
 
     /// Steps to the next slice, of index `s`, and returns its segments, sorted by w_low.
     const std::vector<Segment>& step(int s);
@@ -35,8 +27,8 @@ class SliceWalk {
     void around_last_gap(std::vector<std::uint32_t>& out) const;
 
   private:
-    const SliceScene* scene_ = nullptr;
-    const SliceFrame* frame_ = nullptr;
+    const SliceScene& scene_;
+    const SliceFrame& frame_;
     std::vector<Segment> before_;  ///< segments of the slice before
     std::vector<Segment> active_;
     std::vector<Segment> kept_;

@@ -4,11 +4,9 @@
 #include "visibility/intersect.h"
 #include "visibility/local_pose.h"
 #include "visibility/slices/adaptive_slices.h"
-#include "visibility/slices/beam_cutter.h"
 #include "visibility/slices/clusters.h"
 #include "visibility/slices/frame_scan.h"
 #include "visibility/slices/patch_limits.h"
-#include "visibility/slices/quad_samples.h"
 #include "visibility/slices/scan.h"
 #include "visibility/slices/strip_quads.h"
 
@@ -18,17 +16,14 @@ namespace {
 
 class SlicesEngine final : public VisibilityEngine {
   public:
-    SlicesEngine(const Scene& scene, const Caster& caster, const SlicesOptions& options)
-        : scene_(&scene),
-          options_(options),
-          caster_(caster),
-          mesh_(make_clusters(scene)) {}
+    SlicesEngine(const Scene& scene, const Caster& caster, int per_beam)
+        : scene_(&scene), per_beam_(per_beam), caster_(caster), mesh_(make_clusters(scene)) {}
 
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
         const LocalPose pose = local_pose(T_world_sensor, scene_->origin);
         const SliceDensity density = slice_density(view);
-        const int per_beam = options_.per_beam > 0 ? options_.per_beam : density.per_beam;
-        const double share = options_.per_beam > 0 ? no_limit : density.difference;
+        const int per_beam = per_beam_ > 0 ? per_beam_ : density.per_beam;
+        const double share = per_beam_ > 0 ? no_limit : density.difference;
         Samples samples;
         samples.beam_begin.assign(view.beams + 1, 0);
         for (const SliceFrame& frame : slice_frames(view, per_beam))
@@ -50,32 +45,25 @@ class SlicesEngine final : public VisibilityEngine {
         const PatchLimits limits = patch_limits(view);
         FrameScan scan(mesh_, *scene_, frame, pose, limits.range_max_m);
         AdaptiveSlices adaptive(view, scene_->materials, scan);
-        QuadSampler sampler(scan, limits, samples.items);
-        StripQuads quads(scan, limits, sampler);
-        BeamCutter cutter(frame, quads, samples);
+        StripQuads quads(scan, limits, samples);
         while (adaptive.scan_next(share)) {
             for (const SliceResult* result : adaptive.slices())
-                cutter.add(*result);
+                quads.add(*result);
         }
         samples.dropped += scan.scene().dropped;
     }
 
     const Scene* scene_;
-    SlicesOptions options_;
+    int per_beam_;
     Caster caster_;
     ClusterMesh mesh_;
 };
 
 }  // namespace
 
-std::unique_ptr<VisibilityEngine> make_slices_engine(const Scene& scene,
-                                                     const SlicesOptions& options) {
-    return make_slices_engine(scene, Caster(scene), options);
-}
-
 std::unique_ptr<VisibilityEngine> make_slices_engine(const Scene& scene, const Caster& caster,
-                                                     const SlicesOptions& options) {
-    return std::make_unique<SlicesEngine>(scene, caster, options);
+                                                     int per_beam) {
+    return std::make_unique<SlicesEngine>(scene, caster, per_beam);
 }
 
 }  // namespace sonarsim

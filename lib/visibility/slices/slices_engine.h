@@ -8,16 +8,10 @@
 
 namespace sonarsim {
 
-struct SlicesOptions {
-    int per_beam = 0;  ///< slices per beam; 0: the view's error goal determines them
-};
-
 /// The slices engine: half-planes through the sensor, exact along each. `scene` must outlive it.
-/// Throws std::runtime_error when Embree, which traces the secondary rays, cannot build its tree.
-std::unique_ptr<VisibilityEngine> make_slices_engine(const Scene& scene,
-                                                     const SlicesOptions& options);
-/// The same with a caster over the scene, whose trees engines may share.
+/// The caster over the scene traces the secondary rays. `per_beam`: slices per beam; 0: the view's
+/// error goal determines them.
 std::unique_ptr<VisibilityEngine> make_slices_engine(const Scene& scene, const Caster& caster,
-                                                     const SlicesOptions& options);
+                                                     int per_beam = 0);
 
 }  // namespace sonarsim

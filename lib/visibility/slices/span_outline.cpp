@@ -16,12 +16,12 @@ constexpr float least_stop = 0.01F;
 QuadSide quad_side(const Slice& slice, const MovedEnds& side, std::size_t span) {
     const MovedEnd& low = side.ends[2 * span];
     const MovedEnd& high = side.ends[2 * span + 1];
-    if (low.w < high.w || low.by != high.by) return {side.u, low.w, high.w};
-    const MovedEnd& leader = side.ends[low.by];
-    const bool from_below = low.by <= 2 * span;
+    if (low.w < high.w || low.follows != high.follows) return {side.u, low.w, high.w};
+    const MovedEnd& leader = side.ends[low.follows];
+    const bool from_below = low.follows <= 2 * span;
     const float before =
         from_below ? high.at_slice - leader.at_slice : leader.at_slice - low.at_slice;
-    const float after = from_below ? leader.w - high.alone : low.alone - leader.w;
+    const float after = from_below ? leader.w - high.w_by_itself : low.w_by_itself - leader.w;
     const float share = after > 0.0F ? before / (before + after) : 1.0F;
     const float w = leader.at_slice + share * (leader.w - leader.at_slice);
     return {slice.u + share * (side.u - slice.u), w, w};

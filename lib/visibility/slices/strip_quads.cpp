@@ -18,13 +18,32 @@ float gap_width(const SliceFrame& frame) {
 
 }  // namespace
 
-StripQuads::StripQuads(const FrameScan& scan, const PatchLimits& limits, QuadSampler& out)
+StripQuads::StripQuads(const FrameScan& scan, const PatchLimits& limits, Samples& samples)
     : scan_(scan),
       most_wedge_m_(limits.most_wedge_m),
-      out_(out),
+      samples_(samples),
+      out_(scan, limits, samples.items),
       widest_(gap_width(scan.frame())) {}
 
-void StripQuads::add(const SliceResult& result, const MovedEnds& low, const MovedEnds& high) {
+void StripQuads::add(const SliceResult& result) {
+    const std::vector<float>& borders = scan_.frame().beam_u;
+    if (beam_ + 1 == static_cast<int>(borders.size())) return;  // no width is left
+    const MovedEnds* low = &result.low;
+    while (borders[beam_ + 1] < result.high.u) {
+        MovedEnds& border = at_border_[beam_ % 2];
+        move_ends(result.slice, result.spans, borders[beam_ + 1], border);
+        add_between(result, *low, border);
+        low = &border;
+        end_beam();
+    }
+    add_between(result, *low, result.high);
+    if (borders[beam_ + 1] == result.high.u) end_beam();
+}
+
+/// Adds the strip of a slice between two verticals of the picture plane, to which its ends are
+/// moved.
+void StripQuads::add_between(const SliceResult& result, const MovedEnds& low,
+                             const MovedEnds& high) {
     const Slice& slice = result.slice;
     new_quads_.clear();
     begin_.clear();
@@ -42,12 +61,15 @@ void StripQuads::add(const SliceResult& result, const MovedEnds& low, const Move
     });
 }
 
+/// Passes the open quadrilaterals on, since the next strip belongs to another beam.
 void StripQuads::end_beam() {
     for (const Quad& quad : open_)
         out_.add(quad);
     out_.flush();
     open_.clear();
     last_uncovered_.clear();
+    samples_.beam_begin[scan_.frame().first_beam + ++beam_] =
+        static_cast<std::uint32_t>(samples_.items.size());
 }
 
 void StripQuads::add_span(const Slice& slice, const VisibleSpan& span, const SpanOutline& outline) {
@@ -138,7 +160,9 @@ bool StripQuads::go_on(const Quad& open, const Quad& quad) const {
           scan_.one_plane(open.facet_index, quad.facet_index, quad.range_m.to))) {
         return false;
     }
-    const Eigen::Array4f r = quad.corners(open.low, quad.high).range;
+    Quad both = quad;
+    both.low = open.low;
+    const Eigen::Array4f r = both.corners().range;
     const float wedge = std::fabs(r[3] - r[0]) - std::fabs(r[2] - r[1]);
     return std::fabs(wedge) < most_wedge_m_;
 }

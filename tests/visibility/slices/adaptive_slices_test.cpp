@@ -58,8 +58,8 @@ TEST_CASE("slices: neighbours differ by the given share of the signal at most") 
         CAPTURE(share);
         const Walk all = walk(scene, share);
         CHECK(all.slices > walk(scene, 2.0 * share).slices);
-        CHECK(all.sum.share() <= share);
-        CHECK(all.sum.share() > 0.1 * share);
+        CHECK(all.sum.difference <= share * all.sum.signal);
+        CHECK(all.sum.difference > 0.1 * share * all.sum.signal);
     }
     // On a wall alone all slices agree, so the number is the initial one.
     Scene wall = test::empty_scene();

@@ -16,7 +16,7 @@ inline View fan_view() {
 }
 
 inline Samples seen(const Scene& scene, const View& view, const Pose& pose, int per_beam = 2) {
-    return make_slices_engine(scene, {.per_beam = per_beam})->visible_surface(view, pose);
+    return make_slices_engine(scene, Caster(scene), per_beam)->visible_surface(view, pose);
 }
 
 inline double area_of(const Samples& samples) {

@@ -216,7 +216,7 @@ TEST_CASE("slices: no face of a stay stands for many times its area" *
         Draws draw(seed);
         std::vector<float> areas;
         add_stays(scene, draw, 200, shapes::add_material(scene, 0.8F), areas);
-        const auto engine = make_slices_engine(scene, {});
+        const auto engine = make_slices_engine(scene, Caster(scene));
         for (const double goal : {0.03, 0.01, 0.004}) {
             view.relative_l1 = goal;
             std::vector<float> seen(areas.size(), 0.0F);
@@ -238,7 +238,7 @@ TEST_CASE("slices: no beam of a drawn lattice is far from brute force at any goa
     for (std::uint32_t seed = 1; seed <= 4; ++seed) {
         const Scene scene = lattices(seed);
         const std::vector<double> truth = brute_force(scene, view);
-        const auto engine = make_slices_engine(scene, {});
+        const auto engine = make_slices_engine(scene, Caster(scene));
         for (const double goal : {0.03, 0.02, 0.01, 0.006, 0.003}) {
             view.relative_l1 = goal;
             const Samples samples = engine->visible_surface(view, Pose{});

@@ -210,7 +210,7 @@ TEST_CASE("slices: a full turn and steep views see all of a sphere around the so
 TEST_CASE("slices: the same answer for the same question, and where coordinates are large") {
     const Pose pose = pitched(15.0, {-2.4, 0.4, 1.5});
     const Scene here = test::tank();
-    const auto engine = make_slices_engine(here, {});
+    const auto engine = make_slices_engine(here, Caster(here));
     for (const View& view : {fan_view(), cone_view(), sides_view()}) {
         const Samples first = engine->visible_surface(view, pose);
         engine->visible_surface(fan_view(), pitched(40.0, {0, 0, 2}));
@@ -228,7 +228,7 @@ TEST_CASE("slices: the same answer for the same question, and where coordinates 
 
 TEST_CASE("slices: rays see the same tank") {
     const Scene scene = test::tank();
-    const auto slices = make_slices_engine(scene, {});
+    const auto slices = make_slices_engine(scene, Caster(scene));
     const auto rays = make_rays_engine(scene);
     for (View view : {fan_view(), cone_view(), sides_view()}) {
         view.relative_l1 = 0.01;
@@ -263,7 +263,7 @@ TEST_CASE("slices: three planes that cross in one slice are each seen where they
 
 TEST_CASE("slices: a finer goal asks for more slices" * doctest::skip(test::sanitized)) {
     const Scene scene = test::tank();
-    const auto engine = make_slices_engine(scene, {});
+    const auto engine = make_slices_engine(scene, Caster(scene));
     const Pose pose = pitched(15.0, {-2.4, 0.4, 1.5});
     std::size_t samples = 0;
     for (const double goal : {0.1, 0.03, 0.01}) {

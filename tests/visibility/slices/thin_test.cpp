@@ -22,7 +22,7 @@ TEST_CASE("slices: a wire of 4 mm is seen in every ping, as bright as a cylinder
     // The mean of v . n over the visible half of a cylinder is 2 / pi = 0.64.
     Scene scene = test::empty_scene();
     test::add_pole(scene, {5.0F, 0.0F, -2.0F}, 0.002F, 4.0F, test::add_material(scene, 0.5F), 8);
-    const auto engine = make_slices_engine(scene, {.per_beam = 1});
+    const auto engine = make_slices_engine(scene, Caster(scene), 1);
     for (int k = 0; k < 60; ++k) {
         CAPTURE(k);
         const Pose pose{rotation_from_rpy(0.0, 0.0, radians(-20.0 + 0.677 * k)),
@@ -46,7 +46,7 @@ TEST_CASE("slices: a wire of 4 mm is seen in every ping, as bright as a cylinder
 TEST_CASE("slices: a ball of 2 cm is seen in every ping") {
     Scene scene = test::empty_scene();
     test::add_sphere(scene, {8, 0, 0}, 0.01F, test::add_material(scene, 0.5F), 16);
-    const auto engine = make_slices_engine(scene, {.per_beam = 1});
+    const auto engine = make_slices_engine(scene, Caster(scene), 1);
     for (int k = 0; k < 60; ++k) {
         const Pose pose{rotation_from_rpy(0.0, 0.0, radians(-20.0 + 0.677 * k)),
                         Eigen::Vector3d::Zero()};

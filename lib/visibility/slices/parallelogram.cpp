@@ -1,6 +1,4 @@
-#include "visibility/slices/patch_corners.h"
-
-#include <cstddef>
+#include "visibility/slices/parallelogram.h"
 
 namespace sonarsim {
 
@@ -39,14 +37,41 @@ Floats8 limited(Floats8 x, Floats8 limit) {
     return least(greatest(x, 0.0F - limit), limit);
 }
 
-Floats8 nearest_corner(const PatchCorners& quads) {
-    const auto& [a, b, c, d] = quads.corners;
-    return least(least(a.range, b.range), least(c.range, d.range));
-}
-Floats8 farthest_corner(const PatchCorners& quads) {
-    const auto& [a, b, c, d] = quads.corners;
-    return greatest(greatest(a.range, b.range), greatest(c.range, d.range));
-}
+/// The corners of a batch, and the limits of the range.
+struct Corners8 {
+    struct Corner {
+        Vectors8 at;
+        Floats8 range;
+        Floats8 u, w;  ///< direction
+    };
+
+    std::array<Corner, 4> corners;
+    Floats8 nearest_m, farthest_m, height_m;
+
+    explicit Corners8(const QuadBatch& batch)
+        : nearest_m(Floats8::load(batch.nearest_m.data())),
+          farthest_m(Floats8::load(batch.farthest_m.data())),
+          height_m(Floats8::load(batch.height_m.data())) {
+        // In the order of the members of QuadPoints, four numbers each.
+        constexpr int stride = 24;
+        static_assert(sizeof(QuadPoints) == stride * sizeof(float));
+        const float* const numbers = batch.corners[0].X.data();
+        const std::array<Floats8, lanes> XU = columns_of_eight(numbers, stride);
+        const std::array<Floats8, lanes> Wr = columns_of_eight(numbers + lanes, stride);
+        const std::array<Floats8, lanes> uw = columns_of_eight(numbers + 2 * lanes, stride);
+        for (int k = 0; k < 4; ++k)
+            corners[k] = {{XU[k], XU[k + 4], Wr[k]}, Wr[k + 4], uw[k], uw[k + 4]};
+    }
+
+    Floats8 nearest() const {
+        const auto& [a, b, c, d] = corners;
+        return least(least(a.range, b.range), least(c.range, d.range));
+    }
+    Floats8 farthest() const {
+        const auto& [a, b, c, d] = corners;
+        return greatest(greatest(a.range, b.range), greatest(c.range, d.range));
+    }
+};
 
 /// The areas of quadrilaterals, m^2. On a plane dA = X^3 du dw / h. The range of a corner is
 /// limited to that of its surface. Where the plane reaches beyond this range, the limit moves
@@ -54,7 +79,7 @@ Floats8 farthest_corner(const PatchCorners& quads) {
 /// nearly edge-on and two u are nearly equal, an area along the line of sight that does not exist:
 /// up to hundreds of times that of the triangle. So the area between moved corners is computed from
 /// their picture.
-Floats8 areas(const PatchCorners& quads) {
+Floats8 areas(const Corners8& quads) {
     const auto& [a, b, c, d] = quads.corners;
     const auto cube = [](Floats8 x) { return x * x * x; };
     const Floats8 picture = absolute((c.u - a.u) * (d.w - b.w) - (d.u - b.u) * (c.w - a.w));
@@ -63,12 +88,12 @@ Floats8 areas(const PatchCorners& quads) {
     const Floats8 mean_X3 = 0.25F * ((cube(a.at.x) + cube(c.at.x)) + (cube(b.at.x) + cube(d.at.x)));
     const Floats8 area = 0.5F * norm(cross(c.at - a.at, d.at - b.at));
     const Mask8 moved =
-        (nearest_corner(quads) <= quads.nearest_m) | (farthest_corner(quads) >= quads.farthest_m);
+        (quads.nearest() <= quads.nearest_m) | (quads.farthest() >= quads.farthest_m);
     return where(moved, area_at(mean_X3), least(area, area_rounding * area_at(cube(most_X))));
 }
 
 /// The centroid of a trapezoid lies towards its wide end.
-Vectors8 centroids(const PatchCorners& quads, const Vectors8& middle) {
+Vectors8 centroids(const Corners8& quads, const Vectors8& middle) {
     const auto& [a, b, c, d] = quads.corners;
     const Floats8 one = norm(cross(b.at - a.at, c.at - a.at));
     const Floats8 other = norm(cross(c.at - a.at, d.at - a.at));
@@ -81,7 +106,7 @@ Vectors8 centroids(const PatchCorners& quads, const Vectors8& middle) {
 /// Fits parallelograms to the ranges of their corners, so that they fill the bins that the surface
 /// fills, and no others. The deeper edge is lengthened or shortened, and the parallelogram is moved
 /// along it, each by at most half of that edge.
-void fit_range(const PatchCorners& quads, Parallelograms& out) {
+void fit_range(const Corners8& quads, Parallelograms& out) {
     const Floats8 r = norm(out.position);
     const Floats8 u = dot(out.position, out.edge_u) / r;
     const Floats8 v = dot(out.position, out.edge_v) / r;
@@ -90,8 +115,8 @@ void fit_range(const PatchCorners& quads, Parallelograms& out) {
     const Floats8 bend_u = dot(out.edge_u, out.edge_u) - depth_u * depth_u;
     const Floats8 bend_v = dot(out.edge_v, out.edge_v) - depth_v * depth_v;
     const Floats8 bend = (bend_u + bend_v) / (2.0F * r);
-    const Floats8 nearest = nearest_corner(quads);
-    const Floats8 farthest = farthest_corner(quads);
+    const Floats8 nearest = quads.nearest();
+    const Floats8 farthest = quads.farthest();
     const Floats8 more = 0.5F * (farthest - nearest) - depth_u - depth_v;
     const Floats8 shift = 0.5F * (farthest + nearest) - r - bend;
     const Mask8 by_u = depth_u > depth_v;
@@ -111,36 +136,9 @@ void fit_range(const PatchCorners& quads, Parallelograms& out) {
 
 }  // namespace
 
-PatchCorners corners_of(const std::array<Quad, lanes>& quads) {
-    static_assert(sizeof(Quad) == 64 && offsetof(Quad, low) == 8 && offsetof(Quad, u) == 32 &&
-                  offsetof(Quad, height_m) == 52);
-    const auto* const numbers = reinterpret_cast<const float*>(quads.data());
-    // In the order of Quad's members; the first two of its numbers are not floats.
-    const std::array<Floats8, lanes> sides = columns_of_eight(numbers, 16);
-    const std::array<Floats8, lanes> plane = columns_of_eight(numbers + lanes, 16);
-    const Floats8 u = plane[0], w = plane[1];
-    const Floats8 q = plane[2], q_u = plane[3], q_w = plane[4];
-    const Floats8 height_m = plane[5], nearest_m = plane[6], farthest_m = plane[7];
-    const bool all_widen = quads[0].widens;
-    const auto corner = [&](Floats8 at_u, Floats8 at_w) -> PatchCorners::Corner {
-        if (all_widen) at_u = at_u * sqrt(1.0F + at_w * at_w);
-        const Floats8 secant = sqrt(1.0F + at_u * at_u + at_w * at_w);
-        const Floats8 at_q =
-            greatest(q + q_u * (at_u - u) + q_w * (at_w - w), Quad::least_q_share * q);
-        const Floats8 range = least(greatest(secant / at_q, nearest_m), farthest_m);
-        const Floats8 X = range / secant;
-        return {{X, at_u * X, at_w * X}, range, at_u, at_w};
-    };
-    const Floats8 low_u = sides[2], high_u = sides[5];
-    return {{corner(low_u, sides[3]), corner(high_u, sides[6]), corner(high_u, sides[7]),
-             corner(low_u, sides[4])},
-            nearest_m,
-            farthest_m,
-            height_m};
-}
-
-Parallelograms fit_parallelograms(const PatchCorners& quads, const Eigen::Matrix3f& R_sensor_frame,
+Parallelograms fit_parallelograms(const QuadBatch& batch, const Eigen::Matrix3f& R_sensor_frame,
                                   bool centroid) {
+    const Corners8 quads(batch);
     const auto& [a, b, c, d] = quads.corners;
     Vectors8 middle = 0.25F * (a.at + b.at + c.at + d.at);
     if (centroid) middle = centroids(quads, middle);
