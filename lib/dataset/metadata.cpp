@@ -182,7 +182,7 @@ Json describe_build() {
     return {{"compiler", build.compiler},
             {"flags", build.flags},
             {"arithmetic", build.arithmetic},
-            {"png_encoder", png_encoder()}};
+            {"png_encoder", png_encoder}};
 }
 
 std::string resolved_text(const Mission& mission, const Assembly& assembly) {
