@@ -90,9 +90,9 @@ Layout make_layout(const Mission& mission, const std::vector<Writers>& writers, 
                             .per_ping = {},
                             .products = {}};
         for (const Writer& writer : writers[i]) {
-            sensor.per_ping.push_back(writer.outputs.per_ping);
-            for (const Product& product : writer.outputs.products)
-                sensor.products.push_back(product.file);
+            sensor.per_ping.push_back(writer.per_ping);
+            sensor.products.insert(sensor.products.end(), writer.products.begin(),
+                                   writer.products.end());
         }
         layout.sensors.push_back(std::move(sensor));
     }

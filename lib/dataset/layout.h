@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "dataset/writers.h"
+#include "dataset/writer.h"
 #include "mission/dataset_names.h"
 
 // The files of a dataset:
@@ -42,8 +42,7 @@ struct SensorLayout {
     std::string name;
     std::uint32_t every = 1;  ///< pings at every n-th pose
     std::size_t pings = 0;
-    std::vector<std::variant<PingFile, PingRecord>>
-        per_ping;  ///< outputs of its writers, in their order
+    std::vector<PingOutput> per_ping;  ///< outputs of its writers, in their order
     std::vector<std::string> products;
 };
 

@@ -3,7 +3,6 @@
 #include "core/build_info.h"
 #include "dataset/annotated_objects.h"
 #include "dataset/json.h"
-#include "dataset/ping_metadata.h"
 #include "format/png.h"
 #include "mission/files.h"
 #include "mission/resolved.h"

@@ -109,10 +109,4 @@ void write_picture(const std::filesystem::path& path, std::span<const Rgb> pixel
     write_file(path, encode(pixels, width, height, PngFilter::left));
 }
 
-double png_bytes_at_most(int width, int height, int bytes_per_pixel) {
-    const double raw =
-        static_cast<double>(height) * (1.0 + static_cast<double>(width) * bytes_per_pixel);
-    return 1200.0 + 1.02 * raw;
-}
-
 }  // namespace sonarsim

@@ -79,10 +79,6 @@ std::string png_bytes(std::span<const std::uint16_t> pixels, int width, int heig
 /// Writes a whole picture of `width` pixels a row as a PNG file.
 void write_picture(const std::filesystem::path& path, std::span<const Rgb> pixels, int width);
 
-/// An upper limit of the size of a PNG file: pixels that do not compress, a filter byte per row,
-/// and the blocks and chunks of the format.
-double png_bytes_at_most(int width, int height, int bytes_per_pixel);
-
 /// Names the way in which pixels are packed. Another way stores the same pixels in other bytes.
 inline constexpr const char* png_encoder = "sonarsim 3";
 

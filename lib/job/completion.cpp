@@ -5,7 +5,7 @@
 #include "core/atomic_file.h"
 #include "core/file.h"
 #include "core/sha256.h"
-#include "dataset/ping_metadata.h"
+#include "dataset/metadata.h"
 
 namespace sonarsim {
 

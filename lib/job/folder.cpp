@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "dataset/ping_metadata.h"
+#include "dataset/metadata.h"
 #include "mission/differences.h"
 #include "mission/files.h"
 

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "dataset/dataset_file.h"
-#include "dataset/ping_metadata.h"
+#include "dataset/metadata.h"
 #include "dataset/record_file.h"
 #include "format/npy.h"
 #include "job/folder.h"

@@ -11,7 +11,6 @@
 #include "core/file.h"
 #include "dataset/dataset_file.h"
 #include "dataset/metadata.h"
-#include "dataset/ping_metadata.h"
 #include "dataset/seabed_files.h"
 #include "job/completion.h"
 #include "job/folder.h"

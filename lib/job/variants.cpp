@@ -13,7 +13,6 @@
 #include "dataset/dataset_file.h"
 #include "dataset/layout.h"
 #include "dataset/metadata.h"
-#include "dataset/ping_metadata.h"
 #include "job/folder.h"
 #include "job/shard_lock.h"
 #include "mission/files.h"

@@ -155,20 +155,14 @@ PingNumbers label_numbers(const WriterContext& context, const LabelFile& file,
 /// NAME/NNNNNN.png or .npy with the rows and columns of the image, or a record per ping in
 /// NAME.npy.
 Writer label_writer(const WriterContext& context, const LabelFile& file) {
-    const View& view = context.sonar().settings.view;
-    WriterOutputs outputs;
-    if (context.kind().has_images) {
-        outputs = {PingFile{file.name, file.ids_of ? ".png" : ".npy", PingArray::bins, file.ids},
-                   file.ids_of ? png_bytes_at_most(view.beams, view.range_bins, 2)
-                               : npy_bytes_at_most(view),
-                   {}};
-    } else {
-        outputs = record_outputs(context, file.name, file.ids_of ? "<u2" : "<f4",
-                                 file.ids_of ? 2 : 4, file.name);
-        std::get<PingRecord>(outputs.per_ping).ids = file.ids;
-    }
+    PingOutput output;
+    if (context.kind().has_images)
+        output = PingFile{file.name, file.ids_of ? ".png" : ".npy", PingArray::bins, file.ids};
+    else
+        output =
+            record_of_kind(context, file.name, file.ids_of ? "<u2" : "<f4", file.name, file.ids);
     return array_writer(
-        std::move(outputs),
+        std::move(output),
         [context, &file](const FinishedPing& ping) { return label_numbers(context, file, ping); },
         PngFilter::up);
 }
@@ -181,11 +175,8 @@ Writer fan_label_writer(const WriterContext& context, const LabelFile& file) {
                                        file.ids_of(finished.labels->bins), std::uint16_t{0}),
                             frame.height, frame.width);
     };
-    return array_writer(
-        {PingFile{std::string("fan_") + file.name, ".png", PingArray::fan, file.ids},
-         png_bytes_at_most(frame.width, frame.height, 2),
-         {}},
-        pixels, PngFilter::up);
+    return array_writer(PingFile{std::string("fan_") + file.name, ".png", PingArray::fan, file.ids},
+                        pixels, PngFilter::up);
 }
 
 }  // namespace

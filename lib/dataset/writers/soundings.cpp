@@ -148,21 +148,7 @@ std::vector<double> sounding_fields(const WriterContext& context, const Finished
 std::optional<Writer> make_soundings_writer(const WriterContext& context) {
     const SonarConfig& config = context.sonar().config;
     if (config.kind != SonarKind::profiling) return std::nullopt;
-    constexpr double csv_line = 160.0;
-    constexpr double ply_vertex = 28.0;
     const std::size_t beams = context.sonar().settings.view.beams;
-    const double soundings = static_cast<double>(beams) * static_cast<double>(context.pings);
-    // A cell has four soundings on average, before its size is rounded up.
-    const double cells = 1.0 + soundings / 4.0;
-    WriterOutputs outputs =
-        record_outputs("soundings.npy", {"<f8", {context.pings, beams, fields_of_sounding}},
-                       {"ping", "beam", "range_m, x_m, y_m, z_m, quality"},
-                       8.0 * static_cast<double>(fields_of_sounding * beams));
-    outputs.products = {{"soundings.csv", 60.0 + csv_line * soundings},
-                        {"soundings.ply", 200.0 + ply_vertex * soundings},
-                        {"bathymetry.tif", 1000.0 + 4.0 * cells},
-                        {"bathymetry.json", 1000.0},
-                        {"bathymetry.png", png_bytes_at_most(4096, 4096, 3)}};
     const auto write_products = [=, &config](const RecordFile& records,
                                              const std::filesystem::path& folder) {
         const SoundingSource source{records, beams, static_cast<std::uint32_t>(config.every),
@@ -170,7 +156,13 @@ std::optional<Writer> make_soundings_writer(const WriterContext& context) {
         write_soundings(source, folder);
         write_bathymetry(source, folder);
     };
-    return Writer{.outputs = std::move(outputs),
+    PingRecord record;
+    record.file = "soundings.npy";
+    record.format = {"<f8", {context.pings, beams, fields_of_sounding}};
+    record.axes = {"ping", "beam", "range_m, x_m, y_m, z_m, quality"};
+    return Writer{.per_ping = std::move(record),
+                  .products = {"soundings.csv", "soundings.ply", "bathymetry.tif",
+                               "bathymetry.json", "bathymetry.png"},
                   .encode =
                       [=](const FinishedPing& finished) {
                           return record_bytes(sounding_fields(context, finished));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "dataset/record_file.h"
@@ -10,7 +11,7 @@ namespace sonarsim {
 
 /// The files of a side-scan sonar for other programs: waterfall.xtf, and mosaic.tif with
 /// mosaic.json. Files that the mission does not ask for are left out.
-std::vector<Product> swath_products(const WriterContext& context);
+std::vector<std::string> swath_products(const WriterContext& context);
 
 /// `rows`: waterfall.npy.
 void write_swath_files(const WriterContext& context, const RecordFile& rows,
