@@ -143,7 +143,7 @@ class Variants(Varied):
         self.write("other/thesis.txt", "years of work")
         whole = digest(self.folder)
         for command in ("validate", "render"):
-            for arguments, words in ((("--set", "variants=3"), "variants: 2 there, 3 here"),
+            for arguments, words in ((("--set", "variants=3"), "of another mission, number"),
                                      (("--set", "variants=2", "--seed", "9"), "holds variants of another mission"),
                                      (("--out", "other", "--overwrite"), "not variants of a sonarsim mission")):
                 self.assert_refused(self.run_sonarsim(command, "mission.yaml", *arguments), words)
