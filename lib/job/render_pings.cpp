@@ -24,13 +24,16 @@ PingReport render_ping(const RenderRun& run, const VisibilityEngine& engine,
     const Ping& ping = rendered.ping;
     const float brightest = brightest_pixel(ping, rendered.sonar->config.name, id.pose);
     Stopwatch watch;
-    const WrittenPing written =
-        encode_ping(run.assembly, to ? to->writers[id.sensor] : Writers(), labels, rendered);
+    WrittenPing written;
     PingReport report;
     RenderSummary& summary = report.summary;
     summary.pings = 1;
     summary.stages = ping.seconds;
-    summary.encode_seconds = watch.lap();
+    if (to || labels.on) {
+        written =
+            encode_ping(run.assembly, to ? to->writers[id.sensor] : Writers(), labels, rendered);
+        summary.encode_seconds = watch.lap();
+    }
     summary.counts = ping.counts;
     summary.clipped_pixels = to ? written.clipped_pixels : 0;
     summary.sensors.resize(id.sensor + 1);
@@ -39,7 +42,8 @@ PingReport render_ping(const RenderRun& run, const VisibilityEngine& engine,
                               .counts = ping.counts,
                               .clipped_pixels = summary.clipped_pixels,
                               .brightest = brightest};
-    if (to) report.fields = write_ping(to->layout, to->records, id, written.parts);
+    if (!to) return report;
+    report.fields = write_ping(to->layout, to->records, id, written.parts);
     summary.write_seconds = watch.lap();
     return report;
 }
