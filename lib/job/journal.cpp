@@ -76,16 +76,6 @@ void write_journal(const fs::path& path, const JournalEntries& entries) {
     file.finish();
 }
 
-std::vector<std::string_view> split_fields(std::string_view fields) {
-    std::vector<std::string_view> all;
-    while (!fields.empty()) {
-        const std::size_t end = std::min(fields.find(' '), fields.size());
-        all.push_back(fields.substr(0, end));
-        fields.remove_prefix(std::min(end + 1, fields.size()));
-    }
-    return all;
-}
-
 Journal::Journal(const ShardLock& lock, double checkpoint_seconds)
     : lock_(lock),
       // The last line of an interrupted run may be torn.

@@ -31,9 +31,6 @@ JournalEntries read_journal(const std::filesystem::path& folder);
 /// Writes OUT/journal.txt: its bytes do not depend on the runs that made the dataset.
 void write_journal(const std::filesystem::path& path, const JournalEntries& entries);
 
-/// The fields of an entry.
-std::vector<std::string_view> split_fields(std::string_view fields);
-
 /// The part of the journal that one run writes. A background thread makes a checkpoint every few
 /// seconds: it makes durable what has been written so far and then adds the lines of the pings that
 /// were finished before. A power cut costs only the pings since the last checkpoint.

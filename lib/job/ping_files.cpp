@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <span>
+#include <sstream>
 #include <stdexcept>
 
 #include "core/file.h"
@@ -69,18 +70,19 @@ FinishedPings::FinishedPings(const Layout& layout) : layout_(layout) {
 bool FinishedPings::has(const PingId& ping) const {
     const auto entry = entries_.find(ping);
     if (entry == entries_.end()) return false;
-    const std::vector<std::string_view> fields = split_fields(entry->second);
+    std::istringstream fields(entry->second);
     const auto& parts = layout_.sensors[ping.sensor].per_ping;
-    if (fields.size() != parts.size()) return false;
+    std::string field;
     for (std::size_t k = 0; k < parts.size(); ++k) {
+        if (!(fields >> field)) return false;
         if (const auto* file = std::get_if<PingFile>(&parts[k])) {
             const std::string size = size_of(layout_.file(ping, *file));
-            if (size.empty() || !fields[k].starts_with(size + ':')) return false;
-        } else if (records_[ping.sensor][k]->hash(layout_.record_of(ping)) != fields[k]) {
+            if (size.empty() || !field.starts_with(size + ':')) return false;
+        } else if (records_[ping.sensor][k]->hash(layout_.record_of(ping)) != field) {
             return false;
         }
     }
-    return true;
+    return !(fields >> field);
 }
 
 bool FinishedPings::has_all(const std::vector<PingId>& pings) const {

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -76,13 +77,13 @@ std::map<std::string, std::string> ping_sums(const Layout& layout, const Journal
     std::map<std::string, std::string> sums;
     for (const auto& [ping, entry] : entries) {
         if (ping.sensor >= layout.sensors.size()) continue;  // a line that somebody has added
-        const std::vector<std::string_view> fields = split_fields(entry);
-        const auto& parts = layout.sensors[ping.sensor].per_ping;
-        for (std::size_t k = 0; k < std::min(parts.size(), fields.size()); ++k) {
-            const auto* file = std::get_if<PingFile>(&parts[k]);
-            if (!file) continue;
-            sums.emplace(layout.file(ping, *file).lexically_relative(layout.folder).string(),
-                         fields[k].substr(fields[k].find(':') + 1));
+        std::istringstream fields(entry);
+        std::string field;
+        for (const PingOutput& part : layout.sensors[ping.sensor].per_ping) {
+            fields >> field;
+            if (const auto* file = std::get_if<PingFile>(&part))
+                sums.emplace(layout.file(ping, *file).lexically_relative(layout.folder).string(),
+                             field.substr(field.find(':') + 1));
         }
     }
     return sums;

@@ -23,21 +23,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class Lock { taken, busy, unknown };
-
-/// `unknown`: the file system has no locks (ENOLCK, EOPNOTSUPP), or the call failed.
-Lock lock_now(int fd, int mode) {
-    while (::flock(fd, mode | LOCK_NB) != 0) {
-        if (errno == EINTR) continue;
-        return errno == EWOULDBLOCK ? Lock::busy : Lock::unknown;
-    }
-    return Lock::taken;
+/// Takes a lock: 0, EWOULDBLOCK where another run holds it, or another error where the file system
+/// has no locks (ENOLCK, EOPNOTSUPP).
+int lock_now(int fd, int mode) {
+    int result = 0;
+    do {
+        result = ::flock(fd, mode | LOCK_NB);
+    } while (result != 0 && errno == EINTR);
+    return result == 0 ? 0 : errno;
 }
 
 bool is_locked(const fs::path& part) {
     const int fd = ::open(part.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
     if (fd < 0) return false;
-    const bool locked = lock_now(fd, LOCK_SH) == Lock::busy;
+    const bool locked = lock_now(fd, LOCK_SH) == EWOULDBLOCK;
     ::close(fd);
     return locked;
 }
@@ -101,9 +100,9 @@ bool ShardLock::take(int shards) {
         if (errno == ENOENT) return false;  // another run has removed the folder again
         throw_errno("cannot write", part_);
     }
-    const Lock lock = lock_now(fd_, LOCK_EX);
-    works_ = lock != Lock::unknown;
-    if (lock == Lock::busy) {
+    const int fault = lock_now(fd_, LOCK_EX);
+    works_ = fault == 0;
+    if (fault == EWOULDBLOCK) {
         ::close(std::exchange(fd_, -1));
         return false;
     }

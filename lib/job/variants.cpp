@@ -204,16 +204,16 @@ RenderSummary run_variants(const Mission& mission, std::span<const Mission> vari
     Stopwatch watch;
     // While a variant is rendered, the next one is assembled.
     const auto when = options.threads == 1 ? std::launch::deferred : std::launch::async;
-    const auto assemble_variant = [&](std::size_t k) {
-        return std::async(when,
-                          [&models, &variant = *todo[k]] { return assemble(variant, models); });
-    };
     std::future<Assembly> next;
-    if (!todo.empty()) next = assemble_variant(0);
+    const auto begin_assembly = [&](std::size_t k) {
+        next =
+            std::async(when, [&models, &variant = *todo[k]] { return assemble(variant, models); });
+    };
+    if (!todo.empty()) begin_assembly(0);
     for (std::size_t k = 0; k < todo.size() && !all.stopped; ++k) {
         const Mission& variant = *todo[k];
         const Assembly assembly = next.get();
-        if (k + 1 < todo.size()) next = assemble_variant(k + 1);
+        if (k + 1 < todo.size()) begin_assembly(k + 1);
         if (begin) begin(variant, assembly);
         if (options.files && !lock) enter();  // once the first scene has been read
         const RenderSummary one = run_job(variant, assembly, one_by_one, nullptr, stop);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include "dataset/writers/label_writers.h"
@@ -24,11 +25,6 @@ bool is_blank(const std::uint16_t* beams, std::size_t range_bins, std::size_t i0
     return any == 0;
 }
 
-/// Floats count as never blank.
-bool is_blank(const float*, std::size_t, std::size_t, std::size_t, std::size_t) {
-    return false;
-}
-
 /// Transposes [beams, range bins] to [range bins, beams], in tiles that fit into the L1 cache.
 template <class T>
 std::vector<T> rows_of_range(const std::vector<T>& by_beam, const PingLabels& labels) {
@@ -41,7 +37,9 @@ std::vector<T> rows_of_range(const std::vector<T>& by_beam, const PingLabels& la
         for (std::size_t j0 = 0; j0 < columns; j0 += tile) {
             const std::size_t i1 = std::min(i0 + tile, rows);
             const std::size_t j1 = std::min(j0 + tile, columns);
-            if (is_blank(by_beam.data() + j0 * rows, rows, i0, i1, j1 - j0)) continue;
+            if constexpr (std::is_integral_v<T>) {
+                if (is_blank(by_beam.data() + j0 * rows, rows, i0, i1, j1 - j0)) continue;
+            }
             for (std::size_t i = i0; i < i1; ++i) {
                 for (std::size_t j = j0; j < j1; ++j)
                     out[i * columns + j] = by_beam[j * rows + i];

@@ -3,7 +3,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <nlohmann/json.hpp>
 
@@ -51,13 +50,6 @@ void for_each_sounding(const SoundingSource& source,
     }
 }
 
-template <class T>
-void append_raw(std::string& bytes, T value) {
-    char raw[sizeof(T)];
-    std::memcpy(raw, &value, sizeof(T));
-    bytes.append(raw, sizeof(T));
-}
-
 /// True if a sounding belongs in a map.
 bool good_for_map(const RecordedSounding& sounding) {
     return sounding.quality >= map_quality;
@@ -96,13 +88,9 @@ void write_soundings(const SoundingSource& source, const std::filesystem::path& 
     ply.append("ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(count) +
                "\nproperty double x\nproperty double y\nproperty double z\n"
                "property float quality\nend_header\n");
-    std::string vertex;
     for_each_sounding(source, [&](const RecordedSounding& s) {
-        vertex.clear();
-        for (const double value : {s.position.x(), s.position.y(), s.position.z()})
-            append_raw(vertex, value);
-        append_raw(vertex, static_cast<float>(s.quality));
-        ply.append(vertex);
+        ply.append(record_bytes(std::vector{s.position.x(), s.position.y(), s.position.z()}));
+        ply.append(record_bytes(std::vector{static_cast<float>(s.quality)}));
     });
     ply.finish();
 }

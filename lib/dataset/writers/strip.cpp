@@ -3,10 +3,15 @@
 
 #include "dataset/averaged_rows.h"
 #include "dataset/writer.h"
-#include "dataset/writers/swath_files.h"
 #include "product/gain.h"
 
 namespace sonarsim {
+
+// The files of a side-scan sonar for other programs that the mission asks for, made of
+// waterfall.npy: waterfall.xtf, and mosaic.tif with mosaic.json.
+std::vector<std::string> swath_products(const WriterContext& context);
+void write_swath_files(const WriterContext& context, const RecordFile& rows,
+                       const std::filesystem::path& folder);
 
 namespace {
 

@@ -1,5 +1,3 @@
-#include "dataset/writers/swath_files.h"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -12,6 +10,7 @@
 #include "core/pose.h"
 #include "core/units.h"
 #include "dataset/json.h"
+#include "dataset/writer.h"
 #include "format/geotiff.h"
 #include "format/xtf.h"
 #include "product/gain.h"
