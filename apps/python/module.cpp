@@ -19,7 +19,7 @@
 #include "assembly/possible_objects.h"
 #include "checks/find_warnings.h"
 #include "core/error.h"
-#include "dataset/ping_metadata.h"
+#include "dataset/metadata.h"
 #include "job/ping_source.h"
 #include "mission/parse.h"
 #include "sonar/kinds.h"

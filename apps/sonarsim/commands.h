@@ -2,13 +2,19 @@
 
 #include <CLI/CLI.hpp>
 #include <initializer_list>
+#include <string>
 
 #include "exit_codes.h"
 
 namespace sonarsim {
 
 /// Adds examples at the end of --help.
-void add_examples(CLI::App& command, std::initializer_list<const char*> lines);
+inline void add_examples(CLI::App& command, std::initializer_list<const char*> lines) {
+    std::string text = "Examples:";
+    for (const char* line : lines)
+        text += std::string("\n  ") + line;
+    command.footer(text);
+}
 
 // Each function adds one subcommand, which stores its exit code in `exit_code` and may throw.
 

@@ -7,10 +7,14 @@
 #include <nlohmann/json.hpp>
 
 #include "assembly/placed_files.h"
+#include "calibrated/bottom.h"
+#include "calibrated/decibel.h"
 #include "checks/find_warnings.h"
 #include "commands.h"
+#include "core/text.h"
+#include "core/units.h"
+#include "dataset/json.h"
 #include "logging.h"
-#include "materials.h"
 #include "mission/scene_keys.h"
 #include "scene/gltf/load.h"
 #include "scene/gltf/surface_of.h"
@@ -37,8 +41,57 @@ struct InspectArguments {
     LogOptions log;
 };
 
-Json vector_json(const Eigen::Vector3d& v) {
-    return {v.x(), v.y(), v.z()};
+/// The backscattering strength in dB.
+double strength_db(const Backscatter& material, double grazing_deg) {
+    constexpr double least = 1e-40;
+    const auto sine = static_cast<float>(sincos(radians(grazing_deg)).sin);
+    return db_of_power(std::max(least, static_cast<double>(material.at(sine))));
+}
+
+Json strengths_json(const MaterialTable& table, const Scattering& scattering,
+                    double frequency_khz) {
+    Json json{{"frequency_khz", frequency_khz}, {"grazing_deg", Json::array()}};
+    for (int degree = 1; degree <= 90; ++degree)
+        json["grazing_deg"].push_back(degree);
+    for (std::size_t k = 0; k < table.materials.size(); ++k) {
+        Json& strengths = json["strength_db"][table.materials[k].name];
+        for (int degree = 1; degree <= 90; ++degree)
+            strengths.push_back(strength_db(scattering.materials[k], degree));
+    }
+    return json;
+}
+
+void print_strengths(const MaterialTable& table, const Scattering& scattering,
+                     double frequency_khz) {
+    constexpr std::array<int, 9> grazing_deg{5, 10, 20, 30, 45, 60, 75, 85, 90};
+    std::size_t width = 0;
+    for (const Material& material : table.materials)
+        width = std::max(width, material.name.size());
+    fmt::print("backscattering strength at {:g} kHz, dB, by the grazing angle in degrees\n{:{}}",
+               frequency_khz, "", width);
+    for (const int degree : grazing_deg)
+        fmt::print(" {:6}", degree);
+    for (std::size_t k = 0; k < table.materials.size(); ++k) {
+        fmt::print("\n{:{}}", printable(table.materials[k].name), width);
+        for (const int degree : grazing_deg)
+            fmt::print(" {:6.1f}", strength_db(scattering.materials[k], degree));
+    }
+    fmt::print("\n");
+}
+
+/// Prints how the materials of a CSV scatter in the calibrated model at this frequency in fresh
+/// water, by the grazing angle. InputError for a wrong file.
+void print_materials(const std::filesystem::path& file, double frequency_khz, bool as_json) {
+    MaterialTable table = read_materials(file);
+    const Water water;
+    for (Material& material : table.materials)
+        material.reflection = static_cast<float>(
+            power_reflection(material.density_kg_m3, material.sound_speed_m_s, water));
+    const Scattering scattering = scattering_of(table.materials, 1e3 * frequency_khz, water);
+    if (as_json)
+        fmt::print("{}", json_line(strengths_json(table, scattering, frequency_khz)));
+    else
+        print_strengths(table, scattering, frequency_khz);
 }
 
 /// The names with the number of triangles whose index in `owners` refers to them.
@@ -57,9 +110,9 @@ Json scene_json(const Scene& scene) {
     std::vector<std::string> materials;
     for (const Material& material : scene.materials)
         materials.push_back(material.name);
-    return {{"bounds_min_m", vector_json(scene.bounds_min)},
-            {"bounds_max_m", vector_json(scene.bounds_max)},
-            {"origin_m", vector_json(scene.origin)},
+    return {{"bounds_min_m", describe_vector(scene.bounds_min)},
+            {"bounds_max_m", describe_vector(scene.bounds_max)},
+            {"origin_m", describe_vector(scene.origin)},
             {"triangles", scene.triangles.size()},
             {"vertices", scene.vertices.size()},
             {"degenerate_triangles", scene.rejects.degenerate_triangles},
@@ -170,15 +223,16 @@ int inspect(const InspectArguments& arguments) {
 void add_inspect(CLI::App& app, int& exit_code) {
     CLI::App& command = *app.add_subcommand(
         "inspect", "Prints what is in a scene, or how the materials of a CSV scatter sound");
-    add_examples(command,
-                 {"sonarsim inspect hull.glb", "sonarsim inspect tyre.stl --units mm --up z",
-                  "sonarsim inspect bathymetry.tif",
-                  "sonarsim inspect materials.csv --frequency-khz 900"});
+    add_examples(
+        command,
+        {"sonarsim inspect hull.glb", "sonarsim inspect tyre.stl --units mm --up z",
+         "sonarsim inspect bathymetry.tif", "sonarsim inspect materials.csv --frequency-khz 900"});
     auto arguments = std::make_shared<InspectArguments>();
     command
-        .add_option("scene", arguments->scene,
-                    "The scene, a .gltf, .glb, .obj, .stl or .ply file, or an image of heights; or a "
-                    ".csv of materials")
+        .add_option(
+            "scene", arguments->scene,
+            "The scene, a .gltf, .glb, .obj, .stl or .ply file, or an image of heights; or a "
+            ".csv of materials")
         ->required();
     command
         .add_option("--units", arguments->units,

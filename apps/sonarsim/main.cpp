@@ -43,7 +43,7 @@ void keep_freed_memory() {
 std::string version_text() {
     const BuildInfo build = build_info();
     return std::string("sonarsim " SONARSIM_VERSION "\nbuilt by ") + build.compiler + " with " +
-           build.flags + "; arithmetic " + build.arithmetic + "; PNG files by " + png_encoder();
+           build.flags + "; arithmetic " + build.arithmetic + "; PNG files by " + png_encoder;
 }
 
 /// The commands that former versions had, and what stands in for each.

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "checks/warning.h"
 #include "commands.h"
-#include "job/shard_lock.h"
 #include "logging.h"
 #include "progress.h"
 #include "signals.h"
@@ -44,7 +44,8 @@ int merge(const MergeArguments& arguments) {
                                     {"missing", summary.missing},
                                     {"complete", summary.complete}}));
     }
-    if (summary.unlocked) spdlog::warn("{}", sentence(no_locks_warning(arguments.out())));
+    if (summary.unlocked)
+        spdlog::warn("{}", sentence(make_warning(WarningCode::no_locks, arguments.out().string())));
     if (summary.stopped) {
         spdlog::warn("stopped after {} pings; {}", summary.pings, run_again);
         return exit_signal + signal_received();

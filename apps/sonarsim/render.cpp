@@ -16,7 +16,6 @@
 #include "core/error.h"
 #include "dataset/layout.h"
 #include "job/run_job.h"
-#include "job/shard_lock.h"
 #include "job/variants.h"
 #include "logging.h"
 #include "mission_options.h"
@@ -202,7 +201,9 @@ int render(RenderArguments arguments) {
     auto [summary, warnings, after] = variants.empty()
                                           ? render_one(arguments, mission, stop)
                                           : render_variants(arguments, mission, variants, stop);
-    if (summary.unlocked) after.insert(after.begin(), no_locks_warning(mission.output.folder));
+    if (summary.unlocked)
+        after.insert(after.begin(),
+                     make_warning(WarningCode::no_locks, mission.output.folder.string()));
     log_outcome(summary, mission, arguments.render.files);
     constexpr std::size_t most = 20;  // warnings of all variants that are printed
     log_warnings(std::span(after).first(std::min(most, after.size())));

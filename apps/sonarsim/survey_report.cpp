@@ -4,6 +4,7 @@
 #include <tbb/info.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -11,7 +12,6 @@
 #include <vector>
 
 #include "core/text.h"
-#include "disk.h"
 #include "logging.h"
 #include "progress.h"
 
@@ -44,6 +44,15 @@ std::string text_of(const ValueRange& interval, const char* unit) {
 Json json_of(const ValueRange& interval) {
     if (interval.empty()) return nullptr;
     return {interval.low, interval.high};
+}
+
+std::string size_text(double bytes) {
+    constexpr std::array units{"MB", "GB", "TB"};
+    double size = 1e-6 * bytes;
+    std::size_t unit = 0;
+    for (; size >= 1000.0 && unit + 1 < units.size(); ++unit)
+        size *= 1e-3;
+    return fmt::format("{:.1f} {}", size, units[unit]);
 }
 
 }  // namespace
@@ -86,19 +95,41 @@ Json survey_json(const SonarSurvey& found, const Scene& scene) {
             {"brightest", found.brightest}};
 }
 
-std::string estimate_text(std::uint64_t pings, std::size_t images, double seconds, double set_up_s,
-                          double bytes, double most_bytes) {
-    const std::string about =
-        std::isnan(seconds)
-            ? fmt::format("{} images; a ping has no room in memory", images)
-            : fmt::format(
-                  "{} images, {} on {} threads after {} of set-up, {}", images,
-                  duration_text(seconds), tbb::info::default_concurrency(),
-                  set_up_s < 60.0 ? fmt::format("{:.2g} s", set_up_s) : duration_text(set_up_s),
-                  size_text(bytes));
-    return result_line("dataset",
-                       fmt::format("{} pings, at most {}", pings, size_text(most_bytes))) +
+std::string error_line(const std::optional<MeasuredError>& error, const Scene& scene, double goal) {
+    if (!error)
+        return scene.sound_profile
+                   ? result_line("", "error not measured: water.profile bends the sound")
+                   : "";
+    const PingError& worst = error->worst();
+    return result_line(
+        "", fmt::format("error {:.2g} % on average and {:.2g} % at worst in {} "
+                        "pings, goal {:.4g} %; noise of the reference itself {:.2g} %",
+                        100.0 * error->mean(), 100.0 * worst.relative_l1, error->pings.size(),
+                        100.0 * goal, 100.0 * worst.noise));
+}
+
+std::string estimate_text(const Estimate& estimate) {
+    std::string about = fmt::format("{} images", estimate.images);
+    if (std::isnan(estimate.hours)) {
+        about += "; a ping has no room in memory";
+    } else {
+        const double set_up_s = estimate.set_up_s;
+        about += fmt::format(
+            ", {} on {} threads after {} of set-up, {}", duration_text(3600.0 * estimate.hours),
+            tbb::info::default_concurrency(),
+            set_up_s < 60.0 ? fmt::format("{:.2g} s", set_up_s) : duration_text(set_up_s),
+            size_text(estimate.bytes));
+    }
+    return result_line("dataset", fmt::format("{} pings", estimate.pings)) +
            result_line("about", about);
+}
+
+void describe_estimate(const Estimate& estimate, Json& json) {
+    json["pings"] = estimate.pings;
+    json["images"] = estimate.images;
+    json["set_up_seconds"] = estimate.set_up_s;
+    json["hours"] = estimate.hours;
+    json["bytes"] = estimate.bytes;
 }
 
 Json warnings_json(std::span<const Warning> warnings) {

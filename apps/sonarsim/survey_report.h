@@ -2,12 +2,14 @@
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <span>
 #include <string>
 
 #include "assembly/assemble.h"
 #include "checks/survey.h"
 #include "checks/warning.h"
+#include "validation/measured_error.h"
 
 namespace sonarsim {
 
@@ -17,9 +19,29 @@ std::string survey_text(const SonarSurvey& found, const Scene& scene);
 /// A sonar's survey as JSON.
 nlohmann::ordered_json survey_json(const SonarSurvey& found, const Scene& scene);
 
-/// The lines about the size of a dataset. `seconds` (NaN: unknown) and `bytes` are estimates.
-std::string estimate_text(std::uint64_t pings, std::size_t images, double seconds, double set_up_s,
-                          double bytes, double most_bytes);
+/// The measured error of a sonar as an indented line; "" if there is none.
+std::string error_line(const std::optional<MeasuredError>& error, const Scene& scene, double goal);
+
+/// The size of a dataset, or of several.
+struct Estimate {
+    std::uint64_t pings = 0;
+    std::size_t images = 0;  ///< pings with a picture, and pictures of all pings
+    double set_up_s = 0.0;   ///< before the first ping: reading, tables, the engine
+    double hours = 0.0;      ///< all threads at work, without set_up_s; NaN: unknown
+    double bytes = 0.0;      ///< files and records of pings
+
+    Estimate& operator+=(const Estimate& more) {
+        pings += more.pings;
+        images += more.images;
+        set_up_s += more.set_up_s;
+        hours += more.hours;
+        bytes += more.bytes;
+        return *this;
+    }
+};
+std::string estimate_text(const Estimate& estimate);
+/// Adds its numbers.
+void describe_estimate(const Estimate& estimate, nlohmann::ordered_json& json);
 
 nlohmann::ordered_json warnings_json(std::span<const Warning> warnings);
 

@@ -214,6 +214,13 @@ std::vector<std::string> list_files(const DatasetFile& dataset) {
     return names;
 }
 
+std::uint64_t count_pings(const DatasetFile& dataset) {
+    std::uint64_t pings = 0;
+    for (const DescribedSensor& sensor : dataset.sensors)
+        pings += sensor.pings;
+    return pings;
+}
+
 bool is_plain_name(std::string_view text) {
     constexpr std::string_view allowed =
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+.";

@@ -61,6 +61,9 @@ std::string numbered(const std::string& pattern, std::uint64_t number);
 /// The files that dataset.json lists, and the common ones, without SHA256SUMS.
 std::vector<std::string> list_files(const DatasetFile& dataset);
 
+/// The pings of all sensors.
+std::uint64_t count_pings(const DatasetFile& dataset);
+
 /// True if the text is the name of a file or folder that lies in another one directly: letters of
 /// ASCII, digits, '_', '-', '+' and '.', the first one not a '.'.
 bool is_plain_name(std::string_view text);

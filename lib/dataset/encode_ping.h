@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "dataset/writers.h"
+#include "dataset/writer.h"
 #include "sonar/sonar_at_pose.h"
 
 namespace sonarsim {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,6 +34,12 @@ nlohmann::ordered_json describe_pose(const Pose& pose);
 
 /// JSON as it is written: indented, with a line feed at the end.
 std::string json_text(const nlohmann::ordered_json& json);
+
+/// Encodes the runs of a mask as the text that COCO's tools call compressed RLE. Each number is
+/// written in groups of five bits, the lowest first, as characters from '0' on; the sixth bit says
+/// that more groups follow. From the fourth number on, the difference from the number two places
+/// before is written.
+std::string coco_counts(std::span<const std::uint32_t> runs);
 
 /// The file of the objects in a picture, a line each; `head` says which picture it is.
 std::string objects_text(const nlohmann::ordered_json& head,

@@ -40,21 +40,17 @@ LabelPlan plan_labels(const Mission& mission, const Assembly& assembly, const So
     return plan;
 }
 
-PingLabels label_bins(const LabelPlan& plan, const Assembly& assembly, const Sonar& sonar,
-                      const VisibilityEngine& engine, const TracedPing& traced, double t_s) {
+LabelledPing label_for_writers(const LabelPlan& plan, const Assembly& assembly, const Sonar& sonar,
+                               const VisibilityEngine& engine, const TracedPing& traced,
+                               const Ping& ping, double t_s) {
     LabelRequest request = plan.request;
     const std::vector<ObjectSphere> spheres = spheres_at(plan.annotated, assembly, t_s);
     request.annotated = spheres;
     request.surface = &plan.annotated.surface;
     request.triangles = plan.triangles.get();
-    return label_ping(traced, sonar.settings, assembly.scene, assembly.objects, engine, request);
-}
-
-LabelledPing label_for_writers(const LabelPlan& plan, const Assembly& assembly, const Sonar& sonar,
-                               const VisibilityEngine& engine, const TracedPing& traced,
-                               const Ping& ping, double t_s) {
     LabelledPing out;
-    out.bins = label_bins(plan, assembly, sonar, engine, traced, t_s);
+    out.bins =
+        label_ping(traced, sonar.settings, assembly.scene, assembly.objects, engine, request);
     out.fan_bins = &plan.fan;
     if (!plan.objects) return out;
     out.polar = object_masks(out.bins.object, out.bins.range_bins);

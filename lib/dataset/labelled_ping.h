@@ -39,12 +39,8 @@ struct LabelledPing {
     std::vector<ObjectInPing> seen;  ///< sorted by id; empty if no writer needs it
 };
 
-/// Labels the bins of a ping at the time `t_s`.
-PingLabels label_bins(const LabelPlan& plan, const Assembly& assembly, const Sonar& sonar,
-                      const VisibilityEngine& engine, const TracedPing& traced, double t_s);
-
-/// Labels the bins, and finds the masks and seen objects that the writers need. `plan` must outlive
-/// the result.
+/// Labels the bins at the time `t_s`, and finds the masks and seen objects that the writers need.
+/// `plan` must outlive the result.
 LabelledPing label_for_writers(const LabelPlan& plan, const Assembly& assembly, const Sonar& sonar,
                                const VisibilityEngine& engine, const TracedPing& traced,
                                const Ping& ping, double t_s);

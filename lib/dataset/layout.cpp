@@ -1,8 +1,8 @@
 #include "dataset/layout.h"
 
 #include <algorithm>
+#include <regex>
 
-#include "core/text.h"
 #include "dataset/seabed_files.h"
 
 namespace sonarsim {
@@ -11,19 +11,8 @@ std::string journal_part(int shard, int shards) {
     return std::to_string(shard) + "-of-" + std::to_string(shards) + ".txt";
 }
 
-std::optional<std::pair<int, int>> shard_of_part(const std::filesystem::path& part) {
-    constexpr std::uint64_t most_shards = 1'000'000;  // the limit of --shard
-    const std::string name = part.stem().string();
-    const std::size_t of = name.find("-of-");
-    if (of == std::string::npos || part.extension() != ".txt") return std::nullopt;
-    const auto shard = parse_unsigned(name.substr(0, of));
-    const auto shards = parse_unsigned(name.substr(of + 4));
-    if (!shard || !shards || *shard < 1 || *shard > *shards || *shards > most_shards)
-        return std::nullopt;
-    return std::pair(static_cast<int>(*shard), static_cast<int>(*shards));
-}
-
 std::vector<std::filesystem::path> journal_parts(const std::filesystem::path& folder) {
+    static const std::regex name_of_part("[1-9][0-9]*-of-[1-9][0-9]*\\.txt");
     std::vector<std::filesystem::path> parts;
     const std::filesystem::path parts_folder = folder / journal_folder_name;
     std::error_code error;
@@ -32,7 +21,8 @@ std::vector<std::filesystem::path> journal_parts(const std::filesystem::path& fo
          part.increment(error)) {
         const bool regular =
             part->symlink_status(absent).type() == std::filesystem::file_type::regular;
-        if (regular && shard_of_part(part->path())) parts.push_back(part->path());
+        if (regular && std::regex_match(part->path().filename().string(), name_of_part))
+            parts.push_back(part->path());
     }
     if (error && error != std::errc::no_such_file_or_directory &&
         error != std::errc::not_a_directory)
@@ -52,10 +42,6 @@ std::filesystem::path Layout::sensor_folder(std::size_t sensor) const {
 
 std::filesystem::path Layout::file(const PingId& ping, const PingFile& kind) const {
     return sensor_folder(ping.sensor) / kind.name / number(ping.pose).append(kind.extension);
-}
-
-std::filesystem::path Layout::product_file(std::size_t sensor, const std::string& name) const {
-    return (sensor < sensors.size() ? sensor_folder(sensor) : folder) / name;
 }
 
 std::size_t Layout::record_of(const PingId& ping) const {
@@ -90,9 +76,9 @@ Layout make_layout(const Mission& mission, const std::vector<Writers>& writers, 
                             .per_ping = {},
                             .products = {}};
         for (const Writer& writer : writers[i]) {
-            sensor.per_ping.push_back(writer.outputs.per_ping);
-            for (const Product& product : writer.outputs.products)
-                sensor.products.push_back(product.file);
+            sensor.per_ping.push_back(writer.per_ping);
+            sensor.products.insert(sensor.products.end(), writer.products.begin(),
+                                   writer.products.end());
         }
         layout.sensors.push_back(std::move(sensor));
     }
@@ -113,10 +99,6 @@ std::vector<PingId> list_pings(const Mission& mission, std::size_t poses) {
         }
     }
     return pings;
-}
-
-int shard_of(std::size_t index, int shards) {
-    return static_cast<int>(index % static_cast<std::size_t>(shards));
 }
 
 }  // namespace sonarsim

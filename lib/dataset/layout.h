@@ -3,13 +3,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "dataset/writers.h"
+#include "dataset/writer.h"
 #include "mission/dataset_names.h"
 
 // The files of a dataset:
@@ -31,8 +30,6 @@ namespace sonarsim {
 
 /// "3-of-8.txt": the part of the journal that a shard, counted from 1, writes.
 std::string journal_part(int shard, int shards);
-/// The shard and the number of shards in a name of journal_part(); nothing for other names.
-std::optional<std::pair<int, int>> shard_of_part(const std::filesystem::path& part);
 /// The parts of the journal in OUT/journal.d/: regular files, no links. Other runs may remove them
 /// meanwhile.
 std::vector<std::filesystem::path> journal_parts(const std::filesystem::path& folder);
@@ -42,8 +39,7 @@ struct SensorLayout {
     std::string name;
     std::uint32_t every = 1;  ///< pings at every n-th pose
     std::size_t pings = 0;
-    std::vector<std::variant<PingFile, PingRecord>>
-        per_ping;  ///< outputs of its writers, in their order
+    std::vector<PingOutput> per_ping;  ///< outputs of its writers, in their order
     std::vector<std::string> products;
 };
 
@@ -60,10 +56,6 @@ struct Layout {
     std::string number(std::uint32_t pose) const;
     std::filesystem::path sensor_folder(std::size_t sensor) const;
     std::filesystem::path file(const PingId& ping, const PingFile& kind) const;
-    /// The path of a sensor's product, or of a product of all sensors for the sensor after the
-    /// last.
-    std::filesystem::path product_file(std::size_t sensor, const std::string& name) const;
-
     /// The index of a ping among those of its sensor.
     std::size_t record_of(const PingId& ping) const;
     /// Every folder of the dataset but `folder` itself, parents first.
@@ -74,8 +66,5 @@ Layout make_layout(const Mission& mission, const std::vector<Writers>& writers, 
 
 /// Every ping of a mission, in order.
 std::vector<PingId> list_pings(const Mission& mission, std::size_t poses);
-
-/// The shard, counted from 0, that renders the ping with this index in list_pings().
-int shard_of(std::size_t index, int shards);
 
 }  // namespace sonarsim

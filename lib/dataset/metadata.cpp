@@ -3,7 +3,6 @@
 #include "core/build_info.h"
 #include "dataset/annotated_objects.h"
 #include "dataset/json.h"
-#include "dataset/ping_metadata.h"
 #include "format/png.h"
 #include "mission/files.h"
 #include "mission/resolved.h"
@@ -182,7 +181,7 @@ Json describe_build() {
     return {{"compiler", build.compiler},
             {"flags", build.flags},
             {"arithmetic", build.arithmetic},
-            {"png_encoder", png_encoder()}};
+            {"png_encoder", png_encoder}};
 }
 
 std::string resolved_text(const Mission& mission, const Assembly& assembly) {

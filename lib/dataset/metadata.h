@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "assembly/assemble.h"
+#include "dataset/json.h"
 #include "dataset/layout.h"
 #include "mission/mission.h"
 

@@ -1,10 +1,10 @@
-#include "dataset/ping_metadata.h"
-
 #include <cmath>
 #include <map>
 
 #include "calibrated/decibel.h"
 #include "core/text.h"
+#include "dataset/json.h"
+#include "dataset/writer.h"
 #include "mission/ping_draws.h"
 
 namespace sonarsim {

@@ -4,39 +4,27 @@
 
 namespace sonarsim {
 
-WriterOutputs record_outputs(std::string file, NpyFormat format, nlohmann::ordered_json axes,
-                             double bytes) {
-    WriterOutputs outputs;
-    PingRecord& record = outputs.per_ping.emplace<PingRecord>();
-    record.file = std::move(file);
-    record.format = std::move(format);
-    record.axes = std::move(axes);
-    outputs.bytes_per_ping = bytes;
-    return outputs;
-}
-
-WriterOutputs record_outputs(const WriterContext& context, const std::string& stem,
-                             const char* type, int bytes_of_number, std::string label) {
+PingRecord record_of_kind(const WriterContext& context, const std::string& stem, const char* type,
+                          std::string label, std::string ids) {
     const RecordShape& shape = context.kind().record;
-    const std::size_t values = shape.values(context.sonar().config);
-    NpyFormat format{type, {context.pings, values}};
-    nlohmann::ordered_json axes = {"ping", shape.axis};
-    if (!label.empty() && shape.bins) axes[1] = "column, as in " + std::string(shape.name) + ".npy";
+    PingRecord record{.file = stem + ".npy",
+                      .format = {type, {context.pings, shape.values(context.sonar().config)}},
+                      .axes = {"ping", shape.axis},
+                      .label = std::move(label),
+                      .ids = std::move(ids)};
+    if (!record.label.empty() && shape.bins)
+        record.axes[1] = "column, as in " + std::string(shape.name) + ".npy";
     if (shape.upright) {
-        std::swap(format.shape[0], format.shape[1]);
-        std::swap(axes[0], axes[1]);
-        format.fortran_order = true;
+        std::swap(record.format.shape[0], record.format.shape[1]);
+        std::swap(record.axes[0], record.axes[1]);
+        record.format.fortran_order = true;
     }
-    WriterOutputs outputs =
-        record_outputs(stem + ".npy", std::move(format), std::move(axes),
-                       static_cast<double>(bytes_of_number) * static_cast<double>(values));
-    std::get<PingRecord>(outputs.per_ping).label = std::move(label);
-    return outputs;
+    return record;
 }
 
-Writer array_writer(WriterOutputs outputs, std::function<PingNumbers(const FinishedPing&)> numbers,
+Writer array_writer(PingOutput per_ping, std::function<PingNumbers(const FinishedPing&)> numbers,
                     PngFilter filter) {
-    const bool is_record = std::holds_alternative<PingRecord>(outputs.per_ping);
+    const bool is_record = std::holds_alternative<PingRecord>(per_ping);
     const auto encode = [=](const FinishedPing& ping) {
         const PingNumbers all = numbers(ping);
         if (is_record) return record_bytes(all);
@@ -48,7 +36,7 @@ Writer array_writer(WriterOutputs outputs, std::function<PingNumbers(const Finis
             return png_bytes(*bytes, columns, rows);
         return png_bytes(std::get<std::vector<std::uint16_t>>(all.values), columns, rows, filter);
     };
-    return {.outputs = std::move(outputs), .encode = encode, .numbers = std::move(numbers)};
+    return {.per_ping = std::move(per_ping), .encode = encode, .numbers = std::move(numbers)};
 }
 
 }  // namespace sonarsim

@@ -53,6 +53,13 @@ struct FinishedPing {
     const LabelledPing* labels = nullptr;    ///< null if output.labels asks for none
 };
 
+/// The drawn values by key; text if a value is neither a number nor a flag.
+nlohmann::ordered_json describe_drawn(const DrawnValues& drawn);
+
+/// The metadata of one ping.
+nlohmann::ordered_json describe_ping(const Mission& mission, const Assembly& assembly,
+                                     const FinishedPing& finished);
+
 /// The meaning of the rows and columns of a file of a ping.
 enum class PingArray {
     none,  ///< no rows and columns, or of another meaning
@@ -85,26 +92,12 @@ inline constexpr const char* visible_share_record = "visible_share";
 /// The objects in the picture of all pings of a sensor.
 inline constexpr const char* record_objects_name = "objects.json";
 
-/// A file that is made of the records of all pings.
-struct Product {
-    std::string file;
-    double bytes_at_most;
-};
+/// The output of a writer for a ping, known before the first one.
+using PingOutput = std::variant<PingFile, PingRecord>;
 
-/// The files of a writer, known before the first ping.
-struct WriterOutputs {
-    std::variant<PingFile, PingRecord> per_ping;
-    double bytes_per_ping = 0.0;  ///< at most; noise hardly compresses, so PNG files count in full
-    std::vector<Product> products;
-};
-
-/// The outputs of a writer that leaves a record of `bytes` per ping in `file`.
-WriterOutputs record_outputs(std::string file, NpyFormat format, nlohmann::ordered_json axes,
-                             double bytes);
-/// The outputs of a writer of records in the shape of the sonar's kind, in STEM.npy. `type` is the
-/// NumPy type of the numbers.
-WriterOutputs record_outputs(const WriterContext& context, const std::string& stem,
-                             const char* type, int bytes_of_number, std::string label = {});
+/// A record in the shape of the sonar's kind, in STEM.npy. `type` is the NumPy type of the numbers.
+PingRecord record_of_kind(const WriterContext& context, const std::string& stem, const char* type,
+                          std::string label = {}, std::string ids = {});
 
 /// The numbers in a ping's file or record.
 struct PingNumbers {
@@ -131,7 +124,9 @@ inline std::string record_bytes(const PingNumbers& numbers) {
 /// has the size of each file and the hash of each record. It makes products again unless all of
 /// them exist.
 struct Writer {
-    WriterOutputs outputs;
+    PingOutput per_ping;
+    /// Files that are made of the records of all pings.
+    std::vector<std::string> products = {};
     /// The bytes of the ping's file, or of its record.
     std::function<std::string(const FinishedPing&)> encode;
     /// The numbers that a reader of those bytes gets; null if they are text or a picture for
@@ -144,12 +139,19 @@ struct Writer {
 };
 
 /// A writer of numbers: records, or files in .npy or PNG.
-Writer array_writer(WriterOutputs outputs, std::function<PingNumbers(const FinishedPing&)> numbers,
+Writer array_writer(PingOutput per_ping, std::function<PingNumbers(const FinishedPing&)> numbers,
                     PngFilter filter = PngFilter::none);
 
-/// The bytes of a float32 image of a sonar as .npy, at most.
-inline double npy_bytes_at_most(const View& view) {
-    return 128.0 + 4.0 * view.range_bins * view.beams;
-}
+/// The writers of one sensor, in the order in which a ping is written.
+using Writers = std::vector<Writer>;
+
+/// The writers of each sensor. InputError for the label `fan` without a fan.
+std::vector<Writers> make_writers(const Mission& mission, const Assembly& assembly);
+
+/// The writers of a sensor's raw values and labels alone; empty if the mission asks for neither.
+Writers make_array_writers(const WriterContext& context);
+
+/// The number of pings of each sensor.
+std::vector<std::size_t> count_pings(const Mission& mission, std::size_t poses);
 
 }  // namespace sonarsim

@@ -1,12 +1,10 @@
-#include "dataset/writers.h"
-
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <optional>
 #include <variant>
 
 #include "core/error.h"
+#include "dataset/writer.h"
 #include "dataset/writers/label_writers.h"
 
 namespace sonarsim {
@@ -87,28 +85,6 @@ std::vector<Writers> make_writers(const Mission& mission, const Assembly& assemb
         std::ranges::move(make_label_writers(context), std::back_inserter(all[i]));
     }
     return all;
-}
-
-double on_disk(double bytes) {
-    constexpr double block = 4096.0;
-    return block * std::ceil(bytes / block);
-}
-
-double bytes_at_most(const Writers& writers, std::size_t pings) {
-    constexpr double name_bytes = 64.0;  // in the folder
-    const auto count = static_cast<double>(pings);
-    double bytes = 0.0;
-    for (const Writer& writer : writers) {
-        const WriterOutputs& outputs = writer.outputs;
-        if (std::holds_alternative<PingFile>(outputs.per_ping)) {
-            bytes += count * on_disk(outputs.bytes_per_ping) + on_disk(count * name_bytes);
-        } else {
-            bytes += on_disk(count * outputs.bytes_per_ping);
-        }
-        for (const Product& product : outputs.products)
-            bytes += on_disk(product.bytes_at_most);
-    }
-    return bytes;
 }
 
 }  // namespace sonarsim

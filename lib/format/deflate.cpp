@@ -40,15 +40,13 @@ std::vector<std::uint8_t> tree_depths(std::span<const std::uint32_t> counts) {
     }
     std::vector<std::size_t> parent(2 * counts.size());
     std::size_t joined = counts.size();  // number of the next node that joins two
-    const auto take_rarest = [&] {
-        const Node rarest = nodes.top();
-        nodes.pop();
-        parent[rarest.second] = joined;
-        return rarest.first;
-    };
     for (; nodes.size() > 1; ++joined) {
-        const std::uint64_t first = take_rarest();
-        nodes.emplace(first + take_rarest(), joined);
+        std::uint64_t count = 0;
+        for (int child = 0; child < 2; ++child, nodes.pop()) {
+            count += nodes.top().first;
+            parent[nodes.top().second] = joined;
+        }
+        nodes.emplace(count, joined);
     }
     std::vector<std::uint8_t> depths(joined, 0);
     for (std::size_t k = joined - 1; k-- > 0;) {
@@ -70,20 +68,20 @@ std::vector<std::uint8_t> huffman_lengths(std::vector<std::uint32_t> counts) {
     return lengths;
 }
 
-/// The codes of these lengths; the first bit in the stream is the lowest.
-std::vector<std::uint16_t> huffman_codes(std::span<const std::uint8_t> lengths) {
+/// The codes of these lengths.
+std::vector<BitCode> huffman_codes(std::span<const std::uint8_t> lengths) {
     std::array<std::uint16_t, max_code_bits + 2> next{};
     for (const std::uint8_t length : lengths) {
         if (length > 0) ++next[length + 1];
     }
     for (std::size_t bits = 1; bits < next.size(); ++bits)
         next[bits] = static_cast<std::uint16_t>(2 * (next[bits - 1] + next[bits]));
-    std::vector<std::uint16_t> codes(lengths.size(), 0);
+    std::vector<BitCode> codes(lengths.size());
     for (std::size_t k = 0; k < lengths.size(); ++k) {
         if (lengths[k] == 0) continue;
-        std::uint16_t code = next[lengths[k]]++;
-        for (int bit = 0; bit < lengths[k]; ++bit, code >>= 1)
-            codes[k] = static_cast<std::uint16_t>(2 * codes[k] + (code & 1));
+        std::uint32_t code = next[lengths[k]]++;
+        for (; codes[k].bits < lengths[k]; ++codes[k].bits, code >>= 1)
+            codes[k].value = 2 * codes[k].value + (code & 1);
     }
     return codes;
 }
@@ -92,7 +90,7 @@ std::vector<std::uint16_t> huffman_codes(std::span<const std::uint8_t> lengths) 
 struct BitCursor {
     char* at;              ///< the next byte
     std::uint64_t buffer;  ///< bits that fill no byte yet
-    unsigned held;         ///< their number, less than 8
+    unsigned held;         ///< their number
 
     void put(const BitCode& code) { put(code.value, code.bits); }
     /// Writes up to 56 bits.
@@ -160,15 +158,14 @@ void put_lengths(BitCursor& to, const std::vector<std::uint8_t>& lengths, int di
     constexpr std::array<std::uint32_t, 19> order{16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
                                                   11, 4,  12, 3, 13, 2, 14, 1, 15};
     constexpr std::size_t plain_lengths = 16;  // the others repeat a length
-    const std::vector<std::uint16_t> codes =
-        huffman_codes(std::vector<std::uint8_t>(plain_lengths, 4));
+    const std::vector<BitCode> codes = huffman_codes(std::vector<std::uint8_t>(plain_lengths, 4));
     to.put({symbols_known - 257, 5});
     to.put({static_cast<std::uint32_t>(distances - 1), 5});
     to.put({order.size() - 4, 4});
     for (const std::uint32_t length : order)
         to.put({length < plain_lengths ? 4U : 0U, 3});
     for (const std::uint8_t length : lengths)
-        to.put({codes[length], 4});
+        to.put(codes[length]);
 }
 
 /// Writes literals, four at a time (at most 56 bits), since each put() waits for the one before.
@@ -188,9 +185,6 @@ void put_literals(BitCursor& to, const std::vector<BitCode>& codes, Bytes bytes)
 }  // namespace
 
 std::string ZlibPacker::pack(Bytes bytes, bool last) {
-    // Deflate with a window of 32 KiB, packed fast (RFC 1950, 2.2).
-    std::string out(begun_ ? "" : "\x78\x01");
-    begun_ = true;
     adler_ = libdeflate_adler32(adler_, bytes.data(), bytes.size());
     std::vector<std::uint32_t> counts(symbols_known);
     counts[end_symbol] = 1;
@@ -200,18 +194,13 @@ std::string ZlibPacker::pack(Bytes bytes, bool last) {
         if (run > 0) ++counts[run_symbol(run).first];
     });
     std::vector<std::uint8_t> lengths = huffman_lengths(std::move(counts));
-    const std::vector<std::uint16_t> values = huffman_codes(lengths);
-    std::vector<BitCode> codes(symbols_known);
-    for (std::size_t symbol = 0; symbol < symbols_known; ++symbol)
-        codes[symbol] = {values[symbol], lengths[symbol]};
+    const std::vector<BitCode> codes = huffman_codes(lengths);
     // The only distance is that of a pixel; its code has one bit.
     lengths.resize(symbols_known + static_cast<std::size_t>(pixel_bytes_), 0);
     lengths.back() = 1;
-
-    const std::size_t begin = out.size();
     constexpr std::size_t most_header = 256;  // and a byte takes at most max_code_bits
-    out.resize(begin + 2 * bytes.size() + most_header);
-    BitCursor to{out.data() + begin, buffer_, held_};
+    std::string out(2 * bytes.size() + most_header, '\0');
+    BitCursor to{out.data(), buffer_, held_};
     to.put({last ? 0b101U : 0b100U, 3});
     put_lengths(to, lengths, pixel_bytes_);
     for_each_stretch(bytes, pixel_bytes_, [&](Bytes literals, std::size_t run) {
@@ -224,8 +213,7 @@ std::string ZlibPacker::pack(Bytes bytes, bool last) {
     to.put(codes[end_symbol]);
     if (last) {
         if (to.held > 0) to.put(0, 8 - static_cast<int>(to.held));
-        for (int shift = 24; shift >= 0; shift -= 8)
-            to.put(adler_ >> shift & 0xFF, 8);
+        to.put(__builtin_bswap32(adler_), 32);
     }
     buffer_ = to.buffer;
     held_ = to.held;

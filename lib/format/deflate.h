@@ -19,9 +19,10 @@ class ZlibPacker {
 
   private:
     int pixel_bytes_;
-    bool begun_ = false;
-    std::uint64_t buffer_ = 0;  ///< bits that fill no byte yet
-    unsigned held_ = 0;         ///< their number, less than 8
+    /// Bits that are not written yet, and their number: at first the header of the stream, deflate
+    /// with a window of 32 KiB, packed fast (RFC 1950, 2.2).
+    std::uint64_t buffer_ = 0x0178;
+    unsigned held_ = 16;
     std::uint32_t adler_ = 1;
 };
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/atomic_file.h"
+#include "core/file.h"
 
 namespace sonarsim {
 
@@ -89,28 +89,20 @@ std::string header(std::uint32_t columns, std::uint32_t rows, const MapPlace& pl
     return out.bytes();
 }
 
-/// The header of a file of these values.
-std::string header_of(std::span<const float> values, int columns, const MapPlace& place) {
-    const auto width = static_cast<std::uint32_t>(columns);
-    const auto height = static_cast<std::uint32_t>(values.size() / width);
-    const auto size = static_cast<std::uint32_t>(header(width, height, place, 0).size());
-    return header(width, height, place, size);
-}
-
 }  // namespace
 
 std::string geotiff_bytes(std::span<const float> values, int columns, const MapPlace& place) {
-    std::string out = header_of(values, columns, place);
+    const auto width = static_cast<std::uint32_t>(columns);
+    const auto height = static_cast<std::uint32_t>(values.size() / width);
+    const auto size = static_cast<std::uint32_t>(header(width, height, place, 0).size());
+    std::string out = header(width, height, place, size);
     out.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
     return out;
 }
 
 void write_geotiff(const std::filesystem::path& path, std::span<const float> values, int columns,
                    const MapPlace& place) {
-    StreamedFile file(path);
-    file.append(header_of(values, columns, place));
-    file.append({reinterpret_cast<const char*>(values.data()), values.size_bytes()});
-    file.finish();
+    write_file(path, geotiff_bytes(values, columns, place));
 }
 
 }  // namespace sonarsim

@@ -1,12 +1,6 @@
 #include "format/npy.h"
 
-#include <algorithm>
 #include <bit>
-#include <cstdint>
-#include <sstream>
-#include <stdexcept>
-
-#include "core/text.h"
 
 namespace sonarsim {
 
@@ -35,26 +29,6 @@ std::string npy_header(const NpyFormat& format) {
     out += static_cast<char>(text.size() & 0xff);
     out += static_cast<char>(text.size() >> 8);
     return out + text;
-}
-
-NpyFormat npy_format(std::string_view start) {
-    const std::string text(start.substr(0, start.find('\n')));
-    NpyFormat format;
-    for (const char* type : {"|u1", "<u2", "<f4", "<f8"}) {
-        if (text.find(std::string("'") + type) != std::string::npos) format.type = type;
-    }
-    format.fortran_order = text.find("'fortran_order': True") != std::string::npos;
-    const std::string mark = "'shape': (";
-    const std::size_t first = text.find(mark);
-    const std::size_t last = text.find(')', std::min(first, text.size()));
-    if (first != std::string::npos && last != std::string::npos) {
-        std::istringstream lengths(text.substr(first + mark.size(), last - first - mark.size()));
-        for (std::string length; std::getline(lengths >> std::ws, length, ',');)
-            format.shape.push_back(parse_unsigned(length).value_or(0));
-    }
-    if (format.type.empty() || format.shape.empty() || !start.starts_with(npy_header(format)))
-        throw std::runtime_error("is not a .npy file of format 1.0");
-    return format;
 }
 
 std::string npy_bytes(std::span<const float> values, std::size_t rows, std::size_t columns) {

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace sonarsim {
@@ -17,10 +16,6 @@ struct NpyFormat {
 
 /// The header of a NumPy file, format 1.0. Its length is a multiple of 64 bytes.
 std::string npy_header(const NpyFormat& format);
-
-/// Reads the format from the start of a file. Throws std::runtime_error when it is not as
-/// npy_header() writes it.
-NpyFormat npy_format(std::string_view start);
 
 /// A float32 matrix as a NumPy file, format 1.0, little endian, C order. The data begin at a
 /// multiple of 64 bytes.

@@ -7,21 +7,14 @@
 #include <string_view>
 #include <utility>
 
+#include "core/file.h"
+
 namespace sonarsim {
 
 namespace {
 
 /// Bytes of a block. Each block has a Huffman code of its own, which fits a longer block less well.
 constexpr std::size_t block_bytes = std::size_t{1} << 17;
-
-/// The colour types of PNG.
-constexpr char grey_colour = 0;
-constexpr char rgb_colour = 2;
-
-std::size_t bytes_of(PixelKind kind) {
-    if (kind == PixelKind::rgb8) return sizeof(Rgb);
-    return kind == PixelKind::grey16 ? 2 : 1;
-}
 
 /// Appends a number with the highest byte first.
 void append_number(std::string& out, std::uint32_t value) {
@@ -38,12 +31,11 @@ void append_chunk(std::string& out, std::string_view kind, std::string_view data
 }
 
 template <class Pixel>
-std::string encode(std::span<const Pixel> pixels, int width, int height, PixelKind kind,
-                   PngFilter filter) {
+std::string encode(std::span<const Pixel> pixels, int width, int height, PngFilter filter) {
     const auto columns = static_cast<std::size_t>(width);
     if (pixels.size() != columns * static_cast<std::size_t>(height))
         throw std::logic_error("the number of pixels does not suit the size of the image");
-    PngEncoder encoder(width, height, kind, filter);
+    PngEncoder encoder(width, height, PixelKind{sizeof(Pixel)}, filter);
     for (std::size_t at = 0; at < pixels.size(); at += columns)
         encoder.row(pixels.subspan(at, columns));
     return encoder.take(true);
@@ -52,7 +44,7 @@ std::string encode(std::span<const Pixel> pixels, int width, int height, PixelKi
 }  // namespace
 
 PngEncoder::PngEncoder(int width, int height, PixelKind kind, PngFilter filter)
-    : pixel_bytes_(bytes_of(kind)),
+    : pixel_bytes_(static_cast<std::size_t>(kind)),
       filter_(filter),
       file_("\x89PNG\r\n\x1a\n"),
       line_(static_cast<std::size_t>(width) * pixel_bytes_),
@@ -63,26 +55,21 @@ PngEncoder::PngEncoder(int width, int height, PixelKind kind, PngFilter filter)
     append_number(header, static_cast<std::uint32_t>(width));
     append_number(header, static_cast<std::uint32_t>(height));
     header += static_cast<char>(kind == PixelKind::grey16 ? 16 : 8);
-    header += kind == PixelKind::rgb8 ? rgb_colour : grey_colour;
+    header += kind == PixelKind::rgb8 ? '\2' : '\0';  // type of the colour
     header.append(3, '\0');
     append_chunk(file_, "IHDR", header);
     rows_.reserve(block_bytes);
 }
 
-void PngEncoder::add(std::span<const std::uint8_t> bytes, bool swapped) {
+void PngEncoder::add(std::span<const std::uint8_t> bytes) {
     const std::size_t size = line_.size();
     if (bytes.size() != size) throw std::logic_error("a row does not suit the width of its image");
     // A block is packed when more bytes follow, since take() marks the last block.
     if (rows_.size() + size >= block_bytes && !rows_.empty()) pack(false);
     line_.swap(above_);
-    if (swapped) {
-        for (std::size_t k = 0; k < size; k += 2) {
-            line_[k] = bytes[k + 1];
-            line_[k + 1] = bytes[k];
-        }
-    } else {
-        std::ranges::copy(bytes, line_.begin());
-    }
+    std::ranges::copy(bytes, line_.begin());
+    for (std::size_t k = 0; pixel_bytes_ == 2 && k < size; k += 2)
+        std::swap(line_[k], line_[k + 1]);
     rows_.push_back(static_cast<std::uint8_t>(filter_));
     rows_.insert(rows_.end(), line_.begin(), line_.end());
     std::uint8_t* const to = rows_.data() + rows_.size() - size;
@@ -109,30 +96,17 @@ std::string PngEncoder::take(bool last) {
 }
 
 std::string png_bytes(std::span<const std::uint8_t> pixels, int width, int height) {
-    return encode(pixels, width, height, PixelKind::grey8, PngFilter::left);
+    return encode(pixels, width, height, PngFilter::left);
 }
 
 std::string png_bytes(std::span<const std::uint16_t> pixels, int width, int height,
                       PngFilter filter) {
-    return encode(pixels, width, height, PixelKind::grey16, filter);
+    return encode(pixels, width, height, filter);
 }
 
 void write_picture(const std::filesystem::path& path, std::span<const Rgb> pixels, int width) {
-    const auto columns = static_cast<std::size_t>(width);
-    ImageFile file(path, width, static_cast<int>(pixels.size() / columns), PixelKind::rgb8);
-    for (std::size_t at = 0; at < pixels.size(); at += columns)
-        file.row(pixels.subspan(at, columns));
-    file.finish();
-}
-
-double png_bytes_at_most(int width, int height, int bytes_per_pixel) {
-    const double raw =
-        static_cast<double>(height) * (1.0 + static_cast<double>(width) * bytes_per_pixel);
-    return 1200.0 + 1.02 * raw;
-}
-
-std::string png_encoder() {
-    return "sonarsim 3";
+    const int height = static_cast<int>(pixels.size()) / width;
+    write_file(path, encode(pixels, width, height, PngFilter::left));
 }
 
 }  // namespace sonarsim

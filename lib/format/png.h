@@ -12,7 +12,8 @@
 
 namespace sonarsim {
 
-enum class PixelKind { grey8, grey16, rgb8 };
+/// The kind of a pixel; the value is its number of bytes.
+enum class PixelKind : std::uint8_t { grey8 = 1, grey16 = 2, rgb8 = 3 };
 
 /// The storage of a row: as it is, or each byte as its difference from the pixel to the left
 /// (noise, colours) or above (areas of one value, such as ids).
@@ -28,15 +29,13 @@ class PngEncoder {
     /// not the width.
     template <class Pixel>
     void row(std::span<const Pixel> pixels) {
-        add({reinterpret_cast<const std::uint8_t*>(pixels.data()), pixels.size_bytes()},
-            sizeof(Pixel) == 2);
+        add({reinterpret_cast<const std::uint8_t*>(pixels.data()), pixels.size_bytes()});
     }
-    /// Takes the part of the file that is complete and was not taken before; after the last row,
-    /// the rest.
+    /// The chunks that were not taken before; after the `last` row, the rest of the file.
     std::string take(bool last);
 
   private:
-    void add(std::span<const std::uint8_t> bytes, bool swapped);
+    void add(std::span<const std::uint8_t> bytes);
     void pack(bool last);
 
     std::size_t pixel_bytes_;
@@ -80,11 +79,7 @@ std::string png_bytes(std::span<const std::uint16_t> pixels, int width, int heig
 /// Writes a whole picture of `width` pixels a row as a PNG file.
 void write_picture(const std::filesystem::path& path, std::span<const Rgb> pixels, int width);
 
-/// An upper limit of the size of a PNG file: pixels that do not compress, a filter byte per row,
-/// and the blocks and chunks of the format.
-double png_bytes_at_most(int width, int height, int bytes_per_pixel);
-
 /// Names the way in which pixels are packed. Another way stores the same pixels in other bytes.
-std::string png_encoder();
+inline constexpr const char* png_encoder = "sonarsim 3";
 
 }  // namespace sonarsim

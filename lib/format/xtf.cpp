@@ -84,13 +84,9 @@ std::string xtf_header(const XtfFile& file) {
     return header;
 }
 
-std::size_t xtf_record_bytes(std::size_t columns) {
-    const std::size_t bytes = ping_header_bytes + 2 * channel_header_bytes + 2 * columns;
-    return (bytes + record_unit - 1) / record_unit * record_unit;
-}
-
 std::string xtf_record(const XtfPing& ping, std::span<const std::uint16_t> row) {
-    std::string record(xtf_record_bytes(row.size()), '\0');
+    const std::size_t bytes = ping_header_bytes + 2 * channel_header_bytes + row.size_bytes();
+    std::string record((bytes + record_unit - 1) / record_unit * record_unit, '\0');
     put<std::uint16_t>(record, 0, 0xFACE);
     put<std::uint16_t>(record, 4, 2);  // channels that follow
     put(record, 10, static_cast<std::uint32_t>(record.size()));

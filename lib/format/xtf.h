@@ -38,7 +38,4 @@ std::string xtf_header(const XtfFile& file);
 /// The port channel keeps that order, as is usual in XTF: its last sample is at nadir.
 std::string xtf_record(const XtfPing& ping, std::span<const std::uint16_t> row);
 
-/// The size of such a record.
-std::size_t xtf_record_bytes(std::size_t columns);
-
 }  // namespace sonarsim

@@ -7,9 +7,10 @@
 #include <optional>
 #include <set>
 
+#include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/file.h"
-#include "dataset/ping_metadata.h"
+#include "dataset/metadata.h"
 #include "mission/differences.h"
 #include "mission/files.h"
 
@@ -31,32 +32,19 @@ bool is_temporary(const fs::directory_entry& entry) {
            is_temporary_name(entry.path().filename().string());
 }
 
-void remove_temporary_files(const fs::path& folder) {
-    std::vector<fs::path> found;
-    std::error_code absent;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, absent)) {
-        if (is_temporary(entry)) found.push_back(entry.path());
-    }
-    for (const fs::path& file : found)
-        fs::remove(file);
-}
-
 /// The names of the files and folders of a dataset in its folder, without dataset.json and the
 /// journal's folder. They may come from a dataset.json that somebody has edited.
 std::set<std::string> own_names(const Json& description) {
     std::set<std::string> names{mission_name, trajectory_name, journal_name, checksums_name};
-    const Json none = Json::array();
-    for (const Json& sensor : description.value("sensors", none)) {
-        const Json name = sensor.is_object() ? sensor.value("name", Json()) : Json();
-        if (name.is_string() && is_plain_name(name.get<std::string>()))
-            names.insert(name.get<std::string>());
-    }
-    for (const Json& product : description.value("products", none)) {
-        if (product == navigation_name) names.insert(navigation_name);
-        if (product.is_string() &&
-            product.get<std::string>().starts_with(std::string(seabed_folder_name) + "/"))
-            names.insert(seabed_folder_name);
-    }
+    const auto add = [&](const Json& path) {
+        const std::string text = path.is_string() ? path.get<std::string>() : "";
+        const std::string name = text.substr(0, text.find('/'));
+        if (is_plain_name(name)) names.insert(name);
+    };
+    for (const Json& sensor : description.value("sensors", Json()))
+        add(sensor.is_object() ? sensor.value("name", Json()) : Json());
+    for (const Json& product : description.value("products", Json()))
+        add(product);
     return names;
 }
 
@@ -79,6 +67,16 @@ Json own_description(const fs::path& folder) {
 
 }  // namespace
 
+void remove_temporary_files(const fs::path& folder) {
+    std::vector<fs::path> found;
+    std::error_code absent;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, absent)) {
+        if (is_temporary(entry)) found.push_back(entry.path());
+    }
+    for (const fs::path& file : found)
+        fs::remove(file);
+}
+
 std::string mission_differences(const fs::path& dataset, const std::string& mission) {
     constexpr std::size_t largest_mission = std::size_t{1} << 26;
     try {
@@ -86,6 +84,18 @@ std::string mission_differences(const fs::path& dataset, const std::string& miss
     } catch (const InputError&) {
         return "";  // a run that was killed at its beginning has not written it yet
     }
+}
+
+DatasetFile require_part(const fs::path& folder, const fs::path& first) {
+    constexpr std::size_t largest_mission = std::size_t{1} << 26;
+    DatasetFile dataset = require_dataset(folder);
+    std::string difference = difference_between(dataset.json, require_dataset(first).json);
+    if (difference.empty()) return dataset;
+    if (difference == of_another_mission)
+        difference += mission_differences(folder, read_file(first / mission_name, largest_mission));
+    throw InputError({folder.string()}, "holds a dataset " + difference + ", seen from " +
+                                            first.string() +
+                                            "; only parts of one mission become one dataset");
 }
 
 bool is_unused(const fs::path& folder) {
@@ -158,30 +168,16 @@ bool has_files(const fs::path& folder, const DatasetFile& dataset) {
 }
 
 bool create_once(const fs::path& path, const std::string& text) {
-    struct Removed {
-        fs::path path;
-        ~Removed() {
-            std::error_code absent;
-            fs::remove(path, absent);
-        }
-    };
-    const Removed temporary{temporary_name(path)};
-    const fs::path& part = temporary.path;
-    write_file_durably(part, text);
-    bool created = ::link(part.c_str(), path.c_str()) == 0;
-    const int reason = created ? 0 : errno;
-    // A disk without hard links cannot tell which of two runs came first.
-    const bool no_links = reason == EPERM || reason == ENOTSUP || reason == ENOSYS;
-    if (no_links && !fs::exists(path)) {
-        fs::rename(part, path);
-        created = true;
-    }
-    if (!created && !no_links && reason != EEXIST) {
-        errno = reason;
-        throw_errno("cannot write", path);
+    AtomicFile temporary(path);
+    write_file_durably(temporary.part(), text);
+    if (::link(temporary.part().c_str(), path.c_str()) != 0) {
+        const bool no_links = errno == EPERM || errno == ENOTSUP || errno == ENOSYS;
+        if (!no_links && errno != EEXIST) throw_errno("cannot write", path);
+        if (fs::exists(path)) return false;
+        temporary.commit();  // a disk without links cannot tell which of two runs came first
     }
     sync_file_system(path.parent_path());
-    return created;
+    return true;
 }
 
 FolderState claim_folder(const fs::path& folder, const CommonFiles& files) {
@@ -197,21 +193,6 @@ void write_common_files(const Layout& layout, const CommonFiles& files) {
         fs::create_directories(folder);
     for (const auto& [name, bytes] : files.initial)
         write_file(layout.folder / name, bytes);
-}
-
-void remove_leftovers(const Layout& layout) {
-    remove_temporary_files(layout.folder);
-    for (const fs::path& folder : layout.folders())
-        remove_temporary_files(folder);
-}
-
-void remove_leftovers_of_pings(const Layout& layout) {
-    for (std::size_t i = 0; i < layout.sensors.size(); ++i) {
-        for (const auto& part : layout.sensors[i].per_ping) {
-            if (const auto* file = std::get_if<PingFile>(&part))
-                remove_temporary_files(layout.sensor_folder(i) / file->name);
-        }
-    }
 }
 
 }  // namespace sonarsim

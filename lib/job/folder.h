@@ -29,6 +29,9 @@ struct CommonFiles {
 /// The keys in which the mission of a dataset differs from the text `mission`, for messages.
 std::string mission_differences(const std::filesystem::path& dataset, const std::string& mission);
 
+/// The dataset in a folder that holds all or a part of `first`. InputError when it holds another.
+DatasetFile require_part(const std::filesystem::path& folder, const std::filesystem::path& first);
+
 /// True if a folder holds only files of a run that was killed at its beginning.
 bool is_unused(const std::filesystem::path& folder);
 
@@ -67,9 +70,8 @@ FolderState claim_folder(const std::filesystem::path& folder, const CommonFiles&
 /// Makes the folder ready for pings: subfolders, and the common files but dataset.json.
 void write_common_files(const Layout& layout, const CommonFiles& files);
 
-/// Removes the temporary files that interrupted runs left; no other shard may be at work.
-void remove_leftovers(const Layout& layout);
-/// The same for the files of pings alone, once all pings are there.
-void remove_leftovers_of_pings(const Layout& layout);
+/// Removes the temporary files that interrupted runs left in a folder, in which nobody may be at
+/// work; nothing if there is no such folder.
+void remove_temporary_files(const std::filesystem::path& folder);
 
 }  // namespace sonarsim

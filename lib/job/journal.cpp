@@ -7,6 +7,7 @@
 #include <chrono>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 #include "core/atomic_file.h"
 #include "core/error.h"
@@ -75,21 +76,13 @@ void write_journal(const fs::path& path, const JournalEntries& entries) {
     file.finish();
 }
 
-std::vector<std::string_view> split_fields(std::string_view fields) {
-    std::vector<std::string_view> all;
-    while (!fields.empty()) {
-        const std::size_t end = std::min(fields.find(' '), fields.size());
-        all.push_back(fields.substr(0, end));
-        fields.remove_prefix(std::min(end + 1, fields.size()));
-    }
-    return all;
-}
-
-Journal::Journal(const ShardLock& lock, double checkpoint_seconds) : lock_(lock) {
-    // The last line of an interrupted run may be torn.
-    if (::lseek(lock_.fd(), 0, SEEK_END) > 0) pending_ = "\n";
-    thread_ = std::thread([this, checkpoint_seconds] { run(checkpoint_seconds); });
-}
+Journal::Journal(const ShardLock& lock, double checkpoint_seconds)
+    : lock_(lock),
+      // The last line of an interrupted run may be torn.
+      pending_(::lseek(lock.fd(), 0, SEEK_END) > 0 ? "\n" : ""),
+      checkpoints_(std::async(std::launch::async, [this, checkpoint_seconds] {
+          make_checkpoints(checkpoint_seconds);
+      })) {}
 
 Journal::~Journal() {
     try {
@@ -99,8 +92,10 @@ Journal::~Journal() {
 }
 
 void Journal::add(const PingId& ping, const std::string& fields) {
+    // The thread ends before finish() only where a checkpoint has failed.
+    if (checkpoints_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
+        checkpoints_.get();
     const std::lock_guard lock(mutex_);
-    rethrow();
     pending_ += ping_line(ping, fields);
 }
 
@@ -110,48 +105,30 @@ void Journal::finish() {
         ending_ = true;
     }
     wake_.notify_one();
-    if (thread_.joinable()) thread_.join();
-    rethrow();
+    if (checkpoints_.valid()) checkpoints_.get();
 }
 
-void Journal::run(double checkpoint_seconds) {
-    const std::chrono::duration<double> interval(checkpoint_seconds);
-    bool ending = false;
-    while (!ending) {
-        {
-            std::unique_lock lock(mutex_);
-            wake_.wait_for(lock, interval, [this] { return ending_; });
-            ending = ending_;
-        }
-        try {
-            checkpoint();
-        } catch (...) {
-            const std::lock_guard lock(mutex_);
-            error_ = std::current_exception();
-            return;
-        }
+void Journal::make_checkpoints(double seconds_between) {
+    const std::chrono::duration<double> interval(seconds_between);
+    for (bool ending = false; !ending;) {
+        std::unique_lock lock(mutex_);
+        wake_.wait_for(lock, interval, [this] { return ending_; });
+        ending = ending_;
+        const std::string lines = std::exchange(pending_, {});
+        lock.unlock();
+        if (!lines.empty()) append(lines);
     }
 }
 
-void Journal::checkpoint() {
-    std::string lines;
-    {
-        const std::lock_guard lock(mutex_);
-        lines.swap(pending_);
-    }
-    if (lines.empty()) return;
+void Journal::append(std::string_view lines) const {
     sync_file_system(lock_.folder());
-    for (std::string_view rest = lines; !rest.empty();) {
-        const ssize_t put = ::write(lock_.fd(), rest.data(), rest.size());
+    while (!lines.empty()) {
+        const ssize_t put = ::write(lock_.fd(), lines.data(), lines.size());
         if (put < 0 && errno == EINTR) continue;
         if (put < 0) throw_errno("cannot write", lock_.part());
-        rest.remove_prefix(static_cast<std::size_t>(put));
+        lines.remove_prefix(static_cast<std::size_t>(put));
     }
     if (::fdatasync(lock_.fd()) != 0) throw_errno("cannot write", lock_.part());
-}
-
-void Journal::rethrow() {
-    if (error_) std::rethrow_exception(error_);
 }
 
 }  // namespace sonarsim

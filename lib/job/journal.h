@@ -1,14 +1,12 @@
 #pragma once
 
 #include <condition_variable>
-#include <cstdint>
-#include <exception>
 #include <filesystem>
+#include <future>
 #include <map>
 #include <mutex>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <vector>
 
 #include "dataset/writer.h"
@@ -33,12 +31,9 @@ JournalEntries read_journal(const std::filesystem::path& folder);
 /// Writes OUT/journal.txt: its bytes do not depend on the runs that made the dataset.
 void write_journal(const std::filesystem::path& path, const JournalEntries& entries);
 
-/// The fields of an entry.
-std::vector<std::string_view> split_fields(std::string_view fields);
-
-/// The part of the journal that one run writes. A background thread makes a checkpoint every few seconds: it makes durable what has been written
-/// so far and then adds the lines of the pings that were finished before. A power cut costs only
-/// the pings since the last checkpoint.
+/// The part of the journal that one run writes. A background thread makes a checkpoint every few
+/// seconds: it makes durable what has been written so far and then adds the lines of the pings that
+/// were finished before. A power cut costs only the pings since the last checkpoint.
 class Journal {
   public:
     /// Adds to the part of `lock`, which must outlive it.
@@ -53,17 +48,15 @@ class Journal {
     void finish();
 
   private:
-    void run(double checkpoint_seconds);
-    void checkpoint();
-    void rethrow();
+    void make_checkpoints(double seconds_between);
+    void append(std::string_view lines) const;
 
     const ShardLock& lock_;
     std::mutex mutex_;
     std::condition_variable wake_;
     std::string pending_;  ///< lines of pings that are not durable yet
     bool ending_ = false;
-    std::exception_ptr error_;
-    std::thread thread_;  ///< last, so that it starts when the rest is there
+    std::future<void> checkpoints_;  ///< last, so that its thread starts when the rest is there
 };
 
 }  // namespace sonarsim

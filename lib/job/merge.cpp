@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <fstream>
 #include <optional>
-#include <span>
 #include <string>
 
 #include "core/error.h"
 #include "core/file.h"
 #include "dataset/dataset_file.h"
-#include "dataset/ping_metadata.h"
-#include "dataset/record_file.h"
-#include "format/npy.h"
+#include "dataset/metadata.h"
 #include "job/folder.h"
 #include "job/journal.h"
 #include "job/shard_lock.h"
@@ -33,30 +30,22 @@ void copy_file(const fs::path& from, const fs::path& to, const std::string& name
     fs::copy_file(from / name, to / name);
 }
 
-/// Copies one of `pings` records between two NumPy files.
+/// Copies one of `pings` equal records between two NumPy files. The first one comes with its file.
 void copy_record(const fs::path& from, const fs::path& to, const std::string& name,
                  std::uint64_t pings, std::uint64_t record) {
     require_no_link((to / name).parent_path(), "a dataset");
     require_no_link(to / name, "a dataset");
-    constexpr std::size_t most_header = 4096;
-    std::string start(most_header, '\0');
-    std::ifstream head(from / name, std::ios::binary);
-    if (!head) throw_errno("cannot read", from / name);
-    head.read(start.data(), most_header);
-    const NpyFormat format = npy_format(start);
-    const RecordFile source(from / name, format, pings, RecordAccess::read);
-    RecordFile target(to / name, format, pings);
-    std::string bytes(source.record_bytes(), '\0');
-    source.read(record, std::as_writable_bytes(std::span(bytes)));
-    target.write(record, std::as_bytes(std::span(bytes)));
-    target.close();
-}
-
-std::uint64_t count_pings(const DatasetFile& dataset) {
-    std::uint64_t pings = 0;
-    for (const DescribedSensor& sensor : dataset.sensors)
-        pings += sensor.pings;
-    return pings;
+    if (!fs::exists(to / name)) return copy_file(from, to, name);
+    std::ifstream source(from / name, std::ios::binary);
+    std::string header;
+    std::getline(source, header);  // a line is all of it
+    const std::size_t begin = header.size() + 1;
+    std::string bytes((std::max(fs::file_size(from / name), begin) - begin) / pings, '\0');
+    const auto at = static_cast<std::streamoff>(begin + record * bytes.size());
+    const auto size = static_cast<std::streamsize>(bytes.size());
+    if (!source.seekg(at).read(bytes.data(), size)) throw_errno("cannot read", from / name);
+    std::fstream target(to / name, std::ios::in | std::ios::out | std::ios::binary);
+    if (!target.seekp(at).write(bytes.data(), size).flush()) throw_errno("cannot write", to / name);
 }
 
 /// The datasets of one mission, and the folder that they are copied to.
@@ -68,16 +57,8 @@ class DatasetMerge {
         common_.description = dataset_.json;
         common_.description["complete"] = false;
         common_.mission = read_file(parts[0] / mission_name, largest_mission);
-        for (const fs::path& part : parts) {
-            const Json other = require_dataset(part).json;
-            std::string difference = difference_between(other, dataset_.json);
-            if (difference == of_another_mission)
-                difference += mission_differences(part, common_.mission);
-            if (difference.empty()) continue;
-            throw InputError({part.string()}, "holds a dataset " + difference + ", seen from " +
-                                                  parts[0].string() +
-                                                  "; only parts of one mission become one dataset");
-        }
+        for (const fs::path& part : parts)
+            require_part(part, parts[0]);
         inspect_folder(out, common_.description, common_.mission);
     }
 
@@ -91,8 +72,7 @@ class DatasetMerge {
         const auto whole = std::ranges::find_if(parts_, is_complete);
         if (whole != parts_.end()) {
             copy_whole(*whole);
-            lock.finish();
-            remove_journal_parts(out_);
+            lock.remove_parts();
             summary.pings += count_pings(dataset_);
         } else {
             copy_pings(lock, stop, summary);

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "dataset/writers.h"
+#include "dataset/writer.h"
 
 namespace sonarsim {
 

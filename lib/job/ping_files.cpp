@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <span>
+#include <sstream>
 #include <stdexcept>
 
 #include "core/file.h"
@@ -39,55 +40,58 @@ RecordFiles open_records(const Layout& layout, RecordAccess access) {
     return files;
 }
 
-std::string journal_fields(const SensorLayout& sensor, const EncodedPing& encoded) {
+std::string write_ping(const Layout& layout, const RecordFiles& records, const PingId& ping,
+                       const std::vector<std::string>& encoded) {
+    const SensorLayout& sensor = layout.sensors[ping.sensor];
     std::string fields;
     for (std::size_t k = 0; k < encoded.size(); ++k) {
         const std::string& bytes = encoded[k];
         if (k > 0) fields += ' ';
-        fields += std::holds_alternative<PingFile>(sensor.per_ping[k])
-                      ? std::to_string(bytes.size()) + ':' + sha256(bytes)
-                      : hash_of_record(bytes);
+        if (const auto* file = std::get_if<PingFile>(&sensor.per_ping[k])) {
+            write_file(layout.file(ping, *file), bytes);
+            fields += std::to_string(bytes.size()) + ':' + sha256(bytes);
+        } else {
+            records[ping.sensor][k]->write(layout.record_of(ping), std::as_bytes(std::span(bytes)));
+            fields += hash_of_record(bytes);
+        }
     }
     return fields;
 }
 
-void write_ping(const Layout& layout, const RecordFiles& records, const PingId& ping,
-                const EncodedPing& encoded) {
-    const SensorLayout& sensor = layout.sensors[ping.sensor];
-    for (std::size_t k = 0; k < encoded.size(); ++k) {
-        if (const auto* file = std::get_if<PingFile>(&sensor.per_ping[k])) {
-            write_file(layout.file(ping, *file), encoded[k]);
-        } else {
-            records[ping.sensor][k]->write(layout.record_of(ping),
-                                           std::as_bytes(std::span(encoded[k])));
-        }
+FinishedPings::FinishedPings(const Layout& layout) : layout_(layout) {
+    try {
+        records_ = open_records(layout, RecordAccess::read);
+    } catch (const std::runtime_error&) {
+        return;  // a file of records is missing or damaged, so no ping is finished
     }
+    entries_ = read_journal(layout.folder);
 }
 
-bool FinishedPings::operator()(const PingId& ping) const {
+bool FinishedPings::has(const PingId& ping) const {
     const auto entry = entries_.find(ping);
     if (entry == entries_.end()) return false;
-    const std::vector<std::string_view> fields = split_fields(entry->second);
+    std::istringstream fields(entry->second);
     const auto& parts = layout_.sensors[ping.sensor].per_ping;
-    if (fields.size() != parts.size()) return false;
+    std::string field;
     for (std::size_t k = 0; k < parts.size(); ++k) {
+        if (!(fields >> field)) return false;
         if (const auto* file = std::get_if<PingFile>(&parts[k])) {
             const std::string size = size_of(layout_.file(ping, *file));
-            if (size.empty() || !fields[k].starts_with(size + ':')) return false;
-        } else if (records_[ping.sensor][k]->hash(layout_.record_of(ping)) != fields[k]) {
+            if (size.empty() || !field.starts_with(size + ':')) return false;
+        } else if (records_[ping.sensor][k]->hash(layout_.record_of(ping)) != field) {
             return false;
         }
     }
-    return true;
+    return !(fields >> field);
 }
 
-bool has_pings(const Layout& layout, const std::vector<PingId>& pings) {
-    try {
-        const RecordFiles records = open_records(layout, RecordAccess::read);
-        return std::ranges::all_of(pings, FinishedPings(layout, records));
-    } catch (const std::runtime_error&) {
-        return false;  // a file of records is missing or damaged
-    }
+bool FinishedPings::has_all(const std::vector<PingId>& pings) const {
+    return std::ranges::all_of(pings, [this](const PingId& ping) { return has(ping); });
+}
+
+std::vector<PingId> FinishedPings::missing(std::vector<PingId> pings) const {
+    std::erase_if(pings, [this](const PingId& ping) { return has(ping); });
+    return pings;
 }
 
 }  // namespace sonarsim

@@ -16,33 +16,27 @@ using RecordFiles = std::vector<std::vector<std::unique_ptr<RecordFile>>>;
 /// Opens the record files of a dataset, or makes them.
 RecordFiles open_records(const Layout& layout, RecordAccess access);
 
-/// The output of each writer of a sensor for a ping, in their order: the bytes of a file or record.
-using EncodedPing = std::vector<std::string>;
-
-/// The fields of a ping in the journal.
-std::string journal_fields(const SensorLayout& sensor, const EncodedPing& encoded);
-
-/// Writes the files and records of a ping where the layout says. From any thread, in any order.
+/// Writes the files and records of a ping where the layout says; `encoded` has the bytes of each
+/// writer. Returns the fields of the ping in the journal. From any thread, in any order.
 /// std::system_error when the disk does not take it.
-void write_ping(const Layout& layout, const RecordFiles& records, const PingId& ping,
-                const EncodedPing& encoded);
+std::string write_ping(const Layout& layout, const RecordFiles& records, const PingId& ping,
+                       const std::vector<std::string>& encoded);
 
-/// True for the pings that need not be rendered: the journal lists them, and their files and
-/// records are as listed. The references must outlive it.
+/// The pings that need not be rendered: the journal lists them, and their files and records are as
+/// listed. Opens no file for writing: the disk may be read-only. The layout must outlive it.
 class FinishedPings {
   public:
-    FinishedPings(const Layout& layout, const RecordFiles& records)
-        : layout_(layout), records_(records), entries_(read_journal(layout.folder)) {}
+    explicit FinishedPings(const Layout& layout);
 
-    bool operator()(const PingId& ping) const;
+    bool has_all(const std::vector<PingId>& pings) const;
+    std::vector<PingId> missing(std::vector<PingId> pings) const;
 
   private:
+    bool has(const PingId& ping) const;
+
     const Layout& layout_;
-    const RecordFiles& records_;
+    RecordFiles records_;
     JournalEntries entries_;
 };
-
-/// True if all `pings` are finished. Opens no file for writing: the disk may be read-only.
-bool has_pings(const Layout& layout, const std::vector<PingId>& pings);
 
 }  // namespace sonarsim

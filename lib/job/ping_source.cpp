@@ -8,7 +8,6 @@
 #include "dataset/encode_ping.h"
 #include "dataset/layout.h"
 #include "dataset/metadata.h"
-#include "dataset/ping_metadata.h"
 #include "visibility/make_engine.h"
 
 namespace sonarsim {
@@ -17,8 +16,8 @@ namespace {
 
 /// The name and the extension of a writer's file or record.
 std::filesystem::path file_of(const Writer& writer) {
-    if (const auto* record = std::get_if<PingRecord>(&writer.outputs.per_ping)) return record->file;
-    const auto& file = std::get<PingFile>(writer.outputs.per_ping);
+    if (const auto* record = std::get_if<PingRecord>(&writer.per_ping)) return record->file;
+    const auto& file = std::get<PingFile>(writer.per_ping);
     return file.name + file.extension;
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "assembly/assemble.h"
-#include "dataset/writers.h"
+#include "dataset/writer.h"
 #include "mission/mission.h"
 #include "visibility/engine.h"
 

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <vector>
 
-#include "dataset/writers.h"
+#include "dataset/writer.h"
 #include "job/journal.h"
 #include "job/ping_files.h"
 #include "job/render_summary.h"

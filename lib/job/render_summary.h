@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -24,6 +25,21 @@ struct RenderSummary {
     std::vector<Warning> warnings;       ///< from the engine; of variants also about the images
     std::uint64_t clipped_pixels = 0;    ///< intensities above full_scale, where files were written
     std::vector<SensorSummary> sensors;  ///< in the order of Mission::sensors
+
+    /// Adds the sums over pings, and no more.
+    RenderSummary& operator+=(const RenderSummary& more) {
+        pings += more.pings;
+        skipped += more.skipped;
+        stages += more.stages;
+        encode_seconds += more.encode_seconds;
+        write_seconds += more.write_seconds;
+        counts += more.counts;
+        clipped_pixels += more.clipped_pixels;
+        sensors.resize(std::max(sensors.size(), more.sensors.size()));
+        for (std::size_t i = 0; i < more.sensors.size(); ++i)
+            sensors[i] += more.sensors[i];
+        return *this;
+    }
 };
 
 /// As ProgressCallback, with the sums over the pings so far.

@@ -1,7 +1,10 @@
 #include "job/run_job.h"
 
+#include <algorithm>
+#include <map>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -9,11 +12,10 @@
 #include "assembly/engines.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/sha256.h"
 #include "dataset/dataset_file.h"
 #include "dataset/metadata.h"
-#include "dataset/ping_metadata.h"
 #include "dataset/seabed_files.h"
-#include "job/completion.h"
 #include "job/folder.h"
 #include "job/journal.h"
 #include "job/ping_files.h"
@@ -26,15 +28,17 @@ namespace sonarsim {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr const char* error_key = "measured_error";
 
 /// Adds the measured error of the sonars to dataset.json: that of the folder's dataset.json, else
 /// it is measured, which gives the same values in every shard. The first of several variants stands
 /// for all.
 void add_measured_error(const RenderRun& run, const VisibilityEngine& engine,
-                        const std::filesystem::path& folder, nlohmann::ordered_json& description) {
+                        const fs::path& folder, nlohmann::ordered_json& description) {
     if (run.mission.variant.index > 0) return;
-    if (std::filesystem::exists(folder / description_name)) {
+    if (fs::exists(folder / description_name)) {
         const auto found = read_description(folder);
         if (found && found->contains(error_key)) {
             description[error_key] = (*found)[error_key];
@@ -54,9 +58,8 @@ void add_measured_error(const RenderRun& run, const VisibilityEngine& engine,
 /// The pings of the shard that a run renders.
 std::vector<PingId> pings_of_shard(const std::vector<PingId>& all, const RenderOptions& options) {
     std::vector<PingId> own;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        if (shard_of(i, options.shards) == options.shard) own.push_back(all[i]);
-    }
+    for (auto i = static_cast<std::size_t>(options.shard); i < all.size(); i += options.shards)
+        own.push_back(all[i]);
     return own;
 }
 
@@ -69,15 +72,67 @@ std::vector<std::pair<std::string, std::string>> initial_files(const Assembly& a
     return files;
 }
 
-/// The pings in `own` that are not finished.
-std::vector<PingId> unfinished(const Layout& layout, const RecordFiles& records,
-                               const std::vector<PingId>& own) {
-    const FinishedPings is_finished(layout, records);
-    std::vector<PingId> todo;
-    for (const PingId& ping : own) {
-        if (!is_finished(ping)) todo.push_back(ping);
+/// The sums of the pings' files in the journal, by the name of the file in the dataset.
+std::map<std::string, std::string> ping_sums(const Layout& layout, const JournalEntries& entries) {
+    std::map<std::string, std::string> sums;
+    for (const auto& [ping, entry] : entries) {
+        if (ping.sensor >= layout.sensors.size()) continue;  // a line that somebody has added
+        std::istringstream fields(entry);
+        std::string field;
+        for (const PingOutput& part : layout.sensors[ping.sensor].per_ping) {
+            fields >> field;
+            if (const auto* file = std::get_if<PingFile>(&part))
+                sums.emplace(layout.file(ping, *file).lexically_relative(layout.folder).string(),
+                             field.substr(field.find(':') + 1));
+        }
     }
-    return todo;
+    return sums;
+}
+
+/// SHA256SUMS for `sha256sum -c` in OUT: every file of the dataset but this one. dataset.json is to
+/// be `text`, which is written afterwards.
+std::string checksums(const Layout& layout, const JournalEntries& entries,
+                      const DatasetFile& dataset, const std::string& text) {
+    std::map<std::string, std::string> known = ping_sums(layout, entries);
+    known[description_name] = sha256(text);
+    std::string lines;
+    for (const std::string& name : list_files(dataset)) {
+        const auto sum = known.find(name);
+        lines += sum != known.end() ? sum->second : sha256_of_file(layout.folder / name);
+        lines += "  " + name + '\n';
+    }
+    return lines;
+}
+
+/// Completes a dataset that has every ping: writes products, journal.txt and SHA256SUMS, then
+/// dataset.json with `complete` set to true; closes `records`. Several shards may do it at once:
+/// they write the same. std::system_error when the disk fails.
+void complete_dataset(const Layout& layout, const std::vector<Writers>& writers,
+                      RecordFiles& records, const CommonFiles& common) {
+    for (std::size_t i = 0; i < writers.size(); ++i) {
+        for (std::size_t k = 0; k < writers[i].size(); ++k) {
+            const Writer& writer = writers[i][k];
+            if (!records[i][k]) {
+                remove_temporary_files(layout.sensor_folder(i) /
+                                       std::get<PingFile>(writer.per_ping).name);
+                continue;
+            }
+            if (writer.write_products)
+                writer.write_products(*records[i][k], layout.sensor_folder(i));
+            records[i][k]->close();
+        }
+    }
+    const JournalEntries entries = read_journal(layout.folder);
+    write_journal(layout.folder / journal_name, entries);
+    // dataset.json says `complete` only after everything else is durable.
+    sync_file_system(layout.folder);
+    nlohmann::ordered_json finished = common.description;
+    finished["complete"] = true;
+    const std::string text = json_text(finished);
+    write_file(layout.folder / checksums_name,
+               checksums(layout, entries, parse_description(finished, description_name), text));
+    sync_file_system(layout.folder);
+    write_file_durably(layout.folder / description_name, text);
 }
 
 /// Renders into the folder of the mission what is missing there, and completes the dataset.
@@ -96,7 +151,7 @@ void run_in_folder(const RenderRun& run, const RenderOptions& options,
         summary.complete =
             state == FolderState::complete &&
             has_files(layout.folder, parse_description(common.description, description_name)) &&
-            has_pings(layout, own);
+            FinishedPings(layout).has_all(own);
         if (!summary.complete) return false;
         summary.skipped = own.size();
         remove_journal_parts(layout.folder);  // a run was killed at its very end
@@ -116,24 +171,27 @@ void run_in_folder(const RenderRun& run, const RenderOptions& options,
     if (finished(state)) return;
     if (state == FolderState::complete) {
         write_file_durably(layout.folder / description_name, json_text(common.description));
-        std::filesystem::remove(layout.folder / checksums_name);
+        fs::remove(layout.folder / checksums_name);
     }
     write_common_files(layout, common);
     RecordFiles records = open_records(layout, RecordAccess::write);
-    const std::vector<PingId> todo = unfinished(layout, records, own);
+    const std::vector<PingId> todo = FinishedPings(layout).missing(own);
     summary.skipped = own.size() - todo.size();
-    if (options.shards == 1) remove_leftovers(layout);
+    if (options.shards == 1) {  // nobody else is at work
+        remove_temporary_files(layout.folder);
+        std::ranges::for_each(layout.folders(), remove_temporary_files);
+    }
     Journal journal(lock, options.checkpoint_s);
     const Destination to{layout, writers, records, journal};
     render_pings(run, *engine, todo, &to);
     journal.finish();
     if (summary.stopped) return;
-    if (has_pings(layout, all)) {
+    const FinishedPings now(layout);
+    if (now.has_all(all)) {
         complete_dataset(layout, writers, records, common);
-        lock.finish();
-        remove_journal_parts(layout.folder);
+        lock.remove_parts();
         summary.complete = true;
-    } else if (!has_pings(layout, own)) {
+    } else if (!now.has_all(own)) {
         throw std::runtime_error(layout.folder.string() +
                                  ": files were changed or removed during the run; the same command "
                                  "run again renders what is missing");
@@ -169,11 +227,6 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
         }
     });
     return summary;
-}
-
-RenderSummary run_job(const Mission& mission, const RenderOptions& options,
-                      const JobCallback& progress, const std::atomic<bool>& stop) {
-    return run_job(mission, assemble(mission), options, progress, stop);
 }
 
 }  // namespace sonarsim

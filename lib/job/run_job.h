@@ -37,8 +37,4 @@ RenderSummary run_job(const Mission& mission, const Assembly& assembly,
                       const RenderOptions& options, const JobCallback& progress,
                       const std::atomic<bool>& stop);
 
-/// The same; makes the assembly.
-RenderSummary run_job(const Mission& mission, const RenderOptions& options,
-                      const JobCallback& progress, const std::atomic<bool>& stop);
-
 }  // namespace sonarsim

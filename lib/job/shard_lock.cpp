@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <chrono>
 #include <random>
+#include <string>
 #include <thread>
 #include <utility>
 
@@ -22,21 +23,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class Lock { taken, busy, unknown };
-
-/// `unknown`: the file system has no locks (ENOLCK, EOPNOTSUPP), or the call failed.
-Lock lock_now(int fd, int mode) {
-    while (::flock(fd, mode | LOCK_NB) != 0) {
-        if (errno == EINTR) continue;
-        return errno == EWOULDBLOCK ? Lock::busy : Lock::unknown;
-    }
-    return Lock::taken;
+/// Takes a lock: 0, EWOULDBLOCK where another run holds it, or another error where the file system
+/// has no locks (ENOLCK, EOPNOTSUPP).
+int lock_now(int fd, int mode) {
+    int result = 0;
+    do {
+        result = ::flock(fd, mode | LOCK_NB);
+    } while (result != 0 && errno == EINTR);
+    return result == 0 ? 0 : errno;
 }
 
 bool is_locked(const fs::path& part) {
     const int fd = ::open(part.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
     if (fd < 0) return false;
-    const bool locked = lock_now(fd, LOCK_SH) == Lock::busy;
+    const bool locked = lock_now(fd, LOCK_SH) == EWOULDBLOCK;
     ::close(fd);
     return locked;
 }
@@ -44,31 +44,21 @@ bool is_locked(const fs::path& part) {
 /// True if a run that is not of the same division in `shards` writes into the folder;
 /// `own` is the part of this run.
 bool others_write(const fs::path& folder, const fs::path& own, int shards) {
+    const std::string division = "-of-" + std::to_string(shards) + ".txt";
     return std::ranges::any_of(journal_parts(folder), [&](const fs::path& part) {
-        const bool same_division = shards > 1 && shard_of_part(part)->second == shards;
+        const bool same_division = shards > 1 && part.string().ends_with(division);
         return !same_division && part != own && is_locked(part);
     });
 }
 
 /// Makes a folder and those above it. InputError for a path that cannot be a folder; errors of the
 /// disk are passed on.
-void make_folder(const fs::path& folder) {
-    if (fs::exists(folder) && !fs::is_directory(folder))
-        throw InputError({folder.string()}, "is not a folder");
-    try {
-        fs::create_directories(folder);
-    } catch (const fs::filesystem_error& error) {
-        for (const std::errc fault :
-             {std::errc::permission_denied, std::errc::operation_not_permitted,
-              std::errc::read_only_file_system, std::errc::no_such_file_or_directory,
-              std::errc::not_a_directory, std::errc::filename_too_long}) {
-            if (error.code() != fault) continue;
-            throw InputError({folder.string()},
-                             "cannot make this folder: " + error.code().message() +
-                                 "; choose another output.folder (--out)");
-        }
-        throw;
-    }
+void make_folder(const fs::path& folder) try {
+    fs::create_directories(folder);
+} catch (const fs::filesystem_error& error) {
+    if (error.code() == std::errc::io_error || error.code() == std::errc::no_space_on_device) throw;
+    throw InputError({folder.string()}, "cannot make this folder: " + error.code().message() +
+                                            "; choose another output.folder (--out)");
 }
 
 /// True if the open file still has its name: the run that completes a dataset removes the parts.
@@ -82,8 +72,7 @@ bool is_in_place(int fd, const fs::path& path) {
 }  // namespace
 
 ShardLock::ShardLock(const fs::path& folder, int shard, int shards)
-    : folder_(folder),
-      part_(folder / journal_folder_name / journal_part(shard + 1, shards)) {
+    : folder_(folder), part_(folder / journal_folder_name / journal_part(shard + 1, shards)) {
     // Others hold a lock for a moment to see whether this one is free. Two runs that exclude each
     // other and begin at once both give way and come again at different times.
     constexpr int tries = 20;
@@ -111,13 +100,13 @@ bool ShardLock::take(int shards) {
         if (errno == ENOENT) return false;  // another run has removed the folder again
         throw_errno("cannot write", part_);
     }
-    const Lock lock = lock_now(fd_, LOCK_EX);
-    works_ = lock != Lock::unknown;
-    if (lock == Lock::busy || !is_in_place(fd_, part_)) {
+    const int fault = lock_now(fd_, LOCK_EX);
+    works_ = fault == 0;
+    if (fault == EWOULDBLOCK) {
         ::close(std::exchange(fd_, -1));
         return false;
     }
-    if (!others_write(folder_, part_, shards)) return true;
+    if (is_in_place(fd_, part_) && !others_write(folder_, part_, shards)) return true;
     release();
     return false;
 }
@@ -125,12 +114,17 @@ bool ShardLock::take(int shards) {
 void ShardLock::release() {
     if (fd_ < 0) return;
     struct stat status {};
-    if (::fstat(fd_, &status) == 0 && (finished_ || status.st_size == 0) &&
-        is_in_place(fd_, part_)) {
+    if (::fstat(fd_, &status) == 0 && status.st_size == 0 && is_in_place(fd_, part_)) {
         ::unlink(part_.c_str());
         ::rmdir(part_.parent_path().c_str());  // stays if it holds other files
     }
     ::close(std::exchange(fd_, -1));
+}
+
+void ShardLock::remove_parts() const {
+    std::error_code ignored;
+    fs::remove(part_, ignored);
+    remove_journal_parts(folder_);
 }
 
 void remove_journal_parts(const fs::path& folder) {
@@ -139,10 +133,6 @@ void remove_journal_parts(const fs::path& folder) {
         if (!is_locked(part)) fs::remove(part, ignored);
     }
     fs::remove(folder / journal_folder_name, ignored);  // stays if it holds other files
-}
-
-Warning no_locks_warning(const fs::path& folder) {
-    return make_warning(WarningCode::no_locks, folder.string());
 }
 
 bool is_written(const fs::path& folder) {

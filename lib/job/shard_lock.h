@@ -2,8 +2,6 @@
 
 #include <filesystem>
 
-#include "checks/warning.h"
-
 namespace sonarsim {
 
 /// The right of a shard to write into a folder: a lock (flock) on its part of the journal. It ends
@@ -15,13 +13,13 @@ class ShardLock {
     /// when another run writes there, or when there cannot be such a folder; std::system_error when
     /// the disk refuses.
     ShardLock(const std::filesystem::path& folder, int shard, int shards);
-    /// Removes the part if it is still empty, or if its lines are in journal.txt.
+    /// Removes the part if it is still empty.
     ~ShardLock();
     ShardLock(const ShardLock&) = delete;
     ShardLock& operator=(const ShardLock&) = delete;
 
-    /// Call it once journal.txt has the lines of the part.
-    void finish() { finished_ = true; }
+    /// Removes this part and those that no run holds, once journal.txt has their lines.
+    void remove_parts() const;
     /// False if the file system has no locks.
     bool works() const { return works_; }
     /// The folder, and the part of its journal, open for appending.
@@ -37,11 +35,7 @@ class ShardLock {
     std::filesystem::path part_;
     int fd_ = -1;
     bool works_ = true;
-    bool finished_ = false;
 };
-
-/// W28: the file system has no locks.
-Warning no_locks_warning(const std::filesystem::path& folder);
 
 /// Removes the parts of the journal that no run holds, once journal.txt has their lines.
 void remove_journal_parts(const std::filesystem::path& folder);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <set>
 
-#include "core/error.h"
 #include "dataset/dataset_file.h"
+#include "job/folder.h"
 #include "job/journal.h"
 #include "job/shard_lock.h"
 #include "job/variants.h"
@@ -19,24 +19,17 @@ namespace fs = std::filesystem;
 void add_dataset(const std::vector<fs::path>& folders, JobStatus& status) {
     const DatasetFile dataset = require_dataset(folders.at(0));
     status.mission = dataset.mission;
-    std::uint64_t all = 0;
-    for (const DescribedSensor& sensor : dataset.sensors)
-        all += sensor.pings;
     std::set<PingId> done;
     bool complete = false;
     for (const fs::path& folder : folders) {
-        const DatasetFile own = require_dataset(folder);
-        const std::string difference = difference_between(own.json, dataset.json);
-        if (!difference.empty())
-            throw InputError({folder.string()}, "holds a dataset " + difference);
-        complete = complete || own.complete;
+        complete = require_part(folder, folders[0]).complete || complete;
         status.running = status.running || is_written(folder);
         for (const auto& [ping, fields] : read_journal(folder))
             done.insert(ping);
     }
     status.complete_variants += complete;
-    status.pings += complete ? all : done.size();
-    status.all_pings += all;
+    status.pings += complete ? count_pings(dataset) : done.size();
+    status.all_pings += count_pings(dataset);
 }
 
 }  // namespace

@@ -13,7 +13,6 @@
 #include "dataset/dataset_file.h"
 #include "dataset/layout.h"
 #include "dataset/metadata.h"
-#include "dataset/ping_metadata.h"
 #include "job/folder.h"
 #include "job/shard_lock.h"
 #include "mission/files.h"
@@ -32,23 +31,9 @@ constexpr const char* variants_format = "sonarsim variants";
 
 /// InputError for other variants than expected.
 [[noreturn]] void refuse_variants(const fs::path& folder, const std::string& which) {
-    throw InputError({folder.string()},
-                     "holds variants of another mission, seed or version of sonarsim" + which);
-}
-
-/// " (seed: 1 there, 2 here)": what differs in two variants.json; "" if only the hash of the
-/// mission does.
-std::string variants_difference(const Json& there, const Json& here) {
-    std::string text;
-    const auto add = [&](const std::string& name, const Json& before, const Json& now) {
-        if (before == now) return;
-        text += (text.empty() ? " (" : "; ") + name + ": " + before.dump() + " there, " +
-                now.dump() + " here";
-    };
-    for (const char* key : {"mission", "seed", "program_version"})
-        add(key, there.value(key, Json()), here.value(key, Json()));
-    add("variants", there.at("variants").size(), here.at("variants").size());
-    return text.empty() ? "" : text + ")";
+    throw InputError(
+        {folder.string()},
+        "holds variants of another mission, number, seed or version of sonarsim" + which);
 }
 
 /// Removes the variants that the variants.json of the folder names. It goes last: the folder is
@@ -65,22 +50,6 @@ void remove_variants(const fs::path& folder, const Mission& mission) {
         if (fs::is_empty(variant)) fs::remove(variant);
     }
     fs::remove(folder / variants_name);
-}
-
-void add(RenderSummary& all, const RenderSummary& one) {
-    all.pings += one.pings;
-    all.skipped += one.skipped;
-    all.complete = all.complete && one.complete;
-    all.stopped = one.stopped;
-    all.unlocked = all.unlocked || one.unlocked;
-    all.stages += one.stages;
-    all.encode_seconds += one.encode_seconds;
-    all.write_seconds += one.write_seconds;
-    all.counts += one.counts;
-    all.clipped_pixels += one.clipped_pixels;
-    all.sensors.resize(std::max(all.sensors.size(), one.sensors.size()));
-    for (std::size_t i = 0; i < one.sensors.size(); ++i)
-        all.sensors[i] += one.sensors[i];
 }
 
 /// InputError for a variant whose objects find no room, before any of the variants is written.
@@ -104,7 +73,6 @@ using InputSums = std::map<fs::path, std::string>;
 /// a build with the same bytes.
 std::optional<std::uint64_t> finished_pings(const Mission& variant, InputSums& sums) try {
     const fs::path& folder = variant.output.folder;
-    if (!fs::exists(folder / description_name)) return std::nullopt;
     const DatasetFile found = require_dataset(folder);
     const Json expected = {{"format_version", dataset_format_version},
                            {"program_version", SONARSIM_VERSION},
@@ -119,14 +87,9 @@ std::optional<std::uint64_t> finished_pings(const Mission& variant, InputSums& s
         if (sum->second != input.at("sha256").get<std::string>()) return std::nullopt;
     }
     if (!has_files(folder, found)) return std::nullopt;
-    std::uint64_t pings = 0;
-    for (const DescribedSensor& sensor : found.sensors)
-        pings += sensor.pings;
-    return pings;
-} catch (const Json::exception&) {
+    return count_pings(found);
+} catch (const std::exception&) {
     return std::nullopt;  // run_job() says what is wrong
-} catch (const std::runtime_error&) {
-    return std::nullopt;
 }
 
 }  // namespace
@@ -177,8 +140,7 @@ void require_same_variants(const fs::path& folder, const Json& json, const fs::p
         throw InputError({folder.string()}, "has no variants.json, and " + first.string() +
                                                 " has one; give the output folders of one "
                                                 "mission");
-    if (*own != json)
-        refuse_variants(folder, " than " + first.string() + variants_difference(*own, json));
+    if (*own != json) refuse_variants(folder, " than " + first.string());
 }
 
 void inspect_variants(const fs::path& folder, const Json& json, std::span<const Mission> variants,
@@ -191,8 +153,8 @@ void inspect_variants(const fs::path& folder, const Json& json, std::span<const 
                          "holds files that are not variants of a sonarsim mission; choose another "
                          "output.folder, or remove it");
     if (found && *found != json && !overwrite) {
-        std::string difference = variants_difference(*found, json);
-        if (difference.empty() && !variants.empty())
+        std::string difference;
+        if (!variants.empty())
             difference =
                 mission_differences(folder / variant_folder(0),
                                     resolved_yaml(portable(variants.front()), sonar_keys()));
@@ -220,8 +182,8 @@ RenderSummary run_variants(const Mission& mission, std::span<const Mission> vari
     RenderSummary all;
     InputSums sums;
     std::vector<const Mission*> todo;
-    for (std::size_t i = 0; i < variants.size(); ++i) {
-        if (shard_of(i, options.shards) != options.shard) continue;
+    for (auto i = static_cast<std::size_t>(options.shard); i < variants.size();
+         i += options.shards) {
         const auto pings =
             options.files && !options.overwrite ? finished_pings(variants[i], sums) : std::nullopt;
         all.skipped += pings.value_or(0);
@@ -236,28 +198,29 @@ RenderSummary run_variants(const Mission& mission, std::span<const Mission> vari
         if (options.overwrite) remove_variants(folder, variants.front());
         claim_variants(folder, json);
     };
-    RenderOptions one_by_one = options;
-    one_by_one.shard = 0;
-    one_by_one.shards = 1;
-    one_by_one.overwrite = false;  // done above
+    const RenderOptions one_by_one{
+        .threads = options.threads, .files = options.files, .checkpoint_s = options.checkpoint_s};
     all.complete = options.files;
     Stopwatch watch;
     // While a variant is rendered, the next one is assembled.
     const auto when = options.threads == 1 ? std::launch::deferred : std::launch::async;
-    const auto assemble_variant = [&](std::size_t k) {
-        return std::async(when,
-                          [&models, &variant = *todo[k]] { return assemble(variant, models); });
-    };
     std::future<Assembly> next;
-    if (!todo.empty()) next = assemble_variant(0);
+    const auto begin_assembly = [&](std::size_t k) {
+        next =
+            std::async(when, [&models, &variant = *todo[k]] { return assemble(variant, models); });
+    };
+    if (!todo.empty()) begin_assembly(0);
     for (std::size_t k = 0; k < todo.size() && !all.stopped; ++k) {
         const Mission& variant = *todo[k];
         const Assembly assembly = next.get();
-        if (k + 1 < todo.size()) next = assemble_variant(k + 1);
+        if (k + 1 < todo.size()) begin_assembly(k + 1);
         if (begin) begin(variant, assembly);
         if (options.files && !lock) enter();  // once the first scene has been read
         const RenderSummary one = run_job(variant, assembly, one_by_one, nullptr, stop);
-        add(all, one);
+        all += one;
+        all.complete = all.complete && one.complete;
+        all.stopped = one.stopped;
+        all.unlocked = all.unlocked || one.unlocked;
         for (std::vector<Warning> found :
              {one.warnings, image_warnings(variant, assembly, one.sensors)}) {
             for (Warning& warning : found) {

@@ -147,13 +147,13 @@ TEST_SUITE("assembly") {
         const MissionOnDisk disk;
         const Mission mission = disk.load("{file: poses.csv}");
         const std::atomic<bool> stop = false;
-        CHECK(run_job(mission, {}, {}, stop).pings == 2);
+        CHECK(run_job(mission, assemble(mission), {}, {}, stop).pings == 2);
         CHECK(fs::exists(disk.folder.path / "out/fls/fan/000001.png"));
-        CHECK(run_job(mission, {}, {}, stop).pings == 0);
+        CHECK(run_job(mission, assemble(mission), {}, {}, stop).pings == 0);
         write_file(disk.folder.path / "materials.csv",
                    "material,density_kg_m3,sound_speed_m_s\nconcrete,2401,3100\n");
-        CHECK_THROWS_AS(run_job(mission, {}, {}, stop), InputError);
-        CHECK(run_job(mission, {.overwrite = true}, {}, stop).pings == 2);
+        CHECK_THROWS_AS(run_job(mission, assemble(mission), {}, {}, stop), InputError);
+        CHECK(run_job(mission, assemble(mission), {.overwrite = true}, {}, stop).pings == 2);
     }
 
     TEST_CASE("assemble: the instances of the bottom, for heights") {

@@ -52,7 +52,7 @@ class Status(Sandbox):
         reported = self.status("out", "part2")
         self.assertEqual((reported["state"], reported["variants"]), ("complete", {"done": 3, "all": 3}))
         self.assert_renders("--seed", "8", "--out", "other")
-        self.assert_refused(self.run_sonarsim("status", "out", "other"), "seed: 8 there, 7 here")
+        self.assert_refused(self.run_sonarsim("status", "out", "other"), "holds variants of another mission")
         self.assert_refused(self.run_sonarsim("status", "out", "other/variant_0000"), "no variants.json")
 
     def test_what_is_not_a_dataset(self):

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "dataset/ping_metadata.h"
+#include "dataset/metadata.h"
 #include "job/merge.h"
 #include "job/small_job.h"
 #include "job/status.h"

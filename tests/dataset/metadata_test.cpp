@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "dataset/ping_metadata.h"
 #include "mission/resolved.h"
 #include "sonar/kinds.h"
 #include "support/approx.h"

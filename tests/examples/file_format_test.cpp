@@ -31,10 +31,8 @@ std::string encode_nearest(const FinishedPing& finished) {
     return csv;
 }
 
-std::optional<Writer> make_nearest_writer(const WriterContext& context) {
-    const double bytes_at_most = 16.0 + 24.0 * context.sonar().settings.view.beams;
-    return Writer{.outputs = {PingFile{"nearest", ".csv"}, bytes_at_most, {}},
-                  .encode = encode_nearest};
+std::optional<Writer> make_nearest_writer(const WriterContext&) {
+    return Writer{.per_ping = PingFile{"nearest", ".csv"}, .encode = encode_nearest};
 }
 
 }  // namespace
@@ -63,7 +61,6 @@ TEST_CASE("example of a file format: the nearest echo of each beam") {
                                             .ping = ping,
                                             .measured = {},
                                             .clipped_pixels = 0});
-    CHECK(static_cast<double>(csv.size()) <= writer->outputs.bytes_per_ping);
     std::string expected = "beam,range_m\n";
     for (int j = 0; j < ping.beams; ++j) {
         const auto azimuth = [&](int edge) { return std::fabs(sonar.azimuth_edges_rad[edge]); };

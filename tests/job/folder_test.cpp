@@ -108,13 +108,13 @@ TEST_SUITE("job") {
         const fs::path description = mission.output.folder / "dataset.json";
         edit(description, "\"compiler\": \"", "\"compiler\": \"another ");
         CHECK(run(mission, 4, false).complete);
-        const std::string ours = "x86-64-v3, " + png_encoder();
+        const std::string ours = std::string("x86-64-v3, ") + png_encoder;
         edit(description, "\"arithmetic\": \"x86-64-v3", "\"arithmetic\": \"AVX-512");
         check_refused_unless_overwritten(
             mission, 4,
             "holds a dataset of this mission made by a build of sonarsim whose bytes differ "
             "(AVX-512, " +
-                png_encoder() + "; this one: " + ours + ")");
+                std::string(png_encoder) + "; this one: " + ours + ")");
         edit(description, "\"png_encoder\"", "\"nothing\"");
         check_refused_unless_overwritten(
             mission, 4,

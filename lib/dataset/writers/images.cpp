@@ -2,7 +2,6 @@
 #include <memory>
 
 #include "dataset/writer.h"
-#include "dataset/writers/raw_values.h"
 #include "product/fan.h"
 #include "product/gain.h"
 
@@ -13,9 +12,7 @@ namespace sonarsim {
 /// polar/NNNNNN.npy: float32 [range, azimuth], the intensities as simulated.
 std::optional<Writer> make_polar_writer(const WriterContext& context) {
     if (!context.kind().has_images || !context.mission.output.polar) return std::nullopt;
-    return Writer{.outputs = {PingFile{"polar", ".npy", PingArray::bins},
-                              npy_bytes_at_most(context.sonar().settings.view),
-                              {}},
+    return Writer{.per_ping = PingFile{"polar", ".npy", PingArray::bins},
                   .encode = [](const FinishedPing& finished) {
                       const Ping& ping = finished.ping;
                       return npy_bytes(ping.intensity, ping.range_bins, ping.beams);
@@ -25,12 +22,9 @@ std::optional<Writer> make_polar_writer(const WriterContext& context) {
 /// image/NNNNNN.png: 16 bits [range, azimuth], 65535 * intensity / full_scale.
 std::optional<Writer> make_image_writer(const WriterContext& context) {
     if (!context.kind().has_images || !context.mission.output.image) return std::nullopt;
-    const View& view = context.sonar().settings.view;
     const double white = context.full_scale();
     return Writer{
-        .outputs = {PingFile{"image", ".png", PingArray::bins, {}, "polar"},
-                    png_bytes_at_most(view.beams, view.range_bins, 2),
-                    {}},
+        .per_ping = PingFile{"image", ".png", PingArray::bins, {}, "polar"},
         .encode =
             [white](const FinishedPing& finished) {
                 const Ping& ping = finished.ping;
@@ -45,22 +39,6 @@ std::optional<Writer> make_image_writer(const WriterContext& context) {
             }};
 }
 
-/// raw/NNNNNN.png: 8 or 16 bits [range, azimuth], the output of the calibrated model's instrument.
-std::optional<Writer> make_raw_writer(const WriterContext& context) {
-    const int bytes = raw_bytes(context);
-    if (bytes == 0 || !context.kind().has_images) return std::nullopt;
-    const View& view = context.sonar().settings.view;
-    return array_writer(
-        {PingFile{"raw", ".png", PingArray::bins, {}, "raw"},
-         png_bytes_at_most(view.beams, view.range_bins, bytes),
-         {}},
-        [bytes, &view, &model = *context.sonar().settings.model](const FinishedPing& finished) {
-            return raw_numbers(
-                model.raw(finished.ping), bytes,
-                {static_cast<std::size_t>(view.range_bins), static_cast<std::size_t>(view.beams)});
-        });
-}
-
 /// fan/NNNNNN.png: grey, 8 bits, as an operator sees it.
 std::optional<Writer> make_fan_writer(const WriterContext& context) {
     if (!context.kind().has_images || !context.mission.output.fan) return std::nullopt;
@@ -68,9 +46,7 @@ std::optional<Writer> make_fan_writer(const WriterContext& context) {
     const FanFrame frame = map->frame;
     const double white = context.full_scale();
     const double apex_row = context.sonar().settings.view.range_max_m / frame.pixel_m;
-    return Writer{.outputs = {PingFile{"fan", ".png", PingArray::fan, {}, "fan"},
-                              png_bytes_at_most(frame.width, frame.height, 1),
-                              {}},
+    return Writer{.per_ping = PingFile{"fan", ".png", PingArray::fan, {}, "fan"},
                   .encode =
                       [=](const FinishedPing& finished) {
                           return png_bytes(render_fan(*map, finished.ping, white), frame.width,
@@ -108,9 +84,7 @@ std::optional<Writer> make_stages_writer(const WriterContext& context) {
         }
         return png_bytes(picture, whole, map->frame.height);
     };
-    return Writer{.outputs = {PingFile{"stages", ".png", PingArray::none, {}, "stages"},
-                              png_bytes_at_most(whole, map->frame.height, 1),
-                              {}},
+    return Writer{.per_ping = PingFile{"stages", ".png", PingArray::none, {}, "stages"},
                   .encode = encode};
 }
 

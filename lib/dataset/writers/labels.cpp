@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include "dataset/writers/label_writers.h"
@@ -24,11 +25,6 @@ bool is_blank(const std::uint16_t* beams, std::size_t range_bins, std::size_t i0
     return any == 0;
 }
 
-/// Floats count as never blank.
-bool is_blank(const float*, std::size_t, std::size_t, std::size_t, std::size_t) {
-    return false;
-}
-
 /// Transposes [beams, range bins] to [range bins, beams], in tiles that fit into the L1 cache.
 template <class T>
 std::vector<T> rows_of_range(const std::vector<T>& by_beam, const PingLabels& labels) {
@@ -41,7 +37,9 @@ std::vector<T> rows_of_range(const std::vector<T>& by_beam, const PingLabels& la
         for (std::size_t j0 = 0; j0 < columns; j0 += tile) {
             const std::size_t i1 = std::min(i0 + tile, rows);
             const std::size_t j1 = std::min(j0 + tile, columns);
-            if (is_blank(by_beam.data() + j0 * rows, rows, i0, i1, j1 - j0)) continue;
+            if constexpr (std::is_integral_v<T>) {
+                if (is_blank(by_beam.data() + j0 * rows, rows, i0, i1, j1 - j0)) continue;
+            }
             for (std::size_t i = i0; i < i1; ++i) {
                 for (std::size_t j = j0; j < j1; ++j)
                     out[i * columns + j] = by_beam[j * rows + i];
@@ -155,20 +153,14 @@ PingNumbers label_numbers(const WriterContext& context, const LabelFile& file,
 /// NAME/NNNNNN.png or .npy with the rows and columns of the image, or a record per ping in
 /// NAME.npy.
 Writer label_writer(const WriterContext& context, const LabelFile& file) {
-    const View& view = context.sonar().settings.view;
-    WriterOutputs outputs;
-    if (context.kind().has_images) {
-        outputs = {PingFile{file.name, file.ids_of ? ".png" : ".npy", PingArray::bins, file.ids},
-                   file.ids_of ? png_bytes_at_most(view.beams, view.range_bins, 2)
-                               : npy_bytes_at_most(view),
-                   {}};
-    } else {
-        outputs = record_outputs(context, file.name, file.ids_of ? "<u2" : "<f4",
-                                 file.ids_of ? 2 : 4, file.name);
-        std::get<PingRecord>(outputs.per_ping).ids = file.ids;
-    }
+    PingOutput output;
+    if (context.kind().has_images)
+        output = PingFile{file.name, file.ids_of ? ".png" : ".npy", PingArray::bins, file.ids};
+    else
+        output =
+            record_of_kind(context, file.name, file.ids_of ? "<u2" : "<f4", file.name, file.ids);
     return array_writer(
-        std::move(outputs),
+        std::move(output),
         [context, &file](const FinishedPing& ping) { return label_numbers(context, file, ping); },
         PngFilter::up);
 }
@@ -181,11 +173,8 @@ Writer fan_label_writer(const WriterContext& context, const LabelFile& file) {
                                        file.ids_of(finished.labels->bins), std::uint16_t{0}),
                             frame.height, frame.width);
     };
-    return array_writer(
-        {PingFile{std::string("fan_") + file.name, ".png", PingArray::fan, file.ids},
-         png_bytes_at_most(frame.width, frame.height, 2),
-         {}},
-        pixels, PngFilter::up);
+    return array_writer(PingFile{std::string("fan_") + file.name, ".png", PingArray::fan, file.ids},
+                        pixels, PngFilter::up);
 }
 
 }  // namespace

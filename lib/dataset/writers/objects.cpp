@@ -8,7 +8,6 @@
 #include "dataset/annotated_objects.h"
 #include "dataset/json.h"
 #include "dataset/writers/label_writers.h"
-#include "format/coco_counts.h"
 #include "sonar/setup.h"
 
 namespace sonarsim {
@@ -129,15 +128,7 @@ class PingObjects {
 }  // namespace
 
 Writer objects_writer(const WriterContext& context) {
-    constexpr double longest_object = 2000.0;
-    constexpr double masks_per_pixel = 1.0;  // bytes, where ids are as ragged as noise
-    const View& view = context.sonar().settings.view;
-    const double bins = static_cast<double>(view.range_bins) * view.beams;
-    const auto objects = static_cast<double>(context.assembly.objects.objects.size());
-    const FanFrame fan = fan_frame(context.sonar());
-    const double bytes = 100.0 + longest_object * std::min(objects, bins) +
-                         masks_per_pixel * (bins + static_cast<double>(fan.width) * fan.height);
-    return {.outputs = {PingFile{"objects", ".json"}, bytes, {}},
+    return {.per_ping = PingFile{"objects", ".json"},
             .encode = [facts = std::make_shared<const PingObjects>(context)](
                           const FinishedPing& finished) { return facts->text(finished); }};
 }

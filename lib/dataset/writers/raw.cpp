@@ -1,19 +1,23 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "dataset/averaged_rows.h"
 #include "dataset/writer.h"
-#include "dataset/writers/raw_values.h"
-#include "dataset/writers/strip_rows.h"
 #include "product/scan.h"
 
 namespace sonarsim {
 
+namespace {
+
+/// Bytes of a value that the instrument of the calibrated model delivers; 0 if the mission or the
+/// model has none.
 int raw_bytes(const WriterContext& context) {
     const int bits = context.sonar().settings.model->info.raw_bits;
     if (!context.mission.output.raw || bits == 0) return 0;
     return bits > 8 ? 2 : 1;
 }
 
+/// Values of an instrument, as bytes if they have one byte each.
 PingNumbers raw_numbers(std::vector<std::uint16_t> values, int bytes,
                         std::vector<std::size_t> shape) {
     if (bytes == 2) return {std::move(values), std::move(shape)};
@@ -22,8 +26,6 @@ PingNumbers raw_numbers(std::vector<std::uint16_t> values, int bytes,
                            [](std::uint16_t v) { return static_cast<std::uint8_t>(v); });
     return {std::move(narrow), std::move(shape)};
 }
-
-namespace {
 
 /// Makes the pictures of raw.npy, whose numbers are of type T.
 template <class T>
@@ -72,6 +74,20 @@ void write_raw_pictures(const WriterContext& context, const RecordFile& records,
 
 }  // namespace
 
+/// raw/NNNNNN.png: 8 or 16 bits [range, azimuth], the output of the calibrated model's instrument.
+std::optional<Writer> make_raw_writer(const WriterContext& context) {
+    const int bytes = raw_bytes(context);
+    if (bytes == 0 || !context.kind().has_images) return std::nullopt;
+    const View& view = context.sonar().settings.view;
+    return array_writer(
+        PingFile{"raw", ".png", PingArray::bins, {}, "raw"},
+        [bytes, &view, &model = *context.sonar().settings.model](const FinishedPing& finished) {
+            return raw_numbers(
+                model.raw(finished.ping), bytes,
+                {static_cast<std::size_t>(view.range_bins), static_cast<std::size_t>(view.beams)});
+        });
+}
+
 /// raw.npy: 8 or 16 bits, the output of the calibrated model's instrument, in the shape of the
 /// sonar's other records. raw.png is the same as a picture; a scanning sonar has a picture [range,
 /// step] for each sweep, raw_0000.png and so on. Values of an instrument have no mean: where
@@ -81,22 +97,19 @@ std::optional<Writer> make_raw_records_writer(const WriterContext& context) {
     if (bytes == 0 || context.kind().has_images) return std::nullopt;
     const RecordShape& shape = context.kind().record;
     const SonarConfig& config = context.sonar().config;
-    const auto values = static_cast<int>(shape.values(config));
-    WriterOutputs outputs =
-        record_outputs(context, "raw", bytes == 1 ? "|u1" : "<u2", bytes, "raw");
+    Writer writer = array_writer(
+        record_of_kind(context, "raw", bytes == 1 ? "|u1" : "<u2", "raw"),
+        [=, &shape, &config](const FinishedPing& f) {
+            const std::vector<std::uint16_t> raw = context.sonar().settings.model->raw(f.ping);
+            return raw_numbers(record_values<std::uint16_t>(shape, config, raw, 0), bytes,
+                               {shape.values(config)});
+        });
     if (shape.pictures == RecordPictures::sweeps) {
-        for (std::size_t sweep = 0; sweep < scan_sweeps(config, context.pings); ++sweep) {
-            outputs.products.push_back({scan_file_name("raw", sweep, ".png"),
-                                        png_bytes_at_most(scan_steps(config), values, bytes)});
-        }
+        for (std::size_t sweep = 0; sweep < scan_sweeps(config, context.pings); ++sweep)
+            writer.products.push_back(scan_file_name("raw", sweep, ".png"));
     } else {
-        outputs.products.push_back({"raw.png", strip_bytes_at_most(context, bytes)});
+        writer.products = {"raw.png"};
     }
-    Writer writer = array_writer(std::move(outputs), [=, &shape, &config](const FinishedPing& f) {
-        const std::vector<std::uint16_t> raw = context.sonar().settings.model->raw(f.ping);
-        return raw_numbers(record_values<std::uint16_t>(shape, config, raw, 0), bytes,
-                           {static_cast<std::size_t>(values)});
-    });
     writer.write_products = [=](const RecordFile& records, const std::filesystem::path& folder) {
         bytes == 1 ? write_raw_pictures<std::uint8_t>(context, records, folder)
                    : write_raw_pictures<std::uint16_t>(context, records, folder);

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "core/atomic_file.h"
+#include "core/file.h"
 #include "dataset/writer.h"
 #include "product/fan.h"
 
@@ -23,13 +23,11 @@ void write_displays(const WriterContext& context, const FanMap& map, const Recor
         },
         [&](std::size_t sweep, std::size_t) {
             const Ping& image = display.image();
-            StreamedFile array(folder / scan_file_name(stem, sweep, ".npy"));
-            array.append(npy_bytes(image.intensity, image.range_bins, image.beams));
-            array.finish();
-            StreamedFile picture(folder / scan_file_name(stem, sweep, ".png"));
-            picture.append(png_bytes(render_fan(map, image, context.full_scale()), map.frame.width,
-                                     map.frame.height));
-            picture.finish();
+            write_file(folder / scan_file_name(stem, sweep, ".npy"),
+                       npy_bytes(image.intensity, image.range_bins, image.beams));
+            write_file(folder / scan_file_name(stem, sweep, ".png"),
+                       png_bytes(render_fan(map, image, context.full_scale()), map.frame.width,
+                                 map.frame.height));
         });
 }
 
@@ -45,12 +43,10 @@ std::optional<Writer> make_scan_writer(const WriterContext& context) {
     const std::string stem(shape.name);
     const auto map = std::make_shared<const FanMap>(make_fan_map(whole_scan(context.sonar())));
     const auto steps = static_cast<std::size_t>(scan_steps(config));
-    const double values = static_cast<double>(config.range_bins) * static_cast<double>(steps);
-    WriterOutputs outputs = record_outputs(context, stem, "<f4", 4);
+    std::vector<std::string> products;
     for (std::size_t sweep = 0; sweep < scan_sweeps(config, context.pings); ++sweep) {
-        outputs.products.push_back({scan_file_name(stem, sweep, ".npy"), 128.0 + 4.0 * values});
-        outputs.products.push_back({scan_file_name(stem, sweep, ".png"),
-                                    png_bytes_at_most(map->frame.width, map->frame.height, 1)});
+        for (const char* extension : {".npy", ".png"})
+            products.push_back(scan_file_name(stem, sweep, extension));
     }
     const auto describe = [=](nlohmann::ordered_json& sensor) {
         const Sonar& sonar = context.sonar();
@@ -64,7 +60,8 @@ std::optional<Writer> make_scan_writer(const WriterContext& context) {
                                       {"radius_px", sonar.config.range_max_m / map->frame.pixel_m},
                                       {"width_px", map->frame.width}});
     };
-    return Writer{.outputs = std::move(outputs),
+    return Writer{.per_ping = record_of_kind(context, stem, "<f4"),
+                  .products = std::move(products),
                   .encode = [](const FinishedPing& f) { return record_bytes(f.ping.intensity); },
                   .write_products =
                       [=](const RecordFile& records, const std::filesystem::path& folder) {

@@ -3,7 +3,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <nlohmann/json.hpp>
 
@@ -51,13 +50,6 @@ void for_each_sounding(const SoundingSource& source,
     }
 }
 
-template <class T>
-void append_raw(std::string& bytes, T value) {
-    char raw[sizeof(T)];
-    std::memcpy(raw, &value, sizeof(T));
-    bytes.append(raw, sizeof(T));
-}
-
 /// True if a sounding belongs in a map.
 bool good_for_map(const RecordedSounding& sounding) {
     return sounding.quality >= map_quality;
@@ -96,13 +88,9 @@ void write_soundings(const SoundingSource& source, const std::filesystem::path& 
     ply.append("ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(count) +
                "\nproperty double x\nproperty double y\nproperty double z\n"
                "property float quality\nend_header\n");
-    std::string vertex;
     for_each_sounding(source, [&](const RecordedSounding& s) {
-        vertex.clear();
-        for (const double value : {s.position.x(), s.position.y(), s.position.z()})
-            append_raw(vertex, value);
-        append_raw(vertex, static_cast<float>(s.quality));
-        ply.append(vertex);
+        ply.append(record_bytes(std::vector{s.position.x(), s.position.y(), s.position.z()}));
+        ply.append(record_bytes(std::vector{static_cast<float>(s.quality)}));
     });
     ply.finish();
 }
@@ -148,21 +136,7 @@ std::vector<double> sounding_fields(const WriterContext& context, const Finished
 std::optional<Writer> make_soundings_writer(const WriterContext& context) {
     const SonarConfig& config = context.sonar().config;
     if (config.kind != SonarKind::profiling) return std::nullopt;
-    constexpr double csv_line = 160.0;
-    constexpr double ply_vertex = 28.0;
     const std::size_t beams = context.sonar().settings.view.beams;
-    const double soundings = static_cast<double>(beams) * static_cast<double>(context.pings);
-    // A cell has four soundings on average, before its size is rounded up.
-    const double cells = 1.0 + soundings / 4.0;
-    WriterOutputs outputs =
-        record_outputs("soundings.npy", {"<f8", {context.pings, beams, fields_of_sounding}},
-                       {"ping", "beam", "range_m, x_m, y_m, z_m, quality"},
-                       8.0 * static_cast<double>(fields_of_sounding * beams));
-    outputs.products = {{"soundings.csv", 60.0 + csv_line * soundings},
-                        {"soundings.ply", 200.0 + ply_vertex * soundings},
-                        {"bathymetry.tif", 1000.0 + 4.0 * cells},
-                        {"bathymetry.json", 1000.0},
-                        {"bathymetry.png", png_bytes_at_most(4096, 4096, 3)}};
     const auto write_products = [=, &config](const RecordFile& records,
                                              const std::filesystem::path& folder) {
         const SoundingSource source{records, beams, static_cast<std::uint32_t>(config.every),
@@ -170,7 +144,13 @@ std::optional<Writer> make_soundings_writer(const WriterContext& context) {
         write_soundings(source, folder);
         write_bathymetry(source, folder);
     };
-    return Writer{.outputs = std::move(outputs),
+    PingRecord record;
+    record.file = "soundings.npy";
+    record.format = {"<f8", {context.pings, beams, fields_of_sounding}};
+    record.axes = {"ping", "beam", "range_m, x_m, y_m, z_m, quality"};
+    return Writer{.per_ping = std::move(record),
+                  .products = {"soundings.csv", "soundings.ply", "bathymetry.tif",
+                               "bathymetry.json", "bathymetry.png"},
                   .encode =
                       [=](const FinishedPing& finished) {
                           return record_bytes(sounding_fields(context, finished));

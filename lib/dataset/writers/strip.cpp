@@ -1,12 +1,17 @@
 #include <algorithm>
+#include <iterator>
 
 #include "dataset/averaged_rows.h"
 #include "dataset/writer.h"
-#include "dataset/writers/strip_rows.h"
-#include "dataset/writers/swath_files.h"
 #include "product/gain.h"
 
 namespace sonarsim {
+
+// The files of a side-scan sonar for other programs that the mission asks for, made of
+// waterfall.npy: waterfall.xtf, and mosaic.tif with mosaic.json.
+std::vector<std::string> swath_products(const WriterContext& context);
+void write_swath_files(const WriterContext& context, const RecordFile& rows,
+                       const std::filesystem::path& folder);
 
 namespace {
 
@@ -78,16 +83,11 @@ std::optional<Writer> make_strip_writer(const WriterContext& context) {
     const RecordShape& shape = context.kind().record;
     if (shape.pictures != RecordPictures::strip) return std::nullopt;
     const SonarConfig& config = context.sonar().config;
-    const StripFrame frame = frame_of(context);
-    WriterOutputs outputs = record_outputs(context, std::string(shape.name), "<f4", 4);
-    outputs.products = {{plain_name(shape), strip_bytes_at_most(context, 2)},
-                        {view_name(shape), png_bytes_at_most(frame.width, frame.height, 3)}};
-    if (shape.two_sides) {
-        for (Product& product : swath_products(context))
-            outputs.products.push_back(std::move(product));
-    }
+    std::vector<std::string> products{plain_name(shape), view_name(shape)};
+    if (shape.two_sides) std::ranges::move(swath_products(context), std::back_inserter(products));
     return Writer{
-        .outputs = std::move(outputs),
+        .per_ping = record_of_kind(context, std::string(shape.name), "<f4"),
+        .products = std::move(products),
         .encode =
             [&shape, &config](const FinishedPing& finished) {
                 return record_bytes(record_values(shape, config, finished.ping.intensity, 0.0F));

@@ -1,5 +1,3 @@
-#include "dataset/writers/swath_files.h"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -12,6 +10,7 @@
 #include "core/pose.h"
 #include "core/units.h"
 #include "dataset/json.h"
+#include "dataset/writer.h"
 #include "format/geotiff.h"
 #include "format/xtf.h"
 #include "product/gain.h"
@@ -130,18 +129,11 @@ void write_mosaic(const WriterContext& context, const RecordFile& rows,
 
 }  // namespace
 
-std::vector<Product> swath_products(const WriterContext& context) {
-    std::vector<Product> products;
-    const auto columns = static_cast<std::size_t>(waterfall_columns(context.sonar().config));
-    if (context.mission.output.xtf) {
-        products.push_back(
-            {"waterfall.xtf", 1024.0 + static_cast<double>(xtf_record_bytes(columns)) *
-                                           static_cast<double>(context.pings)});
-    }
-    if (context.mission.output.mosaic) {
-        products.push_back({"mosaic.tif", 1000.0 + 4.0 * most_map_cells});
-        products.push_back({"mosaic.json", 1000.0});
-    }
+std::vector<std::string> swath_products(const WriterContext& context) {
+    std::vector<std::string> products;
+    if (context.mission.output.xtf) products = {"waterfall.xtf"};
+    if (context.mission.output.mosaic)
+        products.insert(products.end(), {"mosaic.tif", "mosaic.json"});
     return products;
 }
 
