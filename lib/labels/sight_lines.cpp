@@ -20,8 +20,8 @@ SightLine line_behind(const Sample& sample, const Arrival& place, float share_u,
     return {.direction = direction,
             .before_m = range,
             .range_m = range,
-            .solid_angle = share_u * share_v * sample.area_m2 * sample.height_m /
-                           (range * range * range),
+            .solid_angle =
+                share_u * share_v * sample.area_m2 * sample.height_m / (range * range * range),
             .sample = &sample,
             .share_u = share_u,
             .share_v = share_v,
@@ -39,26 +39,6 @@ int parts_of(const Eigen::Vector3f& half_edge, const SightLine& line, const Cone
     const float width = 0.5F * line.before_m * cones.mean_width();
     const float parts = std::max(std::fabs(across.y()), across.norm() / along_beam) / width;
     return static_cast<int>(std::ceil(std::clamp(parts, 1.0F, most)));
-}
-
-/// For each sample, whether it has a direct echo. Targets have echoes of their own facets: their
-/// samples count if a facet of the same instance has one.
-std::vector<bool> received_samples(const SurfaceEchoes& echoes, const Samples& samples) {
-    std::vector<bool> received(samples.items.size());
-    std::vector<std::uint32_t> targets;
-    const Sample* const first = samples.items.data();
-    const Sample* const last = first + samples.items.size();
-    for (const Sample* const sample : echoes.direct.sample) {
-        if (!std::less<>()(sample, first) && std::less<>()(sample, last))
-            received[static_cast<std::size_t>(sample - first)] = true;
-        else if (std::ranges::find(targets, sample->instance) == targets.end())
-            targets.push_back(sample->instance);
-    }
-    for (std::size_t k = 0; k < received.size(); ++k) {
-        if (std::ranges::find(targets, samples.items[k].instance) != targets.end())
-            received[k] = true;
-    }
-    return received;
 }
 
 /// The change of a plane's range along the half edge of the footprint in front of it.
@@ -88,12 +68,10 @@ std::vector<SightLine> sight_lines(const TracedPing& traced, const SurfaceEchoes
         }
         return lines;
     }
-    std::vector<bool> received;
-    if (echoes.main_lobe_alone) received = received_samples(echoes, samples);
     for (int j = 0; j < beams; ++j) {
         for (const Sample& sample : samples.beam(j)) {
-            if (received.empty() ||
-                received[static_cast<std::size_t>(&sample - samples.items.data())])
+            const std::ptrdiff_t k = &sample - samples.items.data();
+            if (echoes.received.empty() || echoes.received[static_cast<std::size_t>(k)] != 0)
                 add(sample, arrival_of(sample.position), j);
         }
     }
