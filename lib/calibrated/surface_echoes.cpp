@@ -217,9 +217,9 @@ class SurfaceEchoFinder {
     }
 
     EchoPatch patch_of(const PatchBlock& pieces, int k, const Sample& sample) const {
-        const auto [range, direction] = arrival_of(sample.position);
+        const Arrival at = arrival_of(sample.position);
         const auto part_of = [&](const Eigen::Vector3f& edge) -> Eigen::Vector3f {
-            const int parts = patches_along(extents_of(edge, direction), range, limits_);
+            const int parts = patches_along(extents_of(edge, at.direction), at.range_m, limits_);
             return edge / static_cast<float>(parts);
         };
         return {.position = {pieces.x[k], pieces.y[k], pieces.z[k]},
