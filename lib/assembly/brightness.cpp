@@ -3,6 +3,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -57,16 +58,16 @@ std::vector<std::uint8_t> bins_with_surface(const TracedPing& traced, const Ping
     const bool all = settings.view.shape == ViewShape::cone || !settings.model->info.energies_add;
     std::vector<std::uint8_t> out(beams * static_cast<std::size_t>(bins.count), all ? 1 : 0);
     if (all) return out;
-    std::vector<std::uint8_t> column;
+    const std::array<std::uint32_t, EchoBlock::most> one_source{};
     const auto mark = [&](const TracedPing& group, int number) {
-        const SurfaceEchoes echoes =
-            settings.model->surface_echoes(group, settings.view, scene, false);
+        EchoSums sums(bins, settings.view.beams);
+        settings.model->surface_echoes(
+            group, settings.view, scene, false,
+            [&](const EchoBlock& echoes) { sums.add(echoes, one_source); });
         for (std::size_t j = 0; j < beams; ++j) {
             if (!traced.group_of_beam.empty() && traced.group_of_beam[j] != number) continue;
-            column.assign(static_cast<std::size_t>(bins.count) + 1, 0);
-            for (const BeamEchoes* const of : {&echoes.direct, &echoes.multipath})
-                mark_occupied(of->boxes, of->beam_begin[j], of->beam_begin[j + 1], bins, column);
-            for (std::size_t i = 0; i + 1 < column.size(); ++i)
+            const std::span<const std::uint8_t> column = sums.occupied(static_cast<int>(j));
+            for (std::size_t i = 0; i < column.size(); ++i)
                 out[i * beams + j] = column[i];
         }
     };

@@ -32,17 +32,29 @@ double element_count(const LineArray& array) {
     return std::max(1.0, std::round(2.0 * array.wavelengths));
 }
 
-std::complex<double> pattern_with_errors(const LineArray& array, const ElementsConfig& elements,
-                                         ElementAxis axis, double u) {
-    const int count = static_cast<int>(element_count(array));
-    const std::vector<std::complex<double>> errors = element_errors(elements, count, axis);
-    std::complex<double> sum = 0.0;
-    for (int n = 0; n < count; ++n) {
-        const double x = (n + 0.5) / count - 0.5;
-        const SinCos phase = sincos(2.0 * pi * array.wavelengths * x * u);
-        sum += array.weight(x) * errors[n] * std::complex<double>(phase.cos, phase.sin);
+PatternWithErrors::PatternWithErrors(const LineArray& array, const ElementsConfig& elements,
+                                     ElementAxis axis)
+    : array_(array) {
+    if (!elements.exist()) return;
+    const double count = element_count(array);
+    errors_ = element_errors(elements, static_cast<int>(count), axis);
+    for (std::size_t n = 0; n < errors_.size(); ++n) {
+        const double x = (static_cast<double>(n) + 0.5) / count - 0.5;
+        errors_[n] = array.weight(x) * errors_[n];
     }
-    return line_pattern(array, u) + sum / static_cast<double>(count);
+}
+
+std::complex<double> PatternWithErrors::operator()(double u) const {
+    const double pattern = line_pattern(array_, u);
+    if (errors_.empty()) return pattern;
+    const auto count = static_cast<double>(errors_.size());
+    std::complex<double> sum = 0.0;
+    for (std::size_t n = 0; n < errors_.size(); ++n) {
+        const double x = (static_cast<double>(n) + 0.5) / count - 0.5;
+        const SinCos phase = sincos(2.0 * pi * array_.wavelengths * x * u);
+        sum += errors_[n] * std::complex<double>(phase.cos, phase.sin);
+    }
+    return pattern + sum / count;
 }
 
 }  // namespace sonarsim

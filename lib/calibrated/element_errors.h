@@ -26,9 +26,17 @@ std::vector<std::complex<double>> element_errors(const ElementsConfig& elements,
 /// The number of an array's elements, half a wavelength apart.
 double element_count(const LineArray& array);
 
-/// The amplitude off the axis of an array with the errors of its elements. `array` has no errors of
-/// phase.
-std::complex<double> pattern_with_errors(const LineArray& array, const ElementsConfig& elements,
-                                         ElementAxis axis, double u);
+/// The pattern of an array with the errors of its elements. `array` has no errors of phase.
+class PatternWithErrors {
+  public:
+    PatternWithErrors(const LineArray& array, const ElementsConfig& elements, ElementAxis axis);
+
+    /// The amplitude at the sine u.
+    std::complex<double> operator()(double u) const;
+
+  private:
+    LineArray array_;
+    std::vector<std::complex<double>> errors_;  ///< times the weights; empty: none
+};
 
 }  // namespace sonarsim

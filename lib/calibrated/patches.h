@@ -23,6 +23,7 @@ struct PatchBlock {
     Array<float> x{}, y{}, z{};  ///< m, sensor frame
     Array<float> area_m2{};      ///< times the strength of the sample, since energies add
     Array<float> height_m{};     ///< the sonar's height above the piece's plane
+    Array<float> half_range_m{}, half_sine{};  ///< half extents, of pieces of samples
     Array<std::uint32_t> material{};
     Array<std::uint32_t> sample{};  ///< index into the samples that are cut, if they are
 };
@@ -34,11 +35,10 @@ struct PointLimits {
     float elevation_sine = 0.0F;  ///< in elevation, z / range; 0: any
 };
 
-/// The number of pieces along a half edge.
-inline int patches_along(const Eigen::Vector3f& half_edge, const Eigen::Vector3f& direction,
-                         float range_m, const PointLimits& limits) {
+/// The number of pieces along a half edge with these extents.
+inline int patches_along(const EdgeExtents& half_edge, float range_m, const PointLimits& limits) {
     constexpr float most = 256.0F;
-    const auto [depth, y, z] = extents_of(half_edge, direction);
+    const auto [depth, y, z] = half_edge;
     float wanted = 1.0F;
     const float per_range = 2.0F / range_m;
     if (limits.depth_m > 0.0F) wanted = std::max(wanted, 2.0F * std::fabs(depth) / limits.depth_m);
@@ -46,6 +46,21 @@ inline int patches_along(const Eigen::Vector3f& half_edge, const Eigen::Vector3f
     if (limits.elevation_sine > 0.0F)
         wanted = std::max(wanted, std::fabs(z) * per_range / limits.elevation_sine);
     return static_cast<int>(std::ceil(std::min(wanted, most)));
+}
+
+/// Half the extents of a piece in range, and across the beams.
+struct HalfExtents {
+    float range_m, sine;
+};
+
+/// Half the extents of a piece of a footprint with the half edges `u` and `v` that is cut into rows
+/// and columns.
+inline HalfExtents half_extents(const EdgeExtents& u, const EdgeExtents& v, float range_m,
+                                int rows = 1, int columns = 1) {
+    const auto by_u = static_cast<float>(rows);
+    const auto by_v = static_cast<float>(columns);
+    return {std::fabs(u.depth) / by_u + std::fabs(v.depth) / by_v,
+            std::fabs(u.y) / range_m / by_u + std::fabs(v.y) / range_m / by_v};
 }
 
 /// Calls use(s, t) for the middles of the pieces of a footprint that is cut into rows along one
@@ -71,8 +86,11 @@ void subdivide(std::span<const Sample> samples, std::optional<ViewShape> shape,
         const Sample& sample = samples[number];
         const auto [range, direction] = arrival_of(sample.position);
         if (!(range > 0.0F)) continue;
-        const int by_u = patches_along(sample.edge_u, direction, range, limits);
-        const int by_v = patches_along(sample.edge_v, direction, range, limits);
+        const EdgeExtents u = extents_of(sample.edge_u, direction);
+        const EdgeExtents v = extents_of(sample.edge_v, direction);
+        const int by_u = patches_along(u, range, limits);
+        const int by_v = patches_along(v, range, limits);
+        const HalfExtents half = half_extents(u, v, range, by_u, by_v);
         // Rows are long, since they are written in whole vectors.
         const int rows = std::min(by_u, by_v);
         const int columns = std::max(by_u, by_v);
@@ -107,6 +125,8 @@ void subdivide(std::span<const Sample> samples, std::optional<ViewShape> shape,
                 along_row(pieces.z, row.z(), step_v.z());
                 along_row(pieces.area_m2, area_of_row, area_step);
                 std::fill_n(pieces.height_m.data() + at, PatchBlock::spare, sample.height_m);
+                std::fill_n(pieces.half_range_m.data() + at, PatchBlock::spare, half.range_m);
+                std::fill_n(pieces.half_sine.data() + at, PatchBlock::spare, half.sine);
                 std::fill_n(pieces.material.data() + at, PatchBlock::spare, sample.material);
                 std::fill_n(pieces.sample.data() + at, PatchBlock::spare, number);
                 pieces.count += std::min(columns - first, PatchBlock::spare);

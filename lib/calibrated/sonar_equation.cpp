@@ -104,15 +104,11 @@ ElevationPattern elevation_pattern(double width_rad, double side_lobe_db,
                                    const ElementsConfig& elements) {
     ElevationPattern out;
     if (width_rad <= 0.0) return out;
-    const LineArray array = line_array(width_rad, side_lobe_db);
+    const PatternWithErrors pattern(line_array(width_rad, side_lobe_db), elements,
+                                    ElementAxis::elevation);
     for (int k = 0; k <= ElevationPattern::steps + 1; ++k) {
         const double sine = 2.0 * k / ElevationPattern::steps - 1.0;
-        const double pattern = line_pattern(array, sine);
-        const double power =
-            elements.exist()
-                ? std::norm(pattern_with_errors(array, elements, ElementAxis::elevation, sine))
-                : pattern * pattern;
-        out.power.push_back(static_cast<float>(power));
+        out.power.push_back(static_cast<float>(std::norm(pattern(sine))));
     }
     return out;
 }

@@ -89,7 +89,7 @@ int pieces_of_both(const SpecularPath& piece, const Eigen::Vector3f SpecularPath
     for (const SpecularPath::Place* place : {&piece.point, &piece.image_source}) {
         const Arrival arrival = arrival_of(place->at);
         most =
-            std::max(most, patches_along(place->*edge, arrival.direction, arrival.range_m, limits));
+            std::max(most, patches_along(extents_of(place->*edge, arrival.direction), arrival.range_m, limits));
     }
     return most;
 }

@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <utility>
 
-#include "calibrated/cut_sample.h"
-#include "calibrated/found_echoes.h"
 #include "calibrated/model.h"
 #include "calibrated/patches.h"
 #include "calibrated/specular_echoes.h"
@@ -55,32 +54,36 @@ std::vector<Sample> samples_of(const TargetSurface& targets) {
 template <class Beams>
 class SurfaceEchoFinder {
   public:
-    SurfaceEchoFinder(const CalibratedModel& model, const Beams& beams, ViewShape shape,
-                      bool patches)
+    SurfaceEchoFinder(const CalibratedModel& model, const Beams& beams, const TracedPing& traced,
+                      ViewShape shape, bool patches, const UseEchoes& use)
         : model_(model),
           beams_(beams),
+          samples_(traced.samples.items),
           shape_(shape),
           limits_(label_limits(model)),
-          patches_(patches) {}
+          patches_(patches),
+          blocks_(use) {
+        if constexpr (has_side_lobes) received_.resize(samples_.size());
+    }
 
     /// Adds the echoes of a surface without its targets.
     void add_surface(std::span<const Sample> surface, const TargetSurface& targets) {
-        CutSample cut;
-        const auto cut_at = [&](int k) -> const CutSample& {
-            const Sample& sample = surface[pieces_.sample[k]];
-            if (cut.sample != &sample) cut = cut_of(sample, limits_);
-            return cut;
-        };
-        const auto half_sine = [&](int k) { return cut_at(k).half.sine; };
         subdivide(surface, shape_, limits_, pieces_, [&](const PatchBlock& pieces) {
             last_piece_ = -1;
             apply_sonar_equation(pieces, model_.scattering, model_.equation, echoes_);
+            const auto is_target = [&](int k) {
+                return targets.has(surface[pieces.sample[k]].instance);
+            };
+            for (int k = 0; !targets.instances.empty() && k < pieces.count; ++k) {
+                const bool known = k > 0 && pieces.sample[k] == pieces.sample[k - 1];
+                target_[k] = known ? target_[k - 1] : is_target(k);
+                if (target_[k]) echoes_.power[k] = 0.0F;
+            }
+            const auto half_sine = [&](int k) { return pieces.half_sine[k]; };
             for_each_beam(pieces, echoes_, nullptr, half_sine, [&](int beam, int k, float power) {
-                const CutSample& of = cut_at(k);
-                if (targets.has(of.sample->instance)) return;
-                direct_.push_back({static_cast<std::uint32_t>(beam), echoes_.range_m[k],
-                                   of.half.range_m, power, of.sample});
-                if (patches_) add_echo(beam, k, power, [&] { return patch_of(pieces, k, of); });
+                const Sample& sample = surface[pieces.sample[k]];
+                add_direct(beam, echoes_.range_m[k], pieces.half_range_m[k], power, sample);
+                if (patches_) add_echo(beam, k, power, [&] { return patch_of(pieces, k, sample); });
             });
         });
     }
@@ -96,20 +99,22 @@ class SurfaceEchoFinder {
             };
             last_piece_ = -1;
             PatchBlock::Array<HalfExtents> half;
-            for (int k = 0; k < points.count; ++k)
-                half[k] = half_extents(cut.edge_u[k], cut.edge_v[k], arrival_of(place(k)));
+            for (int k = 0; k < points.count; ++k) {
+                const auto [range, direction] = arrival_of(place(k));
+                half[k] = half_extents(extents_of(cut.edge_u[k], direction),
+                                       extents_of(cut.edge_v[k], direction), range);
+            }
             apply_sonar_equation(points, model_.scattering, model_.equation, echoes_);
             const auto half_sine = [&](int k) { return half[k].sine; };
             for_each_beam(points, echoes_, nullptr, half_sine, [&](int beam, int k, float power) {
-                const Sample* const sample = &target_samples_[cut.facet[k]];
-                direct_.push_back({static_cast<std::uint32_t>(beam), echoes_.range_m[k],
-                                   half[k].range_m, power, sample});
+                const Sample& sample = target_samples_[cut.facet[k]];
+                add_direct(beam, echoes_.range_m[k], half[k].range_m, power, sample);
                 if (!patches_) return;
                 add_echo(beam, k, power, [&] {
                     return EchoPatch{.position = place(k),
                                      .edge_u = cut.edge_u[k],
                                      .edge_v = cut.edge_v[k],
-                                     .sample = sample};
+                                     .sample = &sample};
                 });
             });
         });
@@ -130,14 +135,15 @@ class SurfaceEchoFinder {
                        });
     }
 
-    void add_multipath(const TracedPing& traced, const std::vector<SpecularPath>& paths) {
+    void add_multipath(const std::vector<SpecularPath>& paths) {
+        blocks_.begin_multipath();
         const SonarEquation& equation = model_.equation;
         const auto use = [&](const SpecularBlock& block) {
             const auto add = [&](int beam, int k, float power) {
                 const float range_m =
                     equation.range_min_m + (block.echoes.row[k] + 0.5F) * equation.bin_m;
-                multipath_.push_back({static_cast<std::uint32_t>(beam), range_m, 0.0F, power,
-                                      &traced.samples.items[paths[block.path[k]].sample]});
+                blocks_.add(static_cast<std::uint32_t>(beam), range_m, 0.0F, power, 1.0F,
+                            &samples_[paths[block.path[k]].sample]);
             };
             const auto point = [](int) { return 0.0F; };
             for_each_beam(block.places, block.echoes, &block.out, point, add);
@@ -145,12 +151,16 @@ class SurfaceEchoFinder {
         find_specular_echoes(paths, model_.scattering.materials, equation, model_.limits, use);
     }
 
-    SurfaceEchoes take(int beams) {
+    SurfaceEchoes take() {
+        blocks_.flush();
+        for (std::size_t k = 0; k < received_.size(); ++k) {
+            if (std::ranges::find(received_targets_, samples_[k].instance) !=
+                received_targets_.end())
+                received_[k] = 1;
+        }
         SurfaceEchoes out;
-        out.direct = by_beam(direct_, beams);
-        out.multipath = by_beam(multipath_, beams);
+        out.received = std::move(received_);
         out.cones = model_.cones;
-        out.main_lobe_alone = std::is_same_v<Beams, TransducerBeams>;
         out.target_samples = std::move(target_samples_);
         out.patches = std::move(found_);
         out.patch_echoes = std::move(patch_echoes_);
@@ -158,6 +168,8 @@ class SurfaceEchoFinder {
     }
 
   private:
+    static constexpr bool has_side_lobes = std::is_same_v<Beams, TransducerBeams>;
+
     /// A beam that receives a piece of a block.
     struct Received {
         int beam, piece;
@@ -165,7 +177,7 @@ class SurfaceEchoFinder {
 
     void add_particle(const Sample& sample, const Received& at, float range_m, float power) {
         const float half_m = 0.5F * model_.target_cells.depth_m;
-        direct_.push_back({static_cast<std::uint32_t>(at.beam), range_m, half_m, power, &sample});
+        add_direct(at.beam, range_m, half_m, power, sample);
         if (!patches_) return;
         add_echo(at.beam, at.piece, power, [&] {
             return EchoPatch{.position = sample.position,
@@ -173,6 +185,21 @@ class SurfaceEchoFinder {
                              .edge_v = sample.edge_v,
                              .sample = &sample};
         });
+    }
+
+    void add_direct(int beam, float range_m, float half_m, float power, const Sample& sample) {
+        blocks_.add(static_cast<std::uint32_t>(beam), range_m, half_m, power, 1.0F, &sample);
+        if constexpr (has_side_lobes) note_received(sample);
+    }
+
+    /// Targets have echoes of their own facets: their samples count if a facet of the same instance
+    /// has one.
+    void note_received(const Sample& sample) {
+        const Sample* const first = samples_.data();
+        if (!std::less<>()(&sample, first) && std::less<>()(&sample, first + samples_.size()))
+            received_[static_cast<std::size_t>(&sample - first)] = 1;
+        else if (std::ranges::find(received_targets_, sample.instance) == received_targets_.end())
+            received_targets_.push_back(sample.instance);
     }
 
     /// Adds the echo of piece k of a block in a beam. The echoes of a piece in several beams of a
@@ -189,11 +216,16 @@ class SurfaceEchoFinder {
         patch_echoes_.push_back({static_cast<std::uint32_t>(beam), power});
     }
 
-    static EchoPatch patch_of(const PatchBlock& pieces, int k, const CutSample& cut) {
+    EchoPatch patch_of(const PatchBlock& pieces, int k, const Sample& sample) const {
+        const Arrival at = arrival_of(sample.position);
+        const auto part_of = [&](const Eigen::Vector3f& edge) -> Eigen::Vector3f {
+            const int parts = patches_along(extents_of(edge, at.direction), at.range_m, limits_);
+            return edge / static_cast<float>(parts);
+        };
         return {.position = {pieces.x[k], pieces.y[k], pieces.z[k]},
-                .edge_u = cut.sample->edge_u / cut.rows,
-                .edge_v = cut.sample->edge_v / cut.columns,
-                .sample = cut.sample};
+                .edge_u = part_of(sample.edge_u),
+                .edge_v = part_of(sample.edge_v),
+                .sample = &sample};
     }
 
     /// Calls use(beam, piece, power) for every beam that receives a piece's echo in its main lobe.
@@ -217,11 +249,11 @@ class SurfaceEchoFinder {
             }
         } else {
             for (int beam = 0; beam < beams_.beams(); ++beam) {
-                find_gains(beams_, beam, pieces, echoes, received_);
+                find_gains(beams_, beam, pieces, echoes, gain_);
                 if (out) find_gains(beams_, beam, out->places, out->echoes, sent_);
                 for (int k = 0; k < pieces.count; ++k) {
                     // A gain is that of both ways.
-                    const float gain = out ? std::sqrt(sent_[k] * received_[k]) : received_[k];
+                    const float gain = out ? std::sqrt(sent_[k] * gain_[k]) : gain_[k];
                     const float power = echoes.power[k] * gain;
                     if (power > 0.0F && in_main_lobe(beams_, pieces, echoes, k))
                         use(beam, k, power);
@@ -232,34 +264,39 @@ class SurfaceEchoFinder {
 
     const CalibratedModel& model_;
     const Beams& beams_;
+    const std::vector<Sample>& samples_;
     ViewShape shape_;
     PointLimits limits_;  ///< for direct echoes
     bool patches_;
+    EchoBlocks blocks_;
     PatchBlock pieces_;
     PointEchoes echoes_;
-    PatchBlock::Array<float> sent_{}, received_{};
+    PatchBlock::Array<bool> target_{};  ///< pieces of targets
+    PatchBlock::Array<float> sent_{}, gain_{};
     std::vector<Sample> target_samples_;
-    std::vector<FoundEcho> direct_, multipath_;
+    std::vector<std::uint8_t> received_;           ///< SurfaceEchoes::received
+    std::vector<std::uint32_t> received_targets_;  ///< instances
     std::vector<EchoPatch> found_;
-    std::vector<PatchEcho> patch_echoes_;  ///< one for each of direct_
+    std::vector<PatchEcho> patch_echoes_;  ///< one for each direct echo
     int last_piece_ = -1;  ///< the piece of the block that is the last of found_; -1: none
 };
 
 }  // namespace
 
 SurfaceEchoes CalibratedModel::surface_echoes(const TracedPing& traced, const View& view,
-                                              const Scene& scene, bool patches) const {
+                                              const Scene& scene, bool patches,
+                                              const UseEchoes& use) const {
     if (!is_prepared_for(scene))
-        return prepared_for(scene)->surface_echoes(traced, view, scene, patches);
+        return prepared_for(scene)->surface_echoes(traced, view, scene, patches, use);
     return std::visit(
         [&]<class Beams>(const Beams& of_model) {
-            SurfaceEchoFinder<Beams> finder(*this, of_model, view.shape, patches);
+            SurfaceEchoFinder<Beams> finder(*this, of_model, traced, view.shape, patches, use);
             finder.add_surface(traced.samples.items, traced.targets);
             finder.add_surface(traced.outside_sector, traced.targets);
             finder.add_targets(traced.targets, slopes_of(scene.materials));
             finder.add_particles(traced.particles);
-            finder.add_multipath(traced, specular_paths(traced, scene));
-            return finder.take(view.beams);
+            finder.add_multipath(specular_paths(traced, scene));
+            return finder.take();
         },
         beams);
 }

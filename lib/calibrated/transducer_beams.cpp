@@ -90,13 +90,8 @@ TransducerBeams transducer_beams(const BeamConfig& beam, const View& view, doubl
     if (beam.aperture == Aperture::head) {
         const LineArray across = line_array(radians(beam.width_deg), beam.side_lobe_db);
         const double end = sincos(0.5 * view.azimuth_rad).sin;
-        out.pattern = sine_table(-end, end, [&](double sine) {
-            if (beam.elements.exist())
-                return std::norm(
-                    pattern_with_errors(across, beam.elements, ElementAxis::beams, sine));
-            const double one_way = line_pattern(across, sine);
-            return one_way * one_way;
-        });
+        const PatternWithErrors pattern(across, beam.elements, ElementAxis::beams);
+        out.pattern = sine_table(-end, end, [&](double sine) { return std::norm(pattern(sine)); });
         return out;
     }
     const SinCos tilt = sincos(radians(beam.tilt_deg));

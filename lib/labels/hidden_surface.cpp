@@ -56,18 +56,24 @@ class LineTracer {
           range_max_m_(static_cast<float>(view.range_max_m)),
           solid_angles_(objects.objects.size()) {}
 
-    void add_visible(std::span<const SightLine> lines) {
-        for (const SightLine& line : lines)
-            solid_angles_[objects_.object_of(line.sample->instance)].visible += line.solid_angle;
+    /// Counts a line as visible. True if wanted surface may lie behind it.
+    bool see(const SightLine& line) {
+        solid_angles_[owner_of(line)].visible += line.solid_angle;
+        return is_wanted(line);
     }
 
-    /// Keeps the lines behind which wanted surface may lie.
+    /// True if wanted surface may lie behind a line.
+    bool is_wanted(const SightLine& line) const {
+        return (is_shadow(line) || directions_.may_lie_behind(line.direction, line.range_m)) &&
+               !directions_.is_empty_behind(line.direction, line.range_m);
+    }
+
     void begin(std::vector<SightLine>& lines) {
-        nodes_.clear();
         nodes_.reserve(2 * lines.size());
-        for (const SightLine& line : lines)
-            nodes_.push_back({objects_.object_of(line.sample->instance), line.first_node});
-        std::erase_if(lines, [&](const SightLine& line) { return !is_wanted(line); });
+        for (SightLine& line : lines) {
+            line.last_node = static_cast<std::uint32_t>(nodes_.size());
+            nodes_.push_back({owner_of(line), line.last_node});
+        }
         pieces_.reserve(2 * lines.size());
     }
 
@@ -76,7 +82,7 @@ class LineTracer {
         line.range_m = line.range_m * (1.0F + step_behind) + met.distance_m;
         if (!(line.range_m < range_max_m_)) return false;
         if (is_shadow(line)) {
-            pieces_.push_back({line.beam, nodes_[line.first_node].object, line.range_m,
+            pieces_.push_back({line.beam, owner_of(line), line.range_m,
                                half_extent(line, line.range_m, met.normal), line.solid_angle});
         }
         const std::uint32_t object = objects_.object_of(met.instance);
@@ -96,12 +102,11 @@ class LineTracer {
     }
 
   private:
-    bool is_shadow(const SightLine& line) const {
-        return all_ || !objects_.is_background(nodes_[line.first_node].object);
+    std::uint32_t owner_of(const SightLine& line) const {
+        return objects_.object_of(line.sample->instance);
     }
-    bool is_wanted(const SightLine& line) const {
-        if (directions_.is_empty_behind(line.direction, line.range_m)) return false;
-        return is_shadow(line) || directions_.may_lie_behind(line.direction, line.range_m);
+    bool is_shadow(const SightLine& line) const {
+        return all_ || !objects_.is_background(owner_of(line));
     }
 
     const SceneObjects& objects_;
@@ -129,10 +134,9 @@ HiddenSurface find_hidden_surface(const TracedPing& traced, const SurfaceEchoes&
         engine.intersect_behind(traced.T_world_sensor, rays, static_cast<float>(view.range_max_m),
                                 met);
     };
-    std::vector<SightLine> lines = sight_lines(traced, echoes, view.beams);
     LineTracer tracer(view, objects, directions, by);
-    tracer.add_visible(lines);
-    tracer.begin(lines);
+    std::vector<SightLine> lines = sight_lines(
+        traced, echoes, view.beams, [&](const SightLine& line) { return tracer.see(line); });
     if (echoes.cones.exist()) {
         // Nothing lies behind most floors and walls, so one line finds out before many are cast.
         cast(lines);
@@ -140,9 +144,10 @@ HiddenSurface find_hidden_surface(const TracedPing& traced, const SurfaceEchoes&
         for (std::size_t k = 0; k < lines.size(); ++k) {
             if (std::isfinite(met[k].distance_m)) with_surface.push_back(lines[k]);
         }
-        lines = divided(with_surface, echoes.cones);
-        tracer.begin(lines);
+        lines = divided(with_surface, echoes.cones,
+                        [&](const SightLine& line) { return tracer.is_wanted(line); });
     }
+    tracer.begin(lines);
     for (int layer = 0; layer < max_surfaces_behind && !lines.empty(); ++layer) {
         cast(lines);
         std::size_t going_on = 0;

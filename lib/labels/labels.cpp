@@ -1,151 +1,129 @@
 #include "labels/labels.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
 #include "labels/patch_labels.h"
 #include "labels/ping_shadows.h"
-#include "labels/shares.h"
+#include "labels/top_two.h"
 #include "visibility/coverage.h"
 
 namespace sonarsim {
 
 namespace {
 
-/// The echoes of a beam are separated by object and material.
+/// Echoes are summed by object and material.
 struct Surface {
+    bool multipath;
     std::uint32_t object, material;
 
     auto operator<=>(const Surface&) const = default;  // NOLINT(modernize-use-nullptr): no pointer
 };
 
-/// Successive echoes of one surface.
-struct Stretch {
-    Surface surface;
-    std::uint32_t begin, end;
-
-    auto operator<=>(const Stretch&) const = default;  // NOLINT(modernize-use-nullptr): no pointer
-};
-
-/// The echoes of a beam surface by surface. Engines return neighbours in space in sequence, so
-/// stretches are few and long.
-void find_stretches(const BeamEchoes& echoes, int beam, const SceneObjects& objects,
-                    std::vector<Stretch>& stretches) {
-    stretches.clear();
-    const Sample* last = nullptr;
-    for (std::uint32_t k = echoes.beam_begin[beam]; k < echoes.beam_begin[beam + 1]; ++k) {
-        const Sample* const sample = echoes.sample[k];
-        if (sample != last) {
-            last = sample;
-            const Surface surface{objects.object_of(sample->instance), sample->material};
-            if (stretches.empty() || stretches.back().surface != surface)
-                stretches.push_back({surface, k, k});
-        }
-        stretches.back().end = k + 1;
-    }
-    std::ranges::sort(stretches);
-}
-
-std::uint16_t id_16(std::uint32_t id) {
-    return static_cast<std::uint16_t>(id);
-}
-
-/// Labels one beam after the other. Holds buffers, so that beams after the first allocate nothing.
-class BeamLabeller {
+/// The sums of a ping's echoes by surface.
+class SurfaceSums {
   public:
-    BeamLabeller(const SurfaceEchoes& echoes, const View& view, const SceneObjects& objects,
-                 const LabelRequest& request)
-        : echoes_(echoes), objects_(objects), request_(request), bins_(range_bins(view)) {}
+    SurfaceSums(const View& view, const SceneObjects& objects)
+        : sums_(range_bins(view), view.beams), objects_(objects) {}
 
-    /// The shares of beam j, into `out`.
-    void label(int j, PingLabels& out) {
-        shares_.clear(bins_.count);
-        surfaces_.clear();
-        add(echoes_.direct, j);
-        direct_ = shares_.total;
-        add(echoes_.multipath, j);
-        const std::size_t at = static_cast<std::size_t>(j) * bins_.count;
-        const auto object_of = [&](std::uint32_t k) { return surfaces_[k].object; };
-        if (request_.objects) {
-            finder_.find(shares_, request_.shares ? Ranks::first_and_second : Ranks::first,
-                         object_of, strongest_);
-            write_ids(at, out.object);
-            if (request_.shares) write_shares(at, out);
+    void add(const EchoBlock& echoes) {
+        std::array<std::uint32_t, EchoBlock::most> sources;
+        const Sample* last = nullptr;
+        for (int k = 0; k < echoes.count; ++k) {
+            const Sample* const sample = echoes.sample[k];
+            if (sample != last) {
+                last = sample;
+                find_source(
+                    {echoes.multipath, objects_.object_of(sample->instance), sample->material});
+            }
+            sources[k] = source_;
         }
-        if (request_.classes) {
-            finder_.find(
-                shares_, Ranks::first,
-                [&](std::uint32_t k) { return objects_.class_of(object_of(k)); }, strongest_);
-            write_ids(at, out.class_id);
-        }
-        if (request_.materials) {
-            finder_.find(
-                shares_, Ranks::first, [&](std::uint32_t k) { return surfaces_[k].material; },
-                strongest_);
-            write_ids(at, out.material);
-        }
+        sums_.add(echoes, sources);
     }
 
-    /// 1 for the bins of beam j that show surface, 0 for others. `labelled`: label() was called for
-    /// this beam. Without label() this takes half of its time.
-    std::span<const std::uint8_t> occupied(int j, bool labelled) {
-        occupied_.assign(bins_.count + 1, 0);
-        if (labelled) {
-            for (int i = shares_.first; i < shares_.last; ++i)
-                occupied_[i] = shares_.weight[i] > 0.0F ? 1 : 0;
-            return occupied_;
-        }
-        for (const BeamEchoes* const of : {&echoes_.direct, &echoes_.multipath})
-            mark_occupied(of->boxes, of->beam_begin[j], of->beam_begin[j + 1], bins_, occupied_);
-        return occupied_;
+    const EchoSums& sums() const { return sums_; }
+    const std::map<Surface, std::uint32_t>& sources() const { return source_of_; }
+
+    /// `key_of(surface)`: what its echoes count for.
+    template <class KeyOf>
+    TopTwoFinder finder_by(KeyOf key_of) const {
+        std::vector<KeyedSource> sources;
+        for (const auto& [surface, source] : source_of_)
+            sources.push_back({key_of(surface), source});
+        return TopTwoFinder(std::move(sources));
     }
 
   private:
-    /// Adds the echoes of beam j.
-    void add(const BeamEchoes& echoes, int j) {
-        find_stretches(echoes, j, objects_, stretches_);
-        for (std::size_t a = 0, b = 0; a < stretches_.size(); a = b) {
-            const Surface surface = stretches_[a].surface;
-            ranges_.clear();
-            for (; b < stretches_.size() && stretches_[b].surface == surface; ++b)
-                ranges_.push_back({stretches_[b].begin, stretches_[b].end});
-            shares_.add(static_cast<std::uint32_t>(surfaces_.size()), echoes.boxes, ranges_, bins_);
-            surfaces_.push_back(surface);
-        }
+    void find_source(const Surface& surface) {
+        if (!source_of_.empty() && surface == surface_) return;
+        surface_ = surface;
+        const auto next = static_cast<std::uint32_t>(source_of_.size());
+        source_ = source_of_.try_emplace(surface, next).first->second;
     }
 
-    /// Bins that no echo reaches are blank already.
-    void write_ids(std::size_t at, std::vector<std::uint16_t>& out) const {
-        for (int i = strongest_.first; i < strongest_.last; ++i)
-            out[at + i] = id_16(strongest_.key[i]);
-    }
-
-    void write_shares(std::size_t at, PingLabels& out) const {
-        for (int i = strongest_.first; i < strongest_.last; ++i) {
-            const float total = shares_.total[i];
-            const float whole = total > 0.0F ? total : 1.0F;
-            out.share[at + i] = std::min(strongest_.echo[i] / whole, 1.0F);
-            out.second[at + i] = id_16(strongest_.second_key[i]);
-            out.second_share[at + i] = std::min(strongest_.second_echo[i] / whole, 1.0F);
-            out.multipath[at + i] = std::clamp((total - direct_[i]) / whole, 0.0F, 1.0F);
-        }
-    }
-
-    const SurfaceEchoes& echoes_;
+    EchoSums sums_;
     const SceneObjects& objects_;
-    const LabelRequest& request_;
-    RangeBins bins_;
-    BeamShares shares_;
-    std::vector<Surface> surfaces_;  ///< indexed by the keys of shares_
-    std::vector<float> direct_;      ///< echo of the visible surface, by bin
-    std::vector<Stretch> stretches_;
-    std::vector<EchoRange> ranges_;  ///< the stretches of one surface
-    TopTwoFinder finder_;
-    TopTwo strongest_;
-    std::vector<std::uint8_t> occupied_;
+    std::map<Surface, std::uint32_t> source_of_;
+    Surface surface_{};  ///< the last one, and its source
+    std::uint32_t source_ = 0;
 };
+
+/// The bins of beam j; empty if `all` is.
+template <class T>
+std::span<T> own(std::vector<T>& all, const PingLabels& labels, int j) {
+    if (all.empty()) return {};
+    return std::span(all).subspan(static_cast<std::size_t>(j) * labels.range_bins,
+                                  labels.range_bins);
+}
+
+/// Turns the echoes of objects into shares, and finds the share of multipath.
+void find_shares(const SurfaceSums& surfaces, PingLabels& labels) {
+    const auto bins = static_cast<std::size_t>(labels.range_bins);
+    std::vector<float> direct(bins), total(bins);
+    for (int j = 0; j < labels.beams; ++j) {
+        const std::span<float> multipath = own(labels.multipath, labels, j);
+        std::ranges::fill(direct, 0.0F);
+        for (const auto& [surface, source] : surfaces.sources()) {
+            if (!surface.multipath) surfaces.sums().add_to(source, j, direct);
+        }
+        total = direct;
+        for (const auto& [surface, source] : surfaces.sources()) {
+            if (surface.multipath) surfaces.sums().add_to(source, j, total);
+        }
+        const std::span<float> share = own(labels.share, labels, j);
+        const std::span<float> second_share = own(labels.second_share, labels, j);
+        for (std::size_t i = 0; i < bins; ++i) {
+            const float whole = total[i] > 0.0F ? total[i] : 1.0F;
+            share[i] = std::min(share[i] / whole, 1.0F);
+            second_share[i] = std::min(second_share[i] / whole, 1.0F);
+            multipath[i] = std::clamp((total[i] - direct[i]) / whole, 0.0F, 1.0F);
+        }
+    }
+}
+
+/// Finds the surfaces that give most of the echo of each bin.
+void label_surfaces(const SurfaceSums& surfaces, const SceneObjects& objects,
+                    const LabelRequest& request, PingLabels& out) {
+    TopTwoFinder by_object = surfaces.finder_by([](const Surface& of) { return of.object; });
+    TopTwoFinder by_class =
+        surfaces.finder_by([&](const Surface& of) { return objects.class_of(of.object); });
+    TopTwoFinder by_material = surfaces.finder_by([](const Surface& of) { return of.material; });
+    for (int j = 0; j < out.beams; ++j) {
+        if (request.objects) {
+            by_object.find(surfaces.sums(), j,
+                           {own(out.object, out, j), own(out.second, out, j),
+                            own(out.share, out, j), own(out.second_share, out, j)});
+        }
+        if (request.classes) by_class.find(surfaces.sums(), j, {own(out.class_id, out, j), {}});
+        if (request.materials)
+            by_material.find(surfaces.sums(), j, {own(out.material, out, j), {}});
+    }
+    if (request.shares) find_shares(surfaces, out);
+}
 
 PingLabels blank_labels(const View& view, const LabelRequest& request) {
     PingLabels labels;
@@ -198,23 +176,19 @@ PingLabels label_group(const TracedPing& traced, const PingSettings& settings, c
                        const LabelRequest& request) {
     const View& view = settings.view;
     PingLabels labels = blank_labels(view, request);
+    SurfaceSums surfaces(view, objects);
     const SurfaceEchoes echoes =
-        settings.model->surface_echoes(traced, view, scene, request.elevation || request.height);
-    BeamLabeller labeller(echoes, view, objects, request);
+        settings.model->surface_echoes(traced, view, scene, request.elevation || request.height,
+                                       [&](const EchoBlock& block) { surfaces.add(block); });
+    label_surfaces(surfaces, objects, request, labels);
     std::optional<PingShadows> shadows =
         find_shadows(traced, echoes, view, scene, objects, engine, request);
     if (shadows) labels.visible_share = shadows->visible_shares();
-    const bool shares = request.objects || request.classes || request.materials;
-    for (int j = 0; j < view.beams; ++j) {
-        const auto own = [&](auto& all) {
-            return std::span(all).subspan(static_cast<std::size_t>(j) * view.range_bins,
-                                          view.range_bins);
-        };
-        if (shares) labeller.label(j, labels);
-        if (!shadows) continue;
-        const std::span<const std::uint8_t> occupied = labeller.occupied(j, shares);
-        if (request.shadow) shadows->find_of_all(j, occupied, own(labels.shadow));
-        if (request.annotations) shadows->find_of_objects(j, occupied, own(labels.object_shadow));
+    for (int j = 0; shadows && j < view.beams; ++j) {
+        const std::span<const std::uint8_t> occupied = surfaces.sums().occupied(j);
+        if (request.shadow) shadows->find_of_all(j, occupied, own(labels.shadow, labels, j));
+        if (request.annotations)
+            shadows->find_of_objects(j, occupied, own(labels.object_shadow, labels, j));
     }
     if (request.elevation || request.height) {
         const TruePlaces places{traced.T_world_sensor, scene.sound_profile.get(), traced.motion,

@@ -1,6 +1,7 @@
 #include "labels/shadow.h"
 
 #include <algorithm>
+#include <array>
 
 namespace sonarsim {
 
@@ -44,57 +45,50 @@ bool name_dark_bins(std::span<const std::uint8_t> covered, std::span<const std::
     return without == 0;
 }
 
+EchoSums sums_of(std::span<const HiddenPiece> pieces, const View& view) {
+    EchoSums sums(range_bins(view), view.beams);
+    EchoBlock block;
+    block.intensity.fill(1.0F);
+    std::array<std::uint32_t, EchoBlock::most> objects;
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+        const int at = block.count++;
+        const HiddenPiece& hidden = pieces[k];
+        block.range_m[at] = hidden.range_m;
+        block.half_m[at] = hidden.half_m;
+        block.weight[at] = hidden.solid_angle;
+        block.beam[at] = hidden.beam;
+        objects[at] = hidden.object;
+        if (block.count < EchoBlock::most && k + 1 < pieces.size()) continue;
+        sums.add(block, objects);
+        block.count = 0;
+    }
+    return sums;
+}
+
+/// All sources, each with its number for a key.
+std::vector<KeyedSource> sources_of(const EchoSums& sums) {
+    std::vector<KeyedSource> sources;
+    for (std::uint32_t k = 0; k < sums.sources(); ++k)
+        sources.push_back({k, k});
+    return sources;
+}
+
 }  // namespace
 
 ShadowFinder::ShadowFinder(std::span<const HiddenPiece> pieces, const View& view)
-    : bins_(range_bins(view)),
-      full_turn_(is_full_turn(view)),
-      pieces_(pieces),
-      beam_begin_(view.beams + 1, 0),
-      owners_(view.beams) {
-    for (const HiddenPiece& hidden : pieces_)
-        ++beam_begin_[hidden.beam + 1];
-    for (int j = 0; j < view.beams; ++j)
-        beam_begin_[j + 1] += beam_begin_[j];
-    std::vector<std::uint32_t> next = beam_begin_;
-    places_.resize(pieces_.size());
-    for (std::uint32_t k = 0; k < pieces_.size(); ++k)
-        places_[next[pieces_[k].beam]++] = {pieces_[k].object, k};
-}
+    : full_turn_(is_full_turn(view)),
+      range_bins_(static_cast<std::size_t>(view.range_bins)),
+      sums_(sums_of(pieces, view)),
+      finder_(sources_of(sums_)),
+      owners_(view.beams) {}
 
 std::vector<std::uint16_t>& ShadowFinder::owners(int j) {
     std::vector<std::uint16_t>& owners = owners_[j];
     if (owners.empty()) {
-        owners.resize(bins_.count);
-        find_owners(j, owners);
+        owners.resize(range_bins_);
+        finder_.find(sums_, j, {owners, {}});
     }
     return owners;
-}
-
-void ShadowFinder::find_owners(int j, std::span<std::uint16_t> owners) {
-    const auto own =
-        std::span(places_).subspan(beam_begin_[j], beam_begin_[j + 1] - beam_begin_[j]);
-    if (own.empty()) return;
-    std::ranges::sort(own);
-    shares_.clear(bins_.count);
-    for (std::size_t a = 0, b = 0; a < own.size(); a = b) {
-        while (b < own.size() && own[b].object == own[a].object)
-            ++b;
-        echoes_.resize(b - a);
-        for (std::size_t k = a; k < b; ++k) {
-            const HiddenPiece& hidden = pieces_[own[k].at];
-            echoes_.range_m[k - a] = hidden.range_m;
-            echoes_.half_m[k - a] = hidden.half_m;
-            echoes_.weight[k - a] = hidden.solid_angle;
-            echoes_.intensity[k - a] = 1.0F;
-        }
-        const EchoRange all{0, static_cast<std::uint32_t>(echoes_.size())};
-        shares_.add(own[a].object, echoes_, {&all, 1}, bins_);
-    }
-    finder_.find(
-        shares_, Ranks::first, [](std::uint32_t object) { return object; }, strongest_);
-    for (int i = strongest_.first; i < strongest_.last; ++i)
-        owners[i] = static_cast<std::uint16_t>(strongest_.key[i]);
 }
 
 std::span<const std::uint16_t> ShadowFinder::nearest_owners(int j) {
@@ -112,7 +106,7 @@ std::span<const std::uint16_t> ShadowFinder::nearest_owners(int j) {
 void ShadowFinder::find(int j, std::span<const std::uint8_t> covered,
                         std::span<const std::uint8_t> occupied, std::span<std::uint16_t> shadow) {
     std::ranges::fill(shadow, 0);
-    if (pieces_.empty() || !has_dark_bins(covered, occupied)) return;
+    if (sums_.sources() == 0 || !has_dark_bins(covered, occupied)) return;
     // The nearest owners are needed only where no line ends in a dark bin.
     if (!name_dark_bins(covered, occupied, owners(j), shadow))
         name_dark_bins(covered, occupied, nearest_owners(j), shadow);

@@ -13,23 +13,19 @@ namespace {
 // Surface that is seen edge-on covers all ranges; its extent is limited to this share of its range.
 constexpr float longest_half = 0.1F;
 
-/// Adds a sight line behind a place of a sample.
-void add_line(const Sample& sample, const Eigen::Vector3f& place, float share_u, float share_v,
-              int beam, std::vector<SightLine>& lines) {
-    if (beam < 0) return;
-    const auto [range, direction] = arrival_of(place);
-    const auto number = static_cast<std::uint32_t>(lines.size());
-    lines.push_back({.direction = direction,
-                     .before_m = range,
-                     .range_m = range,
-                     .solid_angle = share_u * share_v * sample.area_m2 * sample.height_m /
-                                    (range * range * range),
-                     .sample = &sample,
-                     .share_u = share_u,
-                     .share_v = share_v,
-                     .beam = static_cast<std::uint32_t>(beam),
-                     .first_node = number,
-                     .last_node = number});
+/// The sight line behind a place of a sample.
+SightLine line_behind(const Sample& sample, const Arrival& place, float share_u, float share_v,
+                      int beam) {
+    const auto& [range, direction] = place;
+    return {.direction = direction,
+            .before_m = range,
+            .range_m = range,
+            .solid_angle =
+                share_u * share_v * sample.area_m2 * sample.height_m / (range * range * range),
+            .sample = &sample,
+            .share_u = share_u,
+            .share_v = share_v,
+            .beam = static_cast<std::uint32_t>(beam)};
 }
 
 /// The number of parts, at least 1, of an edge across the line of sight: each spans one beam of the
@@ -45,26 +41,6 @@ int parts_of(const Eigen::Vector3f& half_edge, const SightLine& line, const Cone
     return static_cast<int>(std::ceil(std::clamp(parts, 1.0F, most)));
 }
 
-/// For each sample, whether it has a direct echo. Targets have echoes of their own facets: their
-/// samples count if a facet of the same instance has one.
-std::vector<bool> received_samples(const SurfaceEchoes& echoes, const Samples& samples) {
-    std::vector<bool> received(samples.items.size());
-    std::vector<std::uint32_t> targets;
-    const Sample* const first = samples.items.data();
-    const Sample* const last = first + samples.items.size();
-    for (const Sample* const sample : echoes.direct.sample) {
-        if (!std::less<>()(sample, first) && std::less<>()(sample, last))
-            received[static_cast<std::size_t>(sample - first)] = true;
-        else if (std::ranges::find(targets, sample->instance) == targets.end())
-            targets.push_back(sample->instance);
-    }
-    for (std::size_t k = 0; k < received.size(); ++k) {
-        if (std::ranges::find(targets, samples.items[k].instance) != targets.end())
-            received[k] = true;
-    }
-    return received;
-}
-
 /// The change of a plane's range along the half edge of the footprint in front of it.
 float range_along(const Eigen::Vector3f& edge, const Eigen::Vector3f& direction, float before_m,
                   const Eigen::Vector3f& normal, float range_m) {
@@ -74,32 +50,36 @@ float range_along(const Eigen::Vector3f& edge, const Eigen::Vector3f& direction,
 
 }  // namespace
 
-std::vector<SightLine> sight_lines(const TracedPing& traced, const SurfaceEchoes& echoes,
-                                   int beams) {
+std::vector<SightLine> sight_lines(const TracedPing& traced, const SurfaceEchoes& echoes, int beams,
+                                   const KeepLine& keep) {
     const Samples& samples = traced.samples;
     std::vector<SightLine> lines;
-    lines.reserve(samples.items.size() + traced.outside_sector.size());
+    const auto add = [&](const Sample& sample, const Arrival& place, int beam) {
+        const SightLine line = line_behind(sample, place, 1.0F, 1.0F, beam);
+        if (keep(line)) lines.push_back(line);
+    };
     if (echoes.cones.exist()) {
         for (const std::vector<Sample>* const all : {&samples.items, &traced.outside_sector}) {
-            for (const Sample& sample : *all)
-                add_line(sample, sample.position, 1.0F, 1.0F,
-                         echoes.cones.beam(arrival_of(sample.position).direction.y()), lines);
+            for (const Sample& sample : *all) {
+                const Arrival place = arrival_of(sample.position);
+                if (const int beam = echoes.cones.beam(place.direction.y()); beam >= 0)
+                    add(sample, place, beam);
+            }
         }
         return lines;
     }
-    std::vector<bool> received;
-    if (echoes.main_lobe_alone) received = received_samples(echoes, samples);
     for (int j = 0; j < beams; ++j) {
         for (const Sample& sample : samples.beam(j)) {
-            if (received.empty() ||
-                received[static_cast<std::size_t>(&sample - samples.items.data())])
-                add_line(sample, sample.position, 1.0F, 1.0F, j, lines);
+            const std::ptrdiff_t k = &sample - samples.items.data();
+            if (echoes.received.empty() || echoes.received[static_cast<std::size_t>(k)] != 0)
+                add(sample, arrival_of(sample.position), j);
         }
     }
     return lines;
 }
 
-std::vector<SightLine> divided(std::span<const SightLine> lines, const ConeBeams& cones) {
+std::vector<SightLine> divided(std::span<const SightLine> lines, const ConeBeams& cones,
+                               const KeepLine& keep) {
     std::vector<SightLine> out;
     for (const SightLine& line : lines) {
         const Sample& sample = *line.sample;
@@ -111,10 +91,12 @@ std::vector<SightLine> divided(std::span<const SightLine> lines, const ConeBeams
             const float u = static_cast<float>(2 * i + 1) * share_u - 1.0F;
             for (int j = 0; j < columns; ++j) {
                 const float v = static_cast<float>(2 * j + 1) * share_v - 1.0F;
-                const Eigen::Vector3f place =
-                    sample.position + u * sample.edge_u + v * sample.edge_v;
-                const int beam = cones.beam(arrival_of(place).direction.y());
-                add_line(sample, place, share_u, share_v, beam, out);
+                const Arrival place =
+                    arrival_of(sample.position + u * sample.edge_u + v * sample.edge_v);
+                const int beam = cones.beam(place.direction.y());
+                if (beam < 0) continue;
+                const SightLine part = line_behind(sample, place, share_u, share_v, beam);
+                if (keep(part)) out.push_back(part);
             }
         }
     }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -20,17 +21,20 @@ struct SightLine {
     const Sample* sample;
     float share_u, share_v;
     std::uint32_t beam;
-    std::uint32_t first_node;  ///< the first node of its way
-    std::uint32_t last_node;   ///< the last one
+    std::uint32_t last_node = 0;  ///< the last node of its way
 };
 
+/// Tells which sight lines are kept: most have nothing to find.
+using KeepLine = std::function<bool(const SightLine&)>;
+
 /// The sight lines of a ping, one to a sample.
-std::vector<SightLine> sight_lines(const TracedPing& traced, const SurfaceEchoes& echoes,
-                                   int beams);
+std::vector<SightLine> sight_lines(const TracedPing& traced, const SurfaceEchoes& echoes, int beams,
+                                   const KeepLine& keep);
 
 /// Parts of the sight lines of a line array, since a sample may span many beams and much of the
 /// elevation.
-std::vector<SightLine> divided(std::span<const SightLine> lines, const ConeBeams& cones);
+std::vector<SightLine> divided(std::span<const SightLine> lines, const ConeBeams& cones,
+                               const KeepLine& keep);
 
 /// Half the extent in range of the surface that a sight line meets, a piece of the plane with this
 /// normal.

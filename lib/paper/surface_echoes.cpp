@@ -1,7 +1,7 @@
 #include "trace/surface_echoes.h"
 
 #include <algorithm>
-#include <utility>
+#include <span>
 
 #include "paper/echoes.h"
 #include "paper/multipath_echoes.h"
@@ -19,7 +19,19 @@ double echo_of(const Sample& sample, const Material& material) {
     return sample.area_m2 * reflection * std::min(sample.height_m / range_m, 1.0);
 }
 
-BeamEchoes direct_by_beam(const Samples& samples, const View& view, const Scene& scene) {
+/// Hands on echoes that are sorted by beam. `sample_of(k)`: the sample of echo k.
+template <class SampleOf>
+void add_all(const RangeBoxes& echoes, std::span<const std::uint32_t> beam_begin,
+             SampleOf sample_of, EchoBlocks& blocks) {
+    for (std::uint32_t j = 0; j + 1 < beam_begin.size(); ++j) {
+        for (std::uint32_t k = beam_begin[j]; k < beam_begin[j + 1]; ++k) {
+            blocks.add(j, echoes.range_m[k], echoes.half_m[k], echoes.weight[k],
+                       echoes.intensity[k], sample_of(k));
+        }
+    }
+}
+
+void add_direct(const Samples& samples, const View& view, const Scene& scene, EchoBlocks& blocks) {
     // Room for most pings, since arrays that grow are copied.
     constexpr std::size_t pieces_per_sample = 8;
     Echoes echoes;
@@ -28,28 +40,34 @@ BeamEchoes direct_by_beam(const Samples& samples, const View& view, const Scene&
     ends.reserve(samples.items.size());
     direct_echoes(samples.items, scene.materials, static_cast<float>(view.bin_m()),
                   ScattererLattice{}, echoes, ends);
-    BeamEchoes out;
-    out.sample.reserve(echoes.size());
-    for (std::size_t k = 0; k < ends.size(); ++k)
-        out.sample.resize(ends[k], &samples.items[k]);
+    std::vector<std::uint32_t> beam_begin;
     for (const std::uint32_t begin : samples.beam_begin)
-        out.beam_begin.push_back(begin > 0 ? ends[begin - 1] : 0);
-    out.boxes = std::move(echoes);
-    return out;
+        beam_begin.push_back(begin > 0 ? ends[begin - 1] : 0);
+    std::size_t sample = 0;
+    const auto sample_of = [&](std::uint32_t k) {
+        while (ends[sample] <= k)
+            ++sample;
+        return &samples.items[sample];
+    };
+    add_all(echoes, beam_begin, sample_of, blocks);
 }
 
 }  // namespace
 
 SurfaceEchoes PaperModel::surface_echoes(const TracedPing& traced, const View& view,
-                                         const Scene& scene, bool patches) const {
+                                         const Scene& scene, bool patches,
+                                         const UseEchoes& use) const {
     const Samples& samples = traced.samples;
     SurfaceEchoes out;
-    out.direct = direct_by_beam(samples, view, scene);
-    MultipathEchoes bounced = multipath_echoes(traced.bounces, samples, view, ScattererLattice{});
-    for (const std::uint32_t sample : bounced.sample)
-        out.multipath.sample.push_back(&samples.items[sample]);
-    out.multipath.boxes = std::move(bounced.echoes);
-    out.multipath.beam_begin = std::move(bounced.beam_begin);
+    EchoBlocks blocks(use);
+    add_direct(samples, view, scene, blocks);
+    blocks.begin_multipath();
+    const MultipathEchoes bounced =
+        multipath_echoes(traced.bounces, samples, view, ScattererLattice{});
+    add_all(
+        bounced.echoes, bounced.beam_begin,
+        [&](std::uint32_t k) { return &samples.items[bounced.sample[k]]; }, blocks);
+    blocks.flush();
     if (!patches) return out;
     out.patch_begin = samples.beam_begin;
     out.patches.reserve(samples.items.size());

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/last_results.h"
+
 namespace sonarsim {
 
 namespace {
@@ -18,9 +20,7 @@ std::int32_t bin_at(const View& view, const ColumnFinder& column_at, const FanPl
     return j * view.range_bins + i;
 }
 
-}  // namespace
-
-FanBins make_fan_bins(const Sonar& sonar) {
+FanBins new_fan_bins(const Sonar& sonar) {
     const View& view = sonar.settings.view;
     const ColumnFinder column_at(sonar);
     FanBins fan;
@@ -40,6 +40,13 @@ FanBins make_fan_bins(const Sonar& sonar) {
         }
     }
     return fan;
+}
+
+}  // namespace
+
+FanBins make_fan_bins(const Sonar& sonar) {
+    static LastResults<FanBorders, FanBins> last;
+    return last.get(fan_borders(sonar), [&] { return new_fan_bins(sonar); });
 }
 
 std::vector<PixelBox> bin_boxes(const FanBins& fan, std::size_t bins) {

@@ -58,10 +58,12 @@ class EchoModel {
     /// Fills the image [range bins, beams] of `ping`, its counts and its seconds. The image must be
     /// 0 before. The same arguments give the same bytes.
     virtual void form(const TracedPing& traced, const FormContext& context, Ping& ping) const = 0;
-    /// The echoes of a traced ping and the surface that each comes from, for labels. With `patches`
-    /// the visible surface, too.
+    /// Hands the echoes of a traced ping to `use`, direct ones first, for labels: before beam
+    /// pattern and pulse spread them and without random terms. Echoes of one bin have one unit.
+    /// With `patches` the result has the visible surface, too.
     virtual SurfaceEchoes surface_echoes(const TracedPing& traced, const View& view,
-                                         const Scene& scene, bool patches) const = 0;
+                                         const Scene& scene, bool patches,
+                                         const UseEchoes& use) const = 0;
     /// This model with the data that depend on the scene alone, found once for all pings; nullptr
     /// if it needs none. A model that was not prepared forms the same images, slower.
     virtual std::shared_ptr<const EchoModel> prepared(const Scene& /*scene*/) const { return {}; }

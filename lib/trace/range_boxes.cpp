@@ -25,25 +25,30 @@ struct Boxes {
     int least, greatest;                            ///< the least `first`, the greatest `last`
 };
 
-/// The boxes of the echoes [begin, begin + count). Echoes wholly outside the range add 0 to the
-/// first bin; returns their number. No branches, so that the loop vectorises; inlined, so that
-/// compilers see that `boxes` does not alias the echoes.
-[[gnu::always_inline]] inline int find_boxes(const RangeBoxes& echoes, std::size_t begin,
-                                             std::size_t count, const RangeBins& bins,
+/// The arrays of `count` echoes.
+struct BoxArrays {
+    const float *range_m, *half_m, *weight, *intensity;
+    std::size_t count;
+};
+
+/// The boxes of echoes. Echoes wholly outside the range add 0 to the first bin; returns their
+/// number. No branches, so that the loop vectorises; inlined, so that compilers see that `boxes`
+/// does not alias the echoes.
+[[gnu::always_inline]] inline int find_boxes(const BoxArrays& echoes, const RangeBins& bins,
                                              Boxes& boxes) {
     const float per_bin = 1.0F / bins.bin_m;
     const float range_min_m = bins.min_m;
     const auto end = static_cast<float>(bins.count);
     // In bins. An echo without depth needs a width, since its weight is divided by it.
     constexpr float least_half = 1e-3F;
-    const float* const __restrict range_m = echoes.range_m.data() + begin;
-    const float* const __restrict half_m = echoes.half_m.data() + begin;
-    const float* const __restrict weight = echoes.weight.data() + begin;
-    const float* const __restrict intensity = echoes.intensity.data() + begin;
+    const float* const __restrict range_m = echoes.range_m;
+    const float* const __restrict half_m = echoes.half_m;
+    const float* const __restrict weight = echoes.weight;
+    const float* const __restrict intensity = echoes.intensity;
     int outside = 0;
     int least = bins.count;
     int greatest = 0;
-    for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t k = 0; k < echoes.count; ++k) {
         const float centre = (range_m[k] - range_min_m) * per_bin;
         const float half = std::max(half_m[k] * per_bin, least_half);
         const float low = std::max(centre - half, 0.0F);
@@ -131,7 +136,9 @@ std::uint64_t accumulate(const RangeBoxes& echoes, std::size_t begin, std::size_
     BinSum* const bin_0 = sums.begins.data() + 1;
     for (std::size_t from = begin; from < end; from += boxes_per_block) {
         const std::size_t count = std::min(boxes_per_block, end - from);
-        outside += find_boxes(echoes, from, count, bins, boxes);
+        outside += find_boxes({echoes.range_m.data() + from, echoes.half_m.data() + from,
+                               echoes.weight.data() + from, echoes.intensity.data() + from, count},
+                              bins, boxes);
         sums.include(boxes.least, boxes.greatest + 1);
         // Most boxes have one or two bins. Both kinds take the same path: a branch between them
         // would be mispredicted half the time.
@@ -144,25 +151,58 @@ std::uint64_t accumulate(const RangeBoxes& echoes, std::size_t begin, std::size_
     return outside;
 }
 
-void mark_occupied(const RangeBoxes& echoes, std::size_t begin, std::size_t end,
-                   const RangeBins& bins, std::span<std::uint8_t> occupied) {
+EchoSums::EchoSums(const RangeBins& bins, int beams)
+    : bins_(bins),
+      beams_(static_cast<std::size_t>(beams)),
+      stride_(static_cast<std::size_t>(bins.count) + 1),
+      occupied_(beams_ * stride_) {}
+
+void EchoSums::add(const EchoBlock& echoes, std::span<const std::uint32_t> sources) {
     Boxes boxes;
-    for (std::size_t from = begin; from < end; from += boxes_per_block) {
+    const auto end = static_cast<std::size_t>(echoes.count);
+    for (std::size_t from = 0; from < end; from += boxes_per_block) {
         const std::size_t count = std::min(boxes_per_block, end - from);
-        find_boxes(echoes, from, count, bins, boxes);
+        find_boxes({echoes.range_m.data() + from, echoes.half_m.data() + from,
+                    echoes.weight.data() + from, echoes.intensity.data() + from, count},
+                   bins_, boxes);
         for (std::size_t k = 0; k < count; ++k) {
             if (!(boxes.density[k].first > 0.0F)) continue;
+            const std::uint32_t source = sources[from + k];
+            const std::uint32_t beam = echoes.beam[from + k];
+            if (source >= rows_.size()) rows_.resize(source + 1);
+            if (rows_[source].empty()) rows_[source].resize(beams_);
+            Row& row = rows_[source][beam];
+            if (!row) row = std::make_unique<Sum[]>(stride_);
             const int first = boxes.first[k];
-            const int last = boxes.last[k];
-            occupied[first] = 1;
+            const int rest = boxes.last[k] - first;
+            const float echo = boxes.density[k].second;
+            Sum& sum = row[first];
+            sum.echo += echo * boxes.share[k].first;
+            sum.next += echo * boxes.share[k].second;
+            std::uint8_t* const occupied = &occupied_[beam * stride_ + first];
+            occupied[0] = 1;
             // This is the first bin again if the box ends in it: a branch would often be
             // mispredicted.
-            occupied[first + (boxes.share[k].second > 0.0F ? 1 : 0)] = 1;
-            for (int i = first + 2; i < last; ++i)
+            occupied[boxes.share[k].second > 0.0F ? 1 : 0] = 1;
+            if (rest < 2) continue;
+            for (int i = 2; i < rest; ++i) {
+                row[first + i].echo += echo;
                 occupied[i] = 1;
-            if (last - first > 1 && boxes.last_share[k] > 0.0F) occupied[last] = 1;
+            }
+            row[first + rest].echo += echo * boxes.last_share[k];
+            if (boxes.last_share[k] > 0.0F) occupied[rest] = 1;
         }
     }
+}
+
+bool EchoSums::add_to(std::uint32_t source, int beam, std::span<float> total) const {
+    if (source >= rows_.size() || rows_[source].empty() || !rows_[source][beam]) return false;
+    const Sum* const __restrict row = rows_[source][beam].get();
+    float* const __restrict to = total.data();
+    to[0] += row[0].echo;
+    for (int i = 1; i < bins_.count; ++i)
+        to[i] += row[i].echo + row[i - 1].next;
+    return true;
 }
 
 }  // namespace sonarsim

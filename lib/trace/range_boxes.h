@@ -1,13 +1,17 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "visibility/view.h"
 
 namespace sonarsim {
+
+struct Sample;
 
 /// The range bins of a ping: half-open, equal, from `min_m`.
 struct RangeBins {
@@ -67,9 +71,45 @@ std::uint64_t accumulate(const RangeBoxes& echoes, const RangeBins& bins, BinSum
 std::uint64_t accumulate(const RangeBoxes& echoes, std::size_t begin, std::size_t end,
                          const RangeBins& bins, BinSums& sums);
 
-/// Sets `occupied` to 1 in the bins to which accumulate() would add weight. `occupied` has one
-/// element more than there are bins, which stays 0.
-void mark_occupied(const RangeBoxes& echoes, std::size_t begin, std::size_t end,
-                   const RangeBins& bins, std::span<std::uint8_t> occupied);
+/// Echoes as in RangeBoxes, each in a beam and from a sample.
+struct EchoBlock {
+    static constexpr int most = 256;
+
+    int count = 0;
+    bool multipath = false;  ///< all came over a second surface; samples reflect the sound
+    std::array<float, most> range_m, half_m, weight, intensity;
+    std::array<std::uint32_t, most> beam;
+    std::array<const Sample*, most> sample;
+};
+
+/// Sums of echoes by source, beam and range bin. Boxes are spread over the bins as by accumulate().
+class EchoSums {
+  public:
+    EchoSums(const RangeBins& bins, int beams);
+
+    /// `sources`: one for each echo, numbers from 0 on.
+    void add(const EchoBlock& echoes, std::span<const std::uint32_t> sources);
+
+    /// One more than the greatest source with an echo.
+    std::uint32_t sources() const { return static_cast<std::uint32_t>(rows_.size()); }
+    /// Adds the echo of a source to `total` [range bins]. False: the beam receives none of it.
+    bool add_to(std::uint32_t source, int beam, std::span<float> total) const;
+    /// 1 for the bins with weight, else 0.
+    std::span<const std::uint8_t> occupied(int beam) const {
+        return std::span(occupied_).subspan(beam * stride_, stride_ - 1);
+    }
+
+  private:
+    /// The sums that the boxes beginning in a bin add to it and to the next one.
+    struct Sum {
+        float echo, next;
+    };
+    using Row = std::unique_ptr<Sum[]>;
+
+    RangeBins bins_;
+    std::size_t beams_, stride_;
+    std::vector<std::vector<Row>> rows_;  ///< [source][beam]; null: no echo
+    std::vector<std::uint8_t> occupied_;  ///< [beams][stride]; the last one of a beam stays 0
+};
 
 }  // namespace sonarsim

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstddef>
 #include <cstdint>
-#include <span>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "trace/cone_beams.h"
@@ -12,11 +12,38 @@
 
 namespace sonarsim {
 
-/// Echoes by beam, and the samples that they come from.
-struct BeamEchoes {
-    RangeBoxes boxes;  ///< sorted by beam
-    std::vector<const Sample*> sample;
-    std::vector<std::uint32_t> beam_begin;  ///< beams + 1 offsets into `boxes`
+/// Takes blocks of echoes. Their samples stay as long as those of SurfaceEchoes.
+using UseEchoes = std::function<void(const EchoBlock&)>;
+
+/// Collects echoes into blocks and hands these on.
+class EchoBlocks {
+  public:
+    explicit EchoBlocks(const UseEchoes& use) : use_(use) {}
+
+    void add(std::uint32_t beam, float range_m, float half_m, float weight, float intensity,
+             const Sample* sample) {
+        if (block_.count == EchoBlock::most) flush();
+        const int k = block_.count++;
+        block_.beam[k] = beam;
+        block_.range_m[k] = range_m;
+        block_.half_m[k] = half_m;
+        block_.weight[k] = weight;
+        block_.intensity[k] = intensity;
+        block_.sample[k] = sample;
+    }
+    void flush() {
+        if (block_.count > 0) use_(block_);
+        block_.count = 0;
+    }
+    /// The echoes from here on are multipath.
+    void begin_multipath() {
+        flush();
+        block_.multipath = true;
+    }
+
+  private:
+    const UseEchoes& use_;
+    EchoBlock block_;
 };
 
 /// The echo of a piece of visible surface in a beam.
@@ -32,15 +59,12 @@ struct EchoPatch {
     const Sample* sample;
 };
 
-/// The echoes of a traced ping by beam and bin, before beam pattern and pulse spread them and
-/// without random terms. Labels are made from them. Echoes of one bin are in one unit. Samples are
-/// those of the traced ping, which must outlive this, or of `target_samples`.
+/// The surface that labels need besides the echoes. Samples are those of the traced ping, which must outlive
+/// this, or of `target_samples`.
 struct SurfaceEchoes {
     SurfaceEchoes() = default;
     SurfaceEchoes(SurfaceEchoes&&) = default;  ///< a copy would point into the original
 
-    BeamEchoes direct;
-    BeamEchoes multipath;  ///< the samples are those that reflect the sound
     /// The visible surface; empty if it was not asked for.
     std::vector<EchoPatch> patches;
     std::vector<PatchEcho> patch_echoes;
@@ -50,8 +74,9 @@ struct SurfaceEchoes {
     std::vector<Sample> target_samples;  ///< one for each facet of TracedPing::targets
     /// The beams of a line array; empty: those of the view.
     ConeBeams cones;
-    /// True if samples without a direct echo lie in side lobes; labels leave them out.
-    bool main_lobe_alone = false;
+    /// 1 for the samples of the traced ping with a direct echo, 0 for those in side lobes; empty:
+    /// all have one.
+    std::vector<std::uint8_t> received;
 };
 
 }  // namespace sonarsim

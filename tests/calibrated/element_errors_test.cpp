@@ -46,7 +46,7 @@ TEST_SUITE("calibrated") {
                 for (const double lobe : {7.0, 19.0, 31.0, 43.0, 55.0}) {
                     // A null of the array, tapered or not.
                     const double u = lobe / array.wavelengths;
-                    sum += std::norm(pattern_with_errors(array, drawn, ElementAxis::beams, u));
+                    sum += std::norm(PatternWithErrors(array, drawn, ElementAxis::beams)(u));
                     expected += mean_side_lobe(array);
                 }
             }
@@ -58,7 +58,7 @@ TEST_SUITE("calibrated") {
         const LineArray array = line_array(radians(2.0), -20.0);
         for (const double u : {0.0, 0.01, 0.1, 0.7}) {
             const std::complex<double> pattern =
-                pattern_with_errors(array, {}, ElementAxis::beams, u);
+                PatternWithErrors(array, {}, ElementAxis::beams)(u);
             CHECK(std::abs(pattern - line_pattern(array, u)) < 1e-12);
         }
         const auto one = element_errors(errors, 50, ElementAxis::beams);

@@ -1,6 +1,8 @@
 // The example of docs/development.md, "Add a label".
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "support/approx.h"
@@ -16,28 +18,33 @@ namespace {
 /// Finds the mean cosine of the angle of incidence of a beam's bins, weighted by the echo.
 class IncidenceFinder {
   public:
-    IncidenceFinder(const SurfaceEchoes& echoes, const RangeBins& bins)
-        : echoes_(echoes.direct), boxes_(echoes_.boxes), bins_(bins) {
-        for (std::size_t k = 0; k < boxes_.size(); ++k) {
-            boxes_.weight[k] *= boxes_.intensity[k];
-            // v . n of a plane is the sonar's height above it over the range.
-            boxes_.intensity[k] = echoes_.sample[k]->height_m / boxes_.range_m[k];
-        }
+    IncidenceFinder(const RangeBins& bins, int beams) : sums_(bins, beams) {}
+
+    /// Takes the echoes of EchoModel::surface_echoes().
+    void add(EchoBlock echoes) {
+        if (echoes.multipath) return;
+        std::array<std::uint32_t, EchoBlock::most> sources{};
+        sums_.add(echoes, sources);
+        // v . n of a plane is the sonar's height above it over the range.
+        for (int k = 0; k < echoes.count; ++k)
+            echoes.intensity[k] *= echoes.sample[k]->height_m / echoes.range_m[k];
+        sources.fill(1);
+        sums_.add(echoes, sources);
     }
 
     /// `cosine` by range bin; 0: no surface.
-    void find(int beam, std::span<float> cosine) {
-        sums_.clear(bins_.count);
-        accumulate(boxes_, echoes_.beam_begin[beam], echoes_.beam_begin[beam + 1], bins_, sums_);
-        for (std::size_t i = 0; i < cosine.size(); ++i)
-            cosine[i] = sums_.weight(i) > 0.0F ? sums_.echo(i) / sums_.weight(i) : 0.0F;
+    void find(int beam, std::span<float> cosine) const {
+        std::vector<float> echo(cosine.size());
+        std::ranges::fill(cosine, 0.0F);
+        sums_.add_to(0, beam, echo);
+        sums_.add_to(1, beam, cosine);
+        for (std::size_t i = 0; i < cosine.size(); ++i) {
+            if (echo[i] > 0.0F) cosine[i] /= echo[i];
+        }
     }
 
   private:
-    const BeamEchoes& echoes_;
-    RangeBoxes boxes_;
-    RangeBins bins_;
-    BinSums sums_;
+    EchoSums sums_;
 };
 
 }  // namespace
@@ -55,8 +62,9 @@ TEST_CASE("example of a label: the incidence on a level floor") {
     const TracedPing traced = trace(sonar, scene, *engine, tilted, 0);
 
     const View& view = sonar.settings.view;
-    const SurfaceEchoes echoes = sonar.settings.model->surface_echoes(traced, view, scene, false);
-    IncidenceFinder finder(echoes, range_bins(view));
+    IncidenceFinder finder(range_bins(view), view.beams);
+    sonar.settings.model->surface_echoes(traced, view, scene, false,
+                                         [&](const EchoBlock& echoes) { finder.add(echoes); });
     std::vector<float> cosine(view.range_bins);
     finder.find(view.beams / 2, cosine);
     int bins = 0;

@@ -91,16 +91,19 @@ std::vector<double> energies_of_points(const TracedPing& traced, const Sonar& so
 }
 
 /// The energies of the echoes that labels are made of, likewise.
-std::vector<double> energies_of_labels(const SurfaceEchoes& echoes, const View& view) {
+std::vector<double> energies_of_labels(const TracedPing& traced, const Sonar& sonar,
+                                       const Scene& scene) {
+    const View& view = sonar.settings.view;
+    const std::array<std::uint32_t, EchoBlock::most> one_source{};
+    EchoSums sums(range_bins(view), view.beams);
+    sonar.settings.model->surface_echoes(
+        traced, view, scene, false, [&](const EchoBlock& echoes) { sums.add(echoes, one_source); });
     std::vector<double> energies(static_cast<std::size_t>(view.range_bins) * view.beams);
-    const BeamEchoes& direct = echoes.direct;
-    BinSums sums;
     for (int j = 0; j < view.beams; ++j) {
-        sums.clear(view.range_bins);
-        accumulate(direct.boxes, direct.beam_begin[j], direct.beam_begin[j + 1], range_bins(view),
-                   sums);
+        std::vector<float> of_beam(view.range_bins);
+        sums.add_to(0, j, of_beam);
         for (int i = 0; i < view.range_bins; ++i)
-            energies[static_cast<std::size_t>(i) * view.beams + j] = sums.echo(i);
+            energies[static_cast<std::size_t>(i) * view.beams + j] = of_beam[i];
     }
     return energies;
 }
@@ -170,9 +173,7 @@ TEST_CASE("cone labels: masks of 500 things lie on their echoes" * doctest::skip
         const Box faint = box_above(by_points, 0.5 * least, view.beams);
         if (loud.bins() < 20 || loud.beams() < 20) continue;  // a bin more or less tells nothing
         ++measured;
-        const SurfaceEchoes echoes =
-            sonar.settings.model->surface_echoes(traced, view, thing.scene, false);
-        const std::vector<double> by_labels = energies_of_labels(echoes, view);
+        const std::vector<double> by_labels = energies_of_labels(traced, sonar, thing.scene);
         const auto sum = [](const std::vector<double>& of) {
             return std::accumulate(of.begin(), of.end(), 0.0);
         };

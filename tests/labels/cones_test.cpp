@@ -18,13 +18,14 @@ struct Sums {
 };
 
 Sums sums_of_labels(const TracedPing& traced, const Sonar& sonar, const Scene& scene) {
-    const SurfaceEchoes echoes =
-        sonar.settings.model->surface_echoes(traced, sonar.settings.view, scene, false);
-    const auto sum = [](const BeamEchoes& of) {
-        return std::inner_product(of.boxes.weight.begin(), of.boxes.weight.end(),
-                                  of.boxes.intensity.begin(), 0.0);
-    };
-    return {sum(echoes.direct), sum(echoes.multipath)};
+    Sums sums{};
+    sonar.settings.model->surface_echoes(
+        traced, sonar.settings.view, scene, false, [&](const EchoBlock& echoes) {
+            double& sum = echoes.multipath ? sums.multipath : sums.direct;
+            for (int k = 0; k < echoes.count; ++k)
+                sum += static_cast<double>(echoes.weight[k]) * echoes.intensity[k];
+        });
+    return sums;
 }
 
 Sums sums_of_images(const TracedPing& traced, const Sonar& sonar, const Scene& scene) {
@@ -114,12 +115,22 @@ TEST_CASE("cone labels: a piece that several beams receive is one patch with the
     const TracedPing traced =
         trace(sonar, scene, *engine, {Eigen::Quaterniond::Identity(), {0.0, 0.0, 3.0}}, 0);
     const View& view = sonar.settings.view;
-    const SurfaceEchoes echoes = sonar.settings.model->surface_echoes(traced, view, scene, true);
+    struct Echo {
+        std::uint32_t beam;
+        float power;
+        const Sample* sample;
+    };
+    std::vector<Echo> direct;
+    const SurfaceEchoes echoes =
+        sonar.settings.model->surface_echoes(traced, view, scene, true, [&](const EchoBlock& of) {
+            for (int k = 0; k < of.count; ++k)
+                direct.push_back({of.beam[k], of.weight[k], of.sample[k]});
+        });
     // A piece is at most a beam wide and lies anywhere: many are in two beams.
     CHECK(echoes.patches.size() > 1000);
     CHECK(echoes.patch_echoes.size() > echoes.patches.size() * 5 / 4);
-    // They are the direct echoes, in the same order within a beam.
-    std::vector<std::uint32_t> next = echoes.direct.beam_begin;
+    // They are the direct echoes, in the same order.
+    REQUIRE(direct.size() == echoes.patch_echoes.size());
     std::uint32_t end = 0;
     bool alike = true;
     for (const EchoPatch& patch : echoes.patches) {
@@ -127,14 +138,12 @@ TEST_CASE("cone labels: a piece that several beams receive is one patch with the
         end = patch.echo_end;
         for (std::uint32_t k = patch.echo_begin; k < patch.echo_end; ++k) {
             const PatchEcho& echo = echoes.patch_echoes[k];
-            const std::uint32_t at = next[echo.beam]++;
-            alike = alike && echo.echo == echoes.direct.boxes.weight[at] &&
-                    echoes.direct.sample[at] == patch.sample;
+            alike = alike && echo.beam == direct[k].beam && echo.echo == direct[k].power &&
+                    direct[k].sample == patch.sample;
         }
     }
     CHECK(alike);
     CHECK(end == echoes.patch_echoes.size());
-    CHECK(end == echoes.direct.boxes.size());
 }
 
 TEST_CASE("cone labels: the shadow of a box lies where rays of its beams are hidden" *

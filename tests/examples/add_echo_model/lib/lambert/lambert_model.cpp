@@ -34,16 +34,15 @@ void LambertModel::form(const TracedPing& traced, const FormContext& context, Pi
 }
 
 SurfaceEchoes LambertModel::surface_echoes(const TracedPing& traced, const View& view,
-                                           const Scene& scene, bool patches) const {
+                                           const Scene& scene, bool patches,
+                                           const UseEchoes& use) const {
     SurfaceEchoes out;
+    EchoBlocks blocks(use);
     for (int beam = 0; beam < view.beams; ++beam) {
         for (const Sample& sample : traced.samples.beam(beam)) {
             const float echo = echo_of(sample, scene);
-            out.direct.boxes.range_m.push_back(arrival_range(sample.position));
-            out.direct.boxes.half_m.push_back(0.0F);
-            out.direct.boxes.weight.push_back(echo);
-            out.direct.boxes.intensity.push_back(1.0F);
-            out.direct.sample.push_back(&sample);
+            blocks.add(static_cast<std::uint32_t>(beam), arrival_range(sample.position), 0.0F, echo,
+                       1.0F, &sample);
             if (!patches) continue;
             const auto at = static_cast<std::uint32_t>(out.patch_echoes.size());
             out.patch_echoes.push_back({static_cast<std::uint32_t>(beam), echo});
@@ -51,8 +50,8 @@ SurfaceEchoes LambertModel::surface_echoes(const TracedPing& traced, const View&
                 {sample.position, sample.edge_u, sample.edge_v, at, at + 1, &sample});
         }
     }
-    out.direct.beam_begin = out.patch_begin = traced.samples.beam_begin;
-    out.multipath.beam_begin.resize(view.beams + 1);
+    blocks.flush();
+    out.patch_begin = traced.samples.beam_begin;
     return out;
 }
 
