@@ -17,11 +17,11 @@ TEST_SUITE("calibrated") {
         const double radius = 0.3;
         const double range = 8.0;
         const double slope = std::tan(radians(slope_deg));
-        const Ball open({range, 0.0, 0.0}, radius, 48);
+        const BallScene open({range, 0.0, 0.0}, radius, 48);
         const double whole = energy_by(with_targets(sonar, open.scene), open.scene,
                                        *engine_of(open.scene, EngineKind::rays));
         for (const double edge : {-1.5, -0.7, 0.0, 0.4, 1.0}) {  // in units of a s
-            Ball hidden({range, 0.0, 0.0}, radius, 48);
+            BallScene hidden({range, 0.0, 0.0}, radius, 48);
             // The wall stands at half of the range to the highlight.
             const double y = 0.5 * edge * radius * slope;
             const auto at = [&](double across, double up) {
@@ -49,12 +49,12 @@ TEST_SUITE("calibrated") {
         const Sonar sonar = target_sonar(SonarKind::imaging);
         const double radius = 0.2;
         const double range = 10.0;
-        const auto energy = [&](const Ball& ball) {
+        const auto energy = [&](const BallScene& ball) {
             return energy_by(with_targets(sonar, ball.scene), ball.scene,
                              *engine_of(ball.scene, EngineKind::rays));
         };
-        const Ball open({range, 0.0, 0.0}, radius, 24);
-        const auto without_facets = [](Ball ball) {
+        const BallScene open({range, 0.0, 0.0}, radius, 24);
+        const auto without_facets = [](BallScene ball) {
             ball.scene.materials[0].slope_rms_deg = 0.0;
             return ball;
         };
@@ -66,7 +66,7 @@ TEST_SUITE("calibrated") {
         for (int draw = 0; draw < draws; ++draw) {
             const double edge = 0.5 * uniform(random);
             const double turn = pi * uniform(random);
-            Ball hidden = without_facets(open);
+            BallScene hidden = without_facets(open);
             // The wall stands at half of the range and is out of the image's last bins.
             const auto at = [&](double across, double up) {
                 return Eigen::Vector3f(

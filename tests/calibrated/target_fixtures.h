@@ -14,7 +14,8 @@ namespace sonarsim::test {
 
 inline constexpr double slope_deg = 5.0;
 
-inline constexpr EngineKind engine_kinds[] = {EngineKind::rays, EngineKind::slices, EngineKind::automatic};
+inline constexpr EngineKind engine_kinds[] = {EngineKind::rays, EngineKind::slices,
+                                              EngineKind::automatic};
 
 inline double total(const std::vector<float>& image) {
     return std::accumulate(image.begin(), image.end(), 0.0);
@@ -41,12 +42,13 @@ inline Sonar target_sonar(SonarKind kind) {
 }
 
 /// A sphere in a scene, and where it is.
-struct Ball {
+struct BallScene {
     Scene scene = empty_scene();
     Eigen::Vector3d centre;
     double radius;
 
-    Ball(const Eigen::Vector3d& at, double radius_m, int sides) : centre(at), radius(radius_m) {
+    BallScene(const Eigen::Vector3d& at, double radius_m, int sides)
+        : centre(at), radius(radius_m) {
         const std::uint32_t metal = add_material(scene, 0.8F);
         scene.materials[metal].slope_rms_deg = slope_deg;
         add_sphere(scene, at.cast<float>(), static_cast<float>(radius_m), metal, sides);
@@ -73,7 +75,7 @@ inline Sonar with_targets(Sonar sonar, const Scene& scene) {
 }
 
 /// The energy of a sphere from points on it, close together where it glints.
-inline double energy_of_points(const Sonar& sonar, const Ball& ball,
+inline double energy_of_points(const Sonar& sonar, const BallScene& ball,
                                const Pose& T_world_vehicle = {}) {
     const Pose T_world_sensor = sensor_pose(sonar, T_world_vehicle, 0);
     const Eigen::Vector3d c =

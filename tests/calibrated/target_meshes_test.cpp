@@ -13,12 +13,12 @@ using namespace sonarsim::test;
 TEST_SUITE("calibrated") {
     TEST_CASE("targets: bodies that move and copies of a mesh are sampled where they are") {
         const Sonar sonar = target_sonar(SonarKind::imaging);
-        const Ball still({8.0, 0.3, 0.2}, 0.15, 32);
+        const BallScene still({8.0, 0.3, 0.2}, 0.15, 32);
         const double expected = energy_by(with_targets(sonar, still.scene), still.scene,
                                           *engine_of(still.scene, EngineKind::rays));
         // The sphere about the origin of its own frame, with half of the radius for the copy.
-        const Ball ball({0.0, 0.0, 0.0}, 0.15, 32);
-        const Ball half({0.0, 0.0, 0.0}, 0.075, 32);
+        const BallScene ball({0.0, 0.0, 0.0}, 0.15, 32);
+        const BallScene half({0.0, 0.0, 0.0}, 0.075, 32);
         const auto without_sphere = [&] {
             Scene scene = still.scene;
             const auto last = static_cast<std::ptrdiff_t>(scene.triangles.size() - 2);
@@ -29,7 +29,7 @@ TEST_SUITE("calibrated") {
             return scene;
         };
         const std::size_t count = ball.scene.triangles.size() - 2;
-        const auto triangles = [&](const Ball& of) {
+        const auto triangles = [&](const BallScene& of) {
             return std::vector(of.scene.triangles.begin(),
                                of.scene.triangles.begin() + static_cast<std::ptrdiff_t>(count));
         };

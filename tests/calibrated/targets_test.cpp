@@ -35,7 +35,7 @@ TEST_SUITE("calibrated") {
                     T_world_sensor.rotation *
                         Eigen::Vector3d(range * std::cos(azimuth), range * std::sin(azimuth), 0.0);
                 const int sides[] = {16, 32, 96};
-                const Ball ball(at, radius, sides[trial % 3]);
+                const BallScene ball(at, radius, sides[trial % 3]);
                 const Sonar ready = with_targets(sonar, ball.scene);
                 const double expected = energy_of_points(sonar, ball);
                 for (const EngineKind type : engine_kinds) {
@@ -66,9 +66,9 @@ TEST_SUITE("calibrated") {
         const Sonar sonar = make_sonar(config, {});
         const Pose T_world_sensor = sensor_pose(sonar, Pose{}, 0);
         for (const int sides : {12, 16, 24}) {
-            const Ball ball(T_world_sensor.rotation * Eigen::Vector3d(9.6, 0.1, 0.0) +
-                                T_world_sensor.translation,
-                            1.6, sides);
+            const BallScene ball(T_world_sensor.rotation * Eigen::Vector3d(9.6, 0.1, 0.0) +
+                                     T_world_sensor.translation,
+                                 1.6, sides);
             const auto engine = engine_of(ball.scene, EngineKind::rays);
             const double found = energy_by(with_targets(sonar, ball.scene), ball.scene, *engine);
             const double exact = energy_of_points(sonar, ball);
@@ -139,13 +139,13 @@ TEST_SUITE("calibrated") {
             return make_sonar(config, {});
         };
         for (const SpeckleMode mode : {SpeckleMode::scene, SpeckleMode::ping}) {
-            const Ball small({8.0, 0.3, 0.2}, 0.1, 48);
-            Ball rough({8.0, 0.3, 0.2}, 1.0, 48);
+            const BallScene small({8.0, 0.3, 0.2}, 0.1, 48);
+            BallScene rough({8.0, 0.3, 0.2}, 1.0, 48);
             rough.scene.materials[0].slope_rms_deg = 20.0;
             double mean = 0.0;
             constexpr int draws = 40;
             for (std::uint32_t seed = 1; seed <= draws; ++seed) {
-                const auto energy = [&](const Ball& ball) {
+                const auto energy = [&](const BallScene& ball) {
                     return total(render_ping(with_targets(with_speckle(mode), ball.scene),
                                              ball.scene, *engine_of(ball.scene, EngineKind::rays),
                                              Pose{}, {.seed = seed, .ping = 0},
