@@ -146,8 +146,8 @@ void read_no_data(TIFF* tiff, SonarsimImageHead& head) {
     if (size > 0) std::memcpy(head.no_data, text.data, size);
     if (size > 0) return;
     // A mask is a further image. GDAL writes one where pixels are unknown.
-    constexpr int most_images = 64;
-    for (int image = 0; image < most_images && TIFFReadDirectory(tiff) == 1; ++image) {
+    constexpr int max_images = 64;
+    for (int image = 0; image < max_images && TIFFReadDirectory(tiff) == 1; ++image) {
         std::uint32_t kind = 0;
         if (TIFFGetField(tiff, TIFFTAG_SUBFILETYPE, &kind) == 1 && (kind & FILETYPE_MASK) != 0) {
             throw fault(

@@ -11,7 +11,7 @@ namespace sonarsim {
 
 namespace {
 
-constexpr std::int64_t most_shards = 1'000'000;
+constexpr std::int64_t max_shards = 1'000'000;
 
 std::optional<std::int64_t> number_in_environment(const char* name) {
     const char* const text = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nobody sets it
@@ -25,7 +25,7 @@ Shard parse_shard(const std::string& text) {
     const auto shard = parse_integer(text.substr(0, slash));
     const auto shards =
         slash == std::string::npos ? std::nullopt : parse_integer(text.substr(slash + 1));
-    if (!shard || !shards || *shard < 1 || *shard > *shards || *shards > most_shards) {
+    if (!shard || !shards || *shard < 1 || *shard > *shards || *shards > max_shards) {
         throw CLI::ValidationError("--shard", "'" + text + "' is not of the form 1/4 to 4/4");
     }
     return {static_cast<int>(*shard - 1), static_cast<int>(*shards)};
@@ -38,7 +38,7 @@ std::optional<Shard> shard_of_slurm() {
     const std::int64_t first = number_in_environment("SLURM_ARRAY_TASK_MIN").value_or(1);
     const std::int64_t last = number_in_environment("SLURM_ARRAY_TASK_MAX").value_or(*count);
     const std::int64_t step = *count > 1 ? (last - first) / (*count - 1) : 1;
-    const bool even = *count >= 1 && *count <= most_shards && step >= 1 && *id >= first &&
+    const bool even = *count >= 1 && *count <= max_shards && step >= 1 && *id >= first &&
                       last - first == step * (*count - 1) && (*id - first) % step == 0 &&
                       (*id - first) / step < *count;
     if (!even) {

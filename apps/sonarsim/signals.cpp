@@ -13,7 +13,7 @@ namespace sonarsim {
 namespace {
 
 // The only global state of the program; a signal handler cannot reach any other.
-std::atomic<bool> stop_asked_for = false;
+std::atomic<bool> stop_requested = false;
 std::atomic<int> received = 0;
 std::array<char, 512> last_text;
 std::atomic<std::size_t> last_size = 0;
@@ -24,7 +24,7 @@ static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_alw
 
 extern "C" void on_signal(int number) {
     received = number;
-    stop_asked_for = true;
+    stop_requested = true;
     std::signal(SIGINT, SIG_DFL);
     std::signal(SIGTERM, SIG_DFL);
     ::alarm(1);
@@ -48,7 +48,7 @@ std::atomic<bool>& stop_on_signal(std::string_view last_words) {
         // A shell ignores SIGINT for background jobs, so that Ctrl-C does not end them.
         if (std::signal(number, on_signal) == SIG_IGN) std::signal(number, SIG_IGN);
     }
-    return stop_asked_for;
+    return stop_requested;
 }
 
 int signal_received() {

@@ -22,13 +22,14 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Instances with their share of the visible surface, the largest first.
-std::vector<std::pair<std::string, double>> seen_most(const SonarSurvey& found,
-                                                      const Scene& scene) {
+std::vector<std::pair<std::string, double>> visible_most(const SonarSurvey& found,
+                                                         const Scene& scene) {
     constexpr std::size_t most = 5;
-    const double all = std::reduce(found.seen_m2.begin(), found.seen_m2.end());
+    const double all = std::reduce(found.visible_m2.begin(), found.visible_m2.end());
     std::vector<std::pair<std::string, double>> seen;
-    for (std::size_t i = 0; i < found.seen_m2.size(); ++i) {
-        if (found.seen_m2[i] > 0.0) seen.emplace_back(scene.instances[i], found.seen_m2[i] / all);
+    for (std::size_t i = 0; i < found.visible_m2.size(); ++i) {
+        if (found.visible_m2[i] > 0.0)
+            seen.emplace_back(scene.instances[i], found.visible_m2[i] / all);
     }
     std::ranges::stable_sort(seen,
                              [](const auto& a, const auto& b) { return a.second > b.second; });
@@ -66,7 +67,7 @@ std::string survey_text(const SonarSurvey& found, const Scene& scene) {
     text += line(fmt::format("first echo at {}, last at {}", text_of(found.first_echo_m, "m"),
                              text_of(found.last_echo_m, "m")));
     std::string seen;
-    for (const auto& [name, share] : seen_most(found, scene)) {
+    for (const auto& [name, share] : visible_most(found, scene)) {
         constexpr double least = 0.005;
         if (share < least) break;
         seen += fmt::format("{}{} ({:.0f} %)", seen.empty() ? "" : ", ", printable(name),
@@ -80,7 +81,7 @@ std::string survey_text(const SonarSurvey& found, const Scene& scene) {
 
 Json survey_json(const SonarSurvey& found, const Scene& scene) {
     Json seen = Json::object();
-    for (const auto& [name, share] : seen_most(found, scene))
+    for (const auto& [name, share] : visible_most(found, scene))
         seen[name] = share;
     return {{"pings_tried", found.pings},
             {"blind", found.blind},

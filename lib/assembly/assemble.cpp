@@ -229,8 +229,8 @@ Assembly assemble(const Mission& mission, SceneStore& models) {
                                 {mission.water.density_kg_m3, mission.water.sound_speed_m_s},
                                 sharing_threshold(settings.type));
     place_moving_scene(assembly.trajectory, parts.motions, assembly.scene);
-    lay_ground_maps(mission.scene, materials,
-                    {mission.water.density_kg_m3, mission.water.sound_speed_m_s}, assembly.scene);
+    apply_ground_maps(mission.scene, materials,
+                      {mission.water.density_kg_m3, mission.water.sound_speed_m_s}, assembly.scene);
     for (std::string& warning : parts.orientation_warnings)
         assembly.scene.warnings.push_back(std::move(warning));
     assembly.motions = std::move(parts.motions);

@@ -19,8 +19,8 @@ namespace sonarsim {
 namespace {
 
 constexpr std::size_t max_pings_for_white = 8;  // per sonar
-constexpr std::size_t most_slow = 3;            // per sonar with a slow echo model
-constexpr std::size_t most_bins = 1U << 24;     // in all probes of a sonar
+constexpr std::size_t max_slow = 3;             // per sonar with a slow echo model
+constexpr std::size_t max_bins = 1U << 24;      // in all probes of a sonar
 constexpr double coarse_l1 = 0.1;               // brightness needs no fine sampling
 constexpr double share_below_white = 0.99;      // quantile of the occupied bins
 // A few glints far above all other echoes, as in the calibrated model, are allowed to saturate.
@@ -83,8 +83,8 @@ double find_full_scale(const Mission& mission, const Scene& scene, const Traject
     View& view = sonar.settings.view;
     view.relative_l1 = std::max(view.relative_l1, coarse_l1);
     const auto bins = static_cast<std::size_t>(view.range_bins) * view.beams;
-    const std::size_t most = sonar.settings.model->info.is_slow ? most_slow : max_pings_for_white;
-    const std::size_t probes = std::clamp<std::size_t>(most_bins / bins, 1, most);
+    const std::size_t most = sonar.settings.model->info.is_slow ? max_slow : max_pings_for_white;
+    const std::size_t probes = std::clamp<std::size_t>(max_bins / bins, 1, most);
     std::vector<float> occupied;
     for (const std::uint32_t pose : sample_pings(trajectory.size(), sonar.config.every, probes)) {
         const TimedPose& at = trajectory[pose];

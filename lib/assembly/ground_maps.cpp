@@ -39,7 +39,8 @@ std::vector<char> ground_of(const SceneConfig& config, const Scene& scene) {
     return on;
 }
 
-LaidMapRule rule_of(const LaidMapConfig& map, const std::string& section, const Scene& scene) {
+AppliedMapRule rule_of(const AppliedMapConfig& map, const std::string& section,
+                       const Scene& scene) {
     return {.file = map.file,
             .pixel_m = map.pixel_m,
             .origin_m = map.origin_m,
@@ -84,7 +85,7 @@ void warn_of_place(const TexelFrame& frame, const std::string& section, Scene& s
 
 /// Reads one map; its errors name the mission.
 template <class Read>
-auto read_map(const LaidMapConfig& map, const Read& read) {
+auto read_map(const AppliedMapConfig& map, const Read& read) {
     try {
         return read();
     } catch (const InputError& error) {
@@ -95,8 +96,8 @@ auto read_map(const LaidMapConfig& map, const Read& read) {
 
 }  // namespace
 
-void lay_ground_maps(const SceneConfig& config, const MaterialTable& table, const Water& water,
-                     Scene& scene) {
+void apply_ground_maps(const SceneConfig& config, const MaterialTable& table, const Water& water,
+                       Scene& scene) {
     if (!config.sediment_map && !config.backscatter_map) return;
     std::optional<MaterialTexels> materials;
     std::optional<StrengthTexels> strengths;
@@ -112,7 +113,7 @@ void lay_ground_maps(const SceneConfig& config, const MaterialTable& table, cons
     }
     if (config.backscatter_map) {
         const std::string section = "scene.backscatter_map";
-        const LaidMapConfig& map = *config.backscatter_map;
+        const AppliedMapConfig& map = *config.backscatter_map;
         strengths = read_map(map, [&] {
             return read_strength_map(rule_of(map, section, scene), read_image(map.file));
         });

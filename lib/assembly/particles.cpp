@@ -130,7 +130,7 @@ void require_new_name(const ParticlesConfig& config, const Scene& scene) {
 void add_group(ParticleGroup& group, Scene& scene) {
     const ParticlesConfig& config = *group.config;
     require_new_name(config, scene);
-    const bool is_single = static_cast<double>(group.targets.size()) < most_single_particles;
+    const bool is_single = static_cast<double>(group.targets.size()) < max_single_particles;
     const std::uint32_t material = material_of(config.kind, scene);
     std::uint32_t instance = 0;
     if (!is_single) instance = add_instance(config, config.name, scene);

@@ -48,8 +48,8 @@ struct MultipathRow {
     bool current = false;          ///< the mission's own setting
     std::uint64_t exact_bins = 0;  ///< bins that the exact method fills
     double relative_l1 = 0.0;
-    double recall = 1.0;     ///< share of the exact method's bins that this one fills, too
-    double precision = 1.0;  ///< share of this method's bins that the exact one fills, too
+    double recall = 1.0;         ///< share of the exact method's bins that this one fills, too
+    double precision = 1.0;      ///< share of this method's bins that the exact one fills, too
     double ms_multipath = 0.0;   ///< time of this stage, one thread; median over the poses
     double ms_per_ping = 0.0;    ///< noise on, one thread; median over the poses
     double times_without = 0.0;  ///< a multiple of the time of a ping without multipath
@@ -59,7 +59,7 @@ struct MultipathRow {
 struct ReferenceQuality {
     std::string sensor;
     double moved = 0.0;         ///< mean of Reference::moved over the poses
-    double most_moved = 0.0;    ///< the largest of them
+    double max_moved = 0.0;     ///< the largest of them
     double rays_per_bin = 0.0;  ///< rays that echoed, per occupied bin
 };
 
@@ -76,7 +76,7 @@ struct Report {
     std::size_t triangles = 0;  ///< copies included
     int poses = 0;
     int threads = 0;
-    double load = 0.0;   ///< load average of the machine at the start
+    double load = 0.0;  ///< load average of the machine at the start
     std::vector<ReportRow> rows;
     std::vector<ReferenceQuality> references;  ///< one per sonar
     std::vector<MultipathRow> multipath;       ///< only for sonars that have it

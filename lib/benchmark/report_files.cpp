@@ -47,7 +47,7 @@ Json json_of(const MultipathRow& row) {
 Json json_of(const ReferenceQuality& reference) {
     return {{"sensor", reference.sensor},
             {"moved_mean", reference.moved},
-            {"moved_max", reference.most_moved},
+            {"moved_max", reference.max_moved},
             {"rays_per_bin_mean", reference.rays_per_bin}};
 }
 
@@ -60,8 +60,11 @@ Json list_of(const std::vector<Row>& rows) {
 }
 
 Json json_of(const Report& report) {
-    Json json{{"mission", report.mission}, {"triangles", report.triangles}, {"poses", report.poses},
-              {"threads", report.threads}, {"load", report.load}};
+    Json json{{"mission", report.mission},
+              {"triangles", report.triangles},
+              {"poses", report.poses},
+              {"threads", report.threads},
+              {"load", report.load}};
     json["rows"] = list_of(report.rows);
     json["reference"] = list_of(report.references);
     json["multipath_rows"] = list_of(report.multipath);
@@ -121,11 +124,12 @@ std::string report_markdown(const Report& report) {
     std::string text = fmt::format("{}: {} triangles, {} poses, {} threads\n", report.mission,
                                    report.triangles, report.poses, report.threads);
     if (report.load > 0.5)
-        text += fmt::format("The machine was busy (load {:.1f}): times are too long.\n", report.load);
+        text +=
+            fmt::format("The machine was busy (load {:.1f}): times are too long.\n", report.load);
     for (const ReferenceQuality& reference : report.references) {
-        text += fmt::format("\n{}: the reference settled to {} %, at most {} %.\n", reference.sensor,
-                            short_number(100.0 * reference.moved),
-                            short_number(100.0 * reference.most_moved));
+        text += fmt::format("\n{}: the reference settled to {} %, at most {} %.\n",
+                            reference.sensor, short_number(100.0 * reference.moved),
+                            short_number(100.0 * reference.max_moved));
         text += table(json["rows"], reference.sensor,
                       {{"engine", "engine"},
                        {"setting", "setting"},

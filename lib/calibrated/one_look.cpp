@@ -67,14 +67,14 @@ class ImageFormer {
 
         // 5. The water's volume. Bins with its echo alone count as empty.
         const bool has_water = context_.terms.direct && model_.water;
-        const std::size_t seen_bins = has_water ? grid.occupied() : 0;
+        const std::size_t visible_bins = has_water ? grid.occupied() : 0;
         if (has_water)
             add_water_column(model_, beams_, traced, context_, expected_power, speckle_gain_, grid);
 
         // 3. Pulse.
         const std::size_t echo_bins =
             grid.convolve_pulse(expected_power ? model_.power_taps : model_.amplitude_taps);
-        ping_.counts.occupied_bins = has_water ? seen_bins : echo_bins;
+        ping_.counts.occupied_bins = has_water ? visible_bins : echo_bins;
         // 3, 4. Beams, the receiver's noise and its gain.
         beamform(beams_, grid, expected_power, context_.terms.random > 1,
                  context_.draws.of(Stream::receiver_noise), model_.row_gain, ping_.intensity);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double cell_rad = radians(1.0);
 constexpr int min_cell_count = 4;
-constexpr int most_cells = 128;
+constexpr int max_cells = 128;
 constexpr int cone_rings = 48;
 constexpr int cone_turns = 16;
 // The number of directions along either side over which a cell is integrated.
@@ -24,7 +24,7 @@ constexpr int parts = 4;
 constexpr float far_m = 1e6F;
 
 int cells_over(double extent) {
-    return std::clamp(static_cast<int>(std::ceil(extent / cell_rad)), min_cell_count, most_cells);
+    return std::clamp(static_cast<int>(std::ceil(extent / cell_rad)), min_cell_count, max_cells);
 }
 
 /// The axis of symmetry, then the two axes from which the turn is measured.
@@ -104,7 +104,7 @@ void add_weights(const View& view, int channels, bool by_sine, Weigh weigh, Weig
         const double middle_sine = cells.first_sine + (s + 0.5) * cells.sine_step;
         const double middle_turn = cells.first_turn_rad + (t + 0.5) * cells.turn_step_rad;
         cells.direction.push_back(direction_of(cells.axis, middle_sine, middle_turn));
-        cells.seen_sr.push_back(static_cast<float>(part_sr * block.count));
+        cells.visible_sr.push_back(static_cast<float>(part_sr * block.count));
         if (block.count == 0) continue;
         for (int channel = 0; channel < channels; ++channel) {
             PointEchoes echoes{};

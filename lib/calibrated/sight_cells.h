@@ -34,7 +34,7 @@ struct SightCells {
     float first_turn_rad = 0.0F, turn_step_rad = 1.0F;
     int sines = 0, turns = 0;
     std::vector<Eigen::Vector3f> direction;  ///< [sines, turns] of the middles, sensor frame
-    std::vector<float> seen_sr;              ///< [sines, turns] the part within the view
+    std::vector<float> visible_sr;           ///< [sines, turns] the part within the view
 
     int count() const { return sines * turns; }
     float middle_sine(int s) const {

@@ -46,7 +46,7 @@ struct TargetPieces {
     // radius of curvature.
     std::array<Floats, 3> normal{}, flat_normal{};
     Floats curvature_m{};
-    // The half edges of a piece as a parallelogram, if they are asked for.
+    // The half edges of a piece as a parallelogram, if they are needed.
     bool with_edges = false;
     PatchBlock::Array<Eigen::Vector3f> edge_u, edge_v;
 };

@@ -37,7 +37,7 @@ class CoveredCells {
         flush();
         std::vector<float> out(cells_.count());
         for (int cell = 0; cell < cells_.count(); ++cell) {
-            const bool closed = covered_sr_[cell] > min_cover * cells_.seen_sr[cell];
+            const bool closed = covered_sr_[cell] > min_cover * cells_.visible_sr[cell];
             out[cell] = closed ? weighted_m_[cell] / covered_sr_[cell] : no_end;
         }
         return out;
@@ -78,11 +78,11 @@ class CoveredCells {
 void end_at_borders(const SightCells& cells, std::vector<float>& ends) {
     const std::vector<float> found = ends;
     for (int cell = 0; cell < cells.count(); ++cell) {
-        const float seen = cells.seen_sr[cell];
+        const float seen = cells.visible_sr[cell];
         if (found[cell] != no_end || seen == 0.0F) continue;
         const int turn = cell % cells.turns;
         const auto take = [&](bool exists, int neighbour) {
-            if (!exists || cells.seen_sr[neighbour] <= seen) return;
+            if (!exists || cells.visible_sr[neighbour] <= seen) return;
             ends[cell] = std::min(ends[cell], found[neighbour]);
         };
         take(turn > 0, cell - 1);

@@ -41,7 +41,7 @@ std::vector<Warning> find_warnings(const Mission& mission, const Assembly& assem
         append(out, sonar_warnings(mission.output, assembly.sonars[i], assembly.full_scales[i],
                                    sonars[i]));
     }
-    append(out, unseen_objects(mission, assembly, sonars, rays));
+    append(out, hidden_objects(mission, assembly, sonars, rays));
     return out;
 }
 

@@ -42,7 +42,7 @@ std::vector<Warning> image_warnings(const Mission& mission, const Assembly& asse
 
 /// Objects that the mission places or gives a class, and that no sonar sees. An object that the
 /// survey did not see is looked for in pings that have it in view.
-std::vector<Warning> unseen_objects(const Mission& mission, const Assembly& assembly,
+std::vector<Warning> hidden_objects(const Mission& mission, const Assembly& assembly,
                                     std::span<const SonarSurvey> sonars,
                                     const VisibilityEngine& rays);
 

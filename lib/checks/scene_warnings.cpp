@@ -60,7 +60,7 @@ double cell_of_heightmap_m(const Assembly& assembly) {
 
 /// W37 for the finest bins of all sonars.
 void judge_heightmap(const Assembly& assembly, std::vector<Warning>& out) {
-    constexpr double most_bins = 8.0;
+    constexpr double max_bins = 8.0;
     if (assembly.sonars.empty()) return;
     double bin_m = std::numeric_limits<double>::infinity();
     for (const Sonar& sonar : assembly.sonars) {
@@ -68,7 +68,7 @@ void judge_heightmap(const Assembly& assembly, std::vector<Warning>& out) {
         bin_m = std::min<double>(bin_m, (view.range_max_m - view.range_min_m) / view.range_bins);
     }
     const double cell_m = cell_of_heightmap_m(assembly);
-    if (cell_m <= most_bins * bin_m) return;
+    if (cell_m <= max_bins * bin_m) return;
     out.push_back(make_warning(WarningCode::heightmap_facets, "scene.heightmap", cell_m, bin_m,
                                cell_m / bin_m));
 }

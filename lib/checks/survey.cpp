@@ -18,10 +18,10 @@ namespace sonarsim {
 
 namespace {
 
-constexpr std::size_t most_pings = 36;       // per sonar
-constexpr std::size_t most_bins = 1U << 25;  // per sonar, all pings together
-constexpr std::size_t most_slow = 9;         // per sonar with a slow echo model
-constexpr std::size_t images_of_slow = 3;    // one in so many of these pings becomes an image
+constexpr std::size_t max_pings = 36;       // per sonar
+constexpr std::size_t max_bins = 1U << 25;  // per sonar, all pings together
+constexpr std::size_t max_slow = 9;         // per sonar with a slow echo model
+constexpr std::size_t images_of_slow = 3;   // one in so many of these pings becomes an image
 constexpr double coarse_l1 = 0.2;
 
 /// The surface around a sonar.
@@ -92,7 +92,7 @@ bool looks_like_depth(const Scene& scene, double z_m, double reach_m) {
     return z_m > highest_m && -z_m > scene.bounds_min.z() && -z_m < highest_m;
 }
 
-/// True for a box around the whole scene, such as that of a basin: a sonar inside is no mistake.
+/// True for a box around the whole scene, such as that of a basin: a sonar may be inside.
 bool holds_all(const Eigen::AlignedBox3d& box, const Scene& scene) {
     const Eigen::Vector3d extent = scene.bounds_max - scene.bounds_min;
     return !box.isEmpty() && (box.sizes().array() >= 0.9 * extent.array()).all();
@@ -148,7 +148,7 @@ bool take_samples(const View& view, const Samples& samples, SonarSurvey& out) {
         const double range = arrival_range(sample.position);
         if (range < view.range_min_m || range >= view.range_max_m) continue;
         echoes.take(range);
-        out.seen_m2[sample.instance] += sample.area_m2;
+        out.visible_m2[sample.instance] += sample.area_m2;
     }
     if (echoes.empty()) return false;
     out.first_echo_m.take(echoes.low);
@@ -199,17 +199,17 @@ SonarSurvey survey_sonar(const Mission& mission, const Assembly& assembly, Sonar
                          double full_scale, std::span<const Eigen::AlignedBox3d> boxes,
                          const VisibilityEngine& rays) {
     SonarSurvey out;
-    out.seen_m2.resize(assembly.scene.instances.size());
+    out.visible_m2.resize(assembly.scene.instances.size());
     const bool open_upwards = faces_up(assembly.scene);
     View& view = sonar.settings.view;
     view.relative_l1 = std::max(view.relative_l1, coarse_l1);
     const auto bins = static_cast<std::size_t>(view.range_bins) * view.beams;
     const bool slow = sonar.settings.model->info.is_slow;
-    const std::size_t most = slow ? most_slow : most_pings;
+    const std::size_t most = slow ? max_slow : max_pings;
     BinSums sums;
     for (const std::uint32_t pose :
          sample_pings(assembly.trajectory.size(), sonar.config.every,
-                      std::clamp<std::size_t>(most_bins / bins, 3, most))) {
+                      std::clamp<std::size_t>(max_bins / bins, 3, most))) {
         const TimedPose& at = assembly.trajectory[pose];
         const SonarAtPose then(mission, sonar, pose);
         const Pose T_world_sensor = sensor_pose(*then, at.T_world_vehicle, pose);

@@ -16,10 +16,10 @@ namespace sonarsim {
 
 namespace {
 
-constexpr std::size_t most_objects = 200;  // the most objects to look for
-constexpr std::size_t most_poses = 20000;  // about the most poses to test for an object
-constexpr std::size_t most_tries = 4;      // the most pings of a sonar to trace for an object
-constexpr std::size_t most_named = 5;
+constexpr std::size_t max_objects = 200;  // the most objects to look for
+constexpr std::size_t max_poses = 20000;  // about the most poses to test for an object
+constexpr std::size_t max_tries = 4;      // the most pings of a sonar to trace for an object
+constexpr std::size_t max_named = 5;
 
 /// A sphere around an object; the frame is the world, or its own if it moves.
 struct Extent {
@@ -85,7 +85,7 @@ std::vector<PoseInView> poses_in_view(const Mission& mission, const Assembly& as
     const View& view = sonar.settings.view;
     const auto every = static_cast<std::size_t>(sonar.config.every);
     const std::size_t pings = (assembly.trajectory.size() + every - 1) / every;
-    const std::size_t step = every * ((pings + most_poses - 1) / most_poses);
+    const std::size_t step = every * ((pings + max_poses - 1) / max_poses);
     std::vector<PoseInView> poses;
     for (std::size_t i = 0; i < assembly.trajectory.size(); i += step) {
         const TimedPose& at = assembly.trajectory[i];
@@ -116,7 +116,7 @@ bool sees(const Mission& mission, const Assembly& assembly, const Sonar& sonar,
           const VisibilityEngine& rays) {
     const std::size_t straight =
         static_cast<std::size_t>(std::ranges::count(poses, 0.0, &PoseInView::angle_off));
-    const std::size_t tries = std::min(poses.size(), most_tries);
+    const std::size_t tries = std::min(poses.size(), max_tries);
     const std::size_t among = std::max(straight, tries);
     for (std::size_t k = 0; k < tries; ++k) {
         const std::uint32_t pose = poses[(2 * k + 1) * among / (2 * tries)].pose;
@@ -137,16 +137,16 @@ bool sees(const Mission& mission, const Assembly& assembly, const Sonar& sonar,
 /// "'a', 'b' and 3 more".
 std::string names_text(const std::vector<std::string>& names) {
     std::string out;
-    for (std::size_t i = 0; i < std::min(names.size(), most_named); ++i)
+    for (std::size_t i = 0; i < std::min(names.size(), max_named); ++i)
         out += (i > 0 ? ", '" : "'") + printable(names[i]) + "'";
-    if (names.size() > most_named)
-        out += " and " + std::to_string(names.size() - most_named) + " more";
+    if (names.size() > max_named)
+        out += " and " + std::to_string(names.size() - max_named) + " more";
     return out;
 }
 
 }  // namespace
 
-std::vector<Warning> unseen_objects(const Mission& mission, const Assembly& assembly,
+std::vector<Warning> hidden_objects(const Mission& mission, const Assembly& assembly,
                                     std::span<const SonarSurvey> sonars,
                                     const VisibilityEngine& rays) {
     const Scene& scene = assembly.scene;
@@ -156,11 +156,11 @@ std::vector<Warning> unseen_objects(const Mission& mission, const Assembly& asse
     std::size_t looked_for = 0;
     for (std::uint32_t instance = 0; instance < scene.instances.size(); ++instance) {
         const auto has_seen = [&](const SonarSurvey& sonar) {
-            return sonar.seen_m2[instance] > 0.0;
+            return sonar.visible_m2[instance] > 0.0;
         };
         if (extents[instance].radius < 0.0) continue;
         if (!is_wanted(mission, scene, instance) || std::ranges::any_of(sonars, has_seen)) continue;
-        if (++looked_for > most_objects) continue;
+        if (++looked_for > max_objects) continue;
         bool in_view = false;
         bool seen = false;
         for (std::size_t i = 0; i < assembly.sonars.size() && !seen; ++i) {
@@ -172,8 +172,8 @@ std::vector<Warning> unseen_objects(const Mission& mission, const Assembly& asse
         if (!seen) (in_view ? hidden : never_in_view).push_back(scene.instances[instance]);
     }
     const std::string not_looked_for =
-        looked_for > most_objects
-            ? fmt::format(" ({} more were not tested)", looked_for - most_objects)
+        looked_for > max_objects
+            ? fmt::format(" ({} more were not tested)", looked_for - max_objects)
             : "";
     std::vector<Warning> out;
     const auto warn = [&](const std::vector<std::string>& names, const char* what,
@@ -181,7 +181,7 @@ std::vector<Warning> unseen_objects(const Mission& mission, const Assembly& asse
         if (names.empty()) return;
         const std::string count =
             names.size() == 1 ? "1 object is" : std::to_string(names.size()) + " objects are";
-        out.push_back(make_warning(WarningCode::unseen_object, "scene", count + what,
+        out.push_back(make_warning(WarningCode::hidden_object, "scene", count + what,
                                    names_text(names) + not_looked_for, cure));
     };
     warn(never_in_view, " not in view",

@@ -25,7 +25,7 @@ enum class WarningCode {
     below_noise = 18,
     saturated = 19,
     dim = 20,
-    unseen_object = 21,
+    hidden_object = 21,
     engine = 24,
     memory = 26,
     no_locks = 28,

@@ -76,7 +76,7 @@ constexpr std::array table{
                 "its brightest pixel is {0:.3g}, which is grey level {1:.0f} of 255 in fans",
                 "lower output.full_scale ({2:.4g}), or write auto",
                 "the brightest pixel below grey level 16 of 255"},
-    WarningText{WarningCode::unseen_object, "{0:s} by any of the pings that were tried: {1:s}",
+    WarningText{WarningCode::hidden_object, "{0:s} by any of the pings that were tried: {1:s}",
                 "{2:s}",
                 "an object with a name or a class that none of four pings of each sonar sees; the "
                 "tested pings look at it most directly, and the first 200 objects are tested"},

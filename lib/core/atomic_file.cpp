@@ -8,9 +8,9 @@ StreamedFile::StreamedFile(const std::filesystem::path& path)
 }
 
 void StreamedFile::append(std::string_view bytes) {
-    constexpr std::size_t most_pending = std::size_t{1} << 16;
+    constexpr std::size_t max_pending = std::size_t{1} << 16;
     pending_ += bytes;
-    if (pending_.size() < most_pending) return;
+    if (pending_.size() < max_pending) return;
     put(pending_);
     pending_.clear();
 }

@@ -61,7 +61,7 @@ std::vector<std::string> split_fields(std::string_view line, const Location& whe
     }
 }
 
-/// Throws InputError for a text that is no CSV at all.
+/// Throws InputError for a text that is not a CSV.
 void check_text(std::string_view text, const std::string& file_name) {
     const std::string_view format = known_format(text);
     if (!format.empty())

@@ -18,7 +18,7 @@ void ErrorList::add(const InputError& error) {
     const std::string text = error.what();
     if (std::ranges::find(kept_, text) != kept_.end()) return;
     ++count_;
-    if (kept_.size() < most_kept) kept_.push_back(text);
+    if (kept_.size() < max_kept) kept_.push_back(text);
 }
 
 void ErrorList::raise() const {

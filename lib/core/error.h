@@ -40,14 +40,14 @@ class ErrorList {
     }
     void add(const InputError& error);
 
-    /// Number of errors, including those beyond the first `most_kept`.
+    /// Number of errors, including those beyond the first `max_kept`.
     std::size_t count() const { return count_; }
     /// Throws one InputError with a line for each error, in the order in which they were found.
     /// Does nothing if there is none.
     void raise() const;
 
   private:
-    static constexpr std::size_t most_kept = 50;
+    static constexpr std::size_t max_kept = 50;
 
     std::vector<std::string> kept_;  ///< without duplicates
     std::size_t count_ = 0;

@@ -18,7 +18,7 @@ inline constexpr double furthest_s = 1e12;
 // Densities (kg/m^3) and speeds of sound (m/s), of water and materials. Impedances then lie within
 // 1e-18 to 1e18, and their squares and products within 1e-36 to 1e36: normal numbers even as
 // floats. The densest metal has 2.3e4 kg/m^3, sound in diamond 1.8e4 m/s.
-inline constexpr double least_medium = 1e-9;
+inline constexpr double min_medium = 1e-9;
 inline constexpr double largest_medium = 1e9;
 
 }  // namespace sonarsim

@@ -8,7 +8,7 @@
 namespace sonarsim {
 
 std::size_t pings_per_row(std::size_t pings) {
-    return std::max<std::size_t>(1, (pings + most_picture_rows - 1) / most_picture_rows);
+    return std::max<std::size_t>(1, (pings + max_picture_rows - 1) / max_picture_rows);
 }
 
 int picture_rows(std::size_t pings) {

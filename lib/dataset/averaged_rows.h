@@ -11,7 +11,7 @@ namespace sonarsim {
 
 /// The most rows (or columns) of pings in a picture; a PNG cannot have many more. If there are more
 /// pings, a row is the mean of several.
-inline constexpr std::size_t most_picture_rows = 60'000;
+inline constexpr std::size_t max_picture_rows = 60'000;
 
 /// The number of pings that share a row.
 std::size_t pings_per_row(std::size_t pings);

@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* cure = "; copy the dataset again, or render it anew";
+constexpr const char* cure = "; copy the dataset again, or render it again";
 
 /// InputError with what is wrong with a dataset.json.
 [[noreturn]] void refuse(const std::string& file, const std::string& what) {
@@ -137,7 +137,7 @@ DatasetFile parse_description(Json json, const std::string& file) try {
     dataset.complete = json.at("complete").get<bool>();
     dataset.mission = json.at("mission").get<std::string>();
     dataset.poses = count_in(json.at("poses"), file);
-    if (dataset.poses > most_poses) refuse(file, "has more than ten million poses");
+    if (dataset.poses > max_poses) refuse(file, "has more than ten million poses");
     for (const Json& sensor : json.at("sensors"))
         dataset.sensors.push_back(read_sensor(sensor, dataset.poses, file));
     for (const Json& product : json.value("products", Json::array())) {

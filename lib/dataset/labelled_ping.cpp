@@ -7,32 +7,33 @@
 
 namespace sonarsim {
 
-bool is_asked(const Mission& mission, Label label) {
+bool is_listed(const Mission& mission, Label label) {
     return std::ranges::find(mission.output.labels, label) != mission.output.labels.end();
 }
 
 LabelPlan plan_labels(const Mission& mission, const Assembly& assembly, const Sonar& sonar) {
-    const auto asked = [&](Label label) { return is_asked(mission, label); };
+    const auto listed = [&](Label label) { return is_listed(mission, label); };
     const bool has_images = kind_of(sonar.config.kind).has_images;
-    const bool objects = asked(Label::objects);
-    const bool shares = asked(Label::share) || asked(Label::second) || asked(Label::multipath);
+    const bool objects = listed(Label::objects);
+    const bool shares = listed(Label::share) || listed(Label::second) || listed(Label::multipath);
     const OutputConfig& output = mission.output;
     LabelPlan plan;
     plan.on = !output.labels.empty();
-    plan.request = {.objects = objects || asked(Label::instance) || shares,
+    plan.request = {.objects = objects || listed(Label::instance) || shares,
                     .shares = shares,
-                    .classes = asked(Label::class_name),
-                    .materials = asked(Label::material),
-                    .elevation = asked(Label::elevation),
-                    .shadow = asked(Label::shadow),
-                    .height = asked(Label::height),
+                    .classes = listed(Label::class_name),
+                    .materials = listed(Label::material),
+                    .elevation = listed(Label::elevation),
+                    .shadow = listed(Label::shadow),
+                    .height = listed(Label::height),
                     .annotations = objects,
                     .bottom = assembly.bottom.get()};
     plan.objects = has_images && objects;
-    if (has_images && (asked(Label::fan) || (output.fan && objects)))
+    if (has_images && (listed(Label::fan) || (output.fan && objects)))
         plan.fan = make_fan_bins(sonar);
-    if (objects || asked(Label::shadow)) plan.annotated = annotated_objects(assembly);
-    if (asked(Label::shadow)) plan.triangles = std::make_shared<const TriangleRuns>(assembly.scene);
+    if (objects || listed(Label::shadow)) plan.annotated = annotated_objects(assembly);
+    if (listed(Label::shadow))
+        plan.triangles = std::make_shared<const TriangleRuns>(assembly.scene);
     const View& view = sonar.settings.view;
     if (plan.objects && output.fan)
         plan.fan_boxes =
@@ -58,7 +59,7 @@ LabelledPing label_for_writers(const LabelPlan& plan, const Assembly& assembly, 
         out.fan = object_masks(fan_values(plan.fan.by_column, out.bins.object, std::uint16_t{0}),
                                plan.fan.frame.height);
     }
-    out.seen = seen_objects(sonar, assembly.objects, traced, out.bins, ping, plan.fan_boxes);
+    out.seen = visible_objects(sonar, assembly.objects, traced, out.bins, ping, plan.fan_boxes);
     return out;
 }
 

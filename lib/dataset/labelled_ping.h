@@ -15,7 +15,7 @@
 namespace sonarsim {
 
 /// True if the mission asks for a label.
-bool is_asked(const Mission& mission, Label label);
+bool is_listed(const Mission& mission, Label label);
 
 /// The labels to find for every ping of a sonar.
 struct LabelPlan {

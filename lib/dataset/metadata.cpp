@@ -41,7 +41,7 @@ Json describe_scene_use(const Scene& scene) {
     return json;
 }
 
-/// Describes the picture of a file of a ping, for people; null if the file is no picture.
+/// Describes the picture of a file of a ping, for people; null for other files.
 Json describe_picture(const PingFile& file, const Json& pattern) {
     if (file.title.empty() || pattern.is_null()) return nullptr;
     Json json = {{"title", file.title}, {"file", pattern}, {"per", "ping"}};

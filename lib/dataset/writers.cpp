@@ -48,7 +48,7 @@ void check_fan_label(const Mission& mission) {
         mission.output.fan && std::ranges::any_of(mission.sensors, [](const auto& sensor) {
             return kind_of(sensor.kind).has_images;
         });
-    if (all || has_fans || !is_asked(mission, Label::fan)) return;
+    if (all || has_fans || !is_listed(mission, Label::fan)) return;
     throw InputError(mission.output.place,
                      "the label 'fan' needs output.fan: true and an imaging or profiling sonar");
 }

@@ -198,8 +198,8 @@ std::string ZlibPacker::pack(Bytes bytes, bool last) {
     // The only distance is that of a pixel; its code has one bit.
     lengths.resize(symbols_known + static_cast<std::size_t>(pixel_bytes_), 0);
     lengths.back() = 1;
-    constexpr std::size_t most_header = 256;  // and a byte takes at most max_code_bits
-    std::string out(2 * bytes.size() + most_header, '\0');
+    constexpr std::size_t max_header = 256;  // and a byte takes at most max_code_bits
+    std::string out(2 * bytes.size() + max_header, '\0');
     BitCursor to{out.data(), buffer_, held_};
     to.put({last ? 0b101U : 0b100U, 3});
     put_lengths(to, lengths, pixel_bytes_);

@@ -12,7 +12,7 @@ namespace sonarsim {
 
 std::vector<PingCost> measure_pings(const Mission& mission, const Assembly& assembly,
                                     const std::vector<Writers>& writers, double& set_up_s) {
-    constexpr std::size_t most_pings = 2;  // after the first
+    constexpr std::size_t max_pings = 2;  // after the first
     Stopwatch watch;
     const std::unique_ptr<VisibilityEngine> engine = make_engine(mission, assembly);
     set_up_s += watch.lap();
@@ -21,7 +21,7 @@ std::vector<PingCost> measure_pings(const Mission& mission, const Assembly& asse
         const Sonar& sonar = assembly.sonars[i];
         const LabelPlan plan = plan_labels(mission, assembly, sonar);
         const std::vector<std::uint32_t> poses =
-            sample_pings(assembly.trajectory.size(), sonar.config.every, most_pings);
+            sample_pings(assembly.trajectory.size(), sonar.config.every, max_pings);
         const auto measure = [&](std::uint32_t pose) {
             watch.lap();
             const WrittenPing written = encode_ping(

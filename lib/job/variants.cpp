@@ -159,7 +159,7 @@ void inspect_variants(const fs::path& folder, const Json& json, std::span<const 
                 mission_differences(folder / variant_folder(0),
                                     resolved_yaml(portable(variants.front()), sonar_keys()));
         refuse_variants(
-            folder, difference + "; choose another output.folder, or --overwrite to begin anew");
+            folder, difference + "; choose another output.folder, or --overwrite to start again");
     }
     for (const Json& one : {found.value_or(json), json}) {
         for (const fs::path& variant : folders_of_variants(folder, one))

@@ -86,7 +86,7 @@ void list_tasks(const fs::path& top, const std::string& prefix, std::vector<Task
         if (!expected.contains(name))
             add_error(name,
                       "SHA256SUMS lists it, and dataset.json does not; one of them was "
-                      "changed: render the dataset anew (--overwrite)");
+                      "changed: render the dataset again (--overwrite)");
     }
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
         const std::string name = entry.path().lexically_relative(folder).string();

@@ -11,7 +11,7 @@
 namespace sonarsim {
 
 /// Labels of the visible surface in the bins, [beams, range_bins], beam after beam, NaN before.
-/// Empty: not asked for.
+/// Empty: not requested.
 struct PatchLabels {
     std::span<float> elevation_rad, elevation_spread_rad;  ///< both or none
     std::span<float> height_m;

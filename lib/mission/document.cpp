@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t deepest = 16;
 // A mission of 2,000 sensors, as written into its dataset, has 120,000.
-constexpr std::size_t most_nodes = 250'000;
+constexpr std::size_t max_nodes = 250'000;
 
 bool is_control(char byte) {
     const auto value = static_cast<unsigned char>(byte);
@@ -161,9 +161,9 @@ class Builder : public YAML::EventHandler {
     }
 
     void add(YamlNode node) {
-        if (++count_ > most_nodes) {
+        if (++count_ > max_nodes) {
             throw InputError(node.place.location(),
-                             "more than " + std::to_string(most_nodes) +
+                             "more than " + std::to_string(max_nodes) +
                                  " values; long trajectories belong into a file of their own");
         }
         if (open_.empty()) {

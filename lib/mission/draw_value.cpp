@@ -11,7 +11,7 @@ namespace sonarsim {
 
 namespace {
 
-constexpr std::uint32_t most_tries = 1000;
+constexpr std::uint32_t max_tries = 1000;
 
 /// Draws two numbers in [0, 1).
 std::array<double, 2> unit_pair(PhiloxKey key, std::uint32_t attempt) {
@@ -31,7 +31,7 @@ double standard_normal(const std::array<double, 2>& u) {
 
 double draw_normal(const VaryConfig& rule, PhiloxKey key) {
     const auto [mean, sigma] = *rule.normal;
-    for (std::uint32_t attempt = 0; attempt < most_tries; ++attempt) {
+    for (std::uint32_t attempt = 0; attempt < max_tries; ++attempt) {
         const double value = mean + sigma * standard_normal(unit_pair(key, attempt));
         if (!rule.within || ((*rule.within)[0] <= value && value <= (*rule.within)[1]))
             return value;

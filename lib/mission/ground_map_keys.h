@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "mission/limits.h"
 
-// The keys of the maps that are laid on the ground, with their defaults and their descriptions as
+// The keys of the maps that apply to the ground, with their defaults and their descriptions as
 // in mission.h.
 
 namespace sonarsim {
@@ -17,8 +17,8 @@ namespace sonarsim {
 /// Pairs of a name and its replacement, in the order of the file.
 using Renaming = std::vector<std::pair<std::string, std::string>>;
 
-/// An image that is laid on the ground from above. Pixels of a backscatter map are decibels.
-struct LaidMapConfig {
+/// An image that applies to the ground from above. Pixels of a backscatter map are decibels.
+struct AppliedMapConfig {
     std::filesystem::path file;
     double pixel_m = 0.0;              ///< size of a pixel; 0: by the file
     std::array<double, 2> origin_m{};  ///< point of the map that is the world's (0, 0)
@@ -26,7 +26,7 @@ struct LaidMapConfig {
 };
 
 /// An image whose pixels are materials.
-struct SedimentMapConfig : LaidMapConfig {
+struct SedimentMapConfig : AppliedMapConfig {
     Renaming materials;  ///< from a pixel's value or its colour to a material
 };
 
@@ -41,7 +41,7 @@ void describe_image_place(Visitor& v, Config& c) {
 }
 
 template <class Visitor>
-void describe(Visitor& v, LaidMapConfig& c) {
+void describe(Visitor& v, AppliedMapConfig& c) {
     v.path("file", c.file, "an image, PNG, TIFF (GeoTIFF) or OpenEXR, whose first row is the north",
            required);
     describe_image_place(v, c);
@@ -49,7 +49,7 @@ void describe(Visitor& v, LaidMapConfig& c) {
 
 template <class Visitor>
 void describe(Visitor& v, SedimentMapConfig& c) {
-    describe(v, static_cast<LaidMapConfig&>(c));
+    describe(v, static_cast<AppliedMapConfig&>(c));
     v.text("materials", c.materials,
            "the material of each value, as {1: sand, 2: gravel}, or of each colour, as "
            "{\"#c8b478\": sand}");

@@ -108,7 +108,7 @@ constexpr bool has_relative_level(const ReceiverConfig& receiver) {
            is_relative_level(receiver.common_mode_db);
 }
 
-/// 120 dB re 1 uPa at 1 m are 8 microwatts of sound. A smaller number is no source level but the
+/// 120 dB re 1 uPa at 1 m are 8 microwatts of sound. A smaller number is not a source level but the
 /// reference of the other levels.
 constexpr bool is_relative_source(double source_level_db) {
     return source_level_db < 120.0;

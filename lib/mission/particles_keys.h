@@ -32,9 +32,9 @@ struct ParticlesConfig {
 };
 
 /// The most particles of a group.
-inline constexpr double most_particles = 1e6;
+inline constexpr double max_particles = 1e6;
 /// Larger groups are one object of the labels each.
-inline constexpr double most_single_particles = 100;
+inline constexpr double max_single_particles = 100;
 
 inline constexpr Choice<ParticleKind> particle_kinds[]{{"points", ParticleKind::points},
                                                        {"fish", ParticleKind::fish},
@@ -58,7 +58,7 @@ void describe(Visitor& v, ParticlesConfig& c) {
              "target strength of points, dB re 1 m^2");
     v.number("length_m", c.length_m, between(0, 30), "length of a fish");
     v.number("radius_m", c.radius_m, between(0, 0.1), "radius of a bubble of air");
-    v.number("count", c.count, {0, most_particles},
+    v.number("count", c.count, {0, max_particles},
              "number of targets; groups of 100 or more are one object of the labels");
     v.choice("region", c.region, particle_regions,
              "shape of the region in which the targets are at the first ping, evenly distributed");

@@ -69,9 +69,9 @@ YamlNode read_preset(const YamlNode& name, const std::filesystem::path& base_fol
     }
     const std::filesystem::path path = preset_file(name.text, base_folder);
     if (path.empty()) {
-        const auto asked = std::filesystem::absolute(base_folder / name.text).lexically_normal();
+        const auto file = std::filesystem::absolute(base_folder / name.text).lexically_normal();
         throw InputError(name.place.location(),
-                         "there is no preset " + in_quotes(asked.string()) +
+                         "there is no preset " + in_quotes(file.string()) +
                              ", and none of this name came with the program" +
                              shipped_hint(name.text, kind) + ", written as " + kind + "/NAME.yaml");
     }

@@ -70,7 +70,7 @@ struct ScatterConfig {
 };
 
 /// An image whose pixels are heights, which becomes the bottom.
-struct HeightmapConfig : LaidMapConfig {
+struct HeightmapConfig : AppliedMapConfig {
     double height_scale = 1.0;  ///< metres of a step of the pixels' values
     double height_offset_m = 0.0;
     std::string material;
@@ -95,7 +95,7 @@ struct SceneConfig {
     std::vector<std::string> bottom = {};  ///< patterns of the nodes of `file` that objects rest on
     std::optional<HeightmapConfig> heightmap = {};
     std::optional<SedimentMapConfig> sediment_map = {};
-    std::optional<LaidMapConfig> backscatter_map = {};
+    std::optional<AppliedMapConfig> backscatter_map = {};
     std::optional<SeabedConfig> seabed = {};
     std::vector<ObjectConfig> objects = {};
     std::vector<ScatterConfig> scatter = {};

@@ -73,8 +73,7 @@ void PaperModel::form(const TracedPing& traced, const FormContext& context, Ping
         }
         if (rows.exist()) {
             areas.add(sums);
-            direct.add(at_normal_incidence(traced.samples.beam(j), rows.least_cosine),
-                       areas.normal);
+            direct.add(at_normal_incidence(traced.samples.beam(j), rows.min_cosine), areas.normal);
         }
         ping.counts.out_of_range += accumulate_beam(bounced, j, bins, sums);
         ping.counts.occupied_bins += mean_of_bins(sums, columns.next());
@@ -98,7 +97,7 @@ PaperModel paper_model(const SonarConfig& config, const PaperSonar& sonar) {
     model.streaks = {
         .mode = config.streaks.mode,
         .threshold = static_cast<float>(config.streaks.threshold),
-        .least_cosine = static_cast<float>(sincos(radians(config.streaks.angle_deg)).cos)};
+        .min_cosine = static_cast<float>(sincos(radians(config.streaks.angle_deg)).cos)};
     model.range_noise = {.lambda_m = static_cast<float>(noise.range_lambda_m),
                          .scatterer_m = static_cast<float>(noise.scatterer_m),
                          .fades = sonar.range_noise_fades};

@@ -16,10 +16,10 @@ void RowAreas::add(const BinSums& beam) {
         all[i] += beam.weight(i);
 }
 
-std::vector<Sample> at_normal_incidence(std::span<const Sample> samples, float least_cosine) {
+std::vector<Sample> at_normal_incidence(std::span<const Sample> samples, float min_cosine) {
     std::vector<Sample> out;
     std::copy_if(samples.begin(), samples.end(), std::back_inserter(out), [&](const Sample& s) {
-        return s.height_m > least_cosine * arrival_range(s.position);
+        return s.height_m > min_cosine * arrival_range(s.position);
     });
     return out;
 }

@@ -14,7 +14,7 @@ namespace sonarsim {
 struct Streaks {
     StreakMode mode = StreakMode::none;
     float threshold = 0.0F;  ///< zeta, a share of area
-    float least_cosine =
+    float min_cosine =
         1.0F;  ///< cosine of the largest angle between v and n that is normal incidence
 
     bool exist() const { return mode != StreakMode::none; }
@@ -31,7 +31,7 @@ struct RowAreas {
 };
 
 /// The samples that are seen at normal incidence.
-std::vector<Sample> at_normal_incidence(std::span<const Sample> samples, float least_cosine);
+std::vector<Sample> at_normal_incidence(std::span<const Sample> samples, float min_cosine);
 
 /// If the share at normal incidence reaches the threshold, the row I of `image` [rows, columns]
 /// becomes 1 - (1 - I)^2 (add, Eq. 14) or I^2 (reduce, Eq. 15). I is clamped to [0, 1] first, since

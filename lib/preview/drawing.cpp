@@ -12,7 +12,7 @@ namespace sonarsim {
 
 namespace {
 
-constexpr int least_left_margin = 56;
+constexpr int min_left_margin = 56;
 constexpr int bottom_margin = 20;
 
 /// The part of the line from + t way, t in [0, 1], that lies within a rectangle of this size at the
@@ -118,7 +118,7 @@ namespace {
 int left_margin(const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
     const double furthest = std::max(std::fabs(low.y()), std::fabs(high.y()));
     const std::string longest = "-" + std::to_string(std::llround(furthest)) + ".5 m";
-    return std::max(least_left_margin, text_width(longest) + 12);
+    return std::max(min_left_margin, text_width(longest) + 12);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace sonarsim {
 namespace {
 
 constexpr float line_share = 0.45F;
-constexpr int least_px = 160;  // a smaller fan has no room for numbers
+constexpr int min_px = 160;  // a smaller fan has no room for numbers
 
 /// The step between lines of equal azimuth, degrees, for at most ten lines.
 double bearing_step_deg(double azimuth_deg) {
@@ -113,7 +113,7 @@ Picture styled_fan(const Sonar& sonar, const FanFrame& frame, std::span<const st
         picture.pixels[k] = blend(amber_colours, static_cast<float>(grey[k]) / 255.0F);
     const View& view = sonar.settings.view;
     draw_lines(picture, frame, view);
-    if (std::min(frame.width, frame.height) >= least_px) write_numbers(picture, frame, view);
+    if (std::min(frame.width, frame.height) >= min_px) write_numbers(picture, frame, view);
     return picture;
 }
 

@@ -14,9 +14,9 @@ using Eigen::AlignedBox3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr std::size_t most_boxes = 150;
-constexpr std::size_t most_names = 20;
-constexpr double most_of_plot = 0.3;  // a larger object is the floor or the walls
+constexpr std::size_t max_boxes = 150;
+constexpr std::size_t max_names = 20;
+constexpr double max_of_plot = 0.3;  // a larger object is the floor or the walls
 constexpr Rgb box_colour{230, 230, 230};
 
 /// The box of each of Scene::instances at a pose, world.
@@ -86,11 +86,11 @@ std::vector<AlignedBox2d> draw_objects(Picture& tile, const PlaneFrame& frame,
     std::vector<std::pair<AlignedBox2d, const ObjectBox*>> shown;
     for (const ObjectBox& object : objects) {
         const AlignedBox2d box = box_in_plan(frame, object.box);
-        if (plot.contains(box.center()) && box.volume() < most_of_plot * plot.volume())
+        if (plot.contains(box.center()) && box.volume() < max_of_plot * plot.volume())
             shown.emplace_back(box, &object);
     }
     std::ranges::stable_sort(shown, {}, [](const auto& one) { return -one.first.volume(); });
-    shown.resize(std::min(shown.size(), most_boxes));
+    shown.resize(std::min(shown.size(), max_boxes));
     for (const auto& one : shown)
         draw_box(tile, one.first);
     std::vector<AlignedBox2d> taken;
@@ -98,7 +98,7 @@ std::vector<AlignedBox2d> draw_objects(Picture& tile, const PlaneFrame& frame,
         for (const bool left : {false, true}) {
             const AlignedBox2d name = box_of_name(one.first, text_width(one.second->name), left);
             const auto overlaps = [&](const AlignedBox2d& other) { return name.intersects(other); };
-            if (taken.size() == most_names || !plot.contains(name) ||
+            if (taken.size() == max_names || !plot.contains(name) ||
                 std::ranges::any_of(taken, overlaps))
                 continue;
             taken.push_back(name);

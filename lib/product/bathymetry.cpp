@@ -46,7 +46,7 @@ Bathymetry make_bathymetry(const SoundingBounds& bounds, double cell_m) {
     const double wanted = soundings_per_cell * area / static_cast<double>(bounds.count);
     grid.cell_m = std::max(cell_m > 0.0 ? cell_m : round_up_125(std::sqrt(wanted)), finest_cell_m);
     // The grid begins at a multiple of the cell size, which may add a cell on either side.
-    while ((size.x() / grid.cell_m + 2.0) * (size.y() / grid.cell_m + 2.0) > most_map_cells)
+    while ((size.x() / grid.cell_m + 2.0) * (size.y() / grid.cell_m + 2.0) > max_map_cells)
         grid.cell_m = round_up_125(1.001 * grid.cell_m);
     grid.first_column = std::floor(bounds.min.x() / grid.cell_m);
     grid.first_row = std::floor(bounds.max.y() / grid.cell_m);

@@ -12,7 +12,7 @@ namespace sonarsim {
 inline constexpr double map_quality = 0.5;
 
 /// The largest number of cells of a map.
-inline constexpr double most_map_cells = 1 << 24;
+inline constexpr double max_map_cells = 1 << 24;
 
 /// The ground that the soundings of a map cover.
 struct SoundingBounds {
@@ -43,7 +43,7 @@ struct Bathymetry {
 
 /// An empty grid over the bounds. With `cell_m` 0 the cell size is 1, 2 or 5
 /// times a power of ten, chosen so that a cell has four evenly spread soundings on average. Cells
-/// are larger than asked for if the grid would exceed 2^24 cells.
+/// are larger than the key says if the grid would exceed 2^24 cells.
 Bathymetry make_bathymetry(const SoundingBounds& bounds, double cell_m);
 
 /// Draws the map: colours by depth, exaggerated relief shaded by light from the north-west, a scale

@@ -12,7 +12,7 @@ namespace sonarsim {
 
 namespace {
 
-constexpr int least_width = 600;  // px; met by a whole number of pixels per ping
+constexpr int min_width = 600;  // px; met by a whole number of pixels per ping
 constexpr int min_height = 400;
 constexpr Rgb echo_colours[] = {{8, 10, 40},    {20, 50, 130},  {20, 120, 190}, {60, 190, 150},
                                 {230, 220, 80}, {240, 130, 40}, {190, 20, 30}};
@@ -32,7 +32,7 @@ std::optional<double> detected_depth(const Sonar& sonar, const Ping& ping) {
 StripFrame echogram_frame(const SonarConfig& config, int pings) {
     StripFrame frame;
     frame.axis_width = text_width("1000.0 m") + 12;
-    frame.ping_px = pixels_per_bin(least_width, pings);
+    frame.ping_px = pixels_per_bin(min_width, pings);
     frame.bin_px = pixels_per_bin(min_height, config.range_bins);
     frame.width = frame.axis_width + pings * frame.ping_px;
     frame.height = config.range_bins * frame.bin_px;

@@ -12,7 +12,7 @@ namespace sonarsim {
 namespace {
 
 /// Bins in range or in azimuth that a pixel averages; only pixels next to the apex cover more.
-constexpr double most_bins = 128.0;
+constexpr double max_bins = 128.0;
 
 /// The ratio of the beams that a pixel covers in successive rings.
 constexpr double ring_step = 1.125;
@@ -71,7 +71,7 @@ std::vector<FanPlace> places_of_row(const View& view, const FanFrame& frame, int
 std::size_t ring_of(double extent) {
     std::size_t ring = 0;
     double limit = 1.0;
-    while (limit < std::min(extent, most_bins)) {
+    while (limit < std::min(extent, max_bins)) {
         limit *= ring_step;
         ++ring;
     }
@@ -138,11 +138,11 @@ FanMap new_fan_map(const Sonar& sonar, int width_px) {
     FanMap map;
     map.frame = fan_frame(sonar, width_px);
     map.full_turn = view.azimuth_rad >= 2.0 * pi;
-    map.range_kernel = make_kernel(std::min(map.frame.pixel_m / view.bin_m(), most_bins), 1);
+    map.range_kernel = make_kernel(std::min(map.frame.pixel_m / view.bin_m(), max_bins), 1);
     map.range_padding = map.range_kernel.taps / 2 + 1;
     const double beams_per_rad = view.beams / view.azimuth_rad;
     const auto beams_across = [&](double range_m) {
-        return std::min({map.frame.pixel_m * beams_per_rad / range_m, most_bins,
+        return std::min({map.frame.pixel_m * beams_per_rad / range_m, max_bins,
                          static_cast<double>(view.beams)});
     };
     const ColumnFinder column_at(sonar);

@@ -95,7 +95,8 @@ std::optional<double> level_around(const ObjectInPing& seen, const LevelMap& map
 }
 
 /// The bounding box of each object's visible footprints, in the sensor's frame at the ping's time.
-std::vector<Eigen::AlignedBox3f> seen_boxes(const SceneObjects& objects, const TracedPing& traced) {
+std::vector<Eigen::AlignedBox3f> visible_boxes(const SceneObjects& objects,
+                                               const TracedPing& traced) {
     std::vector<Eigen::AlignedBox3f> boxes(objects.objects.size());
     const auto extend = [&](const Sample& sample) {
         const Eigen::Vector3f reach = sample.edge_u.cwiseAbs() + sample.edge_v.cwiseAbs();
@@ -186,9 +187,9 @@ std::vector<std::uint8_t> background_ids(const SceneObjects& objects) {
     return is_background;
 }
 
-std::vector<ObjectInPing> seen_objects(const Sonar& sonar, const SceneObjects& objects,
-                                       const TracedPing& traced, const PingLabels& labels,
-                                       const Ping& ping, std::span<const PixelBox> fan_boxes) {
+std::vector<ObjectInPing> visible_objects(const Sonar& sonar, const SceneObjects& objects,
+                                          const TracedPing& traced, const PingLabels& labels,
+                                          const Ping& ping, std::span<const PixelBox> fan_boxes) {
     std::vector<ObjectInPing> all(objects.objects.size());
     std::vector<BinTotals> totals(all.size());
     const std::vector<float> levels = levels_by_beam(ping);
@@ -222,7 +223,7 @@ std::vector<ObjectInPing> seen_objects(const Sonar& sonar, const SceneObjects& o
     const LevelMap map{labels.beams, labels.range_bins, labels.object, labels.object_shadow,
                        levels,       full_turn};
     const Contrasts contrasts(objects, labels, map);
-    const std::vector<Eigen::AlignedBox3f> boxes = seen_boxes(objects, traced);
+    const std::vector<Eigen::AlignedBox3f> boxes = visible_boxes(objects, traced);
     std::vector<ObjectInPing> seen;
     for (std::size_t k = 0; k < all.size(); ++k) {
         ObjectInPing& object = all[k];

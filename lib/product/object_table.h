@@ -26,7 +26,7 @@ struct ObjectInPing {
     std::optional<double> azimuth_rad;        ///< mean of its bins, for a fan
     Eigen::AlignedBox3f box_sensor_m;         ///< box around its visible surface, sensor frame
 
-    // For an object that is no background:
+    // For an object that is not background:
     std::optional<double> contrast_db;         ///< level over its surroundings, contrast_db()
     std::optional<double> visible_share;       ///< PingLabels::visible_share, if it was found
     BinBox shadow;                             ///< box of its bins of PingLabels::object_shadow
@@ -42,8 +42,8 @@ std::vector<std::uint8_t> background_ids(const SceneObjects& objects);
 /// `fan_boxes` are bin_boxes() of the fan; empty: no fan.
 /// The surroundings of an object are the box of its bins, enlarged on each side by half its size
 /// and at least by two bins.
-std::vector<ObjectInPing> seen_objects(const Sonar& sonar, const SceneObjects& objects,
-                                       const TracedPing& traced, const PingLabels& labels,
-                                       const Ping& ping, std::span<const PixelBox> fan_boxes);
+std::vector<ObjectInPing> visible_objects(const Sonar& sonar, const SceneObjects& objects,
+                                          const TracedPing& traced, const PingLabels& labels,
+                                          const Ping& ping, std::span<const PixelBox> fan_boxes);
 
 }  // namespace sonarsim

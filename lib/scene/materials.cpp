@@ -82,7 +82,7 @@ double number_within(const std::string& text, const char* quantity, double low, 
 
 /// A density or a speed of sound.
 double medium_number(const std::string& text, const char* quantity, const Location& where) {
-    return number_within(text, quantity, least_medium, largest_medium, where);
+    return number_within(text, quantity, min_medium, largest_medium, where);
 }
 
 /// InputError if the columns of a sea bed have some numbers of the model and lack others.

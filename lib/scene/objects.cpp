@@ -8,7 +8,7 @@ namespace sonarsim {
 
 namespace {
 
-constexpr std::size_t most_ids = 65535;  // 16 bits without 0
+constexpr std::size_t max_ids = 65535;  // 16 bits without 0
 
 /// Numbers names in the order in which they occur.
 struct NumberedNames {
@@ -58,7 +58,7 @@ std::vector<NamedInstance> all_instances(const Scene& scene, const PossibleObjec
 }
 
 void require_ids(std::size_t count, const char* what) {
-    if (count <= most_ids) return;
+    if (count <= max_ids) return;
     throw InputError("the scene has " + std::to_string(count) + " " + what +
                      ", and labels of 16 bits have at most 65535: group them with `classes`");
 }

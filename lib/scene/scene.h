@@ -104,7 +104,7 @@ struct Scene {
     /// translation loses nothing.
     double vertex_rounding_m = 0.0;
     std::optional<WaterSurface> water_surface;
-    std::shared_ptr<const GroundMaps> maps;  ///< maps laid on instances; null: none
+    std::shared_ptr<const GroundMaps> maps;  ///< maps of instances; null: none
     /// The profile that bends sound; null: paths are straight at the speed of `Water`.
     std::shared_ptr<const SoundProfile> sound_profile;
     SceneRejects rejects;

@@ -61,8 +61,8 @@ TracedPing trace_at(const Sonar& sonar, const Scene& scene, const VisibilityEngi
     if (const auto& particles = sonar.settings.particles) {
         const double time_s = pose < particles->time_s.size() ? particles->time_s[pose] : 0.0;
         traced.particles =
-            seen_particles(*particles, time_s, sonar.settings.view, sonar.settings.guard_beams,
-                           engine, T_world_sensor, motion);
+            visible_particles(*particles, time_s, sonar.settings.view, sonar.settings.guard_beams,
+                              engine, T_world_sensor, motion);
     }
     return traced;
 }

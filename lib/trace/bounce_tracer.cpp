@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "trace/apply_maps.h"
 #include "trace/arrivals.h"
-#include "trace/lay_maps.h"
 
 namespace sonarsim {
 

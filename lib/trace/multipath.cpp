@@ -13,7 +13,7 @@ namespace sonarsim {
 namespace {
 
 // Below this |r . n_h|, half a degree, the second plane is seen edge-on.
-constexpr float least_cosine = 0.01F;
+constexpr float min_cosine = 0.01F;
 
 // Two traced members of a cluster have hit one plane when each point lies on the other's plane to
 // within half a bin, and the normals agree to within 2.5 degrees.
@@ -54,7 +54,7 @@ Outcome reflect(const BounceTracer& context, const Sample& sample, const Plane& 
     const Eigen::Vector3f through = sample.position - image;  // |p_i| r_i
     const float first_leg = arrival_range(sample.position);
     const float along = through.dot(second.normal);
-    if (!(std::fabs(along) >= least_cosine * first_leg)) return &MultipathCounts::edge_on;
+    if (!(std::fabs(along) >= min_cosine * first_leg)) return &MultipathCounts::edge_on;
     // In units of |p_i|, from the mirror image: 1 is the sample itself.
     const float t = (second.point - image).dot(second.normal) / along;
     if (!(t > 1.0F)) return &MultipathCounts::behind;

@@ -25,9 +25,9 @@ void move_point(const PingMotion& motion, ViewShape shape, Sample& sample) {
 
 }  // namespace
 
-SeenParticles seen_particles(const Particles& particles, double time_s, const View& view,
-                             const GuardBeams& guard_beams, const VisibilityEngine& engine,
-                             const Pose& T_world_sensor, const PingMotion& motion) {
+SeenParticles visible_particles(const Particles& particles, double time_s, const View& view,
+                                const GuardBeams& guard_beams, const VisibilityEngine& engine,
+                                const Pose& T_world_sensor, const PingMotion& motion) {
     const GuardedField field(view, guard_beams);
     const Eigen::Quaterniond to_sensor = T_world_sensor.rotation.conjugate();
     SeenParticles found;

@@ -40,8 +40,8 @@ struct SeenParticles {
 };
 
 /// The particles in view that no surface hides. One ray tests each.
-SeenParticles seen_particles(const Particles& particles, double time_s, const View& view,
-                             const GuardBeams& guard_beams, const VisibilityEngine& engine,
-                             const Pose& T_world_sensor, const PingMotion& motion);
+SeenParticles visible_particles(const Particles& particles, double time_s, const View& view,
+                                const GuardBeams& guard_beams, const VisibilityEngine& engine,
+                                const Pose& T_world_sensor, const PingMotion& motion);
 
 }  // namespace sonarsim

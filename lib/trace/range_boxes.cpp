@@ -40,7 +40,7 @@ struct BoxArrays {
     const float range_min_m = bins.min_m;
     const auto end = static_cast<float>(bins.count);
     // In bins. An echo without depth needs a width, since its weight is divided by it.
-    constexpr float least_half = 1e-3F;
+    constexpr float min_half = 1e-3F;
     const float* const __restrict range_m = echoes.range_m;
     const float* const __restrict half_m = echoes.half_m;
     const float* const __restrict weight = echoes.weight;
@@ -50,7 +50,7 @@ struct BoxArrays {
     int greatest = 0;
     for (std::size_t k = 0; k < echoes.count; ++k) {
         const float centre = (range_m[k] - range_min_m) * per_bin;
-        const float half = std::max(half_m[k] * per_bin, least_half);
+        const float half = std::max(half_m[k] * per_bin, min_half);
         const float low = std::max(centre - half, 0.0F);
         const float high = std::min(centre + half, end);
         const bool inside = low < high;

@@ -59,13 +59,13 @@ struct EchoPatch {
     const Sample* sample;
 };
 
-/// The surface that labels need besides the echoes. Samples are those of the traced ping, which must outlive
-/// this, or of `target_samples`.
+/// The surface that labels need besides the echoes. Samples are those of the traced ping, which
+/// must outlive this, or of `target_samples`.
 struct SurfaceEchoes {
     SurfaceEchoes() = default;
     SurfaceEchoes(SurfaceEchoes&&) = default;  ///< a copy would point into the original
 
-    /// The visible surface; empty if it was not asked for.
+    /// The visible surface; empty unless it was requested.
     std::vector<EchoPatch> patches;
     std::vector<PatchEcho> patch_echoes;
     /// beams + 1 offsets into `patches`, if these are sorted by beam and have one echo each; else

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "core/elementary.h"
+#include "trace/apply_target_maps.h"
 #include "trace/arrivals.h"
-#include "trace/lay_target_maps.h"
 #include "visibility/view_volume.h"
 
 namespace sonarsim {
@@ -15,7 +15,7 @@ namespace sonarsim {
 namespace {
 
 // Resolution cells below which an object or its highlight is a target: an engine is right to 1 dB.
-constexpr float most_cells = 4.0F;
+constexpr float max_cells = 4.0F;
 // Parts of the view of one or two beams: each is half a beamwidth or less in the presets.
 constexpr double min_parts = 32.0;
 // The sonar is outside of the ball around a target.
@@ -75,7 +75,7 @@ class TargetSampler {
             shape.curvature_m > 0.0F ? scale * shape.curvature_m * placed.min_slope : radius;
         // On a coarse mesh an engine sees facets where the surface is curved.
         const bool is_smooth = shape.turn <= placed.min_slope;
-        if (highlight > most_cells * cell && is_smooth) return std::nullopt;
+        if (highlight > max_cells * cell && is_smooth) return std::nullopt;
         const float part = part_by_diameter * 2.0F * radius;
         return Target{&placed, &shape, T_sensor_shape, scale, cell, part, inside};
     }
@@ -149,9 +149,9 @@ class TargetSampler {
         if (facet.curvature_m != 0.0F) turn.emplace(facet);
         const bool may_highlight = turn && turn->least <= highlight_reach * slope;
         const float radius = std::fabs(facet.curvature_m);
-        const float least_m = min_part_by_cell * target.cell_m;
-        const float highlight_m = std::clamp(part_by_highlight * radius * slope, least_m,
-                                             std::max(target.part_m, least_m));
+        const float min_m = min_part_by_cell * target.cell_m;
+        const float highlight_m =
+            std::clamp(part_by_highlight * radius * slope, min_m, std::max(target.part_m, min_m));
         const float per_turn = may_highlight ? radius / highlight_m : 0.0F;
         const float alike_m = 0.5F * (may_highlight ? highlight_m : target.part_m);
         const float per_part = 1.0F / target.part_m;
@@ -232,7 +232,7 @@ TargetSurface target_surface(const TargetShapes& shapes, const View& view,
     }
     std::ranges::sort(out.instances);
     if (!out.instances.empty()) out.facets = sampler.take_seen(engine, T_world_sensor);
-    if (scene.maps) lay_maps_on_targets(*scene.maps, view, T_world_sensor, out.facets);
+    if (scene.maps) apply_maps_on_targets(*scene.maps, view, T_world_sensor, out.facets);
     return out;
 }
 

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "core/clock.h"
-#include "trace/lay_maps.h"
+#include "trace/apply_maps.h"
 #include "trace/visible_water_surface.h"
 #include "trace/water_mirror.h"
 
@@ -25,8 +25,8 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
     traced.counts.samples = traced.samples.items.size() + traced.outside_sector.size();
     traced.counts.dropped_samples = traced.samples.dropped;
     if (scene.maps) {
-        lay_maps(*scene.maps, settings.view, T_world_sensor, traced.samples, traced.outside_sector,
-                 scene.sound_profile.get());
+        apply_maps(*scene.maps, settings.view, T_world_sensor, traced.samples,
+                   traced.outside_sector, scene.sound_profile.get());
     }
     move_in_ping(motion, settings.view, traced.samples, traced.outside_sector);
     if (settings.targets) {

@@ -96,17 +96,17 @@ std::vector<Sight> sights(const View& view, const GuardBeams& guard_beams,
 
 VisibleSurface visible_surface(const View& view, const GuardBeams& guard_beams,
                                const VisibilityEngine& engine, const Pose& T_world_sensor) {
-    const std::vector<Sight> asked = sights(view, guard_beams, T_world_sensor);
+    const std::vector<Sight> views = sights(view, guard_beams, T_world_sensor);
     const auto see = [&](const Sight& sight) {
         return engine.visible_surface(sight.view, sight.T_world_sensor);
     };
     VisibleSurface out;
-    out.samples = see(asked[0]);
+    out.samples = see(views[0]);
     std::vector<std::uint32_t>& begins = out.samples.beam_begin;
     begins = repeat_offsets(begins, joined_beams(view, guard_beams));
-    if (asked.size() > 1) {
-        add_guard_side(view, see(asked[1]), guard_side(view, guard_beams, -1.0), out);
-        add_guard_side(view, see(asked[2]), guard_side(view, guard_beams, 1.0), out);
+    if (views.size() > 1) {
+        add_guard_side(view, see(views[1]), guard_side(view, guard_beams, -1.0), out);
+        add_guard_side(view, see(views[2]), guard_side(view, guard_beams, 1.0), out);
         return out;
     }
     const int guards = guard_beams.count;

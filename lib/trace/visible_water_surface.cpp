@@ -17,7 +17,7 @@ namespace {
 constexpr double first_cell_rad = radians(2.0);
 constexpr double min_cells = 16.0;
 constexpr float max_range_share = 1.0F / 8.0F;
-constexpr float most_bins = 64.0F;
+constexpr float max_bins = 64.0F;
 constexpr int max_cuts = 7;
 
 /// A rectangle of azimuth and elevation.
@@ -40,7 +40,7 @@ class SurfaceCutter {
           all_around_(view.shape == ViewShape::port_starboard),
           field_(view, guard_beams),
           reach_m_(static_cast<float>(view.range_max_m)),
-          depth_m_(most_bins * static_cast<float>(view.bin_m())) {}
+          depth_m_(max_bins * static_cast<float>(view.bin_m())) {}
 
     std::vector<Sample> cut(const View& widened) {
         const double azimuth = all_around_ ? 2.0 * pi : widened.azimuth_rad;
@@ -80,8 +80,8 @@ class SurfaceCutter {
             }
         }
         if (!(nearest < reach_m_)) return;
-        const float most_m = std::min(max_range_share * nearest, depth_m_);
-        if (!(farthest - nearest > most_m)) return add_sample(cell);
+        const float max_m = std::min(max_range_share * nearest, depth_m_);
+        if (!(farthest - nearest > max_m)) return add_sample(cell);
         if (cuts == 0) {
             // A cell that reaches to twice its nearest range, or beyond, is at the horizon. Chosen.
             if (farthest < 2.0F * nearest) add_sample(cell);

@@ -20,7 +20,7 @@ namespace sonarsim {
 
 namespace {
 
-constexpr std::size_t most_bytes = std::size_t{64} << 20;
+constexpr std::size_t max_bytes = std::size_t{64} << 20;
 
 /// A column and the largest magnitude that is plausible in it.
 struct Column {
@@ -232,7 +232,7 @@ Trajectory read_trajectory(const std::filesystem::path& file) {
         throw InputError(Location{file.string()},
                          "a trajectory's name ends in .csv, or in .txt or .tum for TUM poses");
     }
-    const std::string text = read_file(file, most_bytes);
+    const std::string text = read_file(file, max_bytes);
     return csv ? parse_csv_trajectory(text, file.string()) : parse_tum(text, file.string());
 }
 

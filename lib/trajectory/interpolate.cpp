@@ -65,10 +65,10 @@ Trajectory resample(const Trajectory& trajectory, double rate_hz) {
                          number_text(last) + " s neighbouring poses would have equal times");
     }
     const double steps = std::floor((last - first + tolerance) * rate_hz);
-    if (steps + 1.0 > static_cast<double>(most_poses)) {
+    if (steps + 1.0 > static_cast<double>(max_poses)) {
         throw InputError("rate_hz of " + number_text(rate_hz) + " gives " +
                          number_text(steps + 1.0) + " poses over " + number_text(last - first) +
-                         " s; at most " + std::to_string(most_poses) + " are allowed");
+                         " s; at most " + std::to_string(max_poses) + " are allowed");
     }
     Trajectory out(static_cast<std::size_t>(steps) + 1);
     for (std::size_t k = 0; k < out.size(); ++k) {

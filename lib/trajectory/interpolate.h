@@ -7,7 +7,7 @@
 namespace sonarsim {
 
 /// The most poses that a resampled trajectory or a survey pattern may have.
-inline constexpr std::size_t most_poses = 10'000'000;
+inline constexpr std::size_t max_poses = 10'000'000;
 
 /// Interpolates the attitude at constant angular rate along the shorter arc; `fraction` runs from 0
 /// (`from`) to 1 (`to`). Both are unit quaternions. Half a turn has no shorter arc: its direction
@@ -23,7 +23,7 @@ TimedPose interpolate(const Trajectory& trajectory, double t_s);
 /// of the first. The last pose is included if it misses the grid by at most 1e-9 s plus the
 /// rounding of its own time (0.8 us for times that count from 1970). InputError if the trajectory
 /// is empty, if the rate, which is above 0, is so high that times round to the same number, or if
-/// there are more than `most_poses`.
+/// there are more than `max_poses`.
 Trajectory resample(const Trajectory& trajectory, double rate_hz);
 
 }  // namespace sonarsim

@@ -17,7 +17,7 @@ namespace sonarsim {
 
 namespace {
 
-constexpr int most_lines = 100'000;
+constexpr int max_lines = 100'000;
 
 /// The corners of the survey's rectangle, in order: x along the heading, y to port.
 std::array<Eigen::Vector2d, 4> corners_along(const Lawnmower& survey, const SinCos& heading) {
@@ -91,9 +91,9 @@ Trajectory lawnmower(const Lawnmower& survey) {
     // The subtracted 1e-9 keeps an exact multiple of the spacing from rounding up to one strip
     // more.
     const double lines = std::max(1.0, std::ceil(width / spacing - 1e-9));
-    if (lines > most_lines) {
+    if (lines > max_lines) {
         throw InputError("line_spacing_m of " + number_text(spacing) + " gives " +
-                         number_text(lines) + " lines; at most " + std::to_string(most_lines) +
+                         number_text(lines) + " lines; at most " + std::to_string(max_lines) +
                          " are allowed");
     }
     const double first_line = across.lo + 0.5 * (width - (lines - 1.0) * spacing);

@@ -35,7 +35,7 @@ struct Lawnmower {
 /// rectangle. The first line is the furthest to starboard; each next line lies to port of the one
 /// before. At the end of a line the vehicle moves straight to the start of the next while it turns
 /// through the port side of the first line's heading. InputError if there are more than 100,000
-/// lines or more poses than most_poses.
+/// lines or more poses than max_poses.
 Trajectory lawnmower(const Lawnmower& survey);
 
 }  // namespace sonarsim

@@ -107,7 +107,7 @@ std::array<Eigen::Vector3f, 3> corners_of(const Scene& scene, const SurfaceShare
 
 std::vector<SurfaceShare> surface_shares(const Scene& scene, const View& view,
                                          const LocalPose& pose) {
-    constexpr std::size_t most_of_copies = 4'000'000;
+    constexpr std::size_t max_of_copies = 4'000'000;
     std::vector<SurfaceShare> shares;
     for (std::uint32_t t = 0; t < scene.triangles.size(); ++t)
         add_share(scene, view, pose, {t, t, SurfaceShare::no_copy, 0.0F, 0.0F}, shares);
@@ -115,7 +115,7 @@ std::vector<SurfaceShare> surface_shares(const Scene& scene, const View& view,
     std::size_t in_view = 0;
     for (const CopyInView& copy : copies)
         in_view += copy.triangles;
-    const auto step = static_cast<std::uint32_t>(1 + in_view / most_of_copies);
+    const auto step = static_cast<std::uint32_t>(1 + in_view / max_of_copies);
     for (const CopyInView& copy : copies) {
         for (std::uint32_t t = 0; t < copy.triangles; t += step)
             add_share(scene, view, pose, {copy.first_facet + t, t, copy.copy, 0.0F, 0.0F}, shares);

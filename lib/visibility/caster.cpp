@@ -21,7 +21,7 @@ namespace {
 static_assert(Caster::nothing == RTC_INVALID_GEOMETRY_ID);
 
 // Facets of all placed trees have numbers of 32 bits, and `nothing` is none of them.
-constexpr std::size_t most_facets = 0xFFFF0000U;
+constexpr std::size_t max_facets = 0xFFFF0000U;
 
 template <class Mesh>
 Facet make_facet(const Mesh& mesh, std::size_t triangle, std::uint32_t instance) {
@@ -171,9 +171,9 @@ std::shared_ptr<const Caster::Trees> Caster::make_trees(const Scene& scene) {
     std::size_t placed = facets;
     for (const MeshCopy& copy : scene.copies)
         placed += scene.shared_meshes[copy.mesh].triangles.size();
-    if (placed > most_facets) {
+    if (placed > max_facets) {
         throw InputError("the scene has " + std::to_string(placed) + " triangles; at most " +
-                         std::to_string(most_facets) + " are supported");
+                         std::to_string(max_facets) + " are supported");
     }
     made->facets.reserve(facets);
     made->first_of_tree.push_back(0);

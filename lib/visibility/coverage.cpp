@@ -21,10 +21,10 @@ constexpr double widest_sector_rad = 0.0125;
 
 // The number of sides of the pyramid that replaces an echosounder's cone. Its sides touch the cone,
 // and its edges lie 0.5 % further out.
-constexpr int cone_planes = ViewPolygon::most_planes;
+constexpr int cone_planes = ViewPolygon::max_planes;
 
 // Surface that reaches into a neighbouring bin by less than this does not cover that bin.
-constexpr float least_overlap_bins = 1e-3F;
+constexpr float min_overlap_bins = 1e-3F;
 
 /// The bins of a view and which of them are covered.
 class CoveredBins {
@@ -42,8 +42,8 @@ class CoveredBins {
         if (!(from < count && to >= 0.0F)) return;
         int first = static_cast<int>(std::max(from, 0.0F));
         int last = static_cast<int>(std::min(to, count - 1.0F));
-        if (first < last && static_cast<float>(first + 1) - from < least_overlap_bins) ++first;
-        if (first < last && to - static_cast<float>(last) < least_overlap_bins) --last;
+        if (first < last && static_cast<float>(first + 1) - from < min_overlap_bins) ++first;
+        if (first < last && to - static_cast<float>(last) < min_overlap_bins) --last;
         std::uint8_t* own = &covered_[static_cast<std::size_t>(beam) * count_];
         for (int i = first; i <= last; ++i)
             own[i] = 1;

@@ -27,7 +27,7 @@ struct Sample {
     std::uint32_t material;  ///< index into Scene::materials
     std::uint32_t instance;  ///< index into Scene::instances
     /// Factor on the power that the material sends back, from a map of the scene
-    /// (trace/lay_maps.h) and from bent sound that converges or spreads.
+    /// (trace/apply_maps.h) and from bent sound that converges or spreads.
     float strength = 1.0F;
 };
 

@@ -51,7 +51,7 @@ class AutoEngine final : public VisibilityEngine {
 };
 
 /// The error of the slices in cones, for the calibrated model.
-constexpr double least_error_in_cones = 0.01;
+constexpr double min_error_in_cones = 0.01;
 
 }  // namespace
 
@@ -103,7 +103,7 @@ std::string accuracy_warning(const EngineSettings& settings, const View& view, b
                "calibrated model; use engine: auto or engine: rays";
     }
     if (settings.type == EngineKind::slices && energies_add && view.shape == ViewShape::cone &&
-        view.relative_l1 < least_error_in_cones) {
+        view.relative_l1 < min_error_in_cones) {
         return "engine: slices is off by up to 1 % in a cone with the calibrated model, more than "
                "accuracy.relative_l1; use engine: auto or engine: rays";
     }

@@ -32,17 +32,17 @@ struct PieceCounts {
 /// deeper at long range; the other edge, into pieces half a bin deep.
 inline PieceCounts pieces_for_bins(float depth_u_m, float depth_v_m, float range_m, float bin_m) {
     // More pieces than this do not change the mean of a bin visibly.
-    constexpr float most_pieces = 64.0F;
+    constexpr float max_pieces = 64.0F;
     // A piece has one intensity, but v . n = H / r on a plane. If a piece spans no more than this
     // share of its range, its ends are off by 0.25 % and its mean is right.
-    constexpr float most_depth_by_range = 0.005F;
-    const float along_m = std::max(bin_m, most_depth_by_range * range_m);
+    constexpr float max_depth_by_range = 0.005F;
+    const float along_m = std::max(bin_m, max_depth_by_range * range_m);
     const float across_m = 0.5F * bin_m;
     const bool along_v = depth_u_m < depth_v_m;
     const float u = along_v ? 2.0F * depth_u_m / across_m : 1.0F;
     const float v = 2.0F * depth_v_m / (along_v ? along_m : across_m);
-    return {.u = std::ceil(std::min(std::max(u, 1.0F), most_pieces)),
-            .v = std::ceil(std::min(std::max(v, 1.0F), most_pieces))};
+    return {.u = std::ceil(std::min(std::max(u, 1.0F), max_pieces)),
+            .v = std::ceil(std::min(std::max(v, 1.0F), max_pieces))};
 }
 
 }  // namespace sonarsim

@@ -12,11 +12,11 @@ namespace sonarsim {
 /// A convex part of the view: planes through the sonar, given by normals that point inwards.
 using ConvexView = std::span<const Eigen::Vector3f>;
 
-/// A triangle of the sensor frame that up to `most_planes` planes have cut.
+/// A triangle of the sensor frame that up to `max_planes` planes have cut.
 struct ViewPolygon {
-    static constexpr int most_planes = 32;
+    static constexpr int max_planes = 32;
 
-    std::array<Eigen::Vector3f, 3 + most_planes> corner;
+    std::array<Eigen::Vector3f, 3 + max_planes> corner;
     int corners = 0;
 };
 

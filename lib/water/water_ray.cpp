@@ -13,13 +13,13 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // A ray that bends less than this, rad/m, is a line: it is off by 5 micrometres after 100 m.
-constexpr double least_curvature = 1e-9;
+constexpr double min_curvature = 1e-9;
 constexpr double rounding_m = 1e-5;
 // The speed changes by less than this share over a piece, so that series are exact to 1e-11.
 constexpr double largest_change = 0.1;
 // The least sine of elevation in the bend of a ray tube at a node; chosen. The gradient jumps at a
 // node, and a ray that grazes the node would have a caustic that does not exist in the water.
-constexpr double least_sine = 0.02;
+constexpr double min_sine = 0.02;
 // A nearly level ray may cross a node repeatedly; then it continues by this share of a piece.
 constexpr double level_sine = 1e-3;
 constexpr double level_share = 1e-3;
@@ -33,7 +33,7 @@ double curvature(const SoundProfile& profile, const WaterRay& ray) {
 double length_to(const SoundProfile& profile, const WaterRay& ray, double node_m, double side) {
     const SinCos at = sincos(ray.elevation_rad);
     const double bend = curvature(profile, ray);
-    if (std::fabs(bend) < least_curvature) {
+    if (std::fabs(bend) < min_curvature) {
         const double length = (node_m - ray.height_m) / at.sin;
         return side * at.sin > 0.0 ? std::max(length, 0.0) : infinite;
     }
@@ -60,7 +60,7 @@ void cross(const SoundProfile& profile, bool upwards, WaterRay& ray) {
     const SinCos at = sincos(ray.elevation_rad);
     const double c = profile.speed_m_s[node];
     ray.tube_per_m_s -=
-        ray.tube_m * jump * at.cos * at.cos / (c * c * std::max(std::fabs(at.sin), least_sine));
+        ray.tube_m * jump * at.cos * at.cos / (c * c * std::max(std::fabs(at.sin), min_sine));
     ray.layer = upwards ? node + 1 : node;
 }
 
@@ -101,7 +101,7 @@ WaterRay on_arc(const SoundProfile& profile, const WaterRay& ray, double length_
 
 double length_with_sag(const SoundProfile& profile, const WaterRay& ray, double sag_m) {
     const double bend = std::fabs(curvature(profile, ray));
-    return bend > least_curvature ? std::sqrt(8.0 * sag_m / bend) : infinite;
+    return bend > min_curvature ? std::sqrt(8.0 * sag_m / bend) : infinite;
 }
 
 double advance(const SoundProfile& profile, double longest_m, WaterRay& ray) {

@@ -86,15 +86,14 @@ TEST_CASE("a report has a sane row per setting, as Markdown and JSON" *
     CHECK(report.rows[1].relative_l1 < report.rows[0].relative_l1);
     CHECK(report.rows[1].relative_l1 < 0.03);
     REQUIRE(report.references.size() == 1);
-    CHECK(report.references[0].most_moved < 0.05);
+    CHECK(report.references[0].max_moved < 0.05);
 
     const auto json = nlohmann::json::parse(report_json(report));
     REQUIRE(json["rows"].size() == 3);
     const std::set<std::string> keys{
-        "sensor",      "engine",      "setting",         "current",      "goal",
-        "on_front",    "ms_per_ping", "pings_per_s",     "ms_131k_rays", "times_131k_rays",
-        "relative_l1", "miss_rate",   "samples_per_ping",
-        "worst_relative_l1"};
+        "sensor",      "engine",      "setting",          "current",          "goal",
+        "on_front",    "ms_per_ping", "pings_per_s",      "ms_131k_rays",     "times_131k_rays",
+        "relative_l1", "miss_rate",   "samples_per_ping", "worst_relative_l1"};
     for (const auto& row : json["rows"]) {
         std::set<std::string> found;
         for (const auto& [key, value] : row.items())

@@ -15,7 +15,7 @@
 #include "support/maps.h"
 #include "support/sanitized.h"
 #include "support/scenes.h"
-#include "trace/lay_target_maps.h"
+#include "trace/apply_target_maps.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -79,7 +79,7 @@ double energy_of_texels(const MappedPlate& plate, const Sonar& sonar, const Pose
 }
 
 /// Maps whose texels are drawn one by one: 0 to 12 dB, and two materials.
-void lay_drawn_texels(MappedPlate& plate, double texel_m, Draws& draws) {
+void apply_drawn_texels(MappedPlate& plate, double texel_m, Draws& draws) {
     constexpr int n = 100;
     // The frame lies around the plate.
     TexelFrame frame = square_frame(n, n * texel_m);
@@ -113,7 +113,7 @@ TEST_SUITE("calibrated") {
             const double edge = static_cast<double>(draws.between(0.03F, 0.12F));
             const double texel = edge * static_cast<double>(draws.between(0.05F, 0.8F));
             MappedPlate plate(edge);
-            lay_drawn_texels(plate, texel, draws);
+            apply_drawn_texels(plate, texel, draws);
             Sonar sonar = make_sonar(config, {});
             find_targets({&sonar, 1}, plate.scene);
             const auto engine =
@@ -139,7 +139,7 @@ TEST_SUITE("calibrated") {
     TEST_CASE("targets: the facets of mapped ground tile it") {
         Draws draws(32);
         MappedPlate plate(1.0);
-        lay_drawn_texels(plate, 0.07, draws);
+        apply_drawn_texels(plate, 0.07, draws);
         const TargetFacet whole{
             .corners = {Eigen::Vector3f(10.0F, -0.5F, -3.0F), Eigen::Vector3f(11.0F, 0.6F, -3.0F),
                         Eigen::Vector3f(10.2F, 0.7F, -3.3F)},
@@ -159,7 +159,7 @@ TEST_SUITE("calibrated") {
                         .range_max_m = 20.0,
                         .range_bins = 200,
                         .beams = 64};
-        lay_maps_on_targets(*plate.scene.maps, view, pose, parts);
+        apply_maps_on_targets(*plate.scene.maps, view, pose, parts);
         const auto area_of = [](const TargetFacet& facet) {
             const Eigen::Vector3f u = facet.corners[1] - facet.corners[0];
             return 0.5F * u.cross(facet.corners[2] - facet.corners[0]).norm();

@@ -74,12 +74,12 @@ struct Patch {
                           std::to_string(range + 60.0 * resolution_m) + "\n" + keys)),
           range_m(range),
           half_m(66.0 * resolution_m) {
-        surface = seen_from({});
+        surface = visible_from({});
         expected = quiet_image(sonar, surface, false);
     }
 
     /// A plane of rock that sound meets at 30 degrees, straight ahead and all over the patch.
-    Samples seen_from(const Pose& pose) const {
+    Samples visible_from(const Pose& pose) const {
         const double c = std::cos(radians(30.0));
         return patches({range_m, 0.0, 0.0}, {c, 0.0, std::sin(radians(30.0))}, {0.0, 1.0, 0.0},
                        1.1 * half_m / c, 0.2 * range_m, 0.004 * range_m, pose);
@@ -226,7 +226,7 @@ TEST_SUITE("calibrated") {
                 left += power_correlation(array, moved, angle * cosine * array.wavelengths) *
                         pulse.power_correlation_at(motion.x_m * cosine + motion.y_m * sine) / inner;
             }
-            const Samples moved = patch.seen_from(pose);
+            const Samples moved = patch.visible_from(pose);
             double found = 0.0;
             for (std::uint32_t seed = 1; seed <= seeds; ++seed) {
                 const std::vector<float> second = quiet_image(patch.sonar, moved, true, pose, seed);

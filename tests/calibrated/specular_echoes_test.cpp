@@ -194,7 +194,7 @@ TEST_SUITE("calibrated") {
             // echoes: by some thousandths of the power that is added there. The transform over all
             // beams rounds by some 1e-7 of the brightest of a row.
             const View& view = sonar.settings.view;
-            double most_lost = 0.0;
+            double max_lost = 0.0;
             for (int row = 0; row < view.range_bins; ++row) {
                 const auto beams = std::span(without).subspan(
                     static_cast<std::size_t>(row) * view.beams, view.beams);
@@ -210,12 +210,12 @@ TEST_SUITE("calibrated") {
                     if (added == 0.0F) continue;
                     const auto at = static_cast<std::size_t>(row) * view.beams + j;
                     const float lost = without[at] - with[at] - rounding;
-                    most_lost = std::max<double>(most_lost, lost / added);
+                    max_lost = std::max<double>(max_lost, lost / added);
                 }
             }
-            MESSAGE("most lost: ", most_lost,
+            MESSAGE("most lost: ", max_lost,
                     ", multipath by direct: ", energy_of(alone) / energy_of(without));
-            CHECK(most_lost < 1e-2);
+            CHECK(max_lost < 1e-2);
             CHECK(std::fabs(energy_of(with) / (energy_of(without) + energy_of(alone)) - 1.0) <
                   1e-3);
             CHECK(energy_of(alone) > 0.02 * energy_of(without));

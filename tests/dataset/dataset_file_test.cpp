@@ -136,7 +136,7 @@ TEST_SUITE("dataset") {
         lacks["sensors"][0].erase("every");
         CHECK_THROWS_WITH_AS(
             parse_description(lacks, "d"),
-            "d: is damaged: key 'every' not found; copy the dataset again, or render it anew",
+            "d: is damaged: key 'every' not found; copy the dataset again, or render it again",
             InputError);
         write_file(folder.path / "deep", std::string(100'000, '[') + std::string(100'000, ']'));
         CHECK_THROWS_AS(read_json(folder.path / "deep"), InputError);

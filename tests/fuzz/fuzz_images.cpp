@@ -31,8 +31,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const std::size_t stated = static_cast<std::size_t>(image.width) *
                                    static_cast<std::size_t>(image.height) *
                                    static_cast<std::size_t>(image.channels);
-        if (stated == 0 || stated > most_image_values || image.values.size() != stated)
-            std::abort();
+        if (stated == 0 || stated > max_image_values || image.values.size() != stated) std::abort();
         if (image.grid && !(std::isfinite(image.grid->x_m) && image.grid->column_m != 0.0))
             std::abort();
     } catch (const InputError&) {

@@ -6,7 +6,7 @@
 Each mission is rendered with one and with two threads, one also in three shards that are merged, and one
 that is killed and resumed. A line of goldens.txt is a dataset, a sensor (or `-`), a kind of file, the number of such files, and
 the hash of their contents: arrays, decoded pixels, parsed JSON without what names a build, a version or a sum. The
-variants of a mission are one dataset here. --write makes goldens.txt anew; say in the commit why its lines changed.
+variants of a mission are one dataset here. --write writes goldens.txt again; say in the commit why its lines changed.
 """
 import argparse
 import concurrent.futures

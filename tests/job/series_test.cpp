@@ -201,13 +201,13 @@ TEST_SUITE("job") {
         Assembly assembly;
         assembly.sonars = {make_sonar(config, {})};
         assembly.full_scales = {1.0};
-        constexpr std::size_t pings = most_picture_rows + 3;  // two to a column, the last alone
+        constexpr std::size_t pings = max_picture_rows + 3;  // two to a column, the last alone
         const RecordFile file(temporary.path / "echogram.npy", {"<f4", {4, pings}, true}, pings);
         const std::vector<float> one(4, 1.0F);
         file.write(1, std::as_bytes(std::span(one)));
         file.write(pings - 1, std::as_bytes(std::span(one)));
         make_strip_writer({mission, assembly, 0, pings})->write_products(file, temporary.path);
-        constexpr int width = most_picture_rows / 2 + 2;
+        constexpr int width = max_picture_rows / 2 + 2;
         const auto pixels = pixels_of<std::uint16_t>(temporary.path / "echogram.png", width, 4, 1,
                                                      OIIO::TypeDesc::UINT16);
         CHECK(pixels[0] == 32768);

@@ -34,7 +34,7 @@ struct FoundObjects {
             traced, sonar.settings, scene, objects, *engine,
             {.objects = true, .shadow = all_shadows, .annotations = true, .annotated = spheres});
         const Ping ping = form_image(traced, sonar.settings, scene, {});
-        seen = seen_objects(sonar, objects, traced, labels, ping, {});
+        seen = visible_objects(sonar, objects, traced, labels, ping, {});
     }
 
     const ObjectInPing& object(std::uint32_t id) const {

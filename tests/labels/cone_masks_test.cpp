@@ -182,8 +182,8 @@ TEST_CASE("cone labels: masks of 500 things lie on their echoes" * doctest::skip
         const Box box = box_above(by_labels, unit * least, view.beams, mask);
         const double o = overlap(box, between(box, loud, faint));
         // One bin and one beam more or less.
-        const double least_overlap = (1.0 - 1.0 / loud.bins()) * (1.0 - 1.0 / loud.beams());
-        CHECK(o >= std::min(0.95, least_overlap));
+        const double min_overlap = (1.0 - 1.0 / loud.bins()) * (1.0 - 1.0 / loud.beams());
+        CHECK(o >= std::min(0.95, min_overlap));
         const Ping clean =
             form_image(traced, sonar.settings, thing.scene, {}, without_random_terms);
         const double quiet = noise * *std::ranges::max_element(clean.intensity);

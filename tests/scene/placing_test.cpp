@@ -27,7 +27,7 @@ Surface box(double x, double y, double z) {
 
 /// The least height of the edges and faces above the bottom. Samples edges in steps of a
 /// millimetre; a face is nearest at its edges or above a node of the bottom.
-double least_gap(const Surface& object) {
+double min_gap(const Surface& object) {
     double gap = 1e9;
     for (const auto& corners : object.triangles) {
         const Eigen::Vector3d& a = object.vertices[corners[0]];
@@ -135,7 +135,7 @@ TEST_SUITE("scene") {
                 const auto placed = put(shapes, scatter(rule, 0, seed, bottom, taken));
                 REQUIRE(placed.size() == 20);
                 for (std::size_t i = 0; i < placed.size(); ++i) {
-                    const double gap = least_gap(placed[i]);
+                    const double gap = min_gap(placed[i]);
                     highest = std::max(highest, gap);
                     lowest = std::min(lowest, gap);
                     for (std::size_t k = 0; k < placed.size(); ++k)
@@ -164,7 +164,7 @@ TEST_SUITE("scene") {
         const auto again = draw(5);
         const auto other = draw(6);
         for (std::size_t i = 0; i < once.size(); ++i) {
-            CHECK(std::fabs(least_gap(once[i]) + 0.07) < 1e-3);
+            CHECK(std::fabs(min_gap(once[i]) + 0.07) < 1e-3);
             CHECK(once[i].vertices[0] == again[i].vertices[0]);
             CHECK(once[i].vertices[0] != other[i].vertices[0]);
         }

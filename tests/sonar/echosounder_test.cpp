@@ -61,7 +61,7 @@ TEST_CASE("echosounder: both engines see all of the cone") {
     const Sonar sonar = make_sonar(echosounder(), {});
     const Pose T_world_vehicle{Eigen::Quaterniond::Identity(), {0, 0, H}};
     const double radius = H * std::tan(radians(15.0));
-    const auto seen_m2 = [&](const VisibilityEngine& engine) {
+    const auto visible_m2 = [&](const VisibilityEngine& engine) {
         const Samples samples =
             engine.visible_surface(sonar.settings.view, T_world_vehicle * sonar.T_vehicle_sensor);
         double sum = 0.0;
@@ -69,7 +69,7 @@ TEST_CASE("echosounder: both engines see all of the cone") {
             sum += static_cast<double>(sample.area_m2);
         return sum;
     };
-    CHECK(seen_m2(*make_rays_engine(scene)) == test::approx(pi * radius * radius).epsilon(0.02));
+    CHECK(visible_m2(*make_rays_engine(scene)) == test::approx(pi * radius * radius).epsilon(0.02));
 }
 
 TEST_CASE("echosounder: the cone has an edge") {

@@ -134,7 +134,7 @@ TEST_SUITE("sonar") {
         const PingLabels labels =
             label_ping(traced, sonar.settings, scene, objects, *engine, everything);
         const Ping ping = form_image(traced, sonar.settings, scene, {});
-        const auto seen = seen_objects(sonar, objects, traced, labels, ping, {});
+        const auto seen = visible_objects(sonar, objects, traced, labels, ping, {});
         CHECK(seen.size() == 12);
         const double late_deg = turn_deg_s * 2.0 * 10.0 / 1500.0;
         for (const ObjectInPing& plate : seen) {

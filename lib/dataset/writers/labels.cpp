@@ -183,11 +183,11 @@ std::vector<Writer> make_label_writers(const WriterContext& context) {
     std::vector<Writer> writers;
     const Mission& mission = context.mission;
     const bool has_images = context.kind().has_images;
-    const bool has_fan = has_images && mission.output.fan && is_asked(mission, Label::fan);
-    const bool record_objects = !has_images && is_asked(mission, Label::objects);
+    const bool has_fan = has_images && mission.output.fan && is_listed(mission, Label::fan);
+    const bool record_objects = !has_images && is_listed(mission, Label::objects);
     for (const LabelFile& file : label_files) {
         const bool for_objects = record_objects && file.label == Label::instance;
-        if (!is_asked(mission, file.label) && !for_objects) continue;
+        if (!is_listed(mission, file.label) && !for_objects) continue;
         writers.push_back(label_writer(context, file));
         if (for_objects) add_record_objects(context, writers.back());
         if (has_fan && file.ids_of) writers.push_back(fan_label_writer(context, file));
@@ -195,7 +195,8 @@ std::vector<Writer> make_label_writers(const WriterContext& context) {
     for (const LabelFile& file : annotation_records) {
         if (record_objects) writers.push_back(label_writer(context, file));
     }
-    if (has_images && is_asked(mission, Label::objects)) writers.push_back(objects_writer(context));
+    if (has_images && is_listed(mission, Label::objects))
+        writers.push_back(objects_writer(context));
     return writers;
 }
 

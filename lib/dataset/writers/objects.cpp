@@ -49,14 +49,14 @@ class PingObjects {
         const std::vector<Pose> T_world_body =
             body_poses(context_.assembly, context_.assembly.trajectory[finished.id.pose].t_s);
         for (const ObjectInPing& seen : finished.labels->seen) {
-            objects.push_back(seen_json(seen, finished, T_world_body));
+            objects.push_back(visible_json(seen, finished, T_world_body));
         }
         return objects_text({{"ping", finished.id.pose}}, objects);
     }
 
   private:
-    Json seen_json(const ObjectInPing& seen, const FinishedPing& finished,
-                   std::span<const Pose> T_world_body) const {
+    Json visible_json(const ObjectInPing& seen, const FinishedPing& finished,
+                      std::span<const Pose> T_world_body) const {
         const SceneObjects& objects = context_.assembly.objects;
         const SceneObjects::Object& object = objects.objects[seen.id - 1];
         Json json = {{"id", seen.id},

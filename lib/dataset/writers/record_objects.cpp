@@ -19,8 +19,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Ids = std::vector<std::uint16_t>;
 
-constexpr std::size_t most_unseen = 32;     // pings between two of one pass
-constexpr std::size_t most_passes = 65536;  // numbers of 16 bits
+constexpr std::size_t max_unseen = 32;     // pings between two of one pass
+constexpr std::size_t max_passes = 65536;  // numbers of 16 bits
 
 /// The picture of all pings of a sonar. A row, or column, may stand for several pings.
 class Strip {
@@ -78,7 +78,7 @@ class Strip {
     /// stands for several pings, it holds the pass of the first ping that shows an object.
     void find_passes() {
         std::array<std::vector<Present>, 2> present;
-        present.fill(std::vector<Present>(most_passes));
+        present.fill(std::vector<Present>(max_passes));
         pass_of_pixel_.assign(static_cast<std::size_t>(bins_) * rows_, 0);
         RecordValues values(1, bins_);
         for (std::size_t ping = 0; ping < pings_; ++ping) {
@@ -104,8 +104,8 @@ class Strip {
     }
 
     void see(std::uint16_t id, std::size_t ping, int bin, std::uint16_t share, Present& one) {
-        const bool is_new = one.pass == 0 || ping - one.last > most_unseen;
-        if (is_new && passes_.size() < most_passes) {
+        const bool is_new = one.pass == 0 || ping - one.last > max_unseen;
+        if (is_new && passes_.size() < max_passes) {
             one = {static_cast<std::uint16_t>(passes_.size()), ping, {}};
             passes_.emplace_back().id = id;
         }
@@ -142,9 +142,9 @@ class Strip {
 
     /// The beginning of a longer pass represents the whole pass.
     void add_contrasts_of(SeenObject& pass) const {
-        constexpr int most_pings = 1024;
+        constexpr int max_pings = 1024;
         BinBox box = pass.box;
-        const int pings = std::min(box.last_line - box.first_line + 1, most_pings);
+        const int pings = std::min(box.last_line - box.first_line + 1, max_pings);
         const int margin = std::max(pings, 2);
         const int first = std::max(box.first_line - margin, 0);
         const int end = std::min(box.first_line + pings + margin, static_cast<int>(pings_));
@@ -172,8 +172,8 @@ class Strip {
 };
 
 /// The facts of an object in the display of a sweep.
-SeenObject seen_in_sweep(const ObjectRecords& source, const RecordValues& display, std::uint16_t id,
-                         const Sonar& whole) {
+SeenObject visible_in_sweep(const ObjectRecords& source, const RecordValues& display,
+                            std::uint16_t id, const Sonar& whole) {
     SeenObject seen;
     seen.id = id;
     double ahead = 0.0;
@@ -216,7 +216,7 @@ void write_sweeps(const WriterContext& context, const std::filesystem::path& fol
         std::vector<Json> objects;
         for (const ObjectMask& mask : masks(display.object)) {
             SeenObject seen =
-                seen_in_sweep(source, display, static_cast<std::uint16_t>(mask.id), whole);
+                visible_in_sweep(source, display, static_cast<std::uint16_t>(mask.id), whole);
             seen.pings = {begin, end};
             const auto shadow = std::ranges::find(shadows, mask.id, &ObjectMask::id);
             if (shadow != shadows.end() && !source.is_background(mask.id))

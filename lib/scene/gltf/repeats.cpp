@@ -47,7 +47,7 @@ void add_mesh(RepeatedFile& repeated, const MaterialRules& rules, ReadingLimit& 
 
 Repeats find_repeats(const std::vector<OpenFile>& open, std::size_t sharing_threshold,
                      ReadingLimit& limit) {
-    constexpr std::size_t most_triangles = 0xFFFF0000U;
+    constexpr std::size_t max_triangles = 0xFFFF0000U;
     std::map<const PlacedFile*, std::vector<std::size_t>, LessReading> alike;
     for (std::size_t i = 0; i < open.size(); ++i) {
         const PlacedFile& file = *open[i].placed;
@@ -60,7 +60,7 @@ Repeats find_repeats(const std::vector<OpenFile>& open, std::size_t sharing_thre
     Repeats repeats;
     repeats.of_file.assign(open.size(), nullptr);
     if (triangles <= sharing_threshold) return repeats;
-    if (triangles > most_triangles) {
+    if (triangles > max_triangles) {
         throw InputError(alike.begin()->first->place,
                          "repeated files have " + std::to_string(triangles) +
                              " triangles together with this one; at most 4294901760 are supported");

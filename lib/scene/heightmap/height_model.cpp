@@ -21,7 +21,7 @@ namespace sonarsim {
 namespace {
 
 /// The most heights of a map: with two triangles each, a scene then takes about 12 GB.
-constexpr std::size_t most_heights = std::size_t{1} << 25;
+constexpr std::size_t max_heights = std::size_t{1} << 25;
 
 /// The two triangles of every four neighbours whose heights are known. Counter-clockwise as seen
 /// from above where rows run to the south and columns to the east.
@@ -84,7 +84,7 @@ tinygltf::Model height_model(const std::filesystem::path& path, const HeightmapR
     const PixelWindow window = pixels_within(image, grid,
                                              {Eigen::Vector2d(rule.window[0], rule.window[1]),
                                               Eigen::Vector2d(rule.window[2], rule.window[3])},
-                                             most_heights, where);
+                                             max_heights, where);
     std::vector<float> positions;
     std::vector<bool> known;
     positions.reserve(3 * window.width() * window.height());

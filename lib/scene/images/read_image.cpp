@@ -38,13 +38,13 @@ std::string image_format(std::string_view bytes) {
 
 /// InputError unless the path is that of a regular file that can be opened and is not too large.
 void require_readable(const std::filesystem::path& path, const Location& where) {
-    constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 31;
+    constexpr std::uintmax_t max_bytes = std::uintmax_t{1} << 31;
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status)) throw InputError(where, "no such file");
     if (!std::filesystem::is_regular_file(status)) throw InputError(where, "is not a regular file");
     const std::uintmax_t size = std::filesystem::file_size(path, error);
-    if (error || size > most_bytes)
+    if (error || size > max_bytes)
         throw InputError(where,
                          "is larger than 2 GiB; cut a part out with gdal_translate -projwin");
 }
@@ -58,9 +58,8 @@ struct Reading {
 float* make_room(void* user, const SonarsimImageHead* head) {
     auto& reading = *static_cast<Reading*>(user);
     reading.head = *head;
-    if (head->channels == 0 || head->width > most_image_values ||
-        head->height > most_image_values ||
-        head->width * head->height > most_image_values / head->channels)
+    if (head->channels == 0 || head->width > max_image_values || head->height > max_image_values ||
+        head->width * head->height > max_image_values / head->channels)
         return nullptr;
     reading.image.values.resize(head->width * head->height * head->channels);
     return reading.image.values.data();

@@ -17,10 +17,10 @@ namespace sonarsim {
 
 namespace {
 
-constexpr int most_probes = 64;
+constexpr int max_probes = 64;
 
 // A box without width has no mean.
-constexpr double least_box_texels = 1e-3;
+constexpr double min_box_texels = 1e-3;
 
 /// Index of the texel at texel coordinates; nothing beyond the image.
 std::optional<std::size_t> texel_at(const TexelFrame& frame, const Eigen::Vector2d& texels) {
@@ -37,7 +37,7 @@ TexelBox box_around(const TexelFrame& frame, const Eigen::Vector2d& world,
                     const Eigen::Vector2d& half_m) {
     const Eigen::Vector2d at = frame.texels(world);
     const Eigen::Vector2d half =
-        half_m.cwiseProduct(frame.per_m.cwiseAbs()).cwiseMax(0.5 * least_box_texels);
+        half_m.cwiseProduct(frame.per_m.cwiseAbs()).cwiseMax(0.5 * min_box_texels);
     return {at.x() - half.x(), at.x() + half.x(), at.y() - half.y(), at.y() + half.y()};
 }
 
@@ -82,7 +82,7 @@ Probes probes_of(const GroundFootprint& footprint) {
     // point has one probe.
     const double squares = length_m > 0.0 ? length_m / width_m : 1.0;
     Probes out;
-    out.count = static_cast<int>(std::ceil(std::clamp(squares - 1e-6, 1.0, 1.0 * most_probes)));
+    out.count = static_cast<int>(std::ceil(std::clamp(squares - 1e-6, 1.0, 1.0 * max_probes)));
     out.step = 2.0 / out.count * edge;
     out.first = footprint.centre - edge + 0.5 * out.step;
     out.half_m = 0.5 * width_m;

@@ -57,7 +57,7 @@ struct MaterialShare {
     double power = 0.0;  ///< share times the mean factor on the power
 };
 
-/// Maps of material and of strength that are laid on the ground from above. Immutable.
+/// Maps of material and of strength that apply to the ground from above. Immutable.
 class GroundMaps {
   public:
     /// The maps lie on the instances of the scene whose element of `ground` is not 0.

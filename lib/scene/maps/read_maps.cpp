@@ -17,18 +17,18 @@ namespace sonarsim {
 
 namespace {
 
-constexpr std::size_t most_texels = std::size_t{1} << 24;
+constexpr std::size_t max_texels = std::size_t{1} << 24;
 
 /// Calls use(pixel, row, column) for each texel that is kept. `pixel` is null for those that change
 /// nothing: they have no value, or are transparent.
 template <class Use>
-TexelFrame for_each_texel(const LaidMapRule& rule, const Image& image, const Use& use) {
+TexelFrame for_each_texel(const AppliedMapRule& rule, const Image& image, const Use& use) {
     const Location where{rule.file.string()};
     const Eigen::Vector2d origin(rule.origin_m[0], rule.origin_m[1]);
     const PixelGrid grid = grid_in_metres(image, rule.pixel_m, rule.section, where);
     const PixelWindow window =
         pixels_within(image, grid, {rule.needed_m.min() + origin, rule.needed_m.max() + origin},
-                      most_texels, where);
+                      max_texels, where);
     const int colours = image.colours();
     window.for_each([&](int row, int column) {
         const float* const pixel = image.pixel(row, column);
@@ -57,7 +57,7 @@ std::optional<double> parse_colour(const std::string& text) {
 }  // namespace
 
 MaterialTexels read_material_map(
-    const LaidMapRule& rule, const Image& image,
+    const AppliedMapRule& rule, const Image& image,
     const std::vector<std::pair<std::string, std::uint32_t>>& materials) {
     const Location where{rule.file.string()};
     const bool colours = image.colours() == 3;
@@ -101,7 +101,7 @@ MaterialTexels read_material_map(
     return out;
 }
 
-StrengthTexels read_strength_map(const LaidMapRule& rule, const Image& image) {
+StrengthTexels read_strength_map(const AppliedMapRule& rule, const Image& image) {
     const Location where{rule.file.string()};
     if (image.colours() > 1)
         throw InputError(where, "has " + std::to_string(image.channels) +
@@ -110,9 +110,9 @@ StrengthTexels read_strength_map(const LaidMapRule& rule, const Image& image) {
     StrengthTexels out;
     out.frame = for_each_texel(rule, image, [&](const float* pixel, int row, int column) {
         if (pixel == nullptr) return out.factor.push_back(1.0F);
-        constexpr double most_db = 100.0;
+        constexpr double max_db = 100.0;
         const double db = *pixel;
-        if (!(std::fabs(db) <= most_db)) {
+        if (!(std::fabs(db) <= max_db)) {
             throw InputError(where,
                              fmt::format("row {0}, column {1}: {2} dB, and at most 100 are "
                                          "believed; mark it if it is unknown (gdal_translate "

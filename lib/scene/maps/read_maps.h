@@ -14,7 +14,7 @@
 namespace sonarsim {
 
 /// The place of a map's image.
-struct LaidMapRule {
+struct AppliedMapRule {
     std::filesystem::path file = {};
     double pixel_m = 0.0;               ///< size of a pixel; 0: by the file
     std::array<double, 2> origin_m{};   ///< point of the map that is the world's (0, 0)
@@ -27,11 +27,11 @@ struct LaidMapRule {
 /// for an image whose place is not known, for a key that does not fit the image's numbers or
 /// colours, and for a pixel that has no material.
 MaterialTexels read_material_map(
-    const LaidMapRule& rule, const Image& image,
+    const AppliedMapRule& rule, const Image& image,
     const std::vector<std::pair<std::string, std::uint32_t>>& materials);
 
 /// A map of decibels, from an image of one channel, or one and alpha. Throws as the above, and for
 /// more than 100 dB.
-StrengthTexels read_strength_map(const LaidMapRule& rule, const Image& image);
+StrengthTexels read_strength_map(const AppliedMapRule& rule, const Image& image);
 
 }  // namespace sonarsim

@@ -11,7 +11,7 @@ namespace sonarsim {
 
 namespace {
 
-constexpr int most_cells = 1024;  // limit along x and along y
+constexpr int max_cells = 1024;  // limit along x and along y
 
 // More than one cell, since most triangles often belong to small objects that cover few of the
 // cells. Placing 3,000 rings on a plane takes 12 % less time with 8 than with 1, and 32 are no
@@ -19,7 +19,7 @@ constexpr int most_cells = 1024;  // limit along x and along y
 constexpr double cells_per_triangle = 8.0;
 
 // Large triangles lie in many cells. So many numbers of triangles take 1 GB.
-constexpr std::uint64_t most_places = std::uint64_t{1} << 28;
+constexpr std::uint64_t max_places = std::uint64_t{1} << 28;
 
 Eigen::AlignedBox2d area_of(const Surface& surface, std::uint32_t triangle) {
     Eigen::AlignedBox2d box;
@@ -55,8 +55,8 @@ Bottom::Bottom(Surface surface) : surface_(std::move(surface)) {
     const Eigen::AlignedBox3d all = box_of(surface_);
     area_ = {all.min().head<2>(), all.max().head<2>()};
     const auto count = static_cast<std::uint32_t>(surface_.triangles.size());
-    side_ = std::clamp(static_cast<int>(std::sqrt(cells_per_triangle * count)), 1, most_cells);
-    while (side_ > 1 && places_of_triangles() > most_places)
+    side_ = std::clamp(static_cast<int>(std::sqrt(cells_per_triangle * count)), 1, max_cells);
+    while (side_ > 1 && places_of_triangles() > max_places)
         side_ /= 2;
     // Count first, then fill.
     std::vector<std::uint32_t> size(static_cast<std::size_t>(side_) * side_ + 1, 0);

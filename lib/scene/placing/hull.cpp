@@ -40,7 +40,7 @@ bool has_gap(const Hull& a, const Hull& b) {
     return false;
 }
 
-double least_distance(const Hull& corners, const Hull& edges) {
+double min_distance(const Hull& corners, const Hull& edges) {
     double least = std::numeric_limits<double>::infinity();
     for (const Eigen::Vector2d& p : corners) {
         for (std::size_t i = 0; i < edges.size(); ++i)
@@ -97,7 +97,7 @@ double distance_between(const Hull& a, const Hull& b, double most) {
     if (box.squaredExteriorDistance(box_around(b)) > near * near) return far;
     // Convex polygons are disjoint if and only if an edge of one of them separates them.
     if (!has_gap(a, b) && !has_gap(b, a)) return 0.0;
-    return std::min(least_distance(a, b), least_distance(b, a));
+    return std::min(min_distance(a, b), min_distance(b, a));
 }
 
 }  // namespace sonarsim

@@ -58,14 +58,14 @@ void add_roughness(const BedGrid& grid, const BedRoughness& roughness, std::uint
     if (roughness.strength == 0.0) return;
     // The square of the shortest length of a field, in cells. Shorter fields would be aliased by
     // the grid; longer ones leave out more of the spectrum at short wavelengths.
-    constexpr double least_t = 0.2;
+    constexpr double min_t = 0.2;
     constexpr double step = 4.0;
     // Fields with a larger t k0^2 are left out: their factor exp(-t k0^2) is below e^-10.
     constexpr double most = 10.0;
     const double corner = 2.0 * pi / roughness.corner_m;
     const double a = 0.5 * roughness.exponent;
     const double factor = roughness.strength * pi * logarithm(step) * exponential(-log_gamma(a));
-    double t = least_t * grid.cell_m * grid.cell_m;
+    double t = min_t * grid.cell_m * grid.cell_m;
     for (std::uint32_t octave = 0; t * corner * corner < most; ++octave, t *= step) {
         const double variance = factor * power(t, a - 1.0) * exponential(-t * corner * corner);
         const double deviation = std::sqrt(variance);

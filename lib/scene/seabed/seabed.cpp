@@ -10,7 +10,7 @@ namespace sonarsim {
 namespace {
 
 /// With two triangles each, a scene then takes about 12 GB.
-constexpr double most_cells_of_bed = 33554432.0;
+constexpr double max_cells_of_bed = 33554432.0;
 
 /// The cells from `low` to `high` along one axis, with a margin: the first, and the one after the
 /// last. A bed with a size has no cells outside it; if fewer than two of its cells remain, all are
@@ -37,7 +37,7 @@ BedGrid grid_of_rule(const SeabedRule& rule) {
     if (columns < 2.0 || rows < 2.0) {
         throw InputError(rule.place, "size_m has fewer than 2 x 2 cells of cell_m; make it larger");
     }
-    if (columns * rows > most_cells_of_bed) {
+    if (columns * rows > max_cells_of_bed) {
         throw InputError(
             rule.place,
             fmt::format("the mission needs {:.0f} x {:.0f} heights of the seabed, and at most 2^25 "
@@ -73,17 +73,17 @@ double height_at(const Seabed& bed, double x_m, double y_m) {
 }
 
 void add_rocks(const SeabedRule& rule, Seabed& bed) {
-    constexpr double most_rocks = 50000.0;
+    constexpr double max_rocks = 50000.0;
     const BedGrid& grid = bed.grid;
     // Within the outer heights, where every point has a height.
     const BedArea area{grid.x_m(0), grid.y_m(grid.rows - 1), grid.x_m(grid.columns - 1),
                        grid.y_m(0)};
     const double count = (area[2] - area[0]) * (area[3] - area[1]) * rule.rocks->density_per_m2;
-    if (count > most_rocks) {
+    if (count > max_rocks) {
         throw InputError(rule.place, fmt::format("the part of the seabed that the mission needs "
                                                  "has some {:.0f} rocks, and at most {:.0f} have "
                                                  "room; lower their density_per_m2",
-                                                 count, most_rocks));
+                                                 count, max_rocks));
     }
     bed.rock_shapes = rock_shapes(rule.seed);
     bed.rocks = rocks_in(area, *rule.rocks, rule.cell_m, rule.seed);

@@ -93,8 +93,8 @@ class Lattice {
 
 std::vector<float> smooth_field(const BedGrid& grid, double length_m, PhiloxKey key) {
     // A finer lattice needs more room and time. Neighbouring cells are independent already.
-    constexpr double least_share_of_cell = 0.01;
-    length_m = std::max(length_m, least_share_of_cell * grid.cell_m);
+    constexpr double min_share_of_cell = 0.01;
+    length_m = std::max(length_m, min_share_of_cell * grid.cell_m);
     std::vector<float> out;
     if (grid.size() == 0) return out;
     out.reserve(grid.size());

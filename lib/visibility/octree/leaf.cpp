@@ -9,7 +9,7 @@ namespace sonarsim {
 
 namespace {
 
-constexpr std::size_t most_groups = 6;
+constexpr std::size_t max_groups = 6;
 constexpr double same_direction = 0.85;  // cosine
 
 /// Keeps the part of a polygon with x[axis] >= bound, or the part with x[axis] < bound.
@@ -60,8 +60,9 @@ void add_to_groups(double area, const Facet& facet, std::uint32_t triangle,
             home = &group;
         }
     }
-    if (!home || (best < same_direction && groups.size() < most_groups)) {
-        groups.push_back({area, area * normal, area, {Eigen::Vector3f::Zero(), triangle}, facet.material});
+    if (!home || (best < same_direction && groups.size() < max_groups)) {
+        groups.push_back(
+            {area, area * normal, area, {Eigen::Vector3f::Zero(), triangle}, facet.material});
         return;
     }
     home->area += area;

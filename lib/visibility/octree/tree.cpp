@@ -15,10 +15,10 @@ namespace {
 
 constexpr std::size_t triangles_per_tile = 48;
 constexpr double leaves_per_tile_edge = 32.0;
-constexpr int most_levels = 30;  // a CubeIndex has 31 bits
+constexpr int max_levels = 30;  // a CubeIndex has 31 bits
 
 /// Memory of the leaves, above which tiles out of view are dropped.
-constexpr std::size_t most_bytes = std::size_t{512} << 20U;
+constexpr std::size_t max_bytes = std::size_t{512} << 20U;
 
 // Planes of a scene often have round coordinates. If faces of cubes coincided with them, rounding
 // would decide which cube holds the surface; these offsets, in units of a leaf, prevent that.
@@ -27,7 +27,7 @@ const Eigen::Vector3d lattice_offset(0.381966011, 0.618033989, 0.272019650);
 }  // namespace
 
 std::string too_small_leaves(double length_m, double leaf_m) {
-    if (length_m + 2.0 * leaf_m <= std::ldexp(leaf_m, most_levels)) return "";
+    if (length_m + 2.0 * leaf_m <= std::ldexp(leaf_m, max_levels)) return "";
     return "octree.leaf_m of " + number_text(leaf_m) + " is too small for a scene " +
            number_text(std::ceil(length_m)) + " m long; use engine: auto or larger leaves";
 }
@@ -139,12 +139,13 @@ void Octree::find_tiles(Node& node, Containment containment, const ViewVolume& v
         const unsigned octant = i ^ near;
         if (!(node.octants >> octant & 1U)) continue;
         const int before = std::popcount(node.octants & ((1U << octant) - 1U));
-        find_tiles(nodes_[node.children + static_cast<std::uint32_t>(before)], containment, volume, tiles);
+        find_tiles(nodes_[node.children + static_cast<std::uint32_t>(before)], containment, volume,
+                   tiles);
     }
 }
 
 void Octree::drop_old_tiles() {
-    if (bytes_ <= most_bytes) return;
+    if (bytes_ <= max_bytes) return;
     for (Node& node : nodes_) {
         if (!node.leaves || node.last_use == pings_) continue;
         bytes_ -= node.leaves->size() * sizeof(TileLeaf);

@@ -19,7 +19,7 @@ constexpr float chord_overlap = 1e-5F;
 constexpr int newton_steps = 3;
 // The least width of a ray tube, as a share of its width where sound goes straight: a two-way gain
 // of 20 dB at most. Chosen, since rays lack the diffraction that limits the gain of a caustic.
-constexpr double least_spread = 0.1;
+constexpr double min_spread = 0.1;
 // A ray steeper than this has no azimuth.
 constexpr double steep_cosine = 1e-6;
 
@@ -115,7 +115,7 @@ class BentCast {
                        const Eigen::Vector3d& normal) const {
         const double range = range_of(ray);
         const auto bounded = [](double x) {
-            return std::fabs(x) < least_spread ? std::copysign(least_spread, x) : x;
+            return std::fabs(x) < min_spread ? std::copysign(min_spread, x) : x;
         };
         const double cosine = sincos(way.elevation_rad).cos;
         const double along = profile_.speed_in(ray.layer, ray.height_m) / profile_.range_speed_m_s;

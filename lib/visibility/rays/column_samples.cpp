@@ -39,13 +39,13 @@ struct Context {
     const RayColumns& columns;
 };
 
-/// The range at which `direction` meets the plane of `ray`, limited to `most_m` from `about_m`: at
+/// The range at which `direction` meets the plane of `ray`, limited to `max_m` from `about_m`: at
 /// grazing incidence a plane extends far beyond the edge of its surface.
 float range_on_plane(const CastRay& ray, const Eigen::Vector3f& direction, float about_m,
-                     float most_m) {
+                     float max_m) {
     const float cosine = -ray.normal.dot(direction);
-    const float farthest = about_m + most_m;
-    return cosine * farthest > ray.height_m ? std::max(ray.height_m / cosine, about_m - most_m)
+    const float farthest = about_m + max_m;
+    return cosine * farthest > ray.height_m ? std::max(ray.height_m / cosine, about_m - max_m)
                                             : farthest;
 }
 

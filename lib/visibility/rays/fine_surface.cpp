@@ -136,9 +136,9 @@ std::vector<std::uint32_t> FineSurface::in_view(const ViewVolume& volume, const 
     std::vector<std::uint32_t> found;
     for (std::size_t r = 0; r < runs_.size(); ++r) {
         const Run& run = runs_[r];
-        if (run.least_radius_m >= resolved_m(reach_m + 2.0F * run.ball.radius_m, spacing)) continue;
+        if (run.min_radius_m >= resolved_m(reach_m + 2.0F * run.ball.radius_m, spacing)) continue;
         const Eigen::Vector3f centre = run.ball.centre - pose.position;
-        if (run.least_radius_m >= resolved_m(centre.norm() + run.ball.radius_m, spacing) ||
+        if (run.min_radius_m >= resolved_m(centre.norm() + run.ball.radius_m, spacing) ||
             volume.containment(centre, run.ball.radius_m + volume.rounding_m()) ==
                 Containment::outside)
             continue;

@@ -42,7 +42,7 @@ class FineSurface {
     /// Neighbouring triangles, and a ball around them.
     struct Run {
         Ball ball;
-        float least_radius_m;
+        float min_radius_m;
     };
     static constexpr std::size_t run_triangles = 32;
 

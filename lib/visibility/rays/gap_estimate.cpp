@@ -9,7 +9,7 @@ namespace {
 
 // The echo of a surface is proportional to the cosine, so the relative error of the cosine counts.
 // Surface with a smaller cosine than this is too dark to matter.
-constexpr float least_cosine = 0.02F;
+constexpr float min_cosine = 0.02F;
 
 // Two planes tangent to a smooth surface meet half way. The error of each is half of the change in
 // cosine between them there, and a quarter of it on average.
@@ -54,7 +54,7 @@ bool nearly_one_plane(const Neighbours& pair, float tolerance_m) {
 }
 
 float relative_change(float one, float other) {
-    return std::fabs(one - other) / std::max({one, other, least_cosine});
+    return std::fabs(one - other) / std::max({one, other, min_cosine});
 }
 
 }  // namespace
@@ -118,8 +118,8 @@ float split_angle(const CastRay& a, const CastRay& b, float reach_m) {
     const float cosine_other = -near.normal.dot(other.direction);
     const float share = (near.cosine - cosine_leaving) / (near.cosine - cosine_other);
     // A ray closer to `a` or `b` than this share of the gap would only repeat that ray.
-    constexpr float least_share = 0.01F;
-    return cosine_other < cosine_leaving && share > least_share && share < 1.0F - least_share
+    constexpr float min_share = 0.01F;
+    return cosine_other < cosine_leaving && share > min_share && share < 1.0F - min_share
                ? near.along + share * (other.along - near.along)
                : middle;
 }
@@ -131,7 +131,7 @@ bool disagree(const CastRay& a, const CastRay& b, const Sampling& sampling, floa
     const Neighbours pair = neighbours(a, b);
     return a.material != b.material || !nearly_one_plane(pair, sampling.tolerance_m) ||
            std::fabs(pair.cosine_ab - b.cosine) >
-               sampling.tolerance_cosine * std::max(b.cosine, least_cosine);
+               sampling.tolerance_cosine * std::max(b.cosine, min_cosine);
 }
 
 }  // namespace sonarsim

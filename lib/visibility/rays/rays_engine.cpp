@@ -21,7 +21,7 @@ namespace {
 
 // The number of rays, before gaps are split, that are cast together if the rays are dense. Over
 // rough ground splitting makes up to ten times as many, 64 bytes each: 40 MB.
-constexpr int most_rays_together = 1 << 16;
+constexpr int max_rays_together = 1 << 16;
 
 // Columns of a side-scan where energies add, per column that resolves surface; fitted.
 constexpr int columns_along_track = 4;
@@ -112,7 +112,7 @@ class RaysEngine final : public VisibilityEngine {
     /// bounded memory allows.
     int beams_together(const View& view, const Sampling& sampling) const {
         if (density_ == 1) return std::max(view.beams, 1);
-        return std::max(most_rays_together / (sampling.columns * sampling.rays), 1);
+        return std::max(max_rays_together / (sampling.columns * sampling.rays), 1);
     }
 
     BentWater water(double sag_m) const {

@@ -19,7 +19,7 @@ constexpr double carry_over_share = 0.25;
 constexpr float split_share = 0.4937F;
 
 // Least distance of two slices, as a share of the frame's gap between them.
-constexpr float least_share = 1.0F / 256.0F;
+constexpr float min_share = 1.0F / 256.0F;
 
 // Two ends are equal if they differ by less than this share of the slice.
 constexpr float same_place = 2e-4F;
@@ -107,7 +107,7 @@ void AdaptiveSlices::scan_gap(std::uint32_t gap) {
 void AdaptiveSlices::split_where_requested(std::uint32_t gap) {
     for (const RequestedSlice& requested : scan_.requested_in(gap)) {
         const Subgap& last = subgaps_.back();
-        const float least = least_width(gap);
+        const float least = min_width(gap);
         if (requested.u - results_[last.low].slice.u < least) continue;
         // If the next slice is one float away, the midpoint is that slice itself: no width would be
         // left for the last slice of a frame.
@@ -148,7 +148,7 @@ void AdaptiveSlices::refine(double max_share) {
             const Subgap& b = subgaps_[i];
             beam.difference += b.difference;
             beam.signal += b.signal;
-            if (!(b.difference > 0.0F) || width(b) < 2.0F * least_width(b.gap)) continue;
+            if (!(b.difference > 0.0F) || width(b) < 2.0F * min_width(b.gap)) continue;
             if (worst == subgaps_.size() || b.difference > subgaps_[worst].difference) worst = i;
         }
         // The mean lets a dim beam have a larger relative error than a bright one.
@@ -192,7 +192,7 @@ void AdaptiveSlices::add_unseen(Subgap& subgap) {
     unseen_.set(outstanding_, beam_width_);
     subgap.difference += RangeProfile::change(low_, high_, unseen_);
     const float u = (*std::ranges::max_element(outstanding_, {}, &UnseenPiece::area_m2))->u;
-    const float least = least_width(subgap.gap);
+    const float least = min_width(subgap.gap);
     if (u - results_[subgap.low].slice.u > least && results_[subgap.high].slice.u - u > least)
         subgap.split_u = u;
 }
@@ -248,9 +248,9 @@ bool AdaptiveSlices::alike(const SliceResult& a, const SliceResult& b) const {
     return true;
 }
 
-float AdaptiveSlices::least_width(std::uint32_t gap) const {
+float AdaptiveSlices::min_width(std::uint32_t gap) const {
     const std::vector<Slice>& slices = scan_.frame().slices;
-    return least_share * (slices[gap + 1].u - slices[gap].u);
+    return min_share * (slices[gap + 1].u - slices[gap].u);
 }
 
 float AdaptiveSlices::width(const Subgap& subgap) const {

@@ -67,7 +67,7 @@ class AdaptiveSlices {
     bool alike(const SliceResult& a, const SliceResult& b) const;
     const std::vector<std::uint32_t>& candidates(std::uint32_t gap);
     float width(const Subgap& subgap) const;
-    float least_width(std::uint32_t gap) const;
+    float min_width(std::uint32_t gap) const;
     std::uint32_t new_slice();
     void collect_done();
 

@@ -132,9 +132,9 @@ ClusterMesh make_clusters(const Scene& scene) {
     const std::vector<std::uint32_t> order = along_morton_curve(scene);
     mesh.corners.reserve(order.size());
     mesh.facets.reserve(order.size());
-    for (std::size_t first = 0; first < order.size(); first += ClusterMesh::most_triangles) {
+    for (std::size_t first = 0; first < order.size(); first += ClusterMesh::max_triangles) {
         const std::size_t count =
-            std::min<std::size_t>(ClusterMesh::most_triangles, order.size() - first);
+            std::min<std::size_t>(ClusterMesh::max_triangles, order.size() - first);
         add_cluster(scene, std::span(order).subspan(first, count), mesh);
     }
     const std::vector<std::uint32_t> first = first_at_place(scene.vertices);

@@ -30,7 +30,7 @@ struct TriangleCluster {
 /// A scene's triangles, sorted along a Morton curve through their centres
 /// and divided into clusters. Corner indices count from the cluster's first vertex.
 struct ClusterMesh {
-    static constexpr std::uint32_t most_triangles = 64;
+    static constexpr std::uint32_t max_triangles = 64;
     static constexpr std::uint32_t nothing = 0xFFFFFFFFU;
 
     std::vector<TriangleCluster> clusters;

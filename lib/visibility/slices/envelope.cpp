@@ -15,9 +15,9 @@ constexpr Interval everywhere{-never, never};
 // step. Spans narrower than this are such cracks.
 constexpr float narrowest_span = 2e-6F;
 
-// A narrow span is no crack if a whole face is as narrow and spans this share of its range: it may
-// have more area than all other surface in its bins.
-constexpr float least_depth = 1e-4F;
+// A narrow span is not a crack if a whole face is as narrow and spans this share of its range: it
+// may have more area than all other surface in its bins.
+constexpr float min_depth = 1e-4F;
 
 /// A sweep over w. One segment is on top; those below it are open.
 class Sweep {
@@ -171,7 +171,7 @@ class Sweep {
     bool is_edge_on_face(float w) const {
         if (!(begin_ < w && top().w_low == begin_ && top().w_high == w)) return false;
         const float q = top().q_at(w);
-        return std::fabs(q - top().q_at(begin_)) > least_depth * q;
+        return std::fabs(q - top().q_at(begin_)) > min_depth * q;
     }
 
     void emit(float w, const Border& border) {

@@ -9,17 +9,17 @@ namespace {
 
 // If a gap holds more triangles than this, only every n-th is used and stands for n of them: a
 // finely cut surface has thousands, and the neighbouring slices predict it well.
-constexpr std::uint32_t most_unseen = 16;
+constexpr std::uint32_t max_unseen = 16;
 
 // Pieces per height of the view, and the most pieces of a triangle.
 constexpr float per_height = 8.0F;
-constexpr float most_pieces = 4.0F;
+constexpr float max_pieces = 4.0F;
 
 constexpr int slices_per_component = 4;
 
 // Planes are equal if their normals differ by less than this, and their heights by less than this
 // share of the distance: float corners of a flat wall differ by as much.
-constexpr float most_tilt = 2e-5F;
+constexpr float max_tilt = 2e-5F;
 
 Interval around(const Interval& a, const Interval& b) {
     return {std::min(a.from, b.from), std::max(a.to, b.to)};
@@ -42,13 +42,13 @@ Groups by_gap(const SliceScene& scene, const SliceFrame& frame) {
 /// either side.
 void add_unseen_pieces(const Corners& corners, const Eigen::Vector3f& normal, float reflection,
                        const Interval& view_w, std::vector<UnseenPiece>& out) {
-    const Interval seen_u = u_between(corners, view_w);
+    const Interval visible_u = u_between(corners, view_w);
     const auto [w_from, w_to] = std::minmax({corners[0].w, corners[1].w, corners[2].w});
     const Interval w{std::max(w_from, view_w.from), std::min(w_to, view_w.to)};
     const float height = -normal.dot(Eigen::Vector3f(corners[0].X, corners[0].U, corners[0].W));
     if (!(w.from < w.to) || height == 0.0F) return;
     const float pieces = std::clamp(
-        std::ceil(per_height * (w.to - w.from) / (view_w.to - view_w.from)), 1.0F, most_pieces);
+        std::ceil(per_height * (w.to - w.from) / (view_w.to - view_w.from)), 1.0F, max_pieces);
     const float step = (w.to - w.from) / pieces;
     for (int k = 0; k < static_cast<int>(pieces); ++k) {
         const float at = w.from + (static_cast<float>(k) + 0.5F) * step;
@@ -68,7 +68,7 @@ void add_unseen_pieces(const Corners& corners, const Eigen::Vector3f& normal, fl
         if (!(q > 0.0F && low > 0.0F && high > 0.0F)) continue;
         const auto [near, far] =
             std::minmax({range_at(at - 0.5F * step), range_at(at + 0.5F * step)});
-        out.push_back({seen_u,
+        out.push_back({visible_u,
                        u,
                        at,
                        q,
@@ -142,7 +142,7 @@ void FrameScan::find_candidates(std::uint32_t gap, std::span<const std::uint32_t
 void FrameScan::find_unseen(std::uint32_t gap, std::vector<UnseenPiece>& out) {
     const std::uint32_t begin = by_gap_.begin[gap];
     const std::uint32_t end = by_gap_.begin[gap + 1];
-    const std::uint32_t step = 1 + (end - begin) / most_unseen;
+    const std::uint32_t step = 1 + (end - begin) / max_unseen;
     const Interval w = w_over(frame_, {frame_.slices[gap].u, frame_.slices[gap + 1].u});
     for (std::uint32_t k = begin; k < end; k += step) {
         const FacetInGap& note = scene_.in_gaps[by_gap_.items[k]];
@@ -171,8 +171,8 @@ bool FrameScan::one_plane(std::uint32_t a, std::uint32_t b, float range_m) const
     if (a == b) return true;
     const FrontFacet& f = scene_.facets[a];
     const FrontFacet& g = scene_.facets[b];
-    if ((f.normal - g.normal).squaredNorm() > most_tilt * most_tilt) return false;
-    if (std::fabs(f.height_m - g.height_m) > most_tilt * range_m) return false;
+    if ((f.normal - g.normal).squaredNorm() > max_tilt * max_tilt) return false;
+    if (std::fabs(f.height_m - g.height_m) > max_tilt * range_m) return false;
     const SliceFacet& s = mesh_.facets[f.facet];
     const SliceFacet& t = mesh_.facets[g.facet];
     return s.material == t.material && s.instance == t.instance;

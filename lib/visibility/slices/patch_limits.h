@@ -11,7 +11,7 @@ struct PatchLimits {
     float sag_m;       ///< largest deviation of a patch's range from the linear one
     float shortest_m;  ///< no patch is cut shorter
     /// Largest difference in range span between the two sides of a patch that joins two strips.
-    float most_wedge_m;
+    float max_wedge_m;
     /// The same between the two sides of a long patch of grazing surface, whose area in its last
     /// bin counts.
     float grazing_wedge_m;

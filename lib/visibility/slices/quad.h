@@ -36,7 +36,7 @@ struct Quad {
 
     /// At corners q is at least this share of `q`: next to the slice a plane may run to infinity,
     /// but its triangle does not.
-    static constexpr float least_q_share = 1e-3F;
+    static constexpr float min_q_share = 1e-3F;
 
     float middle_low() const { return 0.5F * (low.low + high.low); }
     float middle_high() const { return 0.5F * (low.high + high.high); }
@@ -51,8 +51,7 @@ struct Quad {
     QuadPoints points(Eigen::Array4f at_u, const Eigen::Array4f& at_w) const {
         if (widens) at_u *= (1.0F + at_w * at_w).sqrt();
         const Eigen::Array4f secant = (1.0F + at_u * at_u + at_w * at_w).sqrt();
-        const Eigen::Array4f at_q =
-            (q + q_u * (at_u - u) + q_w * (at_w - w)).max(least_q_share * q);
+        const Eigen::Array4f at_q = (q + q_u * (at_u - u) + q_w * (at_w - w)).max(min_q_share * q);
         QuadPoints p;
         p.range = (secant / at_q).max(range_m.from).min(range_m.to);
         p.X = p.range / secant;

@@ -9,14 +9,14 @@ namespace sonarsim {
 namespace {
 
 // Largest number of parts across a patch.
-constexpr float most_parts = 8.0F;
+constexpr float max_parts = 8.0F;
 
 // Surface at a smaller cosine to the line of sight is grazing: it dims a bin by its area alone.
 constexpr float grazing_cosine = 0.1F;
 
 // Towards the line in which all slices meet, a patch is divided into narrower ones down to this
 // share of its width. The rest has a four-hundredth of the area.
-constexpr float least_width_share = 0.05F;
+constexpr float min_width_share = 0.05F;
 
 // A parallelogram is as wide at its far end as at its near end; the surface is not. So a patch may
 // extend from one range to at most this many times that range.
@@ -141,7 +141,7 @@ void QuadSampler::cut_narrow(const Quad& quad, float from, float to) {
     const float X_to = X_at(to);
     const bool narrows = X_to < X_from;
     const float widest = std::max(X_from, X_to);
-    const float narrowest = std::max(std::min(X_from, X_to), least_width_share * widest);
+    const float narrowest = std::max(std::min(X_from, X_to), min_width_share * widest);
     const float per_share = (1.0F / X_to - 1.0F / X_from) / (to - from);
     float last = narrows ? from : to;
     if (widest == unbounded) return;
@@ -177,7 +177,7 @@ void QuadSampler::divide_across(const Quad& quad, const QuadPoints& corners) {
     const bool is_long = farthest - r.minCoeff() > limits_.long_grazing_m;
     const float wedge = std::fabs(std::fabs(r[3] - r[0]) - std::fabs(r[2] - r[1]));
     if (!is_long || !(quad.height_m < grazing_cosine * farthest)) return push(quad, corners);
-    const float parts = std::clamp(std::ceil(wedge / limits_.grazing_wedge_m), 1.0F, most_parts);
+    const float parts = std::clamp(std::ceil(wedge / limits_.grazing_wedge_m), 1.0F, max_parts);
     Quad part = quad;
     for (int i = 1; i <= static_cast<int>(parts); ++i) {
         const float share = static_cast<float>(i) / parts;

@@ -12,7 +12,7 @@ namespace {
 
 // The least depth of surface, in bins, since areas are divided by depths. The step of a float just
 // below 8192 bins is half of this.
-constexpr float least_depth_bins = 1e-3F;
+constexpr float min_depth_bins = 1e-3F;
 
 /// The sum of term(i) over the bins [first, last), and over dark bins up to a whole vector, in
 /// parts, so that the loop vectorises.
@@ -102,7 +102,7 @@ void RangeProfile::set(std::span<const UnseenPiece* const> pieces, float beam_u)
 /// Adds surface that is spread evenly over an interval of range.
 void RangeProfile::add(float from_m, float to_m, float weight, float height_m, float reflection) {
     const float low = from_m * per_m_ - min_bins_;
-    const float high = std::max(to_m * per_m_ - min_bins_, low + least_depth_bins);
+    const float high = std::max(to_m * per_m_ - min_bins_, low + min_depth_bins);
     const float density = weight / (high - low);
     if (!(high > 0.0F && low < static_cast<float>(bins_))) return;
     const int first = static_cast<int>(std::max(low, 0.0F));

@@ -66,7 +66,7 @@ void SliceSetup::add_between(std::span<const std::uint32_t> facets) {
 }
 
 Corners SliceSetup::corners_of(std::uint32_t facet) const {
-    const TriangleCluster& cluster = mesh_.clusters[facet / ClusterMesh::most_triangles];
+    const TriangleCluster& cluster = mesh_.clusters[facet / ClusterMesh::max_triangles];
     Corners corners;
     for (int k = 0; k < 3; ++k) {
         const std::uint32_t vertex = cluster.first_vertex + mesh_.corners[facet][k];

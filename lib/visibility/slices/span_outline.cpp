@@ -9,7 +9,7 @@ namespace {
 
 // An end that reaches the view's border within this share of the way from its slice, or from the
 // other side, has no side there: it would bound a sliver.
-constexpr float least_stop = 0.01F;
+constexpr float min_stop = 0.01F;
 
 /// The border of a span's quadrilateral on one side: the side itself, or before it the point where
 /// the two ends meet, or where one of them meets the end that both follow.
@@ -43,7 +43,7 @@ void add_stops(const Slice& slice, const MovedEnds& moved, std::size_t span, Int
     const bool backwards = moved.u < slice.u;
     for (const float share : {backwards ? farther : nearer, backwards ? nearer : farther}) {
         const float u = slice.u + share * (moved.u - slice.u);
-        if (!(share > least_stop && share < 1.0F - least_stop)) continue;
+        if (!(share > min_stop && share < 1.0F - min_stop)) continue;
         if (!(strip.from < u && u < strip.to)) continue;
         if (outline.count > 0 && outline.last().u == u) continue;
         outline.add({u, w_on_way(low, share), w_on_way(high, share)});
@@ -59,7 +59,7 @@ QuadSide between(const QuadSide& a, const QuadSide& b, float u) {
 
 bool straight(const QuadSide& low, const QuadSide& middle, const QuadSide& high) {
     const QuadSide line = between(low, high, middle.u);
-    const float most = most_bend * (middle.high - middle.low);
+    const float most = max_bend * (middle.high - middle.low);
     return std::fabs(line.low - middle.low) <= most && std::fabs(line.high - middle.high) <= most;
 }
 

@@ -10,7 +10,7 @@
 namespace sonarsim {
 
 // Largest distance of a quadrilateral's end from the straight line, as a share of its height.
-inline constexpr float most_bend = 0.02F;
+inline constexpr float max_bend = 0.02F;
 
 /// The part of a strip that a span fills: sides between which its ends are straight, in the order
 /// of u.

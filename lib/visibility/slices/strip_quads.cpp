@@ -20,7 +20,7 @@ float gap_width(const SliceFrame& frame) {
 
 StripQuads::StripQuads(const FrameScan& scan, const PatchLimits& limits, Samples& samples)
     : scan_(scan),
-      most_wedge_m_(limits.most_wedge_m),
+      max_wedge_m_(limits.max_wedge_m),
       samples_(samples),
       out_(scan, limits, samples.items),
       widest_(gap_width(scan.frame())) {}
@@ -152,7 +152,7 @@ void StripQuads::join(float u) {
 
 /// True if `quad` continues an open one, and both make one patch.
 bool StripQuads::go_on(const Quad& open, const Quad& quad) const {
-    const float most = most_bend * (quad.low.high - quad.low.low);
+    const float most = max_bend * (quad.low.high - quad.low.low);
     if (!(std::fabs(open.high.low - quad.low.low) < most &&
           std::fabs(open.high.high - quad.low.high) < most &&
           quad.high.u - open.low.u <= widest_ * (1.0F + quad.low.u * quad.low.u) &&
@@ -164,7 +164,7 @@ bool StripQuads::go_on(const Quad& open, const Quad& quad) const {
     both.low = open.low;
     const Eigen::Array4f r = both.corners().range;
     const float wedge = std::fabs(r[3] - r[0]) - std::fabs(r[2] - r[1]);
-    return std::fabs(wedge) < most_wedge_m_;
+    return std::fabs(wedge) < max_wedge_m_;
 }
 
 }  // namespace sonarsim

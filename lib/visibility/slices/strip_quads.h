@@ -38,7 +38,7 @@ class StripQuads {
     bool go_on(const Quad& open, const Quad& quad) const;
 
     const FrameScan& scan_;
-    const float most_wedge_m_;
+    const float max_wedge_m_;
     Samples& samples_;
     QuadSampler out_;
     const float widest_;           ///< greatest width of a quadrilateral, in u at u = 0

@@ -269,9 +269,9 @@ TEST_CASE("slices: a finer goal asks for more slices" * doctest::skip(test::sani
     for (const double goal : {0.1, 0.03, 0.01}) {
         View view = fan_view();
         view.relative_l1 = goal;
-        const Samples seen_now = engine->visible_surface(view, pose);
-        CHECK(seen_now.items.size() > samples);
-        samples = seen_now.items.size();
+        const Samples visible_now = engine->visible_surface(view, pose);
+        CHECK(visible_now.items.size() > samples);
+        samples = visible_now.items.size();
     }
 }
 

@@ -1,4 +1,4 @@
-#include "trace/lay_maps.h"
+#include "trace/apply_maps.h"
 
 #include <doctest/doctest.h>
 
@@ -31,7 +31,7 @@ TEST_SUITE("lay maps") {
             const Samples whole = engine->visible_surface(sonar.settings.view, pose);
             Samples cut = whole;
             std::vector<Sample> none;
-            lay_maps(*scene.maps, sonar.settings.view, pose, cut, none);
+            apply_maps(*scene.maps, sonar.settings.view, pose, cut, none);
             CHECK(cut.items.size() > whole.items.size());
             for (int j = 0; j < sonar.settings.view.beams; ++j) {
                 const auto area = [](std::span<const Sample> samples) {

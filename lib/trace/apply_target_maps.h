@@ -13,7 +13,7 @@ namespace sonarsim {
 /// which the maps change is cut until its parts are half a range bin deep and half a beam wide; a
 /// part becomes one facet for each of its materials, with a strength in proportion to the
 /// material's share.
-void lay_maps_on_targets(const GroundMaps& maps, const View& view, const Pose& T_world_sensor,
-                         std::vector<TargetFacet>& facets);
+void apply_maps_on_targets(const GroundMaps& maps, const View& view, const Pose& T_world_sensor,
+                           std::vector<TargetFacet>& facets);
 
 }  // namespace sonarsim

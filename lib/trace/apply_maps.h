@@ -14,9 +14,9 @@ namespace sonarsim {
 /// beam; a piece with several materials becomes strips with the area of each. So the strips tile
 /// the surface as the samples did, and a bin's echo is the mean over the area that it sees.
 /// `profile` bends the sound, if not null.
-void lay_maps(const GroundMaps& maps, const View& view, const Pose& T_world_sensor,
-              Samples& samples, std::vector<Sample>& outside_sector,
-              const SoundProfile* profile = nullptr);
+void apply_maps(const GroundMaps& maps, const View& view, const Pose& T_world_sensor,
+                Samples& samples, std::vector<Sample>& outside_sector,
+                const SoundProfile* profile = nullptr);
 
 /// The material and strength of a point in the sensor frame.
 MappedPoint mapped_point(const GroundMaps& maps, const Pose& T_world_sensor,

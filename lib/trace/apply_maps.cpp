@@ -1,4 +1,4 @@
-#include "trace/lay_maps.h"
+#include "trace/apply_maps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -174,8 +174,9 @@ class GroundMapApplier {
 
 }  // namespace
 
-void lay_maps(const GroundMaps& maps, const View& view, const Pose& T_world_sensor,
-              Samples& samples, std::vector<Sample>& outside_sector, const SoundProfile* profile) {
+void apply_maps(const GroundMaps& maps, const View& view, const Pose& T_world_sensor,
+                Samples& samples, std::vector<Sample>& outside_sector,
+                const SoundProfile* profile) {
     GroundMapApplier layer(maps, view, T_world_sensor, profile);
     std::vector<Sample> items;
     items.reserve(2 * samples.items.size());

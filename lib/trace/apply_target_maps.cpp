@@ -1,4 +1,4 @@
-#include "trace/lay_target_maps.h"
+#include "trace/apply_target_maps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -78,9 +78,9 @@ class TargetMapLayer {
 
     static void add(const TargetFacet& facet, std::uint32_t material, float strength,
                     std::vector<TargetFacet>& out) {
-        TargetFacet& laid = out.emplace_back(facet);
-        laid.material = material;
-        laid.strength = facet.strength * strength;
+        TargetFacet& mapped = out.emplace_back(facet);
+        mapped.material = material;
+        mapped.strength = facet.strength * strength;
     }
 
     const GroundMaps& maps_;
@@ -92,8 +92,8 @@ class TargetMapLayer {
 
 }  // namespace
 
-void lay_maps_on_targets(const GroundMaps& maps, const View& view, const Pose& T_world_sensor,
-                         std::vector<TargetFacet>& facets) {
+void apply_maps_on_targets(const GroundMaps& maps, const View& view, const Pose& T_world_sensor,
+                           std::vector<TargetFacet>& facets) {
     TargetMapLayer layer(maps, view, T_world_sensor);
     std::vector<TargetFacet> out;
     out.reserve(facets.size());
