@@ -7,11 +7,13 @@
 
 namespace sonarsim {
 
-/// Ascending numbers at about equal distances, in which a place is found in constant time.
+/// Ascending numbers at about equal distances, in which a place is found in constant time. A table
+/// without numbers may be made, but not searched.
 class SortedTable {
   public:
     SortedTable() = default;
     explicit SortedTable(std::vector<float> numbers) : numbers_(std::move(numbers)) {
+        if (numbers_.empty()) return;
         const int steps = 4 * static_cast<int>(numbers_.size());
         per_unit_ = static_cast<float>(steps) / (numbers_.back() - numbers_.front());
         // Rounding may put a number into the next step, so a search begins one step earlier.
