@@ -10,7 +10,7 @@ from .statistics import DB_OF_E, Bounded, CalibrationError, LogStatistics, boots
 
 LEAST_PATCHES, LEAST_SPREAD_OF_LEVELS = 8, 0.1  # patches of about one level do not determine the slope
 MOST_ZEROS = 0.02               # share of values at a place that a logarithm may cut off; their variance is known
-LEAST_ERROR = 0.01              # that finite patches, their trend and the steps of the values leave
+LEAST_ERROR = 0.015             # that finite patches, their trend and the steps of the values leave
 # If a share p of the powers becomes 0, the variance of the logarithm lacks p (0.8 - 2 ln p): half a per cent here.
 MOST_CUT_OFF = 5e-4
 
@@ -61,7 +61,7 @@ def fit_law(values, full_value, statistics, places=None, offset=0.0, is_log=None
     strict, loose = logs.even(places), logs.even(places, MOST_ZEROS)
     require_patches(even := loose if is_log or len(strict) < LEAST_PATCHES else strict)
     if is_log is None:
-        skewness = [moments_of(of, even)[1] for of in (logs, plain)]
+        skewness = [moments_of(of, even, statistics)[1] for of in (logs, plain)]
         check_speckle(logs, even, skewness, statistics.skewness)
         # The slope of log standard deviation against log mean is 1 for a power, 0 for a logarithm.
         steep = even[plain.variance[even] > 0.0]
@@ -71,9 +71,9 @@ def fit_law(values, full_value, statistics, places=None, offset=0.0, is_log=None
         is_log = bool(off[1] <= off[0] if slope is None else slope <= 0.5)
     require_patches(loose if is_log else strict)
     sigma = np.sqrt(statistics.variance)
-    scale = moments_of(logs, even)[0].scaled(2.0 / sigma)
+    scale = moments_of(logs, even, statistics)[0].scaled(2.0 / sigma)
     if is_log:
-        deviation = moments_of(plain, loose, statistics.cut_variance(plain.zeros))[0]
+        deviation = moments_of(plain, loose, statistics, statistics.cut_variance(plain.zeros))[0]
         scale = Bounded(*(full_value * DB_OF_E * sigma / x for x in (deviation.value, deviation.high, deviation.low)))
     least = LEAST_ERROR * scale.value * (2.0 if statistics.excess.any() else 1.0)   # drawn statistics have errors
     return Law(full_value, is_log, scale.widened(least), offset, statistics)
@@ -85,10 +85,10 @@ def require_patches(chosen):
                                "few beams), between the ends of the scale: record longer pings, or with another gain")
 
 
-def moments_of(patches, chosen, left=1.0):
+def moments_of(patches, chosen, statistics, left=1.0):
     """The standard deviation and the skewness of patches, of whose variances these shares are left."""
     ones = np.ones(len(patches.place))
-    sums = patches.sums(chosen, ones, left * ones, patches.whole_variance(chosen), patches.third)
+    sums = patches.sums(chosen, ones, left * ones, patches.whole_variance(chosen, statistics), patches.third)
 
     def moments(weights):
         count, left, variance, third = (weights @ sums).T

@@ -54,16 +54,18 @@ class Patches:
         order = np.argsort(self.unevenness[chosen], kind="stable")
         return np.sort(chosen[order[:(len(chosen) + 1) // 2]])
 
-    def whole_variance(self, chosen):
-        """The variances with the part between the quarters' means that speckle has: the quarters of even patches are more
-        alike. The mean of n values with correlations r_k has (1 + 2 sum (1 - k / n) r_k) / n of their variance."""
+    def whole_variance(self, chosen, statistics):
+        """The variances with the part between the quarters' means that speckle of these LogStatistics has: the quarters of
+        even patches are more alike. A mean has the mean correlation of its values as its share of their variance."""
+        lags, known = np.arange(LAGS + 1), np.linspace(0.0, 1.0, 401)
         halves = np.maximum(np.array(self.shape)[:, None] // 2, 1)
-        weights = 2.0 * np.maximum(1.0 - np.arange(1, LAGS + 1) / halves, 0.0)
-        structures = 1.0 - self.correlations(chosen)(np.ones((1, self.places)))[0]
-        within = (self.variance - self.between)[chosen].sum() / self.variance[chosen].sum()
-        whole = 1.0
+        along_ranges, along_beams = np.where(lags, 2.0, 1.0) * np.maximum(1.0 - lags / halves, 0.0) / halves
+        found = np.nan_to_num(self.correlations(chosen)(np.ones((1, self.places)))[0])
+        within, whole = (self.variance - self.between)[chosen].sum() / self.variance[chosen].sum(), 1.0
         for _ in range(4):      # correlations are 1 - structure / whole variance
-            share = np.prod((1.0 + np.nansum(weights * (1.0 - structures / whole), axis=1)) / halves[:, 0])
+            of_logs = 1.0 - np.pad(1.0 - found, [(0, 0), (1, 0)]) / whole
+            of_ranges, of_beams = np.interp(of_logs, statistics.correlation(known), known)
+            share = along_ranges @ statistics.correlation(np.outer(of_ranges, of_beams)) @ along_beams
             whole = within / (1.0 - min(share, 0.5))
         return whole * self.variance
 

@@ -26,7 +26,6 @@ NEEDED = {"files": ("sound_speed_m_s", "first_range_m", "range_step_m"), "soundi
 
 class Section:
     """The keys of a mapping in a YAML file, checked."""
-
     def __init__(self, path, keys, known):
         self.path, self.keys = path, keys
         if not isinstance(keys, dict):

@@ -43,7 +43,6 @@ class Law:
 @dataclasses.dataclass
 class Soundings:
     """The detected bottom, each array float32 [ping, beam]; all three are NaN where a beam found none."""
-
     range_m: np.ndarray
     angle_rad: np.ndarray       # from the vertical, negative to port
     intensity: np.ndarray       # in values of the recording's law
