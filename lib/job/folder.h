@@ -17,7 +17,7 @@ enum class FolderState {
 };
 
 /// The text of the files that do not belong to one ping.
-struct CommonFiles {
+struct CommonFiles {  // NOLINT(bugprone-exception-escape): moving JSON throws nothing
     nlohmann::ordered_json description;  ///< dataset.json, not complete
     std::string mission;                 ///< mission.resolved.yaml
     std::string trajectory;              ///< trajectory.tum
