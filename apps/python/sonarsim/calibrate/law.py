@@ -61,7 +61,7 @@ def fit_law(values, full_value, statistics, places=None, offset=0.0, is_log=None
     strict, loose = logs.even(places), logs.even(places, MOST_ZEROS)
     require_patches(even := loose if is_log or len(strict) < LEAST_PATCHES else strict)
     if is_log is None:
-        skewness = [moments_of(of, even, statistics)[1] for of in (logs, plain)]
+        skewness = [moments_of(of, even)[1] for of in (logs, plain)]
         check_speckle(logs, even, skewness, statistics.skewness)
         # The slope of log standard deviation against log mean is 1 for a power, 0 for a logarithm.
         steep = even[plain.variance[even] > 0.0]
@@ -70,10 +70,11 @@ def fit_law(values, full_value, statistics, places=None, offset=0.0, is_log=None
         off = [abs(s.value - statistics.skewness) for s in skewness]
         is_log = bool(off[1] <= off[0] if slope is None else slope <= 0.5)
     require_patches(loose if is_log else strict)
-    sigma = np.sqrt(statistics.variance)
-    scale = moments_of(logs, even, statistics)[0].scaled(2.0 / sigma)
+    # Echoes have a texture, too, which adds more to the variance than even patches lack.
+    sigma, of_noise = np.sqrt(statistics.variance), None if places is None else statistics
+    scale = moments_of(logs, even, of_noise)[0].scaled(2.0 / sigma)
     if is_log:
-        deviation = moments_of(plain, loose, statistics, statistics.cut_variance(plain.zeros))[0]
+        deviation = moments_of(plain, loose, of_noise, statistics.cut_variance(plain.zeros))[0]
         scale = Bounded(*(full_value * DB_OF_E * sigma / x for x in (deviation.value, deviation.high, deviation.low)))
     least = LEAST_ERROR * scale.value * (2.0 if statistics.excess.any() else 1.0)   # drawn statistics have errors
     return Law(full_value, is_log, scale.widened(least), offset, statistics)
@@ -85,10 +86,11 @@ def require_patches(chosen):
                                "few beams), between the ends of the scale: record longer pings, or with another gain")
 
 
-def moments_of(patches, chosen, statistics, left=1.0):
-    """The standard deviation and the skewness of patches, of whose variances these shares are left."""
+def moments_of(patches, chosen, statistics=None, left=1.0):
+    """The standard deviation and the skewness of patches, of whose variances these shares are left, whole for `statistics`."""
     ones = np.ones(len(patches.place))
-    sums = patches.sums(chosen, ones, left * ones, patches.whole_variance(chosen, statistics), patches.third)
+    variance = patches.whole_variance(chosen, statistics) if statistics else patches.variance
+    sums = patches.sums(chosen, ones, left * ones, variance, patches.third)
 
     def moments(weights):
         count, left, variance, third = (weights @ sums).T

@@ -19,7 +19,6 @@ SIGNIFICANCE = 0.05
 @dataclasses.dataclass
 class ComparedFigure:
     """A figure of both recordings and what its difference means. Errors are standard errors."""
-
     name: str
     real: float
     simulated: float

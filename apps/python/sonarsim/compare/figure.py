@@ -15,7 +15,6 @@ def decibels(powers):
 @dataclasses.dataclass
 class Figure:
     """Cells: the values of a figure at a place of the image in a ping. Cells of one place share its number."""
-
     name: str
     reduce: str             # mean, level (10 log10 of the mean) or quantile
     tolerance: str          # tenth, decibel, correlation or share
