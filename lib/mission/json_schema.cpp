@@ -41,10 +41,10 @@ Json list_json(Json items, std::size_t fewest, std::size_t most = 0) {
 /// The values that a key may have, unless it has keys below it.
 Json type_json(const KeyReference& key) {
     // The reader accepts any scalar as text, even a number.
-    const Json text{{"type", {"string", "number", "boolean"}},
-                    {"minLength", 1},
-                    {"pattern", "^[^\\u0000-\\u001f\\u007f]*$"}};
-    const Json number = key.limits ? within("number", *key.limits) : Json();
+    Json text{{"type", {"string", "number", "boolean"}},
+              {"minLength", 1},
+              {"pattern", "^[^\\u0000-\\u001f\\u007f]*$"}};
+    Json number = key.limits ? within("number", *key.limits) : Json();
     if (key.type == "number" && key.choices.empty()) return number;
     if (key.type == "number") return {{"anyOf", {{{"const", "auto"}}, number}}};
     if (key.type == "whole number") return within("integer", *key.limits);

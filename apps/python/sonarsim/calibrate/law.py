@@ -10,7 +10,7 @@ from .statistics import DB_OF_E, Bounded, CalibrationError, LogStatistics, boots
 
 LEAST_PATCHES, LEAST_SPREAD_OF_LEVELS = 8, 0.1  # patches of about one level do not determine the slope
 MOST_ZEROS = 0.02               # share of values at a place that a logarithm may cut off; their variance is known
-LEAST_ERROR = 0.015             # that finite patches, their trend and the steps of the values leave
+LEAST_ERROR = 0.015             # that finite patches, their trend and the steps of the values leave; by 200 draws
 # If a share p of the powers becomes 0, the variance of the logarithm lacks p (0.8 - 2 ln p): half a per cent here.
 MOST_CUT_OFF = 5e-4
 
@@ -87,7 +87,7 @@ def require_patches(chosen):
 
 
 def moments_of(patches, chosen, statistics=None, left=1.0):
-    """The standard deviation and the skewness of patches, of whose variances these shares are left, whole for `statistics`."""
+    """The standard deviation and the skewness of patches. `left`: shares of their variances; `statistics`: of noise."""
     ones = np.ones(len(patches.place))
     variance = patches.whole_variance(chosen, statistics) if statistics else patches.variance
     sums = patches.sums(chosen, ones, left * ones, variance, patches.third)
