@@ -12,13 +12,17 @@ namespace {
 // Slices meet at the sonar's z axis, so all of them hold the surface near it.
 constexpr double widest_slices_rad = 0.5 * pi;
 
-/// True if rays must trace a sonar. Multipath continues from the middle of each sample, and a
-/// sample of the slices may be as long as a beam is high.
-bool needs_rays(const Sonar& sonar) {
+// Over more triangles rays are faster than slices, and where energies add they are as accurate.
+constexpr std::size_t sliced_triangles_max = std::size_t{1} << 16;
+
+/// True if rays trace a sonar. Multipath continues from the middle of each sample, and a sample of
+/// the slices may be as long as a beam is high.
+bool is_by_rays(const Sonar& sonar, const Scene& scene) {
     const View& view = sonar.settings.view;
     return sonar.settings.model->info.needs_rays ||
            sonar.config.multipath.method != MultipathMethod::none ||
-           view.elevation_rad > widest_slices_rad;
+           view.elevation_rad > widest_slices_rad ||
+           (view.energies_add && scene.triangles.size() > sliced_triangles_max);
 }
 
 }  // namespace
@@ -26,11 +30,15 @@ bool needs_rays(const Sonar& sonar) {
 EngineSettings engine_settings(const Mission& mission, const Assembly& assembly) {
     EngineSettings settings = engine_settings(mission);
     if (settings.type != EngineKind::automatic) return settings;
+    bool all_by_rays = true;
     for (const Sonar& sonar : assembly.sonars) {
-        if (!needs_rays(sonar)) continue;
+        const bool by_rays = is_by_rays(sonar, assembly.scene);
+        all_by_rays = all_by_rays && by_rays;
+        if (!by_rays) continue;
         for (const Sight& sight : sights(sonar.settings.view, sonar.settings.guard_beams, {}))
             settings.by_rays.push_back(sight.view);
     }
+    if (all_by_rays) settings.type = EngineKind::rays;
     return settings;
 }
 

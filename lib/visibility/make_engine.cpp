@@ -21,14 +21,12 @@ constexpr int density_over_many_triangles = 4;
 class AutoEngine final : public VisibilityEngine {
   public:
     AutoEngine(const Scene& scene, const Caster& caster, std::vector<View> by_rays)
-        : is_large_(scene.triangles.size() > many_triangles),
-          others_(make_others(scene, caster)),
+        : others_(make_others(scene, caster)),
           rays_(make_rays_engine(scene, caster)),
           by_rays_(std::move(by_rays)) {}
 
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
-        const bool by_rays =
-            (is_large_ && view.energies_add) || std::ranges::find(by_rays_, view) != by_rays_.end();
+        const bool by_rays = std::ranges::find(by_rays_, view) != by_rays_.end();
         return (by_rays ? rays_ : others_)->visible_surface(view, T_world_sensor);
     }
 
@@ -45,7 +43,6 @@ class AutoEngine final : public VisibilityEngine {
                                 triangles > many_triangles ? density_over_many_triangles : 1);
     }
 
-    bool is_large_;
     std::unique_ptr<VisibilityEngine> others_, rays_;
     std::vector<View> by_rays_;
 };

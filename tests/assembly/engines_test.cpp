@@ -19,4 +19,21 @@ TEST_SUITE("assembly") {
             CHECK(settings.by_rays.empty() == (elevation_deg <= 90.0));
         }
     }
+
+    TEST_CASE("auto: rays trace a sonar whose energies add over many triangles") {
+        Mission mission = small_mission("out");
+        mission.engine = EngineKind::automatic;
+        for (SonarConfig& sensor : mission.sensors)
+            sensor.multipath.method = MultipathMethod::none;
+        Assembly assembly = small_assembly(mission, 9);
+        for (const std::size_t triangles : {std::size_t{1} << 16, (std::size_t{1} << 16) + 1}) {
+            assembly.scene.triangles.resize(triangles);
+            for (const bool energies_add : {false, true}) {
+                for (Sonar& sonar : assembly.sonars)
+                    sonar.settings.view.energies_add = energies_add;
+                const bool by_rays = energies_add && triangles > (std::size_t{1} << 16);
+                CHECK((engine_settings(mission, assembly).type == EngineKind::rays) == by_rays);
+            }
+        }
+    }
 }

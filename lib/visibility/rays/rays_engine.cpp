@@ -50,7 +50,7 @@ class RaysEngine final : public VisibilityEngine {
         const Sampling sampling = denser_sampling(view);
         const LocalPose pose = local_pose(T_world_sensor, scene_->origin);
         Samples samples;
-        const FineSurface* const fine = fine_surface(view);
+        const FineSurface* const fine = fine_surface();
         // More columns than the goal asks for resolve no more.
         const RaySpacing spacing = spacing_of(view, sampling_for(view));
         const Samples pieces =
@@ -90,10 +90,10 @@ class RaysEngine final : public VisibilityEngine {
     std::span<const Pose> body_poses() const override { return T_world_body_; }
 
   private:
-    /// Null: the columns stand for all surface. A piece is seen by a straight ray, and its area
-    /// counts where energies add alone.
-    const FineSurface* fine_surface(const View& view) const {
-        if (!view.energies_add || scene_->sound_profile) return nullptr;
+    /// Null where sound bends: the columns stand for all surface, since a piece is seen by a
+    /// straight ray.
+    const FineSurface* fine_surface() const {
+        if (scene_->sound_profile) return nullptr;
         std::call_once(fine_->once, [&] { fine_->surface.emplace(*scene_); });
         return &*fine_->surface;
     }

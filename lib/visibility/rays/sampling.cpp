@@ -56,14 +56,10 @@ Sampling sampling_for(const View& view) {
             sampling.rays = rays(36.0, 4.0);
             break;
     }
-    // An edge strip shows whether a bin has any surface; a sum of energies needs its area, and ten
-    // times as many rays over a tenth of it cost more than they give.
-    sampling.edge_strips = !view.energies_add;
     const double uncertainty = 0.2 * std::clamp(scale * std::sqrt(scale), 0.03, 30.0);  // bins
     sampling.range_uncertainty_m = static_cast<float>(uncertainty * view.bin_m());
     const auto slack = static_cast<float>(std::clamp(scale, 0.1, 2.0));
     sampling.tolerance_m = 0.2F * slack * static_cast<float>(view.bin_m());
-    sampling.tolerance_cosine = 0.1F * slack;
     return sampling;
 }
 
