@@ -47,9 +47,6 @@ class AutoEngine final : public VisibilityEngine {
     std::vector<View> by_rays_;
 };
 
-/// The error of the slices in cones, for the calibrated model.
-constexpr double min_error_in_cones = 0.01;
-
 }  // namespace
 
 std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSettings& settings) {
@@ -85,26 +82,12 @@ std::string unsupported(const EngineSettings& settings, const View& view) {
            "engine: auto";
 }
 
-std::string accuracy_warning(const EngineSettings& settings, const View& view, bool multipath,
-                             bool energies_add) {
+std::string multipath_warning(const EngineSettings& settings, bool multipath) {
     // With a box under a water surface, rays found 669 echoes over both, slices none.
-    if (settings.type == EngineKind::slices && multipath) {
-        return "engine: slices misses most multipath: reflections start at the middle of each "
-               "patch "
-               "of surface, and a patch of the slices may span the whole elevation of a beam; use "
-               "engine: auto or engine: rays";
-    }
-    if (settings.type == EngineKind::slices && energies_add &&
-        view.shape == ViewShape::port_starboard) {
-        return "engine: slices is off by up to 18 % in the narrow beam of a side-scan with the "
-               "calibrated model; use engine: auto or engine: rays";
-    }
-    if (settings.type == EngineKind::slices && energies_add && view.shape == ViewShape::cone &&
-        view.relative_l1 < min_error_in_cones) {
-        return "engine: slices is off by up to 1 % in a cone with the calibrated model, more than "
-               "accuracy.relative_l1; use engine: auto or engine: rays";
-    }
-    return "";
+    if (settings.type != EngineKind::slices || !multipath) return "";
+    return "engine: slices misses most multipath: reflections start at the middle of each patch of "
+           "surface, and a patch of the slices may span the whole elevation of a beam; use engine: "
+           "auto or engine: rays";
 }
 
 }  // namespace sonarsim

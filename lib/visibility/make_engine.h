@@ -37,10 +37,8 @@ std::string unsupported(const EngineSettings& settings, const Scene& scene);
 /// Error message with the mission's keys if the engine does not support this view; empty otherwise.
 std::string unsupported(const EngineSettings& settings, const View& view);
 
-/// Warning text, with the mission's keys, if the engine will probably miss the error goal of this
-/// view; empty otherwise. `energies_add`: a bin holds the sum of its echoes (calibrated model), not
-/// their mean.
-std::string accuracy_warning(const EngineSettings& settings, const View& view,
-                             bool multipath = false, bool energies_add = false);
+/// Warning text, with the mission's keys, if the engine misses the multipath of a view; empty
+/// otherwise.
+std::string multipath_warning(const EngineSettings& settings, bool multipath);
 
 }  // namespace sonarsim

@@ -69,11 +69,10 @@ TEST_CASE("auto takes rays over many triangles, denser than the goal alone asks 
 }
 
 TEST_CASE("engine: slices with multipath gives a warning") {
-    const View view = auto_view();
     const auto warning = [&](EngineKind type, bool multipath) {
         EngineSettings settings;
         settings.type = type;
-        return accuracy_warning(settings, view, multipath);
+        return multipath_warning(settings, multipath);
     };
     CHECK(warning(EngineKind::slices, true).find("use engine: auto") != std::string::npos);
     CHECK(warning(EngineKind::slices, false).empty());
