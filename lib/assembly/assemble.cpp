@@ -223,6 +223,7 @@ void check_places(const Mission& mission, SceneStore& models) {
 
 Assembly assemble(const Mission& mission, SceneStore& models) {
     Assembly assembly;
+    assembly.fans = models.fans;
     const EngineSettings settings = engine_settings(mission);
     auto [materials, parts] = place(mission, settings, models, assembly);
     assembly.scene = load_scene(parts.files, models, materials, mission.scene.material_default,

@@ -35,6 +35,7 @@ struct Assembly {
     std::vector<InputFile> inputs;         ///< the files that the mission names, each once
     std::vector<double> full_scales;       ///< intensity that becomes white in pictures, by sonar
     std::shared_ptr<const Caster> caster;  ///< over `scene`, for engines that use rays; null: none
+    std::shared_ptr<FanStore> fans = std::make_shared<FanStore>();
 };
 
 /// Reads the files of a mission and computes its poses. Writes nothing. Throws InputError for

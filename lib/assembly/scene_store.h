@@ -4,16 +4,19 @@
 #include <string>
 #include <vector>
 
+#include "product/fan_store.h"
 #include "scene/gltf/scene_files.h"
 #include "scene/placed_file.h"
 #include "scene/placing/bottom.h"
 
 namespace sonarsim {
 
-/// The files of scenes, and the last bottom made of them, which the variants of a mission often
-/// share. Not thread-safe.
+/// The variants of a mission often share the files of scenes, the last bottom made of them,
+/// and the fans of pictures. Not thread-safe, except for the fans.
 class SceneStore : public SceneFiles {
   public:
+    const std::shared_ptr<FanStore> fans = std::make_shared<FanStore>();
+
     /// The bottom that the nodes of a placed file form; no patterns: all nodes. InputError as
     /// surface_of().
     std::shared_ptr<const Bottom> bottom(const PlacedFile& placed,

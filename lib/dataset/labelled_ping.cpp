@@ -1,6 +1,7 @@
 #include "dataset/labelled_ping.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "sonar/kinds.h"
@@ -29,15 +30,12 @@ LabelPlan plan_labels(const Mission& mission, const Assembly& assembly, const So
                     .annotations = objects,
                     .bottom = assembly.bottom.get()};
     plan.objects = has_images && objects;
-    if (has_images && (listed(Label::fan) || (output.fan && objects)))
-        plan.fan = make_fan_bins(sonar);
+    plan.fan_objects = plan.objects && output.fan;
+    if (plan.fan_objects || (has_images && listed(Label::fan)))
+        plan.fan = assembly.fans->bins(sonar);
     if (objects || listed(Label::shadow)) plan.annotated = annotated_objects(assembly);
     if (listed(Label::shadow))
         plan.triangles = std::make_shared<const TriangleRuns>(assembly.scene);
-    const View& view = sonar.settings.view;
-    if (plan.objects && output.fan)
-        plan.fan_boxes =
-            bin_boxes(plan.fan, static_cast<std::size_t>(view.beams) * view.range_bins);
     return plan;
 }
 
@@ -52,14 +50,16 @@ LabelledPing label_for_writers(const LabelPlan& plan, const Assembly& assembly, 
     LabelledPing out;
     out.bins =
         label_ping(traced, sonar.settings, assembly.scene, assembly.objects, engine, request);
-    out.fan_bins = &plan.fan;
+    out.fan_bins = plan.fan.get();
     if (!plan.objects) return out;
     out.polar = object_masks(out.bins.object, out.bins.range_bins);
-    if (!plan.fan_boxes.empty()) {
-        out.fan = object_masks(fan_values(plan.fan.by_column, out.bins.object, std::uint16_t{0}),
-                               plan.fan.frame.height);
+    std::span<const PixelBox> fan_boxes;
+    if (plan.fan_objects) {
+        out.fan = object_masks(fan_values(plan.fan->by_column, out.bins.object, std::uint16_t{0}),
+                               plan.fan->frame.height);
+        fan_boxes = plan.fan->boxes;
     }
-    out.seen = visible_objects(sonar, assembly.objects, traced, out.bins, ping, plan.fan_boxes);
+    out.seen = visible_objects(sonar, assembly.objects, traced, out.bins, ping, fan_boxes);
     return out;
 }
 

@@ -21,9 +21,9 @@ bool is_listed(const Mission& mission, Label label);
 struct LabelPlan {
     bool on = false;  ///< the mission asks for labels
     LabelRequest request;
-    bool objects = false;             ///< a writer needs the masks and the table of objects
-    FanBins fan;                      ///< empty if no label is in the fan
-    std::vector<PixelBox> fan_boxes;  ///< bin_boxes() of `fan`, for objects in it; else empty
+    bool objects = false;                ///< a writer needs the masks and the table of objects
+    std::shared_ptr<const FanBins> fan;  ///< null if no label is in the fan
+    bool fan_objects = false;            ///< objects have masks and boxes in the fan, too
     /// For shadows; null without.
     std::shared_ptr<const TriangleRuns> triangles;
     AnnotatedObjects annotated;  ///< empty without annotations and shadows
@@ -33,10 +33,10 @@ LabelPlan plan_labels(const Mission& mission, const Assembly& assembly, const So
 /// The labels of a ping, for all writers.
 struct LabelledPing {
     PingLabels bins;
-    std::vector<ObjectMask> polar;  ///< masks of the objects: rows of range, columns of beams
-    std::vector<ObjectMask> fan;    ///< the same in the picture of the fan
-    const FanBins* fan_bins = nullptr;
-    std::vector<ObjectInPing> seen;  ///< sorted by id; empty if no writer needs it
+    std::vector<ObjectMask> polar;      ///< masks of the objects: rows of range, columns of beams
+    std::vector<ObjectMask> fan;        ///< the same in the picture of the fan
+    const FanBins* fan_bins = nullptr;  ///< null if no label is in the fan
+    std::vector<ObjectInPing> seen;     ///< sorted by id; empty if no writer needs it
 };
 
 /// Labels the bins at the time `t_s`, and finds the masks and seen objects that the writers need.

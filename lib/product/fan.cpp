@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/elementary.h"
-#include "core/last_results.h"
 #include "core/units.h"
 
 namespace sonarsim {
@@ -131,9 +130,7 @@ FanFrame fan_frame(const Sonar& sonar, int width_px) {
     return frame;
 }
 
-namespace {
-
-FanMap new_fan_map(const Sonar& sonar, int width_px) {
+FanMap make_fan_map(const Sonar& sonar, int width_px) {
     const View& view = sonar.settings.view;
     FanMap map;
     map.frame = fan_frame(sonar, width_px);
@@ -172,17 +169,6 @@ FanMap new_fan_map(const Sonar& sonar, int width_px) {
         }
     }
     return map;
-}
-
-}  // namespace
-
-FanBorders fan_borders(const Sonar& sonar) {
-    return {sonar.settings.view, sonar.equal_azimuth, sonar.azimuth_edges_rad};
-}
-
-FanMap make_fan_map(const Sonar& sonar, int width_px) {
-    static LastResults<std::pair<FanBorders, int>, FanMap> last;
-    return last.get({fan_borders(sonar), width_px}, [&] { return new_fan_map(sonar, width_px); });
 }
 
 }  // namespace sonarsim

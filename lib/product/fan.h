@@ -71,17 +71,7 @@ struct FanMap {
     bool full_turn = false;  ///< the last beam is next to the first
 };
 
-/// All that a fan's pixels depend on.
-struct FanBorders {
-    View view;
-    bool equal_azimuth;
-    std::vector<double> azimuth_edges_rad;
-
-    bool operator==(const FanBorders&) const = default;
-};
-FanBorders fan_borders(const Sonar& sonar);
-
-/// `width_px` as for fan_frame(). Sonars with the same borders share the work.
+/// `width_px` as for fan_frame().
 FanMap make_fan_map(const Sonar& sonar, int width_px = 0);
 
 /// Renders the fan as grey values [height, width], row by row from the top. Intensity is power, and

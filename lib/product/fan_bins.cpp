@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/last_results.h"
-
 namespace sonarsim {
 
 namespace {
@@ -20,7 +18,9 @@ std::int32_t bin_at(const View& view, const ColumnFinder& column_at, const FanPl
     return j * view.range_bins + i;
 }
 
-FanBins new_fan_bins(const Sonar& sonar) {
+}  // namespace
+
+FanBins make_fan_bins(const Sonar& sonar) {
     const View& view = sonar.settings.view;
     const ColumnFinder column_at(sonar);
     FanBins fan;
@@ -29,6 +29,7 @@ FanBins new_fan_bins(const Sonar& sonar) {
     const auto height = static_cast<std::size_t>(fan.frame.height);
     fan.by_row.resize(width * height);
     fan.by_column.resize(width * height);
+    fan.boxes.resize(static_cast<std::size_t>(view.beams) * view.range_bins);
     for (std::size_t row = 0; row < height; ++row) {
         for (std::size_t column = 0; column < width; ++column) {
             const std::int32_t bin =
@@ -37,30 +38,14 @@ FanBins new_fan_bins(const Sonar& sonar) {
                                  static_cast<double>(row)));
             fan.by_row[row * width + column] = bin;
             fan.by_column[column * height + row] = bin;
+            if (bin < 0) continue;
+            PixelBox& box = fan.boxes[static_cast<std::size_t>(bin)];
+            const auto x = static_cast<int>(column);
+            const auto y = static_cast<int>(row);
+            box = joined(box, {x, x + 1, y, y + 1});
         }
     }
     return fan;
-}
-
-}  // namespace
-
-FanBins make_fan_bins(const Sonar& sonar) {
-    static LastResults<FanBorders, FanBins> last;
-    return last.get(fan_borders(sonar), [&] { return new_fan_bins(sonar); });
-}
-
-std::vector<PixelBox> bin_boxes(const FanBins& fan, std::size_t bins) {
-    std::vector<PixelBox> boxes(bins);
-    for (int row = 0; row < fan.frame.height; ++row) {
-        for (int column = 0; column < fan.frame.width; ++column) {
-            const std::int32_t bin =
-                fan.by_row[static_cast<std::size_t>(row) * fan.frame.width + column];
-            if (bin < 0) continue;
-            PixelBox& box = boxes[static_cast<std::size_t>(bin)];
-            box = joined(box, {column, column + 1, row, row + 1});
-        }
-    }
-    return boxes;
 }
 
 }  // namespace sonarsim

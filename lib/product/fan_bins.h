@@ -16,14 +16,12 @@ struct FanBins {
     FanFrame frame;
     std::vector<std::int32_t> by_row;     ///< [height, width]
     std::vector<std::int32_t> by_column;  ///< [width, height]
+    /// The box around the pixels of each bin; empty (left = right) for a bin between pixels.
+    std::vector<PixelBox> boxes;
 };
 
 /// Makes the bins for the same fan as make_fan_map(sonar).
 FanBins make_fan_bins(const Sonar& sonar);
-
-/// The pixels of each of a ping's bins: the box around them, empty (left = right) for a bin between
-/// pixels.
-std::vector<PixelBox> bin_boxes(const FanBins& fan, std::size_t bins);
 
 /// The values of `by_beam` [beams, range bins] at the bins of a fan's pixels; `blank` outside the
 /// sector.

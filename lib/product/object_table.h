@@ -39,7 +39,7 @@ struct ObjectInPing {
 std::vector<std::uint8_t> background_ids(const SceneObjects& objects);
 
 /// The objects in a ping, sorted by id. `labels` gives the object of each bin, `ping` the levels.
-/// `fan_boxes` are bin_boxes() of the fan; empty: no fan.
+/// `fan_boxes` are FanBins::boxes; empty: no fan.
 /// The surroundings of an object are the box of its bins, enlarged on each side by half its size
 /// and at least by two bins.
 std::vector<ObjectInPing> visible_objects(const Sonar& sonar, const SceneObjects& objects,

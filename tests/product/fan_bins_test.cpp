@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/units.h"
+#include "product/fan_store.h"
 #include "sonar/sonar.h"
 #include "support/approx.h"
 
@@ -74,5 +75,33 @@ TEST_SUITE("product") {
             const double pixels = area / (fan.frame.pixel_m * fan.frame.pixel_m);
             CHECK(inside / pixels == test::approx(1.0).epsilon(0.01));
         }
+    }
+
+    TEST_CASE("fan of ids: the box of a bin holds its pixels and no others around them") {
+        const FanBins fan = make_fan_bins(fan_sonar(120.0));
+        std::vector<PixelBox> boxes(fan.boxes.size());
+        for (int row = 0; row < fan.frame.height; ++row) {
+            for (int column = 0; column < fan.frame.width; ++column) {
+                const auto at = static_cast<std::size_t>(row) * fan.frame.width + column;
+                if (fan.by_row[at] < 0) continue;
+                PixelBox& box = boxes[static_cast<std::size_t>(fan.by_row[at])];
+                box = joined(box, {column, column + 1, row, row + 1});
+            }
+        }
+        CHECK(boxes.size() == 90 * 40);
+        CHECK(fan.boxes == boxes);
+    }
+
+    TEST_CASE("fans: sonars whose bins have the same borders share them") {
+        Sonar turned = fan_sonar(120.0);
+        turned.config.name = "other";
+        turned.T_vehicle_sensor.translation.x() = 1.0;
+        FanStore store;
+        const auto map = store.map(fan_sonar(120.0));
+        const auto bins = store.bins(fan_sonar(120.0));
+        CHECK(store.map(turned) == map);
+        CHECK(store.bins(turned) == bins);
+        CHECK(store.map(fan_sonar(90.0)) != map);
+        CHECK(store.bins(fan_sonar(120.0, false)) != bins);
     }
 }

@@ -42,7 +42,7 @@ std::optional<Writer> make_image_writer(const WriterContext& context) {
 /// fan/NNNNNN.png: grey, 8 bits, as an operator sees it.
 std::optional<Writer> make_fan_writer(const WriterContext& context) {
     if (!context.kind().has_images || !context.mission.output.fan) return std::nullopt;
-    const auto map = std::make_shared<const FanMap>(make_fan_map(context.sonar()));
+    const auto map = context.assembly.fans->map(context.sonar());
     const FanFrame frame = map->frame;
     const double white = context.full_scale();
     const double apex_row = context.sonar().settings.view.range_max_m / frame.pixel_m;
@@ -65,7 +65,7 @@ std::optional<Writer> make_fan_writer(const WriterContext& context) {
 /// then with multipath, then with one random term of the model after the other.
 std::optional<Writer> make_stages_writer(const WriterContext& context) {
     if (!context.kind().has_images || !context.mission.output.stages) return std::nullopt;
-    const auto map = std::make_shared<const FanMap>(make_fan_map(context.sonar()));
+    const auto map = context.assembly.fans->map(context.sonar());
     const auto width = static_cast<std::size_t>(map->frame.width);
     const auto height = static_cast<std::size_t>(map->frame.height);
     const std::size_t stages = stage_count(context.sonar());

@@ -86,7 +86,7 @@ class PingObjects {
         json["clipped"] = is_clipped(seen);
         const ObjectMask* const polar = mask_of(finished.labels->polar, seen.id);
         if (polar) json["mask"] = coco_counts(polar->runs);
-        if (!finished.labels->fan_bins->by_row.empty()) {
+        if (finished.labels->fan_bins) {
             json["fan"] = fan_json(seen, mask_of(finished.labels->fan, seen.id));
         }
         return json;

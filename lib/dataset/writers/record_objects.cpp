@@ -205,9 +205,9 @@ void write_sweeps(const WriterContext& context, const std::filesystem::path& fol
     const ObjectRecords source(context, folder);
     const SonarConfig& config = context.sonar().config;
     const Sonar whole = whole_scan(context.sonar());
-    const FanBins fan = make_fan_bins(whole);
+    const std::shared_ptr<const FanBins> fan = context.assembly.fans->bins(whole);
     const auto masks = [&](const Ids& ids) {
-        return object_masks(fan_values(fan.by_column, ids, std::uint16_t{0}), fan.frame.height);
+        return object_masks(fan_values(fan->by_column, ids, std::uint16_t{0}), fan->frame.height);
     };
     RecordValues display(scan_steps(config), config.range_bins, config.sector_deg >= 360.0);
     const auto write_sweep = [&](std::size_t sweep, std::size_t end) {
@@ -224,8 +224,8 @@ void write_sweeps(const WriterContext& context, const std::filesystem::path& fol
             objects.push_back(source.json(seen, mask));
         }
         const Json head{{"picture", scan_file_name("scan", sweep, ".png")},
-                        {"width", fan.frame.width},
-                        {"height", fan.frame.height},
+                        {"width", fan->frame.width},
+                        {"height", fan->frame.height},
                         {"pings", end - begin},
                         {"pings_per_pixel", 1}};
         write_file(folder / scan_file_name("objects", sweep, ".json"), objects_text(head, objects));

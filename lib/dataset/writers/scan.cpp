@@ -41,7 +41,7 @@ std::optional<Writer> make_scan_writer(const WriterContext& context) {
     if (shape.pictures != RecordPictures::sweeps) return std::nullopt;
     const SonarConfig& config = context.sonar().config;
     const std::string stem(shape.name);
-    const auto map = std::make_shared<const FanMap>(make_fan_map(whole_scan(context.sonar())));
+    const auto map = context.assembly.fans->map(whole_scan(context.sonar()));
     const auto steps = static_cast<std::size_t>(scan_steps(config));
     std::vector<std::string> products;
     for (std::size_t sweep = 0; sweep < scan_sweeps(config, context.pings); ++sweep) {
