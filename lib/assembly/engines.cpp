@@ -12,17 +12,13 @@ namespace {
 // Slices meet at the sonar's z axis, so all of them hold the surface near it.
 constexpr double widest_slices_rad = 0.5 * pi;
 
-// Over more triangles rays are faster than slices, and where energies add they are as accurate.
-constexpr std::size_t sliced_triangles_max = std::size_t{1} << 16;
-
-/// True if rays trace a sonar. Multipath continues from the middle of each sample, and a sample of
-/// the slices may be as long as a beam is high.
-bool is_by_rays(const Sonar& sonar, const Scene& scene) {
+/// True if rays trace a sonar. Where energies add, patches of the slices that overlap would add the
+/// amplitude of a scatterer twice. Multipath continues from the middle of each sample, and a sample
+/// of the slices may be as long as a beam is high.
+bool is_by_rays(const Sonar& sonar) {
     const View& view = sonar.settings.view;
-    return sonar.settings.model->info.needs_rays ||
-           sonar.config.multipath.method != MultipathMethod::none ||
-           view.elevation_rad > widest_slices_rad ||
-           (view.energies_add && scene.triangles.size() > sliced_triangles_max);
+    return view.energies_add || sonar.config.multipath.method != MultipathMethod::none ||
+           view.elevation_rad > widest_slices_rad;
 }
 
 }  // namespace
@@ -32,7 +28,7 @@ EngineSettings engine_settings(const Mission& mission, const Assembly& assembly)
     if (settings.type != EngineKind::automatic) return settings;
     bool all_by_rays = true;
     for (const Sonar& sonar : assembly.sonars) {
-        const bool by_rays = is_by_rays(sonar, assembly.scene);
+        const bool by_rays = is_by_rays(sonar);
         all_by_rays = all_by_rays && by_rays;
         if (!by_rays) continue;
         for (const Sight& sight : sights(sonar.settings.view, sonar.settings.guard_beams, {}))

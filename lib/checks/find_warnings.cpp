@@ -16,7 +16,8 @@ void append(std::vector<Warning>& out, std::vector<Warning> more) {
 
 void judge_engine(const Mission& mission, const Sonar& sonar, std::vector<Warning>& out) {
     const std::string warning =
-        multipath_warning(engine_settings(mission), sonar.settings.multipath.on);
+        slices_warning(engine_settings(mission), sonar.settings.multipath.on,
+                       sonar.settings.model->info.energies_add);
     if (!warning.empty())
         out.push_back(make_warning(WarningCode::engine, about_sensor(sonar.config.name), warning));
 }

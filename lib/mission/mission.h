@@ -149,10 +149,9 @@ void describe(Visitor& v, Mission& c) {
     v.section("accuracy", c.accuracy, "error goal of the images");
     v.choice(
         "engine", c.engine, engine_names,
-        "method that finds the visible surface. `auto` takes the slices; it takes the rays "
-        "for a sonar with multipath or more than 90 degrees of elevation, for side-scan sonars "
-        "and cones of the calibrated model, where objects move or sound bends, and over more "
-        "than 2^19 triangles, 2^16 in the calibrated model");
+        "method that finds the visible surface. `auto` takes the rays for the calibrated model and "
+        "for a sonar with multipath or more than 90 degrees of elevation, where objects move or "
+        "sound bends, and over more than 2^19 triangles; else the slices");
     v.section("octree", c.octree, "settings of the octree");
     v.list_of("classes", c.classes, 0,
               "rules that give nodes of the scene a class, for labels; the first rule that fits a "

@@ -31,7 +31,6 @@ struct EchoModelInfo {
     /// True if the model needs the multipath paths whose second surface reflects the sound away
     /// from the sonar. A rough surface scatters sound back along them.
     bool needs_scattered_paths = false;
-    bool needs_rays = false;    ///< rays must trace the view; otherwise any engine will do
     bool energies_add = false;  ///< a bin is the sum of the energies of its echoes, not a mean
     /// True if an image takes so long that previews and checks of a mission form fewer of them.
     bool is_slow = false;

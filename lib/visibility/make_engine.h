@@ -37,8 +37,8 @@ std::string unsupported(const EngineSettings& settings, const Scene& scene);
 /// Error message with the mission's keys if the engine does not support this view; empty otherwise.
 std::string unsupported(const EngineSettings& settings, const View& view);
 
-/// Warning text, with the mission's keys, if the engine misses the multipath of a view; empty
-/// otherwise.
-std::string multipath_warning(const EngineSettings& settings, bool multipath);
+/// Warning text, with the mission's keys, if slices do not suit a sonar; empty otherwise.
+/// `energies_add`: a bin holds the sum of its echoes (calibrated model), not their mean.
+std::string slices_warning(const EngineSettings& settings, bool multipath, bool energies_add);
 
 }  // namespace sonarsim

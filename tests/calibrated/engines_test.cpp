@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <numeric>
 #include <random>
 
 #include "support/calibrated.h"
@@ -39,6 +41,21 @@ Scene bottom_with_stones(std::mt19937& random) {
     return scene;
 }
 
+/// Ground of ripples of drawn height, length and direction.
+Scene ripples(std::mt19937& random) {
+    std::uniform_real_distribution<float> unit(0.0F, 1.0F);
+    Scene scene = empty_scene();
+    add_floor(scene, 12.0F, 0.0F, add_material(scene, 0.4F), 240);
+    const float turn = 3.14F * unit(random);
+    const float per_m = 6.28F / (0.4F + 0.6F * unit(random));
+    const float height_m = 0.02F + 0.03F * unit(random);
+    for (Eigen::Vector3f& vertex : scene.vertices) {
+        const float along = std::cos(turn) * vertex.x() + std::sin(turn) * vertex.y();
+        vertex.z() = height_m * std::sin(per_m * along);
+    }
+    return scene;
+}
+
 }  // namespace
 
 TEST_SUITE("calibrated") {
@@ -57,7 +74,6 @@ TEST_SUITE("calibrated") {
             config.range_bins = 230;
             config.elevation_deg = 6.0;
             const Sonar sonar = make_sonar(config, {0.03});
-            CHECK(sonar.settings.model->info.needs_rays);
             const Caster caster(scene);
             Pose pose;
             pose.translation = {unit(random) - 0.5, unit(random) - 0.5, 0.3 * unit(random)};
@@ -69,6 +85,36 @@ TEST_SUITE("calibrated") {
             mean += image_error(ping.intensity, truth.intensity).relative_l1 / scenes;
         }
         CHECK(mean < 0.04);
+    }
+
+    // The speckle of the scatterers of the scene has the mean power of the expected image, also
+    // where the ground is bent within a beam. Patches that overlap add an amplitude twice.
+    TEST_CASE("speckle over ripples keeps the level of the expected image" *
+              doctest::skip(test::sanitized)) {
+        std::mt19937 random(31);
+        std::uniform_real_distribution<float> unit(0.0F, 1.0F);
+        SonarConfig config = calibrated(default_sonar(SonarKind::imaging), 7.5e5);
+        config.instrument = bare(config.instrument);
+        config.instrument.speckle.mode = SpeckleMode::scene;
+        config.range_min_m = 1.0;
+        config.range_max_m = 10.0;
+        const Sonar sonar = make_sonar(config, {0.03});
+        for (int k = 0; k < 3; ++k) {
+            const Scene scene = ripples(random);
+            const auto rays = make_rays_engine(scene);
+            Pose pose;
+            pose.translation.z() = 1.5;
+            pose.rotation = Eigen::AngleAxisd(0.25 + 0.1 * unit(random), Eigen::Vector3d::UnitY());
+            const auto sum = [&](const Terms& terms) -> double {
+                const Ping ping = render_ping(sonar, scene, *rays, pose, {1, 0}, terms);
+                return std::accumulate(ping.intensity.begin(), ping.intensity.end(), 0.0);
+            };
+            // Some 10,000 resolution cells: the error of their mean is 0.04 dB.
+            const double level_db =
+                10.0 * std::log10(sum({.random = 1}) / sum(direct_echoes_alone));
+            CAPTURE(k);
+            CHECK(std::fabs(level_db) < 0.2);
+        }
     }
 
     TEST_CASE("side-scan: rays and slices agree within twice the error goal" *

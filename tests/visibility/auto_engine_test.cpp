@@ -68,15 +68,16 @@ TEST_CASE("auto takes rays over many triangles, denser than the goal alone asks 
     CHECK(same(seen, make_rays_engine(scene, caster, 4)->visible_surface(view, pose)));
 }
 
-TEST_CASE("engine: slices with multipath gives a warning") {
-    const auto warning = [&](EngineKind type, bool multipath) {
+TEST_CASE("engine: slices with multipath or energies that add gives a warning") {
+    const auto warning = [&](EngineKind type, bool multipath, bool energies_add = false) {
         EngineSettings settings;
         settings.type = type;
-        return multipath_warning(settings, multipath);
+        return slices_warning(settings, multipath, energies_add);
     };
     CHECK(warning(EngineKind::slices, true).find("use engine: auto") != std::string::npos);
     CHECK(warning(EngineKind::slices, false).empty());
-    CHECK(warning(EngineKind::automatic, true).empty());
+    CHECK(warning(EngineKind::slices, false, true).find("too bright") != std::string::npos);
+    CHECK(warning(EngineKind::automatic, true, true).empty());
     CHECK(warning(EngineKind::rays, true).empty());
 }
 

@@ -76,12 +76,16 @@ TEST_CASE("lattices: faces that are seen edge-on are not lost") {
 
 TEST_CASE("lattices: rays see thin bars" * doctest::skip(test::sanitized)) {
     // Without pieces of fine surface the errors are 20 to 50 %.
-    for (const std::uint32_t number : {2U, 13U}) {
+    double mean = 0.0;
+    int fans = 0;
+    for (std::uint32_t number = 0; fans < 6; ++number) {
         const test::Lattice lattice = test::draw_lattice(number);
+        if (lattice.sonar.kind != SonarKind::imaging) continue;
+        ++fans;
         const Reference reference = reference_of(lattice, 800'000);
-        CAPTURE(number);
-        CHECK(error_of(EngineKind::rays, lattice, reference, 0.03) - reference.apart < 0.06);
+        mean += error_of(EngineKind::rays, lattice, reference, 0.03) / 6.0;
     }
+    CHECK(mean < 0.06);
 }
 
 TEST_CASE("lattices: a patch as narrow as rounding has a finite place") {

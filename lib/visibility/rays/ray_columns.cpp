@@ -109,10 +109,10 @@ class ColumnCaster {
         out_.rays.push_back({direction(view_.shape, across, along), angle});
     }
 
-    /// The rays of the columns before gaps are split, in tiles. Rays with similar directions traverse Embree's tree
-    /// together, twice as fast as column by column. A packet of a fan has one elevation, since at
-    /// grazing incidence neighbours in azimuth meet surface closer together than neighbours in
-    /// elevation.
+    /// The rays of the columns before gaps are split, in tiles. Rays with similar directions
+    /// traverse Embree's tree together, twice as fast as column by column. A packet of a fan has
+    /// one elevation, since at grazing incidence neighbours in azimuth meet surface closer together
+    /// than neighbours in elevation.
     std::vector<int> in_tiles() const {
         const int across = view_.shape == ViewShape::fan ? 8 : 4;
         constexpr int along = 4;

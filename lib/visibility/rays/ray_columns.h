@@ -25,13 +25,13 @@ struct RayColumn {
     int first;   ///< index of its first ray
 };
 
-/// All rays that were cast for a view. Each column has `Sampling::rays` consecutive rays; those that
-/// split gaps follow.
+/// All rays that were cast for a view. Each column has `Sampling::rays` consecutive rays; those
+/// that split gaps follow.
 struct RayColumns {
     std::vector<CastRay> rays;
-    std::vector<RayTube> tubes;  ///< one for each ray where sound bends, else empty
+    std::vector<RayTube> tubes;      ///< one for each ray where sound bends, else empty
     std::vector<RayColumn> columns;  ///< sorted by beam
-    std::uint64_t dropped = 0;  ///< as in Samples
+    std::uint64_t dropped = 0;       ///< as in Samples
 };
 
 /// Beams [begin, end) of a view.

@@ -14,6 +14,9 @@ constexpr double widest_column = 0.0088;  // rad
 // Two degrees of elevation: with four columns over a wide side the error was 20 %.
 constexpr double widest_strip = 0.035;  // rad
 
+constexpr double min_fan_rays = 8.0;     // along a column
+constexpr double max_low_columns = 2.0;  // factor on the columns of a low fan
+
 }  // namespace
 
 Sampling sampling_for(const View& view) {
@@ -36,7 +39,14 @@ Sampling sampling_for(const View& view) {
                 std::clamp(std::ceil(view.azimuth_rad / view.beams / widest_column), 1.0, 64.0));
             sampling.rays = rays(0.75 * density * view.elevation_rad * view.beams *
                                      sampling.columns / view.azimuth_rad,
-                                 8.0);
+                                 min_fan_rays);
+            // A low fan has more rays along a column than its density asks for, and as many more
+            // columns: the ground bends within a beam.
+            sampling.columns *= static_cast<int>(
+                std::clamp(std::round(sampling.rays * view.azimuth_rad /
+                                      (0.75 * density * density * view.elevation_rad * view.beams *
+                                       sampling.columns)),
+                           1.0, max_low_columns));
             // The nearest and the farthest surface of a beam often lie on the edges of the view,
             // several bins away from the surface that a ray half a step inside meets. Rays on the
             // edges themselves reduced the error of the tank by a sixth. The denser columns of the

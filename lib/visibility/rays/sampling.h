@@ -10,11 +10,11 @@ inline constexpr float overreach = 0.01F;
 
 /// The sampling density of the rays engine for a view.
 struct Sampling {
-    int columns = 1;          ///< number of columns: per beam of a fan, per side, or around a cone
-    int rays = 32;            ///< along a column before gaps are split, 2 at least
-    float inset = 0.5F;       ///< steps from a column's ends to its first and last ray
-    int split_levels = 8;     ///< the most splits of the gap between two neighbouring rays
-    int bend_levels = 1;      ///< the fewest splits of a gap in which the surface bends
+    int columns = 1;       ///< number of columns: per beam of a fan, per side, or around a cone
+    int rays = 32;         ///< along a column before gaps are split, 2 at least
+    float inset = 0.5F;    ///< steps from a column's ends to its first and last ray
+    int split_levels = 8;  ///< the most splits of the gap between two neighbouring rays
+    int bend_levels = 1;   ///< the fewest splits of a gap in which the surface bends
     float range_uncertainty_m = 0.0F;  ///< gaps with more than this are split
     float tolerance_m = 0.0F;  ///< largest difference of a neighbour's plane from a ray's range
 
