@@ -58,8 +58,9 @@ Border border(const Context& context, const RayColumn& column, int below, int ab
                 : !b ? column.along_max
                      : a->along + a->border * (b->along - a->along);
     out.direction = direction(context.shape, column.across, sincos_small(out.along));
-    // A column ends with the view, where the surface most likely continues.
-    out.continuous = !a || !b || a->continuous;
+    // A whole column ends with the view, where the surface most likely continues; an edge strip
+    // ends where its column begins to agree with the neighbour.
+    out.continuous = a && b ? a->continuous : column.whole;
     const bool both_met = a && b && !a->missed() && !b->missed();
     const auto range_of = [&](const CastRay* ray) {
         if (!ray || ray->missed()) return 0.0F;
@@ -140,18 +141,29 @@ void cut_off(const Context& context, const RayColumn& column, const CastRay& ray
     segment.to = end;
 }
 
-/// Adds the samples of one column.
-void collect(const Context& context, const RayColumn& column, std::vector<Sample>& items) {
-    const SinCosFloat side = sincos_small(column.half_width);
-    const ColumnSides sides{column.across - side, column.across + side};
+/// Adds the samples of one column. `narrowed` marks the rays of a
+/// whole column that keep only its middle strip; null for an edge strip.
+void collect(const Context& context, const RayColumn& column, const std::uint8_t* narrowed,
+             std::vector<Sample>& items) {
+    const int n = context.sampling.rays;
+    const float first = column.along_min + context.sampling.inset * column.step;
+    const auto sides_at = [&](float half_width) -> ColumnSides {
+        const SinCosFloat side = sincos_small(half_width);
+        return {column.across - side, column.across + side};
+    };
+    const ColumnSides full = sides_at(column.half_width);
+    const ColumnSides middle = sides_at(column.half_width * (1.0F - 2.0F * edge_strip_share));
     Segment segment{};
     segment.from = border(context, column, CastRay::none, column.first);
     for (int i = column.first; i != CastRay::none; i = context.columns.rays[i].next) {
         const CastRay& ray = context.columns.rays[i];
         segment.to = border(context, column, i, ray.next);
         if (!ray.missed() && !ray.fine) {
+            const int at = static_cast<int>((ray.along - first) / column.step + 0.5F);
+            const bool strip = !column.whole || narrowed[std::clamp(at, 0, n - 1)];
+            const ColumnSides& sides = column.whole && strip ? middle : full;
             segment.may_end_across =
-                !segment.from.continuous || !segment.to.continuous ||
+                strip || !segment.from.continuous || !segment.to.continuous ||
                 segment.to.along - segment.from.along < short_segment * column.step;
             if (too_long(segment.from.above_m, segment.to.below_m))
                 cut_off(context, column, ray, sides, segment, items);
@@ -169,10 +181,16 @@ void add_column_samples(const View& view, const Sampling& sampling, const RayCol
     samples.dropped += columns.dropped;
     if (samples.items.empty()) samples.items.reserve(columns.rays.size());
     samples.beam_begin.resize(view.beams + 1);
-    auto column = columns.columns.begin();
+    std::size_t column = 0;
+    std::size_t strip = columns.whole_columns;
     for (int j = beams.begin; j < beams.end; ++j) {
-        for (; column != columns.columns.end() && column->beam == j; ++column)
-            collect(context, *column, samples.items);
+        for (; column < columns.whole_columns && columns.columns[column].beam == j; ++column) {
+            collect(context, columns.columns[column],
+                    columns.narrowed.data() + column * sampling.rays, samples.items);
+        }
+        for (; strip < columns.columns.size() && columns.columns[strip].beam == j; ++strip) {
+            collect(context, columns.columns[strip], nullptr, samples.items);
+        }
         if (!fine.items.empty()) {
             const std::span<const Sample> pieces = fine.beam(j);
             samples.items.insert(samples.items.end(), pieces.begin(), pieces.end());

@@ -124,4 +124,15 @@ float split_angle(const CastRay& a, const CastRay& b, float reach_m) {
                : middle;
 }
 
+bool disagree(const CastRay& a, const CastRay& b, const Sampling& sampling, float reach_m) {
+    if (a.fine || b.fine) return false;  // its pieces show where fine surface ends
+    if (!in_reach(a, reach_m) && !in_reach(b, reach_m)) return false;
+    if (a.missed() || b.missed()) return true;
+    if (a.facet == b.facet) return false;
+    const Neighbours pair = neighbours(a, b);
+    return a.material != b.material || !nearly_one_plane(pair, sampling.tolerance_m) ||
+           std::fabs(pair.cosine_ab - b.cosine) >
+               sampling.tolerance_cosine * std::max(b.cosine, min_cosine);
+}
+
 }  // namespace sonarsim

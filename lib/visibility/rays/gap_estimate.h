@@ -27,4 +27,7 @@ GapEstimate estimate_gap(const CastRay& a, const CastRay& b, const Sampling& sam
 /// The angle along the column of the ray that splits a gap between two neighbours.
 float split_angle(const CastRay& a, const CastRay& b, float reach_m);
 
+/// True if adjacent rays of two columns met surfaces that are not one plane of one material.
+bool disagree(const CastRay& a, const CastRay& b, const Sampling& sampling, float reach_m);
+
 }  // namespace sonarsim

@@ -45,14 +45,50 @@ class ColumnCaster {
           spacing_(spacing),
           reach_m_(static_cast<float>(view.range_max_m)),
           view_columns_(columns_of(view, sampling.columns, beams)),
-          out_(out) {}
+          out_(out) {
+        out_.whole_columns = view_columns_.size();
+    }
 
-    void cast_columns() {
-        // Reserves space for the splits, so that the rays are seldom moved.
+    void cast_whole_columns() {
+        // Reserves space for the edge strips and the splits, so that the rays are seldom moved.
         out_.rays.reserve(4 * view_columns_.size() * sampling_.rays);
-        for (const ViewColumn& column : view_columns_)
-            add_column(column);
+        for (const ViewColumn& column : view_columns_) {
+            add_column(column, column.across, 0.5 * column.width, 0, sampling_.rays, true);
+        }
         cast(in_tiles(), RaySpread::close);
+    }
+
+    /// Casts edge strips over those parts of a column that disagree with a neighbour.
+    void cast_edge_strips() {
+        const int n = sampling_.rays;
+        out_.narrowed.assign(out_.whole_columns * n, 0);
+        if (!sampling_.edge_strips) return;
+        for (std::size_t c = 0; c < out_.whole_columns; ++c) {
+            const std::size_t beside = neighbour(c);
+            if (beside == c) continue;
+            for (int i = 0; i < n; ++i) {
+                const std::size_t a = c * n + i;
+                const std::size_t b = beside * n + i;
+                if (disagree(out_.rays[a], out_.rays[b], sampling_, reach_m_))
+                    out_.narrowed[a] = out_.narrowed[b] = 1;
+            }
+        }
+        for (std::size_t c = 0; c < out_.whole_columns; ++c) {
+            const auto* narrowed = out_.narrowed.data() + c * n;
+            for (int i = 0; i < n; ++i) {
+                if (!narrowed[i]) continue;
+                const int first = i;
+                while (i < n && narrowed[i])
+                    ++i;
+                const double half = 0.5 * view_columns_[c].width;
+                for (const double side : {-1.0, 1.0}) {
+                    add_column(view_columns_[c],
+                               view_columns_[c].across + side * (1.0 - edge_strip_share) * half,
+                               edge_strip_share * half, first, i, false);
+                }
+            }
+        }
+        cast_new_rays(RaySpread::close);
     }
 
     /// Splits the gaps between neighbouring rays until each is certain enough.
@@ -64,6 +100,11 @@ class ColumnCaster {
         };
         for (const int ray : in_tiles())
             estimate_above(ray / sampling_.rays, ray);
+        for (std::size_t c = out_.whole_columns; c < out_.columns.size(); ++c) {
+            for (int i = out_.columns[c].first; i != CastRay::none; i = out_.rays[i].next) {
+                estimate_above(static_cast<int>(c), i);
+            }
+        }
         std::vector<Gap> next_gaps;
         for (int level = 0; level < sampling_.split_levels && !gaps.empty(); ++level) {
             const int first = static_cast<int>(out_.rays.size());
@@ -86,22 +127,37 @@ class ColumnCaster {
     }
 
   private:
-    void add_column(const ViewColumn& column) {
+    /// The column next to column c on its positive side; c itself if there is none.
+    std::size_t neighbour(std::size_t c) const {
+        if (view_.shape == ViewShape::cone) return (c + 1) % out_.whole_columns;
+        const bool last = c + 1 == out_.whole_columns;
+        const bool other_side = !last && view_.shape == ViewShape::port_starboard &&
+                                view_columns_[c].beam != view_columns_[c + 1].beam;
+        return last || other_side ? c : c + 1;
+    }
+
+    /// Adds the rays [begin, end) of a column at the angle `across`.
+    void add_column(const ViewColumn& column, double across, double half_width, int begin, int end,
+                    bool whole) {
         const double step = sampling_.step(column.along_max - column.along_min);
         const auto at = [&](double i) {
             return static_cast<float>(column.along_min + (sampling_.inset + i) * step);
         };
-        const SinCosFloat middle = sincos_float(column.across);
+        const SinCosFloat middle = sincos_float(across);
+        const float along_min = begin == 0 ? static_cast<float>(column.along_min) : at(begin - 0.5);
+        const float along_max =
+            end == sampling_.rays ? static_cast<float>(column.along_max) : at(end - 0.5);
         out_.columns.push_back({.beam = column.beam,
-                                .half_width = static_cast<float>(0.5 * column.width),
+                                .half_width = static_cast<float>(half_width),
                                 .across = middle,
-                                .along_min = static_cast<float>(column.along_min),
-                                .along_max = static_cast<float>(column.along_max),
+                                .along_min = along_min,
+                                .along_max = along_max,
                                 .step = static_cast<float>(step),
-                                .first = static_cast<int>(out_.rays.size())});
-        for (int i = 0; i < sampling_.rays; ++i) {
+                                .first = static_cast<int>(out_.rays.size()),
+                                .whole = whole});
+        for (int i = begin; i < end; ++i) {
             add_ray(middle, sincos_small(at(i)), at(i));
-            if (i + 1 < sampling_.rays) out_.rays.back().next = static_cast<int>(out_.rays.size());
+            if (i + 1 < end) out_.rays.back().next = static_cast<int>(out_.rays.size());
         }
     }
 
@@ -109,14 +165,14 @@ class ColumnCaster {
         out_.rays.push_back({direction(view_.shape, across, along), angle});
     }
 
-    /// The rays of the columns before gaps are split, in tiles. Rays with similar directions
-    /// traverse Embree's tree together, twice as fast as column by column. A packet of a fan has
-    /// one elevation, since at grazing incidence neighbours in azimuth meet surface closer together
-    /// than neighbours in elevation.
+    /// The rays of the whole columns, in tiles. Rays with similar directions traverse Embree's tree
+    /// together, twice as fast as column by column. A packet of a fan has one elevation, since at
+    /// grazing incidence neighbours in azimuth meet surface closer together than neighbours in
+    /// elevation.
     std::vector<int> in_tiles() const {
         const int across = view_.shape == ViewShape::fan ? 8 : 4;
         constexpr int along = 4;
-        const int columns = static_cast<int>(out_.columns.size());
+        const int columns = static_cast<int>(out_.whole_columns);
         const int n = sampling_.rays;
         std::vector<int> order;
         order.reserve(static_cast<std::size_t>(columns) * n);
@@ -250,7 +306,8 @@ RayColumns cast_ray_columns(const Caster& caster, const View& view, const LocalP
                             const FineSurface* fine, const RaySpacing& spacing) {
     RayColumns out;
     ColumnCaster columns(caster, view, pose, sampling, beams, water, fine, spacing, out);
-    columns.cast_columns();
+    columns.cast_whole_columns();
+    columns.cast_edge_strips();
     columns.split_gaps();
     return out;
 }

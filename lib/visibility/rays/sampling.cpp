@@ -40,13 +40,15 @@ Sampling sampling_for(const View& view) {
             sampling.rays = rays(0.75 * density * view.elevation_rad * view.beams *
                                      sampling.columns / view.azimuth_rad,
                                  min_fan_rays);
-            // A low fan has more rays along a column than its density asks for, and as many more
-            // columns: the ground bends within a beam.
-            sampling.columns *= static_cast<int>(
-                std::clamp(std::round(sampling.rays * view.azimuth_rad /
-                                      (0.75 * density * density * view.elevation_rad * view.beams *
-                                       sampling.columns)),
-                           1.0, max_low_columns));
+            // A low fan has more rays along a column than its density asks for. Where energies add,
+            // it gets as many more columns: the ground bends within a beam.
+            if (view.energies_add) {
+                sampling.columns *= static_cast<int>(
+                    std::clamp(std::round(sampling.rays * view.azimuth_rad /
+                                          (0.75 * density * density * view.elevation_rad *
+                                           view.beams * sampling.columns)),
+                               1.0, max_low_columns));
+            }
             // The nearest and the farthest surface of a beam often lie on the edges of the view,
             // several bins away from the surface that a ray half a step inside meets. Rays on the
             // edges themselves reduced the error of the tank by a sixth. The denser columns of the
@@ -66,10 +68,14 @@ Sampling sampling_for(const View& view) {
             sampling.rays = rays(36.0, 4.0);
             break;
     }
+    // An edge strip shows whether a bin has any surface; a sum of energies needs its area, and ten
+    // times as many rays over a tenth of it cost more than they give.
+    sampling.edge_strips = !view.energies_add;
     const double uncertainty = 0.2 * std::clamp(scale * std::sqrt(scale), 0.03, 30.0);  // bins
     sampling.range_uncertainty_m = static_cast<float>(uncertainty * view.bin_m());
     const auto slack = static_cast<float>(std::clamp(scale, 0.1, 2.0));
     sampling.tolerance_m = 0.2F * slack * static_cast<float>(view.bin_m());
+    sampling.tolerance_cosine = 0.1F * slack;
     return sampling;
 }
 
