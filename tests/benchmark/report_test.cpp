@@ -81,10 +81,11 @@ TEST_CASE("a report has a sane row per setting, as Markdown and JSON" *
         CHECK(row.ms_rays > 0.0);
         CHECK(row.times_rays > 0.0);
     }
-    // A finer goal takes more samples and gives a smaller error.
+    // A finer goal takes more samples. Both errors are below the finer goal: with few beams the
+    // objects of the tank are fine surface.
     CHECK(report.rows[1].samples_per_ping > report.rows[0].samples_per_ping);
-    CHECK(report.rows[1].relative_l1 < report.rows[0].relative_l1);
-    CHECK(report.rows[1].relative_l1 < 0.03);
+    CHECK(report.rows[0].relative_l1 < 0.01);
+    CHECK(report.rows[1].relative_l1 < 0.01);
     REQUIRE(report.references.size() == 1);
     CHECK(report.references[0].max_moved < 0.05);
 
@@ -112,15 +113,16 @@ TEST_CASE("a report on shared copies is one on their triangles" * doctest::skip(
     Assembly copied = small_assembly(mission, 4);
     Assembly shared = copied;
     Scene& scene = shared.scene;
+    // So large that the rays resolve it: copies are never fine surface.
     Scene crate = empty_scene();
-    add_sphere(crate, {0, 0, 0}, 0.3F, 0, 16);
+    add_sphere(crate, {0, 0, 0}, 0.45F, 0, 16);
     scene.shared_meshes.push_back({crate.vertices, crate.triangles, crate.triangle_material});
     for (const Eigen::Vector3d& at : {Eigen::Vector3d(-1, 0.5, 1.5), Eigen::Vector3d(0, -1, 1.4)}) {
         Eigen::Affine3d T_world_mesh = Eigen::Affine3d::Identity();
         T_world_mesh.translation() = at;
         scene.copies.push_back({0, 0, T_world_mesh});
         const Eigen::Vector3d middle = at - copied.scene.origin;
-        add_sphere(copied.scene, middle.cast<float>(), 0.3F, 0, 16);
+        add_sphere(copied.scene, middle.cast<float>(), 0.45F, 0, 16);
     }
     const Report a = report_of_rays(mission, shared);
     const Report b = report_of_rays(mission, copied);

@@ -118,7 +118,7 @@ std::vector<HardCase> hard_geometry() {
              .truth = tank_image,
              // Rays take triangles that are wound unlike their neighbours for fine surface, and
              // sample them otherwise.
-             .bounds = {4e-3, 1e-3},
+             .bounds = {0.01, 1e-3},
              .truth_of_any_model = true},
             {.name = "T-junctions, a crack",
              .stresses = "0.1 mm between unlike meshes",
