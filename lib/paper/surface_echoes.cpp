@@ -19,36 +19,19 @@ double echo_of(const Sample& sample, const Material& material) {
     return sample.area_m2 * reflection * std::min(sample.height_m / range_m, 1.0);
 }
 
-/// Hands on echoes that are sorted by beam, a block at a time. `sample_of(k)`: the sample of echo
-/// k.
+/// Hands on echoes that are sorted by beam. `sample_of(k)`: the sample of echo k.
 template <class SampleOf>
-void hand_on(const RangeBoxes& echoes, std::span<const std::uint32_t> beam_begin,
-             SampleOf sample_of, bool multipath, const UseEchoes& use) {
-    EchoBlock block;
-    block.multipath = multipath;
-    std::uint32_t beam = 0;
-    for (std::uint32_t from = 0; from < beam_begin.back(); from += EchoBlock::most) {
-        block.count =
-            static_cast<int>(std::min<std::uint32_t>(EchoBlock::most, beam_begin.back() - from));
-        const auto copy = [&](const std::vector<float>& values, auto& to) {
-            std::copy_n(values.begin() + from, block.count, to.begin());
-        };
-        copy(echoes.range_m, block.range_m);
-        copy(echoes.half_m, block.half_m);
-        copy(echoes.weight, block.weight);
-        copy(echoes.intensity, block.intensity);
-        for (int k = 0; k < block.count; ++k) {
-            while (beam_begin[beam + 1] <= from + k)
-                ++beam;
-            block.beam[k] = beam;
-            block.sample[k] = sample_of(from + k);
+void add_all(const RangeBoxes& echoes, std::span<const std::uint32_t> beam_begin,
+             SampleOf sample_of, EchoBlocks& blocks) {
+    for (std::uint32_t j = 0; j + 1 < beam_begin.size(); ++j) {
+        for (std::uint32_t k = beam_begin[j]; k < beam_begin[j + 1]; ++k) {
+            blocks.add(j, echoes.range_m[k], echoes.half_m[k], echoes.weight[k],
+                       echoes.intensity[k], sample_of(k));
         }
-        use(block);
     }
 }
 
-void add_direct(const Samples& samples, const View& view, const Scene& scene,
-                const UseEchoes& use) {
+void add_direct(const Samples& samples, const View& view, const Scene& scene, EchoBlocks& blocks) {
     // Room for most pings, since arrays that grow are copied.
     constexpr std::size_t pieces_per_sample = 8;
     Echoes echoes;
@@ -66,7 +49,7 @@ void add_direct(const Samples& samples, const View& view, const Scene& scene,
             ++sample;
         return &samples.items[sample];
     };
-    hand_on(echoes, beam_begin, sample_of, false, use);
+    add_all(echoes, beam_begin, sample_of, blocks);
 }
 
 }  // namespace
@@ -76,12 +59,15 @@ SurfaceEchoes PaperModel::surface_echoes(const TracedPing& traced, const View& v
                                          const UseEchoes& use) const {
     const Samples& samples = traced.samples;
     SurfaceEchoes out;
-    add_direct(samples, view, scene, use);
+    EchoBlocks blocks(use);
+    add_direct(samples, view, scene, blocks);
+    blocks.begin_multipath();
     const MultipathEchoes bounced =
         multipath_echoes(traced.bounces, samples, view, ScattererLattice{});
-    hand_on(
+    add_all(
         bounced.echoes, bounced.beam_begin,
-        [&](std::uint32_t k) { return &samples.items[bounced.sample[k]]; }, true, use);
+        [&](std::uint32_t k) { return &samples.items[bounced.sample[k]]; }, blocks);
+    blocks.flush();
     if (!patches) return out;
     out.patch_begin = samples.beam_begin;
     out.patches.reserve(samples.items.size());

@@ -32,22 +32,19 @@ Sampling sampling_for(const View& view) {
     };
     Sampling sampling;
     switch (view.shape) {
-        case ViewShape::fan:
+        case ViewShape::fan: {
             // The error of a fan falls with the spacing of its rays in elevation and in azimuth, so
             // a beam wider than the usual half degree gets more than one column.
             sampling.columns = static_cast<int>(
                 std::clamp(std::ceil(view.azimuth_rad / view.beams / widest_column), 1.0, 64.0));
-            sampling.rays = rays(0.75 * density * view.elevation_rad * view.beams *
-                                     sampling.columns / view.azimuth_rad,
-                                 min_fan_rays);
+            const double wanted = 0.75 * density * view.elevation_rad * view.beams *
+                                  sampling.columns / view.azimuth_rad;
+            sampling.rays = rays(wanted, min_fan_rays);
             // A low fan has more rays along a column than its density asks for. Where energies add,
             // it gets as many more columns: the ground bends within a beam.
             if (view.energies_add) {
-                sampling.columns *= static_cast<int>(
-                    std::clamp(std::round(sampling.rays * view.azimuth_rad /
-                                          (0.75 * density * density * view.elevation_rad *
-                                           view.beams * sampling.columns)),
-                               1.0, max_low_columns));
+                sampling.columns *= static_cast<int>(std::clamp(
+                    std::round(sampling.rays / (wanted * density)), 1.0, max_low_columns));
             }
             // The nearest and the farthest surface of a beam often lie on the edges of the view,
             // several bins away from the surface that a ray half a step inside meets. Rays on the
@@ -55,6 +52,7 @@ Sampling sampling_for(const View& view) {
             // other shapes gain nothing from them.
             sampling.inset = 0.0F;
             break;
+        }
         case ViewShape::port_starboard:
             // A side is one row of bins, so other beams do not average out its errors: it gets one
             // ray per bin, and a few columns for the shapes of shadows.
