@@ -31,6 +31,7 @@ constexpr double full_scale_without_echo = 1.0;  // any value works
 /// Rounds up to two digits. It multiplies and divides, since the last bit of powers and logarithms
 /// depends on the library.
 double two_digits_up(double value) {
+    if (value == 0.0) return 0.0;
     double scale = 1.0;
     while (value * scale < 10.0)
         scale *= 10.0;
@@ -112,18 +113,22 @@ Brightness find_full_scales(const Mission& mission, const Scene& scene,
                             const Trajectory& trajectory, std::span<const Trajectory> motions,
                             std::span<const Sonar> sonars) {
     Brightness out;
-    if (mission.output.full_scale > 0.0) {
-        out.full_scales.assign(sonars.size(), mission.output.full_scale);
-        return out;
+    for (const Sonar& sonar : sonars) {
+        const double by_rule = sonar.settings.model->info.white;
+        out.full_scales.push_back(mission.output.full_scale > 0.0 ? mission.output.full_scale
+                                                                  : two_digits_up(by_rule));
     }
+    const auto is_unknown = [](double full_scale) { return !(full_scale > 0.0); };
+    if (std::ranges::none_of(out.full_scales, is_unknown)) return out;
     // A separate arena throws if there is no memory for more threads; Embree would end the program.
     tbb::task_arena arena;
     arena.execute([&] {
         out.caster = std::make_shared<const Caster>(scene);
         const std::unique_ptr<VisibilityEngine> engine = make_rays_engine(scene, *out.caster);
-        for (const Sonar& sonar : sonars) {
-            out.full_scales.push_back(
-                find_full_scale(mission, scene, trajectory, motions, sonar, *engine));
+        for (std::size_t k = 0; k < sonars.size(); ++k) {
+            if (!is_unknown(out.full_scales[k])) continue;
+            out.full_scales[k] =
+                find_full_scale(mission, scene, trajectory, motions, sonars[k], *engine);
         }
     });
     return out;

@@ -19,10 +19,6 @@ namespace {
 
 constexpr double grazing_deg = 20.0;
 
-/// A fan thinner than this in elevation is a profiler: it stands upright, and its elevation is the
-/// width along a range bin.
-constexpr double thickest_profile_deg = 5.0;
-
 /// Integral over [-end, end] of an even function by midpoints.
 template <class Function>
 double even_integral(double end, double step, const Function& value) {
@@ -80,6 +76,11 @@ double cell_area_m2(const ExpectedEcho& echo, double range_m) {
 
 }  // namespace
 
+bool is_profile(const View& view) {
+    constexpr double thickest_deg = 5.0;
+    return view.shape == ViewShape::fan && view.elevation_rad < radians(thickest_deg);
+}
+
 ExpectedEcho expected_echo(const InstrumentConfig& instrument, const WaterConfig& water,
                            const View& view) {
     const BeamConfig& beam = instrument.beam;
@@ -99,8 +100,8 @@ ExpectedEcho expected_echo(const InstrumentConfig& instrument, const WaterConfig
     if (beam.aperture == Aperture::piston) {
         out.far_integral = piston_solid_angle(width, 0.5 * view.elevation_rad);
     } else if (beam.aperture == Aperture::line) {
-        // The transmitter is uniform in azimuth.
-        if (beam.elevation_width_deg > 0.0 && view.elevation_rad < radians(thickest_profile_deg))
+        // The transmitter is uniform in azimuth. A profiler has its elevation along a range bin.
+        if (beam.elevation_width_deg > 0.0 && is_profile(view))
             out.along = line_array(radians(beam.elevation_width_deg), beam.elevation_side_lobe_db);
         out.far_integral = taper_loss(out.along) / out.along.wavelengths;
     } else {

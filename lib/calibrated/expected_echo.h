@@ -26,6 +26,9 @@ struct ExpectedEcho {
     double far_integral = 0.0;
 };
 
+/// True for a fan so thin in elevation that it is a profiler, which stands upright.
+bool is_profile(const View& view);
+
 ExpectedEcho expected_echo(const InstrumentConfig& instrument, const WaterConfig& water,
                            const View& view);
 

@@ -32,19 +32,22 @@ double headroom_db(const ReceiverConfig& receiver, double share) {
     }
 }
 
-double full_scale_by_rule(const InstrumentConfig& instrument, const WaterConfig& water,
-                          const View& view, const InstrumentLevels& levels) {
+/// Sets the levels after TVG.
+void set_received_levels(const InstrumentConfig& instrument, const WaterConfig& water,
+                         const View& view, InstrumentLevels& levels) {
+    const ReceiverConfig& receiver = instrument.receiver;
     const ExpectedEcho echo = expected_echo(instrument, water, view);
     const auto gain_db = [&](double range_m) {
-        return tvg_db(instrument.receiver, echo.absorption_db_per_m, range_m);
+        return tvg_db(receiver, echo.absorption_db_per_m, range_m);
     };
     const double half_m = 0.5 * view.range_max_m;
-    const double sand_db = levels.source_level_db +
-                           bottom_echo_db(echo, bottom_strength_db(echo, example_sand()), half_m) +
-                           gain_db(half_m);
+    levels.sand_db = levels.source_level_db +
+                     bottom_echo_db(echo, bottom_strength_db(echo, example_sand()), half_m) +
+                     gain_db(half_m);
     const double noise_db = levels.noise_db + gain_db(view.range_max_m);
-    return std::max(sand_db + headroom_db(instrument.receiver, share_of_sand),
-                    noise_db + headroom_db(instrument.receiver, max_share_of_noise));
+    levels.full_scale_db = receiver.full_scale_db.value_or(
+        std::max(levels.sand_db + headroom_db(receiver, share_of_sand),
+                 noise_db + headroom_db(receiver, max_share_of_noise)));
 }
 
 }  // namespace
@@ -83,8 +86,7 @@ InstrumentLevels instrument_levels(const InstrumentConfig& instrument, const Wat
     out.relative = is_relative_source(out.source_level_db);
     const double offset_db = out.relative ? out.source_level_db - source_db : 0.0;
     out.noise_db = receiver.noise_db.value_or(noise_db + offset_db);
-    out.full_scale_db = receiver.full_scale_db ? *receiver.full_scale_db
-                                               : full_scale_by_rule(instrument, water, view, out);
+    set_received_levels(instrument, water, view, out);
     return out;
 }
 

@@ -11,6 +11,7 @@ struct InstrumentLevels {
     double source_level_db = 0.0;
     double noise_db = 0.0;       ///< power in a beam
     double full_scale_db = 0.0;  ///< echo level after TVG
+    double sand_db = 0.0;        ///< mean of sand at half of the range after TVG
     bool relative = false;       ///< levels are relative to the source level, not re 1 uPa
 
     double noise_hz = 0.0;  ///< PulseBand::noise_hz

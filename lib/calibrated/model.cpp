@@ -8,6 +8,7 @@
 
 #include "calibrated/beamformer.h"
 #include "calibrated/decibel.h"
+#include "calibrated/expected_echo.h"
 #include "calibrated/levels.h"
 #include "calibrated/volume_strengths.h"
 #include "calibrated/water.h"
@@ -114,8 +115,16 @@ std::vector<float> noise_values(const std::vector<float>& row_gain, double noise
     return out;
 }
 
+/// The value that is white in pictures of a fan: the 99 % quantile of the speckle of sand at half
+/// of the range, but at most full scale. Powers are exponential, so it is ln 100 times the mean.
+/// Other sonars show what no such rule covers: a bottom from above, fish, plankton.
+double white_of_fan(const InstrumentLevels& levels) {
+    constexpr double quantile_by_mean = 4.60517;
+    return std::min(1.0, quantile_by_mean * power_of_db(levels.sand_db - levels.full_scale_db));
+}
+
 /// Sets the properties of the model but for its guard beams.
-void set_info(CalibratedModel& model) {
+void set_info(CalibratedModel& model, const View& view) {
     const ReceiverConfig& receiver = model.instrument.receiver;
     EchoModelInfo& info = model.info;
     info.random_terms = calibrated_terms;
@@ -133,6 +142,8 @@ void set_info(CalibratedModel& model) {
     if (model.levels.noise_db > no_level_db || receiver.common_mode_db > no_level_db)
         info.mean_noise = model.noise_values;
     info.raw_bits = receiver.bits;
+    const bool is_fan = model.instrument.beam.aperture == Aperture::line && !is_profile(view);
+    if (is_fan) info.white = white_of_fan(model.levels);
 }
 
 }  // namespace
@@ -193,7 +204,7 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
         target_cells(beam, std::max(resolution_m, 0.5 * bin_m), model.wavelength_m);
     model.row_gain = row_gains(receiver, model.levels, view, model.absorption_db_per_m, raised_db);
     model.noise_values = noise_values(model.row_gain, noise + common_mode, receiver.samples);
-    set_info(model);
+    set_info(model, view);
     return model;
 }
 

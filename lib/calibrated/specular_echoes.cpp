@@ -88,8 +88,8 @@ int pieces_of_both(const SpecularPath& piece, const Eigen::Vector3f SpecularPath
     int most = 1;
     for (const SpecularPath::Place* place : {&piece.point, &piece.image_source}) {
         const Arrival arrival = arrival_of(place->at);
-        most =
-            std::max(most, patches_along(extents_of(place->*edge, arrival.direction), arrival.range_m, limits));
+        most = std::max(most, patches_along(extents_of(place->*edge, arrival.direction),
+                                            arrival.range_m, limits));
     }
     return most;
 }

@@ -38,10 +38,11 @@ void judge_blindness(const Sonar& sonar, const SonarSurvey& found, std::vector<W
 }
 
 /// Warns of images that are too bright or too dark for the scale of the pictures. A full scale that
-/// the program finds leaves the brightest bins white on purpose.
-void judge_brightness(const OutputConfig& output, const std::string& about, double full_scale,
+/// was found from pings leaves the brightest bins white on purpose.
+void judge_brightness(const OutputConfig& output, const Sonar& sonar, double full_scale,
                       double white_share, float brightest, std::vector<Warning>& out) {
-    if (output.full_scale == 0.0) return;
+    if (output.full_scale == 0.0 && sonar.settings.model->info.white == 0.0) return;
+    const std::string about = about_sensor(sonar.config.name);
     const double greys = 255.0 * std::sqrt(brightest / full_scale);
     if (white_share > many_white) {
         out.push_back(make_warning(WarningCode::saturated, about, 100.0 * white_share, full_scale,
@@ -91,7 +92,7 @@ std::vector<Warning> sonar_warnings(const OutputConfig& output, const Sonar& son
         out.push_back(make_warning(WarningCode::below_noise, about, found.signal, found.noise,
                                    cure_of_noise(sonar.config, found)));
     }
-    judge_brightness(output, about, full_scale, found.white_share, found.brightest, out);
+    judge_brightness(output, sonar, full_scale, found.white_share, found.brightest, out);
     return out;
 }
 
@@ -107,7 +108,7 @@ std::vector<Warning> image_warnings(const Mission& mission, const Assembly& asse
                                        summary.dark_pings, summary.pings));
         }
         if (summary.dark_pings == summary.pings) continue;
-        judge_brightness(mission.output, about_sensor(config.name), assembly.full_scales[i],
+        judge_brightness(mission.output, assembly.sonars[i], assembly.full_scales[i],
                          share(summary.clipped_pixels, summary.counts.occupied_bins),
                          summary.brightest, out);
     }

@@ -71,10 +71,10 @@ constexpr std::array table{
     WarningText{WarningCode::saturated,
                 "{0:.1f} % of its occupied bins are above output.full_scale ({1:.4g}) and white in "
                 "pictures; the brightest is {2:.3g}",
-                "raise output.full_scale, or write auto", "more than 5 % of the occupied bins"},
+                "raise output.full_scale", "more than 5 % of the occupied bins"},
     WarningText{WarningCode::dim,
                 "its brightest pixel is {0:.3g}, which is grey level {1:.0f} of 255 in fans",
-                "lower output.full_scale ({2:.4g}), or write auto",
+                "lower output.full_scale ({2:.4g})",
                 "the brightest pixel below grey level 16 of 255"},
     WarningText{WarningCode::hidden_object, "{0:s} by any of the pings that were tried: {1:s}",
                 "{2:s}",

@@ -42,6 +42,8 @@ struct EchoModelInfo {
     /// The mean value of the receiver's noise, by range bin; empty: it has none, or noise_growth
     /// tells how it grows.
     std::vector<float> mean_noise = {};
+    /// The value that is white in pictures if `output.full_scale` is auto; 0: it follows from pings.
+    double white = 0.0;
     int raw_bits = 0;  ///< number of bits of a value in raw/ and raw.npy; 0: no raw values
 };
 

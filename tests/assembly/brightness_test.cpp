@@ -60,7 +60,7 @@ TEST_SUITE("assembly") {
         }
     }
 
-    TEST_CASE("brightness: water does not decide what is white in a fan") {
+    TEST_CASE("brightness: water does not decide what is white in a profile") {
         // Most bins of the second sonar lie before and behind the walls of the tank, in water that
         // scatters.
         Mission mission = small_mission("out");
@@ -69,6 +69,7 @@ TEST_SUITE("assembly") {
         clear = calibrated(clear, 9e5);
         clear.range_max_m = 30.0;
         clear.range_bins = 144;
+        clear.elevation_deg = 4.0;
         mission.sensors[1] = clear;
         mission.sensors[1].name = "coastal";
         mission.sensors[1].instrument.usual_water = WaterContent::coastal;

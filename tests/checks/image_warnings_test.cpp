@@ -92,7 +92,7 @@ TEST_SUITE("checks") {
         CHECK(
             dark[0] ==
             "W20 sensor 'front': its brightest pixel is 0.4, which is grey level 0 of 255 in fans; "
-            "lower output.full_scale (1e+06), or write auto");
+            "lower output.full_scale (1e+06)");
         // 255 sqrt(0.4 / full_scale) = 16 at a full scale of 101.6.
         run.mission.output.full_scale = 101.0;
         CHECK(run.warnings().empty());
