@@ -18,8 +18,8 @@ struct PingReport {
 
 /// Renders a ping, hands it to the writers of its sensor, and their output to the disk. Without a
 /// destination, only labels are made of it.
-PingReport render_ping(const RenderRun& run, const VisibilityEngine& engine,
-                       const LabelPlan& labels, const PingId& id, const Destination* to) {
+PingReport run_ping(const RenderRun& run, const VisibilityEngine& engine, const LabelPlan& plan,
+                    const PingId& id, const Destination* to) {
     const RenderedPing rendered = render_at_pose(run.mission, run.assembly, engine, id);
     const Ping& ping = rendered.ping;
     const float brightest = brightest_pixel(ping, rendered.sonar->config.name, id.pose);
@@ -29,9 +29,9 @@ PingReport render_ping(const RenderRun& run, const VisibilityEngine& engine,
     RenderSummary& summary = report.summary;
     summary.pings = 1;
     summary.stages = ping.seconds;
-    if (to || labels.on) {
+    if (to || plan.on) {
         written =
-            encode_ping(run.assembly, to ? to->writers[id.sensor] : Writers(), labels, rendered);
+            encode_ping(run.assembly, to ? to->writers[id.sensor] : Writers(), plan, rendered);
         summary.encode_seconds = watch.lap();
     }
     summary.counts = ping.counts;
@@ -54,18 +54,16 @@ void render_pings(const RenderRun& run, const VisibilityEngine& engine,
                   const std::vector<PingId>& todo, const Destination* to) {
     if (todo.empty()) return;
     RenderSummary& summary = run.summary;
-    std::vector<LabelPlan> labels;
+    std::vector<LabelPlan> plans;
     for (const Sonar& sonar : run.assembly.sonars)
-        labels.push_back(plan_labels(run.mission, run.assembly, sonar));
+        plans.push_back(plan_labels(run.mission, run.assembly, sonar));
     const auto threads = static_cast<std::size_t>(run.threads);
     Stopwatch watch;
     // At most twice as many pings as threads are in memory.
     std::size_t done = 0;
     ordered_pipeline(
         todo.size(), 2 * threads, run.stop,
-        [&](std::size_t i) {
-            return render_ping(run, engine, labels[todo[i].sensor], todo[i], to);
-        },
+        [&](std::size_t i) { return run_ping(run, engine, plans[todo[i].sensor], todo[i], to); },
         [&](const PingReport& report) {
             summary += report.summary;
             if (to) to->journal.add(todo[done++], report.fields);

@@ -156,8 +156,8 @@ void add_shadows(const PingLabels& labels, std::span<const PixelBox> fan_boxes,
 /// Compares objects and their shadows with their surroundings.
 class Contrasts {
   public:
-    Contrasts(const SceneObjects& objects, const PingLabels& labels, const LevelMap& map)
-        : labels_(labels), map_(map), is_background_(background_ids(objects)) {}
+    Contrasts(const SceneObjects& objects, const LevelMap& map)
+        : map_(map), is_background_(background_ids(objects)) {}
 
     void add_to(ObjectInPing& seen) const {
         if (is_background_[seen.id] != 0) return;
@@ -167,13 +167,9 @@ class Contrasts {
             seen.shadow_contrast_db =
                 contrast_db(map_, map_.shadow, id, seen.shadow, is_background_);
         }
-        if (labels_.visible_share.empty()) return;
-        const float share = labels_.visible_share[seen.id - 1];
-        if (std::isfinite(share)) seen.visible_share = share;
     }
 
   private:
-    const PingLabels& labels_;
     LevelMap map_;
     std::vector<std::uint8_t> is_background_;  ///< indexed by id
 };
@@ -222,7 +218,7 @@ std::vector<ObjectInPing> visible_objects(const Sonar& sonar, const SceneObjects
     add_shadows(labels, fan_boxes, all);
     const LevelMap map{labels.beams, labels.range_bins, labels.object, labels.object_shadow,
                        levels,       full_turn};
-    const Contrasts contrasts(objects, labels, map);
+    const Contrasts contrasts(objects, map);
     const std::vector<Eigen::AlignedBox3f> boxes = visible_boxes(objects, traced);
     std::vector<ObjectInPing> seen;
     for (std::size_t k = 0; k < all.size(); ++k) {

@@ -28,7 +28,6 @@ struct ObjectInPing {
 
     // For an object that is not background:
     std::optional<double> contrast_db;         ///< level over its surroundings, contrast_db()
-    std::optional<double> visible_share;       ///< PingLabels::visible_share, if it was found
     BinBox shadow;                             ///< box of its bins of PingLabels::object_shadow
     std::uint64_t shadow_bins = 0;             ///< number of these bins
     std::optional<double> shadow_contrast_db;  ///< the same for its shadow

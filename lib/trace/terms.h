@@ -12,7 +12,7 @@ struct Terms {
 
     bool direct = true;        ///< echoes of the visible surface
     bool multipath = true;     ///< echoes over a second surface
-    std::size_t random = all;  ///< number of random terms, the first of EchoModel::random_terms()
+    std::size_t random = all;  ///< number of random terms, the first of EchoModelInfo::random_terms
 };
 
 inline constexpr Terms direct_echoes_alone{.multipath = false, .random = 0};
