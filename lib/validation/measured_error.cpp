@@ -24,12 +24,20 @@ constexpr std::size_t max_pings = 3;
 constexpr std::uint64_t mean_rays_max = 1'000'000;
 constexpr std::uint64_t energy_rays_max = 1'000'000;  // an echo costs as much as its ray
 
-/// The cell of a sonar's range noise; 1 cm^2 without that noise.
-double cell_m2_of(const SonarConfig& config) {
+/// The cell of a sonar's range noise; 1 cm^2 without that noise. A cell above 1 cm^2 is at most a
+/// tenth of a bin in the middle of the ranges: the noise of the reference decides which bins hold a
+/// cell of their own size.
+double cell_m2_of(const Sonar& sonar) {
     constexpr double usual_m2 = 1e-4;
-    const NoiseConfig& noise = config.noise;
-    const bool has_cells = config.model == ModelKind::paper && noise.range_lambda_m > 0.0;
-    return has_cells ? noise.scatterer_m * noise.scatterer_m : usual_m2;
+    constexpr double max_by_bin = 0.1;
+    const NoiseConfig& noise = sonar.config.noise;
+    if (sonar.config.model != ModelKind::paper || !(noise.range_lambda_m > 0.0)) return usual_m2;
+    const View& view = sonar.settings.view;
+    const double across_rad =
+        view.shape == ViewShape::fan ? view.azimuth_rad / view.beams : view.elevation_rad;
+    const double middle_m = 0.5 * (view.range_min_m + view.range_max_m);
+    const double max_m2 = max_by_bin * view.bin_m() * across_rad * middle_m;
+    return std::min(noise.scatterer_m * noise.scatterer_m, std::max(max_m2, usual_m2));
 }
 
 std::vector<Sonar> measured_sonars(const Mission& mission, const Assembly& assembly) {
@@ -97,7 +105,7 @@ Mission without_water_echoes(Mission mission) {
 
 Reference cast_reference(const Caster& caster, const Scene& scene, const Sonar& sonar,
                          const Pose& T_world_sensor, ReferenceGoal goal) {
-    goal.cell_m2 = cell_m2_of(sonar.config);
+    goal.cell_m2 = cell_m2_of(sonar);
     const PingSettings& settings = sonar.settings;
     return settings.model->info.energies_add
                ? cast_energy_reference(caster, scene, settings, T_world_sensor, goal)

@@ -3,6 +3,9 @@
 #include <doctest/doctest.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
+#include <cstdint>
+
 #include "assembly/engines.h"
 #include "support/approx.h"
 #include "support/sanitized.h"
@@ -53,6 +56,28 @@ TEST_CASE("measured errors: a coarse octree is warned of, with the key to change
     CHECK(number_of(warnings[0].code) == "W29");
     CHECK(warnings[0].about == "sensor 'front'");
     CHECK(warnings[0].cure == "use engine: auto");
+}
+
+// A cell of 400 cm^2 is larger than the bins. Where only the noise of areas decides which bins hold
+// one, fewer do so the more rays the reference has.
+TEST_CASE("measured errors: cells larger than bins leave the choice of bins to the surface" *
+          doctest::skip(test::sanitized)) {
+    Mission mission = small_mission("unused");
+    mission.sensors[0].noise.range_lambda_m = 0.01;
+    mission.sensors[0].noise.scatterer_m = 0.2;
+    mission.sensors[0].range_bins = 480;
+    const Assembly assembly = small_assembly(mission, 7);
+    const Caster caster(assembly.scene);
+    const Sonar& sonar = assembly.sonars[0];
+    const Pose pose = sensor_pose(sonar, assembly.trajectory[3].T_world_vehicle, 3);
+    const auto scored = [&](std::uint64_t rays) {
+        const Reference truth = cast_reference(caster, assembly.scene, sonar, pose,
+                                               {.rays_per_bin = 1e9, .rays_max = rays});
+        return static_cast<double>(std::ranges::count(truth.scored, 1));
+    };
+    const double few = scored(200'000);
+    CHECK(few > 1000.0);
+    CHECK(scored(2'000'000) == test::approx(few).epsilon(0.02));
 }
 
 TEST_CASE("measured errors: what the noise of the reference explains is no reason to warn") {
