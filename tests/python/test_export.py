@@ -10,27 +10,11 @@ import unittest
 import numpy as np
 import tool
 from PIL import Image
-from tool import counts_of, disc
+from tool import counts_of, disc, mask_of
 
 WIDTH, HEIGHT, PINGS = 40, 30, 10
 ROWS, COLUMNS = 60, 24
 CLASSES = ["bottom", "mine", "tyre"]
-
-
-def mask_of(counts, width, height):
-    runs, at = [], 0
-    while at < len(counts):
-        value, shift, more = 0, 0, True
-        while more:
-            code = ord(counts[at]) - 48
-            at, more = at + 1, code & 32
-            value |= (code & 31) << shift
-            shift += 5
-            if not more and code & 16:
-                value -= 1 << shift
-        runs.append(value + (runs[-2] if len(runs) > 2 else 0))
-    flat = np.repeat(np.arange(len(runs)) % 2, runs)
-    return flat.reshape(width, height).T.astype(bool)
 
 
 def box_of(mask):

@@ -43,3 +43,21 @@ def counts_of(mask):
             more = value != (-1 if low & 16 else 0)
             text += chr(48 + (low | 32 * more))
     return text
+
+
+def mask_of(counts, width, height):
+    """The mask [row, column] of such a text."""
+    runs, at = [], 0
+    while at < len(counts):
+        value, shift, more = 0, 0, True
+        while more:
+            code = ord(counts[at]) - 48
+            at, more = at + 1, code & 32
+            value |= (code & 31) << shift
+            shift += 5
+            if not more and code & 16:
+                value -= 1 << shift
+        runs.append(value + (runs[-2] if len(runs) > 2 else 0))
+    assert sum(runs) == width * height and min(runs[1:], default=1) > 0, counts
+    flat = np.repeat(np.arange(len(runs)) % 2, runs)
+    return flat.reshape(width, height).T.astype(bool)
