@@ -1,5 +1,5 @@
-"""Effects of a mission in its dataset: objects that move, copies of a mesh, targets in the water, the water's
-surface, and a vehicle with errors of navigation. Their images: tests/golden and the closed forms of tests."""
+"""Effects of a mission in its dataset: objects that move, copies of a mesh, targets in the water, and a vehicle with
+errors of navigation. Their images: tests/golden and the closed forms of tests."""
 import math
 import unittest
 
@@ -119,29 +119,8 @@ class Particles(Composed):
         self.assert_renders()
         self.assertEqual(list(self.meta(3)["particles"]), ["fish_1"])
 
-    def test_an_echosounder_annotates_them(self):
-        """Targets have no visible share: it is not known."""
-        mission = (self.folder / "mission.yaml").read_text()
-        self.edit("mission.yaml", mission[mission.index("sensors:\n"):], "sensors:\n  echo: {kind: echosounder, "
-                  "model: calibrated, range_max_m: 4}\noutput: {folder: out, labels: [objects]}\n")
-        self.edit("mission.yaml", "position_m: [4, 0.5, 0.6], drift_m_s: [0, 0.5, 0]", "position_m: [-0.5, 0, 0.8]")
-        self.assert_renders()
-        targets = [one for one in self.json("out/echo/objects.json")["objects"] if one["class"] == "fish"]
-        self.assertEqual([one["visible_share"] for one in targets], [None])
-        self.assertAlmostEqual(targets[0]["range_m"], 1.3, delta=0.05)
-
 
 class Others(Sandbox):
-    def test_the_surface_of_the_water_is_invisible_but_for_multipath(self):
-        images = []
-        for surface in ("", "  water_surface: {height_m: 0.1}\n"):
-            self.edit("mission.yaml", "materials: materials.csv\n", "materials: materials.csv\n" + surface)
-            for method in ("none", "exact"):
-                self.assert_renders("--overwrite", "--set", f"sensors.fls.multipath.method={method}")
-                images.append(digest(self.out / "fls/polar"))
-        self.assertEqual(images[2], images[0])
-        self.assertNotEqual(images[3]["000000.npy"], images[1]["000000.npy"])
-
     def test_images_do_not_depend_on_navigation(self):
         def positions(name):
             return [tuple(map(float, line.split()[1:4])) for line in (self.out / name).read_text().splitlines()[1:]]
