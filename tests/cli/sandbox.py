@@ -247,12 +247,13 @@ class Sandbox(unittest.TestCase):
         for a, b in zip(found, expected, strict=True):
             self.assertAlmostEqual(a, b, delta=delta)
 
-    def assert_verify_finds(self, *fragments):
+    def assert_verify_finds(self, *fragments, more=()):
         """`verify out` ends with exit code 1 and these words."""
-        result = self.run_sonarsim("verify", "out")
+        result = self.run_sonarsim("verify", "out", *more)
         self.assertEqual(result.returncode, 1, result.stderr)
         for fragment in fragments:
             self.assertIn(fragment, result.stderr)
+        return result
 
     def assert_shards_agree(self, *arguments, count=2):
         """Shards in folders of their own, merged in another order and completed, are the dataset in `out`."""
