@@ -3,6 +3,8 @@ import os
 import pathlib
 import subprocess
 import sys
+import tempfile
+import unittest
 
 import numpy as np
 
@@ -19,10 +21,25 @@ def run(name, *words, setup=""):
                           env={**os.environ, "PYTHONPATH": str(PACKAGE)})
 
 
-def assert_refused(test, result, name, text, code=2):
-    """One sentence, and the exit code."""
-    test.assertEqual((result.returncode, result.stdout), (code, ""), result.stderr)
-    test.assertRegex(result.stderr, f"^sonarsim {name}: [^\n]*{text}[^\n]*\n$")
+class ToolTest(unittest.TestCase):
+    """With an empty folder of its own."""
+
+    def setUp(self):
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(prefix="sonarsim-")))
+
+    def succeeds(self, name, *words):
+        """What it prints; it has nothing to warn of."""
+        result = run(name, *words)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        return result.stdout
+
+    def assert_refused(self, name, text, *words, code=2, setup=""):
+        """One sentence, the exit code, and nothing written."""
+        before = sorted(self.folder.rglob("*"))
+        result = run(name, *words, setup=setup)
+        self.assertEqual((result.returncode, result.stdout), (code, ""), result.stderr)
+        self.assertRegex(result.stderr, f"^sonarsim {name}: [^\n]*{text}[^\n]*\n$")
+        self.assertEqual(sorted(self.folder.rglob("*")), before)
 
 
 def disc(width, height, x, y, radius):
