@@ -62,8 +62,6 @@ output: {folder: out, image: true}
 """
 
 MATERIALS = "material,density_kg_m3,sound_speed_m_s\nConcrete,2400,3200\nsteel,7850,5890\n"
-SCATTER = ("  scatter:\n    - {name: mine, files: [crate.gltf], count: 5, area_min_m: [2, -4], "
-           "area_max_m: [8, 4], spacing_m: 0.2}\n")
 
 
 def gltf(nodes, meshes, materials=("Concrete",)):
