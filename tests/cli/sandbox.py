@@ -241,6 +241,13 @@ class Sandbox(unittest.TestCase):
                 self.assert_refused(self.run_sonarsim(command, "mission.yaml", *arguments), *fragments)
                 self.assertFalse(self.out.exists(), "a refused mission leaves no folder")
 
+    def render_whole(self, *arguments):
+        """The sums of the dataset that a run makes where nothing disturbs it; the dataset is removed again."""
+        self.assert_renders(*arguments)
+        whole = digest(self.out)
+        shutil.rmtree(self.out)
+        return whole
+
     def assert_near(self, found, expected, delta=1e-9):
         for a, b in zip(found, expected, strict=True):
             self.assertAlmostEqual(a, b, delta=delta)

@@ -15,9 +15,7 @@ class Whole(Sandbox):
         super().setUp()
         self.write("mission.yaml", ALL_FILES)
         self.write("path.csv", path_csv(5))
-        self.assert_renders()
-        self.whole = digest(self.out)
-        shutil.rmtree(self.out)
+        self.whole = self.render_whole()
 
 
 class Merge(Whole):
