@@ -2,6 +2,7 @@
 import array
 import base64
 import hashlib
+import importlib
 import json
 import os
 import pathlib
@@ -61,8 +62,6 @@ output: {folder: out, image: true}
 """
 
 MATERIALS = "material,density_kg_m3,sound_speed_m_s\nConcrete,2400,3200\nsteel,7850,5890\n"
-SCATTER = ("  scatter:\n    - {name: mine, files: [crate.gltf], count: 5, area_min_m: [2, -4], "
-           "area_max_m: [8, 4], spacing_m: 0.2}\n")
 
 
 def gltf(nodes, meshes, materials=("Concrete",)):
@@ -157,6 +156,19 @@ def python_with(module):
     return None
 
 
+def run_with(*modules):
+    """Starts these tests again in a Python that has the modules; exit code 77 where there is none."""
+    try:
+        for module in modules:
+            importlib.import_module(module)
+    except ImportError:
+        python = python_with(", ".join(modules))
+        if python in (None, sys.executable):
+            print(f"needs {', '.join(modules)}")
+            sys.exit(77)
+        os.execv(python, [python, "-B", *sys.argv])
+
+
 def clone_to(folder):
     """Copies what git tracks, as it stands here, and nothing else: no generated scene, no build.
     False where this is not a checkout of git."""
@@ -229,16 +241,50 @@ class Sandbox(unittest.TestCase):
                 self.assert_refused(self.run_sonarsim(command, "mission.yaml", *arguments), *fragments)
                 self.assertFalse(self.out.exists(), "a refused mission leaves no folder")
 
-    def dataset(self, folder=None):
-        return json.loads(((folder or self.out) / "dataset.json").read_text())
+    def render_whole(self, *arguments):
+        """The sums of the dataset that a run makes where nothing disturbs it; the dataset is removed again."""
+        self.assert_renders(*arguments)
+        whole = digest(self.out)
+        shutil.rmtree(self.out)
+        return whole
+
+    def assert_near(self, found, expected, delta=1e-9):
+        for a, b in zip(found, expected, strict=True):
+            self.assertAlmostEqual(a, b, delta=delta)
+
+    def assert_verify_finds(self, *fragments, more=()):
+        """`verify out` ends with exit code 1 and these words."""
+        result = self.run_sonarsim("verify", "out", *more)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        for fragment in fragments:
+            self.assertIn(fragment, result.stderr)
+        return result
+
+    def assert_shards_agree(self, *arguments, count=2):
+        """Shards in folders of their own, merged in another order and completed, are the dataset in `out`."""
+        parts = [f"part{k}" for k in range(1, count + 1)]
+        for k, part in enumerate(parts, 1):
+            self.assert_renders("--shard", f"{k}/{count}", "--out", part, *arguments)
+        self.succeeds("merge", *reversed(parts), "merged")
+        self.assert_renders("--out", "merged", *arguments)
+        self.assertEqual(digest(self.folder / "merged"), digest(self.out))
+
+    def json(self, name):
+        return json.loads((self.folder / name).read_text())
+
+    def dataset(self, folder="out"):
+        return self.json(pathlib.Path(folder) / "dataset.json")
+
+    def variants(self, folder="out"):
+        return self.json(f"{folder}/variants.json")["variants"]
 
     def meta(self, ping, sensor="fls"):
-        return json.loads((self.out / f"{sensor}/meta/{ping:06}.json").read_text())
+        return self.json(f"out/{sensor}/meta/{ping:06}.json")
 
     def objects_of(self, ping, sensor="fls"):
-        return json.loads((self.out / f"{sensor}/objects/{ping:06}.json").read_text())["objects"]
+        return self.json(f"out/{sensor}/objects/{ping:06}.json")["objects"]
 
-    def boxes(self, folder=None):
+    def boxes(self, folder="out"):
         """The boxes of all instances in the world, by name."""
         return {one["name"]: one["box_world_m"] for one in self.dataset(folder)["labels"]["instances"]}
 

@@ -39,10 +39,7 @@ FEW = f"--set trajectory.rate_hz=1 {TINY}"
 INSTEAD = {
     "./scripts/render.sh configs/tank_imaging.yaml": f"./scripts/render.sh configs/tank_imaging.yaml {FEW}",
     "./scripts/render.sh configs/detection.yaml":
-        f"./scripts/render.sh configs/detection.yaml --set variants=1 --set trajectory.rate_hz=0.5 {TINY}"
-        # Sixty fields of ten images.
-        " && grep -q '^variants: 60$' configs/detection.yaml && sonarsim validate configs/detection.yaml "
-        f"--set variants=1 --out out/sixty --json {TINY} | grep '\"pings\":10,'",
+        f"./scripts/render.sh configs/detection.yaml --set variants=1 --set trajectory.rate_hz=0.5 {TINY}",
     "build/sonarsim validate hull.yaml && build/sonarsim render hull.yaml":
         f"build/sonarsim validate hull.yaml {FEW} && build/sonarsim render hull.yaml {FEW}",
     "sonarsim render /usr/share/sonarsim/configs/tank_imaging.yaml":

@@ -37,13 +37,10 @@ class Faults(Sandbox):
         return (self.out / "dataset.json").exists() and self.dataset()["complete"]
 
     def render_whole(self):
-        """The dataset as it is when nothing fails."""
         self.assert_renders()
-        whole = digest(self.out)
         self.expected_sizes = {p.name: p.stat().st_size for p in self.out.rglob("*")
                                if p.suffix in (".npy", ".tif", ".csv", ".ply", ".tum")}
-        shutil.rmtree(self.out)
-        return whole
+        return super().render_whole()
 
     def assert_can_go_on(self, whole):
         self.assert_renders()

@@ -1,7 +1,6 @@
 """Grounds: images of heights, maps of material and strength, and beds that are made from numbers and the mission's
 seed. What is refused: test_refusals.py."""
 import array
-import json
 import math
 import shutil
 import subprocess
@@ -58,34 +57,31 @@ class Heightmap(Composed):
         self.write("bed.png", png([[height(r, c) for c in range(COLUMNS)] for r in range(ROWS)], 16))
         self.write("bed.gltf", gltf([{"name": "heightmap", "mesh": 0}], [surface()]))
 
-    def render_ground(self, scene, objects="", out="out", change=str):
-        self.write("mission.yaml", change(OVER_THE_MAP % (scene, objects, out)))
-        self.assert_renders()
-        return [numbers_of(path) for path in sorted((self.folder / out / "fls/polar").glob("*.npy"))]
-
     def assert_same(self, objects="", change=str):
         """The images of the map equal those of the mesh to 1e-4."""
-        pairs = list(zip(self.render_ground("  file: bed.gltf\n", objects, "mesh", change),
-                         self.render_ground(MAP, objects, "map", change), strict=True))
-        self.assertGreater(len(pairs), 2)
-        for mesh, image in pairs:
+        images = []
+        for scene, out in (("  file: bed.gltf\n", "mesh"), (MAP, "map")):
+            self.write("mission.yaml", change(OVER_THE_MAP % (scene, objects, out)))
+            self.assert_renders()
+            images.append([numbers_of(path) for path in sorted((self.folder / out / "fls/polar").glob("*.npy"))])
+        self.assertGreater(len(images[0]), 2)
+        for mesh, image in zip(*images, strict=True):
             self.assertLess(relative_difference(image, mesh), 1e-4)
 
     def test_the_same_as_a_mesh(self):
         """With a buried crate and scattered mines, which lie where they do on the mesh."""
         self.assert_same(OBJECTS)
-        mesh, image = self.boxes(self.folder / "mesh"), self.boxes(self.folder / "map")
+        mesh, image = self.boxes("mesh"), self.boxes("map")
         self.assertEqual(list(image), ["heightmap", "crate", *(f"mine_{k}" for k in range(1, 5))])
         for name in list(image)[1:]:
             for side in ("min", "max"):
-                for a, b in zip(mesh[name][side], image[name][side], strict=True):
-                    self.assertAlmostEqual(a, b, delta=1e-5)
+                self.assert_near(mesh[name][side], image[name][side], 1e-5)
 
     def test_only_what_is_in_range(self):
         """1.5 m above the ground a sonar that reaches 4 m leaves most of the map out."""
         self.assert_same("  objects: []\nengine: rays\n",
                          lambda text: text.replace("max_m: 9", "max_m: 4").replace("5, 3]", "5, 1.5]"))
-        mesh, image = (self.dataset(self.folder / name)["scene"]["triangles"] for name in ("mesh", "map"))
+        mesh, image = (self.dataset(name)["scene"]["triangles"] for name in ("mesh", "map"))
         self.assertLess(image, 0.6 * mesh)
 
     def test_long_cells_are_warned_of(self):
@@ -98,7 +94,8 @@ class Heightmap(Composed):
     def test_its_name_is_its_own(self):
         """Labels and maps find the ground by its name: a node of the scene's file gets another."""
         self.write("crate.gltf", gltf([{"name": "heightmap", "mesh": 0}], [box_mesh()]))
-        self.render_ground("  file: crate.gltf\n" + MAP)
+        self.write("mission.yaml", OVER_THE_MAP % ("  file: crate.gltf\n" + MAP, "", "out"))
+        self.assert_renders()
         self.assertEqual(list(self.boxes()), ["heightmap_2", "heightmap"])
         self.assertEqual(self.dataset()["labels"]["annotations"]["background"], ["heightmap"])
 
@@ -142,15 +139,16 @@ output: {folder: out, labels: [material, clean]}
         known = {entry["id"]: entry["name"] for entry in self.dataset()["labels"]["materials"]}
         self.assertEqual([known[value] for value in values], list(names))
 
+    def assert_decibels(self, maps, decibels, *expected):
+        plain, found = self.rows(maps, "clean"), self.rows(maps + decibels, "clean")
+        self.assert_near([10 * math.log10(a / b) for a, b in zip(found, plain)], expected, 0.01)
+
     def test_place(self):
         """A sonar that heads east in the west and then in the east: port is the north. The map is not
         mirrored, and its first row is the north."""
         places = ("north_west", "south_west", "north_east", "Concrete")
         self.assert_materials(self.QUARTERS, *places)
-        plain = self.rows(self.QUARTERS, "clean")
-        with_maps = self.rows(self.QUARTERS + self.DECIBELS, "clean")
-        for found, before, db in zip(with_maps, plain, (0, 3, 6, 0), strict=True):
-            self.assertAlmostEqual(10 * math.log10(found / before), db, delta=0.01)
+        self.assert_decibels(self.QUARTERS, self.DECIBELS, 0, 3, 6, 0)
         # The same place by a world file, whose coordinates are those of a pixel's centre.
         self.write("quarters.wld", "10\n0\n0\n-10\n4995\n8005\n")
         self.assert_materials(self.QUARTERS.replace("pixel_m: 10, origin_m: [10, 10]", "origin_m: [5000, 8000]"), *places)
@@ -162,11 +160,8 @@ output: {folder: out, labels: [material, clean]}
             subprocess.run(["gdal_translate", "-q", "-a_nodata", str(value), f"{name}.png", f"{name}.tif"], cwd=self.folder,
                            timeout=60, check=True)
         quarters = self.QUARTERS.replace(", 3: south_west", "").replace(".png", ".tif")
-        decibels = self.DECIBELS.replace(".png", ".tif")
         self.assert_materials(quarters, "north_west", "Concrete", "north_east", "Concrete")
-        plain, with_maps = self.rows(quarters, "clean"), self.rows(quarters + decibels, "clean")
-        for found, before, db in zip(with_maps, plain, (0, 3, 0, 0), strict=True):
-            self.assertAlmostEqual(10 * math.log10(found / before), db, delta=0.01)
+        self.assert_decibels(quarters, self.DECIBELS.replace(".png", ".tif"), 0, 3, 0, 0)
 
     def test_colours(self):
         """A transparent pixel leaves the material of the mesh."""
@@ -209,7 +204,7 @@ class Seabed(Composed):
     rocks: {density_per_m2: 0.3, diameter_m: [0.3, 1.5], exponent: 2, material: steel}
 """).replace("labels: true", "labels: [objects]"))
         self.assert_renders()
-        reported = json.loads((self.out / "seabed/seabed.json").read_text())
+        reported = self.json("out/seabed/seabed.json")
         grid = reported["grid"]
         heights = array.array("f", (self.out / "seabed/heights.tif").read_bytes()[-4 * grid["rows"] * grid["columns"]:])
         self.assertTrue(-4 < min(heights) < max(heights) < -1)
@@ -218,8 +213,7 @@ class Seabed(Composed):
         self.assertGreater(len(reported["rocks"]), 20)
         for rock in reported["rocks"]:
             for side in ("min", "max"):
-                for a, b in zip(rock["box_world_m"][side], boxes[rock["name"]][side], strict=True):
-                    self.assertAlmostEqual(a, b, delta=1e-4)
+                self.assert_near(rock["box_world_m"][side], boxes[rock["name"]][side], 1e-4)
             x, y, _ = rock["middle_m"]
             row = int((grid["north_m"] - y) / grid["cell_m"])
             column = int((x - grid["west_m"]) / grid["cell_m"])
@@ -232,14 +226,10 @@ class Seabed(Composed):
         # A dataset like any other: verified, resumed where a file of the truth is gone, and merged.
         before = digest(self.out)
         (self.out / "seabed/heights.tif").unlink()
-        self.assertEqual(self.run_sonarsim("verify", "out").returncode, 1)
+        self.assert_verify_finds("seabed/heights.tif: is missing")
         self.assert_renders()
         self.assertEqual(digest(self.out), before)
-        for k in (1, 2):
-            self.assert_renders("--shard", f"{k}/2", "--out", f"part{k}")
-        self.succeeds("merge", "part1", "part2", "merged")
-        self.assert_renders("--out", "merged")
-        self.assertEqual(digest(self.folder / "merged"), before)
+        self.assert_shards_agree()
 
     def test_its_files_are_the_ground_of_the_next_mission(self):
         self.write("materials.csv", "material,density_kg_m3,sound_speed_m_s\nConcrete,2400,3100\nmud,1150,1470\n"
@@ -249,8 +239,7 @@ class Seabed(Composed):
             "    patch_m: 1\n"))
         text = (self.folder / "mission.yaml").read_text()
         self.assert_renders()
-        listed = json.loads((self.out / "seabed/seabed.json").read_text())["materials"]
-        names = ", ".join(f"{one['value']}: {one['material']}" for one in listed)
+        names = ", ".join(f"{one['value']}: {one['material']}" for one in self.json("out/seabed/seabed.json")["materials"])
         start, end = text.index("  seabed:"), text.index("  objects:")
         self.write("again.yaml", text[:start] + "  heightmap: {file: out/seabed/heights.tif, material: sand}\n"
                    f"  sediment_map: {{file: out/seabed/materials.png, materials: {{{names}}}}}\n" + text[end:])
@@ -273,53 +262,40 @@ class Seabed(Composed):
 
 class Vary(Composed):
     """Keys of grounds can be drawn: each variant is what the same values with --set make."""
-    RULES = (("seabed.cell_m", "uniform: [0.2, 0.35]"), ("seabed.z_m", "uniform: [-5, -4]"),
-             ("seabed.roughness.spectral_exponent", "uniform: [2.5, 3.5]"), ("seabed.ripples.length_m", "uniform: [1.5, 2]"),
-             ("seabed.rocks.diameter_m.1", "uniform: [1.3, 1.5]"), ("seabed.rocks.density_per_m2", "uniform: [0.02, 0.1]"),
-             ("seabed.sediments.0.material", "choice: [Concrete, steel]"), ("seabed.sediments.1.share", "uniform: [0.5, 2]"),
-             ("seabed.class", "choice: [ground, floor]"))
-    MAP_RULES = (("heightmap.file", "choice: [a.png, b.png]"), ("heightmap.origin_m.0", "uniform: [-2, 2]"),
-                 ("heightmap.height_scale", "uniform: [0.1, 0.3]"), ("heightmap.material", "choice: [steel, Concrete]"),
-                 ("sediment_map.materials.3", "choice: [Concrete, steel]"),
-                 ("backscatter_map.pixel_m", "uniform: [0.9, 1.1]"))
-    SEABED = """\
-  seabed:
-    cell_m: 0.3
+    SCENE = BED[BED.index("  seabed:"):BED.index("    material:")] + """\
     size_m: [40, 40]
     sediments: [{material: Concrete, share: 2}, {material: steel, share: 1}]
     rocks: {density_per_m2: 0.1, diameter_m: [0.3, 1.5], buried: [0.2, 0.6]}
     roughness: {spectral_strength_cm4: 0.003}
-    ripples: {height_m: 0.1, length_m: 1.5}
-"""
-    MAPS = """\
+""", """\
   heightmap: {file: a.png, SIZE, height_offset_m: -5, material: Concrete}
   sediment_map: {file: a.png, SIZE, materials: {0: Concrete, 1: steel, 2: steel, 3: steel}}
   backscatter_map: {file: b.png, SIZE}
 """.replace("SIZE", "pixel_m: 1, origin_m: [0, 0]")
-
-    def assert_draws(self, scene, rules):
-        mission = ("seed: 5\nscene:\n  materials: materials.csv\n" + scene + BED[BED.index("trajectory:"):]
-                   .replace("labels: true", "labels: [material]").replace("[0, 0, 0]}, {position_m: [1, 0, 0]}",
-                                                                          "[20, 20, 0]}, {position_m: [21, 20, 0]}"))
-        self.assertIn("[20, 20, 0]", mission)
-        self.write("mission.yaml", mission)
-        self.write("varied.yaml", mission + "variants: 2\nvary:\n" +
-                   "".join(f"  - {{key: scene.{key}, {rule}}}\n" for key, rule in rules))
-        self.succeeds("render", "varied.yaml", "--overwrite", "--out", "varied")
-        for one in json.loads((self.folder / "varied/variants.json").read_text())["variants"]:
-            self.assertEqual(list(one["drawn"]), [f"scene.{key}" for key, _ in rules])
-            sets = [word for key, value in one["drawn"].items() for word in ("--set", f"{key}={value}")]
-            self.assert_renders("--overwrite", *sets, "--set", f"seed={one['seed']}")
-            # The metadata name the variant.
-            plain, drawn = ({name: sum_ for name, sum_ in digest(folder / "fls").items() if not name.startswith("meta/")}
-                            for folder in (self.out, self.folder / "varied" / one["folder"]))
-            self.assertEqual(plain, drawn)
+    RULES = ((("seabed.cell_m", "uniform: [0.2, 0.35]"), ("seabed.roughness.spectral_exponent", "uniform: [2.5, 3.5]"),
+              ("seabed.rocks.diameter_m.1", "uniform: [1.3, 1.5]"),
+              ("seabed.sediments.0.material", "choice: [Concrete, steel]"), ("seabed.class", "choice: [ground, floor]")),
+             (("heightmap.file", "choice: [a.png, b.png]"), ("heightmap.origin_m.0", "uniform: [-2, 2]"),
+              ("sediment_map.materials.3", "choice: [Concrete, steel]"), ("backscatter_map.pixel_m", "uniform: [0.9, 1.1]")))
 
     def test_a_bed_and_maps(self):
         for name, step in (("a.png", 5), ("b.png", 7)):
             self.write(name, png([[step * (r + c * c) % 4 for c in range(40)] for r in range(40)]))
-        self.assert_draws(self.SEABED, self.RULES)
-        self.assert_draws(self.MAPS, self.MAP_RULES)
+        for scene, rules in zip(self.SCENE, self.RULES, strict=True):
+            mission = ("seed: 5\nscene:\n  materials: materials.csv\n" + scene + BED[BED.index("trajectory:"):]
+                       .replace("labels: true", "labels: [material]").replace("[0, 0, 0]}, {position_m: [1, 0, 0]}",
+                                                                              "[20, 20, 0]}, {position_m: [21, 20, 0]}"))
+            self.write("mission.yaml", mission)
+            self.write("varied.yaml", mission + "variants: 2\nvary:\n" +
+                       "".join(f"  - {{key: scene.{key}, {rule}}}\n" for key, rule in rules))
+            self.succeeds("render", "varied.yaml", "--overwrite", "--out", "varied")
+            for one in self.variants("varied"):
+                self.assertEqual(list(one["drawn"]), [f"scene.{key}" for key, _ in rules])
+                sets = [word for key, value in one["drawn"].items() for word in ("--set", f"{key}={value}")]
+                self.assert_renders("--overwrite", *sets, "--set", f"seed={one['seed']}")
+                for what in ("polar", "material"):   # the metadata name the variant
+                    self.assertEqual(digest(self.out / "fls" / what),
+                                     digest(self.folder / "varied" / one["folder"] / "fls" / what))
 
 
 if __name__ == "__main__":

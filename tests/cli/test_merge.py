@@ -1,9 +1,10 @@
-"""sonarsim merge, and the render that completes what it copied: the dataset of a single run, to the byte; and shards by
-the tasks of a Slurm array, with its merge."""
+"""sonarsim merge, and the render that completes what it copied: the dataset of a single run, to the byte; shards by
+the tasks of a Slurm array, with its merge; and what `sonarsim status` says of a job."""
 import json
 import os
 import shutil
 import subprocess
+import time
 import unittest
 
 from sandbox import ALL_FILES, ROOT, SONARSIM, Sandbox, digest, path_csv
@@ -14,9 +15,7 @@ class Whole(Sandbox):
         super().setUp()
         self.write("mission.yaml", ALL_FILES)
         self.write("path.csv", path_csv(5))
-        self.assert_renders()
-        self.whole = digest(self.out)
-        shutil.rmtree(self.out)
+        self.whole = self.render_whole()
 
 
 class Merge(Whole):
@@ -25,8 +24,8 @@ class Merge(Whole):
         for k in "123":
             self.assert_renders("--shard", f"{k}/3", "--out", f"part{k}", "-j" + k)
 
-    def merge(self, *folders):
-        return self.run_sonarsim("merge", *folders)
+    def merge_refused(self, *folders, words):
+        self.assert_refused(self.run_sonarsim("merge", *folders), *words)
 
     def assert_merges(self, *folders, rendered=0):
         """The parts stay as they are, and `rendered` pings are in none of them."""
@@ -43,7 +42,7 @@ class Merge(Whole):
     def test_in_any_order_without_the_inputs(self):
         for name in ("box.gltf", "path.csv"):
             (self.folder / name).rename(self.folder / f"away.{name}")
-        self.assertEqual(self.merge("part3", "part1", "part2", "all").returncode, 0)
+        self.succeeds("merge", "part3", "part1", "part2", "all")
         for name in ("box.gltf", "path.csv"):
             (self.folder / f"away.{name}").rename(self.folder / name)
         self.assertEqual(self.assert_merges("part1", "part2", "part3", "all")["pings"], 0)
@@ -60,7 +59,7 @@ class Merge(Whole):
         path = self.folder / "part2/sss/waterfall.npy"
         data = path.read_bytes()
         path.write_bytes(data[:128] + bytes(len(data) - 128))
-        self.assertEqual(self.merge("part1", "part2", "part3", "all").returncode, 0)
+        self.succeeds("merge", "part1", "part2", "part3", "all")
         self.assertGreater(json.loads(self.assert_renders("--out", "all", "--json").stdout)["pings"], 0)
         self.assertEqual(digest(self.folder / "all"), self.whole)
 
@@ -68,49 +67,44 @@ class Merge(Whole):
         path = next((self.folder / "part2/fls/polar").iterdir())
         data = path.read_bytes()
         path.write_bytes(data[:-1] + bytes([data[-1] ^ 1]))
-        self.assertEqual(self.merge("part1", "part2", "part3", "all").returncode, 0)
-        self.assert_renders("--out", "all")
-        result = self.run_sonarsim("verify", "all")
-        self.assertEqual(result.returncode, 1)
-        self.assertIn(f"fls/polar/{path.name}: its bytes differ", result.stderr)
+        self.succeeds("merge", "part1", "part2", "part3", "out")
+        self.assert_renders()
+        self.assert_verify_finds(f"fls/polar/{path.name}: its bytes differ")
 
     def test_foreign_parts(self):
         self.assert_renders("--shard", "2/3", "--out", "seed", "--seed", "8")
-        self.assert_refused(self.merge("part1", "seed", "part3", "all"), "seed", "another mission")
-        self.write("path.csv", path_csv(6))
-        self.assert_renders("--shard", "2/3", "--out", "poses")
-        self.assert_refused(self.merge("part1", "poses", "part3", "all"), "poses",
-                            "other scene, material or trajectory files")
+        self.merge_refused("part1", "seed", "part3", "all", words=("seed", "another mission"))
         for old, new, words in (('"program_version": "', '"program_version": "0', "another version"),
-                                ('"arithmetic": "', '"arithmetic": "x', "a build")):
+                                ('"arithmetic": "', '"arithmetic": "x', "a build"),
+                                ('"inputs_hash": "', '"inputs_hash": "0', "other scene, material or trajectory files")):
             with self.subTest(words=words):
                 shutil.copytree(self.folder / "part2", self.folder / "other")
                 self.edit("other/dataset.json", old, new)
-                self.assert_refused(self.merge("part1", "other", "part3", "all"), "other", words)
+                self.merge_refused("part1", "other", "part3", "all", words=("other", words))
                 shutil.rmtree(self.folder / "other")
         self.assertFalse((self.folder / "all").exists())
 
     def test_nothing_outside_is_touched(self):
         self.write("victim/file", "mine")
-        self.assertEqual(self.merge("part1", "all").returncode, 0)
+        self.succeeds("merge", "part1", "all")
         shutil.rmtree(self.folder / "all/fls")
         (self.folder / "all/fls").symlink_to(self.folder / "victim")
-        self.assert_refused(self.merge("part2", "all"), "is a symbolic link")
+        self.merge_refused("part2", "all", words=("is a symbolic link",))
         (self.folder / "all/fls").unlink()
         waterfall = self.folder / "all/sss/waterfall.npy"
         waterfall.unlink()
         waterfall.symlink_to(self.folder / "victim/file")
-        self.assert_refused(self.merge("part3", "all"), "waterfall.npy", "is a symbolic link")
+        self.merge_refused("part3", "all", words=("waterfall.npy", "is a symbolic link"))
         self.assertEqual([(p.name, p.read_text()) for p in (self.folder / "victim").iterdir()], [("file", "mine")])
 
     def test_mistakes(self):
-        self.assert_refused(self.merge("part1", "part2", "part3", "part1"), "part1", "one of the parts")
-        self.assert_refused(self.merge("part1", "none", "all"), "none", "there is no such folder")
         self.write("taken/thesis.txt", "years of work")
-        self.assert_refused(self.merge("part1", "part2", "part3", "taken"), "taken", "not a sonarsim dataset")
-        self.assertEqual(self.merge("part1").returncode, 2)
+        for folders, *words in ((("part1", "part2", "part3", "part1"), "part1", "one of the parts"),
+                                (("part1", "none", "all"), "none", "there is no such folder"), (("part1",), ""),
+                                (("part1", "part2", "part3", "taken"), "taken", "not a sonarsim dataset")):
+            self.merge_refused(*folders, words=words)
         shutil.rmtree(self.folder / "part2/sss")
-        result = self.merge("part1", "part2", "part3", "all")
+        result = self.run_sonarsim("merge", "part1", "part2", "part3", "all")
         self.assertEqual(result.returncode, 1)
         self.assertIn("part2/sss/", result.stderr)
 
@@ -124,6 +118,8 @@ while [[ $1 == --* ]]; do
         --array=1-*) tasks=${1#--array=1-} ;;
         --output=*) log=${1#--output=} ;;
         --dependency=afterok:*) [[ ! -e $SLURM_FAILED/${1#--dependency=afterok:} ]] || ok=0 ;;
+        --parsable | --kill-on-invalid-dep=yes | --job-name=* | --time=5) ;;
+        *) exit 1 ;;
     esac
     shift
 done
@@ -176,6 +172,50 @@ class Clusters(Whole):
         logs = submit()
         self.assertTrue((self.folder / "all").exists(), logs)
         self.assertEqual(digest(self.folder / "all"), self.whole, logs)
+
+
+class Status(Sandbox):
+    def status(self, *folders):
+        return json.loads(self.succeeds("status", "--json", *folders).stdout)
+
+    def test_shards_one_after_the_other(self):
+        self.assert_renders("--shard", "2/3")
+        self.assertEqual(self.status("out"), {"mission": "box", "state": "interrupted", "pings": {"done": 2, "all": 6}})
+        # Another shard in a folder of its own: both together are reported.
+        self.assert_renders("--shard", "1/3", "--out", "other")
+        self.assertEqual(self.status("out", "other")["pings"], {"done": 4, "all": 6})
+        self.assertIn("pings       4 of 6 (66.7 %)\n", self.succeeds("status", "out", "other").stdout)
+        self.assert_renders()
+        self.assertEqual(self.status("out")["state"], "complete")
+        self.assert_renders("--seed", "8", "--out", "seed")
+        for folders, words in (((".",), "is not a dataset"), (("out", "seed"), "of another mission")):
+            self.assert_refused(self.run_sonarsim("status", *folders), words)
+
+    def test_while_it_runs(self):
+        self.write("path.csv", path_csv(200_000))
+        with subprocess.Popen([SONARSIM, "render", "mission.yaml", "-q", "--checkpoint", "0.05", "--set",
+                               "output.fan=false", "--set", "output.image=false", "-j1"],
+                              cwd=self.folder, stdout=subprocess.DEVNULL) as process:
+            try:
+                reported = {}
+                while process.poll() is None and not reported.get("pings", {}).get("done"):
+                    time.sleep(0.1)
+                    if (self.out / "dataset.json").exists():
+                        reported = self.status("out")
+                self.assertEqual(reported["state"], "running")
+            finally:
+                process.terminate()
+        self.assertEqual(self.status("out")["state"], "interrupted")
+
+    def test_variants(self):
+        self.add("variants: 3\nvary: [{key: sensors.fls.noise.add_sigma, uniform: [0.01, 0.02]}]\n")
+        for shard, folders, state, done in (("1/2", ["out"], "interrupted", 2), ("2/2", ["out", "part2"], "complete", 3)):
+            self.assert_renders("--shard", shard, "--out", folders[-1])
+            reported = self.status(*folders)
+            self.assertEqual((reported["state"], reported["variants"]), (state, {"done": done, "all": 3}))
+        self.assert_renders("--seed", "8", "--out", "other")
+        self.assert_refused(self.run_sonarsim("status", "out", "other"), "holds variants of another mission")
+        self.assert_refused(self.run_sonarsim("status", "out", "other/variant_0000"), "no variants.json")
 
 
 if __name__ == "__main__":

@@ -1,11 +1,16 @@
 """The facts of objects: per ping, and in the pictures of all pings, against the label arrays beside them; read as the
 formats' authors publish them."""
 import json
-import struct
+import sys
 import unittest
-import zlib
 
-from sandbox import Sandbox, box_gltf, digest, numbers_of
+from sandbox import ROOT, Sandbox, box_gltf, run_with
+
+run_with("numpy", "PIL")
+sys.path.append(str(ROOT / "tests/python"))
+import numpy as np
+from PIL import Image
+from tool import mask_of
 
 MISSION = """\
 name: labels
@@ -36,72 +41,10 @@ def room_gltf():
     return json.dumps(room)
 
 
-def read_png(path):
-    """Its rows of values, 8 and 16 bits, grey or with a colour table, rows stored as they are or as the difference
-    from the row above or the pixel to the left."""
-    data = path.read_bytes()
-    assert data[:8] == b"\x89PNG\r\n\x1a\n", path
-    chunks, at = {}, 8
-    while at < len(data):
-        length, kind = struct.unpack(">I4s", data[at:at + 8])
-        body = data[at + 8:at + 8 + length]
-        crc, = struct.unpack(">I", data[at + 8 + length:at + 12 + length])
-        assert crc == zlib.crc32(kind + body), (path, kind)
-        chunks[kind] = chunks.get(kind, b"") + body
-        at += 12 + length
-    width, height, bits, colours, *_ = struct.unpack(">IIBBBBB", chunks[b"IHDR"])
-    assert colours in (0, 3), path
-    raw, stride = zlib.decompress(chunks[b"IDAT"]), width * bits // 8
-    assert len(raw) == height * (stride + 1), path
-    above, rows = bytes(stride), []
-    for i in range(height):
-        kind, *own = raw[i * (stride + 1):(i + 1) * (stride + 1)]
-        assert kind in (0, 1, 2), (path, kind)
-        if kind == 1:
-            for k in range(bits // 8, stride):
-                own[k] = (own[k] + own[k - bits // 8]) & 255
-        above = bytes((a + b) & 255 for a, b in zip(own, above)) if kind == 2 else bytes(own)
-        rows.append(list(above) if bits == 8 else list(struct.unpack(f">{width}H", above)))
-    return rows
-
-
-def runs_of(text):
-    """The numbers of compressed RLE."""
-    runs, at = [], 0
-    while at < len(text):
-        value, shift, more = 0, 0, True
-        while more:
-            code = ord(text[at]) - 48
-            value |= (code & 31) << shift
-            more = bool(code & 32)
-            at += 1
-            shift += 5
-            if not more and code & 16:
-                value |= -1 << shift
-        runs.append(value + (runs[-2] if len(runs) > 2 else 0))
-    return runs
-
-
-def mask_of(counts, width, height):
-    """The pixels (x, y) of a mask, column by column."""
-    runs = runs_of(counts)
-    assert sum(runs) == height * width and min(runs[1:]) > 0, counts
-    pixels, at = set(), 0
-    for k, run in enumerate(runs):
-        if k % 2:
-            pixels |= {divmod(n, height) for n in range(at, at + run)}
-        at += run
-    return pixels
-
-
-def pixels_of(rows):
-    """The pixels (x, y) of every number but 0."""
-    pixels = {}
-    for y, row in enumerate(rows):
-        for x, number in enumerate(row):
-            if number:
-                pixels.setdefault(number, set()).add((x, y))
-    return pixels
+def picture(path):
+    """Its pixels [row, column]; of a picture with a table of colours, their numbers."""
+    with Image.open(path) as image:
+        return np.asarray(image)
 
 
 class Objects(Sandbox):
@@ -110,93 +53,49 @@ class Objects(Sandbox):
         self.write("mission.yaml", MISSION)
         self.write("room.gltf", room_gltf())
 
-    def objects(self, sensor, ping):
-        return {one["id"]: one for one in self.objects_of(ping, sensor)}
-
-    def assert_box(self, box, mask, x="x", y="y"):
-        xs, ys = zip(*mask)
-        self.assertEqual((box[x], box[y]), ([min(xs), max(xs) + 1], [min(ys), max(ys) + 1]))
+    def assert_mask(self, text, pixels, box, area, x="x", y="y"):
+        """The text of a mask, its box and its area are those of the pixels."""
+        np.testing.assert_array_equal(mask_of(text, *pixels.shape[::-1]), pixels)
+        rows, columns = np.nonzero(pixels)
+        self.assertEqual((box[x], box[y]), ([columns.min(), columns.max() + 1], [rows.min(), rows.max() + 1]))
+        self.assertEqual(area, len(rows))
 
     def test_masks_and_boxes_are_those_of_the_label_images(self):
         self.assert_renders()
         for sensor, pings in (("fls", (0, 2, 4)), ("mbes", (0, 3))):
             for ping in pings:
-                found = self.objects(sensor, ping)
-                rows = read_png(self.out / sensor / f"instance/{ping:06}.png")
-                pixels, width, height = pixels_of(rows), len(rows[0]), len(rows)
-                self.assertEqual(set(found), set(pixels))
+                found = {one["id"]: one for one in self.objects_of(ping, sensor)}
+                bins, fan = (picture(self.out / f"{sensor}/{name}/{ping:06}.png") for name in ("instance", "fan_instance"))
+                self.assertEqual(set(found), set(np.unique(bins)) - {0})
                 for number, one in found.items():
-                    mask = mask_of(one["mask"], width, height)
-                    self.assertEqual(mask, pixels[number])
-                    self.assert_box(one["box_bins"], mask, "beam", "range")
-                    self.assertEqual(one["area_bins"], len(mask))
-                    xs, ys = map(set, zip(*mask))
-                    self.assertEqual(one["clipped"], bool({0, width - 1} & xs or {0, height - 1} & ys))
-                rows = read_png(self.out / sensor / f"fan_instance/{ping:06}.png")
-                pixels = pixels_of(rows)
-                for number, one in found.items():
-                    if number not in pixels:
+                    mask = bins == number
+                    self.assert_mask(one["mask"], mask, one["box_bins"], one["area_bins"], "beam", "range")
+                    self.assertEqual(one["clipped"], bool(np.any([mask[0], mask[-1]]) or mask[:, [0, -1]].any()))
+                    if number in fan:
+                        self.assert_mask(one["fan"]["mask"], fan == number, one["fan"]["box_px"], one["fan"]["area_px"])
+                    else:
                         self.assertIsNone(one["fan"])
-                        continue
-                    mask = mask_of(one["fan"]["mask"], len(rows[0]), len(rows))
-                    self.assertEqual(mask, pixels[number])
-                    self.assert_box(one["fan"]["box_px"], mask)
-                    self.assertEqual(one["fan"]["area_px"], len(mask))
-
-    def test_where_and_how_well(self):
-        """The pillars stand 1.24 m away, 14 degrees to port, and 1.12 m, 27 to starboard, before the turn. The room is
-        the largest surface: the background, which has no contrast."""
-        self.edit("mission.yaml", "labels: {background: [none]}\n", "")
-        self.assert_renders()
-        self.assertEqual(self.dataset()["labels"]["annotations"], {"background": ["walls"]})
-        visible = set()
-        for ping in (0, 2, 4):
-            for one in self.objects("fls", ping).values():
-                self.assertEqual(one["contrast_db"] is None, one["class"] == "walls")
-                if one["class"] != "pillar" or one["area_bins"] < 3:
-                    continue
-                distance, port_deg = {"pillar_1": (1.237, 14.04), "pillar_2": (1.118, -26.57)}[one["name"]]
-                self.assertAlmostEqual(one["range_m"], distance, delta=0.12)
-                self.assertAlmostEqual(one["azimuth_rad"] * 57.2958, port_deg - 3 * ping, delta=7)  # its width
-                self.assertTrue(0.1 <= one["visible_share"] <= 1, one)
-                self.assertGreater(one["shadow"]["area_bins"], 0)
-                visible.add(one["name"])
-        self.assertEqual(visible, {"pillar_1", "pillar_2"})
 
     def test_a_side_scan_has_an_entry_a_side(self):
         self.assert_renders()
-        found = json.loads((self.out / "sss/objects.json").read_text())
+        found = self.json("out/sss/objects.json")
         self.assertEqual((found["picture"], found["width"], found["height"], found["pings"], found["pings_per_pixel"]),
                          ("waterfall.png", 92, 6, 6, 1))
-        numbers = numbers_of(self.out / "sss/instance.npy")
-        left = {(k % 92, k // 92): number for k, number in enumerate(numbers) if number}
+        left = np.load(self.out / "sss/instance.npy").copy()
         for one in found["objects"]:
             mask = mask_of(one["mask"], 92, 6)
-            self.assertEqual({left.pop(pixel) for pixel in mask}, {one["id"]})
-            side = "port" if max(x for x, _ in mask) < 46 else "starboard"
-            self.assertTrue(side == "port" or min(x for x, _ in mask) >= 46)
+            self.assertEqual(set(left[mask]), {one["id"]})
+            left[mask] = 0
+            columns = np.nonzero(mask)[1]
+            side = "port" if columns.max() < 46 else "starboard"
+            self.assertTrue(side == "port" or columns.min() >= 46)
             self.assertEqual((one["side"], one["bearing_deg"]), (side, -90 if side == "port" else 90))
-            self.assert_box(one["box_px"], mask)
-            self.assertEqual((one["pings"], one["area_px"]), (one["box_px"]["y"], len(mask)))
-            self.assertAlmostEqual(one["range_m"], sum(abs(x + 0.5 - 46) * 4 / 46 for x, _ in mask) / len(mask), delta=0.06)
-        self.assertEqual(left, {})
-        sounder = json.loads((self.out / "sounder/objects.json").read_text())
+            self.assert_mask(one["mask"], mask, one["box_px"], one["area_px"])
+            self.assertEqual(one["pings"], one["box_px"]["y"])
+            self.assertAlmostEqual(one["range_m"], np.abs(columns + 0.5 - 46).mean() * 4 / 46, delta=0.06)
+        self.assertFalse(left.any())
+        sounder = self.json("out/sounder/objects.json")
         self.assertEqual((sounder["picture"], sounder["width"], sounder["height"]), ("echogram.png", 6, 40))
-
-    def test_shards_and_resume_have_the_same(self):
-        self.edit("mission.yaml", "  labels: true\n", "  labels: [objects]\n")
-        self.assert_renders()
-        whole = digest(self.out)
-        self.assertFalse(any("/instance/" in name for name in whole))
-        for k in "123":
-            self.assert_renders("--shard", f"{k}/3", "--out", f"part{k}", "-j2")
-        self.succeeds("merge", "part3", "part1", "part2", "merged")
-        self.assert_renders("--out", "merged")
-        self.assertEqual(digest(self.folder / "merged"), whole)
-        for name in ("sss/objects.json", "fls/objects/000002.json"):
-            (self.out / name).unlink()
-        self.assert_renders("-j2")
-        self.assertEqual(digest(self.out), whole)
 
     def test_what_is_refused(self):
         labels = "labels: {background: [none]}\n"

@@ -4,6 +4,7 @@ import json
 import os
 import shutil
 import subprocess
+import sys
 import unittest
 
 from sandbox import ALL_FILES, SANITIZED, Sandbox, digest, path_csv
@@ -13,41 +14,32 @@ POWER_CUT = os.environ["POWER_CUT"]
 
 class PowerCut(Sandbox):
     FEWEST_CALLS = 150
-    # So often that checkpoints lie between the pings of a short run.
-    CHECKPOINT = ("--checkpoint", "0.01")
 
     def setUp(self):
         super().setUp()
         self.write("mission.yaml", ALL_FILES)
         self.write("path.csv", path_csv(8))
-        self.log = self.folder / "calls"
+        self.whole = self.render_whole()
 
-    def render_until(self, call, seed, *arguments):
-        environment = dict(os.environ, LD_PRELOAD=POWER_CUT, POWER_CUT_BELOW=str(self.out),
-                           POWER_CUT_CALL=str(call), POWER_CUT_SEED=str(seed),
-                           POWER_CUT_LOG=str(self.log))
-        return self.render("-j2", *self.CHECKPOINT, *arguments, env=environment)
+    def render_until(self, call, seed):
+        """With checkpoints so often that some lie between the pings of a short run."""
+        environment = dict(os.environ, LD_PRELOAD=POWER_CUT, POWER_CUT_BELOW=str(self.out), POWER_CUT_CALL=str(call),
+                           POWER_CUT_SEED=str(seed), POWER_CUT_LOG=str(self.folder / "calls"))
+        return self.render("-j2", "--checkpoint", "0.01", env=environment)
 
-    def count_calls(self, *arguments):
-        result = self.render_until(0, 0, *arguments)
+    def count_calls(self):
+        result = self.render_until(0, 0)
         self.assertEqual(result.returncode, 0, result.stderr)
-        return int(self.log.read_text())
-
-    def whole(self):
-        self.assert_renders()
-        whole = digest(self.out)
+        self.assertEqual(digest(self.out), self.whole)
         shutil.rmtree(self.out)
-        return whole
+        return int((self.folder / "calls").read_text())
 
     def test_many_moments(self):
-        whole = self.whole()
         calls = self.count_calls()
-        self.assertEqual(digest(self.out), whole)
         # Four sonars with all their files: fewer would mean that the disk is not asked.
         self.assertGreater(calls, self.FEWEST_CALLS)
         moments = 5 if SANITIZED else 14
-        survived = 0
-        skipped = 0
+        survived = skipped = 0
         for k in range(moments):
             shutil.rmtree(self.out, ignore_errors=True)
             call = 1 + (calls - 1) * k // (moments - 1)
@@ -57,7 +49,7 @@ class PowerCut(Sandbox):
                 self.assertIn(cut.returncode, (0, 99), cut.stderr)
                 survived += cut.returncode == 0
                 result = self.assert_renders("-j1", "--json")
-                self.assertEqual(digest(self.out), whole, result.stderr)
+                self.assertEqual(digest(self.out), self.whole, result.stderr)
                 skipped += json.loads(result.stdout)["skipped"]
         self.assertLessEqual(survived, 3)
         if not SANITIZED:  # a few moments of a slow program may all lie before its first checkpoint
@@ -65,13 +57,11 @@ class PowerCut(Sandbox):
 
     def test_cut_again_and_again(self):
         """A resume may be cut as well."""
-        whole = self.whole()
         calls = self.count_calls()
-        shutil.rmtree(self.out)
         for k in range(3 if SANITIZED else 8):
             self.render_until(2 + calls * (k % 4 + 1) // 5, seed=100 + k)
         self.assert_renders()
-        self.assertEqual(digest(self.out), whole)
+        self.assertEqual(digest(self.out), self.whole)
 
     def test_a_disk_that_forgets_would_be_noticed(self):
         """The library does take away what is not durable: files written by a program that never
@@ -86,7 +76,7 @@ class PowerCut(Sandbox):
             target.unlink(missing_ok=True)
             environment = dict(os.environ, LD_PRELOAD=POWER_CUT, POWER_CUT_BELOW=str(self.out),
                                POWER_CUT_CALL="3", POWER_CUT_SEED=str(seed))
-            code = subprocess.run(["python3", "-c", program], env=environment,
+            code = subprocess.run([sys.executable, "-SIc", program], env=environment,
                                   check=False).returncode
             self.assertEqual(code, 99)
             lost += not target.exists() or target.stat().st_size < 100

@@ -23,15 +23,12 @@ if os.environ.get("SONARSIM_PYTHON_STARTED") != PYTHON:     # the Python that th
     os.environ["SONARSIM_PYTHON_STARTED"] = PYTHON
     os.execv(PYTHON, [PYTHON, "-B", __file__, *sys.argv[1:]])
 sys.path.insert(0, PACKAGE)
-try:
-    import numpy as np
-except ImportError:
-    print("needs numpy")
-    sys.exit(77)
+from sandbox import ROOT, Sandbox, path_csv, run_with
 
+run_with("numpy")
+import numpy as np
 import sonarsim
 import sonarsim.data
-from sandbox import ROOT, Sandbox, path_csv
 
 try:
     import torch
@@ -189,11 +186,10 @@ class Use(Package):
         def said(*settings):
             with self.assertRaises(sonarsim.InputError) as caught:
                 self.open(dict(setting.split("=", 1) for setting in settings))
-            words = [word for setting in settings for word in ("--set", setting)]
-            result = self.run_sonarsim("render", self.folder / "mission.yaml", *words)
+            result = self.render(*(word for setting in settings for word in ("--set", setting)))
             self.assertEqual(result.returncode, 2, result.stderr)
-            lines = [f"error: {line}" for line in str(caught.exception).splitlines()]
-            self.assertEqual(lines, result.stderr.splitlines())
+            self.assertEqual([f"error: {line}" for line in str(caught.exception).replace(f"{self.folder}/", "").splitlines()],
+                             result.stderr.replace(f"{self.folder}/", "").splitlines())
             return str(caught.exception)
 
         said("sensors.fls.range_bins=none")
@@ -201,17 +197,13 @@ class Use(Package):
         said("trajectory.file=nowhere.csv")
         self.edit("mission.yaml", "azimuth_bins: 32", "azimuth_bims: 32")
         self.assertIn("mission.yaml:15:5:", said())
-        self.edit("mission.yaml", "azimuth_bims: 32", "azimuth_bins: 32")
-        self.write("materials.csv", "material,density_kg_m3,sound_speed_m_s\nSteel,7850,5900\n")
-        self.assertIn("Concrete", said())
         self.assertTrue(issubclass(sonarsim.InputError, ValueError))
-        with self.assertRaisesRegex(sonarsim.InputError, "nowhere.yaml"):
-            sonarsim.open(self.folder / "nowhere.yaml")
-        with self.assertRaisesRegex(sonarsim.InputError, "range_bins") as caught:
-            sonarsim.open({"sensors": {"fls": {"kind": "imaging", "range_bins": "many"}}})
-        self.assertTrue(str(caught.exception).startswith("mission: "), caught.exception)
-        with self.assertRaisesRegex(TypeError, "cannot hold"):
-            sonarsim.open({"name": object()})
+        for mission, fault, words in ((self.folder / "nowhere.yaml", sonarsim.InputError, "nowhere.yaml"),
+                                      ({"name": object()}, TypeError, "cannot hold"),
+                                      ({"sensors": {"fls": {"kind": "imaging", "range_bins": "many"}}},
+                                       sonarsim.InputError, "mission: 'range_bins' must")):
+            with self.assertRaisesRegex(fault, words):
+                sonarsim.open(mission)
         self.assertFalse(self.out.exists())
 
     def test_wrong_numbers_and_names(self):
@@ -266,20 +258,17 @@ class Use(Package):
     def test_arrays_are_their_own(self):
         mission = self.open({"output.labels": "[class]"})
         ping = mission.ping(0)
-        self.assertEqual(repr(ping), "<ping 0 of 'fls': image, class [48, 32]>")
-        self.assertEqual(repr(mission), "<mission 'box': sensors fls>")
-        self.assertEqual(repr(mission.sensors["fls"]), "<sensor 'fls': imaging, 6 pings>")
-        image = ping.image.copy()
-        ping.image[:] = -1
-        ping.pose[:] = -1
+        self.assertEqual([repr(one) for one in (ping, mission, mission.sensors["fls"])],
+                         ["<ping 0 of 'fls': image, class [48, 32]>", "<mission 'box': sensors fls>",
+                          "<sensor 'fls': imaging, 6 pings>"])
+        before = content_of(ping)
+        ping.image[:] = ping.pose[:] = -1
         ping.labels["class"][:] = 7
         again = mission.ping(0)
-        np.testing.assert_array_equal(again.image, image)
-        self.assertLess(again.labels["class"].max(), 7)
-        self.assertNotEqual(again.pose[0], -1)
         del mission
         gc.collect()
-        np.testing.assert_array_equal(again.image, image)
+        self.assertEqual(content_of(again), before)
+        self.assertNotEqual(again.pose[0], -1)
 
     def test_the_first_program_of_the_page(self):
         program = (ROOT / "docs/dataset.md").read_text().split("<!-- pings in memory -->\n```python\n")[1].split("```")[0]
@@ -304,51 +293,40 @@ class Use(Package):
 
 
 class Torch(Package):
+    def module(self, torch_like):
+        """sonarsim.torch with what stands in for torch."""
+        self.enterContext(unittest.mock.patch.dict(sys.modules, {"torch": torch_like}))
+        sys.modules.pop("sonarsim.torch", None)
+        return importlib.import_module("sonarsim.torch")
+
     def test_without_torch(self):
-        kept = {name: sys.modules.pop(name) for name in ("torch", "sonarsim.torch") if name in sys.modules}
-        sys.modules["torch"] = None
-        try:
-            with self.assertRaisesRegex(ImportError, "needs PyTorch.*python3-torch"):
-                importlib.import_module("sonarsim.torch")
-        finally:
-            del sys.modules["torch"]
-            sys.modules.update(kept)
+        with self.assertRaisesRegex(ImportError, "needs PyTorch.*python3-torch"):
+            self.module(None)
 
     def test_workers_share_a_shard(self):
-        """Every number of workers makes the pings of the shard, each once. The test needs no torch: what
-        it says to a worker stands in for it."""
+        """Every number of workers makes the pings of the shard, each once. Objects are text, whose number in a batch is
+        free."""
         plain = (self.folder / "mission.yaml").read_text()
         tools = types.SimpleNamespace(IterableDataset=object, get_worker_info=None)
-        torch_like = types.SimpleNamespace(utils=types.SimpleNamespace(data=tools))
-        with unittest.mock.patch.dict(sys.modules, {"torch": torch_like}):
-            sys.modules.pop("sonarsim.torch", None)
-            dataset = importlib.import_module("sonarsim.torch").PingDataset
-            for variants, shard, expected in (
-                    (VARIED, (1, 3), [(1, k) for k in range(6)]),
-                    (VARIED, (0, 2), [(v, k) for v in (0, 2) for k in range(6)]),
-                    (VARIED, (1, 4), [(v, k) for v in range(3) for k in (1, 5)]),
-                    ("", (1, 2), [(None, k) for k in (1, 3, 5)])):
-                self.write("mission.yaml", plain + variants)
-                data = dataset(self.folder / "mission.yaml", shard=shard,
-                               transform=lambda ping: (ping.variant, ping.number))
-                self.assertEqual(len(data), len(expected))
-                for workers in range(5):
-                    found = []
-                    for worker in range(max(1, workers)):
-                        info = types.SimpleNamespace(id=worker, num_workers=workers) if workers else None
-                        tools.get_worker_info = lambda info=info: info
-                        found += data
-                    self.assertEqual(sorted(found), expected, (variants, shard, workers))
-
-    def test_objects_survive_a_batch(self):
-        """They are text, whose number in a batch is free."""
-        with unittest.mock.patch.dict(sys.modules, {"torch": types.SimpleNamespace(utils=types.SimpleNamespace(
-                data=types.SimpleNamespace(IterableDataset=object)))}):
-            sys.modules.pop("sonarsim.torch", None)
-            text = importlib.import_module("sonarsim.torch").tensor_of(
-                types.SimpleNamespace(image=None, raw=None, sensor="fls", labels={"objects": {"ping": 3, "objects": []}}),
-                "objects")
-        sys.modules.pop("sonarsim.torch", None)
+        module = self.module(types.SimpleNamespace(utils=types.SimpleNamespace(data=tools)))
+        for variants, shard, expected in (
+                (VARIED, (1, 3), [(1, k) for k in range(6)]),
+                (VARIED, (0, 2), [(v, k) for v in (0, 2) for k in range(6)]),
+                (VARIED, (1, 4), [(v, k) for v in range(3) for k in (1, 5)]),
+                ("", (1, 2), [(None, k) for k in (1, 3, 5)])):
+            self.write("mission.yaml", plain + variants)
+            data = module.PingDataset(self.folder / "mission.yaml", shard=shard,
+                                      transform=lambda ping: (ping.variant, ping.number))
+            self.assertEqual(len(data), len(expected))
+            for workers in range(5):
+                found = []
+                for worker in range(max(1, workers)):
+                    info = types.SimpleNamespace(id=worker, num_workers=workers) if workers else None
+                    tools.get_worker_info = lambda info=info: info
+                    found += data
+                self.assertEqual(sorted(found), expected, (variants, shard, workers))
+        objects = {"ping": 3, "objects": []}
+        text = module.tensor_of(types.SimpleNamespace(image=None, raw=None, sensor="fls", labels={"objects": objects}), "objects")
         self.assertEqual(text, '{"ping": 3, "objects": []}')
 
     @unittest.skipIf(torch is None, "needs torch")

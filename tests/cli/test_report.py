@@ -39,13 +39,6 @@ class Report(Sandbox):
             self.plot("elsewhere.json")
             self.assertEqual([path.name for path in self.out.iterdir()], ["error_fls.svg"])
 
-    def test_engines(self):
-        """Those that are named, in the order of the table."""
-        self.succeeds("report", "mission.yaml", *QUICK, "--quiet", "--engines", "slices,rays", "--json", "report.json")
-        rows = json.loads((self.folder / "report.json").read_text())["rows"]
-        self.assertEqual([(r["engine"], r["setting"]) for r in rows],
-                         [(engine, f"relative_l1={goal}") for engine in ("rays", "slices") for goal in (0.1, 0.03, 0.01)])
-
     def test_bad_input(self):
         for arguments, words in (
                 ((), ""), (("mission.yaml", "--hard"), "unknown option"), (("none.yaml",), "none.yaml"),

@@ -30,41 +30,26 @@ output: {folder: out, polar: false, fan: false, xtf: true, mosaic: true, full_sc
 MATERIALS = "material,density_kg_m3,sound_speed_m_s\nSand,1400,1520\nSteel,7850,5890\n"
 
 
-class Channel:
-    def __init__(self, record, at):
-        (self.number, _, self.slant_m, self.ground_m, _, self.duration_s,
-         self.interval_s) = struct.unpack_from("<HHfffff", record, at)
-        count, = struct.unpack_from("<I", record, at + 42)
-        self.samples = struct.unpack_from(f"<{count}H", record, at + 64)
-        self.end = at + 64 + 2 * count
-
-
-class Ping:
-    def __init__(self, record):
-        (self.magic, self.kind, _, self.channel_count, _, _, self.length, self.year, self.month, self.day,
-         self.hour, self.minute, self.second, self.hundredth, self.day_of_year) = struct.unpack_from(
-            "<HBBHHHIHBBBBBBH", record)
-        _, self.number, self.half_speed = struct.unpack_from("<IIf", record, 24)
-        self.y, self.x = struct.unpack_from("<dd", record, 160)
-        self.depth, self.altitude = struct.unpack_from("<ff", record, 192)
-        self.pitch, self.roll, self.heading = struct.unpack_from("<fff", record, 204)
-        self.channels, at = [], 256
-        for _ in range(self.channel_count):
-            self.channels.append(Channel(record, at))
-            at = self.channels[-1].end
-
-
 def read_xtf(data):
-    header = {"format": data[0], "program": data[2:10], "units": struct.unpack_from("<H", data, 164)[0],
-              "channels": [(data[at], struct.unpack_from("<H", data, at + 6)[0], data[at + 12:at + 28])
-                           for at in (256, 384)]}
+    """The names of the channels, and of each ping its numbers and the samples of both sides."""
+    assert (data[0], data[2:10]) == (123, b"sonarsim")
     pings, at = [], 1024
     while at < len(data):
-        length, = struct.unpack_from("<I", data, at + 10)
-        pings.append(Ping(data[at:at + length]))
-        at += length
+        magic, kind, channels, size, *time, day = struct.unpack_from("<HBxHxxxxIHBBBBBBH", data, at)
+        assert (magic, kind, channels, size % 64) == (0xFACE, 0, 2, 0)
+        ping = {"time": time, "day": day, "number": struct.unpack_from("<I", data, at + 28)[0],
+                "place": struct.unpack_from("<f124xdd16xff4xfff", data, at + 32), "sides": []}
+        side = at + 256
+        for _ in range(channels):
+            count, = struct.unpack_from("<I", data, side + 42)
+            ping["sides"].append((*struct.unpack_from("<H2xff4xf", data, side),
+                                  struct.unpack_from(f"<{count}H", data, side + 64)))
+            side += 64 + 2 * count
+        pings.append(ping)
+        at += size
     assert at == len(data)
-    return header, pings
+    return [(data[at], struct.unpack_from("<H", data, at + 6)[0], data[at + 12:at + 28].rstrip(b"\0"))
+            for at in (256, 384)], pings
 
 
 class SwathFiles(Sandbox):
@@ -77,42 +62,30 @@ class SwathFiles(Sandbox):
         self.assert_renders()
 
     def test_xtf(self):
-        header, pings = read_xtf((self.out / "sss/waterfall.xtf").read_bytes())
-        self.assertEqual((header["format"], header["units"]), (123, 0))
-        self.assertEqual(header["program"], b"sonarsim")
-        self.assertEqual([(kind, size, name.rstrip(b"\0")) for kind, size, name in header["channels"]],
-                         [(1, 2, b"Port"), (2, 2, b"Starboard")])
+        channels, pings = read_xtf((self.out / "sss/waterfall.xtf").read_bytes())
+        self.assertEqual(channels, [(1, 2, b"Port"), (2, 2, b"Starboard")])
         self.assertEqual(len(pings), 81)
         for k, ping in enumerate(pings):
-            self.assertEqual((ping.magic, ping.kind, ping.channel_count, ping.length % 64),
-                             (0xFACE, 0, 2, 0))
-            self.assertEqual(ping.number, k)
+            self.assertEqual(ping["number"], k)
             # A quarter of a second and of a metre from ping to ping, from 1970 on, along x: east.
-            self.assertEqual((ping.year, ping.month, ping.day, ping.day_of_year), (1970, 1, 1, 1))
-            self.assertEqual((ping.second, ping.hundredth), (k // 4, 25 * (k % 4)))
-            self.assertAlmostEqual(ping.x, -5 + 0.25 * k, delta=1e-9)
-            self.assertAlmostEqual(ping.y, 0, delta=1e-9)
-            self.assertAlmostEqual(ping.heading, 90, delta=1e-4)
-            self.assertAlmostEqual(ping.depth, 0, delta=1e-9)
-            self.assertAlmostEqual(ping.altitude, 10, delta=0.2)
-            self.assertAlmostEqual(ping.half_speed, 740, delta=1e-3)
-            port, starboard = ping.channels
-            self.assertEqual((port.number, starboard.number), (0, 1))
-            self.assertEqual(port.slant_m, 25)
-            self.assertAlmostEqual(port.duration_s, 2 * 25 / 1480, delta=1e-6)
-            self.assertAlmostEqual(port.ground_m, math.sqrt(25**2 - ping.altitude**2), delta=1e-3)
-            # 24.5 m in 245 bins, and one blank one before.
-            self.assertEqual((len(port.samples), len(starboard.samples)), (250, 250))
-            # Nothing echoes before the bottom does: port ends at nadir, starboard begins there.
-            self.assertEqual(max(port.samples[-90:]), 0)
-            self.assertEqual(max(starboard.samples[:90]), 0)
-            self.assertGreater(max(port.samples[:-110]), 0)
+            self.assertEqual((ping["time"], ping["day"]), ([1970, 1, 1, 0, 0, k // 4, 25 * (k % 4)], 1))
+            half_speed, y, x, depth, altitude, pitch, roll, heading = ping["place"]
+            self.assert_near((x, y, depth, pitch, roll), (-5 + 0.25 * k, 0, 0, 0, 0))
+            self.assert_near((heading, half_speed), (90, 740), 1e-3)
+            self.assertAlmostEqual(altitude, 10, delta=0.2)
+            for side, (number, slant_m, ground_m, duration_s, samples) in enumerate(ping["sides"]):
+                self.assertEqual((number, slant_m), (side, 25))
+                self.assert_near((ground_m, 1000 * duration_s), (math.sqrt(25**2 - altitude**2), 2000 * 25 / 1480), 1e-3)
+                # 24.5 m in 245 bins, and one blank one before. Nothing echoes before the bottom does: port ends at
+                # nadir, starboard begins there.
+                self.assertEqual(len(samples), 250)
+                outwards = samples if side else samples[::-1]
+                self.assertEqual(max(outwards[:90]), 0)
+                self.assertGreater(max(outwards[110:]), 0)
         # The block is to starboard, 11.5 m off track and 9 to 10 m below, where x is 6.
-        beside = pings[44].channels
-        brightest = max(range(250), key=lambda i: beside[1].samples[i])
-        near = math.sqrt(11.5**2 + 9**2)
-        self.assertAlmostEqual((brightest + 0.5) * 0.1, near, delta=1.0)
-        self.assertGreater(max(beside[1].samples), 3 * max(beside[0].samples))
+        port, starboard = (side[-1] for side in pings[44]["sides"])
+        self.assertAlmostEqual((starboard.index(max(starboard)) + 0.5) * 0.1, math.hypot(11.5, 9), delta=1.0)
+        self.assertGreater(max(starboard), 3 * max(port))
 
     def test_xtf_of_a_turned_mount(self):
         """The channels are port and starboard of the heading, that of the sonar: the block is to port of one that
@@ -121,11 +94,9 @@ class SwathFiles(Sandbox):
         self.assert_renders("--overwrite")
         _, pings = read_xtf((self.out / "sss/waterfall.xtf").read_bytes())
         for ping in pings:
-            self.assertAlmostEqual(ping.heading, 270, delta=1e-4)
-            self.assertAlmostEqual(ping.pitch, 0, delta=1e-4)
-            self.assertAlmostEqual(ping.roll, 10, delta=1e-4)
-        port, starboard = pings[44].channels
-        self.assertGreater(max(port.samples), 3 * max(starboard.samples))
+            self.assert_near(ping["place"][-3:], (0, 10, 270), 1e-4)
+        port, starboard = (side[-1] for side in pings[44]["sides"])
+        self.assertGreater(max(port), 3 * max(starboard))
 
     @unittest.skipIf(shutil.which("gdalinfo") is None, "needs gdalinfo")
     def test_mosaic(self):

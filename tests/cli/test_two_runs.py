@@ -16,6 +16,12 @@ variants: 3
 vary:
   - {key: sensors.fls.noise.add_sigma, uniform: [0.01, 0.2]}
 """
+RECORDS = """\
+scene: {file: box.gltf, materials: materials.csv}
+trajectory: {file: path.csv}
+sensors: {s: {kind: echosounder, range_max_m: 6, range_bins: 16}}
+output: {folder: out}
+"""
 SECOND_RUN = "another run is writing into this folder"
 REFUSALS = (SECOND_RUN, "holds a dataset of another mission", "holds variants of another mission",
             "holds files that are not a sonarsim dataset", "holds files that are not variants")
@@ -27,8 +33,7 @@ class Folder(Sandbox):
     def setUp(self):
         super().setUp()
         self.write("path.csv", path_csv(self.POSES))
-        mission = (self.folder / "mission.yaml").read_text()
-        self.write("variants.yaml", mission + VARY)
+        self.write("variants.yaml", (self.folder / "mission.yaml").read_text() + VARY)
         self.draw = random.Random(25)
 
     def start(self, *arguments):
@@ -43,90 +48,69 @@ class Folder(Sandbox):
 class TwoRuns(Folder):
     def whole(self, *arguments):
         """What the command makes where nobody disturbs it."""
-        out = self.folder / "alone"
-        result = self.run_sonarsim(*arguments, "--out", out)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        found = digest(out)
-        shutil.rmtree(out)
+        self.succeeds(*arguments, "--out", "alone")
+        found = digest(self.folder / "alone")
+        shutil.rmtree(self.folder / "alone")
         return found
 
-    def assert_whole(self, *wholes):
-        """The folder holds one of these datasets and nothing else."""
-        result = self.run_sonarsim("verify", "out")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertNotIn("is not a file of the dataset", result.stderr)
-        self.assertIn(digest(self.out), wholes)
-
-    def assert_refused_or_done(self, code, stderr):
-        self.assertIn(code, (0, 2), stderr)
-        if code == 0:
-            return
-        errors = [line for line in stderr.splitlines() if line.startswith("error:")]
-        self.assertEqual(len(errors), 1, stderr)
-        self.assertTrue(any(words in errors[0] for words in REFUSALS), stderr)
+    def assert_whole(self, whole):
+        """The folder holds this dataset and nothing else."""
+        self.assertNotIn("is not a file of the dataset", self.succeeds("verify", "out").stderr)
+        self.assertEqual(digest(self.out), whole)
 
     def pair(self, first, second, delay):
-        """The exit codes of two commands, the second of which starts `delay` seconds later."""
+        """The exit codes of two commands, the second of which starts `delay` seconds later: done or refused in a word."""
         shutil.rmtree(self.out, ignore_errors=True)
         one = self.start(*first)
         time.sleep(delay)
-        other = self.start(*second)
         codes = []
-        for process in (one, other):
-            code, stderr = self.end(process)
-            self.assert_refused_or_done(code, stderr)
+        for code, stderr in map(self.end, (one, self.start(*second))):
+            self.assertIn(code, (0, 2), stderr)
+            errors = [line for line in stderr.splitlines() if line.startswith("error:")]
+            self.assertEqual(len(errors), code // 2, stderr)
+            self.assertTrue(all(any(words in error for words in REFUSALS) for error in errors), stderr)
             codes.append(code)
         self.assertIn(0, codes)
         return tuple(codes)
 
     def test_pairs_of_runs(self):
-        """Two missions, one mission twice, one that overwrites the other, and two shards."""
-        other = ("--seed", "9")
-        for name in ("mission.yaml", "variants.yaml"):
-            render = ("render", name)
-            wholes = [self.whole(*render), self.whole(*render, *other)]
-            for first, second, delay in (((), other, 0.0), ((), other, self.draw.uniform(0.0, 0.15)), ((), (), 0.02),
-                                         ((), (*other, "--overwrite"), 0.1), (("--shard", "1/2"), ("--shard", "2/2"), 0.0)):
-                with self.subTest(name=name, first=first, second=second, delay=delay):
-                    codes = self.pair((*render, *first), (*render, *second), delay)
+        """One mission twice, two missions, one that overwrites the other; two shards, shards of two divisions and of two
+        missions."""
+        other, half = ("--seed", "9"), ("--shard", "1/2")
+        for name, pairs in (("variants.yaml", (((), other), ((), (*other, "--overwrite")), (half, ("--shard", "2/2")))),
+                            ("mission.yaml", (((), other), ((), ()), ((), (*other, "--overwrite")),
+                                              (half, ("--shard", "2/2")), (half, half), (half, ("--shard", "2/3")),
+                                              (half, ("--shard", "2/2", *other)), (half, ())))):
+            wholes = [self.whole("render", name), self.whole("render", name, *other)]
+            for first, second in pairs:
+                with self.subTest(name=name, first=first, second=second):
+                    codes = self.pair(("render", name, *first), ("render", name, *second), self.draw.uniform(0.0, 0.15))
                     if second == other:
                         self.assertEqual(sorted(codes), [0, 2])
-                    if first:
-                        self.assertEqual(codes, (0, 0))
                     # The second may have come first, or have replaced a finished dataset.
-                    replaced = "--overwrite" in second and codes[1] == 0 or second == other and codes[0] != 0
+                    replaced = "--seed" in second and (codes[0] != 0 or "--overwrite" in second and codes[1] == 0)
+                    if second == ("--shard", "2/2"):
+                        self.assertEqual(codes, (0, 0))
+                    elif first:
+                        self.succeeds("render", name, *(other if replaced else ()))
                     self.assert_whole(wholes[replaced])
-
-    def test_shards_that_do_not_fit(self):
-        """The same shard twice, shards of two divisions, of two missions, and a whole run."""
-        render = ("render", "mission.yaml")
-        wholes = [self.whole(*render), self.whole(*render, "--seed", "9")]
-        for second in (("--shard", "1/2"), ("--shard", "2/3"), ("--shard", "2/2", "--seed", "9"), ()):
-            with self.subTest(second=second):
-                codes = self.pair((*render, "--shard", "1/2"), (*render, *second), self.draw.uniform(0.0, 0.15))
-                other = codes[0] != 0 and "--seed" in second
-                self.assertEqual(self.run_sonarsim(*render, *(("--seed", "9") if other else ())).returncode, 0)
-                self.assert_whole(wholes[other])
 
     def test_eight_shards_at_once(self):
         whole = self.whole("render", "mission.yaml")
-        shards = [self.start("render", "mission.yaml", "-j1", "--shard", f"{k}/8")
-                  for k in range(1, 9)]
-        for shard in shards:
+        for shard in [self.start("render", "mission.yaml", "-j1", "--shard", f"{k}/8") for k in range(1, 9)]:
             code, stderr = self.end(shard)
             self.assertEqual(code, 0, stderr)
         self.assert_whole(whole)
 
     def test_merges(self):
-        render = ("render", "mission.yaml")
+        render, merge = ("render", "mission.yaml"), ("merge", "part1", "part2", "out")
         whole = self.whole(*render)
         for k in (1, 2):
             self.assert_renders("--shard", f"{k}/2", "--out", f"part{k}")
-        merge = ("merge", "part1", "part2", "out")
         for second in (merge, render):
             with self.subTest(second=second):
                 self.pair(merge, second, 0.005)
-                self.assertEqual(self.run_sonarsim(*render).returncode, 0)
+                self.assert_renders()
                 self.assert_whole(whole)
 
 
@@ -148,47 +132,39 @@ class HeldFolder(Folder):
         os.waitid(os.P_PID, process.pid, os.WSTOPPED | os.WNOWAIT)
         return process
 
-    def go_on(self, process):
-        process.send_signal(signal.SIGCONT)
-        code, stderr = self.end(process)
+    def assert_seconds_are_refused(self, first, *seconds, meanwhile=()):
+        """Commands while `first` is halted, which then goes on to its end; `meanwhile` is one that is not refused."""
+        for command in seconds:
+            with self.subTest(command=command):
+                before = digest(self.out)
+                # Another mission is refused without a look at who is at work.
+                other = "--seed" in command and "--overwrite" not in command or "out/variant_0000" in command
+                self.assert_refused(self.run_sonarsim(*command), "out", "of another mission" if other else SECOND_RUN)
+                self.assertEqual(digest(self.out), before)
+        if meanwhile:
+            self.succeeds(*meanwhile)
+        first.send_signal(signal.SIGCONT)
+        code, stderr = self.end(first)
         self.assertEqual(code, 0, stderr)
-        result = self.run_sonarsim("verify", "out")
-        self.assertEqual(result.returncode, 0, result.stderr)
-
-    def assert_second_is_refused(self, *arguments):
-        before = digest(self.out)
-        result = self.run_sonarsim(*arguments)
-        # Another mission is refused without a look at who is at work.
-        other = "--seed" in arguments and "--overwrite" not in arguments or "out/variant_0000" in arguments
-        self.assert_refused(result, "out", "of another mission" if other else SECOND_RUN)
-        self.assertEqual(digest(self.out), before)
+        self.succeeds("verify", "out")
 
     def test_a_whole_run(self):
-        part = self.folder / "part"
-        self.assert_renders("--out", part)
-        first = self.halted("mission.yaml")
-        for more in ((), ("--seed", "9"), ("--seed", "9", "--overwrite"), ("--shard", "1/2")):
-            with self.subTest(more=more):
-                self.assert_second_is_refused("render", "mission.yaml", *more)
-        self.assert_second_is_refused("merge", part, "out")
-        self.go_on(first)
+        self.assert_renders("--out", "part")
+        render = ("render", "mission.yaml")
+        self.assert_seconds_are_refused(
+            self.halted("mission.yaml"), render, (*render, "--seed", "9"), (*render, "--seed", "9", "--overwrite"),
+            (*render, "--shard", "1/2"), ("merge", "part", "out"))
 
     def test_a_shard(self):
-        first = self.halted("mission.yaml", "--shard", "1/2")
-        for more in ((), ("--overwrite",), ("--shard", "1/2"), ("--shard", "1/3")):
-            with self.subTest(more=more):
-                self.assert_second_is_refused("render", "mission.yaml", *more)
-        second = self.render("--shard", "2/2")
-        self.assertEqual(second.returncode, 0, second.stderr)
-        self.go_on(first)
+        render = ("render", "mission.yaml")
+        self.assert_seconds_are_refused(
+            self.halted("mission.yaml", "--shard", "1/2"), render, (*render, "--overwrite"), (*render, "--shard", "1/2"),
+            (*render, "--shard", "1/3"), meanwhile=(*render, "--shard", "2/2"))
 
     def test_variants(self):
-        first = self.halted("variants.yaml")
-        for more in ((), ("--seed", "9", "--overwrite")):
-            with self.subTest(more=more):
-                self.assert_second_is_refused("render", "variants.yaml", *more)
-        self.assert_second_is_refused("render", "mission.yaml", "--out", "out/variant_0000")
-        self.go_on(first)
+        self.assert_seconds_are_refused(
+            self.halted("variants.yaml"), ("render", "variants.yaml"), ("render", "variants.yaml", "--seed", "9", "--overwrite"),
+            ("render", "mission.yaml", "--out", "out/variant_0000"))
 
     def test_a_killed_run_holds_nothing(self):
         first = self.halted("mission.yaml")
@@ -206,8 +182,7 @@ class Disks(Sandbox):
     def test_a_disk_without_locks(self):
         self.write("variants.yaml", (self.folder / "mission.yaml").read_text() + VARY)
         self.assert_renders("--out", "part")
-        for arguments in (("render", "mission.yaml"), ("render", "mission.yaml", "--shard", "1/1"),
-                          ("render", "variants.yaml"), ("merge", "part", "out")):
+        for arguments in (("render", "mission.yaml"), ("render", "variants.yaml"), ("merge", "part", "out")):
             with self.subTest(arguments=arguments):
                 shutil.rmtree(self.out, ignore_errors=True)
                 result = self.on_disk("nolock", *arguments)
@@ -215,23 +190,21 @@ class Disks(Sandbox):
                 warnings = [line for line in result.stderr.splitlines() if "no locks" in line]
                 self.assertEqual(len(warnings), 1, result.stderr)
                 self.assertIn("out: the disk", warnings[0])
-                self.assertEqual(self.run_sonarsim("verify", "out").returncode, 0)
+                self.succeeds("verify", "out")
 
     def test_a_complete_dataset_on_a_read_only_disk(self):
-        self.edit("mission.yaml", "    kind: imaging\n", "    kind: echosounder\n")
-        self.edit("mission.yaml", "    azimuth_deg: 60\n    elevation_deg: 12\n", "")
-        self.edit("mission.yaml", "    azimuth_bins: 32\n", "")
-        self.write("variants.yaml", (self.folder / "mission.yaml").read_text() + VARY)
+        self.write("mission.yaml", RECORDS)
+        self.write("variants.yaml", RECORDS + "variants: 2\n")
         for name in ("variants.yaml", "mission.yaml"):
             shutil.rmtree(self.out, ignore_errors=True)
-            self.assertEqual(self.run_sonarsim("render", name).returncode, 0)
+            self.succeeds("render", name)
             before = digest(self.out)
             for more in ((), ("--shard", "1/2")):
                 result = self.on_disk("readonly", "render", name, *more)
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertIn("complete; ", result.stderr)
             self.assertEqual(digest(self.out), before)
-        (self.out / "fls/echogram.npy").unlink()
+        (self.out / "s/echogram.npy").unlink()
         result = self.on_disk("readonly", "render", "mission.yaml")
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertIn("Read-only file system", result.stderr)

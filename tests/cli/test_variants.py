@@ -23,55 +23,33 @@ vary:
 """
 
 
-class Varied(Sandbox):
-    def assert_refusals(self, cases):
-        """Each case is a text of the mission, what it becomes, and words of the message."""
-        mission = (self.folder / "mission.yaml").read_text()
-        for old, new, *fragments in cases:
-            with self.subTest(new=new):
-                self.edit("mission.yaml", old, new)
-                self.refused(*fragments)
-                self.write("mission.yaml", mission)
-
-
-class Variants(Varied):
+class Variants(Sandbox):
     def setUp(self):
         super().setUp()
         self.add(VARY)
 
-    def index(self):
-        return json.loads((self.out / "variants.json").read_text())["variants"]
-
     def test_all_differ_and_come_again(self):
         self.assert_renders()
-        index = self.index()
+        index = self.variants()
         self.assertEqual([one["folder"] for one in index], [f"variant_{k:04}" for k in range(6)])
         self.assertEqual(len({one["seed"] for one in index}), 6)
         self.assertEqual(len({one["drawn"]["sensors.fls.noise.add_sigma"] for one in index}), 6)
         self.assertEqual(len({one["drawn"]["water.density_kg_m3"] for one in index}), 1)
-        polar = {(self.out / one["folder"] / "fls/polar/000000.npy").read_bytes() for one in index}
-        self.assertEqual(len(polar), 6)
+        self.assertEqual(len({(self.out / one["folder"] / "fls/polar/000000.npy").read_bytes() for one in index}), 6)
         for one in index:
-            self.assertTrue(0.01 <= one["drawn"]["sensors.fls.noise.add_sigma"] <= 0.2)
             dataset = self.dataset(self.out / one["folder"])
-            self.assertTrue(dataset["complete"])
-            self.assertEqual(dataset["variant"]["drawn"], one["drawn"])
-            bins = len(dataset["sensors"][0]["range_edges_m"]) - 1
-            self.assertEqual(bins, one["drawn"]["sensors.fls.range_bins"])
-            meta = json.loads((self.out / one["folder"] / "fls/meta/000001.json").read_text())
-            self.assertEqual(meta["variant"]["drawn"], one["drawn"])
+            self.assertEqual((dataset["complete"], dataset["variant"]["drawn"]), (True, one["drawn"]))
+            self.assertEqual(len(dataset["sensors"][0]["range_edges_m"]) - 1, one["drawn"]["sensors.fls.range_bins"])
+            self.assertEqual(self.json(f"out/{one['folder']}/fls/meta/000001.json")["variant"]["drawn"], one["drawn"])
         first = digest(self.out)
         self.assert_renders("--overwrite", "-j", "1")
         self.assertEqual(digest(self.out), first)
         # One alone, and fewer of them.
-        own = self.out / "variant_0004"
-        self.succeeds("render", own / "mission.resolved.yaml", "--paths-from", ".", "--out", "alone")
-        alone = digest(self.folder / "alone")
-        for name, sum_ in digest(own).items():
-            if name.endswith((".npy", ".png")):
-                self.assertEqual(alone[name], sum_)
+        self.succeeds("render", "out/variant_0004/mission.resolved.yaml", "--paths-from", ".", "--out", "alone")
+        for what in ("polar", "image"):
+            self.assertEqual(digest(self.folder / "alone/fls" / what), digest(self.out / "variant_0004/fls" / what))
         self.assert_renders("--overwrite", "--set", "variants=3")
-        self.assertEqual(self.index(), index[:3])
+        self.assertEqual(self.variants(), index[:3])
         self.assertFalse((self.out / "variant_0003").exists())
 
     def test_finished_variants_are_skipped_without_their_scenes(self):
@@ -79,23 +57,22 @@ class Variants(Varied):
             self.assert_renders("--shard", shard)
         whole = digest(self.out)
 
-        def again(*arguments):
-            result = self.assert_renders("--json", *arguments)
+        def again(*counts):
+            result = self.assert_renders("--json")
             self.assertEqual(digest(self.out), whole)
-            return json.loads(result.stdout), result.stderr
+            summary = json.loads(result.stdout)
+            self.assertEqual((summary["pings"], summary["skipped"], summary["complete"]), (*counts, True))
+            return result.stderr
 
-        summary, stderr = again()
-        self.assertEqual((summary["pings"], summary["skipped"], summary["complete"]), (0, 36, True))
+        stderr = again(0, 36)
         self.assertIn("all of its 36 pings were there already", stderr)
         self.assertNotIn("triangles", stderr, "no scene is read")
         (self.out / "variant_0002/fls/polar/000003.npy").unlink()
         shutil.rmtree(self.out / "variant_0004")
-        summary, stderr = again()
-        self.assertEqual((summary["pings"], summary["skipped"]), (7, 29))
-        self.assertIn("7 pings rendered, 29 were there already", stderr)
+        self.assertIn("7 pings rendered, 29 were there already", again(7, 29))
         (self.out / "journal.d").mkdir()
         (self.out / "journal.d/1-of-1.txt").touch()  # of a run that was killed
-        again()
+        again(0, 36)
         # An input with other bytes is not the same mission.
         self.edit("materials.csv", "2400", "2500")
         self.assert_refused(self.render(), "variant_0000", "other scene, material or trajectory files")
@@ -105,17 +82,9 @@ class Variants(Varied):
         """With more shards than variants."""
         two = ("--set", "variants=2")
         self.assert_renders(*two)
-        whole = digest(self.out)
-        for k in (1, 2, 3):
-            self.assert_renders(*two, "--shard", f"{k}/3", "--out", f"part{k}")
-        result = self.succeeds("merge", "part1", "joined", "--json")
-        self.assertIs(json.loads(result.stdout)["complete"], False, result.stderr)
-        result = self.succeeds("merge", "part1", "part2", "part3", "joined", "--json")
-        self.assertIs(json.loads(result.stdout)["complete"], True, result.stderr)
-        self.assert_renders(*two, "--out", "joined")
-        self.assertEqual(digest(self.folder / "joined"), whole)
+        self.assert_shards_agree(*two, count=3)
         self.assert_renders(*two, "--set", "sensors.fls.noise.mult_sigma=0.3", "--out", "other")
-        self.assert_refused(self.run_sonarsim("merge", "other", "joined"), "holds variants of another mission")
+        self.assert_refused(self.run_sonarsim("merge", "other", "merged"), "holds variants of another mission")
 
     def test_variants_with_files_of_their_own_are_rendered(self):
         self.write("one/box.gltf", box_gltf())
@@ -124,8 +93,8 @@ class Variants(Varied):
                   "  - {key: scene.file, choice: [one/box.gltf, two/box.gltf]}\n")
         for k in (1, 2):
             self.assert_renders("--shard", f"{k}/2")
-        self.assertEqual(len({one["drawn"]["scene.file"] for one in self.index()}), 2)
-        self.assertEqual(self.run_sonarsim("verify", "out").returncode, 0)
+        self.assertEqual(len({one["drawn"]["scene.file"] for one in self.variants()}), 2)
+        self.succeeds("verify", "out")
 
     def test_validate_counts(self):
         found = json.loads(self.succeeds("validate", "mission.yaml", "--json").stdout)
@@ -147,32 +116,8 @@ class Variants(Varied):
                                      (("--set", "variants=2", "--seed", "9"), "holds variants of another mission"),
                                      (("--out", "other", "--overwrite"), "not variants of a sonarsim mission")):
                 self.assert_refused(self.run_sonarsim(command, "mission.yaml", *arguments), words)
-            self.assertEqual(digest(self.folder), whole)
         self.succeeds("validate", "mission.yaml", "--set", "variants=3", "--overwrite")
         self.assertEqual(digest(self.folder), whole)
-
-    def test_bad_keys(self):
-        self.assert_refusals((
-            ("noise.add_sigma", "noise.add_sgma", "mission.yaml:26:5", "add_sgma", "did you mean 'add_sigma'?"),
-            ("uniform: [0.01, 0.2]", "uniform: [0.2, 0.01]",
-             "mission.yaml:26:", "the first number must not be above the second"),
-            ("uniform: [0.01, 0.2]", "uniform: [-2, -1]", "mission.yaml:26:5", "'add_sigma' must be at least 0"),
-            ("uniform: [0.01, 0.2]", "log_uniform: [0, 1]", "mission.yaml:26:", "'log_uniform' takes numbers above 0"),
-            (", uniform: [0.01, 0.2]", "", "mission.yaml:26:5", "needs exactly one of: uniform"),
-            ("sensors.fls.noise.add_sigma", "water.sound_speed_m_s",
-             "mission.yaml:27:5", "'water.sound_speed_m_s' varies twice"),
-            ("{key: sensors.fls.range_bins, whole: [40, 60]}",
-             "{key: sensors.fls.noise, choice: [{add_sigma: 0.1}]}",
-             "mission.yaml:28:5", "'sensors.fls.noise' replaces what is drawn for "
-             "'sensors.fls.noise.add_sigma'", "write that rule after this one"),
-            ("water.density_kg_m3, choice: [1000, 1025]", "seed, choice: [1, 2]",
-             "mission.yaml:29:5", "'seed' cannot vary", "a seed of its own"),
-            ("sensors.fls.noise.add_sigma", "sensors.fls.mount.rpy_deg.1",
-             "mission.yaml:26:5", "there is no list 'rpy_deg' with an item '1'",
-             "write the whole list in the mission first"),
-            ("within: [1400, 1600]", "within: [9000, 9001]", "mission.yaml:27:5", "a thousand normal draws", "wider"),
-            ("whole: [40, 60]", "uniform: [40, 60]", "mission.yaml:28:5", "'range_bins' must be a whole number"),
-            ("variants: 6\n", "", "mission.yaml:", "'vary' needs 'variants'")))
 
     def scatter(self, *lines):
         """Lets the mission scatter small boxes, and writes only the rules `lines`."""
@@ -187,7 +132,7 @@ class Variants(Varied):
         self.scatter("classes:", "  - {nodes: 'mine_*', class: threat}", "vary:",
                      "  - {key: scene.scatter.1.class, choice: [tyre, buoy]}")
         self.assert_renders()
-        labels = [self.dataset(self.out / one["folder"])["labels"] for one in self.index()]
+        labels = [self.dataset(self.out / one["folder"])["labels"] for one in self.variants()]
         self.assertGreater(len({len(one["instances"]) for one in labels}), 1, "counts must differ")
         names = [[one["name"] for one in variant["classes"]] for variant in labels]
         self.assertEqual(names, [["walls", "threat", "tyre", "drum", "buoy"]] * 8)
@@ -198,7 +143,7 @@ class Variants(Varied):
         self.refused("finds no room in 1000 tries", "the bottom lies from (-2, -2) to (2, 2)")
 
 
-class PingDraws(Varied):
+class PingDraws(Sandbox):
     KEYS = ["vehicle.offset_m.2", "vehicle.turn_deg.0", "sensors.fls.noise.add_sigma", "sensors.fls.mount.rpy_deg.2"]
 
     def test_every_ping_has_draws_of_its_own(self):
@@ -214,17 +159,13 @@ class PingDraws(Varied):
             self.assertEqual(meta["T_world_vehicle"]["position_m"][2], meta["drawn"][self.KEYS[0]])
             # A mount that is turned about z by a: the scalar product of the two attitudes is
             # cos(a / 2), of whatever the vehicle's is.
-            vehicle = meta["T_world_vehicle"]["quaternion_xyzw"]
-            sensor = meta["T_world_sensor"]["quaternion_xyzw"]
-            cosine = abs(sum(a * b for a, b in zip(vehicle, sensor)))
+            cosine = abs(sum(a * b for a, b in zip(*(meta[f"T_world_{what}"]["quaternion_xyzw"]
+                                                     for what in ("vehicle", "sensor")))))
             angle = 2 * math.degrees(math.acos(min(1.0, cosine)))
             self.assertAlmostEqual(angle, abs(meta["drawn"][self.KEYS[3]]), places=4)
-        whole = digest(self.out)
         # Shards, and the dataset's own mission; tests/golden has any number of threads.
-        for shard in ("2/2", "1/2"):
-            self.assert_renders("--shard", shard, "--out", "shards")
-        self.assertEqual(digest(self.folder / "shards"), whole)
-        self.succeeds("render", self.out / "mission.resolved.yaml", "--paths-from", ".", "--out", "again")
+        self.assert_shards_agree()
+        self.succeeds("render", "out/mission.resolved.yaml", "--paths-from", ".", "--out", "again")
         self.assertEqual(digest(self.folder / "again/fls"), digest(self.out / "fls"))
         self.assert_renders("--overwrite", "--seed", "8")
         self.assertNotEqual(self.meta(0)["drawn"], metas[0]["drawn"])
@@ -236,18 +177,44 @@ class PingDraws(Varied):
         self.assert_renders(*moving, "--out", "drawn")
         self.assertEqual(*(digest(self.folder / out / "fls/polar") for out in ("fixed", "drawn")))
 
+
+# The rules, a text of the mission, what it becomes, and words of the message.
+WRONG = (
+    (VARY, "noise.add_sigma", "noise.add_sgma", "mission.yaml:26:5", "add_sgma", "did you mean 'add_sigma'?"),
+    (VARY, "uniform: [0.01, 0.2]", "uniform: [0.2, 0.01]", "mission.yaml:26:", "the first number must not be above the second"),
+    (VARY, "uniform: [0.01, 0.2]", "uniform: [-2, -1]", "mission.yaml:26:5", "'add_sigma' must be at least 0"),
+    (VARY, "uniform: [0.01, 0.2]", "log_uniform: [0, 1]", "mission.yaml:26:", "'log_uniform' takes numbers above 0"),
+    (VARY, ", uniform: [0.01, 0.2]", "", "mission.yaml:26:5", "needs exactly one of: uniform"),
+    (VARY, "sensors.fls.noise.add_sigma", "water.sound_speed_m_s",
+     "mission.yaml:27:5", "'water.sound_speed_m_s' varies twice"),
+    (VARY, "{key: sensors.fls.range_bins, whole: [40, 60]}", "{key: sensors.fls.noise, choice: [{add_sigma: 0.1}]}",
+     "mission.yaml:28:5", "'sensors.fls.noise' replaces what is drawn for 'sensors.fls.noise.add_sigma'",
+     "write that rule after this one"),
+    (VARY, "water.density_kg_m3, choice: [1000, 1025]", "seed, choice: [1, 2]",
+     "mission.yaml:29:5", "'seed' cannot vary", "a seed of its own"),
+    (VARY, "sensors.fls.noise.add_sigma", "sensors.fls.mount.rpy_deg.1", "mission.yaml:26:5",
+     "there is no list 'rpy_deg' with an item '1'", "write the whole list in the mission first"),
+    (VARY, "within: [1400, 1600]", "within: [9000, 9001]", "mission.yaml:27:5", "a thousand normal draws", "wider"),
+    (VARY, "whole: [40, 60]", "uniform: [40, 60]", "mission.yaml:28:5", "'range_bins' must be a whole number"),
+    (VARY, "variants: 6\n", "", "mission.yaml:", "'vary' needs 'variants'"),
+    (PER_PING, "noise.add_sigma", "range_bins", "mission.yaml:25:5",
+     "'sensors.fls.range_bins' cannot be drawn for every ping", "noise.add_sigma", "vehicle.offset_m.0"),
+    (PER_PING, "log_uniform: [0.001, 0.2]", "uniform: [-0.1, 0.2]", "mission.yaml:25:5",
+     "'sensors.fls.noise.add_sigma' must be at least 0, not -0.1"),
+    (PER_PING, "within: [-6, 6]", "within: [40, 41]",
+     "mission.yaml:26:5", "less than 5 % of the normal draws", "make it wider"),
+    (PER_PING, "within: [-6, 6], ", "", "mission.yaml:26:", "a normal draw for every ping needs 'within'"),
+    (PER_PING, "choice: [-5, 5]", "choice: [left, 5]", "mission.yaml:28:5", "takes numbers"),
+    (PER_PING, "    kind: imaging\n", "    kind: imaging\n    moves_in_ping: true\n", "moves_in_ping"))
+
+
+class Refusals(Sandbox):
     def test_what_is_refused(self):
-        self.add(PER_PING)
-        self.assert_refusals((
-            ("noise.add_sigma", "range_bins", "mission.yaml:25:5", "'sensors.fls.range_bins' cannot be drawn for every ping",
-             "noise.add_sigma", "vehicle.offset_m.0"),
-            ("log_uniform: [0.001, 0.2]", "uniform: [-0.1, 0.2]", "mission.yaml:25:5",
-             "'sensors.fls.noise.add_sigma' must be at least 0, not -0.1"),
-            ("within: [-6, 6]", "within: [40, 41]",
-             "mission.yaml:26:5", "less than 5 % of the normal draws", "make it wider"),
-            ("within: [-6, 6], ", "", "mission.yaml:26:", "a normal draw for every ping needs 'within'"),
-            ("choice: [-5, 5]", "choice: [left, 5]", "mission.yaml:28:5", "takes numbers"),
-            ("    kind: imaging\n", "    kind: imaging\n    moves_in_ping: true\n", "moves_in_ping")))
+        for rules, old, new, *words in WRONG:
+            with self.subTest(new=new):
+                self.write("mission.yaml", MISSION + rules)
+                self.edit("mission.yaml", old, new)
+                self.refused(*words)
 
 
 if __name__ == "__main__":

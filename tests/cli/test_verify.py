@@ -10,8 +10,6 @@ import unittest
 
 from sandbox import ALL_FILES, SANITIZED, SONARSIM, Sandbox, digest, path_csv, png
 
-VARIANTS = "variants: 2\nvary: [{key: water.sound_speed_m_s, uniform: [1470, 1490]}]\n"
-
 
 class Verify(Sandbox):
     def setUp(self):
@@ -20,43 +18,21 @@ class Verify(Sandbox):
         self.write("path.csv", path_csv(3))
         self.assert_renders()
 
-    def verify(self, *arguments):
-        return self.run_sonarsim("verify", "out", *arguments)
-
-    def assert_fault(self, *fragments, count=1):
-        """So many lines of errors, exit code 1, nothing changed; the words of the message."""
-        before = digest(self.out)
-        result = self.verify()
-        self.assertEqual(result.returncode, 1, result.stderr)
-        errors = [line for line in result.stderr.splitlines() if line.startswith("error:")]
-        self.assertEqual(len(errors), count, result.stderr)
-        for fragment in fragments:
-            self.assertIn(fragment, result.stderr)
-        self.assertEqual(digest(self.out), before)
-
     def test_whole(self):
-        result = self.verify()
-        self.assertEqual((result.returncode, result.stdout), (0, ""), result.stderr)
+        result = self.succeeds("verify", "out")
+        self.assertEqual(result.stdout, "")
         self.assertIn("whole", result.stderr)
         listed = {line[66:]: line[:64] for line in (self.out / "SHA256SUMS").read_text().splitlines()}
         self.assertEqual(listed, digest(self.out, without=("SHA256SUMS",)))
-        self.assertEqual(self.verify("--quiet", "-j1").stderr, "")
+        self.assertEqual(self.succeeds("verify", "out", "--quiet", "-j1").stderr, "")
         check = ["sha256sum", "--check", "--strict", "--quiet", "SHA256SUMS"]
         self.assertEqual(subprocess.run(check, cwd=self.out, check=False).returncode, 0)
         # A stranger does no harm.
         self.write("out/notes.txt", "mine")
         self.write("out/fls/polar/000003.npy", "one too many")
-        verdict = json.loads(self.verify("--json").stdout)
+        verdict = json.loads(self.succeeds("verify", "out", "--json").stdout)
         self.assertEqual((verdict["whole"], verdict["files"], verdict["errors"]), (True, len(listed), []))
         self.assertEqual(verdict["unknown_files"], ["fls/polar/000003.npy", "notes.txt"])
-
-    def test_dataset_json_is_covered(self):
-        whole = digest(self.out)
-        self.edit("out/dataset.json", '"seed": 7', '"seed": 8')
-        self.assert_fault("dataset.json: ", "remove SHA256SUMS")
-        (self.out / "SHA256SUMS").unlink()
-        self.assert_renders()
-        self.assertEqual(digest(self.out), whole)
 
     def test_the_cure_cures(self):
         whole = digest(self.out)
@@ -64,34 +40,38 @@ class Verify(Sandbox):
         for name in (*names, "SHA256SUMS"):
             with self.subTest(name=name):
                 (self.out / name).unlink()
-                self.assertEqual(self.verify().returncode, 1)
+                self.assert_verify_finds(name)
                 self.assert_renders()
                 self.assertEqual(digest(self.out), whole)
+        # Every fault has a line, and nothing changes; the description of the dataset has a sum as well.
         for name in names[:3]:
             (self.out / name).unlink()
-        self.assert_fault(*(f"{name}: is missing" for name in names[:3]), count=3)
+        self.edit("out/dataset.json", '"seed": 7', '"seed": 8')
+        before = digest(self.out)
+        result = self.assert_verify_finds("dataset.json: ", "remove SHA256SUMS", *(f"{name}: is missing" for name in names[:3]))
+        self.assertEqual((result.stderr.count("error:"), digest(self.out)), (4, before))
+        (self.out / "SHA256SUMS").unlink()
+        self.assert_renders()
+        self.assertEqual(digest(self.out), whole)
 
     def test_unfinished(self):
         shutil.rmtree(self.out)
         self.assert_renders("--shard", "1/3")
         self.assertFalse((self.out / "SHA256SUMS").exists())
-        result = self.verify()
-        self.assertEqual(result.returncode, 1)
-        self.assertIn("not complete", result.stderr)
-        self.assertIn("is missing", result.stderr)
+        self.assert_verify_finds("not complete", "is missing")
 
     def test_no_dataset(self):
-        self.assert_refused(self.run_sonarsim("verify", "none"), "none", "there is no such folder")
-        self.assert_refused(self.run_sonarsim("verify", "out/fls"), "give the folder above")
         self.write("other/dataset.json", "{}")
-        self.assert_refused(self.run_sonarsim("verify", "other"), "dataset.json", "not sonarsim's")
+        for folder, *words in (("none", "none", "there is no such folder"), ("out/fls", "give the folder above"),
+                               ("other", "dataset.json", "not sonarsim's")):
+            self.assert_refused(self.run_sonarsim("verify", folder), *words)
         good = (self.out / "SHA256SUMS").read_text()
         for line in ("nonsense", "0" * 64 + "  ../mission.yaml", "0" * 64 + "  /etc/passwd", "0" * 63):
             with self.subTest(line=line):
                 self.write("out/SHA256SUMS", line + "\n" + good)
-                self.assert_refused(self.verify(), "SHA256SUMS:1", "remove SHA256SUMS")
+                self.assert_refused(self.run_sonarsim("verify", "out"), "SHA256SUMS:1", "remove SHA256SUMS")
         self.edit("out/dataset.json", '"format_version": 3', '"format_version": 2')
-        self.assert_refused(self.verify(), "format_version 2")
+        self.assert_refused(self.run_sonarsim("verify", "out"), "format_version 2")
 
     def test_a_byte_of_any_file(self):
         """A byte that was flipped, an end that was cut off and a file that was removed are found, in every kind of
@@ -110,24 +90,21 @@ class Verify(Sandbox):
                                  ("cut", data[:draw.choice((place, len(data) - 1))]), ("removed", None)):
                 with self.subTest(file=path.relative_to(self.out), what=what, place=place):
                     path.unlink() if spoilt is None else path.write_bytes(spoilt)
-                    result = self.verify("-j1")
+                    result = self.run_sonarsim("verify", "out", "-j1")
                     path.write_bytes(data)
                     self.assertIn(result.returncode, (1, 2), result.stderr)
                     self.assertIn("error:", result.stderr)
-        self.assertEqual(self.verify().returncode, 0)
+        self.succeeds("verify", "out")
 
     def test_variants(self):
-        self.add(VARIANTS)
+        self.add("variants: 2\nvary: [{key: water.sound_speed_m_s, uniform: [1470, 1490]}]\n")
         shutil.rmtree(self.out)
         self.assert_renders()
-        self.assertEqual(self.verify().returncode, 0)
+        self.succeeds("verify", "out")
         self.write("out/variant_0000/fls/polar/000000.npy", "spoilt")
         shutil.rmtree(self.out / "variant_0001")
         self.write("out/variant_0000/notes.txt", "mine")
-        result = self.verify("--json")
-        self.assertEqual(result.returncode, 1, result.stderr)
-        self.assertIn("variant_0001: is missing", result.stderr)
-        self.assertIn("fls/polar/000000.npy: its bytes differ", result.stderr)
+        result = self.assert_verify_finds("variant_0001: is missing", "fls/polar/000000.npy: its bytes differ", more=("--json",))
         self.assertEqual(json.loads(result.stdout)["unknown_files"], ["variant_0000/notes.txt"])
 
 

@@ -88,21 +88,19 @@ class Browser:
 
     def wait_for(self, script):
         """Until the JavaScript returns something true, which is returned."""
-        for _ in range(600):
-            value = self.run(script)
-            if value:
-                return value
-            time.sleep(0.05)
-        raise AssertionError(f"never true: {script}")
+        return self._until(lambda: self.run(script), script)
 
     def wait_for_complaint(self):
         """The warnings and errors on the console, once there is one."""
-        for _ in range(200):
-            reported = self.complaints()
-            if reported:
-                return "\n".join(reported)
+        return "\n".join(self._until(self.complaints, "a warning on the console"))
+
+    @staticmethod
+    def _until(ask, what):
+        for _ in range(600):
+            if value := ask():
+                return value
             time.sleep(0.05)
-        raise AssertionError("no warning on the console")
+        raise AssertionError(f"never came: {what}")
 
     def screenshot(self, selector):
         """What an element of the page looks like, PNG bytes."""

@@ -1,8 +1,6 @@
 """Every tool of the package with bad input ends with one sentence, and leaves nothing half."""
 import json
-import pathlib
 import shutil
-import tempfile
 import unittest
 
 import numpy as np
@@ -20,28 +18,26 @@ FULL_DISK = ("import resource, signal; resource.setrlimit(resource.RLIMIT_FSIZE,
              "signal.signal(signal.SIGXFSZ, signal.SIG_IGN)")
 
 
-class BadInput(unittest.TestCase):
+class BadInput(tool.ToolTest):
     def setUp(self):
-        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        super().setUp()
         self.source, self.out = self.folder / "in", self.folder / "out"
         self.out.mkdir()
 
     def refused(self, name, text, code=2, setup=""):
         words = [word.replace("IN", str(self.source)).replace("OUT", str(self.out)) for word in TOOLS[name][0]]
-        before = sorted(self.folder.rglob("*"))
-        tool.assert_refused(self, tool.run(name, *words, setup=setup), name, text, code)
-        self.assertEqual(sorted(self.folder.rglob("*")), before)
+        self.assert_refused(name, text, *words, code=code, setup=setup)
 
     def test_what_is_not_a_dataset(self):
         for name in TOOLS:
             self.refused(name, "in: is not a (dataset|recording)")
         self.source.mkdir()
-        for name in TOOLS:
-            self.refused(name, "in: is not a (dataset|recording)")
-        for text in ("[" * 100000, '{"format": "sonarsim dataset", "format_version": 3}'):
-            (self.source / "dataset.json").write_text(text)
+        for text, words in ((None, "in: is not a (dataset|recording)"), ("[" * 100000, "dataset.json: "),
+                            ('{"format": "sonarsim dataset", "format_version": 3}', "dataset.json: ")):
+            if text is not None:
+                (self.source / "dataset.json").write_text(text)
             for name in TOOLS:
-                self.refused(name, "dataset.json: ")
+                self.refused(name, words)
 
     def test_a_half_rendered_dataset(self):
         description = write_dataset(self.source)

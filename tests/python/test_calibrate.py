@@ -3,14 +3,12 @@ import contextlib
 import io
 import json
 import os
-import pathlib
 import subprocess
-import tempfile
 import unittest
 import unittest.mock
 
 import numpy as np
-from tool import ROOT
+from tool import ROOT, ToolTest
 from sonarsim.calibrate import command, correlations, law, noise, preset, soundings  # noqa: E402
 from sonarsim.calibrate.patches import Patches  # noqa: E402
 from sonarsim.calibrate.statistics import LogStatistics, bootstrap, sampled_correlations, sampled_statistics  # noqa: E402
@@ -213,22 +211,9 @@ class Fits(unittest.TestCase):
             preset.with_key("instrument: {receiver: {}}", "instrument.receiver.gamma", "1", "fit", "x")
 
 
-    def test_program_beside_the_package(self):
-        with tempfile.TemporaryDirectory() as name, unittest.mock.patch.dict(os.environ, {"PATH": "", "SONARSIM": ""}):
-            root = pathlib.Path(name)
-            for program, python in (("build/sonarsim", "build/python"), ("usr/bin/sonarsim", "usr/lib/sonarsim/python")):
-                (root / python / "sonarsim").mkdir(parents=True)
-                (root / program).parent.mkdir(exist_ok=True)
-                self.assertEqual(preset.program_of(root / python / "sonarsim"), "sonarsim")
-                (root / program).touch()
-                self.assertEqual(preset.program_of(root / python / "sonarsim"), str(root / program))
-
-
-class Command(unittest.TestCase):
+class Command(ToolTest):
     def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.folder = pathlib.Path(scratch.name)
+        super().setUp()
         (self.folder / "start.yaml").write_text(START)
 
     def calibrate(self, recording, start="start.yaml", *options):
@@ -238,7 +223,7 @@ class Command(unittest.TestCase):
             code = command.main([str(self.folder / recording), "--preset", start, "--out", str(self.folder / "mine.yaml"), *options])
         return code, out.getvalue()
 
-    def refused(self, sentence, values, start="start.yaml", *options):
+    def refused(self, sentence, values, *options, start="start.yaml"):
         np.save(self.folder / "pings.npy", np.asarray(values))
         (self.folder / "recording.yaml").write_text(RECORDING)
         code, out = self.calibrate("recording.yaml", start, *options)
@@ -246,25 +231,35 @@ class Command(unittest.TestCase):
         self.assertRegex(out, "^sonarsim calibrate: [^\n]*" + sentence + "[^\n]*\n$")
         self.assertFalse((self.folder / "mine.yaml").exists())
 
+    def test_program_beside_the_package(self):
+        with unittest.mock.patch.dict(os.environ, {"PATH": "", "SONARSIM": ""}):
+            for program, python in (("build/sonarsim", "build/python"), ("usr/bin/sonarsim", "usr/lib/sonarsim/python")):
+                package, program = self.folder / python / "sonarsim", self.folder / program
+                package.mkdir(parents=True)
+                program.parent.mkdir(exist_ok=True)
+                self.assertEqual(preset.program_of(package), "sonarsim")
+                program.touch()
+                self.assertEqual(preset.program_of(package), str(program))
+
     def test_what_is_refused(self):
         pings = recording_of(noise_of(np.random.default_rng(1))).values.astype(np.uint8)
-        self.refused("1 ping: a part is fitted", pings[:1])
-        self.refused("it is empty", 0 * pings)
-        self.refused("96% of the values are 0: record with more gain", pings * (np.arange(BEAMS) < 4))
-        self.refused("saturated", np.maximum(pings, 255 * (np.arange(BEAMS) < 24)).astype(np.uint8))
         row, beam = np.meshgrid(np.arange(RANGES), np.arange(BEAMS), indexing="ij")
         light = 120.0 + 60.0 * np.sin(0.05 * row) * np.cos(0.08 * beam)
         light = light + np.random.default_rng(2).uniform(-2.0, 2.0, (2, RANGES, BEAMS))
-        self.refused("photograph", light.astype(np.uint8))
-        self.refused("no preset of this name came with the program; there are: aris_3000", pings, "nobody")
-        self.refused("of another kind", pings, "sidescan_400khz")
-        self.refused("--judge", pings, "start.yaml", "--judge", "1")
-        self.refused("only keys of the water", pings, "start.yaml", "--set", "name=x")
-        for name, text, why in (("paper.yaml", "kind: imaging\n", "nothing to calibrate"), ("list.yaml", "[1]", "not a preset"),
-                                ("bad.yaml", "a: [", "not a preset"), ("unknown.yaml", START + "    lustre: 1\n", "lustre"),
-                                ("flow.yaml", START.replace("\n    mode: ping", " {mode: ping}") + "  pulse: {}\n", "own")):
-            (self.folder / name).write_text(text)
-            self.refused(why, pings, name)
+        for why, values in (("1 ping: a part is fitted", pings[:1]), ("it is empty", 0 * pings),
+                            ("96% of the values are 0: record with more gain", pings * (np.arange(BEAMS) < 4)),
+                            ("saturated", np.maximum(pings, 255 * (np.arange(BEAMS) < 24)).astype(np.uint8)),
+                            ("photograph", light.astype(np.uint8))):
+            self.refused(why, values)
+        self.refused("no preset of this name came with the program; there are: aris_3000", pings, start="nobody")
+        self.refused("of another kind", pings, start="sidescan_400khz")
+        self.refused("--judge", pings, "--judge", "1")
+        self.refused("only keys of the water", pings, "--set", "name=x")
+        for text, why in (("kind: imaging\n", "nothing to calibrate"), ("[1]", "not a preset"), ("a: [", "not a preset"),
+                          (START + "    lustre: 1\n", "lustre"),
+                          (START.replace("\n    mode: ping", " {mode: ping}") + "  pulse: {}\n", "own")):
+            (self.folder / "other.yaml").write_text(text)
+            self.refused(why, pings, start="other.yaml")
 
     def test_a_dataset_gives_its_instrument_back(self):
         (self.folder / "plate.obj").write_text("v 3 -3 -1\nv 4 -3 -1\nv 4 3 -1\nv 3 3 -1\nf 1 2 3\nf 1 3 4\n")

@@ -1,7 +1,5 @@
 """The figures of a comparison against closed forms, its verdict on drawn recordings, and its command."""
 import json
-import pathlib
-import tempfile
 import unittest
 import warnings
 
@@ -170,29 +168,25 @@ class ComparisonTest(unittest.TestCase):
         self.assertTrue(relative.is_relative and relative.is_same)
 
 
-class CommandTest(unittest.TestCase):
+class CommandTest(tool.ToolTest):
     def test_command(self):
-        with tempfile.TemporaryDirectory() as name:
-            folder = pathlib.Path(name)
-            for k in (1, 2):
-                (folder / str(k)).mkdir()
-                np.save(folder / str(k) / "pings.npy", drawn(k).values)
-                (folder / str(k) / "recording.yaml").write_text(
-                    "kind: imaging\nfiles: pings.npy\nlaw: {kind: power, full_value: 1}\nsound_speed_m_s: 1500\n"
-                    "first_range_m: 1\nrange_step_m: 0.01\nbearing_last_deg: 30\nrate_hz: 1\n")
-            out = folder / "out"
-            done = tool.run("compare", folder / "1", folder / "2", "--out", out)
-            self.assertEqual((done.returncode, done.stderr), (0, ""))
-            self.assertIn("figures agree", done.stdout)
-            self.assertEqual(sorted(one.name for one in out.iterdir()), ["compare.json"])
-            printed = json.loads(tool.run("compare", folder / "1", folder / "2", "--json").stdout)
-            self.assertEqual(printed, json.loads((out / "compare.json").read_text()))
-            (folder / "file").write_text("")
-            for words, what in ((("--out", out), "holds a comparison already"), (("--pings", "0"), "must be 1 or more")):
-                tool.assert_refused(self, tool.run("compare", folder / "1", folder / "2", *words), "compare", what)
-            tool.assert_refused(self, tool.run("compare", folder / "1", folder / "file"), "compare", "needs keys")
-            tool.assert_refused(self, tool.run("compare", folder / "1", folder / "2", "--out", folder / "file" / "a"),
-                                "compare", "Not a directory", 1)
+        pair = [self.folder / str(k) for k in (1, 2)]
+        for k, folder in enumerate(pair, 1):
+            folder.mkdir()
+            np.save(folder / "pings.npy", drawn(k).values)
+            (folder / "recording.yaml").write_text(
+                "kind: imaging\nfiles: pings.npy\nlaw: {kind: power, full_value: 1}\nsound_speed_m_s: 1500\n"
+                "first_range_m: 1\nrange_step_m: 0.01\nbearing_last_deg: 30\nrate_hz: 1\n")
+        out = self.folder / "out"
+        self.assertIn("figures agree", self.succeeds("compare", *pair, "--out", out))
+        self.assertEqual([one.name for one in out.iterdir()], ["compare.json"])
+        printed = json.loads(self.succeeds("compare", *pair, "--json"))
+        self.assertEqual(printed, json.loads((out / "compare.json").read_text()))
+        (self.folder / "file").write_text("")
+        for words, what, code in (((*pair, "--out", out), "holds a comparison already", 2), ((pair[0], self.folder / "file"),
+                                  "needs keys", 2), ((*pair, "--pings", "0"), "must be 1 or more", 2),
+                                  ((*pair, "--out", self.folder / "file/a"), "Not a directory", 1)):
+            self.assert_refused("compare", what, *words, code=code)
 
 
 if __name__ == "__main__":

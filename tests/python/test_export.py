@@ -1,36 +1,17 @@
 """`sonarsim export`: what it writes, read back by readers of its own, from a dataset that is made here."""
 import io
 import json
-import os
-import pathlib
 import tarfile
-import tempfile
 import unittest
 
 import numpy as np
 import tool
 from PIL import Image
-from tool import counts_of, disc
+from tool import counts_of, disc, mask_of
 
 WIDTH, HEIGHT, PINGS = 40, 30, 10
 ROWS, COLUMNS = 60, 24
 CLASSES = ["bottom", "mine", "tyre"]
-
-
-def mask_of(counts, width, height):
-    runs, at = [], 0
-    while at < len(counts):
-        value, shift, more = 0, 0, True
-        while more:
-            code = ord(counts[at]) - 48
-            at, more = at + 1, code & 32
-            value |= (code & 31) << shift
-            shift += 5
-            if not more and code & 16:
-                value -= 1 << shift
-        runs.append(value + (runs[-2] if len(runs) > 2 else 0))
-    flat = np.repeat(np.arange(len(runs)) % 2, runs)
-    return flat.reshape(width, height).T.astype(bool)
 
 
 def box_of(mask):
@@ -84,20 +65,17 @@ def write_dataset(folder, mission="made"):
     (folder / "dataset.json").write_text(json.dumps(description))
 
 
-class Export(unittest.TestCase):
+class Export(tool.ToolTest):
     def setUp(self):
-        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        super().setUp()
         self.out, self.dest = self.folder / "out", self.folder / "dest"
         write_dataset(self.out)
 
     def export(self, *words, dest=None):
-        result = tool.run("export", *words, dest or self.dest)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return result.stdout
+        return self.succeeds("export", *words, dest or self.dest)
 
-    def assert_refused(self, text, *words):
-        tool.assert_refused(self, tool.run("export", *words, self.dest), "export", text)
-        self.assertEqual([one.name for one in self.folder.glob("dest*")], [])
+    def refused(self, text, *words):
+        self.assert_refused("export", text, self.out, *words, self.dest)
 
     def coco(self, part="train", dest=None):
         file = json.loads(((dest or self.dest) / f"annotations/instances_{part}.json").read_text())
@@ -203,9 +181,9 @@ class Export(unittest.TestCase):
 
     def test_a_strip_that_no_part_holds(self):
         split = ("--split", "train=0.5,test=0.5", "--sensor", "sss", "--format", "yolo")
-        self.assert_refused("shows pings of several parts of the split; cut it with --tile 24x16", self.out, *split)
-        self.assert_refused("each tile of it .*cut it with --tile 24x16", self.out, *split, "--tile", "512")
-        self.assert_refused("none of 60 poses is left for 'train'", self.out, *split, "--gap", "200")
+        self.refused("shows pings of several parts of the split; cut it with --tile 24x16", *split)
+        self.refused("each tile of it .*cut it with --tile 24x16", *split, "--tile", "512")
+        self.refused("none of 60 poses is left for 'train'", *split, "--gap", "200")
 
     def test_variants_and_several_datasets(self):
         names = [f"variant_{k:04}" for k in range(5)]
@@ -224,33 +202,32 @@ class Export(unittest.TestCase):
                          [("mine", 1, PINGS), ("tyre", 1, PINGS - 1)])
 
     def test_mistakes(self):
+        coco = ("--format", "coco")
+        for words, text in (((*coco, "--sensor", "no"), "there is no 'no'; there are: fls, sss"),
+                            ((*coco, "--split", "train=0.5"), "the shares sum to 0.5"),
+                            (("--format", "voc"), "argument --format: invalid choice"), ((*coco, self.out), "is given twice")):
+            self.refused(text, *words)
         path = self.out / "dataset.json"
         sound = json.loads(path.read_text())
-        self.assert_refused("there is no 'no'; there are: fls, sss", self.out, "--format", "coco", "--sensor", "no")
-        self.assert_refused("the shares sum to 0.5", self.out, "--format", "coco", "--split", "train=0.5")
-        self.assert_refused("argument --format: invalid choice", self.out, "--format", "voc")
-        self.assert_refused("is given twice", self.out, self.out, "--format", "coco")
         for change, text in (({"labels": {}}, "has no objects; set output.labels"),
                              ({"poses": "x"}, "'poses' is 'x'"), ({"sensors": [sound["sensors"][0] | {"fan": 3}]}, "is damaged")):
             path.write_text(json.dumps(sound | change))
-            self.assert_refused(text, self.out, "--format", "coco")
+            self.refused(text, *coco)
         path.write_text(json.dumps(sound))
         facts = self.out / "fls/objects/000003.json"
         text = facts.read_text()
         for bad in ("[]", text.replace('"mask": "', '"mask": "0'), text.replace('"fan"', '"f"'), "[" * 100000):
             facts.write_text(bad)
-            self.assert_refused("000003.json: ", self.out, "--format", "yolo")
+            self.refused("000003.json: ", "--format", "yolo")
         facts.write_text(text)
         fan = self.out / "fls/fan/000000.png"
         fan.rename(self.folder / "secret.png")
         fan.symlink_to(self.folder / "secret.png")
-        self.assert_refused("000000.png: is missing, or lies behind a link", self.out, "--format", "yolo")
-
-    def test_a_folder_that_holds_something(self):
+        self.refused("000000.png: is missing, or lies behind a link", "--format", "yolo")
+        (self.folder / "secret.png").replace(fan)
         self.dest.mkdir()
         (self.dest / "mine.txt").write_text("")
-        tool.assert_refused(self, tool.run("export", self.out, "--format", "coco", self.dest), "export", "holds something")
-        self.assertEqual(os.listdir(self.dest), ["mine.txt"])
+        self.refused("holds something", *coco)
 
 
 if __name__ == "__main__":

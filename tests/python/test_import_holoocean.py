@@ -2,13 +2,11 @@
 counterpart is named with its path in the scenario."""
 import json
 import os
-import pathlib
 import re
 import subprocess
-import tempfile
 import unittest
 
-from tool import ROOT
+from tool import ROOT, ToolTest
 from sonarsim import import_holoocean
 
 SENSORS = [
@@ -43,20 +41,17 @@ KINDS = {"imaging": ("ImagingSonar", "RaycastImagingSonar", "GPUImagingSonar"),
                          "GPUSinglebeamSonar")}
 
 
-class HoloOcean(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class HoloOcean(ToolTest):
     def program(self, *words):
         return subprocess.run([os.environ["SONARSIM"], *words], cwd=self.folder, text=True, capture_output=True, timeout=60)
 
-    def run_import(self, scenario, *more):
+    def run_import(self, scenario, *more, code=0):
         text = scenario if isinstance(scenario, str) else json.dumps(scenario)
         (self.folder / "scenario.json").write_text(text)
-        return self.program("import-holoocean", "scenario.json", "--scene", str(ROOT / "scenes/tank.glb"), "--materials",
-                            str(ROOT / "scenes/materials.csv"), *more)
+        result = self.program("import-holoocean", "scenario.json", "--scene", str(ROOT / "scenes/tank.glb"), "--materials",
+                              str(ROOT / "scenes/materials.csv"), *more)
+        self.assertEqual((result.returncode, "Traceback" in result.stderr), (code, False), text + result.stderr)
+        return result
 
     def validated(self, mission):
         (self.folder / "imported.yaml").write_text(mission)
@@ -66,7 +61,6 @@ class HoloOcean(unittest.TestCase):
 
     def test_the_mission_says_what_the_scenario_says(self):
         result = self.run_import(SCENARIO, "--out", "mission.yaml")
-        self.assertEqual(result.returncode, 0, result.stderr)
         text = (self.folder / "mission.yaml").read_text()
         for line in ('name: "Dam_Hovering"', "  density_kg_m3: 1025", '    kind: "imaging"', "    every: 2",
                      "      translation_m: [0.1, 0, 0]", "      rpy_deg: [0, 10, 0]", "    azimuth_deg: 60",
@@ -81,8 +75,8 @@ class HoloOcean(unittest.TestCase):
                          "agents[0].sensors[1]: 'InitOctreeRange' has no counterpart", "where its socket sits"):
             self.assertIn(reported, result.stderr)
         self.assertEqual(len(self.validated(text)["sensors"]), 4)
-        again = self.run_import(SCENARIO, "--out", "mission.yaml")
-        self.assertEqual((again.returncode, again.stdout), (2, ""))
+        again = self.run_import(SCENARIO, "--out", "mission.yaml", code=2)
+        self.assertEqual(again.stdout, "")
         self.assertIn("mission.yaml is there already", again.stderr)
         self.assertEqual((self.folder / "mission.yaml").read_text(), text)
         self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["imported.yaml", "mission.yaml", "scenario.json"])
@@ -93,7 +87,6 @@ class HoloOcean(unittest.TestCase):
                          "IgnorePlants": False}
         sensors = [{"sensor_type": one, "configuration": configuration} for types in KINDS.values() for one in types]
         result = self.run_import({"agents": [{"agent_name": "auv0", "sensors": sensors}]})
-        self.assertEqual(result.returncode, 0, result.stderr)
         for kind, types in KINDS.items():
             for sonar in types:
                 self.assertRegex(result.stdout, rf'\n  {sonar}:\n    kind: "{kind}"\n')
@@ -108,7 +101,6 @@ class HoloOcean(unittest.TestCase):
         sensors = [{"sensor_type": "ImagingSonar", "sensor_name": name, "location": [k, 0, 0], "Hz": 8 if k else 20}
                    for k, name in enumerate(names)] + [{"sensor_type": "QuantumSonar"}]
         result = self.run_import({"agents": [{"sensors": sensors}, {"agent_name": "other"}]})
-        self.assertEqual(result.returncode, 0, result.stderr)
         found = re.findall(r"  (\w+):\n    kind: .*\n    mount:\n      translation_m: \[(\d)", result.stdout)
         self.assertEqual(found, [("fls", "0"), ("fls_2", "1"), ("fls_2_2", "2"), ("fls_3", "3"), ("fls_2_3", "4")])
         self.assertIn("8 Hz become 6.667 Hz", result.stderr)
@@ -121,16 +113,14 @@ class HoloOcean(unittest.TestCase):
         for right, wrong, message in WRONG:
             with self.subTest(wrong=wrong):
                 self.assertIn(right, sound)
-                result = self.run_import(sound.replace(right, wrong), "--out", "mission.yaml")
-                self.assertEqual((result.returncode, result.stdout), (2, ""))
+                result = self.run_import(sound.replace(right, wrong), "--out", "mission.yaml", code=2)
+                self.assertEqual(result.stdout, "")
                 self.assertIn(message, result.stderr)
-                self.assertNotIn("Traceback", result.stderr)
                 self.assertEqual([p.name for p in self.folder.iterdir()], ["scenario.json"])
         for text in ("", "[]", "{}", "[" * 100000, '{"agents": 7}', '{"agents": [7]}', '{"agents": [{"sensors": [7]}]}',
                      '{"agents": [{"sensors": [{"sensor_type": "ImagingSonar", "configuration": [1]}]}]}', "\0", "NaN",
                      '{"agents": [{"sensors": [{"sensor_type": "ImagingSonar", "location": [NaN, 0, true]}]}]}'):
-            result = self.run_import(text)
-            self.assertEqual((result.returncode, "Traceback" in result.stderr), (2, False), text + result.stderr)
+            self.run_import(text, code=2)
 
     def test_every_parameter_is_in_the_page(self):
         page = (ROOT / "docs/holoocean.md").read_text()

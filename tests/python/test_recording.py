@@ -1,15 +1,13 @@
 """Recordings: arrays, and a file of each instrument's format, made here from its published layout: whole, cut off
 everywhere, and with hostile numbers."""
 import json
-import pathlib
 import random
 import struct
-import tempfile
 import unittest
 import warnings
 
 import numpy as np
-import tool  # noqa: F401: the path of the package
+import tool
 from sonarsim.recording import Law, RecordingError, open_recording  # noqa: E402
 
 ARRAYS = ("kind: imaging\nfiles: pings.npy\nlaw: {kind: gamma, exponent: 0.5}\nsound_speed_m_s: 1490\n"
@@ -117,36 +115,31 @@ FORMATS = {
 }
 
 
-class RecordingTest(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.path = pathlib.Path(self.folder.name)
-
+class RecordingTest(tool.ToolTest):
     def opened(self, yaml, pings=None, **files):
         for name, content in files.items():
-            (self.path / name).write_bytes(content)
-        (self.path / "recording.yaml").write_text(yaml)
-        return open_recording(self.path, pings=pings)
+            (self.folder / name).write_bytes(content)
+        (self.folder / "recording.yaml").write_text(yaml)
+        return open_recording(self.folder, pings=pings)
 
     def fault(self, yaml, **files):
         with self.assertRaises(RecordingError) as caught:
             self.opened(yaml, **files)
         text = str(caught.exception)
-        self.assertIn(str(self.path), text)
+        self.assertIn(str(self.folder), text)
         self.assertNotIn("\n", text)
         return text
 
     def test_arrays(self):
-        np.save(self.path / "pings.npy", np.arange(24, dtype=np.float32).reshape(2, 3, 4))
+        np.save(self.folder / "pings.npy", np.arange(24, dtype=np.float32).reshape(2, 3, 4))
         recording = self.opened(ARRAYS + "rate_hz: 5\nbearing_first_deg: -30\nbearing_last_deg: 30\nspread: sine\n"
                                 "frequency_hz: 2.1e6\npitch_deg: 20\n")
         self.assertEqual(recording.values.shape, (2, 3, 4))
         np.testing.assert_allclose(np.sin(recording.bearing_rad), [-1 / 2, -1 / 6, 1 / 6, 1 / 2])
         np.testing.assert_allclose(recording.ranges_m, [0.5, 0.6, 0.7])
-        self.assertEqual(len(open_recording(self.path / "recording.yaml", pings=1)), 1)
+        self.assertEqual(len(open_recording(self.folder / "recording.yaml", pings=1)), 1)
         # A side-scan's row 0 1 2 | 3 4 5 is port 2, 1, 0 from nadir on, starboard 3, 4, 5.
-        np.save(self.path / "pings.npy", np.arange(12, dtype=np.uint16).reshape(2, 6))
+        np.save(self.folder / "pings.npy", np.arange(12, dtype=np.uint16).reshape(2, 6))
         recording = self.opened(ARRAYS.replace("imaging", "sidescan"))
         np.testing.assert_array_equal(recording.values[0], [[2, 3], [1, 4], [0, 5]])
 
@@ -154,20 +147,20 @@ class RecordingTest(unittest.TestCase):
         from PIL import Image
         for dtype in (np.uint8, np.uint16):
             grey = (np.arange(12).reshape(3, 4) * (np.iinfo(dtype).max // 12)).astype(dtype)
-            Image.fromarray(grey).save(self.path / "a.png")
+            Image.fromarray(grey).save(self.folder / "a.png")
             recording = self.opened(ARRAYS.replace("pings.npy", "a.png"))
             np.testing.assert_array_equal(recording.values[0], grey)
-        whole = (self.path / "a.png").read_bytes()
+        whole = (self.folder / "a.png").read_bytes()
         for length in (4, 9, 30, len(whole) // 2):
             self.fault(ARRAYS.replace("pings.npy", "a.png"), **{"a.png": whole[:length]})
-        Image.fromarray(np.zeros((3, 4, 3), np.uint8)).save(self.path / "a.png")
+        Image.fromarray(np.zeros((3, 4, 3), np.uint8)).save(self.folder / "a.png")
         self.assertIn("in colours", self.fault(ARRAYS.replace("pings.npy", "a.png")))
 
     def test_soundings(self):
         for name, value in (("range", 10.0), ("angle", 0.1), ("level", 5.0)):
             array = np.full((2, 3), value, np.float32)
             array[1, 2] = np.nan if name == "angle" else value
-            np.save(self.path / f"{name}.npy", array)
+            np.save(self.folder / f"{name}.npy", array)
         recording = self.opened("kind: soundings\nlaw: {kind: power, full_value: 0}\nsound_speed_m_s: 1500\nrate_hz: 1\n"
                                 "soundings: {range_m: range.npy, angle_rad: angle.npy, intensity: level.npy}\n")
         self.assertEqual(np.isfinite(recording.soundings.range_m).sum(axis=1).tolist(), [3, 2])
@@ -243,18 +236,18 @@ class RecordingTest(unittest.TestCase):
         """Any four bytes may be anything: one sentence or a recording, and no great memory."""
         draws = random.Random(1)
         for name, (yaml, content, _) in FORMATS.items():
-            (self.path / "recording.yaml").write_text(yaml)
+            (self.folder / "recording.yaml").write_text(yaml)
             headers = [k for k in range(0, len(content) - 4, 2) if any(content[k:k + 4])]
             for _ in range(150):
                 damaged = bytearray(content)
                 at = draws.choice(headers)
                 damaged[at:at + 4] = draws.choice([b"\xff\xff\xff\xff", b"\xff\xff\xff\x7f", b"\0\0\0\0", b"\xff\xff\0\0",
                                                    draws.randbytes(4)])
-                (self.path / "FILE").write_bytes(damaged)
+                (self.folder / "FILE").write_bytes(damaged)
                 with self.subTest(name, at=at), warnings.catch_warnings():
                     warnings.simplefilter("ignore", RuntimeWarning)
                     try:
-                        self.assertLess(open_recording(self.path).law.range_db, 1e3)
+                        self.assertLess(open_recording(self.folder).law.range_db, 1e3)
                     except RecordingError as fault:
                         self.assertNotIn("\n", str(fault))
 
@@ -270,21 +263,21 @@ class RecordingTest(unittest.TestCase):
             self.fault(ARRAYS, **{"pings.npy": npy(header) + bytes(8)})
         for content in (b"", b"\x93NUM", b"\x93NUMPY\1\0\xff\xff", b"PK\3\4" + bytes(90)):
             self.fault(ARRAYS, **{"pings.npy": content})
-        np.save(self.path / "pings.npy", np.full((3, 4), -1.0))
+        np.save(self.folder / "pings.npy", np.full((3, 4), -1.0))
         self.assertIn("negative", self.fault(ARRAYS))
 
     def dataset(self, kind, arrays, resolved="", **more):
         """A dataset of two pings, 3 ranges and 2 beams."""
         for name, array in arrays.items():
-            (self.path / name).parent.mkdir(parents=True, exist_ok=True)
-            np.save(self.path / name, np.asarray(array, np.float32))
+            (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
+            np.save(self.folder / name, np.asarray(array, np.float32))
         sensor = {"name": "s", "kind": kind, "every": 1, "pings": 2, "full_scale": 4.0, "files": {},
                   "range_edges_m": [1.0, 2.0, 3.0, 4.0], "azimuth_edges_rad": [-0.2, 0.0, 0.2], **more}
-        (self.path / "dataset.json").write_text(json.dumps({
+        (self.folder / "dataset.json").write_text(json.dumps({
             "format": "sonarsim dataset", "format_version": 3, "complete": True, "sensors": [sensor]}))
-        (self.path / "mission.resolved.yaml").write_text(
+        (self.folder / "mission.resolved.yaml").write_text(
             f"water: {{sound_speed_m_s: 1480}}\nsensors:\n  s: {{instrument: {{{resolved}}}}}\n")
-        return open_recording(self.path)
+        return open_recording(self.folder)
 
     def test_datasets(self):
         image = np.arange(6.0).reshape(3, 2)
@@ -313,12 +306,12 @@ class RecordingTest(unittest.TestCase):
                            ({"files": {"polar": "../%06d.npy"}}, "not a name that"), ({"kind": "sidescan"}, "no records")):
             with self.subTest(what), self.assertRaisesRegex(RecordingError, what):
                 self.dataset(more.pop("kind", "imaging"), polar, **{**files, **more})
-        (self.path / "s/polar/000001.npy").write_bytes(b"\x93NUMPY\1\0")
+        (self.folder / "s/polar/000001.npy").write_bytes(b"\x93NUMPY\1\0")
         with self.assertRaisesRegex(RecordingError, "ping 1"):
             self.dataset("imaging", {}, **files)
 
     def test_recording_yaml(self):
-        np.save(self.path / "pings.npy", np.ones((2, 3, 4), np.float32))
+        np.save(self.folder / "pings.npy", np.ones((2, 3, 4), np.float32))
         for yaml, what in (
                 (ARRAYS + "rate: 5\n", "unknown key 'rate'; did you mean rate_hz"), ("kind: imaging\n", "one of the keys files"),
                 (ARRAYS.replace("imaging", "photo"), "one of imaging, sidescan"), (ARRAYS + "xtf: a\n", "files and xtf"),
@@ -331,8 +324,8 @@ class RecordingTest(unittest.TestCase):
                 ("kind: imaging\nlogs: pings.npy\nsound_speed_m_s: 1\n", "number from 300 to 10000")):
             self.assertIn(what, self.fault(yaml), yaml)
         with self.assertRaisesRegex(RecordingError, "neither recording.yaml"):
-            (self.path / "recording.yaml").unlink()
-            open_recording(self.path)
+            (self.folder / "recording.yaml").unlink()
+            open_recording(self.folder)
 
     def test_laws(self):
         np.testing.assert_allclose(Law("amplitude").powers([0, 127.5, 255]), [0, 0.25, 1])

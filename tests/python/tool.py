@@ -3,6 +3,8 @@ import os
 import pathlib
 import subprocess
 import sys
+import tempfile
+import unittest
 
 import numpy as np
 
@@ -19,10 +21,25 @@ def run(name, *words, setup=""):
                           env={**os.environ, "PYTHONPATH": str(PACKAGE)})
 
 
-def assert_refused(test, result, name, text, code=2):
-    """One sentence, and the exit code."""
-    test.assertEqual((result.returncode, result.stdout), (code, ""), result.stderr)
-    test.assertRegex(result.stderr, f"^sonarsim {name}: [^\n]*{text}[^\n]*\n$")
+class ToolTest(unittest.TestCase):
+    """With an empty folder of its own."""
+
+    def setUp(self):
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(prefix="sonarsim-")))
+
+    def succeeds(self, name, *words):
+        """What it prints; it has nothing to warn of."""
+        result = run(name, *words)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        return result.stdout
+
+    def assert_refused(self, name, text, *words, code=2, setup=""):
+        """One sentence, the exit code, and nothing written."""
+        before = sorted(self.folder.rglob("*"))
+        result = run(name, *words, setup=setup)
+        self.assertEqual((result.returncode, result.stdout), (code, ""), result.stderr)
+        self.assertRegex(result.stderr, f"^sonarsim {name}: [^\n]*{text}[^\n]*\n$")
+        self.assertEqual(sorted(self.folder.rglob("*")), before)
 
 
 def disc(width, height, x, y, radius):
@@ -43,3 +60,21 @@ def counts_of(mask):
             more = value != (-1 if low & 16 else 0)
             text += chr(48 + (low | 32 * more))
     return text
+
+
+def mask_of(counts, width, height):
+    """The mask [row, column] of such a text."""
+    runs, at = [], 0
+    while at < len(counts):
+        value, shift, more = 0, 0, True
+        while more:
+            code = ord(counts[at]) - 48
+            at, more = at + 1, code & 32
+            value |= (code & 31) << shift
+            shift += 5
+            if not more and code & 16:
+                value -= 1 << shift
+        runs.append(value + (runs[-2] if len(runs) > 2 else 0))
+    assert sum(runs) == width * height and min(runs[1:], default=1) > 0, counts
+    flat = np.repeat(np.arange(len(runs)) % 2, runs)
+    return flat.reshape(width, height).T.astype(bool)
