@@ -18,9 +18,9 @@ namespace {
 constexpr double channel_sine = 0.018;
 
 // Directions in a cone lie on rings, those of other views in rows of elevation.
-constexpr int rings = 192;
-constexpr int ring_turns = 16;
-constexpr double max_step_rad = radians(0.5);
+constexpr int rings = 128;
+constexpr int ring_turns = 8;
+constexpr double row_rad = radians(1.0);
 constexpr int min_steps = 16;
 
 int steps_over(double extent, double step) {
@@ -55,7 +55,7 @@ EqualDirections traced_directions(const View& view, const GuardBeams& guard_beam
     const double first = cone ? half.cos : -half.sin;
     const double last = cone ? 1.0 : half.sin;
     const double turn = cone ? 2.0 * pi : std::min(wide.azimuth_rad, 2.0 * pi);
-    const int rows = cone ? rings : steps_over(wide.elevation_rad, max_step_rad);
+    const int rows = cone ? rings : steps_over(wide.elevation_rad, row_rad);
     const int columns = cone ? ring_turns : steps_over(turn, step_rad);
     const GuardedField field(view, guard_beams);
     EqualDirections out{.all = {},
@@ -90,7 +90,7 @@ std::optional<WaterColumn> water_column(const WaterConfig& water, double frequen
              .bottom_m = static_cast<float>(layer.depth_m[1]),
              .strength = static_cast<float>(power_of_db(layer.scattering_db_per_m3))});
     }
-    double step_rad = max_step_rad;
+    double step_rad = 0.5 * row_rad;
     if (const auto* const fan = std::get_if<ArrayBeams>(&beams)) {
         const double sine = fan->amplitudes.grid().step;
         out.joined_columns = std::max(static_cast<int>(channel_sine / sine), 1);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <span>
 #include <vector>
@@ -15,20 +14,17 @@ namespace sonarsim {
 
 namespace {
 
-constexpr float endless_m = std::numeric_limits<float>::infinity();
 // The depth of a sonar in water without a surface, m.
 constexpr float deep_m = 1e9F;
 // The range at which a transducer is in its far field, m.
 constexpr float far_m = 1e6F;
 
-/// The stretch of a ray, [from, to], on which its depth lies between two depths. `fall`: its gain
-/// in depth per metre.
-std::array<float, 2> stretch_between(float depth_m, float fall, float top_m, float bottom_m) {
-    const bool inside = depth_m >= top_m && depth_m < bottom_m;
-    if (std::fabs(fall) < 1e-6F) return {0.0F, inside ? endless_m : 0.0F};
-    const float a = (top_m - depth_m) / fall;
-    const float b = (bottom_m - depth_m) / fall;
-    return {std::max(std::min(a, b), 0.0F), std::max(std::max(a, b), 0.0F)};
+/// The stretch of a ray, [from, to], on which its depth lies between two depths. `per_depth`: its
+/// length per metre of depth.
+std::array<float, 2> stretch_between(float depth_m, float per_depth, float top_m, float bottom_m) {
+    const float a = (top_m - depth_m) * per_depth;
+    const float b = (bottom_m - depth_m) * per_depth;
+    return {std::max(std::min(a, b), 0.0F), std::max(a, b)};
 }
 
 /// The scattering that each channel receives: of all directions less that behind surface.
@@ -111,10 +107,13 @@ class ReceivedWater {
     /// Adds the water of a solid angle about a direction, from a range on.
     void add(const Eigen::Vector3f& direction, float from_m, float angle_sr) {
         const float fall = down_.dot(direction);
+        // A level ray is taken to fall a little.
+        const float per_depth = 1.0F / (std::fabs(fall) < 1e-6F ? 1e-6F : fall);
         const float weighted_sr = angle_sr * model_.equation.elevation.at(direction.z());
         const std::array<ChannelShare, 2> shares = shares_of(direction);
         for (const WaterColumn::Layer& layer : model_.water->layers) {
-            const auto [begin, end] = stretch_between(depth_m_, fall, layer.top_m, layer.bottom_m);
+            const auto [begin, end] =
+                stretch_between(depth_m_, per_depth, layer.top_m, layer.bottom_m);
             if (!(end > from_m)) continue;
             for (const auto& [channel, share] : shares) {
                 const float value = share * weighted_sr * layer.strength;
