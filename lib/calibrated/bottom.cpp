@@ -8,6 +8,22 @@
 
 namespace sonarsim {
 
+namespace {
+
+/// Scattering::sea_beds of materials.
+std::vector<float> tables_of(std::span<const Backscatter> materials) {
+    std::vector<float> out;
+    for (const Backscatter& material : materials) {
+        for (std::size_t k = 0; k < AngularTable::size; ++k) {
+            const bool tabled = !material.diffuse.empty();
+            out.push_back(tabled ? material.diffuse[k] + material.specular[k] : 0.0F);
+        }
+    }
+    return out;
+}
+
+}  // namespace
+
 std::vector<float> slopes_of(std::span<const Material> materials) {
     std::vector<float> out;
     for (const Material& material : materials)
@@ -52,14 +68,13 @@ Scattering scattering_of(std::span<const Material> materials, double frequency_h
                 backscatter(material.lambert_db, material.reflection, facet_slope(material)));
         }
     }
-    if (std::ranges::none_of(materials, is_sea_bed)) return out;
-    for (const Backscatter& material : out.materials) {
-        for (std::size_t k = 0; k < AngularTable::size; ++k) {
-            const bool tabled = !material.diffuse.empty();
-            out.sea_beds.push_back(tabled ? material.diffuse[k] + material.specular[k] : 0.0F);
-        }
-    }
+    if (std::ranges::any_of(materials, is_sea_bed)) out.sea_beds = tables_of(out.materials);
     return out;
+}
+
+void append(const Backscatter& tabled, Scattering& scattering) {
+    scattering.materials.push_back(tabled);
+    scattering.sea_beds = tables_of(scattering.materials);
 }
 
 }  // namespace sonarsim

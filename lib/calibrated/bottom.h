@@ -66,6 +66,9 @@ struct Scattering {
 Scattering scattering_of(std::span<const Material> materials, double frequency_hz,
                          const Water& water);
 
+/// Appends a material with tables.
+void append(const Backscatter& tabled, Scattering& scattering);
+
 /// The RMS slopes of the materials' facets: tangents, by material.
 std::vector<float> slopes_of(std::span<const Material> materials);
 

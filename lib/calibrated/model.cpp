@@ -196,8 +196,8 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
                       .elevation = elevation_pattern(radians(beam.elevation_width_deg),
                                                      beam.elevation_side_lobe_db, beam.elements)};
     model.water =
-        water_column(water_of(water, instrument), instrument.frequency_hz,
-                     widened_view(view, model.info.guard_beams), model.beams, model.equation);
+        water_column(water_of(water, instrument), instrument.frequency_hz, view,
+                     model.info.guard_beams, model.beams, model.equation);
     model.cells = scatterer_cells(std::max(resolution_m, 0.5 * bin_m), radians(beam.width_deg),
                                   view.range_min_m, model.wavelength_m);
     model.target_cells =

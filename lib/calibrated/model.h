@@ -16,7 +16,6 @@
 #include "calibrated/target_scatterers.h"
 #include "calibrated/transducer_beams.h"
 #include "calibrated/water_column.h"
-#include "calibrated/wind_surface.h"
 #include "core/pose.h"
 #include "mission/mission.h"
 #include "scene/scene.h"
@@ -49,11 +48,11 @@ struct CalibratedModel final : EchoModel {
     double wavelength_m = 0.0;
     double water_density_kg_m3 = 0.0;
     std::vector<Material> prepared_materials;  ///< materials of the scene of prepared()
-    Scattering scattering;                     ///< the scattering of these materials
+    std::optional<double> prepared_wind_m_s;   ///< the wind over its water, if its surface scatters
+    Scattering scattering;  ///< these materials, then the water's surface if it scatters
     /// The parts of the scattering on and below sea beds; nothing: the whole echo comes from their
     /// surface.
     std::optional<SedimentScattering> sediment;
-    WindSurface water_surface;  ///< its table, if the model was prepared for it
 
     /// True if the model has the data that depend on this scene.
     bool is_prepared_for(const Scene& scene) const;

@@ -1,16 +1,24 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "calibrated/companding.h"
 #include "calibrated/model.h"
+#include "calibrated/wind_surface.h"
 
 namespace sonarsim {
 
+namespace {
+
+std::optional<double> wind_over(const Scene& scene) {
+    return scene.water_surface ? scene.water_surface->wind_m_s : std::nullopt;
+}
+
+}  // namespace
+
 bool CalibratedModel::is_prepared_for(const Scene& scene) const {
-    const bool has_wind = scene.water_surface && scene.water_surface->wind_m_s;
-    return prepared_materials == scene.materials &&
-           (!has_wind || water_surface.wind_m_s == *scene.water_surface->wind_m_s);
+    return prepared_materials == scene.materials && prepared_wind_m_s == wind_over(scene);
 }
 
 std::shared_ptr<const CalibratedModel> CalibratedModel::prepared_for(const Scene& scene) const {
@@ -23,8 +31,9 @@ std::shared_ptr<const CalibratedModel> CalibratedModel::prepared_for(const Scene
         out->sediment = sediment_scattering(scene.materials, instrument.frequency_hz, water,
                                             equation.bin_m, out->scattering);
     }
-    if (scene.water_surface && scene.water_surface->wind_m_s)
-        out->water_surface = wind_surface(*scene.water_surface->wind_m_s, instrument.frequency_hz);
+    out->prepared_wind_m_s = wind_over(scene);
+    if (out->prepared_wind_m_s)
+        append(wind_surface(*out->prepared_wind_m_s, instrument.frequency_hz), out->scattering);
     return out;
 }
 

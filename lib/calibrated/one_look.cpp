@@ -2,6 +2,7 @@
 #include <iterator>
 
 #include "calibrated/form_look.h"
+#include "calibrated/particle_echoes.h"
 #include "calibrated/scatterer_search.h"
 #include "calibrated/speckle.h"
 #include "calibrated/specular_echoes.h"
@@ -46,10 +47,7 @@ class ImageFormer {
             add_surface(traced.samples.items, traced.targets, grid);
             add_surface(traced.outside_sector, traced.targets, grid);
             if (model_.sediment) add_sediment(traced, grid);
-            if (!traced.water_surface.empty()) {
-                add_water_surface(model_, beams_, traced.water_surface, context_, speckle_,
-                                  speckle_gain_, ping_.counts, grid);
-            }
+            add_water_surface(traced.water_surface, grid);
             if (expected_power) {
                 add_target_powers(traced.targets, grid);
                 add_particle_powers(model_, beams_, traced.particles, ping_.counts, grid);
@@ -68,8 +66,11 @@ class ImageFormer {
         // 5. The water's volume. Bins with its echo alone count as empty.
         const bool has_water = context_.terms.direct && model_.water;
         const std::size_t visible_bins = has_water ? grid.occupied() : 0;
-        if (has_water)
-            add_water_column(model_, beams_, traced, context_, expected_power, speckle_gain_, grid);
+        if (has_water) {
+            add_water(model_, traced, context_,
+                      expected_power ? PowerForm::power : PowerForm::amplitude, speckle_gain_,
+                      grid);
+        }
 
         // 3. Pulse.
         const std::size_t echo_bins =
@@ -82,14 +83,43 @@ class ImageFormer {
 
   private:
     /// Computes the echoes of a block of patches: levels, range bins and columns of the grid.
-    void find(const PatchBlock& patches) {
+    void find(const PatchBlock& patches, const Scattering& scattering) {
         ping_.counts.echoes += patches.count;
-        ping_.counts.out_of_range += apply_sonar_equation(
-            patches, model_.sediment ? model_.sediment->surface : model_.scattering,
-            model_.equation, echoes_);
+        ping_.counts.out_of_range +=
+            apply_sonar_equation(patches, scattering, model_.equation, echoes_);
         ping_.counts.out_of_range += find_columns(beams_, patches, echoes_);
+    }
+
+    /// The same for surface of the scene, with its clutter.
+    void find(const PatchBlock& patches) {
+        find(patches, model_.sediment ? model_.sediment->surface : model_.scattering);
         if (speckle_ != SpeckleMode::none)
             add_clutter(patches, model_.clutter, sonar_, clutter_draws_, echoes_);
+    }
+
+    /// Lets add(powers) add echoes whose amplitudes are drawn for each ping, even with `speckle:
+    /// scene`.
+    template <class Add>
+    void add_drawn_by_ping(PhiloxKey key, EchoGrid& grid, Add add) {
+        if (speckle_ != SpeckleMode::scene) return add(grid);
+        EchoGrid powers(grid.rows(), grid.columns());
+        add(powers);
+        draw_speckle(powers, speckle_gain_, key);
+        grid.add(powers);
+    }
+
+    /// Adds the echo of the water's surface, whose waves move from ping to ping. Its footprints are
+    /// taken for parallelograms.
+    void add_water_surface(std::span<const Sample> surface, EchoGrid& grid) {
+        if (surface.empty()) return;
+        const PhiloxKey key = context_.draws.of(stream_named("water surface"));
+        add_drawn_by_ping(key, grid, [&](EchoGrid& powers) {
+            PatchBlock block;
+            subdivide(surface, {}, model_.limits, block, [&](const PatchBlock& patches) {
+                find(patches, model_.scattering);
+                add_powers(beams_, patches, echoes_, powers);
+            });
+        });
     }
 
     /// Adds the echoes of the sediment below sea beds. Their amplitudes are drawn for each ping.
@@ -202,7 +232,7 @@ class ImageFormer {
         const std::vector<SpecularPath> paths = specular_paths(traced, context_.scene);
         if (paths.empty()) return;
         ping_.counts.echoes += 2 * paths.size();
-        const auto add_to = [&](EchoGrid& powers) {
+        add_drawn_by_ping(ping_draws_, grid, [&](EchoGrid& powers) {
             std::uint64_t outside_beams = 0;
             const std::uint64_t outside_range = find_specular_echoes(
                 paths, model_.scattering.materials, model_.equation, model_.limits,
@@ -211,12 +241,7 @@ class ImageFormer {
                     add_bistatic_powers(beams_, block.out, {block.places, block.echoes}, powers);
                 });
             ping_.counts.out_of_range += outside_range + outside_beams;
-        };
-        if (speckle_ != SpeckleMode::scene) return add_to(grid);
-        EchoGrid specular(grid.rows(), grid.columns());
-        add_to(specular);
-        draw_speckle(specular, speckle_gain_, ping_draws_);
-        grid.add(specular);
+        });
     }
 
     const CalibratedModel& model_;

@@ -113,6 +113,14 @@ ElevationPattern elevation_pattern(double width_rad, double side_lobe_db,
     return out;
 }
 
+float ElevationPattern::at(float sine) const {
+    if (power.empty()) return 1.0F;
+    const float at = std::clamp(0.5F * steps * (sine + 1.0F), 0.0F, 1.0F * steps);
+    const float whole = std::floor(at);
+    const float* const entry = power.data() + static_cast<int>(whole);
+    return std::fma(at - whole, entry[1] - entry[0], entry[0]);
+}
+
 void weigh_by_elevation(const ElevationPattern& pattern, const PatchBlock& pieces, int count,
                         PointEchoes& echoes) {
     if (pattern.power.empty()) return;

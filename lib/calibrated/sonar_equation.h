@@ -16,6 +16,8 @@ namespace sonarsim {
 struct ElevationPattern {
     static constexpr int steps = 2048;
     std::vector<float> power;  ///< steps + 2; empty: 1 all over
+
+    float at(float sine) const;
 };
 
 /// The two-way pattern is that of a line array of half-power width `width_rad`, as if only the

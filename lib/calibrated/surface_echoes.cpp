@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "calibrated/model.h"
+#include "calibrated/particle_echoes.h"
 #include "calibrated/patches.h"
 #include "calibrated/specular_echoes.h"
 #include "calibrated/target_pieces.h"
-#include "calibrated/water_echoes.h"
 #include "trace/arrivals.h"
 
 namespace sonarsim {

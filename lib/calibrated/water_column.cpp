@@ -1,8 +1,8 @@
 #include "calibrated/water_column.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
 
 #include "calibrated/decibel.h"
 #include "calibrated/levels.h"
@@ -14,8 +14,21 @@ namespace sonarsim {
 
 namespace {
 
+// Columns of a line array's grid are joined to channels of about this sine, one degree.
+constexpr double channel_sine = 0.018;
+
+// Directions in a cone lie on rings, those of other views in rows of elevation.
+constexpr int rings = 128;
+constexpr int ring_turns = 8;
+constexpr double row_rad = radians(1.0);
+constexpr int min_steps = 16;
+
+int steps_over(double extent, double step) {
+    return std::max(static_cast<int>(std::ceil(extent / step)), min_steps);
+}
+
 /// The share of a side-scan sonar's pattern along the track that its view receives, by range; 1 for
-/// other sonars, whose weights include the pattern.
+/// other sonars, whose directions are weighted by the whole pattern.
 double mean_along_track(const std::variant<TransducerBeams, ArrayBeams>& beams, const View& view,
                         double range_m) {
     const auto* const sides = std::get_if<TransducerBeams>(&beams);
@@ -30,81 +43,61 @@ double mean_along_track(const std::variant<TransducerBeams, ArrayBeams>& beams, 
     return sum / steps;
 }
 
-/// Adds a constant from one range to another to rows of differences, whose running sums are the
-/// values. A bin that a border cuts gets its share.
-class RowDifferences {
-  public:
-    RowDifferences(const WaterColumn& water, int rows)
-        : first_(water.range_min_m), per_bin_(1.0F / water.bin_m), rows_(rows) {}
-
-    void add(float from_m, float to_m, float value, float* differences) const {
-        if (!(to_m > from_m)) return;
-        add_from(from_m, value, differences);
-        add_from(to_m, -value, differences);
-    }
-
-  private:
-    void add_from(float range_m, float value, float* differences) const {
-        const float at = std::max((range_m - first_) * per_bin_, 0.0F);
-        if (at >= static_cast<float>(rows_)) return;
-        const float whole = std::floor(at);
-        const int row = static_cast<int>(whole);
-        const float later = (at - whole) * value;
-        differences[row] += value - later;
-        differences[row + 1] += later;
-    }
-
-    float first_, per_bin_;
-    int rows_;
-};
-
-/// The stretch of a ray, [from, to], on which its depth lies between two depths. `fall`: its gain
-/// in depth per metre.
-std::array<float, 2> stretch_between(float depth_m, float fall, float top_m, float bottom_m) {
-    const bool inside = depth_m >= top_m && depth_m < bottom_m;
-    if (std::fabs(fall) < 1e-6F) return {0.0F, inside ? no_end : 0.0F};
-    const float a = (top_m - depth_m) / fall;
-    const float b = (bottom_m - depth_m) / fall;
-    return {std::max(std::min(a, b), 0.0F), std::max(std::max(a, b), 0.0F)};
-}
-
-/// The two channels that a column lies between, and its share of the second one.
-struct BetweenChannels {
-    int first, second;
-    float share;
-};
-
-BetweenChannels channels_of(const SightCells& cells, const SineGrid& grid, int column) {
-    const double sine = grid.first + column * grid.step;
-    const double at = (sine - cells.middle_sine(0)) / cells.sine_step;
-    const double inside = std::clamp(at, 0.0, cells.sines - 1.0);
-    const int first = std::min(static_cast<int>(inside), cells.sines - 2);
-    return {first, first + 1, static_cast<float>(inside - first)};
-}
-
 }  // namespace
 
+EqualDirections traced_directions(const View& view, const GuardBeams& guard_beams,
+                                  double step_rad) {
+    // Equal steps of the sine to the plane across an axis, and of the turn about that axis, have
+    // equal solid angles. The axis is x in a cone, else z.
+    const bool cone = view.shape == ViewShape::cone;
+    const View wide = widened_view(view, guard_beams);
+    const SinCos half = sincos(std::min(0.5 * wide.elevation_rad, 0.5 * pi));
+    const double first = cone ? half.cos : -half.sin;
+    const double last = cone ? 1.0 : half.sin;
+    const double turn = cone ? 2.0 * pi : std::min(wide.azimuth_rad, 2.0 * pi);
+    const int rows = cone ? rings : steps_over(wide.elevation_rad, row_rad);
+    const int columns = cone ? ring_turns : steps_over(turn, step_rad);
+    const GuardedField field(view, guard_beams);
+    EqualDirections out{.all = {},
+                        .each_sr = static_cast<float>((last - first) * turn / rows / columns)};
+    for (int i = 0; i < rows; ++i) {
+        const double sine = first + (last - first) * (i + 0.5) / rows;
+        const double across = std::sqrt(1.0 - sine * sine);
+        for (int j = 0; j < columns; ++j) {
+            const SinCos at = sincos(turn * ((j + 0.5) / columns - 0.5));
+            const Eigen::Vector3d direction =
+                cone ? Eigen::Vector3d(sine, across * at.cos, across * at.sin)
+                     : Eigen::Vector3d(across * at.cos, across * at.sin, sine);
+            if (field.contains(direction.cast<float>())) out.all.push_back(direction.cast<float>());
+        }
+    }
+    return out;
+}
+
 std::optional<WaterColumn> water_column(const WaterConfig& water, double frequency_hz,
-                                        const View& view,
+                                        const View& view, const GuardBeams& guard_beams,
                                         const std::variant<TransducerBeams, ArrayBeams>& beams,
                                         const SonarEquation& equation) {
     const double strength = volume_strength(water, frequency_hz);
     if (strength == 0.0 && water.layers.empty()) return std::nullopt;
     WaterColumn out;
-    out.strength = static_cast<float>(strength);
+    if (strength > 0.0)
+        out.layers.push_back(
+            {0.0F, std::numeric_limits<float>::infinity(), static_cast<float>(strength)});
     for (const WaterLayerConfig& layer : water.layers) {
         out.layers.push_back(
             {.top_m = static_cast<float>(layer.depth_m[0]),
              .bottom_m = static_cast<float>(layer.depth_m[1]),
              .strength = static_cast<float>(power_of_db(layer.scattering_db_per_m3))});
     }
-    out.sight = std::visit(
-        [&](const auto& of_model) { return weighted_cells(of_model, view, equation.elevation); },
-        beams);
-    out.range_min_m = equation.range_min_m;
-    out.bin_m = equation.bin_m;
-    const int padded = (equation.rows + lanes - 1) / lanes * lanes;
-    out.row_power.resize(padded);
+    double step_rad = 0.5 * row_rad;
+    if (const auto* const fan = std::get_if<ArrayBeams>(&beams)) {
+        const double sine = fan->amplitudes.grid().step;
+        out.joined_columns = std::max(static_cast<int>(channel_sine / sine), 1);
+        step_rad = 0.5 * out.joined_columns * sine;
+    }
+    out.directions = traced_directions(view, guard_beams, step_rad);
+    out.row_power.resize((equation.rows + lanes - 1) / lanes * lanes);
     for (int row = 0; row < equation.rows; ++row) {
         const double range_m = equation.range_min_m + (row + 0.5) * equation.bin_m;
         const double loss = equation.loss_per_m * range_m - equation.ln_headroom;
@@ -113,58 +106,6 @@ std::optional<WaterColumn> water_column(const WaterConfig& water, double frequen
         out.row_power[row] = static_cast<float>(std::min<double>(power, max_echo));
     }
     return out;
-}
-
-std::vector<float> received_water(const WaterColumn& water, std::span<const float> ends_m,
-                                  const Pose& T_world_sensor,
-                                  const std::optional<double>& surface_z_m, int rows) {
-    // One more row, for the part of a border in the last bin that belongs to the next.
-    const std::size_t stride = static_cast<std::size_t>(rows) + 1;
-    std::vector<float> out(stride * water.sight.channels);
-    const Eigen::Matrix3f R_world_sensor = T_world_sensor.rotation.toRotationMatrix().cast<float>();
-    const float depth_m =
-        surface_z_m ? static_cast<float>(*surface_z_m - T_world_sensor.translation.z()) : 0.0F;
-    const RowDifferences differences(water, rows);
-    for (const auto& [channel, cell, weight] : water.sight.weights) {
-        float* const of_channel = out.data() + channel * stride;
-        const float fall = -R_world_sensor.row(2).dot(water.sight.cells.direction[cell]);
-        const auto [begin, surfaced] =
-            surface_z_m ? stretch_between(depth_m, fall, 0.0F, no_end) : std::array{0.0F, no_end};
-        const float end = std::min(ends_m[cell], surfaced);
-        differences.add(begin, end, weight * water.strength, of_channel);
-        for (const WaterColumn::Layer& layer : water.layers) {
-            const auto [from, to] = stretch_between(depth_m, fall, layer.top_m, layer.bottom_m);
-            differences.add(from, std::min(to, end), weight * layer.strength, of_channel);
-        }
-    }
-    for (int channel = 0; channel < water.sight.channels; ++channel) {
-        float* const of_channel = out.data() + channel * stride;
-        for (int row = 1; row < rows; ++row)
-            of_channel[row] += of_channel[row - 1];
-    }
-    return out;
-}
-
-void add_water(const WaterColumn& water, std::span<const float> received, const SineGrid* by_sine,
-               PowerForm form, float gain, PhiloxKey key, EchoGrid& grid) {
-    const std::size_t stride = static_cast<std::size_t>(grid.rows()) + 1;
-    const std::size_t rows = water.row_power.size();
-    std::vector<float> mean(rows);
-    for (int c = 0; c < grid.columns(); ++c) {
-        if (by_sine == nullptr) {
-            std::copy_n(received.data() + c * stride, grid.rows(), mean.begin());
-        } else {
-            const auto [first, second, share] = channels_of(water.sight.cells, *by_sine, c);
-            const float* const one = received.data() + first * stride;
-            const float* const other = received.data() + second * stride;
-            const auto step = static_cast<float>(by_sine->step);
-            for (int row = 0; row < grid.rows(); ++row)
-                mean[row] = step * std::fma(share, other[row] - one[row], one[row]);
-        }
-        for (std::size_t row = 0; row < rows; ++row)
-            mean[row] *= water.row_power[row];
-        add_drawn(form, mean, gain, c, key, grid);
-    }
 }
 
 }  // namespace sonarsim

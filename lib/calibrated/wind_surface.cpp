@@ -92,16 +92,13 @@ double wind_surface_section(double grazing_rad, double wind_m_s, double frequenc
                                        : high_frequency(grazing, wind_m_s, 1e-3 * frequency_hz);
 }
 
-WindSurface wind_surface(double wind_m_s, double frequency_hz) {
-    WindSurface out{.wind_m_s = wind_m_s, .scattering = {}};
-    Backscatter& surface = out.scattering.materials.emplace_back();
+Backscatter wind_surface(double wind_m_s, double frequency_hz) {
+    Backscatter out;
     for (int k = 0; k < AngularTable::size; ++k) {
-        const double section =
-            wind_surface_section(arcsin(AngularTable::sine(k)), wind_m_s, frequency_hz);
-        surface.diffuse.push_back(static_cast<float>(section));
+        out.diffuse.push_back(static_cast<float>(
+            wind_surface_section(arcsin(AngularTable::sine(k)), wind_m_s, frequency_hz)));
     }
-    surface.specular.assign(AngularTable::size, 0.0F);
-    out.scattering.sea_beds = surface.diffuse;
+    out.specular.assign(AngularTable::size, 0.0F);
     return out;
 }
 

@@ -15,11 +15,7 @@ namespace sonarsim {
 /// facets.
 double wind_surface_section(double grazing_rad, double wind_m_s, double frequency_hz);
 
-/// The same as a table.
-struct WindSurface {
-    double wind_m_s = -1.0;
-    Scattering scattering;  ///< has one material; empty: no surface
-};
-WindSurface wind_surface(double wind_m_s, double frequency_hz);
+/// The same as a material.
+Backscatter wind_surface(double wind_m_s, double frequency_hz);
 
 }  // namespace sonarsim

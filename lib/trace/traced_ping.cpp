@@ -5,7 +5,6 @@
 #include "core/clock.h"
 #include "trace/apply_maps.h"
 #include "trace/visible_water_surface.h"
-#include "trace/water_mirror.h"
 
 namespace sonarsim {
 
@@ -34,11 +33,9 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
                                         scene, engine, T_world_sensor);
         move_in_ping(motion, settings.view.shape, traced.targets.facets);
     }
-    if (settings.sees_water_surface && scene.water_surface && scene.water_surface->wind_m_s) {
-        if (const auto water = mirror_of(scene.water_surface, T_world_sensor)) {
-            traced.water_surface = visible_water_surface(
-                *water, settings.view, settings.guard_beams, engine, T_world_sensor, motion);
-        }
+    if (settings.sees_water_surface) {
+        traced.water_surface = visible_water_surface(settings.view, settings.guard_beams, scene,
+                                                     engine, T_world_sensor, motion);
     }
     traced.seconds.trace = watch.lap();
 

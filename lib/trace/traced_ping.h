@@ -38,7 +38,7 @@ struct TracedPing {
     std::vector<Sample> outside_sector;  ///< the visible surface in the guard beams
     TargetSurface targets;               ///< replaces the samples of its instances
     SeenParticles particles;
-    std::vector<Sample> water_surface;  ///< material and instance are 0
+    std::vector<Sample> water_surface;  ///< if it scatters
     std::vector<BouncePath> bounces;    ///< multipath paths from `samples`
     /// The group in which each beam transmits, and the traces of all groups after the first, whose
     /// trace is this one. Empty: all beams transmit at once.

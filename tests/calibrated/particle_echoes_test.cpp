@@ -7,7 +7,7 @@
 
 #include "calibrated/decibel.h"
 #include "calibrated/piston.h"
-#include "calibrated/water_echoes.h"
+#include "calibrated/particle_echoes.h"
 #include "core/units.h"
 #include "support/approx.h"
 #include "support/calibrated.h"

@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -43,48 +42,30 @@ double sinc4(double t) {
 }  // namespace
 
 TEST_SUITE("calibrated") {
-    TEST_CASE("water: a cell of directions holds its own middle, at any range") {
-        for (const int axis : {0, 1, 2}) {
-            SightCells cells;
-            cells.axis = axis;
-            cells.sines = 7;
-            cells.turns = 11;
-            cells.first_sine = -0.6F;
-            cells.sine_step = 0.15F;
-            cells.first_turn_rad = -1.2F;
-            cells.turn_step_rad = 0.2F;
-            SightPlaces places;
-            const auto place = [&](float sine, float turn_rad) {
-                const float across = std::sqrt(1.0F - sine * sine);
-                // The axes that the turn is measured between follow the axis, but for y.
-                const int first = axis == 1 ? 0 : (axis + 1) % 3;
-                const int second = axis == 1 ? 2 : (axis + 2) % 3;
-                std::array<float, 3> p{};
-                const float range = 1.0F + 0.3F * static_cast<float>(places.count);
-                p[axis] = range * sine;
-                p[first] = range * across * std::cos(turn_rad);
-                p[second] = range * across * std::sin(turn_rad);
-                places.x[places.count] = p[0];
-                places.y[places.count] = p[1];
-                places.z[places.count++] = p[2];
-            };
-            for (int cell = 0; cell < cells.count(); ++cell) {
-                const auto turn = static_cast<float>(cell % cells.turns) + 0.5F;
-                place(cells.middle_sine(cell / cells.turns), -1.2F + 0.2F * turn);
-            }
-            place(-0.61F, 0.0F);  // before the first sine, behind the last, next to the turns
-            place(0.46F, 0.0F);
-            place(0.0F, -1.21F);
-            place(0.0F, 1.01F);
-            cells.find(places);
-            for (int cell = 0; cell < cells.count(); ++cell) {
-                CHECK(places.cell[cell] == cell);
-                CHECK(places.range_m[cell] ==
-                      test::approx(1.0 + 0.3 * static_cast<double>(cell)).epsilon(1e-6));
-            }
-            for (int k = cells.count(); k < places.count; ++k)
-                CHECK(places.cell[k] == -1);
+    TEST_CASE("water: the directions of a view fill its solid angle") {
+        const auto solid_angle = [](const View& view, const GuardBeams& guard_beams) {
+            const EqualDirections found = traced_directions(view, guard_beams, radians(0.5));
+            for (const Eigen::Vector3f& direction : found.all)
+                CHECK(direction.norm() == test::approx(1.0).epsilon(1e-6));
+            return static_cast<double>(found.all.size()) * found.each_sr;
+        };
+        const View fan = view_of(ViewShape::fan, 90.0, 20.0, 90);
+        const double of_fan = radians(90.0) * 2.0 * std::sin(radians(10.0));
+        CHECK(solid_angle(fan, {}) == test::approx(of_fan).epsilon(1e-3));
+        CHECK(solid_angle(view_of(ViewShape::port_starboard, 170.0, 2.0, 2), {}) ==
+              test::approx(radians(170.0) * 2.0 * std::sin(radians(1.0))).epsilon(1e-3));
+        CHECK(solid_angle(view_of(ViewShape::cone, 40.0, 40.0, 1), {}) ==
+              test::approx(2.0 * pi * (1.0 - std::cos(radians(20.0)))).epsilon(1e-3));
+        // Guard beams add what the cones of the fan's beams reach: at the elevation e up to the
+        // azimuth asin(sin(45) / cos(e)).
+        double with_guards = 0.0;
+        constexpr int steps = 1000;
+        for (int k = 0; k < steps; ++k) {
+            const double sine = std::sin(radians(10.0)) * ((2.0 * k + 1.0) / steps - 1.0);
+            with_guards += 2.0 * std::asin(std::sin(radians(45.0)) / std::sqrt(1.0 - sine * sine)) *
+                           2.0 * std::sin(radians(10.0)) / steps;
         }
+        CHECK(solid_angle(fan, {.count = 5}) == test::approx(with_guards).epsilon(2e-3));
     }
 
     // The equivalent beam angle of a disc is 5.78 / (ka)^2 (e.g. Simmonds and MacLennan, Fisheries

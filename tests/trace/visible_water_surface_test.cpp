@@ -29,13 +29,12 @@ View view_to_surface(ViewShape shape, double azimuth_deg, double elevation_deg) 
 }
 
 /// The area of the surface between two ranges, m^2.
-double area_between(const Scene& scene, const View& view, const Pose& pose, double from_m,
-                    double to_m) {
+double area_between(Scene scene, const View& view, const Pose& pose, double from_m, double to_m) {
     const auto engine = make_rays_engine(scene);
-    const auto surface = mirror_of(WaterSurface{surface_m, 1.0F, 5.0}, pose);
-    REQUIRE(surface);
+    scene.water_surface = WaterSurface{surface_m, 1.0F, 5.0};
     double sum = 0.0;
-    for (const Sample& sample : visible_water_surface(*surface, view, {}, *engine, pose, {})) {
+    for (const Sample& sample : visible_water_surface(view, {}, scene, *engine, pose, {})) {
+        CHECK(sample.material == scene.materials.size());
         const double range = sample.position.norm();
         CHECK(sample.height_m == test::approx(surface_m - pose.translation.z()));
         CHECK(-sample.normal.dot(sample.position) == test::approx(sample.height_m).epsilon(1e-3));
@@ -128,7 +127,7 @@ TEST_SUITE("ping") {
                  {-50.0F, 50.0F, 3.0F}, 0);
         const View view = view_to_surface(ViewShape::fan, 60.0, 40.0);
         CHECK(area_between(scene, view, {}, 0.0, 40.0) == 0.0);
-        CHECK_FALSE(mirror_of(WaterSurface{surface_m, 1.0F, 5.0},
-                              {Eigen::Quaterniond::Identity(), {0.0, 0.0, 6.0}}));
+        const Pose above{rotation_from_rpy(0.0, radians(-90.0), 0.0), {0.0, 0.0, 6.0}};
+        CHECK(area_between(scene_below(), view, above, 0.0, 40.0) == 0.0);
     }
 }
