@@ -80,9 +80,9 @@ void print_table(const RenderSummary& summary) {
 
 void print_json(const RenderSummary& summary, const Mission& mission,
                 std::span<const Warning> warnings) {
-    Json thread_seconds = json_object<Json>(ping_timers, summary.stages);
-    thread_seconds["encode"] = summary.encode_seconds;
-    thread_seconds["write"] = summary.write_seconds;
+    Json thread_seconds;
+    for (const auto& [name, seconds] : stage_seconds(summary))
+        thread_seconds[name] = seconds;
     Json json;
     json["pings"] = summary.pings;
     json["skipped"] = summary.skipped;

@@ -34,11 +34,11 @@ void add_two(float* to, __m128 values) {
 
 /// The cells of the grid that receive the echoes of a block, and their shares in the next bin and
 /// the next column.
-struct Targets {
+struct GridPlaces {
     PatchBlock::Array<std::int32_t> place;
     PatchBlock::Array<float> next_row, next_column;
 
-    Targets(const PointEchoes& echoes, const EchoGrid& grid) {
+    GridPlaces(const PointEchoes& echoes, const EchoGrid& grid) {
         const auto stride = static_cast<std::int32_t>(grid.stride());
         for (int k = 0; k < echoes.count; ++k) {
             const float row = std::floor(echoes.row[k]);
@@ -81,10 +81,10 @@ Floats8 values_of(float gain, Floats8 power, Floats8 before) {
 /// Writes 8 bins of all beams into rows of the image, each times its gain.
 void write_rows(const std::vector<Lanes>& beams, int row, std::span<const float> row_gain,
                 std::span<float> image, bool add) {
-    const int count = std::min(lanes_at_once, static_cast<int>(row_gain.size()) - row);
+    const int count = std::min(lanes, static_cast<int>(row_gain.size()) - row);
     float* const first = image.data() + row * beams.size();
-    const std::size_t whole = beams.size() / lanes_at_once * lanes_at_once;
-    for (std::size_t j = 0; j < whole; j += lanes_at_once) {
+    const std::size_t whole = beams.size() / lanes * lanes;
+    for (std::size_t j = 0; j < whole; j += lanes) {
         const std::array<Floats8, lanes> bins = columns_of_eight(beams[j].data());
         for (int lane = 0; lane < count; ++lane) {
             float* const out = first + lane * beams.size() + j;
@@ -102,7 +102,7 @@ void form_beams(const Beamformer& former, const EchoGrid* grid, ElementNoiseOfPi
                 std::span<const float> row_gain, std::span<float> image, bool add) {
     Beamformer::Scratch scratch(former);
     std::vector<Lanes> beams(former.beams());
-    for (int row = 0; row < std::ssize(row_gain); row += lanes_at_once) {
+    for (int row = 0; row < std::ssize(row_gain); row += lanes) {
         former.form(grid, row, noise, scratch, beams.data());
         write_rows(beams, row, row_gain, image, add);
     }
@@ -142,20 +142,20 @@ std::uint64_t find_columns(const ArrayBeams& beams, const PatchBlock& pieces, Po
 
 void add_powers(const ArrayBeams& /*beams*/, const PatchBlock& /*pieces*/,
                 const PointEchoes& echoes, EchoGrid& grid) {
-    const Targets targets(echoes, grid);
+    const GridPlaces places(echoes, grid);
     float* const first = grid.column(0);
     const std::size_t stride = grid.stride();
     for (int k = 0; k < echoes.count; ++k)
-        targets.add_shared(k, alternating(echoes.power[k], 0.0F), first, stride);
+        places.add_shared(k, alternating(echoes.power[k], 0.0F), first, stride);
 }
 
 void add_amplitudes(const ArrayBeams& /*beams*/, const PatchBlock& /*pieces*/,
                     const PointEchoes& echoes, const Amplitudes& amplitudes, EchoGrid& grid) {
-    const Targets targets(echoes, grid);
+    const GridPlaces places(echoes, grid);
     float* const first = grid.column(0);
     const std::size_t stride = grid.stride();
     for (int k = 0; k < echoes.count; ++k)
-        targets.add_shared(k, alternating(amplitudes.re[k], amplitudes.im[k]), first, stride);
+        places.add_shared(k, alternating(amplitudes.re[k], amplitudes.im[k]), first, stride);
 }
 
 void beamform(const ArrayBeams& beams, const EchoGrid& grid, bool powers, bool noisy, PhiloxKey key,

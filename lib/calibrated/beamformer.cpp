@@ -85,7 +85,7 @@ double window(double x) {
 /// The complex numbers of 8 bins of a column: real parts and imaginary parts.
 void load_bins(const float* bins, ComplexLanes& out) {
     const __m256 low = _mm256_loadu_ps(bins);
-    const __m256 high = _mm256_loadu_ps(bins + lanes_at_once);
+    const __m256 high = _mm256_loadu_ps(bins + lanes);
     const __m256 first = _mm256_permute2f128_ps(low, high, 0x20);
     const __m256 second = _mm256_permute2f128_ps(low, high, 0x31);
     _mm256_store_ps(out.re.data(), _mm256_shuffle_ps(first, second, _MM_SHUFFLE(2, 0, 2, 0)));
@@ -98,7 +98,7 @@ ComplexLanes interpolated(const ComplexLanes* columns, const float* taps, int co
     for (int t = 0; t < count; ++t) {
         const ComplexLanes z = columns[t];
         const float tap = taps[t];
-        for (int lane = 0; lane < lanes_at_once; ++lane) {
+        for (int lane = 0; lane < lanes; ++lane) {
             sum.re[lane] = std::fma(tap, z.re[lane], sum.re[lane]);
             sum.im[lane] = std::fma(tap, z.im[lane], sum.im[lane]);
         }
@@ -108,7 +108,7 @@ ComplexLanes interpolated(const ComplexLanes* columns, const float* taps, int co
 
 Lanes not_negative(const Lanes& values) {
     Lanes out;
-    for (int lane = 0; lane < lanes_at_once; ++lane)
+    for (int lane = 0; lane < lanes; ++lane)
         out[lane] = std::max(values[lane], 0.0F);
     return out;
 }
@@ -218,7 +218,7 @@ void Beamformer::add_noise(ElementNoiseOfPing& noise, int row, Scratch& scratch)
         const ComplexLanes drawn = noise.drawn.of(e);
         ComplexLanes z = scratch.data[weights_[e].index];
         const float sigma = noise.levels.element_sigma * weights_[e].noise_scale;
-        for (int lane = 0; lane < lanes_at_once; ++lane) {
+        for (int lane = 0; lane < lanes; ++lane) {
             z.re[lane] = std::fma(sigma, drawn.re[lane], z.re[lane]);
             z.im[lane] = std::fma(sigma, drawn.im[lane], z.im[lane]);
         }
@@ -230,7 +230,7 @@ void Beamformer::add_noise(ElementNoiseOfPing& noise, int row, Scratch& scratch)
         ComplexLanes z = scratch.data[w.index];
         const float ahead_re = noise.levels.common_mode_sigma * w.noise_scale * w.ahead_re;
         const float ahead_im = noise.levels.common_mode_sigma * w.noise_scale * w.ahead_im;
-        for (int lane = 0; lane < lanes_at_once; ++lane) {
+        for (int lane = 0; lane < lanes; ++lane) {
             z.re[lane] += common.re[lane] * ahead_re - common.im[lane] * ahead_im;
             z.im[lane] += common.re[lane] * ahead_im + common.im[lane] * ahead_re;
         }
@@ -260,7 +260,7 @@ void Beamformer::form(const EchoGrid* grid, int row, ElementNoiseOfPing* noise, 
         const float re = w.re;
         const float im = w.im;
         ComplexLanes weighted;
-        for (int lane = 0; lane < lanes_at_once; ++lane) {
+        for (int lane = 0; lane < lanes; ++lane) {
             weighted.re[lane] = z.re[lane] * re - z.im[lane] * im;
             weighted.im[lane] = z.re[lane] * im + z.im[lane] * re;
         }
@@ -273,7 +273,7 @@ void Beamformer::form(const EchoGrid* grid, int row, ElementNoiseOfPing* noise, 
         const float* const tap = tap_.data() + static_cast<std::ptrdiff_t>(j) * taps_;
         ComplexLanes z = taps_ == 1 ? from[0] : interpolated(from, tap, taps_);
         Lanes power;
-        for (int lane = 0; lane < lanes_at_once; ++lane)
+        for (int lane = 0; lane < lanes; ++lane)
             power[lane] = std::fma(z.re[lane], z.re[lane], z.im[lane] * z.im[lane]);
         out[j] = powers_ ? not_negative(z.re) : power;
     }

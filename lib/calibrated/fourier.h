@@ -3,12 +3,12 @@
 #include <array>
 #include <vector>
 
+#include "core/lanes.h"
+
 namespace sonarsim {
 
-/// The number of transforms at a time, one in each lane of a vector.
-inline constexpr int lanes_at_once = 8;
-
-using Lanes = std::array<float, lanes_at_once>;
+/// One number of each of the transforms that are made at a time.
+using Lanes = std::array<float, lanes>;
 
 /// Complex numbers of all lanes.
 struct alignas(32) ComplexLanes {

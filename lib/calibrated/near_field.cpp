@@ -52,13 +52,13 @@ void fill_by_transforms(const LineArray& array, double bend, double turn, int ha
     out.sines_per_unit = static_cast<float>(1.0 / sine_step);
     out.values.resize(static_cast<std::size_t>(out.sines) * out.curvatures);
     std::vector<ComplexLanes> data(size), spare(size);
-    for (int first = 0; first < out.curvatures; first += lanes_at_once) {
+    for (int first = 0; first < out.curvatures; first += lanes) {
         std::ranges::fill(data, ComplexLanes{});
         for (int k = 0; k < steps / 2; ++k) {
             const double x = (k + 0.5) / steps;
             const double weight = array.weight(x).real() / steps;
             ComplexLanes& value = data[k];
-            for (int lane = 0; lane < lanes_at_once; ++lane) {
+            for (int lane = 0; lane < lanes; ++lane) {
                 const SinCos phase = sincos(bend * (first + lane) / (out.curvatures - 1) * x * x);
                 value.re[lane] = static_cast<float>(weight * phase.cos);
                 value.im[lane] = static_cast<float>(weight * phase.sin);
@@ -66,13 +66,13 @@ void fill_by_transforms(const LineArray& array, double bend, double turn, int ha
             data[size - 1 - k] = value;  // at -x
         }
         fourier.forward(data.data(), spare.data());
-        const int lanes = std::min(lanes_at_once, out.curvatures - first);
+        const int filled = std::min(lanes, out.curvatures - first);
         for (int i = 0; i <= count; ++i) {
             // The middles of steps lie half a step off those of the transform.
             const SinCos off = sincos(-0.5 * turn_by_sine * i / steps);
             const std::complex<float> shift(static_cast<float>(off.cos),
                                             static_cast<float>(off.sin));
-            for (int lane = 0; lane < lanes; ++lane) {
+            for (int lane = 0; lane < filled; ++lane) {
                 const std::complex<float> one_way =
                     shift * std::complex<float>(data[i].re[lane], data[i].im[lane]);
                 std::complex<float>* const middle =

@@ -184,13 +184,13 @@ void beamform(const TransducerBeams& beams, const EchoGrid& grid, bool powers, b
     const int count = beams.beams();
     const float sigma = noisy ? beams.noise_sigma : 0.0F;
     FilteredNoise noise({.firsts = count}, beams.noise_taps, key);
-    for (int row = 0; row < grid.rows(); row += lanes_at_once) {
+    for (int row = 0; row < grid.rows(); row += lanes) {
         if (noisy) noise.go_to(row);
-        const int lanes = std::min(lanes_at_once, grid.rows() - row);
+        const int filled = std::min(lanes, grid.rows() - row);
         for (int beam = 0; beam < count; ++beam) {
             const float* const column = grid.column(beam);
             const auto [re, im] = noisy ? noise.of(beam) : ComplexLanes{};
-            for (int lane = 0; lane < lanes; ++lane) {
+            for (int lane = 0; lane < filled; ++lane) {
                 const std::ptrdiff_t at = std::ptrdiff_t{2} * (row + lane);
                 // Without speckle the energies of echo and noise add.
                 const float x = sigma * re[lane] + (powers ? 0.0F : column[at]);

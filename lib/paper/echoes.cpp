@@ -15,8 +15,8 @@ constexpr int lanes = 8;
 
 constexpr std::array<float, lanes> lane_numbers = {0, 1, 2, 3, 4, 5, 6, 7};
 
-/// The destination of the echoes of a footprint.
-struct Target {
+/// Where the echoes of a footprint are written.
+struct EchoSlots {
     float* range_m;
     float* half_m;
     float* weight;
@@ -25,7 +25,7 @@ struct Target {
     std::uint32_t* cell_high;
 };
 
-Target target_at(Echoes& echoes, std::size_t at, bool cells) {
+EchoSlots slots_at(Echoes& echoes, std::size_t at, bool cells) {
     return {.range_m = echoes.range_m.data() + at,
             .half_m = echoes.half_m.data() + at,
             .weight = echoes.weight.data() + at,
@@ -45,7 +45,7 @@ float along(const Footprints::Vectors& c, const Footprints::Vectors& u,
 }
 
 /// Writes the echoes of footprint k, of `count` pieces, and up to seven lanes more.
-void write_pieces(const Footprints& f, std::size_t k, int count, const Target& to) {
+void write_pieces(const Footprints& f, std::size_t k, int count, const EchoSlots& to) {
     const float row_length = f.v[k];
     const float per_row = 1.0F / row_length;
     const float u_step = 2.0F / f.u[k];
@@ -100,8 +100,8 @@ void Echoes::resize(std::size_t count, bool cells) {
 
 void direct_echoes(std::span<const Sample> samples, std::span<const Material> materials,
                    float bin_m, const ScattererLattice& lattice, Echoes& echoes,
-                   std::vector<std::uint32_t>& ends) {
-    ends.clear();
+                   std::vector<std::uint32_t>* ends) {
+    if (ends) ends->clear();
     const bool named = lattice.exists();
     std::size_t end = 0;
     Footprints footprints;
@@ -115,9 +115,9 @@ void direct_echoes(std::span<const Sample> samples, std::span<const Material> ma
             if (end + count + lanes > echoes.size()) {
                 echoes.resize(2 * (end + count + lanes), named);
             }
-            write_pieces(footprints, k, count, target_at(echoes, end, named));
+            write_pieces(footprints, k, count, slots_at(echoes, end, named));
             end += count;
-            ends.push_back(static_cast<std::uint32_t>(end));
+            if (ends) ends->push_back(static_cast<std::uint32_t>(end));
         }
     }
     echoes.resize(end, named);

@@ -20,9 +20,10 @@ struct Echoes : RangeBoxes {
 
 /// Turns the samples of a beam into echoes of intensity I = R (v . n), Eq. 4-6. A footprint that
 /// spans several bins or scatterer cells is cut into pieces, each of them an echo that is spread
-/// evenly over [range - half, range + half]. `ends` becomes the end of each sample's echoes.
+/// evenly over [range - half, range + half]. `ends` becomes the end of each sample's echoes; null:
+/// not wanted.
 void direct_echoes(std::span<const Sample> samples, std::span<const Material> materials,
                    float bin_m, const ScattererLattice& lattice, Echoes& echoes,
-                   std::vector<std::uint32_t>& ends);
+                   std::vector<std::uint32_t>* ends = nullptr);
 
 }  // namespace sonarsim

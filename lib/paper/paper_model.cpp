@@ -26,12 +26,11 @@ struct DirectEchoes {
     const ScattererLattice& lattice;
     const RangeNoise& range_noise;
     PhiloxKey draws;
-    Echoes echoes = {};                    ///< the samples that were added last
-    std::vector<std::uint32_t> ends = {};  ///< the ends of the echoes of each of them
+    Echoes echoes = {};  ///< the samples that were added last
 
     /// Eq. 4-8. Returns the number of echoes out of range.
     std::uint64_t add(std::span<const Sample> samples, BinSums& sums) {
-        direct_echoes(samples, scene.materials, bins.bin_m, lattice, echoes, ends);
+        direct_echoes(samples, scene.materials, bins.bin_m, lattice, echoes);
         add_range_noise(echoes, range_noise, draws);
         return accumulate(echoes, bins, sums);
     }
@@ -49,7 +48,7 @@ void PaperModel::form(const TracedPing& traced, const FormContext& context, Ping
     const Terms& terms = context.terms;
     const RangeBins bins = range_bins(context.view);
     const RangeNoise noise = terms.random > range_noise_term ? range_noise : RangeNoise{};
-    const Streaks rows = terms.random > streaks_term ? streaks : Streaks{};
+    const Streaks wanted_streaks = terms.random > streaks_term ? streaks : Streaks{};
     const ScattererLattice lattice = scatterer_lattice(noise, context.scene, traced.T_world_sensor);
     Stopwatch watch;
 
@@ -71,9 +70,10 @@ void PaperModel::form(const TracedPing& traced, const FormContext& context, Ping
             ping.counts.out_of_range += direct.add(traced.samples.beam(j), sums);
             ping.counts.echoes += direct.echoes.size();
         }
-        if (rows.exist()) {
+        if (wanted_streaks.exist()) {
             areas.add(sums);
-            direct.add(at_normal_incidence(traced.samples.beam(j), rows.min_cosine), areas.normal);
+            direct.add(at_normal_incidence(traced.samples.beam(j), wanted_streaks.min_cosine),
+                       areas.normal);
         }
         ping.counts.out_of_range += accumulate_beam(bounced, j, bins, sums);
         ping.counts.occupied_bins += mean_of_bins(sums, columns.next());
@@ -87,7 +87,8 @@ void PaperModel::form(const TracedPing& traced, const FormContext& context, Ping
             add_pixel_noise(ping.intensity, pixel_noise, context.draws.of(Stream::pixel_noise));
     }
     // 7. Streaks, Eq. 14-15.
-    if (rows.exist()) ping.counts.streak_rows = add_streaks(ping.intensity, areas, rows);
+    if (wanted_streaks.exist())
+        ping.counts.streak_rows = add_streaks(ping.intensity, areas, wanted_streaks);
     ping.seconds.noise = watch.lap();
 }
 

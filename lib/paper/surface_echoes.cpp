@@ -39,7 +39,7 @@ void add_direct(const Samples& samples, const View& view, const Scene& scene, Ec
     std::vector<std::uint32_t> ends;
     ends.reserve(samples.items.size());
     direct_echoes(samples.items, scene.materials, static_cast<float>(view.bin_m()),
-                  ScattererLattice{}, echoes, ends);
+                  ScattererLattice{}, echoes, &ends);
     std::vector<std::uint32_t> beam_begin;
     for (const std::uint32_t begin : samples.beam_begin)
         beam_begin.push_back(begin > 0 ? ends[begin - 1] : 0);

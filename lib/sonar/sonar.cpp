@@ -45,7 +45,6 @@ std::optional<Sonar> drawn_sonar(const Mission& mission, const Sonar& sonar, std
     set_mount(drawn, kind);
     if (drawn.config.noise == sonar.config.noise && drawn.config.streaks == sonar.config.streaks)
         return drawn;
-    if (drawn.config.model != ModelKind::paper) return drawn;
     if (kind.finish) kind.finish(drawn);
     drawn.settings.model = make_echo_model(drawn, kind, mission.water);
     return drawn;

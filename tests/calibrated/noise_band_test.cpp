@@ -133,16 +133,16 @@ TEST_SUITE("calibrated") {
             CHECK(noise_taps(bins, -30.0) == std::vector<float>{1.0F});
         // One tap leaves the draws as they are.
         FilteredNoise noise({.firsts = 3, .seconds = 2, .common_mode = true}, {1.0F}, noise_key);
-        std::array<std::uint32_t, lanes_at_once> a, b;
+        std::array<std::uint32_t, lanes> a, b;
         Lanes re, im;
         for (const int row : {0, 8, 4096}) {
             noise.go_to(row);
             for (int channel = 0; channel < 6; ++channel) {
-                for (int lane = 0; lane < lanes_at_once; ++lane) {
+                for (int lane = 0; lane < lanes; ++lane) {
                     a[lane] = static_cast<std::uint32_t>(row + lane);
                     b[lane] = channel == 5 ? 0xFFFFFFFFU : static_cast<std::uint32_t>(channel % 3);
                 }
-                philox_pairs(a.data(), b.data(), lanes_at_once, noise_key);
+                philox_pairs(a.data(), b.data(), lanes, noise_key);
                 const Complexes8 drawn =
                     complex_normals(load_words(channel < 3 || channel == 5 ? a.data() : b.data()));
                 drawn.re.store(re.data());
@@ -157,7 +157,7 @@ TEST_SUITE("calibrated") {
         const std::vector<float> taps = noise_taps(5.0, -25.0);
         const NoiseChannels channels{.firsts = 4, .seconds = 3, .common_mode = true};
         FilteredNoise all(channels, taps, noise_key);
-        for (int row = 0; row <= 40; row += lanes_at_once)
+        for (int row = 0; row <= 40; row += lanes)
             all.go_to(row);
         FilteredNoise one(channels, taps, noise_key);
         one.go_to(40);
@@ -174,11 +174,11 @@ TEST_SUITE("calibrated") {
             FilteredNoise noise(channels, taps, noise_key);
             constexpr int length = 1000;
             std::vector<std::vector<std::complex<double>>> of(channels.count());
-            for (int row = 0; row < length; row += lanes_at_once) {
+            for (int row = 0; row < length; row += lanes) {
                 noise.go_to(row);
                 for (int channel = 0; channel < channels.count(); ++channel) {
                     const ComplexLanes z = noise.of(channel);
-                    for (int lane = 0; lane < lanes_at_once; ++lane)
+                    for (int lane = 0; lane < lanes; ++lane)
                         of[channel].emplace_back(z.re[lane], z.im[lane]);
                 }
             }

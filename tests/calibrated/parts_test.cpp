@@ -23,7 +23,7 @@ TEST_SUITE("calibrated") {
             const Fourier fourier(size);
             std::vector<ComplexLanes> data(size), scratch(size);
             for (int n = 0; n < size; ++n) {
-                for (int lane = 0; lane < lanes_at_once; ++lane) {
+                for (int lane = 0; lane < lanes; ++lane) {
                     data[n].re[lane] = static_cast<float>(std::sin(1.7 * n + lane));
                     data[n].im[lane] = static_cast<float>(std::cos(0.3 * n * n - lane));
                 }
@@ -91,10 +91,10 @@ TEST_SUITE("calibrated") {
         double squares = 0.0;
         double products = 0.0;
         double count = 0.0;
-        for (int row = 0; row < 2000; row += lanes_at_once) {
+        for (int row = 0; row < 2000; row += lanes) {
             beams.form(nullptr, row, &noise, scratch, out.data());
             for (int j = 20; j < 235; ++j) {
-                for (int lane = 0; lane < lanes_at_once; ++lane) {
+                for (int lane = 0; lane < lanes; ++lane) {
                     const double p = out[j][lane];
                     sum += p;
                     squares += p * p;

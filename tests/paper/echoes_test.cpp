@@ -24,7 +24,7 @@ Echoes echoes_of(const Eigen::Vector3f& centre, const Eigen::Vector3f& edge_u,
     material.reflection = 0.25F;
     Echoes echoes;
     std::vector<std::uint32_t> ends;
-    direct_echoes({&sample, 1}, {&material, 1}, bin_m, {}, echoes, ends);
+    direct_echoes({&sample, 1}, {&material, 1}, bin_m, {}, echoes, &ends);
     return echoes;
 }
 
