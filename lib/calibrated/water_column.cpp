@@ -22,6 +22,8 @@ constexpr int rings = 128;
 constexpr int ring_turns = 8;
 constexpr double row_rad = radians(1.0);
 constexpr int min_steps = 16;
+// The pattern of a side-scan sonar along the track is in row_power.
+constexpr int rows_of_sides = 4;
 
 int steps_over(double extent, double step) {
     return std::max(static_cast<int>(std::ceil(extent / step)), min_steps);
@@ -55,7 +57,9 @@ EqualDirections traced_directions(const View& view, const GuardBeams& guard_beam
     const double first = cone ? half.cos : -half.sin;
     const double last = cone ? 1.0 : half.sin;
     const double turn = cone ? 2.0 * pi : std::min(wide.azimuth_rad, 2.0 * pi);
-    const int rows = cone ? rings : steps_over(wide.elevation_rad, row_rad);
+    int rows = steps_over(wide.elevation_rad, row_rad);
+    if (cone) rows = rings;
+    if (view.shape == ViewShape::port_starboard) rows = rows_of_sides;
     const int columns = cone ? ring_turns : steps_over(turn, step_rad);
     const GuardedField field(view, guard_beams);
     EqualDirections out{.all = {},

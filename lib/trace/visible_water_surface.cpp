@@ -99,7 +99,8 @@ class SurfaceCutter {
             if (!(farthest < 2.0F * nearest)) return;
         }
         const auto place = [&](double a, double e) -> Eigen::Vector3f {
-            return range(towards(a, e)) * towards(a, e);
+            const Eigen::Vector3f to = towards(a, e);
+            return range(to) * to;
         };
         const Eigen::Vector3f middle = place(0.0, 0.0);
         if (!all_around_ && !field_.contains(middle)) return;
