@@ -8,13 +8,6 @@
 
 namespace sonarsim {
 
-std::vector<float> slopes_of(std::span<const Material> materials) {
-    std::vector<float> out;
-    for (const Material& material : materials)
-        out.push_back(static_cast<float>(facet_slope(material)));
-    return out;
-}
-
 Backscatter backscatter(double lambert_db, double reflection, double slope_rms) {
     Backscatter out;
     out.lambert = static_cast<float>(power_of_db(lambert_db));

@@ -66,9 +66,6 @@ struct Scattering {
 Scattering scattering_of(std::span<const Material> materials, double frequency_hz,
                          const Water& water);
 
-/// The RMS slopes of the materials' facets: tangents, by material.
-std::vector<float> slopes_of(std::span<const Material> materials);
-
 /// The material with `lambert_db` = 10 log mu, power reflection R at normal incidence and facets of
 /// slope s; s = 0 has no facets.
 Backscatter backscatter(double lambert_db, double reflection, double slope_rms);
