@@ -24,13 +24,6 @@ std::vector<float> tables_of(std::span<const Backscatter> materials) {
 
 }  // namespace
 
-std::vector<float> slopes_of(std::span<const Material> materials) {
-    std::vector<float> out;
-    for (const Material& material : materials)
-        out.push_back(static_cast<float>(facet_slope(material)));
-    return out;
-}
-
 Backscatter backscatter(double lambert_db, double reflection, double slope_rms) {
     Backscatter out;
     out.lambert = static_cast<float>(power_of_db(lambert_db));

@@ -69,9 +69,6 @@ Scattering scattering_of(std::span<const Material> materials, double frequency_h
 /// Appends a material with tables.
 void append(const Backscatter& tabled, Scattering& scattering);
 
-/// The RMS slopes of the materials' facets: tangents, by material.
-std::vector<float> slopes_of(std::span<const Material> materials);
-
 /// The material with `lambert_db` = 10 log mu, power reflection R at normal incidence and facets of
 /// slope s; s = 0 has no facets.
 Backscatter backscatter(double lambert_db, double reflection, double slope_rms);

@@ -80,24 +80,17 @@ PointLimits point_limits(const BeamConfig& beam, const View& view,
 }
 
 /// A resolution cell, or less where the pattern of a transducer bends within it.
-TargetCells target_cells(const BeamConfig& beam, double resolution_m, double wavelength_m) {
-    TargetCells cells{.depth_m = static_cast<float>(resolution_m),
-                      .turns_per_m = 2.0 / wavelength_m};
+PointLimits target_cell(const BeamConfig& beam, double resolution_m) {
+    const auto part = [](double width_deg) {
+        return 0.25F * static_cast<float>(radians(width_deg));
+    };
+    const auto depth = static_cast<float>(resolution_m);
     const auto width = static_cast<float>(radians(beam.width_deg));
-    switch (beam.aperture) {
-        case Aperture::line:
-        case Aperture::head:
-            cells.sine_y = width;
-            break;
-        case Aperture::port_starboard:
-            cells.sine_y = 0.25F * static_cast<float>(radians(beam.across_width_deg));
-            cells.sine_z = width;
-            break;
-        case Aperture::piston:
-            cells.sine_y = cells.sine_z = 0.25F * width;
-            break;
-    }
-    return cells;
+    if (beam.aperture == Aperture::port_starboard)
+        return {depth, part(beam.across_width_deg), width};
+    if (beam.aperture == Aperture::piston)
+        return {depth, part(beam.width_deg), part(beam.width_deg)};
+    return {depth, width, part(beam.elevation_width_deg)};
 }
 
 /// The view with a range bin for each sample of the receiver.
@@ -200,8 +193,7 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
                      model.info.guard_beams, model.beams, model.equation);
     model.cells = scatterer_cells(std::max(resolution_m, 0.5 * bin_m), radians(beam.width_deg),
                                   view.range_min_m, model.wavelength_m);
-    model.target_cells =
-        target_cells(beam, std::max(resolution_m, 0.5 * bin_m), model.wavelength_m);
+    model.target_cell = target_cell(beam, std::max(resolution_m, 0.5 * bin_m));
     model.row_gain = row_gains(receiver, model.levels, view, model.absorption_db_per_m, raised_db);
     model.noise_values = noise_values(model.row_gain, noise + common_mode, receiver.samples);
     set_info(model, view);

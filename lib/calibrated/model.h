@@ -13,7 +13,6 @@
 #include "calibrated/sediment.h"
 #include "calibrated/sonar_equation.h"
 #include "calibrated/specular_path.h"
-#include "calibrated/target_scatterers.h"
 #include "calibrated/transducer_beams.h"
 #include "calibrated/water_column.h"
 #include "core/pose.h"
@@ -32,7 +31,7 @@ struct CalibratedModel final : EchoModel {
     SonarEquation equation;
     PointLimits limits;  ///< for pieces that are not scatterers of the scene
     ScattererCells cells;
-    TargetCells target_cells;
+    PointLimits target_cell;  ///< the pieces of a target within it are one scatterer
     Clutter clutter;
     RangeTaps amplitude_taps, power_taps;
     std::variant<TransducerBeams, ArrayBeams> beams;

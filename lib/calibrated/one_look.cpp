@@ -1,12 +1,13 @@
 #include <algorithm>
 #include <iterator>
+#include <utility>
+#include <vector>
 
 #include "calibrated/form_look.h"
 #include "calibrated/particle_echoes.h"
 #include "calibrated/scatterer_search.h"
 #include "calibrated/speckle.h"
 #include "calibrated/specular_echoes.h"
-#include "calibrated/target_pieces.h"
 #include "calibrated/target_scatterers.h"
 #include "calibrated/water_echoes.h"
 
@@ -31,7 +32,6 @@ class ImageFormer {
           ping_draws_(context.draws.of(Stream::speckle)),
           sonar_{traced.T_world_sensor.rotation.toRotationMatrix().cast<float>(),
                  traced.T_world_sensor.translation - context.scene.origin},
-          slopes_(slopes_of(context.scene.materials)),
           speckle_(context.terms.random > 0 ? model.speckle : SpeckleMode::none),
           view_(widened_view(context.view, model.info.guard_beams)),
           speckle_gain_(model.amplitude_taps.scalloping_gain * scalloping_gain(beams)),
@@ -41,24 +41,23 @@ class ImageFormer {
     void form(const TracedPing& traced) {
         EchoGrid grid(model_.equation.rows, columns_of(beams_));
         const bool expected_power = speckle_ == SpeckleMode::none;
+        std::vector<Sample> targets;
 
         // 1. Sonar equation: surface in view, surface in the guard beams, multipath.
         if (context_.terms.direct) {
-            add_surface(traced.samples.items, traced.targets, grid);
-            add_surface(traced.outside_sector, traced.targets, grid);
+            add_surface(traced.samples.items, targets, grid);
+            add_surface(traced.outside_sector, targets, grid);
             if (model_.sediment) add_sediment(traced, grid);
             add_water_surface(traced.water_surface, grid);
-            if (expected_power) {
-                add_target_powers(traced.targets, grid);
+            if (expected_power)
                 add_particle_powers(model_, beams_, traced.particles, ping_.counts, grid);
-            }
         }
         if (context_.terms.multipath) add_multipath(traced, grid);
 
         // 2. Speckle. With `speckle: scene` the amplitudes of step 1 already have it.
         if (speckle_ == SpeckleMode::ping) draw_speckle(grid, speckle_gain_, ping_draws_);
         if (context_.terms.direct && !expected_power) {
-            add_target_amplitudes(traced.targets, grid);
+            add_targets(std::move(targets), grid);
             add_particle_amplitudes(model_, beams_, traced.particles, context_.draws, ping_.counts,
                                     grid);
         }
@@ -82,6 +81,11 @@ class ImageFormer {
     }
 
   private:
+    /// Without what comes from below sea beds.
+    const Scattering& surface_scattering() const {
+        return model_.sediment ? model_.sediment->surface : model_.scattering;
+    }
+
     /// Computes the echoes of a block of patches: levels, range bins and columns of the grid.
     void find(const PatchBlock& patches, const Scattering& scattering) {
         ping_.counts.echoes += patches.count;
@@ -92,7 +96,7 @@ class ImageFormer {
 
     /// The same for surface of the scene, with its clutter.
     void find(const PatchBlock& patches) {
-        find(patches, model_.sediment ? model_.sediment->surface : model_.scattering);
+        find(patches, surface_scattering());
         if (speckle_ != SpeckleMode::none)
             add_clutter(patches, model_.clutter, sonar_, clutter_draws_, echoes_);
     }
@@ -127,8 +131,7 @@ class ImageFormer {
         const SedimentScattering& sediment = *model_.sediment;
         std::vector<Sample> beds;
         const auto keep = [&](const Sample& sample) {
-            if (sediment.has[sample.material] && !traced.targets.has(sample.instance))
-                beds.push_back(sample);
+            if (sediment.has[sample.material]) beds.push_back(sample);
         };
         std::ranges::for_each(traced.samples.items, keep);
         std::ranges::for_each(traced.outside_sector, keep);
@@ -150,20 +153,19 @@ class ImageFormer {
         grid.add(energy);
     }
 
-    /// Adds the echoes of a surface without its targets.
-    void add_surface(std::span<const Sample> surface, const TargetSurface& targets,
-                     EchoGrid& grid) {
-        if (targets.instances.empty()) return add_surface(surface, grid);
-        std::vector<Sample> left;
-        left.reserve(surface.size());
-        std::ranges::copy_if(surface, std::back_inserter(left),
-                             [&](const Sample& sample) { return !targets.has(sample.instance); });
-        add_surface(left, grid);
-    }
-
     /// Adds the echoes of a surface to the grid: with `speckle: scene` the amplitudes of its
-    /// scatterers, else the powers of its patches.
-    void add_surface(std::span<const Sample> surface, EchoGrid& grid) {
+    /// scatterers, else the powers of its patches. With speckle it moves pieces of targets to
+    /// `targets` instead.
+    void add_surface(std::span<const Sample> surface, std::vector<Sample>& targets,
+                     EchoGrid& grid) {
+        const auto is_target = [](const Sample& sample) { return sample.region > 0; };
+        std::vector<Sample> others;
+        if (speckle_ != SpeckleMode::none && std::ranges::any_of(surface, is_target)) {
+            others.reserve(surface.size());
+            std::ranges::partition_copy(surface, std::back_inserter(targets),
+                                        std::back_inserter(others), is_target);
+            surface = others;
+        }
         if (speckle_ == SpeckleMode::scene) {
             Scatterers block;
             Amplitudes amplitudes;
@@ -185,44 +187,16 @@ class ImageFormer {
         });
     }
 
-    /// Hands the echoes of targets to `use`, a block of pieces at a time.
-    template <class Use>
-    void find_targets(const TargetSurface& targets, Use use) {
-        // Pieces that are joined by cell need not be smaller than the cell.
-        const TargetCells& cells = model_.target_cells;
-        const PointLimits limits =
-            speckle_ == SpeckleMode::none
-                ? model_.limits
-                : PointLimits{cells.depth_m, cells.sine_y,
-                              cells.sine_z > 0.0F ? cells.sine_z : model_.limits.elevation_sine};
-        TargetPieces pieces;
-        cut_targets(targets.facets, limits, slopes_, pieces, [&](TargetPieces& cut) {
-            ping_.counts.echoes += cut.points.count;
-            ping_.counts.out_of_range +=
-                apply_sonar_equation(cut.points, model_.scattering, model_.equation, echoes_);
-            use(cut);
+    /// Adds the amplitudes of the scatterers of targets.
+    void add_targets(std::vector<Sample> pieces, EchoGrid& grid) {
+        std::ranges::stable_sort(pieces, {}, [](const Sample& piece) {
+            return std::pair(piece.instance, piece.region);
         });
-    }
-
-    void add_target_powers(const TargetSurface& targets, EchoGrid& grid) {
-        find_targets(targets, [&](const TargetPieces& cut) {
-            ping_.counts.out_of_range += find_columns(beams_, cut.points, echoes_);
-            add_powers(beams_, cut.points, echoes_, grid);
-        });
-    }
-
-    void add_target_amplitudes(const TargetSurface& targets, EchoGrid& grid) {
-        TargetScatterers scatterers;
-        find_targets(targets, [&](const TargetPieces& cut) {
-            scatterers.add(cut, echoes_, targets.facets, slopes_);
-        });
-        scatterers.finish(
-            model_.target_cells, model_.equation,
-            speckle_ == SpeckleMode::ping ? ping_draws_ : scene_draws_,
-            [&](const PatchBlock& points, PointEchoes& echoes, const Amplitudes& amplitudes) {
-                ping_.counts.out_of_range += find_columns(beams_, points, echoes);
-                add_amplitudes(beams_, points, echoes, amplitudes, grid);
-            });
+        add_point_amplitudes(
+            model_, beams_,
+            join_targets(pieces, view_.shape, model_.target_cell, surface_scattering(),
+                         speckle_ == SpeckleMode::ping ? ping_draws_ : scene_draws_),
+            ping_.counts, grid);
     }
 
     /// With `speckle: scene` the amplitudes of multipath are drawn for each ping: their phase
@@ -249,7 +223,6 @@ class ImageFormer {
     const FormContext& context_;
     PhiloxKey scene_draws_, clutter_draws_, ping_draws_;
     SonarInScene sonar_;
-    std::vector<float> slopes_;
     SpeckleMode speckle_;
     View view_;           ///< with the guard beams
     float speckle_gain_;  ///< restores the mean power where the grid's cells draw the speckle

@@ -6,6 +6,7 @@
 #include "calibrated/model.h"
 #include "calibrated/patches.h"
 #include "calibrated/speckle.h"
+#include "calibrated/target_scatterers.h"
 #include "core/elementary.h"
 
 namespace sonarsim {
@@ -36,23 +37,19 @@ void find_particles(const CalibratedModel& model, const Beams& beams,
     });
 }
 
-/// Adds the amplitudes of point targets to a grid. A target keeps its own phase from ping to ping;
-/// the phase of the path follows from the range.
+/// Adds the amplitudes of points to a grid. The phase of the path follows from the range.
 template <class Beams>
-void add_particle_amplitudes(const CalibratedModel& model, const Beams& beams,
-                             const SeenParticles& particles, const PingDraws& draws,
-                             PingCounts& counts, EchoGrid& grid) {
-    const PhiloxKey key = draws.of_scene(stream_named("particles"));
+void add_point_amplitudes(const CalibratedModel& model, const Beams& beams,
+                          const PointScatterers& scatterers, PingCounts& counts, EchoGrid& grid) {
     Amplitudes amplitudes;
     const double turns_per_m = 2.0 / model.wavelength_m;
-    find_particles(model, beams, particles.samples, counts,
+    find_particles(model, beams, scatterers.points, counts,
                    [&](const PatchBlock& points, const PointEchoes& echoes) {
                        for (int k = 0; k < points.count; ++k) {
-                           const PhiloxBlock words =
-                               philox({particles.numbers[points.sample[k]], 0, 0, 0}, key);
                            const double way = turns_per_m * static_cast<double>(echoes.range_m[k]);
                            const auto turns = static_cast<float>(way - std::floor(way));
-                           const SinCosFloat phase = sincos_turns(unit_float(words.x0) + turns);
+                           const SinCosFloat phase =
+                               sincos_turns(scatterers.turns[points.sample[k]] + turns);
                            const float amplitude = std::sqrt(echoes.power[k]);
                            amplitudes.re[k] = amplitude * phase.cos;
                            amplitudes.im[k] = amplitude * phase.sin;
@@ -62,6 +59,18 @@ void add_particle_amplitudes(const CalibratedModel& model, const Beams& beams,
                            amplitudes.re[k] = amplitudes.im[k] = 0.0F;
                        add_amplitudes(beams, points, echoes, amplitudes, grid);
                    });
+}
+
+/// The same for point targets. A target keeps its own phase from ping to ping.
+template <class Beams>
+void add_particle_amplitudes(const CalibratedModel& model, const Beams& beams,
+                             const SeenParticles& particles, const PingDraws& draws,
+                             PingCounts& counts, EchoGrid& grid) {
+    const PhiloxKey key = draws.of_scene(stream_named("particles"));
+    PointScatterers scatterers{.points = particles.samples, .turns = {}};
+    for (const std::uint32_t number : particles.numbers)
+        scatterers.turns.push_back(unit_float(philox({number, 0, 0, 0}, key).x0));
+    add_point_amplitudes(model, beams, scatterers, counts, grid);
 }
 
 template <class Beams>

@@ -11,7 +11,6 @@
 #include "calibrated/particle_echoes.h"
 #include "calibrated/patches.h"
 #include "calibrated/specular_echoes.h"
-#include "calibrated/target_pieces.h"
 #include "trace/arrivals.h"
 
 namespace sonarsim {
@@ -27,26 +26,6 @@ PointLimits label_limits(const CalibratedModel& model) {
     limits.depth_m = max_depth_in_bins * model.equation.bin_m;
     if (model.cones.exist()) limits.sine = std::max(limits.sine, model.cones.mean_width());
     return limits;
-}
-
-/// A sample for each facet of the targets: labels read its material, instance and normal.
-std::vector<Sample> samples_of(const TargetSurface& targets) {
-    std::vector<Sample> out;
-    out.reserve(targets.facets.size());
-    for (const TargetFacet& facet : targets.facets) {
-        const auto& [a, b, c] = facet.corners;
-        const Eigen::Vector3f middle = (a + b + c) / 3.0F;
-        out.push_back({.position = middle,
-                       .edge_u = 0.5F * (b - a),
-                       .edge_v = 0.5F * (c - a),
-                       .normal = facet.normal,
-                       .height_m = std::max(-middle.dot(facet.normal), 0.0F),
-                       .area_m2 = 0.5F * (b - a).cross(c - a).norm(),
-                       .material = facet.material,
-                       .instance = facet.instance,
-                       .strength = facet.strength});
-    }
-    return out;
 }
 
 /// Finds the echoes of a ping as in its image, but without speckle. `Beams`: ArrayBeams or
@@ -66,19 +45,10 @@ class SurfaceEchoFinder {
         if constexpr (has_side_lobes) received_.resize(samples_.size());
     }
 
-    /// Adds the echoes of a surface without its targets.
-    void add_surface(std::span<const Sample> surface, const TargetSurface& targets) {
+    void add_surface(std::span<const Sample> surface) {
         subdivide(surface, shape_, limits_, pieces_, [&](const PatchBlock& pieces) {
             last_piece_ = -1;
             apply_sonar_equation(pieces, model_.scattering, model_.equation, echoes_);
-            const auto is_target = [&](int k) {
-                return targets.has(surface[pieces.sample[k]].instance);
-            };
-            for (int k = 0; !targets.instances.empty() && k < pieces.count; ++k) {
-                const bool known = k > 0 && pieces.sample[k] == pieces.sample[k - 1];
-                target_[k] = known ? target_[k - 1] : is_target(k);
-                if (target_[k]) echoes_.power[k] = 0.0F;
-            }
             const auto half_sine = [&](int k) { return pieces.half_sine[k]; };
             for_each_beam(pieces, echoes_, nullptr, half_sine, [&](int beam, int k, float power) {
                 const Sample& sample = surface[pieces.sample[k]];
@@ -88,42 +58,10 @@ class SurfaceEchoFinder {
         });
     }
 
-    void add_targets(const TargetSurface& targets, std::span<const float> slopes) {
-        target_samples_ = samples_of(targets);
-        TargetPieces all;
-        all.with_edges = true;
-        cut_targets(targets.facets, limits_, slopes, all, [&](const TargetPieces& cut) {
-            const PatchBlock& points = cut.points;
-            const auto place = [&](int k) {
-                return Eigen::Vector3f(points.x[k], points.y[k], points.z[k]);
-            };
-            last_piece_ = -1;
-            PatchBlock::Array<HalfExtents> half;
-            for (int k = 0; k < points.count; ++k) {
-                const auto [range, direction] = arrival_of(place(k));
-                half[k] = half_extents(extents_of(cut.edge_u[k], direction),
-                                       extents_of(cut.edge_v[k], direction), range);
-            }
-            apply_sonar_equation(points, model_.scattering, model_.equation, echoes_);
-            const auto half_sine = [&](int k) { return half[k].sine; };
-            for_each_beam(points, echoes_, nullptr, half_sine, [&](int beam, int k, float power) {
-                const Sample& sample = target_samples_[cut.facet[k]];
-                add_direct(beam, echoes_.range_m[k], half[k].range_m, power, sample);
-                if (!patches_) return;
-                add_echo(beam, k, power, [&] {
-                    return EchoPatch{.position = place(k),
-                                     .edge_u = cut.edge_u[k],
-                                     .edge_v = cut.edge_v[k],
-                                     .sample = &sample};
-                });
-            });
-        });
-    }
-
     /// Particles are points: their labels fill a resolution cell.
     void add_particles(const SeenParticles& particles) {
         PingCounts ignored;
-        const auto spot = [&](int) { return 0.5F * model_.target_cells.sine_y; };
+        const auto spot = [&](int) { return 0.5F * model_.target_cell.sine; };
         find_particles(model_, beams_, particles.samples, ignored,
                        [&](const PatchBlock& points, const PointEchoes& echoes) {
                            last_piece_ = -1;
@@ -153,15 +91,9 @@ class SurfaceEchoFinder {
 
     SurfaceEchoes take() {
         blocks_.flush();
-        for (std::size_t k = 0; k < received_.size(); ++k) {
-            if (std::ranges::find(received_targets_, samples_[k].instance) !=
-                received_targets_.end())
-                received_[k] = 1;
-        }
         SurfaceEchoes out;
         out.received = std::move(received_);
         out.cones = model_.cones;
-        out.target_samples = std::move(target_samples_);
         out.patches = std::move(found_);
         out.patch_echoes = std::move(patch_echoes_);
         return out;
@@ -176,7 +108,7 @@ class SurfaceEchoFinder {
     };
 
     void add_particle(const Sample& sample, const Received& at, float range_m, float power) {
-        const float half_m = 0.5F * model_.target_cells.depth_m;
+        const float half_m = 0.5F * model_.target_cell.depth_m;
         add_direct(at.beam, range_m, half_m, power, sample);
         if (!patches_) return;
         add_echo(at.beam, at.piece, power, [&] {
@@ -192,14 +124,10 @@ class SurfaceEchoFinder {
         if constexpr (has_side_lobes) note_received(sample);
     }
 
-    /// Targets have echoes of their own facets: their samples count if a facet of the same instance
-    /// has one.
     void note_received(const Sample& sample) {
         const Sample* const first = samples_.data();
         if (!std::less<>()(&sample, first) && std::less<>()(&sample, first + samples_.size()))
             received_[static_cast<std::size_t>(&sample - first)] = 1;
-        else if (std::ranges::find(received_targets_, sample.instance) == received_targets_.end())
-            received_targets_.push_back(sample.instance);
     }
 
     /// Adds the echo of piece k of a block in a beam. The echoes of a piece in several beams of a
@@ -271,11 +199,8 @@ class SurfaceEchoFinder {
     EchoBlocks blocks_;
     PatchBlock pieces_;
     PointEchoes echoes_;
-    PatchBlock::Array<bool> target_{};  ///< pieces of targets
     PatchBlock::Array<float> sent_{}, gain_{};
-    std::vector<Sample> target_samples_;
-    std::vector<std::uint8_t> received_;           ///< SurfaceEchoes::received
-    std::vector<std::uint32_t> received_targets_;  ///< instances
+    std::vector<std::uint8_t> received_;  ///< SurfaceEchoes::received
     std::vector<EchoPatch> found_;
     std::vector<PatchEcho> patch_echoes_;  ///< one for each direct echo
     int last_piece_ = -1;  ///< the piece of the block that is the last of found_; -1: none
@@ -291,9 +216,8 @@ SurfaceEchoes CalibratedModel::surface_echoes(const TracedPing& traced, const Vi
     return std::visit(
         [&]<class Beams>(const Beams& of_model) {
             SurfaceEchoFinder<Beams> finder(*this, of_model, traced, view.shape, patches, use);
-            finder.add_surface(traced.samples.items, traced.targets);
-            finder.add_surface(traced.outside_sector, traced.targets);
-            finder.add_targets(traced.targets, slopes_of(scene.materials));
+            finder.add_surface(traced.samples.items);
+            finder.add_surface(traced.outside_sector);
             finder.add_particles(traced.particles);
             finder.add_multipath(specular_paths(traced, scene));
             return finder.take();

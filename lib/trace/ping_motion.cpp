@@ -129,22 +129,4 @@ void move_in_ping(const PingMotion& motion, const View& view, Samples& samples,
     sort_into_beams(view, samples, outside_sector);
 }
 
-void move_in_ping(const PingMotion& motion, ViewShape shape, std::vector<TargetFacet>& facets) {
-    if (motion.is_still()) return;
-    for (TargetFacet& facet : facets) {
-        const double time = two_way_time(motion, facet.corners[0].cast<double>());
-        const Eigen::Matrix3f to_there =
-            rotation_by(reception_share(motion, shape) * time * motion.turn_rad_s)
-                .conjugate()
-                .toRotationMatrix()
-                .cast<float>();
-        facet.normal = to_there * facet.normal;
-        for (int k = 0; k < 3; ++k) {
-            facet.normals[k] = to_there * facet.normals[k];
-            facet.corners[k] =
-                measured_place(motion, shape, facet.corners[k].cast<double>()).cast<float>();
-        }
-    }
-}
-
 }  // namespace sonarsim

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "core/pose.h"
-#include "trace/target_surface.h"
 #include "visibility/engine.h"
 
 namespace sonarsim {
@@ -47,7 +46,5 @@ Eigen::Vector3d unmoved_place(const PingMotion& motion, ViewShape shape,
 /// of a fan are then sorted into beams again.
 void move_in_ping(const PingMotion& motion, const View& view, Samples& samples,
                   std::vector<Sample>& outside_sector);
-/// The same for facets of targets.
-void move_in_ping(const PingMotion& motion, ViewShape shape, std::vector<TargetFacet>& facets);
 
 }  // namespace sonarsim

@@ -60,7 +60,7 @@ struct EchoPatch {
 };
 
 /// The surface that labels need besides the echoes. Samples are those of the traced ping, which
-/// must outlive this, or of `target_samples`.
+/// must outlive this.
 struct SurfaceEchoes {
     SurfaceEchoes() = default;
     SurfaceEchoes(SurfaceEchoes&&) = default;  ///< a copy would point into the original
@@ -71,7 +71,6 @@ struct SurfaceEchoes {
     /// beams + 1 offsets into `patches`, if these are sorted by beam and have one echo each; else
     /// empty.
     std::vector<std::uint32_t> patch_begin;
-    std::vector<Sample> target_samples;  ///< one for each facet of TracedPing::targets
     /// The beams of a line array; empty: those of the view.
     ConeBeams cones;
     /// 1 for the samples of the traced ping with a direct echo, 0 for those in side lobes; empty:

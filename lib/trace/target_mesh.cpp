@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <set>
 
 #include "scene/mesh_topology.h"
 
@@ -14,7 +14,7 @@ namespace {
 // The cosine of 30 degrees, between the normals of two triangles that meet.
 constexpr float crease_cosine = 0.8660254F;
 // Meshes of curved surfaces have neighbours of about equal size.
-constexpr float max_height_ratio = 5.0F;
+constexpr double max_height_ratio = 5.0;
 // Vertices closer than this share of the object's size are one.
 constexpr float weld_share = 1e-5F;
 
@@ -43,21 +43,13 @@ void weld(std::span<const Eigen::Vector3f> vertices, std::vector<TriangleCorners
 /// once for each side, is one surface and has one echo.
 void add_triangles(const std::vector<TriangleCorners>& triangles,
                    std::span<const std::uint32_t> materials, TargetShape& shape) {
-    std::vector<std::pair<TriangleCorners, std::size_t>> sorted;
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-        TriangleCorners c = triangles[t];
-        std::ranges::sort(c);
-        sorted.emplace_back(c, t);
-    }
-    std::ranges::sort(sorted);
-    std::vector<bool> kept(triangles.size(), true);
-    for (std::size_t k = 1; k < sorted.size(); ++k) {
-        if (sorted[k].first == sorted[k - 1].first) kept[sorted[k].second] = false;
-    }
+    std::set<TriangleCorners> known;
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         const TriangleCorners& corners = triangles[t];
+        TriangleCorners in_order = corners;
+        std::ranges::sort(in_order);
         const Eigen::Vector3d cross = cross_of(shape.vertices, corners);
-        if (!kept[t] || !(cross.norm() > 0.0)) continue;
+        if (!known.insert(in_order).second || !(cross.norm() > 0.0)) continue;
         const Eigen::Vector3f normal = cross.normalized().cast<float>();
         shape.triangles.push_back({.corners = corners,
                                    .normals = {normal, normal, normal},
@@ -68,47 +60,58 @@ void add_triangles(const std::vector<TriangleCorners>& triangles,
     }
 }
 
-/// The distance of a triangle's third corner from one of its sides.
-float height_over(const TargetShape& shape, const MeshSide& edge) {
-    const TriangleCorners& c = shape.triangles[edge.triangle].corners;
-    const Eigen::Vector3f along =
-        (shape.vertices[edge.high] - shape.vertices[edge.low]).normalized();
-    const Eigen::Vector3f to = shape.vertices[c[(edge.side + 2) % 3]] - shape.vertices[edge.low];
-    return (to - to.dot(along) * along).norm();
-}
-
-bool is_smooth(const TargetShape& shape, const MeshSide& a, const MeshSide& b) {
-    const float cosine = shape.triangles[a.triangle].normal.dot(shape.triangles[b.triangle].normal);
-    const float of_a = height_over(shape, a);
-    const float of_b = height_over(shape, b);
-    return cosine >= crease_cosine && of_a < max_height_ratio * of_b &&
+/// True if two triangles that share an edge are parts of one curved surface. Their areas are in the
+/// ratio of their heights over the edge.
+bool is_smooth(const TargetShape& shape, const TargetTriangle& a, const TargetTriangle& b) {
+    const double of_a = cross_of(shape.vertices, a.corners).norm();
+    const double of_b = cross_of(shape.vertices, b.corners).norm();
+    return a.normal.dot(b.normal) >= crease_cosine && of_a < max_height_ratio * of_b &&
            of_b < max_height_ratio * of_a;
 }
 
-/// Calls use(a, b) for the two sides of each edge that two triangles share, from sorted edges.
-/// Skips edges of one triangle or of three and more, and edges whose triangles differ in winding.
-/// Returns true if no edge was skipped.
-template <class Use>
-bool each_shared_edge(const std::vector<MeshSide>& edges, Use use) {
-    bool all = true;
-    for (std::size_t k = 0; k < edges.size();) {
-        std::size_t end = k + 1;
-        while (end < edges.size() && edges[end].low == edges[k].low &&
-               edges[end].high == edges[k].high)
-            ++end;
-        const bool pair = end == k + 2 && edges[k].forward != edges[k + 1].forward;
-        if (pair) use(edges[k], edges[k + 1]);
-        all = all && pair;
-        k = end;
-    }
-    return all;
-}
+/// Triangles that share edges, triangles that join smoothly, and the corners at which they do.
+struct JoinedTriangles {
+    JoinedSets parts, regions, corners;
+    bool closed = true;  ///< no edge has one triangle, three or more, or two that differ in winding
 
-/// Turns the normals of each closed part of a closed mesh outwards: its volume is positive then.
-void turn_outwards(TargetShape& shape, const std::vector<MeshSide>& edges) {
-    JoinedSets parts(shape.triangles.size());
-    each_shared_edge(
-        edges, [&](const MeshSide& a, const MeshSide& b) { parts.join(a.triangle, b.triangle); });
+    explicit JoinedTriangles(const TargetShape& shape)
+        : parts(shape.triangles.size()),
+          regions(shape.triangles.size()),
+          corners(3 * shape.triangles.size()) {
+        std::vector<TriangleCorners> triangles;
+        for (const TargetTriangle& triangle : shape.triangles)
+            triangles.push_back(triangle.corners);
+        const std::vector<MeshSide> sides = sides_by_edge(triangles, shape.vertices.size());
+        const auto is_other_edge = [](const MeshSide& a, const MeshSide& b) {
+            return a.low != b.low || a.high != b.high;
+        };
+        for (auto side = sides.begin(); side != sides.end();) {
+            const auto end = std::find_if(side, sides.end(), [&](const MeshSide& other) {
+                return is_other_edge(*side, other);
+            });
+            const bool is_pair = end - side == 2 && side[0].forward != side[1].forward;
+            if (is_pair) join(shape, side[0], side[1]);
+            closed = closed && is_pair;
+            side = end;
+        }
+    }
+
+  private:
+    void join(const TargetShape& shape, const MeshSide& a, const MeshSide& b) {
+        parts.join(a.triangle, b.triangle);
+        if (!is_smooth(shape, shape.triangles[a.triangle], shape.triangles[b.triangle])) return;
+        regions.join(a.triangle, b.triangle);
+        const auto corner = [](const MeshSide& side, bool low) {
+            const bool first = side.forward == low;
+            return 3 * side.triangle + (first ? side.side : (side.side + 1) % 3);
+        };
+        corners.join(corner(a, true), corner(b, true));
+        corners.join(corner(a, false), corner(b, false));
+    }
+};
+
+/// Turns the normals of each part of a closed mesh outwards: its volume is positive then.
+void turn_outwards(TargetShape& shape, JoinedSets& parts) {
     std::vector<double> volume(shape.triangles.size(), 0.0);
     for (std::uint32_t t = 0; t < shape.triangles.size(); ++t) {
         const TriangleCorners& c = shape.triangles[t].corners;
@@ -116,11 +119,7 @@ void turn_outwards(TargetShape& shape, const std::vector<MeshSide>& edges) {
             cross_of(shape.vertices, c).dot((shape.vertices[c[0]] - shape.centre).cast<double>());
     }
     for (std::uint32_t t = 0; t < shape.triangles.size(); ++t) {
-        TargetTriangle& triangle = shape.triangles[t];
-        if (volume[parts.of(t)] >= 0.0) continue;
-        triangle.normal = -triangle.normal;
-        for (Eigen::Vector3f& normal : triangle.normals)
-            normal = -normal;
+        if (volume[parts.of(t)] < 0.0) shape.triangles[t].normal *= -1.0F;
     }
 }
 
@@ -155,19 +154,7 @@ float curvature_of(const TargetShape& shape, const TargetTriangle& triangle) {
 }
 
 /// Sets the normals at corners: weighted means over the triangles that join smoothly there.
-void set_smooth_normals(TargetShape& shape, const std::vector<MeshSide>& edges) {
-    JoinedSets regions(shape.triangles.size());
-    JoinedSets corners(3 * shape.triangles.size());
-    each_shared_edge(edges, [&](const MeshSide& a, const MeshSide& b) {
-        if (!is_smooth(shape, a, b)) return;
-        regions.join(a.triangle, b.triangle);
-        const auto corner = [](const MeshSide& edge, bool low) {
-            const bool first = edge.forward == low;
-            return 3 * edge.triangle + (first ? edge.side : (edge.side + 1) % 3);
-        };
-        corners.join(corner(a, true), corner(b, true));
-        corners.join(corner(a, false), corner(b, false));
-    });
+void set_smooth_normals(TargetShape& shape, JoinedSets& corners) {
     std::vector<Eigen::Vector3f> sum(3 * shape.triangles.size(), Eigen::Vector3f::Zero());
     for (std::uint32_t t = 0; t < shape.triangles.size(); ++t) {
         for (int k = 0; k < 3; ++k)
@@ -175,11 +162,11 @@ void set_smooth_normals(TargetShape& shape, const std::vector<MeshSide>& edges) 
     }
     for (std::uint32_t t = 0; t < shape.triangles.size(); ++t) {
         TargetTriangle& triangle = shape.triangles[t];
-        triangle.region = regions.of(t);
         for (int k = 0; k < 3; ++k) {
             const Eigen::Vector3f mean = sum[corners.of(3 * t + k)].normalized();
             // The sides of a cone have no common normal at its tip.
-            if (mean.dot(triangle.normal) >= crease_cosine) triangle.normals[k] = mean;
+            const bool has_mean = mean.dot(triangle.normal) >= crease_cosine;
+            triangle.normals[k] = has_mean ? mean : triangle.normal;
         }
         triangle.curvature_m = curvature_of(shape, triangle);
     }
@@ -195,14 +182,12 @@ TargetShape target_shape(const TargetMesh& mesh) {
     shape.radius_m = ball.radius_m;
     weld(mesh.vertices, triangles, shape);
     add_triangles(triangles, mesh.materials, shape);
-    std::vector<TriangleCorners> kept;
-    for (const TargetTriangle& triangle : shape.triangles)
-        kept.push_back(triangle.corners);
-    const std::vector<MeshSide> edges = sides_by_edge(kept, shape.vertices.size());
-    shape.closed = each_shared_edge(edges, [](const MeshSide&, const MeshSide&) {});
-    if (shape.closed) turn_outwards(shape, edges);
-    set_smooth_normals(shape, edges);
-    std::ranges::stable_sort(shape.triangles, {}, &TargetTriangle::region);
+    JoinedTriangles joined(shape);
+    shape.closed = joined.closed;
+    if (shape.closed) turn_outwards(shape, joined.parts);
+    set_smooth_normals(shape, joined.corners);
+    for (std::uint32_t t = 0; t < shape.triangles.size(); ++t)
+        shape.triangles[t].region = joined.regions.of(t);
     for (const TargetTriangle& triangle : shape.triangles) {
         shape.curvature_m = std::max(shape.curvature_m, std::fabs(triangle.curvature_m));
         for (const Eigen::Vector3f& normal : triangle.normals)

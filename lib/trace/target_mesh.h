@@ -20,8 +20,8 @@ struct TargetTriangle {
 
 /// The surface of an object, in its own frame.
 struct TargetShape {
-    std::vector<Eigen::Vector3f> vertices;             ///< m
-    std::vector<TargetTriangle> triangles;             ///< region after region
+    std::vector<Eigen::Vector3f> vertices;  ///< m
+    std::vector<TargetTriangle> triangles;
     Eigen::Vector3f centre = Eigen::Vector3f::Zero();  ///< centre of a ball around it
     float radius_m = 0.0F;                             ///< radius of that ball
     /// Greatest radius of curvature of its triangles; 0: all faces are flat.

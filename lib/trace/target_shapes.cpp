@@ -9,6 +9,7 @@
 #include "core/groups.h"
 #include "scene/maps/ground_maps.h"
 #include "scene/materials.h"
+#include "scene/mesh_topology.h"
 
 namespace sonarsim {
 
@@ -21,12 +22,8 @@ constexpr float max_target_radius_m = 5.0F;
 /// Adds the shape of a mesh, if it may be a target, and returns its index.
 std::optional<std::uint32_t> add_shape(const TargetMesh& mesh, float scale, TargetShapes& out) {
     if (mesh.triangles.empty() || mesh.triangles.size() > max_target_triangles) return std::nullopt;
-    Eigen::AlignedBox3f box;
-    for (const auto& triangle : mesh.triangles) {
-        for (const std::uint32_t corner : triangle)
-            box.extend(mesh.vertices[corner]);
-    }
-    if (0.5F * scale * box.diagonal().norm() > max_target_radius_m) return std::nullopt;
+    const float radius_m = ball_around(mesh.vertices, mesh.triangles).radius_m;
+    if (scale * radius_m > max_target_radius_m) return std::nullopt;
     out.shapes.push_back(target_shape(mesh));
     return static_cast<std::uint32_t>(out.shapes.size() - 1);
 }
@@ -75,25 +72,10 @@ void add_copies(const Scene& scene, TargetShapes& out) {
     }
 }
 
-/// The lesser of a slope and that of a material, if the material has facets.
-float lesser_slope(float slope, const Material& material) {
+/// Lessens a slope to that of a material, if the material has facets.
+void lessen(float& slope, const Material& material) {
     const auto of_material = static_cast<float>(facet_slope(material));
-    return of_material > 0.0F ? std::min(slope, of_material) : slope;
-}
-
-float min_slope(std::span<const Material> materials, const TargetShape& shape) {
-    float least = 1.0F;
-    for (const TargetTriangle& triangle : shape.triangles)
-        least = lesser_slope(least, materials[triangle.material]);
-    return least;
-}
-
-float min_slope_of_texels(const Scene& scene) {
-    float least = 1.0F;
-    if (!scene.maps) return least;
-    for (const std::uint32_t material : scene.maps->materials())
-        least = lesser_slope(least, scene.materials[material]);
-    return least;
+    if (of_material > 0.0F) slope = std::min(slope, of_material);
 }
 
 }  // namespace
@@ -104,14 +86,16 @@ std::shared_ptr<const TargetShapes> find_target_shapes(const Scene& scene) {
     add_bodies(scene, *out);
     add_copies(scene, *out);
     if (out->placed.empty()) return nullptr;
-    std::vector<float> slopes;
-    for (const TargetShape& shape : out->shapes)
-        slopes.push_back(min_slope(scene.materials, shape));
-    const float of_texels = min_slope_of_texels(scene);
+    std::vector<float> slopes(out->shapes.size(), 1.0F);
+    for (std::size_t k = 0; k < slopes.size(); ++k) {
+        for (const TargetTriangle& triangle : out->shapes[k].triangles)
+            lessen(slopes[k], scene.materials[triangle.material]);
+    }
     for (PlacedTarget& placed : out->placed) {
         placed.min_slope = slopes[placed.shape];
-        if (scene.maps && scene.maps->lie_on(placed.instance))
-            placed.min_slope = std::min(placed.min_slope, of_texels);
+        if (!scene.maps || !scene.maps->lie_on(placed.instance)) continue;
+        for (const std::uint32_t material : scene.maps->materials())
+            lessen(placed.min_slope, scene.materials[material]);
     }
     return out;
 }

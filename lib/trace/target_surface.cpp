@@ -1,12 +1,15 @@
 #include "trace/target_surface.h"
 
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <utility>
 
 #include "core/elementary.h"
-#include "trace/apply_target_maps.h"
+#include "scene/maps/ground_maps.h"
+#include "scene/materials.h"
 #include "trace/arrivals.h"
 #include "visibility/view_volume.h"
 
@@ -20,14 +23,14 @@ constexpr float max_cells = 4.0F;
 constexpr double min_parts = 32.0;
 // The sonar is outside of the ball around a target.
 constexpr float min_distance_by_radius = 1.05F;
-// Size of the parts that one ray decides on, as a share of a target's diameter: within 0.5 dB.
+// Vertices are moved by up to this share of a target's radius when they are joined.
+constexpr float weld_slack = 2e-5F;
+// The greatest size of a piece, as a share of a target's diameter: within 0.5 dB.
 constexpr float part_by_diameter = 1.0F / 8.0F;
-// All but exp(-3^2 / 2), a hundredth, of the power of a highlight lies within this many slopes.
-constexpr float highlight_reach = 3.0F;
-// Size of a highlight's parts relative to the highlight's own, curvature radius times slope.
-constexpr float part_by_highlight = 1.5F;
-// Parts are no smaller than this share of a resolution cell.
-constexpr float min_part_by_cell = 0.25F;
+// The normal turns by up to this many slopes along a side of a piece of a highlight.
+constexpr float turn_by_slope = 1.0F;
+// A part of a triangle is halved at most this many times, to a thousandth of its sides and less.
+constexpr int max_halvings = 22;
 
 /// The width in which a view resolves directions, or an engine samples them, rad.
 double resolved_width(const View& view) {
@@ -36,99 +39,84 @@ double resolved_width(const View& view) {
     return view.elevation_rad / min_parts;
 }
 
-/// A target in the sensor frame.
-struct Target {
-    const PlacedTarget* placed;
-    const TargetShape* shape;
-    Eigen::Affine3f T_sensor_shape;
-    float scale;
-    float cell_m;  ///< size of a resolution cell there
-    float part_m;  ///< size of the parts whose visibility is found by one ray
-    bool inside;   ///< it lies in the view with all of its parts
-};
+/// A corner of a piece of a triangle, in the sensor frame.
+struct Corner {
+    Eigen::Vector3f place;
+    Eigen::Vector3f normal;  ///< interpolated between those of the triangle, facing the sonar
+    Eigen::Vector3f off;     ///< difference between the normal and the direction to the sonar
 
+    Corner(const Eigen::Vector3f& at, const Eigen::Vector3f& n) : place(at), normal(n) {
+        // Nearly of unit length: normals are at least 0.9 long.
+        const float to_unit = 1.5F - 0.5F * n.squaredNorm();
+        off = to_unit * n + at / arrival_range(at);
+    }
+};
+using Corners = std::array<Corner, 3>;
+
+/// A lower bound of the length of `off` on a triangle. A highlight lies where it is shorter than a
+/// few slopes of the material.
+float least_off(const Corners& corners) {
+    const Eigen::Vector3f middle = (corners[0].off + corners[1].off + corners[2].off) / 3.0F;
+    float spread2 = 0.0F;
+    for (const Corner& corner : corners)
+        spread2 = std::max(spread2, (corner.off - middle).squaredNorm());
+    return middle.norm() - std::sqrt(spread2);
+}
+
+/// Cuts the objects of a ping into pieces.
 class TargetSampler {
   public:
-    TargetSampler(const View& view, const GuardBeams& guard_beams)
+    TargetSampler(const View& view, const GuardBeams& guard_beams, const Scene& scene)
         : view_(view),
           field_(view, guard_beams),
-          volume_(widened_view(view, guard_beams), Pose{}) {}
+          volume_(widened_view(view, guard_beams), Pose{}),
+          maps_(scene.maps.get()) {
+        for (const Material& material : scene.materials)
+            slopes_.push_back(static_cast<float>(facet_slope(material)));
+    }
 
-    /// The object as a target of this view; nothing if it lies outside or is large enough for an
-    /// engine's samples.
-    std::optional<Target> target(const TargetShape& shape, const PlacedTarget& placed,
-                                 const Eigen::Affine3f& T_sensor_shape) const {
+    /// Cuts an object. False if it lies outside or is large enough for an engine's samples.
+    bool add(const PlacedTarget& placed, const TargetShape& shape,
+             const Eigen::Affine3f& T_sensor_shape) {
         const float scale = T_sensor_shape.linear().col(0).norm();
         const Eigen::Vector3f centre = T_sensor_shape * shape.centre;
         const float radius = scale * shape.radius_m;
         const float range = arrival_range(centre);
-        if (range < min_distance_by_radius * radius) return std::nullopt;
-        const Containment contained =
-            volume_.of_sensor_frame(centre, radius + volume_.rounding_m());
-        if (contained == Containment::outside) return std::nullopt;
-        // The cones of a fan's beams do not fill the guard beams, nor does a cone its volume.
-        const bool inside = contained == Containment::inside && !field_.is_guarded() &&
-                            view_.shape != ViewShape::cone;
+        if (range < min_distance_by_radius * radius) return false;
+        if (volume_.of_sensor_frame(centre, radius + volume_.rounding_m()) == Containment::outside)
+            return false;
         const float cell = std::max(static_cast<float>(resolved_width(view_)) * range,
                                     static_cast<float>(view_.bin_m()));
         const float highlight =
             shape.curvature_m > 0.0F ? scale * shape.curvature_m * placed.min_slope : radius;
         // On a coarse mesh an engine sees facets where the surface is curved.
         const bool is_smooth = shape.turn <= placed.min_slope;
-        if (highlight > max_cells * cell && is_smooth) return std::nullopt;
-        const float part = part_by_diameter * 2.0F * radius;
-        return Target{&placed, &shape, T_sensor_shape, scale, cell, part, inside};
+        if (highlight > max_cells * cell && is_smooth) return false;
+        part_m_ = part_by_diameter * 2.0F * radius;
+        weld_m_ = weld_slack * radius;
+        cut(placed, shape, T_sensor_shape, scale);
+        return true;
     }
 
-    void add(const Target& target) {
-        const TargetShape& shape = *target.shape;
-        vertices_.clear();
-        for (const Eigen::Vector3f& p : shape.vertices)
-            vertices_.push_back(target.T_sensor_shape * p);
-        const Eigen::Matrix3f R = target.T_sensor_shape.linear() / target.scale;
-        last_point_.reset();
-        parts_.reserve(parts_.size() + 2 * shape.triangles.size());
-        for (const TargetTriangle& triangle : shape.triangles) {
-            Eigen::Vector3f normal = R * triangle.normal;
-            const float height = -normal.dot(vertices_[triangle.corners[0]]);
-            if (shape.closed && !(height > 0.0F)) continue;
-            const float side = height < 0.0F ? -1.0F : 1.0F;
-            TargetFacet facet{.corners = {},
-                              .normals = {},
-                              .normal = side * normal,
-                              .curvature_m = side * target.scale * triangle.curvature_m,
-                              .material = triangle.material,
-                              .instance = target.placed->instance,
-                              .region = triangle.region};
-            for (int k = 0; k < 3; ++k) {
-                facet.corners[k] = vertices_[triangle.corners[k]];
-                facet.normals[k] = side * (R * triangle.normals[k]);
-            }
-            add_parts(facet, target);
-        }
-    }
-
-    /// The parts that are seen.
-    std::vector<TargetFacet> take_seen(const VisibilityEngine& engine, const Pose& T_world_sensor) {
+    /// The pieces that are seen.
+    std::vector<Sample> take_seen(const VisibilityEngine& engine, const Pose& T_world_sensor) {
         std::vector<Intersection> hits(rays_.size());
         engine.intersect(T_world_sensor, rays_, hits);
         std::size_t kept = 0;
-        for (std::size_t k = 0; k < parts_.size(); ++k) {
+        for (std::size_t k = 0; k < pieces_.size(); ++k) {
             const std::uint32_t ray = ray_of_[k];
-            if (!ray_arrives(aims_[ray], hits[ray])) continue;
-            if (kept != k) parts_[kept] = parts_[k];
-            ++kept;
+            if (ray_arrives(aims_[ray], hits[ray])) pieces_[kept++] = pieces_[k];
         }
-        parts_.resize(kept);
-        return std::move(parts_);
+        pieces_.resize(kept);
+        return std::move(pieces_);
     }
 
   private:
-    /// The part that a ray should reach.
+    /// The piece that a ray should reach.
     struct Aim {
         float range_m;
         float cosine;   ///< cosine of the angle between the ray and the normal
-        float slack_m;  ///< greatest distance of the part from the surface
+        float slack_m;  ///< greatest distance of the piece from the surface
     };
 
     static bool ray_arrives(const Aim& aim, const Intersection& hit) {
@@ -139,62 +127,113 @@ class TargetSampler {
         return hit.distance_m + slack >= aim.range_m;
     }
 
-    /// Cuts a facet into parts. Where a highlight may lie, the normal turns by about a slope over
-    /// each part.
-    void add_parts(const TargetFacet& facet, const Target& target) {
-        const Eigen::Vector3f u = facet.corners[1] - facet.corners[0];
-        const Eigen::Vector3f v = facet.corners[2] - facet.corners[0];
-        const float slope = target.placed->min_slope;
-        std::optional<FacetTurn> turn;
-        if (facet.curvature_m != 0.0F) turn.emplace(facet);
-        const bool may_highlight = turn && turn->least <= highlight_reach * slope;
-        const float radius = std::fabs(facet.curvature_m);
-        const float min_m = min_part_by_cell * target.cell_m;
-        const float highlight_m =
-            std::clamp(part_by_highlight * radius * slope, min_m, std::max(target.part_m, min_m));
-        const float per_turn = may_highlight ? radius / highlight_m : 0.0F;
-        const float alike_m = 0.5F * (may_highlight ? highlight_m : target.part_m);
-        const float per_part = 1.0F / target.part_m;
-        const auto size = [&](float du, float dv) {
-            const float by_part = per_part * (du * u + dv * v).norm();
-            if (!may_highlight) return by_part;
-            return std::max(by_part, per_turn * (du * turn->along_u + dv * turn->along_v).norm());
-        };
-        cut_triangle(size, [&](const TrianglePart& cut) {
-            const Eigen::Vector3f middle =
-                facet.corners[0] + cut.centroid.u * u + cut.centroid.v * v;
-            if (!target.inside && !field_.contains(middle)) return;
-            find_ray(middle, facet.normal, target, alike_m);
-            for_each_triangle(facet, cut, [&](const TargetFacet& part) {
-                parts_.push_back(part);
-                ray_of_.push_back(static_cast<std::uint32_t>(rays_.size() - 1));
-            });
-        });
+    void cut(const PlacedTarget& placed, const TargetShape& shape,
+             const Eigen::Affine3f& T_sensor_shape, float scale) {
+        std::vector<Eigen::Vector3f> vertices;
+        for (const Eigen::Vector3f& p : shape.vertices)
+            vertices.push_back(T_sensor_shape * p);
+        const Eigen::Matrix3f R = T_sensor_shape.linear() / scale;
+        const bool is_mapped = maps_ && maps_->lie_on(placed.instance);
+        last_point_.reset();
+        piece_.instance = placed.instance;
+        for (const TargetTriangle& triangle : shape.triangles) {
+            flat_normal_ = R * triangle.normal;
+            const float height = -flat_normal_.dot(vertices[triangle.corners[0]]);
+            if (shape.closed && !(height > 0.0F)) continue;
+            const float side = height < 0.0F ? -1.0F : 1.0F;
+            flat_normal_ *= side;
+            curvature_m_ = side * scale * triangle.curvature_m;
+            slope_ = is_mapped ? placed.min_slope : slopes_[triangle.material];
+            piece_.material = triangle.material;
+            piece_.region = triangle.region + 1;
+            const auto corner = [&](int k) {
+                return Corner(vertices[triangle.corners[k]], side * (R * triangle.normals[k]));
+            };
+            halve({corner(0), corner(1), corner(2)}, max_halvings);
+        }
     }
 
-    /// Aims a ray at a part, unless the last one arrives within `near_m` of it.
-    void find_ray(const Eigen::Vector3f& middle, const Eigen::Vector3f& normal,
-                  const Target& target, float near_m) {
-        const bool shares = last_point_ && (middle - *last_point_).norm() < near_m &&
-                            normal.dot(last_normal_) > 0.9F;
+    /// Halves a part of the triangle until it is a piece: small and, where a highlight may lie,
+    /// with a normal that turns by about a slope.
+    void halve(const Corners& corners, int halvings) {
+        const bool glints = slope_ > 0.0F && least_off(corners) <= highlight_slopes * slope_;
+        const float per_part = 1.0F / part_m_;
+        const float per_turn = glints ? 1.0F / (turn_by_slope * slope_) : 0.0F;
+        int longest = -1;
+        float size = 1.0F;
+        for (int k = 0; k < 3; ++k) {
+            const Corner& from = corners[k];
+            const Corner& to = corners[(k + 1) % 3];
+            const float of_side = std::max(per_part * (to.place - from.place).norm(),
+                                           per_turn * (to.off - from.off).norm());
+            if (!(of_side > size)) continue;
+            size = of_side;
+            longest = k;
+        }
+        if (longest < 0 || halvings == 0) return add_piece(corners, glints);
+        const Corner& a = corners[longest];
+        const Corner& b = corners[(longest + 1) % 3];
+        const Corner& c = corners[(longest + 2) % 3];
+        const Corner middle(0.5F * (a.place + b.place), 0.5F * (a.normal + b.normal));
+        halve({a, middle, c}, halvings - 1);
+        halve({middle, b, c}, halvings - 1);
+    }
+
+    void add_piece(const Corners& corners, bool glints) {
+        // From b to c is the shortest side, so that the edges of the footprint are far from
+        // parallel.
+        std::array<float, 3> sides2;
+        for (int k = 0; k < 3; ++k)
+            sides2[k] = (corners[(k + 1) % 3].place - corners[k].place).squaredNorm();
+        const auto shortest = std::ranges::min_element(sides2) - sides2.begin();
+        const Corner& a = corners[(shortest + 2) % 3];
+        const Corner& b = corners[shortest];
+        const Corner& c = corners[(shortest + 1) % 3];
+        const Eigen::Vector3f middle = (a.place + b.place + c.place) / 3.0F;
+        if (!field_.contains(middle)) return;
+        find_ray(middle, glints);
+        const Eigen::Vector3f n = (a.normal + b.normal + c.normal) / 3.0F;
+        const float length = n.norm();
+        const float flat_m2 = 0.5F * (b.place - a.place).cross(c.place - a.place).norm();
+        piece_.normal = n / length;
+        piece_.position = middle + curvature_m_ * (1.0F - length) * piece_.normal;
+        // The edges are those of a parallelogram with the area of the triangle.
+        piece_.edge_u = 0.25F * (b.place + c.place - 2.0F * a.place);
+        piece_.edge_v = 0.25F * (c.place - b.place);
+        piece_.height_m = std::max(-piece_.position.dot(piece_.normal), 0.0F);
+        piece_.area_m2 =
+            flat_m2 * std::max(flat_normal_.dot(piece_.normal), 0.0F) / (length * length);
+        pieces_.push_back(piece_);
+        ray_of_.push_back(static_cast<std::uint32_t>(rays_.size() - 1));
+    }
+
+    /// Aims a ray at a piece. Outside of highlights, the last one decides if it arrives near it.
+    void find_ray(const Eigen::Vector3f& middle, bool glints) {
+        const bool shares = !glints && last_point_ &&
+                            (middle - *last_point_).norm() < 0.5F * part_m_ &&
+                            flat_normal_.dot(last_normal_) > 0.9F;
         if (shares) return;
-        const float range = arrival_range(middle);
-        const Eigen::Vector3f direction = middle / range;
+        const auto [range, direction] = arrival_of(middle);
         rays_.push_back({Eigen::Vector3f::Zero(), direction});
-        aims_.push_back({range, std::fabs(normal.dot(direction)),
-                         weld_slack * target.scale * target.shape->radius_m});
+        aims_.push_back({range, std::fabs(flat_normal_.dot(direction)), weld_m_});
         last_point_ = middle;
-        last_normal_ = normal;
+        last_normal_ = flat_normal_;
     }
-
-    /// Vertices are moved by up to this share of a target's radius when they are joined.
-    static constexpr float weld_slack = 2e-5F;
 
     const View& view_;
     GuardedField field_;
     ViewVolume volume_;
-    std::vector<Eigen::Vector3f> vertices_;
-    std::vector<TargetFacet> parts_;
+    const GroundMaps* maps_;     ///< null: none
+    std::vector<float> slopes_;  ///< RMS slopes of the materials' facets
+    float part_m_ = 0.0F;        ///< the greatest size of a piece of the target that is cut
+    float weld_m_ = 0.0F;        ///< the way by which its vertices were moved at most
+    // The triangle that is cut:
+    Eigen::Vector3f flat_normal_ = Eigen::Vector3f::Zero();  ///< facing the sonar
+    float curvature_m_ = 0.0F;  ///< as in TargetTriangle, negative if hollow
+    float slope_ = 0.0F;        ///< RMS slope of its facets; 0: none
+    Sample piece_{};
+
+    std::vector<Sample> pieces_;
     std::vector<std::uint32_t> ray_of_;
     std::vector<Ray> rays_;
     std::vector<Aim> aims_;
@@ -219,21 +258,41 @@ TargetSurface target_surface(const TargetShapes& shapes, const View& view,
                              const GuardBeams& guard_beams, const Scene& scene,
                              const VisibilityEngine& engine, const Pose& T_world_sensor) {
     TargetSurface out;
-    TargetSampler sampler(view, guard_beams);
+    TargetSampler sampler(view, guard_beams, scene);
     const std::span<const Pose> bodies = engine.body_poses();
     for (const PlacedTarget& placed : shapes.placed) {
         if (placed.body && bodies.empty()) continue;  // without a pose it is invisible
-        const std::optional<Target> target =
-            sampler.target(shapes.shapes[placed.shape], placed,
-                           in_sensor_frame(placed, scene, bodies, T_world_sensor));
-        if (!target) continue;
-        out.instances.push_back(placed.instance);
-        sampler.add(*target);
+        if (sampler.add(placed, shapes.shapes[placed.shape],
+                        in_sensor_frame(placed, scene, bodies, T_world_sensor)))
+            out.instances.push_back(placed.instance);
     }
     std::ranges::sort(out.instances);
-    if (!out.instances.empty()) out.facets = sampler.take_seen(engine, T_world_sensor);
-    if (scene.maps) apply_maps_on_targets(*scene.maps, view, T_world_sensor, out.facets);
+    if (!out.instances.empty()) out.pieces = sampler.take_seen(engine, T_world_sensor);
     return out;
+}
+
+void replace_samples(const TargetSurface& targets, const View& view, VisibleSurface& surface) {
+    if (targets.instances.empty()) return;
+    const auto is_replaced = [&](const Sample& sample) { return targets.has(sample.instance); };
+    std::erase_if(surface.outside_sector, is_replaced);
+    const BeamLocator field(view);
+    std::vector<std::vector<Sample>> of_beam(view.beams);
+    for (const Sample& piece : targets.pieces) {
+        const float beam = field.beam(piece.position, arrival_range(piece.position));
+        (beam < 0.0F ? surface.outside_sector : of_beam[static_cast<std::size_t>(beam)])
+            .push_back(piece);
+    }
+    Samples merged;
+    merged.dropped = surface.samples.dropped;
+    merged.items.reserve(surface.samples.items.size() + targets.pieces.size());
+    merged.beam_begin.push_back(0);
+    for (int j = 0; j < view.beams; ++j) {
+        std::ranges::remove_copy_if(surface.samples.beam(j), std::back_inserter(merged.items),
+                                    is_replaced);
+        merged.items.insert(merged.items.end(), of_beam[j].begin(), of_beam[j].end());
+        merged.beam_begin.push_back(static_cast<std::uint32_t>(merged.items.size()));
+    }
+    surface.samples = std::move(merged);
 }
 
 }  // namespace sonarsim

@@ -4,6 +4,7 @@
 
 #include "core/clock.h"
 #include "trace/apply_maps.h"
+#include "trace/target_surface.h"
 #include "trace/visible_water_surface.h"
 
 namespace sonarsim {
@@ -19,6 +20,11 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
     // 1. The visible surface.
     VisibleSurface surface =
         visible_surface(settings.view, settings.guard_beams, engine, T_world_sensor);
+    if (settings.targets) {
+        replace_samples(target_surface(*settings.targets, settings.view, settings.guard_beams,
+                                       scene, engine, T_world_sensor),
+                        settings.view, surface);
+    }
     traced.samples = std::move(surface.samples);
     traced.outside_sector = std::move(surface.outside_sector);
     traced.counts.samples = traced.samples.items.size() + traced.outside_sector.size();
@@ -28,11 +34,6 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
                    traced.outside_sector, scene.sound_profile.get());
     }
     move_in_ping(motion, settings.view, traced.samples, traced.outside_sector);
-    if (settings.targets) {
-        traced.targets = target_surface(*settings.targets, settings.view, settings.guard_beams,
-                                        scene, engine, T_world_sensor);
-        move_in_ping(motion, settings.view.shape, traced.targets.facets);
-    }
     if (settings.sees_water_surface) {
         traced.water_surface = visible_water_surface(settings.view, settings.guard_beams, scene,
                                                      engine, T_world_sensor, motion);

@@ -11,7 +11,6 @@
 #include "trace/particles.h"
 #include "trace/ping_motion.h"
 #include "trace/target_shapes.h"
-#include "trace/target_surface.h"
 #include "trace/terms.h"
 #include "trace/visible_surface.h"
 #include "visibility/engine.h"
@@ -36,7 +35,6 @@ struct TracedPing {
     PingMotion motion;
     Samples samples;                     ///< the visible surface
     std::vector<Sample> outside_sector;  ///< the visible surface in the guard beams
-    TargetSurface targets;               ///< replaces the samples of its instances
     SeenParticles particles;
     std::vector<Sample> water_surface;  ///< if it scatters
     std::vector<BouncePath> bounces;    ///< multipath paths from `samples`

@@ -35,7 +35,6 @@ class GuardedField {
     GuardedField(const View& view, const GuardBeams& guard_beams)
         : view_(view), guarded_(guard_beams.count > 0), field_(widened_view(view, guard_beams)) {}
 
-    bool is_guarded() const { return guarded_; }
     /// True if it contains a point of the sensor frame; in guard beams, if the cones of a fan's
     /// beams reach it.
     bool contains(const Eigen::Vector3f& point) const;

@@ -4,11 +4,12 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "trace/apply_maps.h"
 #include "trace/target_surface.h"
 #include "trace/visible_surface.h"
+#include "validation/reference_cast.h"
 #include "visibility/intersect.h"
 #include "visibility/local_pose.h"
-#include "validation/reference_cast.h"
 
 namespace sonarsim {
 
@@ -40,19 +41,25 @@ class EnergyImage {
                 const TargetSurface& targets)
         : scene_(scene),
           settings_(settings),
+          targets_(targets),
           pose_(local_pose(T_world_sensor, scene.origin)),
           R_sensor_local_(pose_.rotation.transpose()),
           sum_(static_cast<std::size_t>(settings.view.range_bins) * settings.view.beams),
           area_m2_(sum_.size()) {
         traced_.T_world_sensor = T_world_sensor;
-        traced_.targets = targets;
+        traced_.samples.items = targets.pieces;
+        assign_to_first_beam();
+        if (scene.maps) {
+            apply_maps(*scene.maps, settings.view, T_world_sensor, traced_.samples,
+                       traced_.outside_sector);
+        }
     }
 
     void add(const SurfacePoint& point) {
         const auto range = static_cast<float>(point.range_m);
         const Eigen::Vector3f position = range * (R_sensor_local_ * point.direction);
         add_area(position, point);
-        if (traced_.targets.has(point.facet.instance)) return;
+        if (targets_.has(point.facet.instance)) return;
         if (settings_.guard_beams.count > 0 && !in_array_cones(settings_.view, position)) return;
         Sample& sample = traced_.samples.items.emplace_back();
         sample.position = position;
@@ -67,7 +74,7 @@ class EnergyImage {
         sample.strength = surface.strength;
         sample.instance = point.facet.instance;
         ++hits_;
-        if (traced_.samples.items.size() == at_once) form();
+        if (traced_.samples.items.size() >= at_once) form();
     }
 
     std::vector<double> take() {
@@ -90,23 +97,25 @@ class EnergyImage {
         area_m2_[static_cast<std::size_t>(bin) * view.beams + beam] += point.area_m2;
     }
 
-    void form() {
-        const auto count = static_cast<std::uint32_t>(traced_.samples.items.size());
-        if (count == 0 && traced_.targets.facets.empty()) return;
-        // The calibrated model assigns samples to beams itself, so all of them belong to the first
-        // beam here.
+    /// The calibrated model assigns samples to beams itself.
+    void assign_to_first_beam() {
         traced_.samples.beam_begin.assign(static_cast<std::size_t>(settings_.view.beams) + 1,
-                                          count);
+                                          static_cast<std::uint32_t>(traced_.samples.items.size()));
         traced_.samples.beam_begin.front() = 0;
+    }
+
+    void form() {
+        if (traced_.samples.items.empty()) return;
+        assign_to_first_beam();
         const Ping ping = form_image(traced_, settings_, scene_, {}, direct_echoes_alone);
         for (std::size_t k = 0; k < sum_.size(); ++k)
             sum_[k] += static_cast<double>(ping.intensity[k]);
         traced_.samples.items.clear();
-        traced_.targets.facets.clear();
     }
 
     const Scene& scene_;
     const PingSettings& settings_;
+    const TargetSurface& targets_;
     LocalPose pose_;
     Eigen::Matrix3f R_sensor_local_;
     TracedPing traced_;

@@ -29,6 +29,9 @@ struct Sample {
     /// Factor on the power that the material sends back, from a map of the scene
     /// (trace/apply_maps.h) and from bent sound that converges or spreads.
     float strength = 1.0F;
+    /// Number of the smooth surface of its instance that a piece of a target belongs to
+    /// (trace/target_surface.h), from 1 on; 0: no piece of a target.
+    std::uint32_t region = 0;
 };
 
 /// The insonified surface of a ping, sorted by beam. A footprint extends into a neighbouring beam

@@ -9,13 +9,11 @@
 #include <vector>
 
 #include "ping/form_image.h"
-#include "support/approx.h"
 #include "support/calibrated.h"
 #include "support/draws.h"
 #include "support/maps.h"
 #include "support/sanitized.h"
 #include "support/scenes.h"
-#include "trace/apply_target_maps.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -134,56 +132,5 @@ TEST_SUITE("calibrated") {
                 CHECK(std::fabs(10.0 * std::log10(found / expected)) < 0.7);
             }
         }
-    }
-
-    TEST_CASE("targets: the facets of mapped ground tile it") {
-        Draws draws(32);
-        MappedPlate plate(1.0);
-        apply_drawn_texels(plate, 0.07, draws);
-        const TargetFacet whole{
-            .corners = {Eigen::Vector3f(10.0F, -0.5F, -3.0F), Eigen::Vector3f(11.0F, 0.6F, -3.0F),
-                        Eigen::Vector3f(10.2F, 0.7F, -3.3F)},
-            .normals = {Eigen::Vector3f::UnitZ(), Eigen::Vector3f::UnitZ(),
-                        Eigen::Vector3f::UnitZ()},
-            .normal = Eigen::Vector3f::UnitZ(),
-            .curvature_m = 0.0F,
-            .material = plate.materials[0],
-            .instance = 0,
-            .region = 0,
-            .strength = 0.5F};  // as of a facet in the sediment
-        const Pose pose{Eigen::Quaterniond::Identity(), {-10.0, 17.3, -8.0}};
-        std::vector<TargetFacet> parts{whole};
-        const View view{.azimuth_rad = 0.5,
-                        .elevation_rad = 0.5,
-                        .range_min_m = 1.0,
-                        .range_max_m = 20.0,
-                        .range_bins = 200,
-                        .beams = 64};
-        apply_maps_on_targets(*plate.scene.maps, view, pose, parts);
-        const auto area_of = [](const TargetFacet& facet) {
-            const Eigen::Vector3f u = facet.corners[1] - facet.corners[0];
-            return 0.5F * u.cross(facet.corners[2] - facet.corners[0]).norm();
-        };
-        // The mean of the texels' powers over the facet, by points on it.
-        double mean = 0.0;
-        constexpr int n = 400;
-        for (int i = 0; i < n; ++i) {
-            for (int j = 0; j + i < n; ++j) {
-                const float u = (static_cast<float>(i) + 0.33F) / n;
-                const float v = (static_cast<float>(j) + 0.33F) / n;
-                const Eigen::Vector3f p = whole.corners[0] +
-                                          u * (whole.corners[1] - whole.corners[0]) +
-                                          v * (whole.corners[2] - whole.corners[0]);
-                const MappedPoint texel = plate.scene.maps->at(
-                    0, whole.material, (p.cast<double>() + pose.translation).head<2>());
-                mean += static_cast<double>(texel.strength) / (0.5 * n * (n + 1.0));
-            }
-        }
-        double power = 0.0;
-        for (const TargetFacet& part : parts)
-            power += static_cast<double>(part.strength * area_of(part));
-        CHECK(parts.size() > 50);
-        CHECK(power / static_cast<double>(area_of(whole)) ==
-              test::approx(0.5 * mean).epsilon(0.02));
     }
 }
