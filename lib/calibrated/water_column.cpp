@@ -101,7 +101,8 @@ std::optional<WaterColumn> water_column(const WaterConfig& water, double frequen
         step_rad = 0.5 * out.joined_columns * sine;
     }
     out.directions = traced_directions(view, guard_beams, step_rad);
-    out.row_power.resize((equation.rows + lanes - 1) / lanes * lanes);
+    const int padded = (equation.rows + lanes - 1) / lanes * lanes;
+    out.row_power.resize(padded);
     for (int row = 0; row < equation.rows; ++row) {
         const double range_m = equation.range_min_m + (row + 0.5) * equation.bin_m;
         const double loss = equation.loss_per_m * range_m - equation.ln_headroom;
