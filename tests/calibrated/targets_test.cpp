@@ -157,7 +157,7 @@ TEST_SUITE("calibrated") {
                 squares += off * off / draws;
                 mean += energy(rough) / draws;
             }
-            // Of a highlight that is not steady it would be 6 dB.
+            // A highlight that is not steady has 6 dB.
             CHECK(std::sqrt(squares) < 0.8);
             CHECK(std::fabs(decibels(mean / energy_of_points(sonar, rough))) < 1.0);
         }
