@@ -57,7 +57,7 @@ class ImageFormer {
         // 2. Speckle. With `speckle: scene` the amplitudes of step 1 already have it.
         if (speckle_ == SpeckleMode::ping) draw_speckle(grid, speckle_gain_, ping_draws_);
         if (context_.terms.direct && !expected_power) {
-            add_targets(std::move(targets), grid);
+            add_targets(targets, grid);
             add_particle_amplitudes(model_, beams_, traced.particles, context_.draws, ping_.counts,
                                     grid);
         }
@@ -188,10 +188,17 @@ class ImageFormer {
     }
 
     /// Adds the amplitudes of the scatterers of targets.
-    void add_targets(std::vector<Sample> pieces, EchoGrid& grid) {
-        std::ranges::stable_sort(pieces, {}, [](const Sample& piece) {
-            return std::pair(piece.instance, piece.region);
-        });
+    void add_targets(std::span<const Sample> targets, EchoGrid& grid) {
+        std::vector<std::pair<std::uint64_t, std::size_t>> by_surface;
+        for (std::size_t k = 0; k < targets.size(); ++k) {
+            by_surface.emplace_back(std::uint64_t{targets[k].instance} << 32U | targets[k].region,
+                                    k);
+        }
+        std::ranges::sort(by_surface);
+        std::vector<Sample> pieces;
+        pieces.reserve(targets.size());
+        for (const auto& [surface, k] : by_surface)
+            pieces.push_back(targets[k]);
         add_point_amplitudes(
             model_, beams_,
             join_targets(pieces, view_.shape, model_.target_cell, surface_scattering(),

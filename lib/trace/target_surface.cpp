@@ -27,6 +27,10 @@ constexpr float min_distance_by_radius = 1.05F;
 constexpr float weld_slack = 2e-5F;
 // The greatest size of a piece, as a share of a target's diameter: within 0.5 dB.
 constexpr float part_by_diameter = 1.0F / 8.0F;
+// Size of a part of a highlight that one ray decides on, relative to the highlight's own, curvature
+// radius times slope; no smaller than a share of a resolution cell.
+constexpr float glint_by_highlight = 1.5F;
+constexpr float min_glint_by_cell = 0.25F;
 // The normal turns by up to this many slopes along a side of a piece of a highlight.
 constexpr float turn_by_slope = 1.0F;
 // A part of a triangle is halved at most this many times, to a thousandth of its sides and less.
@@ -70,6 +74,7 @@ class TargetSampler {
         : view_(view),
           field_(view, guard_beams),
           volume_(widened_view(view, guard_beams), Pose{}),
+          fills_volume_(guard_beams.count == 0 && view.shape != ViewShape::cone),
           maps_(scene.maps.get()) {
         for (const Material& material : scene.materials)
             slopes_.push_back(static_cast<float>(facet_slope(material)));
@@ -83,8 +88,11 @@ class TargetSampler {
         const float radius = scale * shape.radius_m;
         const float range = arrival_range(centre);
         if (range < min_distance_by_radius * radius) return false;
-        if (volume_.of_sensor_frame(centre, radius + volume_.rounding_m()) == Containment::outside)
-            return false;
+        const Containment contained =
+            volume_.of_sensor_frame(centre, radius + volume_.rounding_m());
+        if (contained == Containment::outside) return false;
+        // The cones of a fan's beams do not fill the guard beams, nor does a cone its volume.
+        inside_ = fills_volume_ && contained == Containment::inside;
         const float cell = std::max(static_cast<float>(resolved_width(view_)) * range,
                                     static_cast<float>(view_.bin_m()));
         const float highlight =
@@ -93,6 +101,7 @@ class TargetSampler {
         const bool is_smooth = shape.turn <= placed.min_slope;
         if (highlight > max_cells * cell && is_smooth) return false;
         part_m_ = part_by_diameter * 2.0F * radius;
+        min_glint_m_ = min_glint_by_cell * cell;
         weld_m_ = weld_slack * radius;
         cut(placed, shape, T_sensor_shape, scale);
         return true;
@@ -149,14 +158,15 @@ class TargetSampler {
             const auto corner = [&](int k) {
                 return Corner(vertices[triangle.corners[k]], side * (R * triangle.normals[k]));
             };
-            halve({corner(0), corner(1), corner(2)}, max_halvings);
+            halve({corner(0), corner(1), corner(2)}, max_halvings, slope_ > 0.0F);
         }
     }
 
     /// Halves a part of the triangle until it is a piece: small and, where a highlight may lie,
-    /// with a normal that turns by about a slope.
-    void halve(const Corners& corners, int halvings) {
-        const bool glints = slope_ > 0.0F && least_off(corners) <= highlight_slopes * slope_;
+    /// with a normal that turns by about a slope. `may_glint`: a highlight may lie on the whole
+    /// that it is a part of.
+    void halve(const Corners& corners, int halvings, bool may_glint) {
+        const bool glints = may_glint && least_off(corners) <= highlight_slopes * slope_;
         const float per_part = 1.0F / part_m_;
         const float per_turn = glints ? 1.0F / (turn_by_slope * slope_) : 0.0F;
         int longest = -1;
@@ -175,8 +185,8 @@ class TargetSampler {
         const Corner& b = corners[(longest + 1) % 3];
         const Corner& c = corners[(longest + 2) % 3];
         const Corner middle(0.5F * (a.place + b.place), 0.5F * (a.normal + b.normal));
-        halve({a, middle, c}, halvings - 1);
-        halve({middle, b, c}, halvings - 1);
+        halve({a, middle, c}, halvings - 1, glints);
+        halve({middle, b, c}, halvings - 1, glints);
     }
 
     void add_piece(const Corners& corners, bool glints) {
@@ -190,8 +200,10 @@ class TargetSampler {
         const Corner& b = corners[shortest];
         const Corner& c = corners[(shortest + 1) % 3];
         const Eigen::Vector3f middle = (a.place + b.place + c.place) / 3.0F;
-        if (!field_.contains(middle)) return;
-        find_ray(middle, glints);
+        if (!inside_ && !field_.contains(middle)) return;
+        const float glint_m = glint_by_highlight * std::fabs(curvature_m_) * slope_;
+        find_ray(middle,
+                 glints ? std::clamp(glint_m, std::min(min_glint_m_, part_m_), part_m_) : part_m_);
         const Eigen::Vector3f n = (a.normal + b.normal + c.normal) / 3.0F;
         const float length = n.norm();
         const float flat_m2 = 0.5F * (b.place - a.place).cross(c.place - a.place).norm();
@@ -207,10 +219,9 @@ class TargetSampler {
         ray_of_.push_back(static_cast<std::uint32_t>(rays_.size() - 1));
     }
 
-    /// Aims a ray at a piece. Outside of highlights, the last one decides if it arrives near it.
-    void find_ray(const Eigen::Vector3f& middle, bool glints) {
-        const bool shares = !glints && last_point_ &&
-                            (middle - *last_point_).norm() < 0.5F * part_m_ &&
+    /// Aims a ray at a piece, unless the last one arrives on the same part, `part_m` across.
+    void find_ray(const Eigen::Vector3f& middle, float part_m) {
+        const bool shares = last_point_ && (middle - *last_point_).norm() < 0.5F * part_m &&
                             flat_normal_.dot(last_normal_) > 0.9F;
         if (shares) return;
         const auto [range, direction] = arrival_of(middle);
@@ -223,10 +234,13 @@ class TargetSampler {
     const View& view_;
     GuardedField field_;
     ViewVolume volume_;
+    bool fills_volume_;          ///< the field of view is all of its volume
+    bool inside_ = false;        ///< the target that is cut lies in the view with all of its parts
     const GroundMaps* maps_;     ///< null: none
     std::vector<float> slopes_;  ///< RMS slopes of the materials' facets
     float part_m_ = 0.0F;        ///< the greatest size of a piece of the target that is cut
-    float weld_m_ = 0.0F;        ///< the way by which its vertices were moved at most
+    float min_glint_m_ = 0.0F;  ///< the least size of a part of a highlight that one ray decides on
+    float weld_m_ = 0.0F;       ///< the way by which its vertices were moved at most
     // The triangle that is cut:
     Eigen::Vector3f flat_normal_ = Eigen::Vector3f::Zero();  ///< facing the sonar
     float curvature_m_ = 0.0F;  ///< as in TargetTriangle, negative if hollow
@@ -276,12 +290,17 @@ void replace_samples(const TargetSurface& targets, const View& view, VisibleSurf
     const auto is_replaced = [&](const Sample& sample) { return targets.has(sample.instance); };
     std::erase_if(surface.outside_sector, is_replaced);
     const BeamLocator field(view);
-    std::vector<std::vector<Sample>> of_beam(view.beams);
-    for (const Sample& piece : targets.pieces) {
+    std::vector<std::pair<int, std::uint32_t>> by_beam;  // beam and index of each piece
+    for (std::uint32_t k = 0; k < targets.pieces.size(); ++k) {
+        const Sample& piece = targets.pieces[k];
         const float beam = field.beam(piece.position, arrival_range(piece.position));
-        (beam < 0.0F ? surface.outside_sector : of_beam[static_cast<std::size_t>(beam)])
-            .push_back(piece);
+        if (beam < 0.0F)
+            surface.outside_sector.push_back(piece);
+        else
+            by_beam.emplace_back(static_cast<int>(beam), k);
     }
+    std::ranges::sort(by_beam);
+    auto next = by_beam.begin();
     Samples merged;
     merged.dropped = surface.samples.dropped;
     merged.items.reserve(surface.samples.items.size() + targets.pieces.size());
@@ -289,7 +308,8 @@ void replace_samples(const TargetSurface& targets, const View& view, VisibleSurf
     for (int j = 0; j < view.beams; ++j) {
         std::ranges::remove_copy_if(surface.samples.beam(j), std::back_inserter(merged.items),
                                     is_replaced);
-        merged.items.insert(merged.items.end(), of_beam[j].begin(), of_beam[j].end());
+        for (; next != by_beam.end() && next->first == j; ++next)
+            merged.items.push_back(targets.pieces[next->second]);
         merged.beam_begin.push_back(static_cast<std::uint32_t>(merged.items.size()));
     }
     surface.samples = std::move(merged);
