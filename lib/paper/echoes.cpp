@@ -15,7 +15,7 @@ constexpr int lanes = 8;
 
 constexpr std::array<float, lanes> lane_numbers = {0, 1, 2, 3, 4, 5, 6, 7};
 
-/// Where the echoes of a footprint are written.
+/// The destination of the echoes of a footprint.
 struct EchoSlots {
     float* range_m;
     float* half_m;

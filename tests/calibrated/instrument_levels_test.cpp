@@ -204,7 +204,9 @@ TEST_SUITE("calibrated") {
         shapes::add_floor(scene, 50.0F, static_cast<float>(-half_m * std::sin(down_rad)),
                           shapes::add_material(scene, 0.2F), 8);
         scene.materials[0] = example_sand();
-        const auto engine = make_engine(scene, {.type = EngineKind::rays});
+        EngineSettings rays;
+        rays.type = EngineKind::rays;
+        const auto engine = make_engine(scene, rays);
         const Pose look{rotation_from_rpy(0.0, down_rad, 0.0), Eigen::Vector3d::Zero()};
         std::vector<float> near_half;
         for (std::uint32_t number = 0; number < 4; ++number) {

@@ -1,9 +1,10 @@
+#include "calibrated/form_look.h"
+
 #include <algorithm>
 #include <iterator>
 #include <utility>
 #include <vector>
 
-#include "calibrated/form_look.h"
 #include "calibrated/particle_echoes.h"
 #include "calibrated/scatterer_search.h"
 #include "calibrated/speckle.h"
