@@ -106,8 +106,7 @@ TEST_SUITE("checks") {
         CHECK(run.warnings() ==
               Sentences{
                   "W19 sensor 'left': 5.2 % of its occupied bins are above output.full_scale (0.1) "
-                  "and white in pictures; the brightest is 0.4; raise output.full_scale, or "
-                  "write auto"});
+                  "and white in pictures; the brightest is 0.4; raise output.full_scale"});
     }
 
     TEST_CASE("warnings before pings: a material as the water") {
