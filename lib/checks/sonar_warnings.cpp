@@ -37,14 +37,14 @@ void judge_blindness(const Sonar& sonar, const SonarSurvey& found, std::vector<W
         depths);
 }
 
-/// Warns of images that are too bright or too dark for the scale of the pictures. A full scale that
-/// was found from pings leaves the brightest bins white on purpose.
+/// Warns of images that are too bright or too dark for the scale of the pictures. With `auto` glints
+/// are white on purpose, and a scale that was found from pings is never too dark.
 void judge_brightness(const OutputConfig& output, const Sonar& sonar, double full_scale,
                       double white_share, float brightest, std::vector<Warning>& out) {
     if (output.full_scale == 0.0 && sonar.settings.model->info.white == 0.0) return;
     const std::string about = about_sensor(sonar.config.name);
     const double greys = 255.0 * std::sqrt(brightest / full_scale);
-    if (white_share > many_white) {
+    if (white_share > many_white && output.full_scale > 0.0) {
         out.push_back(make_warning(WarningCode::saturated, about, 100.0 * white_share, full_scale,
                                    brightest));
     } else if (greys < fewest_greys) {
