@@ -68,13 +68,13 @@ bool CalibratedModel::is_prepared_for(const Scene& scene) const {
 }
 
 std::shared_ptr<const CalibratedModel> CalibratedModel::prepared_for(const Scene& scene) const {
-    const Water water{water_density_kg_m3, sound_speed_m_s};
+    const Water seawater{water_density_kg_m3, sound_speed_m_s};
     auto out = std::make_shared<CalibratedModel>(*this);
     out->prepared_materials = scene.materials;
-    out->scattering = scattering_of(scene.materials, instrument.frequency_hz, water);
+    out->scattering = scattering_of(scene.materials, instrument.frequency_hz, seawater);
     out->sediment.reset();
     if (instrument.below_bottom) {
-        out->sediment = sediment_scattering(scene.materials, instrument.frequency_hz, water,
+        out->sediment = sediment_scattering(scene.materials, instrument.frequency_hz, seawater,
                                             equation.bin_m, out->scattering);
     }
     out->prepared_wind_m_s = wind_over(scene);
