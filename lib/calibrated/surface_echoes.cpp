@@ -17,8 +17,9 @@ namespace sonarsim {
 
 namespace {
 
-// Depth of a patch of labels: its echo is spread over the bins.
-constexpr float max_depth_in_bins = 2.0F;
+// Depth of a patch of labels: its echo is spread over the bins. With 4 bins, boxes and areas are as
+// near to those of half a bin as with 2.
+constexpr float max_depth_in_bins = 4.0F;
 
 /// The greatest size of a patch of labels.
 PointLimits label_limits(const CalibratedModel& model) {
