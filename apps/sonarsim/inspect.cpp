@@ -221,8 +221,10 @@ int inspect(const InspectArguments& arguments) {
 }  // namespace
 
 void add_inspect(CLI::App& app, int& exit_code) {
-    CLI::App& command = *app.add_subcommand(
-        "inspect", "Prints what is in a scene, or how the materials of a CSV scatter sound");
+    CLI::App& command =
+        *app.add_subcommand(
+                "inspect", "Prints what is in a scene, or how the materials of a CSV scatter sound")
+             ->group("Look");
     add_examples(
         command,
         {"sonarsim inspect hull.glb", "sonarsim inspect tyre.stl --units mm --up z",

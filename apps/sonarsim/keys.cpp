@@ -63,8 +63,10 @@ void add_warnings(CLI::App& app, int& exit_code) {
 }
 
 void add_keys(CLI::App& app, int& exit_code) {
-    CLI::App& command = *app.add_subcommand(
-        "keys", "Prints every key of a mission with its default, range and meaning");
+    CLI::App& command =
+        *app.add_subcommand("keys",
+                            "Prints every key of a mission with its default, range and meaning")
+             ->group("Learn");
     add_examples(command, {"sonarsim keys", "sonarsim keys --json > sonarsim.schema.json"});
     auto json = std::make_shared<bool>(false);
     command.add_flag("--json", *json,

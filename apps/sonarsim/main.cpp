@@ -42,7 +42,7 @@ void keep_freed_memory() {
 
 std::string version_text() {
     const BuildInfo build = build_info();
-    return std::string("sonarsim " SONARSIM_VERSION "\nbuilt by ") + build.compiler + " with " +
+    return std::string("sonarsim ") + build.version + "\nbuilt by " + build.compiler + " with " +
            build.flags + "; arithmetic " + build.arithmetic + "; PNG files by " + png_encoder;
 }
 
@@ -94,18 +94,19 @@ int run(int argc, char** argv) {
     app.require_subcommand(1);
     app.failure_message(usage_message);
     int exit_code = exit_done;
+    // In the order of the groups of --help.
     add_render(app, exit_code);
-    add_verify(app, exit_code);
     add_merge(app, exit_code);
-    add_validate(app, exit_code);
     add_preview(app, exit_code);
     add_inspect(app, exit_code);
-    add_preset(app, exit_code);
-    add_report(app, exit_code);
+    add_validate(app, exit_code);
+    add_verify(app, exit_code);
     add_status(app, exit_code);
+    add_report(app, exit_code);
+    add_python_tools(app);
+    add_preset(app, exit_code);
     add_keys(app, exit_code);
     add_warnings(app, exit_code);
-    add_python_tools(app);
     add_examples(app, {"sonarsim render mission.yaml", "sonarsim render --help"});
     try {
         app.parse(argc, argv);

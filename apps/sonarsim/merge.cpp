@@ -64,9 +64,10 @@ int merge(const MergeArguments& arguments) {
 }  // namespace
 
 void add_merge(CLI::App& app, int& exit_code) {
-    CLI::App& command = *app.add_subcommand(
-        "merge",
-        "Copies the shards of one mission into one folder, which sonarsim render then completes");
+    CLI::App& command = *app.add_subcommand("merge",
+                                            "Copies the shards of one mission into one folder, "
+                                            "which sonarsim render then completes")
+                             ->group("Make");
     add_examples(command, {"sonarsim merge out/part1 out/part2 out/hull",
                            "sonarsim render mission.yaml --out out/hull"});
     auto arguments = std::make_shared<MergeArguments>();

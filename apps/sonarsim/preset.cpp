@@ -183,8 +183,10 @@ void print_presets(const PresetArguments& arguments) {
 }  // namespace
 
 void add_preset(CLI::App& app, int& exit_code) {
-    CLI::App& command = *app.add_subcommand(
-        "preset", "Prints the levels of an instrument and the ranges at which it sees");
+    CLI::App& command =
+        *app.add_subcommand("preset",
+                            "Prints the levels of an instrument and the ranges at which it sees")
+             ->group("Learn");
     add_examples(command, {"sonarsim preset gemini_720is", "sonarsim preset mine.yaml --json",
                            "sonarsim preset"});
     auto arguments = std::make_shared<PresetArguments>();

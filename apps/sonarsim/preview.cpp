@@ -58,8 +58,10 @@ int preview(const PreviewArguments& arguments) {
 }  // namespace
 
 void add_preview(CLI::App& app, int& exit_code) {
-    CLI::App& command = *app.add_subcommand(
-        "preview", "Draws one picture of a mission: what the sonars see, and from where");
+    CLI::App& command =
+        *app.add_subcommand("preview",
+                            "Draws one picture of a mission: what the sonars see, and from where")
+             ->group("Look");
     add_examples(command, {"sonarsim preview mission.yaml --ping 20"});
     auto arguments = std::make_shared<PreviewArguments>();
     add_mission_options(command, arguments->mission, MissionOutput::other);

@@ -19,16 +19,20 @@ namespace sonarsim {
 namespace {
 
 struct PythonTool {
+    const char* group;
     const char* name;
     const char* meaning;
 };
 
 constexpr std::array python_tools{
-    PythonTool{"export", "Writes the pictures and labels of datasets in the layout of a trainer"},
-    PythonTool{"gallery", "Writes a page for a browser that shows a dataset and its labels"},
-    PythonTool{"compare", "Compares the pings of two datasets or recordings by their statistics"},
-    PythonTool{"calibrate", "Fits a preset of the calibrated model to recorded pings"},
-    PythonTool{"import-holoocean",
+    PythonTool{"Use", "export",
+               "Writes the pictures and labels of datasets in the layout of a trainer"},
+    PythonTool{"Look", "gallery",
+               "Writes a page for a browser that shows a dataset and its labels"},
+    PythonTool{"Check", "compare",
+               "Compares the pings of two datasets or recordings by their statistics"},
+    PythonTool{"Use", "calibrate", "Fits a preset of the calibrated model to recorded pings"},
+    PythonTool{"Make", "import-holoocean",
                "Writes a mission from the sonars and poses of a HoloOcean scenario"},
 };
 
@@ -57,7 +61,7 @@ std::filesystem::path package_folder() {
 
 void add_python_tools(CLI::App& app) {
     for (const PythonTool& tool : python_tools)
-        app.add_subcommand(tool.name, tool.meaning)->group("Subcommands in Python");
+        app.add_subcommand(tool.name, tool.meaning)->group(tool.group);
 }
 
 void become_python_tool(int argc, char** argv) {

@@ -222,8 +222,10 @@ int render(RenderArguments arguments) {
 }  // namespace
 
 void add_render(CLI::App& app, int& exit_code) {
-    CLI::App& command = *app.add_subcommand(
-        "render", "Renders a mission into its dataset, or resumes an interrupted one");
+    CLI::App& command =
+        *app.add_subcommand("render",
+                            "Renders a mission into its dataset, or resumes an interrupted one")
+             ->group("Make");
     add_examples(
         command,
         {"sonarsim render mission.yaml",

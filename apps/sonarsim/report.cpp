@@ -100,15 +100,16 @@ int report(const ReportArguments& arguments) {
 }  // namespace
 
 void add_report(CLI::App& app, int& exit_code) {
-    CLI::App& command = *app.add_subcommand(
-        "report", "Measures what each engine costs this mission, in time and in error");
+    CLI::App& command =
+        *app.add_subcommand("report",
+                            "Measures what each engine costs this mission, in time and in error")
+             ->group("Check");
     add_examples(command, {"sonarsim report mission.yaml --quick --out out/report"});
     auto arguments = std::make_shared<ReportArguments>();
     add_mission_options(command, arguments->mission);
     command
-        .add_option(
-            "--json", arguments->json_file,
-            "Writes the report to this file; with --out, JSON and Markdown to a folder")
+        .add_option("--json", arguments->json_file,
+                    "Writes the report to this file; with --out, JSON and Markdown to a folder")
         ->type_name("FILE");
     command.add_flag("--quick", arguments->quick, "Fewer settings, poses and rounds");
     command.add_option("--poses", arguments->report.poses, "Poses, spread along the trajectory")

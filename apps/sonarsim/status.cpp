@@ -39,9 +39,9 @@ void print_text(const JobStatus& status) {
     fmt::print("{}{}", result_line("mission", status.mission),
                result_line("state", state_of(status)));
     if (status.variants > 0)
-        fmt::print("{}", result_line("variants", fmt::format("{} of {} complete",
-                                                             status.complete_variants,
-                                                             status.variants)));
+        fmt::print(
+            "{}", result_line("variants", fmt::format("{} of {} complete", status.complete_variants,
+                                                      status.variants)));
     fmt::print("{}", result_line("pings", fmt::format("{} of {} ({:.1f} %)", status.pings,
                                                       status.all_pings, share)));
 }
@@ -56,7 +56,8 @@ int status(const StatusArguments& arguments) {
 }  // namespace
 
 void add_status(CLI::App& app, int& exit_code) {
-    CLI::App& command = *app.add_subcommand("status", "Prints the progress of a job");
+    CLI::App& command =
+        *app.add_subcommand("status", "Prints the progress of a job")->group("Check");
     add_examples(command, {"sonarsim status out/part1 out/part2"});
     auto arguments = std::make_shared<StatusArguments>();
     command

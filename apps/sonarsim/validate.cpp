@@ -283,9 +283,10 @@ int validate(const ValidateArguments& arguments) {
 }  // namespace
 
 void add_validate(CLI::App& app, int& exit_code) {
-    CLI::App& command = *app.add_subcommand(
-        "validate",
-        "Checks a mission and all it names, and looks at it through its sonars; writes nothing");
+    CLI::App& command = *app.add_subcommand("validate",
+                                            "Checks a mission and all it names, and looks at it "
+                                            "through its sonars; writes nothing")
+                             ->group("Check");
     add_examples(command,
                  {"sonarsim validate mission.yaml", "sonarsim validate mission.yaml --json",
                   "sonarsim validate mission.yaml --strict"});

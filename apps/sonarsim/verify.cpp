@@ -60,8 +60,10 @@ int verify(const VerifyArguments& arguments) {
 }  // namespace
 
 void add_verify(CLI::App& app, int& exit_code) {
-    CLI::App& command = *app.add_subcommand(
-        "verify", "Checks that a dataset is whole: every file is there and has its bytes");
+    CLI::App& command =
+        *app.add_subcommand("verify",
+                            "Checks that a dataset is whole: every file is there and has its bytes")
+             ->group("Check");
     add_examples(command, {"sonarsim verify out/hull"});
     auto arguments = std::make_shared<VerifyArguments>();
     command.add_option("folder", arguments->folder, "The folder of the dataset")->required();
