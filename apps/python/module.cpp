@@ -18,6 +18,7 @@
 #include "assembly/poses.h"
 #include "assembly/possible_objects.h"
 #include "checks/find_warnings.h"
+#include "core/build_info.h"
 #include "core/error.h"
 #include "dataset/metadata.h"
 #include "job/ping_source.h"
@@ -192,7 +193,7 @@ void raise_as_os_error(std::exception_ptr thrown) {
 PYBIND11_MODULE(_sonarsim, module) {
     using Unlocked = py::call_guard<py::gil_scoped_release>;
     keep_freed_memory();
-    module.attr("version") = SONARSIM_VERSION;
+    module.attr("version") = build_info().version;
     py::register_exception_translator(raise_as_os_error);
     py::register_exception<InputError>(module, "InputError", PyExc_ValueError);
     py::class_<LoadedMission, std::shared_ptr<LoadedMission>>(module, "LoadedMission")

@@ -20,7 +20,10 @@ constexpr const char* arithmetic = "x86-64-v3";
 }  // namespace
 
 BuildInfo build_info() {
-    return {.compiler = SONARSIM_COMPILER, .flags = SONARSIM_FLAGS, .arithmetic = arithmetic};
+    return {.version = SONARSIM_VERSION,
+            .compiler = SONARSIM_COMPILER,
+            .flags = SONARSIM_FLAGS,
+            .arithmetic = arithmetic};
 }
 
 }  // namespace sonarsim

@@ -148,7 +148,7 @@ Json describe_dataset(const Mission& mission, const Assembly& assembly, const La
                       const std::vector<Writers>& writers) {
     Json json = {{"format", dataset_format},
                  {"format_version", dataset_format_version},
-                 {"program_version", SONARSIM_VERSION},
+                 {"program_version", build_info().version},
                  {"build", describe_build()},
                  {"complete", false},
                  {"mission", mission.name},

@@ -7,6 +7,8 @@
 #include <cstring>
 #include <string_view>
 
+#include "core/build_info.h"
+
 namespace sonarsim {
 
 namespace {
@@ -75,7 +77,7 @@ std::string xtf_header(const XtfFile& file) {
     put<std::uint8_t>(header, 0, 0x7B);
     put<std::uint8_t>(header, 1, 1);
     put_text(header, 2, "sonarsim", 9);
-    put_text(header, 10, SONARSIM_VERSION, 8);
+    put_text(header, 10, build_info().version, 8);
     put_text(header, 18, file.sonar_name, 16);
     put<std::uint16_t>(header, 164, 0);  // positions in metres
     put<std::uint16_t>(header, 166, 2);  // channels of a sonar

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "checks/find_warnings.h"
+#include "core/build_info.h"
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -75,7 +76,7 @@ std::optional<std::uint64_t> finished_pings(const Mission& variant, InputSums& s
     const fs::path& folder = variant.output.folder;
     const DatasetFile found = require_dataset(folder);
     const Json expected = {{"format_version", dataset_format_version},
-                           {"program_version", SONARSIM_VERSION},
+                           {"program_version", build_info().version},
                            {"build", describe_build()},
                            {"mission_hash", mission_hash(variant, sonar_keys())},
                            {"inputs_hash", found.json.at("inputs_hash")}};
@@ -97,7 +98,7 @@ std::optional<std::uint64_t> finished_pings(const Mission& variant, InputSums& s
 Json describe_variants(const Mission& mission, std::span<const Mission> variants) {
     Json json = {{"format", variants_format},
                  {"format_version", dataset_format_version},
-                 {"program_version", SONARSIM_VERSION},
+                 {"program_version", build_info().version},
                  {"mission", mission.name},
                  {"mission_hash", mission_hash(mission, sonar_keys())},
                  {"seed", mission.seed}};

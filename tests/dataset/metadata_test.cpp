@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/build_info.h"
 #include "core/units.h"
 #include "mission/resolved.h"
 #include "sonar/kinds.h"
@@ -25,7 +26,7 @@ TEST_SUITE("dataset") {
             describe_dataset(mission, assembly, make_layout(mission, writers, 7), writers)));
         CHECK(json.at("format") == "sonarsim dataset");
         CHECK(json.at("format_version") == 3);
-        CHECK(json.at("program_version") == SONARSIM_VERSION);
+        CHECK(json.at("program_version") == build_info().version);
         CHECK(json.at("complete") == false);
         CHECK(json.at("mission") == "small");
         CHECK(json.at("mission_hash") == mission_hash(mission, sonar_keys()));
