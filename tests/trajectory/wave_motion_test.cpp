@@ -28,9 +28,8 @@ PhiloxKey wave_key(std::uint32_t seed) {
 
 TEST_SUITE("wave motion") {
     TEST_CASE("Heave has the variance and the autocorrelation of the spectrum") {
-        // With energy shares u as the variable, the autocorrelation of the Pierson-Moskowitz
-        // spectrum is r(lag) = s^2 integral over u from 0 to 1 of
-        // cos(2 pi lag / period (1.25 / -ln u)^(1/4)).
+        // Pierson-Moskowitz by energy shares u: r(lag) is s^2 times the integral over u from 0 to 1
+        // of cos(2 pi lag / period (1.25 / -ln u)^(1/4)).
         constexpr int seeds = 4000;
         constexpr double deviation = 0.3;
         constexpr double period_s = 8.0;
@@ -55,8 +54,7 @@ TEST_SUITE("wave motion") {
                 std::cos(2.0 * pi * lag_s / period_s * std::pow(1.25 / -std::log(share), 0.25)) /
                 steps;
         }
-        // Both are means of products of two normal numbers, whose variance is at most 2 s^4. Four
-        // standard errors are exceeded once in 16,000 runs.
+        // Products of two normal numbers have a variance of at most 2 s^4.
         const double four_errors = 4.0 * std::sqrt(2.0 / seeds) * deviation * deviation;
         CHECK(std::fabs(variance - deviation * deviation) < four_errors);
         CHECK(std::fabs(product - correlation * deviation * deviation) < four_errors);
