@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/units.h"
-#include "support/sanitized.h"
 #include "support/scenes.h"
 #include "visibility/make_engine.h"
 #include "visibility/rays/rays_engine.h"
@@ -52,8 +51,7 @@ TEST_CASE("auto takes slices, and rays for the views that need them") {
     CHECK(same(seen({other}), by_slices));
 }
 
-TEST_CASE("auto takes rays over many triangles, denser than the goal alone asks for" *
-          doctest::skip(test::sanitized)) {
+TEST_CASE("auto takes rays over many triangles, denser than the goal alone asks for") {
     Scene scene = test::empty_scene();
     test::add_floor(scene, 20.0F, 0.0F, test::add_material(scene, 0.3F), 1025);
     REQUIRE(scene.triangles.size() > many_triangles);

@@ -9,7 +9,6 @@
 #include "core/random.h"
 #include "core/units.h"
 #include "support/mean_echoes.h"
-#include "support/sanitized.h"
 #include "support/scenes.h"
 #include "validation/reference.h"
 #include "visibility/slices/slices_engine.h"
@@ -207,8 +206,7 @@ TEST_SUITE_BEGIN("slices");
 // Corners that were moved off their plane made faces of 0.2 m^2 count for 37 m^2. What remains is
 // that a face that a slice meets counts for the slice's whole strip where the surface goes on with
 // the next face: of a face at the limb, some 40 times its area.
-TEST_CASE("slices: no face of a stay stands for many times its area" *
-          doctest::skip(test::sanitized)) {
+TEST_CASE("slices: no face of a stay stands for many times its area") {
     View view = lattice_view();
     view.range_max_m = 80.0;
     for (std::uint32_t seed = 1; seed <= 12; ++seed) {
@@ -232,8 +230,7 @@ TEST_CASE("slices: no face of a stay stands for many times its area" *
     }
 }
 
-TEST_CASE("slices: no beam of a drawn lattice is far from brute force at any goal" *
-          doctest::skip(test::sanitized)) {
+TEST_CASE("slices: no beam of a drawn lattice is far from brute force at any goal") {
     View view = lattice_view();
     for (std::uint32_t seed = 1; seed <= 4; ++seed) {
         const Scene scene = lattices(seed);

@@ -5,7 +5,6 @@
 
 #include "core/units.h"
 #include "support/approx.h"
-#include "support/sanitized.h"
 #include "support/scenes.h"
 #include "visibility/slices/fixtures.h"
 #include "visibility/slices/scan.h"
@@ -48,7 +47,7 @@ TEST_CASE("slices: two wide beams have the surface of rods that stand in each of
     view.azimuth_rad = radians(300.0);
     View narrow = view;
     narrow.beams = 128;
-    for (int k = 0; k < (test::sanitized ? 2 : 8); ++k) {
+    for (int k = 0; k < 8; ++k) {
         Scene scene = test::empty_scene();
         const std::uint32_t rock = test::add_material(scene, 0.5F);
         for (int rod = 0; rod < 60; ++rod) {

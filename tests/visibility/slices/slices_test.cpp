@@ -7,7 +7,6 @@
 
 #include "core/units.h"
 #include "support/approx.h"
-#include "support/sanitized.h"
 #include "support/scenes.h"
 #include "visibility/rays/rays_engine.h"
 #include "visibility/slices/fixtures.h"
@@ -130,8 +129,7 @@ TEST_CASE("slices: samples are sorted by beam and do not leave it") {
     }
 }
 
-TEST_CASE("slices: a sphere fills the solid angle that it should" *
-          doctest::skip(test::sanitized)) {
+TEST_CASE("slices: a sphere fills the solid angle that it should") {
     // 2 pi (1 - cos) of the cone that touches it: sin = R / D. Every sample fills A (v . n) / r^2.
     Scene scene = test::empty_scene();
     test::add_sphere(scene, {5, 0, 0}, 0.5F, test::add_material(scene, 0.5F), 256);
@@ -261,7 +259,7 @@ TEST_CASE("slices: three planes that cross in one slice are each seen where they
     CHECK(area[2] / area[0] == test::approx(1.0).epsilon(1e-4));
 }
 
-TEST_CASE("slices: a finer goal asks for more slices" * doctest::skip(test::sanitized)) {
+TEST_CASE("slices: a finer goal asks for more slices") {
     const Scene scene = test::tank();
     const auto engine = make_slices_engine(scene, Caster(scene));
     const Pose pose = pitched(15.0, {-2.4, 0.4, 1.5});
