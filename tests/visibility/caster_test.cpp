@@ -12,9 +12,8 @@ using namespace sonarsim;
 using namespace sonarsim::test;
 
 TEST_SUITE("visibility") {
-    // A rotation by 90 degrees leaves about 1e-19 of a zero. Embree takes the sign of such a
-    // component for its octant, but divides by +1e-18: in a packet of coherent rays, all that
-    // shared the octant of one such ray passed through the scene.
+    // Embree took the sign of such a component for its octant, but divided by +1e-18: rays of its
+    // packet passed through the scene.
     TEST_CASE("caster: a ray with a component near zero does not disturb its neighbours") {
         Scene scene = empty_scene();
         add_sphere(scene, {0, 0, -8}, 1.0F, add_material(scene, 1.0F), 256);

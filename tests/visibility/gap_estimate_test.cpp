@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "core/units.h"
 #include "support/approx.h"
@@ -15,19 +16,15 @@ namespace {
 
 constexpr float reach_m = 10.0F;
 
-Sampling usual() {
+GapEstimate estimate(const CastRay& a, const CastRay& b, float reach = reach_m) {
     Sampling sampling;
     sampling.tolerance_m = 0.004F;
-    return sampling;
-}
-
-Eigen::Vector3f ray(double along) {
-    return {static_cast<float>(std::cos(along)), 0.0F, static_cast<float>(std::sin(along))};
+    return estimate_gap(a, b, sampling, reach);
 }
 
 CastRay nothing_at(double along) {
-    CastRay node{ray(along), static_cast<float>(along)};
-    return node;
+    const auto x = static_cast<float>(std::cos(along));
+    return {{x, 0.0F, static_cast<float>(std::sin(along))}, static_cast<float>(along)};
 }
 
 /// A ray in the plane y = 0 at an elevation, and the plane through `point` that it met.
@@ -49,24 +46,22 @@ TEST_CASE("two facets that share an edge are parted by it, be it a ridge or a va
     // The edge lies at (5, 0, -1), at an elevation of atan(-1 / 5).
     const Eigen::Vector3f edge(5.0F, 0.0F, -1.0F);
     const double there = std::atan2(-1.0, 5.0);
-    const Eigen::Vector3f up(0, 0, 1);
     const Eigen::Vector3f steep(-1, 0, 1);
-    const Eigen::Vector3f falling(0.1F, 0, 1);
+    const std::pair<Eigen::Vector3f, Eigen::Vector3f> bends[] = {
+        {{0, 0, 1}, steep}, {steep, {0.1F, 0, 1}}};  // a valley, a ridge
     for (const double share : {0.1, 0.5, 0.8}) {
         const double below = there - share * radians(0.3);
-        const double above = below + radians(0.3);
-        const auto check = [&](const Eigen::Vector3f& near, const Eigen::Vector3f& far) {
-            const GapEstimate gap = estimate_gap(on_plane(below, 1, edge, near),
-                                                 on_plane(above, 2, edge, far), usual(), reach_m);
+        for (const auto& normals : bends) {
+            const GapEstimate gap =
+                estimate(on_plane(below, 1, edge, normals.first),
+                         on_plane(below + radians(0.3), 2, edge, normals.second));
             CHECK(gap.continuous);
             CHECK(gap.border == test::approx(share).epsilon(0.01));
             CHECK(gap.bends);
             // The uncertainty is at most the range between the rays.
             CHECK(gap.range_uncertainty_m > 0.0F);
             CHECK(gap.range_uncertainty_m < 0.25F * 0.3F);
-        };
-        check(up, steep);       // a valley
-        check(steep, falling);  // a ridge
+        }
     }
 }
 
@@ -75,20 +70,19 @@ TEST_CASE("a surface that hides another one breaks off") {
     const CastRay wall = on_plane(-0.17, 1, {4, 0, 0}, {1, 0, 0});
     const CastRay floor = on_plane(-0.16, 2, {0, 0, -1}, {0, 0, 1});
     for (const bool swapped : {false, true}) {
-        const GapEstimate gap = swapped ? estimate_gap(floor, wall, usual(), reach_m)
-                                        : estimate_gap(wall, floor, usual(), reach_m);
+        const GapEstimate gap = swapped ? estimate(floor, wall) : estimate(wall, floor);
         CHECK_FALSE(gap.continuous);
         // Behind the wall the floor extends from 1 / sin 0.16 to 1 / sin 0.17, the wall hardly.
         CHECK(gap.range_uncertainty_m ==
               test::approx(1.0 / std::sin(0.16) - 1.0 / std::sin(0.17)).epsilon(1e-3));
     }
     // Next to a ray that met nothing, the floor may extend to the reach.
-    const GapEstimate horizon = estimate_gap(floor, nothing_at(0.01), usual(), reach_m);
+    const GapEstimate horizon = estimate(floor, nothing_at(0.01));
     CHECK_FALSE(horizon.continuous);
     CHECK(horizon.range_uncertainty_m == test::approx(10.0 - 1.0 / std::sin(0.16)));
     // Out of reach nothing is uncertain.
     const CastRay far = on_plane(-0.09, 1, {0, 0, -1}, {0, 0, 1});
-    CHECK(estimate_gap(far, nothing_at(0.01), usual(), reach_m).range_uncertainty_m == 0.0F);
+    CHECK(estimate(far, nothing_at(0.01)).range_uncertainty_m == 0.0F);
 }
 
 TEST_CASE("facets of one plane are parted half way, and nothing is uncertain") {
@@ -96,31 +90,14 @@ TEST_CASE("facets of one plane are parted half way, and nothing is uncertain") {
     const Eigen::Vector3f tilt(0.1F, 0.2F, 1.0F);
     for (int k = 0; k < 100; ++k) {
         const double along = radians(-20.0 + 0.1 * k);
-        const GapEstimate gap = estimate_gap(
-            on_plane(along, 1, {5, 0, -1}, tilt),
-            on_plane(along + radians(0.3), 2, {5, 0, -1}, 3.0F * tilt), usual(), 100.0F);
+        const GapEstimate gap =
+            estimate(on_plane(along, 1, {5, 0, -1}, tilt),
+                     on_plane(along + radians(0.3), 2, {5, 0, -1}, 3.0F * tilt), 100.0F);
         CHECK(gap.continuous);
         CHECK(gap.border == 0.5F);
         CHECK(gap.range_uncertainty_m < 1e-4F);
         CHECK_FALSE(gap.bends);
     }
-}
-
-TEST_CASE("without a neighbour, the next ray goes to where the plane leaves the reach") {
-    // A floor 1 mm below the sonar leaves the reach at asin(1e-4), in one two-hundredth of the gap.
-    const CastRay floor = on_plane(-0.01, 1, {0, 0, -1e-3F}, {0, 0, 1});
-    const CastRay nothing = nothing_at(0.01);
-    const float next = split_angle(floor, nothing, reach_m);
-    CHECK(split_angle(nothing, floor, reach_m) == test::approx(next));
-    const double range = 1e-3 / std::sin(-next);
-    CHECK(range > 10.0);
-    CHECK(range < 10.1);
-    // No second ray is cast at the same angle.
-    CHECK(split_angle(floor, nothing_at(next), reach_m) == test::approx(0.5 * (next - 0.01)));
-    // A wall stays within reach.
-    const CastRay wall = on_plane(-0.01, 1, {4, 0, 0}, {1, 0, 0});
-    CHECK(split_angle(wall, nothing, reach_m) == test::approx(0.0));
-    CHECK(split_angle(wall, floor, reach_m) == test::approx(-0.01));
 }
 
 TEST_SUITE_END();
