@@ -1,14 +1,11 @@
 #pragma once
 
 #include <doctest/doctest.h>
-#include <unistd.h>
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <initializer_list>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,30 +13,18 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "scene/gltf/load.h"
+#include "support/temporary_folder.h"
 
 namespace sonarsim {
 
-/// A temporary folder that the destructor removes.
-class TemporaryFolder {
-  public:
-    TemporaryFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "sonarsim_XXXXXX").string();
-        if (!::mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-        path_ = name;
-    }
-    ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+using test::TemporaryFolder;
 
-    std::filesystem::path write(const std::string& name, std::string_view bytes) const {
-        write_file(path_ / name, bytes);
-        return path_ / name;
-    }
-    const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
+/// Writes a file into a folder; returns its path.
+inline std::filesystem::path written(const TemporaryFolder& folder, const std::string& name,
+                                     std::string_view bytes) {
+    write_file(folder.path / name, bytes);
+    return folder.path / name;
+}
 
 using Point = std::array<float, 3>;
 
@@ -143,8 +128,8 @@ inline Scene load_scene(const std::filesystem::path& gltf, const std::filesystem
 /// Writes the file and loads it, with the materials above.
 inline Scene load(const std::string& bytes) {
     const TemporaryFolder folder;
-    const auto materials = folder.write("materials.csv", test_materials);
-    return load_scene(folder.write("x.glb", bytes), materials, Water{});
+    const auto materials = written(folder, "materials.csv", test_materials);
+    return load_scene(written(folder, "x.glb", bytes), materials, Water{});
 }
 
 inline Scene load(const GltfBuilder& gltf) {
@@ -154,12 +139,12 @@ inline Scene load(const GltfBuilder& gltf) {
 /// The error message of loading, without the folder; "" if there is none.
 inline std::string load_error(const std::string& bytes) {
     const TemporaryFolder folder;
-    const auto materials = folder.write("materials.csv", test_materials);
+    const auto materials = written(folder, "materials.csv", test_materials);
     try {
-        load_scene(folder.write("x.glb", bytes), materials, Water{});
+        load_scene(written(folder, "x.glb", bytes), materials, Water{});
     } catch (const InputError& error) {
         std::string message = error.what();
-        const std::string prefix = folder.path().string() + "/";
+        const std::string prefix = folder.path.string() + "/";
         for (auto at = message.find(prefix); at != std::string::npos; at = message.find(prefix)) {
             message.erase(at, prefix.size());
         }

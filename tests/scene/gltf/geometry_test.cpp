@@ -76,18 +76,6 @@ TEST_SUITE("scene") {
         check_square(load(indexed_square<std::uint8_t>({0, 1, 3, 2}, 6)));
     }
 
-    TEST_CASE("glTF: points and lines are skipped and counted") {
-        GltfBuilder gltf = one_triangle();
-        json primitive = gltf.document["meshes"][0]["primitives"][0];
-        for (const int mode : {0, 1, 2, 3}) {
-            primitive["mode"] = mode;
-            gltf.document["meshes"][0]["primitives"].push_back(primitive);
-        }
-        const Scene scene = load(gltf);
-        CHECK(scene.triangles.size() == 1);
-        CHECK(scene.rejects.skipped_primitives == 4);
-    }
-
     TEST_CASE("glTF: sparse positions, over data and over zeros") {
         for (const bool has_base : {true, false}) {
             CAPTURE(has_base);
@@ -123,7 +111,8 @@ TEST_SUITE("scene") {
         check_point(world_corner(scene, 0, 2), 0, 0, -1);  // -32768 / 32767 is clamped
     }
 
-    TEST_CASE("glTF: degenerate and non-finite triangles are dropped and counted") {
+    TEST_CASE(
+        "glTF: triangles without area or not finite, points and lines are dropped and counted") {
         constexpr float nan = std::numeric_limits<float>::quiet_NaN();
         constexpr float infinity = std::numeric_limits<float>::infinity();
         GltfBuilder gltf;
@@ -132,25 +121,27 @@ TEST_SUITE("scene") {
         points.insert(points.end(), {{5e8F, 0, 0}, {5e8F, 0, 0}, {0, 5e8F, 0}});  // a point twice
         points.insert(points.end(), {{0, 0, 0}, {nan, 0, 0}, {0, 1, 0}});
         points.insert(points.end(), {{0, 0, 0}, {1, 0, 0}, {0, infinity, 0}});
-        gltf.mesh({{{"attributes", {{"POSITION", gltf.positions(points)}}},
-                    {"material", gltf.material("sand")}}});
+        json primitives = {{{"attributes", {{"POSITION", gltf.positions(points)}}},
+                            {"material", gltf.material("sand")}}};
+        for (const int mode : {0, 1, 2, 3}) {
+            primitives.push_back(primitives[0]);
+            primitives.back()["mode"] = mode;
+        }
+        gltf.mesh(primitives);
         gltf.node({{"mesh", 0}});
         const Scene scene = load(gltf);
         CHECK(scene.triangles.size() == 1);
         CHECK(scene.vertices.size() == 3);  // the dropped triangles leave no vertices
         CHECK(scene.rejects.degenerate_triangles == 2);
         CHECK(scene.rejects.non_finite_triangles == 2);
+        CHECK(scene.rejects.skipped_primitives == 4);
         check_point(scene.bounds_max, 1, 0, 1);
         check_point(scene.origin, 1, 0, 1);  // they did not move the origin either: centre 0.5
-    }
-
-    TEST_CASE("glTF: a triangle that floats flatten to a line is degenerate") {
-        GltfBuilder gltf = one_triangle();
+        GltfBuilder flattened = one_triangle();
         // 1e-12 m high at z = 0.3 m, where floats are 3e-8 m apart.
-        gltf.node({{"mesh", 0}, {"translation", {100, 0.3, 0}}, {"scale", {1, 1e-12, 1}}});
-        const Scene scene = load(gltf);
-        CHECK(scene.triangles.size() == 1);
-        CHECK(scene.rejects.degenerate_triangles == 1);
+        flattened.node({{"mesh", 0}, {"translation", {100, 0.3, 0}}, {"scale", {1, 1e-12, 1}}});
+        CHECK(load(flattened).triangles.size() == 1);
+        CHECK(load(flattened).rejects.degenerate_triangles == 1);
     }
 
     TEST_CASE("glTF: the origin lies on a grid that holds the scene") {

@@ -41,7 +41,6 @@ TEST_SUITE("ground maps") {
 
     TEST_CASE("a footprint has its materials by area, and each its mean factor") {
         // Texels of 0.5 m; footprints of 0.5 to 3 m, of any direction, against a lattice of points.
-        // A texel's border crosses a footprint in about 64 probes, each as wide as the footprint.
         Draws draws(2);
         const TexelFrame frame = square_frame(16, 8.0);
         Scene scene;

@@ -19,8 +19,6 @@ PhiloxKey key_of(std::uint32_t number) {
 }  // namespace
 
 TEST_CASE("a smooth field has variance 1 and the correlation of its length") {
-    // Values 4 lengths apart have the correlation exp(-4) = 0.018, so that a field of 160 x 160
-    // cells of half a length has about 400 independent ones; 16 fields have 6,400.
     const BedGrid grid{0.5, -80, 79, 160, 160};
     double sum = 0.0;
     double squares = 0.0;
@@ -44,9 +42,7 @@ TEST_CASE("a smooth field has variance 1 and the correlation of its length") {
             }
         }
     }
-    // The area of the squared correlation is 2 pi length^2, so that a variance of n square lengths
-    // has the deviation sqrt(2 * 2 pi / n); 16 fields of 78^2 have 0.0114. Limits are 4 deviations,
-    // p = 6e-5. The mean's correlation has the area 4 pi: sqrt(4 pi / n) = 0.0114.
+    // 4 deviations, each sqrt(4 pi / n) of n square lengths, 16 fields of 78^2.
     CHECK(std::abs(sum / count) < 0.046);
     CHECK(std::abs(squares / count - 1.0) < 0.046);
     CHECK(std::abs(along_x / count - std::exp(-1.0)) < 0.046);
@@ -63,8 +59,7 @@ TEST_CASE("a smooth field far below the cells takes no finer lattice, and cells 
         squares += static_cast<double>(field[i]) * static_cast<double>(field[i]);
         neighbours += static_cast<double>(field[i]) * static_cast<double>(field[i + 1]);
     }
-    // The variance of 25,600 independent values has the deviation sqrt(2 / 25600), 0.0088, and the
-    // correlation 1 / sqrt(25600), 0.00625; limits are 4 of them, p = 6e-5.
+    // 4 deviations: sqrt(2 / n) of a variance, sqrt(1 / n) of a correlation, n = 25,600.
     const auto count = static_cast<double>(field.size());
     CHECK(std::abs(squares / count - 1.0) < 0.036);
     CHECK(std::abs(neighbours / count) < 0.025);
