@@ -31,7 +31,8 @@ std::string work_on(std::size_t i) {
 
 TEST_SUITE_BEGIN("core");
 
-TEST_CASE("an ordered pipeline hands over every result once, in order, few at a time, until told") {
+TEST_CASE(
+    "an ordered pipeline hands over each result once, in order, few at a time, until a stop") {
     const FourThreads four;
     constexpr std::size_t count = 1000;
     for (const std::size_t stop_after : {count, std::size_t{20}}) {

@@ -24,8 +24,8 @@ Surface box(double x, double y, double z) {
     return out;
 }
 
-/// The least height of the edges and faces above the bottom. Samples edges in steps of a
-/// millimetre; a face is nearest at its edges or above a node of the bottom.
+/// The least height above the bottom, of the edges in steps of a millimetre and of the faces over
+/// the nodes of the bottom.
 double min_gap(const Surface& object) {
     double gap = 1e9;
     for (const auto& corners : object.triangles) {
@@ -62,8 +62,7 @@ double min_gap(const Surface& object) {
     return gap;
 }
 
-/// True if two boxes meet as seen from above: samples the sides of all faces of one in steps of a
-/// centimetre and tests whether they lie in a face of the other.
+/// True if two boxes meet as seen from above: a point of a side of one lies in a face of the other.
 bool meet_from_above(const Surface& one, const Surface& other) {
     const auto in_face = [&](const Eigen::Vector2d& p) {
         return std::ranges::any_of(other.triangles, [&](const auto& corners) {

@@ -16,8 +16,7 @@ TEST_SUITE("scene") {
         REQUIRE(std::system(command.c_str()) == 0);
         CHECK(read_file(folder.path / "tank.glb", 1 << 20) ==
               read_file(root / "scenes/tank.glb", 1 << 20));
-        const Scene tank =
-            load_scene(root / "scenes/tank.glb", root / "scenes/materials.csv", Water{});
+        const Scene tank = load_scene(root / "scenes/tank.glb", root / "scenes/materials.csv");
         CHECK(tank.triangles.size() < 5000);
         CHECK(tank.rejects.degenerate_triangles == 0);
         check_point(tank.bounds_min, -4, -3, 0, 1e-4);

@@ -42,9 +42,9 @@ Surface tyre() {
 }
 
 Surface ball() {
-    return surface_from([](double u, double v) {
-        return Eigen::Vector3d(std::sin(pi * v) * std::cos(2 * pi * u),
-                               std::sin(pi * v) * std::sin(2 * pi * u), std::cos(pi * v));
+    return surface_from([](double u, double v) -> Eigen::Vector3d {
+        const double r = std::sin(pi * v);
+        return {r * std::cos(2 * pi * u), r * std::sin(2 * pi * u), std::cos(pi * v)};
     });
 }
 

@@ -14,8 +14,7 @@ TEST_SUITE_BEGIN("lattices");
 
 namespace {
 
-/// The noise-free image of a drawn scene by at most `rays` view rays and rays to points of the
-/// surface, in two independent halves.
+/// The image of a drawn scene by at most `rays`, in two independent halves.
 Reference reference_of(const test::Lattice& lattice, std::uint64_t rays) {
     const View view = make_sonar(lattice.sonar, {}).settings.view;
     return cast_reference(Caster(lattice.scene), lattice.scene, view, Pose{}, {0.0005, 16.0, rays});

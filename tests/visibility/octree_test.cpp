@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
 #include "core/error.h"
 #include "core/units.h"
@@ -17,23 +16,6 @@ using namespace sonarsim;
 TEST_SUITE_BEGIN("visibility");
 
 namespace {
-
-View tank_view() {
-    return {radians(60.0), radians(12.0), 0.5, 10.0, 512, 256, 0.03};
-}
-
-Pose tank_pose(int k) {
-    return {rotation_from_rpy(0.0, radians(5.0 + 5.0 * k), radians(20.0 - 12.0 * k)),
-            Eigen::Vector3d(-3.0 + 0.3 * k, -1.0 + 0.7 * k, 1.5)};
-}
-
-bool same_samples(const Samples& a, const Samples& b) {
-    return a.beam_begin == b.beam_begin &&
-           std::ranges::equal(a.items, b.items, [](const Sample& x, const Sample& y) {
-               return x.position == y.position && x.normal == y.normal &&
-                      x.material == y.material && x.instance == y.instance;
-           });
-}
 
 std::vector<std::uint32_t> all_triangles(const Scene& scene) {
     std::vector<std::uint32_t> all(scene.triangles.size());
@@ -102,28 +84,10 @@ TEST_CASE("octree: the first cluster of leaves hides what is more than four leav
     }
 }
 
-TEST_CASE("octree: a ping does not depend on earlier pings or on other threads") {
-    const Scene scene = test::tank();
-    const auto shared = make_octree_engine(scene, {0.05});
-    std::vector<Samples> found(4);
-    std::vector<std::thread> threads;
-    for (int k = 0; k < 4; ++k)
-        threads.emplace_back(
-            [&, k] { found[k] = shared->visible_surface(tank_view(), tank_pose(k)); });
-    for (std::thread& thread : threads)
-        thread.join();
-    for (int k = 0; k < 4; ++k) {
-        CAPTURE(k);
-        const Samples alone =
-            make_octree_engine(scene, {0.05})->visible_surface(tank_view(), tank_pose(k));
-        CHECK(!alone.items.empty());
-        CHECK(same_samples(found[k], alone));
-    }
-}
-
 TEST_CASE("octree: an empty scene has no leaves, and leaves may be too small for a scene") {
     const Scene empty = test::empty_scene();
-    CHECK(make_octree_engine(empty, {})->visible_surface(tank_view(), Pose{}).items.empty());
+    const View view{radians(60.0), radians(12.0), 0.5, 10.0, 512, 256, 0.03};
+    CHECK(make_octree_engine(empty, {})->visible_surface(view, Pose{}).items.empty());
     Scene scene = test::empty_scene();
     test::add_floor(scene, 1e6F, 0.0F, test::add_material(scene, 0.5F));
     CHECK_THROWS_AS(make_octree_engine(scene, {1e-3}), InputError);

@@ -77,10 +77,8 @@ struct GltfBuilder {
 
     int material(const std::string& name) { return append("materials", {{"name", name}}); }
 
-    int mesh(const nlohmann::json& primitives, const std::string& name = "") {
-        nlohmann::json entry = {{"primitives", primitives}};
-        if (!name.empty()) entry["name"] = name;
-        return append("meshes", entry);
+    int mesh(const nlohmann::json& primitives) {
+        return append("meshes", {{"name", "Tri"}, {"primitives", primitives}});
     }
 
     int node(const nlohmann::json& entry) { return append("nodes", entry); }
@@ -106,11 +104,9 @@ inline const std::vector<Point> unit_triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
 /// One node "tri" with mesh "Tri": a triangle (0 0 0, 1 0 0, 0 1 0) in the glTF frame, of steel.
 inline GltfBuilder one_triangle() {
     GltfBuilder gltf;
-    const int steel = gltf.material("steel");
-    const int points = gltf.positions(unit_triangle);
-    const int mesh =
-        gltf.mesh({{{"attributes", {{"POSITION", points}}}, {"material", steel}}}, "Tri");
-    gltf.node({{"name", "tri"}, {"mesh", mesh}});
+    gltf.mesh({{{"attributes", {{"POSITION", gltf.positions(unit_triangle)}}},
+                {"material", gltf.material("steel")}}});
+    gltf.node({{"name", "tri"}, {"mesh", 0}});
     return gltf;
 }
 
@@ -118,18 +114,17 @@ inline const std::string test_materials =
     "material,density_kg_m3,sound_speed_m_s\nsteel,7850,5900\nsand,1900,1650\nrubber,1100,1500\n";
 
 /// Loads one file with the materials of a CSV.
-inline Scene load_scene(const std::filesystem::path& gltf, const std::filesystem::path& csv,
-                        const Water& water) {
+inline Scene load_scene(const std::filesystem::path& gltf, const std::filesystem::path& csv) {
     SceneFiles models;
     const PlacedFile file{.file = gltf};
-    return load_scene({&file, 1}, models, read_materials(csv), "", water);
+    return load_scene({&file, 1}, models, read_materials(csv), "", Water{});
 }
 
 /// Writes the file and loads it, with the materials above.
 inline Scene load(const std::string& bytes) {
     const TemporaryFolder folder;
     const auto materials = written(folder, "materials.csv", test_materials);
-    return load_scene(written(folder, "x.glb", bytes), materials, Water{});
+    return load_scene(written(folder, "x.glb", bytes), materials);
 }
 
 inline Scene load(const GltfBuilder& gltf) {
@@ -141,7 +136,7 @@ inline std::string load_error(const std::string& bytes) {
     const TemporaryFolder folder;
     const auto materials = written(folder, "materials.csv", test_materials);
     try {
-        load_scene(written(folder, "x.glb", bytes), materials, Water{});
+        load_scene(written(folder, "x.glb", bytes), materials);
     } catch (const InputError& error) {
         std::string message = error.what();
         const std::string prefix = folder.path.string() + "/";

@@ -11,34 +11,6 @@ using namespace sonarsim;
 using namespace sonarsim::test;
 
 TEST_SUITE("ground maps") {
-    TEST_CASE("sums over boxes: those of the texels by the area that the box covers") {
-        Draws draws(1);
-        const int width = 7;
-        const int height = 5;
-        std::vector<double> texels;
-        for (int k = 0; k < width * height; ++k)
-            texels.push_back(draws.between(-1, 3));
-        const TexelSums<double> sums(width, height, [&](std::size_t k) { return texels[k]; });
-        for (int trial = 0; trial < 200; ++trial) {
-            TexelBox box;
-            box.x_min = draws.between(-2, 8);
-            box.x_max = box.x_min + draws.between(0, 4);
-            box.y_min = draws.between(-2, 6);
-            box.y_max = box.y_min + draws.between(0, 4);
-            double expected = 0.0;
-            for (int row = 0; row < height; ++row) {
-                for (int column = 0; column < width; ++column) {
-                    const double x =
-                        std::min(box.x_max, column + 1.0) - std::max(box.x_min, 1.0 * column);
-                    const double y =
-                        std::min(box.y_max, row + 1.0) - std::max(box.y_min, 1.0 * row);
-                    if (x > 0.0 && y > 0.0) expected += x * y * texels[row * width + column];
-                }
-            }
-            CHECK(std::fabs(sums.over(box) - expected) < 1e-12);
-        }
-    }
-
     TEST_CASE("a footprint has its materials by area, and each its mean factor") {
         // Texels of 0.5 m; footprints of 0.5 to 3 m, of any direction, against a lattice of points.
         Draws draws(2);

@@ -34,11 +34,6 @@ double area_of_heights(const Seabed& bed) {
     return (bed.grid.columns - 1) * cell * (bed.grid.rows - 1) * cell;
 }
 
-bool same_rock(const Rock& a, const Rock& b) {
-    return a.diameter_m == b.diameter_m && a.buried == b.buried && a.shape == b.shape &&
-           a.T_world_shape.matrix() == b.T_world_shape.matrix();
-}
-
 }  // namespace
 
 TEST_CASE("rocks are a Poisson process with sizes of a power law") {
@@ -167,45 +162,13 @@ TEST_CASE("a part of a bed is the same bed, bit by bit, and another seed makes a
     CHECK(same);
     CHECK(part.rocks.size() > 20);
     for (const Rock& rock : part.rocks) {
-        CHECK(std::ranges::any_of(whole.rocks,
-                                  [&](const Rock& other) { return same_rock(rock, other); }));
+        const auto same_rock = [&](const Rock& other) {
+            return other.diameter_m == rock.diameter_m && other.buried == rock.buried &&
+                   other.shape == rock.shape &&
+                   other.T_world_shape.matrix() == rock.T_world_shape.matrix();
+        };
+        CHECK(std::ranges::any_of(whole.rocks, same_rock));
     }
     rule.seed += 1;
     CHECK(make_seabed(rule).heights != part.heights);
-}
-
-TEST_CASE("a bed becomes instances with classes and materials") {
-    SeabedRule rule = bare_rule(4.0);
-    rule.class_name = "bottom";
-    rule.sediments = {{"mud", 1.0}, {"sand", 2.0}};
-    rule.patch_m = 2.0;
-    rule.rocks = BedRocks{0.3, {0.1, 2.0}, 2.4, {0.1, 0.5}, "rock"};
-    PlacedFile placed;
-    placed.file = "scene.seabed";
-    placed.z_up = true;
-    placed.seabed = std::make_shared<const Seabed>(make_seabed(rule));
-    SceneFiles files;
-    const Scene scene = load_scene_geometry(placed, files);
-    const std::size_t rocks = placed.seabed->rocks.size();
-    REQUIRE(rocks > 3);
-    REQUIRE(scene.instances.size() == rocks + 1);
-    CHECK(scene.instances[0] == "seabed");
-    CHECK(scene.instances[1] == "rock_1");
-    CHECK(scene.instance_classes[0] == "bottom");
-    CHECK(scene.instance_classes[1] == "rock");
-    const auto area_of = [&](const char* material) {
-        std::size_t count = 0;
-        for (const std::uint32_t m : scene.triangle_material)
-            count += scene.materials[m].name == material;
-        return count;
-    };
-    CHECK(area_of("mud") > 0);
-    CHECK(area_of("sand") > area_of("mud"));
-    CHECK(area_of("rock") >= 20 * rocks);
-    // The node that objects rest on is the bed alone.
-    const std::vector<std::string> bed{"seabed"};
-    const Surface surface = surface_of(placed, files, bed);
-    CHECK(surface.triangles.size() ==
-          2 * static_cast<std::size_t>(placed.seabed->grid.columns - 1) *
-              static_cast<std::size_t>(placed.seabed->grid.rows - 1));
 }

@@ -64,25 +64,3 @@ TEST_CASE("a smooth field far below the cells takes no finer lattice, and cells 
     CHECK(std::abs(squares / count - 1.0) < 0.036);
     CHECK(std::abs(neighbours / count) < 0.025);
 }
-
-TEST_CASE("a part of a smooth field has the values of the whole, at any place") {
-    const BedGrid whole{0.3, -50, 40, 90, 70};
-    const BedGrid part{0.3, -17, 21, 20, 33};
-    for (const double length : {0.11, 0.5, 3.0}) {
-        const std::vector<float> all = smooth_field(whole, length, key_of(1));
-        const std::vector<float> some = smooth_field(part, length, key_of(1));
-        bool same = true;
-        for (int row = 0; row < part.rows; ++row) {
-            for (int column = 0; column < part.columns; ++column) {
-                const auto in_whole =
-                    static_cast<std::size_t>(row + 19) * 90 + static_cast<std::size_t>(column + 33);
-                same =
-                    same &&
-                    all[in_whole] ==
-                        some[static_cast<std::size_t>(row) * 20 + static_cast<std::size_t>(column)];
-            }
-        }
-        CHECK(same);
-    }
-    CHECK(smooth_field(whole, 0.5, key_of(1)) != smooth_field(whole, 0.5, key_of(2)));
-}

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <random>
 
 #include "core/units.h"
 #include "support/approx.h"
@@ -165,6 +166,36 @@ TEST_CASE("slices: three planes that cross in one slice are each seen where they
     CHECK(area[1] < 1e-4);
     CHECK(area[0] > 1.0);
     CHECK(area[2] / area[0] == test::approx(1.0).epsilon(1e-4));
+}
+
+TEST_CASE("slices: two wide beams have the surface of rods that stand in each of them") {
+    // Beams of 150 degrees. The reference has 64 beams in place of each.
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> any(0.0F, 1.0F);
+    View view = fan_view();
+    view.beams = 2;
+    view.azimuth_rad = radians(300.0);
+    View narrow = view;
+    narrow.beams = 128;
+    for (int k = 0; k < 8; ++k) {
+        Scene scene = test::empty_scene();
+        const std::uint32_t rock = test::add_material(scene, 0.5F);
+        for (int rod = 0; rod < 60; ++rod) {
+            const float turn = 6.2F * any(random) - 3.1F;
+            const float range = 3.0F + 6.0F * any(random);
+            test::add_pole(scene, {range * std::cos(turn), range * std::sin(turn), -0.3F}, 0.05F,
+                           0.6F, rock, 6);
+        }
+        const Samples image = seen(scene, view, Pose{}, 0);
+        const Samples reference = seen(scene, narrow, Pose{}, 2);
+        for (const int beam : {0, 1}) {
+            CAPTURE(beam);
+            double expected = 0.0;
+            for (int j = 64 * beam; j < 64 * beam + 64; ++j)
+                expected += test::area_of(reference.beam(j));
+            CHECK(test::area_of(image.beam(beam)) == test::approx(expected).epsilon(0.07));
+        }
+    }
 }
 
 TEST_SUITE_END();
