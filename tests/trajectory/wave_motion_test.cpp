@@ -78,20 +78,6 @@ TEST_SUITE("wave motion") {
             CHECK(rpy.yaw == test::approx(0.5 * pi));
         }
     }
-
-    TEST_CASE("Waves of twice the period take twice the time") {
-        WaveMotion motion{.period_s = 4.0};
-        motion.turn_rad[1] = 0.2;
-        Trajectory quick = poses_on_the_spot({5.0, 6.0, 9.0});
-        add_wave_motion(motion, wave_key(3), quick);
-        motion.period_s = 8.0;
-        Trajectory slow = poses_on_the_spot({5.0, 7.0, 13.0});
-        add_wave_motion(motion, wave_key(3), slow);
-        for (std::size_t i = 0; i < slow.size(); ++i) {
-            CHECK(slow[i].T_world_vehicle.rotation.isApprox(quick[i].T_world_vehicle.rotation,
-                                                            1e-12));
-        }
-    }
 }
 
 }  // namespace sonarsim

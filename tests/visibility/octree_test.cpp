@@ -7,42 +7,11 @@
 #include "core/units.h"
 #include "support/approx.h"
 #include "support/scenes.h"
-#include "visibility/caster.h"
-#include "visibility/octree/leaf.h"
 #include "visibility/octree/octree_engine.h"
 
 using namespace sonarsim;
 
 TEST_SUITE_BEGIN("visibility");
-
-namespace {
-
-std::vector<std::uint32_t> all_triangles(const Scene& scene) {
-    std::vector<std::uint32_t> all(scene.triangles.size());
-    for (std::uint32_t i = 0; i < all.size(); ++i)
-        all[i] = i;
-    return all;
-}
-
-}  // namespace
-
-TEST_CASE("octree leaf: the direction and material with most surface in the cube") {
-    Scene scene = test::empty_scene();
-    const auto sand = test::add_material(scene, 0.5F);
-    test::add_floor(scene, 10.0F, 0.25F, sand);
-    // A wall of which a fifth of a face is in the cube.
-    test::add_quad(scene, {1.4F, 0, 0.15F}, {1.4F, 9, 0.15F}, {1.4F, 9, 9}, {1.4F, 0, 9},
-                   test::add_material(scene, 0.9F));
-    const Caster caster(scene);
-    const auto leaf = leaf_of({{1, 2, 0}, 0.5}, all_triangles(scene), scene, caster);
-    REQUIRE(leaf);
-    CHECK(std::fabs(leaf->normal.z()) == test::approx(1.0));
-    CHECK(scene.triangle_material[leaf->triangle] == sand);
-    CHECK(!leaf_of({{1, 2, -1}, 0.5}, all_triangles(scene), scene, caster));
-    // A diagonal half of a face of the cube.
-    const Triangle triangle{Eigen::Vector3d(0, 0, 0.5), {2, 0, 0.5}, {0, 2, 0.5}};
-    CHECK(area_m2(clip(triangle, {{0.5, 0.5, 0}, 1.0})) == test::approx(0.5));
-}
 
 TEST_CASE("octree: a wall has one leaf for every cube that it is in") {
     Scene scene = test::empty_scene();

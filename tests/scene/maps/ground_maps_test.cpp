@@ -68,27 +68,4 @@ TEST_SUITE("ground maps") {
         }
         CHECK(worst < 0.06);
     }
-
-    TEST_CASE("ground that keeps its own material is alike across the borders of texels") {
-        // Texels of 1 m; only that of 2 m < x < 3 m, 2 m < y < 3 m has a material.
-        const TexelFrame frame = square_frame(8, 8.0);
-        Scene scene;
-        scene.instances = {"floor"};
-        const auto lone = [](int row, int column) {
-            return row == 1 && column == 6 ? std::uint16_t{0} : MaterialTexels::own;
-        };
-        lay(scene, material_texels(frame, {3}, lone), {});
-        const auto alike = [&](double x, double y, double half_m) {
-            return scene.maps->alike_over(0, 7, {{x, y}, {half_m, 0.0}, {0.0, half_m}});
-        };
-        for (const Eigen::Vector2d& at :
-             {Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(-4.0, 1.0), Eigen::Vector2d(-6.0, 5.0)}) {
-            const auto found = alike(at.x(), at.y(), 1.6);
-            REQUIRE(found);
-            CHECK(found->material == 7);
-        }
-        CHECK_FALSE(alike(0.9, 0.9, 1.2));
-        CHECK_FALSE(alike(2.5, 2.5, 1.0));
-        CHECK(alike(2.5, 2.5, 0.4)->material == 3);
-    }
 }
