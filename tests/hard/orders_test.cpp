@@ -8,6 +8,7 @@
 #include "support/scenes.h"
 #include "validation/image_error.h"
 #include "validation/reference.h"
+#include "visibility/make_engine.h"
 
 using namespace sonarsim;
 
