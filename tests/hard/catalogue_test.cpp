@@ -45,8 +45,7 @@ double error_of(const std::vector<float>& image, const std::vector<float>& truth
 }
 
 void check_case(const HardCase& hard, const Scene& scene, EngineKind engine_kind, ModelKind model) {
-    const bool is_compared =
-        hard.truth && (model == ModelKind::paper || hard.truth_of_any_model);
+    const bool is_compared = hard.truth && (model == ModelKind::paper || hard.truth_of_any_model);
     // The invariants of a model do not depend on the engine.
     if (!is_compared && model != ModelKind::paper && engine_kind != EngineKind::rays) return;
     CAPTURE(hard.name);
