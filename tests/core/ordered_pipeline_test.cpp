@@ -12,12 +12,11 @@ using namespace sonarsim;
 
 namespace {
 
-constexpr std::size_t threads = 4;
 constexpr std::size_t in_flight = 6;
 
 // Four worker threads, even on a machine with one core.
 struct FourThreads {
-    tbb::global_control limit{tbb::global_control::max_allowed_parallelism, threads};
+    tbb::global_control limit{tbb::global_control::max_allowed_parallelism, 4};
 };
 
 /// Work whose duration decreases with i, so that results complete out of order.
@@ -32,50 +31,39 @@ std::string work_on(std::size_t i) {
 
 TEST_SUITE_BEGIN("core");
 
-TEST_CASE("an ordered pipeline hands over every result once, in order, and few at a time") {
+TEST_CASE(
+    "an ordered pipeline hands over each result once, in order, few at a time, until a stop") {
     const FourThreads four;
     constexpr std::size_t count = 1000;
-    std::atomic<std::size_t> alive = 0;
-    std::atomic<std::size_t> most = 0;
-    std::vector<std::string> results;
-    ordered_pipeline(
-        count, in_flight, false,
-        [&](std::size_t i) {
-            const std::size_t now = ++alive;
-            std::size_t seen = most;
-            while (seen < now && !most.compare_exchange_weak(seen, now)) {
-            }
-            return work_on(i);
-        },
-        [&](const std::string& result) {
-            results.push_back(result);
-            --alive;
-        });
-    REQUIRE(results.size() == count);
-    for (std::size_t i = 0; i < count; ++i)
-        REQUIRE(results[i] == std::to_string(i));
-    CHECK(most <= in_flight);
-}
-
-TEST_CASE("a stopped pipeline finishes what it has begun") {
-    const FourThreads four;
-    std::atomic<bool> stop = false;
-    std::atomic<std::size_t> begun = 0;
-    std::vector<std::string> results;
-    ordered_pipeline(
-        1000, in_flight, stop,
-        [&](std::size_t i) {
-            ++begun;
-            return work_on(i);
-        },
-        [&](const std::string& result) {
-            results.push_back(result);
-            if (results.size() == 20) stop = true;
-        });
-    CHECK(results.size() == begun);
-    CHECK(results.size() >= 20);
-    CHECK(results.size() <= 20 + in_flight);
-    CHECK(results.back() == std::to_string(results.size() - 1));
+    for (const std::size_t stop_after : {count, std::size_t{20}}) {
+        std::atomic<bool> stop = false;
+        std::atomic<std::size_t> begun = 0;
+        std::atomic<std::size_t> alive = 0;
+        std::atomic<std::size_t> most = 0;
+        std::vector<std::string> results;
+        ordered_pipeline(
+            count, in_flight, stop,
+            [&](std::size_t i) {
+                ++begun;
+                const std::size_t now = ++alive;
+                std::size_t seen = most;
+                while (seen < now && !most.compare_exchange_weak(seen, now)) {
+                }
+                return work_on(i);
+            },
+            [&](const std::string& result) {
+                results.push_back(result);
+                --alive;
+                if (results.size() == stop_after) stop = true;
+            });
+        // It finishes what it has begun.
+        CHECK(results.size() == begun);
+        CHECK(results.size() >= stop_after);
+        CHECK(results.size() <= stop_after + in_flight);
+        for (std::size_t i = 0; i < results.size(); ++i)
+            REQUIRE(results[i] == std::to_string(i));
+        CHECK(most <= in_flight);
+    }
 }
 
 TEST_CASE("what work throws ends the pipeline") {

@@ -20,22 +20,11 @@ void check_near(const Vector3d& a, const Vector3d& b) {
 }  // namespace
 
 TEST_SUITE("core") {
-    TEST_CASE("pose: signs of roll, pitch and yaw (x forward, y left, z up)") {
-        const Vector3d bow = Vector3d::UnitX();
-        const Vector3d port = Vector3d::UnitY();
-        const Vector3d mast = Vector3d::UnitZ();
+    TEST_CASE("pose: roll comes first, yaw last, about fixed axes (x forward, y left, z up)") {
         // Positive yaw turns the bow to port, pitch turns it down, roll raises the port side.
-        check_near(rotation_from_rpy(0, 0, pi / 2) * bow, port);
-        check_near(rotation_from_rpy(0, pi / 2, 0) * bow, -mast);
-        check_near(rotation_from_rpy(pi / 2, 0, 0) * port, mast);
-        CHECK(rotation_from_rpy(0, 0, 0).coeffs() == Eigen::Quaterniond::Identity().coeffs());
-    }
-
-    TEST_CASE("pose: roll comes first, yaw last, about fixed axes") {
-        // y --roll 90--> z --pitch 90--> x --yaw 90--> y. Any other order gives another result.
-        check_near(rotation_from_rpy(pi / 2, pi / 2, pi / 2) * Vector3d::UnitY(),
-                   Vector3d::UnitY());
-
+        check_near(rotation_from_rpy(0, 0, pi / 2) * Vector3d::UnitX(), Vector3d::UnitY());
+        check_near(rotation_from_rpy(0, pi / 2, 0) * Vector3d::UnitX(), -Vector3d::UnitZ());
+        check_near(rotation_from_rpy(pi / 2, 0, 0) * Vector3d::UnitY(), Vector3d::UnitZ());
         // The textbook matrix Rz(c) Ry(b) Rx(a), first column and last row.
         const double a = 0.3;
         const double b = -0.7;
@@ -62,11 +51,6 @@ TEST_SUITE("core") {
                 }
             }
         }
-        // A pitch beyond a quarter turn equals one within, with a roll and a yaw of half a turn.
-        const Rpy over = rpy_from_rotation(rotation_from_rpy(0.0, 2.0, 0.0));
-        CHECK(std::abs(over.pitch - (pi - 2.0)) < 1e-12);
-        CHECK(std::abs(std::abs(over.roll) - pi) < 1e-12);
-        CHECK(std::abs(std::abs(over.yaw) - pi) < 1e-12);
     }
 
     TEST_CASE("pose: a bow straight up or down has no roll, and comes back as it was") {
@@ -84,27 +68,16 @@ TEST_SUITE("core") {
         }
     }
 
-    TEST_CASE("pose: composition applies the right-hand transform first") {
+    TEST_CASE("pose: composition applies the right-hand transform first, and keeps unit length") {
         const Pose T_world_vehicle{rotation_from_rpy(0, 0, pi / 2), {10, 0, 0}};
         const Pose T_vehicle_sonar{rotation_from_rpy(0, pi / 2, 0), {1, 2, 3}};
-        const Pose T_world_sonar = T_world_vehicle * T_vehicle_sonar;
-        // The mount (1, 2, 3), rotated by 90 deg to port, is (-2, 1, 3).
-        check_near(T_world_sonar.translation, {8, 1, 3});
-        // The sonar's boresight points down, its left is the vehicle's left: world -x.
-        check_near(T_world_sonar.rotation * Vector3d::UnitX(), {0, 0, -1});
-        check_near(T_world_sonar.rotation * Vector3d::UnitY(), {-1, 0, 0});
-
-        const Vector3d p(0.3, -0.4, 0.5);
-        const Vector3d in_vehicle = T_vehicle_sonar.rotation * p + T_vehicle_sonar.translation;
-        check_near(T_world_sonar.rotation * p + T_world_sonar.translation,
-                   T_world_vehicle.rotation * in_vehicle + T_world_vehicle.translation);
-    }
-
-    TEST_CASE("pose: a long chain of compositions keeps a unit quaternion") {
-        Pose pose;
-        const Pose step{rotation_from_rpy(0.1, 0.2, 0.3), {1, 0, 0}};
+        Pose pose = T_world_vehicle * T_vehicle_sonar;
+        // The mount (1, 2, 3), turned by 90 deg to port, is (-2, 1, 3); the boresight points down.
+        check_near(pose.translation, {8, 1, 3});
+        check_near(pose.rotation * Vector3d::UnitX(), {0, 0, -1});
+        check_near(pose.rotation * Vector3d::UnitY(), {-1, 0, 0});
         for (int i = 0; i < 10000; ++i)
-            pose = pose * step;
+            pose = pose * Pose{rotation_from_rpy(0.1, 0.2, 0.3), {1, 0, 0}};
         CHECK(std::abs(pose.rotation.norm() - 1.0) < 1e-15);
     }
 }

@@ -17,10 +17,7 @@ TEST_CASE("philox is the function of Random123") {
         const PhiloxKey key{i * 40503U, 0x12345678U ^ i};
         const auto want = reference({{c.x0, c.x1, c.x2, c.x3}}, {{key.k0, key.k1}});
         const PhiloxBlock got = philox(c, key);
-        CHECK(got.x0 == want[0]);
-        CHECK(got.x1 == want[1]);
-        CHECK(got.x2 == want[2]);
-        CHECK(got.x3 == want[3]);
+        CHECK((want == r123::Philox4x32::ctr_type{{got.x0, got.x1, got.x2, got.x3}}));
     }
 }
 
@@ -42,12 +39,9 @@ TEST_CASE("pairs are those of Random123, the second key in the counter") {
     }
 }
 
-TEST_CASE("unit floats stay inside (0, 1)") {
+TEST_CASE("unit floats stay inside (0, 1); every seed, sensor, ping and stream has its own key") {
     CHECK(unit_float(0) > 0.0F);
     CHECK(unit_float(0xFFFFFFFFU) < 1.0F);
-}
-
-TEST_CASE("every seed, sensor, ping and stream has a key of its own") {
     std::set<std::pair<std::uint32_t, std::uint32_t>> keys;
     std::size_t count = 0;
     for (std::uint64_t seed : {0ULL, 1ULL, 1ULL << 32}) {

@@ -19,7 +19,6 @@ TEST_SUITE("core") {
                         "2J") ==
               "\\xc2\\x9b"
               "2J");  // U+009B is an ESC [ in one character
-        CHECK(printable("\xc2\xa0\xc2\xbf") == "\xc2\xa0\xc2\xbf");
         CHECK(printable("\xff\xc3") == "\\xff\\xc3");
     }
 
@@ -60,21 +59,12 @@ TEST_SUITE("core") {
     TEST_CASE("text: a number's text is short and reads back as the same number") {
         CHECK(number_text(0.1) == "0.1");
         CHECK(number_text(3.0) == "3");
-        CHECK(number_text(-0.0) == "-0");
-        CHECK(number_text(std::numeric_limits<double>::infinity()) == "inf");
         // The longest doubles: 17 digits, sign and a three-digit exponent.
         for (const double value : {1.0 / 3.0, -2.2250738585072014e-308, 4.9406564584124654e-324,
                                    -1.7976931348623157e308, 0.1 + 0.2}) {
             CAPTURE(value);
             CHECK(parse_number(number_text(value)) == value);
         }
-    }
-
-    TEST_CASE("text: trim takes blanks from the ends alone") {
-        CHECK(trim(" \t a b \r\n") == "a b");
-        CHECK(trim("a") == "a");
-        CHECK(trim(" \n").empty());
-        CHECK(trim("").empty());
     }
 
     TEST_CASE("text: did_you_mean names the nearest candidate, or none when all are far") {

@@ -1,8 +1,7 @@
 #include <algorithm>
-#include <array>
 #include <utility>
 
-#include "hard/tools.h"
+#include "hard/cases.h"
 #include "support/shapes.h"
 
 namespace sonarsim {
@@ -11,17 +10,21 @@ namespace {
 
 using namespace shapes;
 
-const Pose motion{rotation_from_rpy(0.3, -0.2, 1.1), {20.0, -7.0, 3.0}};
-
-std::vector<float> unmoved_tank_image(const HardContext& context) {
-    return image_of(tank(), in_tank(context.kind), context.engine, context.model);
-}
-
-Scene rigidly_moved() {
+/// The tank with a change to every vertex.
+template <class Change>
+Scene tank_with(Change change) {
     Scene scene = tank();
     for (Eigen::Vector3f& p : scene.vertices)
-        p = (motion.rotation * p.cast<double>() + motion.translation).cast<float>();
+        p = change(Eigen::Vector3d(p.cast<double>())).template cast<float>();
     return scene;
+}
+
+const Pose motion{rotation_from_rpy(0.3, -0.2, 1.1), {20.0, -7.0, 3.0}};
+
+Scene rigidly_moved() {
+    return tank_with([](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+        return motion.rotation * p + motion.translation;
+    });
 }
 
 HardTrial rigidly_moved_trial(SonarKind kind) {
@@ -30,11 +33,42 @@ HardTrial rigidly_moved_trial(SonarKind kind) {
     return trial;
 }
 
-Scene mirrored() {
-    Scene scene = tank();
-    for (Eigen::Vector3f& p : scene.vertices)
-        p.y() = -p.y();
+/// UTM eastings and northings off the grid.
+const Eigen::Vector3d utm(512345.678, 4812345.678, -43.21);
+
+/// Positions are rounded to float about an origin on a grid of 10 m, as when a file is read.
+Scene in_utm() {
+    const Eigen::Vector3d origin = 10.0 * (utm / 10.0).array().round().matrix();
+    Scene scene =
+        tank_with([&](const Eigen::Vector3d& p) -> Eigen::Vector3d { return p + utm - origin; });
+    scene.origin = origin;
     return scene;
+}
+
+HardTrial in_utm_trial(SonarKind kind) {
+    HardTrial trial = in_tank(kind);
+    trial.T_world_vehicle.translation += utm;
+    return trial;
+}
+
+constexpr double small = 1.25e-4;
+
+Scene scaled() {
+    return tank_with([](const Eigen::Vector3d& p) -> Eigen::Vector3d { return small * p; });
+}
+
+HardTrial scaled_trial(SonarKind kind) {
+    HardTrial trial = in_tank(kind, [](SonarConfig& c) {
+        c.range_min_m *= small;
+        c.range_max_m *= small;
+    });
+    trial.T_world_vehicle.translation *= small;
+    return trial;
+}
+
+Scene mirrored() {
+    return tank_with(
+        [](const Eigen::Vector3d& p) { return Eigen::Vector3d(p.x(), -p.y(), p.z()); });
 }
 
 /// y -> -y reverses the sense of roll and yaw.
@@ -49,7 +83,7 @@ HardTrial mirrored_trial(SonarKind kind) {
 
 /// Swaps port and starboard.
 std::vector<float> mirrored_image(const HardContext& context) {
-    std::vector<float> image = unmoved_tank_image(context);
+    std::vector<float> image = tank_image(context);
     for (auto row = image.begin(); row != image.end(); row += context.ping.beams)
         std::reverse(row, row + context.ping.beams);
     return image;
@@ -73,24 +107,32 @@ Scene permuted() {
 
 std::vector<HardCase> hard_invariances() {
     return {{.name = "rigid motion",
-             .stresses = "scene and trajectory moved and turned",
              .scene = rigidly_moved,
              .trial = rigidly_moved_trial,
-             .truth = unmoved_tank_image,
+             .truth = tank_image,
              .bounds = {0.01},
              .truth_of_any_model = true},
+            {.name = "UTM, off the grid",
+             .scene = in_utm,
+             .trial = in_utm_trial,
+             .truth = tank_image,
+             .bounds = {1e-4, 1e-3},
+             .truth_of_any_model = true},
+            {.name = "a tank of a millimetre",
+             .scene = scaled,
+             .trial = scaled_trial,
+             .truth = tank_image,
+             .bounds = {1e-4}},
             {.name = "mirror",
-             .stresses = "y -> -y",
              .scene = mirrored,
              .trial = mirrored_trial,
              .truth = mirrored_image,
              .bounds = {0.01},
              .truth_of_any_model = true},
             {.name = "permuted triangles",
-             .stresses = "another order",
              .scene = permuted,
-             .trial = plain_sonar_in_tank,
-             .truth = unmoved_tank_image,
+             .trial = [](SonarKind kind) { return in_tank(kind); },
+             .truth = tank_image,
              .bounds = {1e-6},
              .truth_of_any_model = true}};
 }

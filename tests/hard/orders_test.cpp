@@ -4,18 +4,17 @@
 #include <memory>
 
 #include "core/units.h"
-#include "hard/tools.h"
-#include "sonar/engine_settings.h"
-#include "support/sanitized.h"
+#include "hard/cases.h"
 #include "support/scenes.h"
 #include "validation/image_error.h"
 #include "validation/reference.h"
+#include "visibility/make_engine.h"
 
 using namespace sonarsim;
 
 TEST_SUITE_BEGIN("hard");
 
-TEST_CASE("the error of rays falls with their goal" * doctest::skip(test::sanitized)) {
+TEST_CASE("the error of rays falls with their goal") {
     struct Subject {
         const char* name;
         Scene scene;
@@ -25,7 +24,7 @@ TEST_CASE("the error of rays falls with their goal" * doctest::skip(test::saniti
     const Subject subjects[] = {{"smooth", test::rough_floor(), 35.0, {0.3, 0.2, 4.0}},
                                 {"edgy", test::tank(), 15.0, {-2.4, 0.4, 1.5}},
                                 {"grazing", test::rough_floor(), 5.0, {0.3, 0.2, 1.3}}};
-    Sonar sonar = without_gain(hard_sonar(SonarKind::imaging));
+    Sonar sonar = in_tank(SonarKind::imaging).sonar;
     for (const Subject& subject : subjects) {
         CAPTURE(subject.name);
         const Pose pose{rotation_from_rpy(0.0, radians(subject.pitch_deg), 0.1), subject.position};

@@ -1,4 +1,4 @@
-#include "hard/tools.h"
+#include "hard/cases.h"
 #include "support/shapes.h"
 
 namespace sonarsim {
@@ -25,8 +25,8 @@ void all_azimuths(SonarConfig& config) {
     config.azimuth_bins = 288;
 }
 
-/// A floor in two halves whose seam runs along the boresight: the edge between two beams of an even
-/// number and between the two sides of a side-scan. R = 0.5 to port, 0 to starboard.
+/// A floor whose seam runs along the boresight, the edge of two beams: R = 0.5 to port, 0 to
+/// starboard.
 Scene halves() {
     Scene scene = empty_scene();
     const std::uint32_t port = add_material(scene, 0.5F);
@@ -59,7 +59,6 @@ std::vector<float> seam_law(const HardContext& context) {
 
 std::vector<HardCase> hard_sonar_limits() {
     return {{.name = "8,192 range bins",
-             .stresses = "bins of 1.2 mm",
              .scene = plain_floor,
              .trial = floor_with([](SonarConfig& c) {
                  c.range_bins = 8192;
@@ -68,13 +67,11 @@ std::vector<HardCase> hard_sonar_limits() {
              .truth = floor_law,
              .bounds = {0.02}},
             {.name = "azimuth of 360 degrees",
-             .stresses = "a seam behind the sonar",
              .scene = room,
              .trial = floor_with(all_azimuths),
              .truth = settled_reference,
              .bounds = {0.08}},
             {.name = "a seam on a beam's edge",
-             .stresses = "nothing may reach the beam next to it",
              .scene = halves,
              .trial = over_seam,
              .truth = seam_law,

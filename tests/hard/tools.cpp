@@ -1,11 +1,11 @@
-#include "hard/tools.h"
-
 #include <memory>
 
 #include "core/units.h"
+#include "hard/cases.h"
 #include "sonar/engine_settings.h"
 #include "sonar/kinds.h"
 #include "support/shapes.h"
+#include "support/sonars.h"
 #include "validation/reference.h"
 
 namespace sonarsim {
@@ -14,15 +14,6 @@ namespace {
 
 HardTrial at(SonarKind kind, const ConfigChange& change, const Eigen::Vector3d& position,
              double pitch_deg, double yaw_deg) {
-    SonarConfig config = hard_sonar(kind);
-    if (change) change(config);
-    return {without_gain(config),
-            {rotation_from_rpy(0.0, radians(pitch_deg), radians(yaw_deg)), position}};
-}
-
-}  // namespace
-
-SonarConfig hard_sonar(SonarKind kind) {
     SonarConfig config = default_sonar(kind);
     config.name = name_of(kind);
     config.range_min_m = 0.2;
@@ -34,14 +25,12 @@ SonarConfig hard_sonar(SonarKind kind) {
     if (kind == SonarKind::sidescan) config.elevation_deg = 0.5;
     // A narrow cone over a floor fills two bins, and one bin more or less would dominate the error.
     config.opening_deg = 90.0;
-    return config;
+    if (change) change(config);
+    return {test::noise_free(config),
+            {rotation_from_rpy(0.0, radians(pitch_deg), radians(yaw_deg)), position}};
 }
 
-Sonar without_gain(const SonarConfig& config) {
-    SonarConfig with_gain_1 = config;
-    with_gain_1.noise.gain = 1.0;
-    return make_sonar(with_gain_1, {});
-}
+}  // namespace
 
 bool looks_forward(SonarKind kind) {
     return !kind_of(kind).looks_down;
@@ -56,41 +45,15 @@ HardTrial in_tank(SonarKind kind, const ConfigChange& change) {
               looks_forward(kind) ? 15.0 : 0.0, 4.0);
 }
 
-HardTrial plain_sonar_over_floor(SonarKind kind) {
-    return over_floor(kind);
-}
-
-HardTrial plain_sonar_in_tank(SonarKind kind) {
-    return in_tank(kind);
-}
-
-Scene moved_tank(const Eigen::Vector3d& by) {
-    Scene scene = shapes::tank();
-    scene.origin = 10.0 * (by / 10.0).array().round().matrix();
-    for (Eigen::Vector3f& p : scene.vertices)
-        p = (p.cast<double>() + by - scene.origin).cast<float>();
-    return scene;
-}
-
-HardTrial in_moved_tank(SonarKind kind, const Eigen::Vector3d& by) {
-    HardTrial trial = in_tank(kind);
-    trial.T_world_vehicle.translation += by;
-    return trial;
-}
-
-Scene scaled_tank(double scale) {
-    Scene scene = shapes::tank();
-    for (Eigen::Vector3f& p : scene.vertices)
-        p = (scale * p.cast<double>()).cast<float>();
-    return scene;
-}
-
-HardTrial in_scaled_tank(SonarKind kind, double scale) {
-    HardTrial trial = in_tank(kind, [&](SonarConfig& c) {
-        c.range_min_m *= scale;
-        c.range_max_m *= scale;
-    });
-    trial.T_world_vehicle.translation *= scale;
+HardTrial with_model(HardTrial trial, ModelKind model) {
+    if (model == trial.sonar.config.model) return trial;
+    SonarConfig config = trial.sonar.config;
+    config.model = model;
+    config.instrument.receiver.noise_db = -200.0;
+    config.instrument.receiver.full_scale_db = -20.0;
+    config.instrument.receiver.companding = Companding::linear;
+    config.instrument.receiver.bits = 16;
+    trial.sonar = make_sonar(config, {});
     return trial;
 }
 
@@ -122,10 +85,9 @@ std::vector<float> floor_law(const HardContext& context) {
 }
 
 std::vector<float> settled_reference(const HardContext& context) {
-    const Caster caster(context.scene);
     const Pose T_world_sensor = sensor_pose(context.trial.sonar, context.trial.T_world_vehicle, 0);
-    return cast_reference(caster, context.scene, context.trial.sonar.settings.view, T_world_sensor,
-                          {0.002, 64.0, 2'000'000})
+    return cast_reference(Caster(context.scene), context.scene, context.trial.sonar.settings.view,
+                          T_world_sensor, {0.002, 64.0, 2'000'000})
         .intensity;
 }
 
@@ -138,8 +100,12 @@ std::vector<float> image_of(const Scene& scene, const HardTrial& trial, EngineKi
     const std::unique_ptr<VisibilityEngine> engine =
         make_engine(scene, engine_settings(engine_kind));
     return render_ping(with_model(trial, model).sonar, scene, *engine, trial.T_world_vehicle,
-                       {1, 0}, compared_terms(model))
+                       {1, 0}, model == ModelKind::paper ? Terms{} : without_random_terms)
         .intensity;
+}
+
+std::vector<float> tank_image(const HardContext& context) {
+    return image_of(shapes::tank(), in_tank(context.kind), context.engine, context.model);
 }
 
 }  // namespace sonarsim

@@ -13,8 +13,7 @@ using namespace sonarsim::test;
 
 TEST_SUITE("scene") {
     TEST_CASE("bottom: the next surface below a point is that of all triangles one by one") {
-        // Three layers of waves above each other, at UTM coordinates, and points above, between,
-        // below and outside of them.
+        // Three layers of waves at UTM coordinates, and points above, between, below and outside.
         Surface layers;
         const Surface one = Waves::surface();
         const Eigen::Vector3d place(5e5, 6e6, -40.0);

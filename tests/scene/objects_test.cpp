@@ -2,26 +2,11 @@
 
 #include <doctest/doctest.h>
 
+#include <string>
+#include <utility>
+#include <vector>
+
 using namespace sonarsim;
-
-namespace {
-
-Scene named_objects(std::vector<std::string> names) {
-    Scene scene;
-    scene.instances = std::move(names);
-    return scene;
-}
-
-std::string refusal_of_rules(const Scene& scene, const std::vector<ClassRule>& rules) {
-    try {
-        group_objects(scene, rules);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
-}
-
-}  // namespace
 
 TEST_SUITE_BEGIN("scene");
 
@@ -37,7 +22,8 @@ TEST_CASE("objects: patterns") {
 }
 
 TEST_CASE("objects: nodes by themselves, classes of the file, groups of the mission") {
-    Scene scene = named_objects({"floor", "ship_hull", "rock", "ship_mast"});
+    Scene scene;
+    scene.instances = {"floor", "ship_hull", "rock", "ship_mast"};
     scene.instance_classes = {"", "", "stone", ""};
     SceneObjects objects = group_objects(scene, {});
     CHECK(objects.objects.size() == 4);
@@ -53,18 +39,20 @@ TEST_CASE("objects: nodes by themselves, classes of the file, groups of the miss
 }
 
 TEST_CASE("objects: rules that cannot be meant") {
-    const Scene scene = named_objects({"floor", "ship_hull", "ship_mast"});
+    Scene scene;
+    scene.instances = {"floor", "ship_hull", "ship_mast"};
     const Location place{"m.yaml", 7, 3};
-    CHECK(refusal_of_rules(scene, {{"boat*", "boat", "", place}})
-              .starts_with("m.yaml:7:3: no node of the scene fits 'boat*'"));
-    CHECK(refusal_of_rules(scene, {{"*", "thing", "", {}}, {"floor", "bottom", "", place}})
-              .starts_with("m.yaml:7:3: no node of the scene is left for 'floor'"));
-    CHECK(
-        refusal_of_rules(
-            scene, {{"ship_hull", "ship", "ship_1", {}}, {"ship_mast", "mast", "ship_1", place}})
-            .starts_with("m.yaml:7:3: the instance 'ship_1' has the class 'mast' here and 'ship'"));
-    CHECK(refusal_of_rules(scene, {{"ship_*", "ship", "floor", place}})
-              .starts_with("m.yaml:7:3: the instance 'floor' has the name of a node"));
+    const std::pair<std::vector<ClassRule>, std::string> faulty[] = {
+        {{{"boat*", "boat", "", place}}, "no node of the scene fits 'boat*'"},
+        {{{"*", "thing", "", {}}, {"floor", "bottom", "", place}},
+         "no node of the scene is left for 'floor'"},
+        {{{"ship_hull", "ship", "ship_1", {}}, {"ship_mast", "mast", "ship_1", place}},
+         "the instance 'ship_1' has the class 'mast' here and 'ship'"},
+        {{{"ship_*", "ship", "floor", place}}, "the instance 'floor' has the name of a node"}};
+    for (const auto& rules : faulty)
+        CHECK_THROWS_WITH_AS(group_objects(scene, rules.first),
+                             doctest::Contains(("m.yaml:7:3: " + rules.second).c_str()),
+                             InputError);
 }
 
 TEST_SUITE_END();

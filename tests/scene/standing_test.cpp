@@ -42,9 +42,9 @@ Surface tyre() {
 }
 
 Surface ball() {
-    return surface_from([](double u, double v) {
-        return Eigen::Vector3d(std::sin(pi * v) * std::cos(2 * pi * u),
-                               std::sin(pi * v) * std::sin(2 * pi * u), std::cos(pi * v));
+    return surface_from([](double u, double v) -> Eigen::Vector3d {
+        const double r = std::sin(pi * v);
+        return {r * std::cos(2 * pi * u), r * std::sin(2 * pi * u), std::cos(pi * v)};
     });
 }
 
@@ -84,14 +84,16 @@ TEST_SUITE("scene") {
     }
 
     TEST_CASE("units: a question where millimetres would fit the ranges") {
-        CHECK(unit_question(650.0, 1.0, 10.0, long_object) == "650 m long: millimetres? units: mm");
-        CHECK(unit_question(650.0, 1e-3, 10.0, long_object).empty());
-        CHECK(unit_question(15.0, 1.0, 10.0, long_object).empty());  // a large object
-        CHECK(unit_question(2e4, 1.0, 10.0, long_object).empty());   // 20 m would not fit, either
-        CHECK(unit_question(650.0, 1.0, 10.0, long_place).empty());  // a large place
-        CHECK(unit_question(8000.0, 1.0, 10.0, long_place) ==
-              "8000 m long: millimetres? units: mm");
-        CHECK(unit_question(6.5e-4, 1e-3, 10.0, long_object) == "0.00065 m long: metres? units: m");
-        CHECK(unit_question(0.0, 1e-3, 10.0, long_object).empty());
+        const auto question = [](double length_m, double unit_m, auto kind) {
+            return unit_question(length_m, unit_m, 10.0, kind);
+        };
+        CHECK(question(650.0, 1.0, long_object) == "650 m long: millimetres? units: mm");
+        CHECK(question(650.0, 1e-3, long_object).empty());
+        CHECK(question(15.0, 1.0, long_object).empty());  // a large object
+        CHECK(question(2e4, 1.0, long_object).empty());   // 20 m would not fit, either
+        CHECK(question(650.0, 1.0, long_place).empty());  // a large place
+        CHECK(question(8000.0, 1.0, long_place) == "8000 m long: millimetres? units: mm");
+        CHECK(question(6.5e-4, 1e-3, long_object) == "0.00065 m long: metres? units: m");
+        CHECK(question(0.0, 1e-3, long_object).empty());
     }
 }

@@ -48,17 +48,16 @@ TEST_SUITE("scene") {
     }
 
     TEST_CASE("vertices are coarse from a millimetre on, or from 1e-4 of a small scene") {
-        const auto coarse = [](double size, double rounding) {
+        struct {
+            double size, rounding;
+            bool is_coarse;
+        } const cases[] = {{100.0, 0.9e-3, false}, {100.0, 1.1e-3, true}, {0.01, 0.9e-6, false},
+                           {0.01, 1.1e-6, true},   {5e4, 0.04, false},    {5e4, 0.25, true}};
+        for (const auto& one : cases) {
             Scene scene;
-            scene.bounds_max = {size, 0.5 * size, 0.0};
-            scene.vertex_rounding_m = rounding;
-            return has_coarse_vertices(scene);
-        };
-        CHECK(!coarse(100.0, 0.9e-3));
-        CHECK(coarse(100.0, 1.1e-3));
-        CHECK(!coarse(0.01, 0.9e-6));
-        CHECK(coarse(0.01, 1.1e-6));
-        CHECK(!coarse(50'000.0, 0.04));  // as accurate as its size allows, or nearly
-        CHECK(coarse(50'000.0, 0.25));
+            scene.bounds_max = {one.size, 0.5 * one.size, 0.0};
+            scene.vertex_rounding_m = one.rounding;
+            CHECK(has_coarse_vertices(scene) == one.is_coarse);
+        }
     }
 }

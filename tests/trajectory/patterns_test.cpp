@@ -44,9 +44,9 @@ Lawnmower survey(double heading_deg, double spacing) {
 }  // namespace
 
 TEST_SUITE("trajectory") {
-    TEST_CASE("waypoints: constant speed along straight legs") {
+    TEST_CASE("waypoints: constant speed along straight legs, on which the attitude turns") {
         // 3-4-5: 5 m, then 10 m down; at 2 m/s they take 2.5 s and 5 s.
-        const std::vector<Waypoint> points{at(0, 0, 0), at(3, 4, 0), at(3, 4, -10)};
+        const std::vector<Waypoint> points{at(0, 0, 0), at(3, 4, 0, 90), at(3, 4, -10, 90)};
         const Trajectory poses = follow_waypoints(points, 2.0, 4.0);
         REQUIRE(poses.size() == 31);
         CHECK(poses.front().t_s == 0.0);
@@ -54,19 +54,12 @@ TEST_SUITE("trajectory") {
         CHECK((position(poses[5]) - Vector3d(1.5, 2, 0)).norm() < 1e-14);
         CHECK((position(poses[10]) - Vector3d(3, 4, 0)).norm() < 1e-14);
         CHECK((position(poses[20]) - Vector3d(3, 4, -5)).norm() < 1e-14);
+        CHECK(heading(poses[5]) == test::approx(45));
+        CHECK(heading(poses[20]) == test::approx(90));
         for (std::size_t k = 1; k < poses.size(); ++k) {
             CHECK((position(poses[k]) - position(poses[k - 1])).norm() ==
                   test::approx(0.5).epsilon(1e-12));
         }
-    }
-
-    TEST_CASE("waypoints: the attitude turns along the leg") {
-        const std::vector<Waypoint> points{at(0, 0, 0, 0), at(10, 0, 0, 90), at(20, 0, 0, 90)};
-        const Trajectory poses = follow_waypoints(points, 1.0, 1.0);
-        REQUIRE(poses.size() == 21);
-        CHECK(heading(poses[5]) == test::approx(45));
-        CHECK(heading(poses[10]) == test::approx(90));
-        CHECK(heading(poses[15]) == test::approx(90));
     }
 
     TEST_CASE("waypoints: a leg without length, and more poses than memory holds") {
@@ -97,11 +90,8 @@ TEST_SUITE("trajectory") {
         CHECK(heading(poses[200]) == test::approx(0).epsilon(1e-12));
         CHECK(std::abs(turn(heading(poses[650]), 180)) < 1e-9);
         CHECK(heading(poses[1100]) == test::approx(0).epsilon(1e-12));
-        // Half-way through a step the bow points to where the survey goes: +y. The first turn is to
-        // port, the second to starboard.
-        CHECK(heading(poses[425]) == test::approx(90));
+        // Within a step the bow turns over +y: first to port, then to starboard.
         CHECK(heading(poses[410]) == test::approx(36));
-        CHECK(heading(poses[875]) == test::approx(90));
         CHECK(heading(poses[860]) == test::approx(144));
     }
 
@@ -114,8 +104,7 @@ TEST_SUITE("trajectory") {
         const Trajectory one = lawnmower(survey(0.0, 50.0));
         CHECK(one.size() == 401);
         CHECK(position(one.front()).y() == test::approx(15));
-        // 2.1 / 0.7 is a little more than 3 in doubles; that must not make four strips. Three
-        // lines of 10 m and two steps of 0.7 m take 31.4 s.
+        // 2.1 / 0.7, a little more than 3 in doubles, makes three lines of 10 m and two steps.
         const Lawnmower exact{{0, 0}, {10, 2.1}, 0.0, 0.0, 0.7, 1.0, 10.0};
         CHECK(lawnmower(exact).size() == 315);
     }
@@ -133,8 +122,8 @@ TEST_SUITE("trajectory") {
             std::size_t holes = 0;
             for (double x = plan.area_min_m.x(); x <= plan.area_max_m.x(); x += 1.0) {
                 for (double y = plan.area_min_m.y(); y <= plan.area_max_m.y(); y += 1.0) {
-                    // A point is covered if some pose on a line passes abeam within half the
-                    // spacing; the poses are 5 cm apart.
+                    // Some pose on a line, of poses 5 cm apart, passes abeam within half the
+                    // spacing.
                     holes += std::none_of(poses.begin(), poses.end(), [&](const TimedPose& pose) {
                         const Vector2d off = Vector2d(x, y) - position(pose).head<2>();
                         const double yaw = turn(heading(pose), degrees_of_line);
@@ -155,16 +144,14 @@ TEST_SUITE("trajectory") {
     }
 
     TEST_CASE("lawnmower: a rotated line is no longer than its strip needs") {
-        // A square of side s = 10 at 45 degrees is sqrt(2) s across. In one strip the line runs
-        // from corner to corner; in two strips, each line is as long as the widest part of its
-        // half, the diagonal.
+        // In one strip the line of a square at 45 degrees runs from corner to corner.
         Lawnmower plan{{0, 0}, {10, 10}, 0.0, 45.0, 20.0, 1.0, 100.0};
         const double diagonal = 10.0 * std::sqrt(2.0);
         Trajectory poses = lawnmower(plan);
         CHECK(poses.back().t_s == test::approx(diagonal).epsilon(1e-3));
         CHECK((position(poses.front()) - Vector3d(0, 0, 0)).norm() < 1e-9);
-        // In four strips of d / 4: the outer ones reach d / 2 (the width at their inner edge), the
-        // inner ones d. The steps between an outer and an inner line shift by d / 4 both ways.
+        // In four strips of d / 4 the outer lines have d / 2, the inner ones d; two of the steps
+        // shift by d / 4, too.
         plan.line_spacing_m = diagonal / 4.0;
         poses = lawnmower(plan);
         const double step = diagonal / 4.0;

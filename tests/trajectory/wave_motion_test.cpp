@@ -28,9 +28,8 @@ PhiloxKey wave_key(std::uint32_t seed) {
 
 TEST_SUITE("wave motion") {
     TEST_CASE("Heave has the variance and the autocorrelation of the spectrum") {
-        // With energy shares u as the variable, the autocorrelation of the Pierson-Moskowitz
-        // spectrum is r(lag) = s^2 integral over u from 0 to 1 of
-        // cos(2 pi lag / period (1.25 / -ln u)^(1/4)).
+        // Pierson-Moskowitz by energy shares u: r(lag) is s^2 times the integral over u from 0 to 1
+        // of cos(2 pi lag / period (1.25 / -ln u)^(1/4)).
         constexpr int seeds = 4000;
         constexpr double deviation = 0.3;
         constexpr double period_s = 8.0;
@@ -55,8 +54,7 @@ TEST_SUITE("wave motion") {
                 std::cos(2.0 * pi * lag_s / period_s * std::pow(1.25 / -std::log(share), 0.25)) /
                 steps;
         }
-        // Both are means of products of two normal numbers, whose variance is at most 2 s^4. Four
-        // standard errors are exceeded once in 16,000 runs.
+        // Products of two normal numbers have a variance of at most 2 s^4.
         const double four_errors = 4.0 * std::sqrt(2.0 / seeds) * deviation * deviation;
         CHECK(std::fabs(variance - deviation * deviation) < four_errors);
         CHECK(std::fabs(product - correlation * deviation * deviation) < four_errors);
@@ -78,20 +76,6 @@ TEST_SUITE("wave motion") {
             CHECK(std::fabs(rpy.roll) > 1e-4);
             CHECK(rpy.pitch == test::approx(0.0));
             CHECK(rpy.yaw == test::approx(0.5 * pi));
-        }
-    }
-
-    TEST_CASE("Waves of twice the period take twice the time") {
-        WaveMotion motion{.period_s = 4.0};
-        motion.turn_rad[1] = 0.2;
-        Trajectory quick = poses_on_the_spot({5.0, 6.0, 9.0});
-        add_wave_motion(motion, wave_key(3), quick);
-        motion.period_s = 8.0;
-        Trajectory slow = poses_on_the_spot({5.0, 7.0, 13.0});
-        add_wave_motion(motion, wave_key(3), slow);
-        for (std::size_t i = 0; i < slow.size(); ++i) {
-            CHECK(slow[i].T_world_vehicle.rotation.isApprox(quick[i].T_world_vehicle.rotation,
-                                                            1e-12));
         }
     }
 }

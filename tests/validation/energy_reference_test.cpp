@@ -6,7 +6,6 @@
 
 #include "core/units.h"
 #include "support/calibrated.h"
-#include "support/sanitized.h"
 #include "support/scenes.h"
 #include "validation/image_error.h"
 #include "visibility/make_engine.h"
@@ -31,7 +30,7 @@ TEST_SUITE_BEGIN("validation");
 
 // The rays represent a fully visible floor to within rounding, so their image and that of many
 // single points are the same integral.
-TEST_CASE("the calibrated reference agrees with the engines" * doctest::skip(test::sanitized)) {
+TEST_CASE("the calibrated reference agrees with the engines") {
     Scene scene = empty_scene();
     const std::uint32_t rock = add_material(scene, 0.4F);
     add_floor(scene, 30.0F, -4.0F, rock, 4);

@@ -8,7 +8,6 @@
 
 #include "assembly/engines.h"
 #include "support/approx.h"
-#include "support/sanitized.h"
 #include "support/small_mission.h"
 
 using namespace sonarsim;
@@ -27,8 +26,7 @@ std::vector<std::optional<MeasuredError>> errors_of(const Mission& mission, int 
 
 TEST_SUITE_BEGIN("validation");
 
-TEST_CASE("measured errors: the same for any number of threads, and below the goal of the rays" *
-          doctest::skip(test::sanitized)) {
+TEST_CASE("measured errors: the same for any number of threads, and below the goal of the rays") {
     Mission mission = small_mission("unused");
     mission.engine = EngineKind::rays;
     const auto one = errors_of(mission, 1);
@@ -45,8 +43,7 @@ TEST_CASE("measured errors: the same for any number of threads, and below the go
     CHECK(error_warnings(mission, one).empty());
 }
 
-TEST_CASE("measured errors: a coarse octree is warned of, with the key to change" *
-          doctest::skip(test::sanitized)) {
+TEST_CASE("measured errors: a coarse octree is warned of, with the key to change") {
     Mission mission = small_mission("unused");
     mission.sensors.resize(1);
     mission.engine = EngineKind::octree;
@@ -60,8 +57,7 @@ TEST_CASE("measured errors: a coarse octree is warned of, with the key to change
 
 // A cell of 400 cm^2 is larger than the bins. Where only the noise of areas decides which bins hold
 // one, fewer do so the more rays the reference has.
-TEST_CASE("measured errors: cells larger than bins leave the choice of bins to the surface" *
-          doctest::skip(test::sanitized)) {
+TEST_CASE("measured errors: cells larger than bins leave the choice of bins to the surface") {
     Mission mission = small_mission("unused");
     mission.sensors[0].noise.range_lambda_m = 0.01;
     mission.sensors[0].noise.scatterer_m = 0.2;

@@ -1,15 +1,17 @@
 #include <doctest/doctest.h>
 
 #include <cstring>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/units.h"
-#include "support/sanitized.h"
 #include "support/scenes.h"
 #include "visibility/make_engine.h"
 #include "visibility/rays/rays_engine.h"
 #include "visibility/slices/slices_engine.h"
+#include "water/sound_profile.h"
 
 using namespace sonarsim;
 
@@ -52,8 +54,7 @@ TEST_CASE("auto takes slices, and rays for the views that need them") {
     CHECK(same(seen({other}), by_slices));
 }
 
-TEST_CASE("auto takes rays over many triangles, denser than the goal alone asks for" *
-          doctest::skip(test::sanitized)) {
+TEST_CASE("auto takes rays over many triangles, denser than the goal alone asks for") {
     Scene scene = test::empty_scene();
     test::add_floor(scene, 20.0F, 0.0F, test::add_material(scene, 0.3F), 1025);
     REQUIRE(scene.triangles.size() > many_triangles);
@@ -69,16 +70,39 @@ TEST_CASE("auto takes rays over many triangles, denser than the goal alone asks 
 }
 
 TEST_CASE("engine: slices with multipath or energies that add gives a warning") {
-    const auto warning = [&](EngineKind type, bool multipath, bool energies_add = false) {
-        EngineSettings settings;
-        settings.type = type;
-        return slices_warning(settings, multipath, energies_add);
+    const auto warning = [](EngineKind type, bool multipath, bool energies_add = false) {
+        return slices_warning({.type = type, .octree = {}}, multipath, energies_add);
     };
     CHECK(warning(EngineKind::slices, true).find("use engine: auto") != std::string::npos);
     CHECK(warning(EngineKind::slices, false).empty());
     CHECK(warning(EngineKind::slices, false, true).find("too bright") != std::string::npos);
     CHECK(warning(EngineKind::automatic, true, true).empty());
     CHECK(warning(EngineKind::rays, true).empty());
+}
+
+TEST_CASE("engine: the octree and the slices refuse copies, bodies and profiles of sound speed") {
+    const Scene plain = test::tank();
+    Scene copies = plain;
+    copies.copies.push_back({});
+    Scene moving = plain;
+    moving.bodies.push_back({});
+    Scene bent = plain;
+    bent.sound_profile = std::make_shared<const SoundProfile>(
+        SoundProfile{{-100.0, 100.0}, {1500.0, 1510.0}, 1480.0});
+    const std::pair<const Scene*, std::string> scenes[] = {
+        {&plain, ""},
+        {&copies, " does not support copies of shared meshes; use engine: auto or engine: rays"},
+        {&moving, " does not support moving objects; use engine: auto or engine: rays"},
+        {&bent, "water.profile"}};
+    for (const auto& scene : scenes) {
+        for (const EngineKind type : {EngineKind::automatic, EngineKind::rays})
+            CHECK(unsupported({.type = type, .octree = {}}, *scene.first).empty());
+        for (const EngineKind type : {EngineKind::octree, EngineKind::slices}) {
+            const std::string refusal = unsupported({.type = type, .octree = {}}, *scene.first);
+            CHECK(refusal.find(scene.second) != std::string::npos);
+            CHECK(refusal.empty() == scene.second.empty());
+        }
+    }
 }
 
 TEST_SUITE_END();

@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include "support/sanitized.h"
 #include "trace/ping.h"
 #include "validation/image_error.h"
 #include "validation/reference.h"
@@ -15,8 +14,7 @@ TEST_SUITE_BEGIN("lattices");
 
 namespace {
 
-/// The noise-free image of a drawn scene by at most `rays` view rays and rays to points of the
-/// surface, in two independent halves.
+/// The image of a drawn scene by at most `rays`, in two independent halves.
 Reference reference_of(const test::Lattice& lattice, std::uint64_t rays) {
     const View view = make_sonar(lattice.sonar, {}).settings.view;
     return cast_reference(Caster(lattice.scene), lattice.scene, view, Pose{}, {0.0005, 16.0, rays});
@@ -37,8 +35,7 @@ double error_of(EngineKind kind, const test::Lattice& lattice, const Reference& 
 
 }  // namespace
 
-TEST_CASE("lattices: the distance of a reference's halves is about its error" *
-          doctest::skip(test::sanitized)) {
+TEST_CASE("lattices: the distance of a reference's halves is about its error") {
     // More rays move the image by about as much as the halves of the smaller cast are apart.
     for (const std::uint32_t number : {2U, 13U}) {
         const test::Lattice lattice = test::draw_lattice(number);
@@ -74,7 +71,7 @@ TEST_CASE("lattices: faces that are seen edge-on are not lost") {
     }
 }
 
-TEST_CASE("lattices: rays see thin bars" * doctest::skip(test::sanitized)) {
+TEST_CASE("lattices: rays see thin bars") {
     // Without pieces of fine surface the errors are 20 to 50 %.
     double mean = 0.0;
     int fans = 0;

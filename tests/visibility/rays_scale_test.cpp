@@ -37,13 +37,9 @@ TEST_CASE("rays: a scene of a millimetre is seen as the same scene of ten metres
             small.items[i].position / static_cast<float>(unit) - metres.items[i].position;
         CHECK(apart.norm() <= 1e-6F * metres.items[i].position.norm());
     }
-}
-
-TEST_CASE("rays: a surface that the sonar touches is dropped, whatever the unit") {
-    for (const double unit : {1.0, 0x1p-13}) {
-        const Samples samples = samples_at(5e-7F, unit);
-        CHECK(samples.dropped > 0);
-    }
+    // A surface that the sonar touches is dropped, whatever the unit.
+    CHECK(samples_at(5e-7F, 1.0).dropped > 0);
+    CHECK(samples_at(5e-7F, unit).dropped > 0);
 }
 
 TEST_SUITE_END();

@@ -26,14 +26,7 @@ Scene room_with_poles() {
 }
 
 View view_of(ViewShape shape) {
-    View view{.azimuth_rad = radians(70.0),
-              .elevation_rad = radians(30.0),
-              .range_min_m = 0.0,
-              .range_max_m = 20.0,
-              .range_bins = 256,
-              .beams = 64,
-              .relative_l1 = 0.03,
-              .shape = shape};
+    View view{radians(70.0), radians(30.0), 0.0, 20.0, 256, 64, 0.03, shape};
     if (shape == ViewShape::port_starboard) {
         view.elevation_rad = radians(2.0);
         view.azimuth_rad = radians(160.0);
@@ -62,11 +55,9 @@ TEST_CASE("a room fills the solid angle of a view, thin objects included") {
     const Pose T_world_sensor{rotation_from_rpy(0.0, radians(15.0), 0.05), {0.1, 0.05, 0.2}};
     for (const ViewShape shape : {ViewShape::fan, ViewShape::port_starboard, ViewShape::cone}) {
         for (const EngineKind type : {EngineKind::rays, EngineKind::slices}) {
-            EngineSettings settings;
-            settings.type = type;
             const View view = view_of(shape);
-            const Samples samples =
-                make_engine(scene, settings)->visible_surface(view, T_world_sensor);
+            const Samples samples = make_engine(scene, {.type = type, .octree = {}})
+                                        ->visible_surface(view, T_world_sensor);
             double seen = 0.0;
             for (const Sample& sample : samples.items) {
                 const double range = static_cast<double>(sample.position.norm());

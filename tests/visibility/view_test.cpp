@@ -29,4 +29,27 @@ TEST_CASE("the field of view in float agrees with beam_of") {
     }
 }
 
+TEST_CASE("fields of view are half-open: the last edge belongs to no beam") {
+    View view{radians(90.0), radians(90.0), 0.0, 10.0, 10, 3, 0.03, ViewShape::fan};
+    const BeamLocator field(view);
+    const auto both = [&](const Eigen::Vector3f& p) {
+        const float beam = field.beam(p, p.norm());
+        const int fast = beam < 0.0F ? -1 : static_cast<int>(beam);
+        CHECK(fast == beam_of(view, p));
+        return fast;
+    };
+    // 2e-5 rad to either side of the edges at 45 degrees.
+    CHECK(both({1.0F, -0.99998F, 0.0F}) == 0);
+    CHECK(both({1.0F, -1.00002F, 0.0F}) == -1);
+    CHECK(both({1.0F, 0.99998F, 0.0F}) == 2);
+    CHECK(both({1.0F, 1.00002F, 0.0F}) == -1);
+    CHECK(both({1.0F, 0.0F, 0.99998F}) == 1);
+    CHECK(both({1.0F, 0.0F, 1.00002F}) == -1);
+    CHECK(both({-1.0F, 0.0F, 0.0F}) == -1);
+    view.azimuth_rad = 2.0 * pi;
+    // Straight behind is exactly the seam of a full turn: in the first beam or in none.
+    CHECK(beam_of(view, {-1.0F, -1e-3F, 0.0F}) == 0);
+    CHECK(beam_of(view, {-1.0F, 1e-3F, 0.0F}) == 2);
+}
+
 TEST_SUITE_END();

@@ -1,14 +1,11 @@
 #pragma once
 
 #include <doctest/doctest.h>
-#include <unistd.h>
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <initializer_list>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,30 +13,18 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "scene/gltf/load.h"
+#include "support/temporary_folder.h"
 
 namespace sonarsim {
 
-/// A temporary folder that the destructor removes.
-class TemporaryFolder {
-  public:
-    TemporaryFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "sonarsim_XXXXXX").string();
-        if (!::mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-        path_ = name;
-    }
-    ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+using test::TemporaryFolder;
 
-    std::filesystem::path write(const std::string& name, std::string_view bytes) const {
-        write_file(path_ / name, bytes);
-        return path_ / name;
-    }
-    const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
+/// Writes a file into a folder; returns its path.
+inline std::filesystem::path written(const TemporaryFolder& folder, const std::string& name,
+                                     std::string_view bytes) {
+    write_file(folder.path / name, bytes);
+    return folder.path / name;
+}
 
 using Point = std::array<float, 3>;
 
@@ -92,10 +77,8 @@ struct GltfBuilder {
 
     int material(const std::string& name) { return append("materials", {{"name", name}}); }
 
-    int mesh(const nlohmann::json& primitives, const std::string& name = "") {
-        nlohmann::json entry = {{"primitives", primitives}};
-        if (!name.empty()) entry["name"] = name;
-        return append("meshes", entry);
+    int mesh(const nlohmann::json& primitives) {
+        return append("meshes", {{"name", "Tri"}, {"primitives", primitives}});
     }
 
     int node(const nlohmann::json& entry) { return append("nodes", entry); }
@@ -121,11 +104,9 @@ inline const std::vector<Point> unit_triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
 /// One node "tri" with mesh "Tri": a triangle (0 0 0, 1 0 0, 0 1 0) in the glTF frame, of steel.
 inline GltfBuilder one_triangle() {
     GltfBuilder gltf;
-    const int steel = gltf.material("steel");
-    const int points = gltf.positions(unit_triangle);
-    const int mesh =
-        gltf.mesh({{{"attributes", {{"POSITION", points}}}, {"material", steel}}}, "Tri");
-    gltf.node({{"name", "tri"}, {"mesh", mesh}});
+    gltf.mesh({{{"attributes", {{"POSITION", gltf.positions(unit_triangle)}}},
+                {"material", gltf.material("steel")}}});
+    gltf.node({{"name", "tri"}, {"mesh", 0}});
     return gltf;
 }
 
@@ -133,18 +114,17 @@ inline const std::string test_materials =
     "material,density_kg_m3,sound_speed_m_s\nsteel,7850,5900\nsand,1900,1650\nrubber,1100,1500\n";
 
 /// Loads one file with the materials of a CSV.
-inline Scene load_scene(const std::filesystem::path& gltf, const std::filesystem::path& csv,
-                        const Water& water) {
+inline Scene load_scene(const std::filesystem::path& gltf, const std::filesystem::path& csv) {
     SceneFiles models;
     const PlacedFile file{.file = gltf};
-    return load_scene({&file, 1}, models, read_materials(csv), "", water);
+    return load_scene({&file, 1}, models, read_materials(csv), "", Water{});
 }
 
 /// Writes the file and loads it, with the materials above.
 inline Scene load(const std::string& bytes) {
     const TemporaryFolder folder;
-    const auto materials = folder.write("materials.csv", test_materials);
-    return load_scene(folder.write("x.glb", bytes), materials, Water{});
+    const auto materials = written(folder, "materials.csv", test_materials);
+    return load_scene(written(folder, "x.glb", bytes), materials);
 }
 
 inline Scene load(const GltfBuilder& gltf) {
@@ -154,12 +134,12 @@ inline Scene load(const GltfBuilder& gltf) {
 /// The error message of loading, without the folder; "" if there is none.
 inline std::string load_error(const std::string& bytes) {
     const TemporaryFolder folder;
-    const auto materials = folder.write("materials.csv", test_materials);
+    const auto materials = written(folder, "materials.csv", test_materials);
     try {
-        load_scene(folder.write("x.glb", bytes), materials, Water{});
+        load_scene(written(folder, "x.glb", bytes), materials);
     } catch (const InputError& error) {
         std::string message = error.what();
-        const std::string prefix = folder.path().string() + "/";
+        const std::string prefix = folder.path.string() + "/";
         for (auto at = message.find(prefix); at != std::string::npos; at = message.find(prefix)) {
             message.erase(at, prefix.size());
         }

@@ -24,9 +24,10 @@ std::string outside(const std::string& name) {
 }  // namespace
 
 TEST_SUITE("scene") {
-    TEST_CASE("glTF errors: buffers outside of the folder") {
-        for (const char* uri : {"/etc/passwd", "../x.bin", "a/../../x.bin", "file:///etc/passwd",
-                                "http://localhost/x.bin", "C:/x.bin"}) {
+    TEST_CASE("glTF errors: buffers outside of the folder, or that are not what they claim") {
+        for (const char* uri :
+             {"/etc/passwd", "../x.bin", "a/../../x.bin", "file:///etc/passwd",
+              "http://localhost/x.bin", "C:/x.bin", "data:text/html;base64,AAAA"}) {
             CHECK(uri_error(uri) == outside(uri));
         }
         CHECK(uri_error("%2e%2e/x.bin") == outside("../x.bin"));
@@ -34,25 +35,16 @@ TEST_SUITE("scene") {
         CHECK(uri_error("a%00.bin") != "");
         CHECK(uri_error("missing.bin") == "missing.bin: cannot open: No such file or directory");
         CHECK(uri_error(".") == ".: is a folder; a file is expected here");
-    }
-
-    TEST_CASE("glTF errors: buffers that are not what they claim") {
-        CHECK(uri_error("data:text/html;base64,AAAA") == outside("data:text/html;base64,AAAA"));
-        CHECK(uri_error("data:application/octet-stream;base64,AAAA")
-                  .starts_with("x.glb: is not a valid glTF: Failed to decode 'uri'"));
-        // The message shortens a long URI.
-        const std::string long_uri =
-            "data:application/octet-stream;base64," + std::string(5000, 'A');
-        CHECK(uri_error(long_uri).size() < 400);
         CHECK(uri_error("x.glb") != "");  // itself, with another size
-
+        const std::string data = "data:application/octet-stream;base64,";
+        CHECK(uri_error(data + "AAAA")
+                  .starts_with("x.glb: is not a valid glTF: Failed to decode 'uri'"));
+        CHECK(uri_error(data + std::string(5000, 'A')).size() < 400);  // the message shortens it
         GltfBuilder gltf = one_triangle();
-        gltf.document["buffers"] = {{{"byteLength", 40}}};
-        CHECK(load_error(gltf).starts_with(
-            "x.glb: is not a valid glTF: Invalid `byteLength'. Must be "
-            "equal or less than binary size"));
-        gltf.document["buffers"] = {{{"byteLength", 0}}};
-        CHECK(load_error(gltf).starts_with("x.glb: is not a valid glTF: "));
+        for (const int length : {0, 40}) {
+            gltf.document["buffers"] = {{{"byteLength", length}}};
+            CHECK(load_error(gltf).starts_with("x.glb: is not a valid glTF: "));
+        }
     }
 
     TEST_CASE("glTF errors: .glb containers that lie") {

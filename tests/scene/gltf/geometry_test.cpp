@@ -17,20 +17,18 @@ namespace {
 /// Four corners of the unit square, in the order of a strip.
 const std::vector<Point> square{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
 
-GltfBuilder square_mesh(int mode, int indices) {
+GltfBuilder square_mesh(int mode) {
     GltfBuilder gltf;
-    json primitive = {{"attributes", {{"POSITION", gltf.positions(square)}}},
-                      {"material", gltf.material("sand")},
-                      {"mode", mode}};
-    if (indices >= 0) primitive["indices"] = indices;
-    gltf.mesh(json::array({primitive}));
+    gltf.mesh({{{"attributes", {{"POSITION", gltf.positions(square)}}},
+                {"material", gltf.material("sand")},
+                {"mode", mode}}});
     gltf.node({{"mesh", 0}});
     return gltf;
 }
 
 template <class T>
 GltfBuilder indexed_square(const std::vector<T>& values, int mode = 4) {
-    GltfBuilder gltf = square_mesh(mode, -1);
+    GltfBuilder gltf = square_mesh(mode);
     const int indices = gltf.indices(values);
     gltf.document["meshes"][0]["primitives"][0]["indices"] = indices;
     return gltf;
@@ -69,23 +67,11 @@ TEST_SUITE("scene") {
     }
 
     TEST_CASE("glTF: lists, strips and fans, with every type of index and none") {
-        check_square(load(square_mesh(5, -1)));
+        check_square(load(square_mesh(5)));
         check_square(load(indexed_square<std::uint16_t>({2, 0, 3, 1}, 5)));
         check_square(load(indexed_square<std::uint32_t>({0, 1, 2, 1, 3, 2})));
         // The fan's triangles are 0 1 3 and 0 3 2.
         check_square(load(indexed_square<std::uint8_t>({0, 1, 3, 2}, 6)));
-    }
-
-    TEST_CASE("glTF: points and lines are skipped and counted") {
-        GltfBuilder gltf = one_triangle();
-        json primitive = gltf.document["meshes"][0]["primitives"][0];
-        for (const int mode : {0, 1, 2, 3}) {
-            primitive["mode"] = mode;
-            gltf.document["meshes"][0]["primitives"].push_back(primitive);
-        }
-        const Scene scene = load(gltf);
-        CHECK(scene.triangles.size() == 1);
-        CHECK(scene.rejects.skipped_primitives == 4);
     }
 
     TEST_CASE("glTF: sparse positions, over data and over zeros") {
@@ -123,7 +109,8 @@ TEST_SUITE("scene") {
         check_point(world_corner(scene, 0, 2), 0, 0, -1);  // -32768 / 32767 is clamped
     }
 
-    TEST_CASE("glTF: degenerate and non-finite triangles are dropped and counted") {
+    TEST_CASE(
+        "glTF: triangles without area or not finite, points and lines are dropped and counted") {
         constexpr float nan = std::numeric_limits<float>::quiet_NaN();
         constexpr float infinity = std::numeric_limits<float>::infinity();
         GltfBuilder gltf;
@@ -132,35 +119,27 @@ TEST_SUITE("scene") {
         points.insert(points.end(), {{5e8F, 0, 0}, {5e8F, 0, 0}, {0, 5e8F, 0}});  // a point twice
         points.insert(points.end(), {{0, 0, 0}, {nan, 0, 0}, {0, 1, 0}});
         points.insert(points.end(), {{0, 0, 0}, {1, 0, 0}, {0, infinity, 0}});
-        gltf.mesh({{{"attributes", {{"POSITION", gltf.positions(points)}}},
-                    {"material", gltf.material("sand")}}});
+        json primitives = {{{"attributes", {{"POSITION", gltf.positions(points)}}},
+                            {"material", gltf.material("sand")}}};
+        for (const int mode : {0, 1, 2, 3}) {
+            primitives.push_back(primitives[0]);
+            primitives.back()["mode"] = mode;
+        }
+        gltf.mesh(primitives);
         gltf.node({{"mesh", 0}});
         const Scene scene = load(gltf);
         CHECK(scene.triangles.size() == 1);
         CHECK(scene.vertices.size() == 3);  // the dropped triangles leave no vertices
         CHECK(scene.rejects.degenerate_triangles == 2);
         CHECK(scene.rejects.non_finite_triangles == 2);
+        CHECK(scene.rejects.skipped_primitives == 4);
         check_point(scene.bounds_max, 1, 0, 1);
         check_point(scene.origin, 1, 0, 1);  // they did not move the origin either: centre 0.5
-    }
-
-    TEST_CASE("glTF: a triangle that floats flatten to a line is degenerate") {
-        GltfBuilder gltf = one_triangle();
+        GltfBuilder flattened = one_triangle();
         // 1e-12 m high at z = 0.3 m, where floats are 3e-8 m apart.
-        gltf.node({{"mesh", 0}, {"translation", {100, 0.3, 0}}, {"scale", {1, 1e-12, 1}}});
-        const Scene scene = load(gltf);
-        CHECK(scene.triangles.size() == 1);
-        CHECK(scene.rejects.degenerate_triangles == 1);
-    }
-
-    TEST_CASE("glTF: the origin lies on a grid that holds the scene") {
-        GltfBuilder gltf = one_triangle();
-        gltf.document["nodes"][0]["scale"] = {60, 8, 1};
-        gltf.document["nodes"][0]["translation"] = {500030, 41, -4800070};
-        const Scene scene = load(gltf);
-        // Extent 60 m: g = 100. The centre (500060, 4800070, 45) goes to (500100, 4800100, 0).
-        check_point(scene.origin, 500100, 4800100, 0, 0.0);
-        check_point(world_corner(scene, 0, 1), 500090, 4800070, 41);
+        flattened.node({{"mesh", 0}, {"translation", {100, 0.3, 0}}, {"scale", {1, 1e-12, 1}}});
+        CHECK(load(flattened).triangles.size() == 1);
+        CHECK(load(flattened).rejects.degenerate_triangles == 1);
     }
 
     TEST_CASE("glTF: a scene moved by multiples of g keeps its local coordinates bit by bit") {
@@ -182,20 +161,11 @@ TEST_SUITE("scene") {
             const Eigen::Vector3d moved_by = moved.origin - scene.origin;
             check_point(moved_by, shift, -2 * shift, -shift, 0.0);
         }
-    }
-
-    TEST_CASE("glTF: many primitives may share one list of vertices") {
-        GltfBuilder gltf = square_mesh(4, -1);
-        json primitive = gltf.document["meshes"][0]["primitives"][0];
-        json primitives = json::array();
-        for (const std::vector<std::uint8_t>& corners :
-             {std::vector<std::uint8_t>{0, 1, 2}, std::vector<std::uint8_t>{1, 3, 2}}) {
-            primitive["indices"] = gltf.indices(corners);
-            primitives.push_back(primitive);
-        }
-        gltf.document["meshes"][0]["primitives"] = primitives;
-        const Scene scene = load(gltf);
-        CHECK(scene.vertices.size() == 6);  // each takes the vertices that it uses
-        check_point(world_corner(scene, 1, 1), 1, 0, 1);
+        // Extent 60 m: g = 100. The centre (500060, 4800070, 45) goes to (500100, 4800100, 0).
+        GltfBuilder small = one_triangle();
+        small.document["nodes"][0]["scale"] = {60, 8, 1};
+        small.document["nodes"][0]["translation"] = {500030, 41, -4800070};
+        check_point(load(small).origin, 500100, 4800100, 0, 0.0);
+        check_point(world_corner(load(small), 0, 1), 500090, 4800070, 41);
     }
 }

@@ -12,28 +12,23 @@ using nlohmann::json;
 
 TEST_SUITE("scene") {
     TEST_CASE("glTF: node transforms, as TRS and as matrix, compose down the tree") {
-        GltfBuilder gltf = one_triangle();
         // Parent: 90 degrees about glTF's y (x to -z). Child: scaled by 2, moved by (10 0 0).
         const double h = std::sqrt(0.5);
-        gltf.document["nodes"][0]["translation"] = {10, 0, 0};
-        gltf.document["nodes"][0]["scale"] = {2, 2, 2};
-        gltf.node({{"rotation", {0, h, 0, h}}, {"children", {0}}});
-        const Scene scene = load(gltf);
-        // In the parent: (10 0 0), (12 0 0), (10 2 0); turned: (0 0 -10), (0 0 -12), (0 2 -10);
-        // in the world (x, -z, y): (0 10 0), (0 12 0), (0 10 2).
-        check_point(world_corner(scene, 0, 0), 0, 10, 0);
-        check_point(world_corner(scene, 0, 1), 0, 12, 0);
-        check_point(world_corner(scene, 0, 2), 0, 10, 2);
-
-        GltfBuilder other = one_triangle();
-        // The same transforms as matrices, column by column.
-        other.document["nodes"][0]["matrix"] = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 10, 0, 0, 1};
-        other.node(
+        GltfBuilder trs = one_triangle();
+        trs.document["nodes"][0]["translation"] = {10, 0, 0};
+        trs.document["nodes"][0]["scale"] = {2, 2, 2};
+        trs.node({{"rotation", {0, h, 0, h}}, {"children", {0}}});
+        GltfBuilder matrices = one_triangle();
+        matrices.document["nodes"][0]["matrix"] = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 10, 0, 0, 1};
+        matrices.node(
             {{"matrix", {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 1}}, {"children", {0}}});
-        const Scene same = load(other);
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Eigen::Vector3d p = world_corner(scene, 0, k);
-            check_point(world_corner(same, 0, k), p.x(), p.y(), p.z());
+        for (const GltfBuilder& gltf : {trs, matrices}) {
+            const Scene scene = load(gltf);
+            // In the parent: (10 0 0), (12 0 0), (10 2 0); turned: (0 0 -10), (0 0 -12), (0 2 -10);
+            // in the world (x, -z, y): (0 10 0), (0 12 0), (0 10 2).
+            check_point(world_corner(scene, 0, 0), 0, 10, 0);
+            check_point(world_corner(scene, 0, 1), 0, 12, 0);
+            check_point(world_corner(scene, 0, 2), 0, 10, 2);
         }
     }
 
@@ -51,7 +46,7 @@ TEST_SUITE("scene") {
 
     TEST_CASE("copies of a shared mesh lie where copied triangles do") {
         const TemporaryFolder folder;
-        const auto path = folder.write("x.glb", one_triangle().glb());
+        const auto path = written(folder, "x.glb", one_triangle().glb());
         std::vector<PlacedFile> files;
         for (const double x : {1.0, 5.0, -3.0}) {
             PlacedFile& file = files.emplace_back(PlacedFile{.file = path});
@@ -91,24 +86,25 @@ TEST_SUITE("scene") {
     }
 
     TEST_CASE("glTF: extras.sonar.material of node, ancestor and material") {
-        const json rubber = {{"sonar", {{"material", "rubber"}}}};
-        const json sand = {{"sonar", {{"material", "sand"}}}};
-        const auto material_of = [](const GltfBuilder& gltf) {
-            const Scene scene = load(gltf);
-            REQUIRE(scene.materials.size() == 1);
-            return scene.materials[0].name;
+        const auto extras = [](const char* name) -> json {
+            return {{"sonar", {{"material", name}}}};
         };
         GltfBuilder gltf = one_triangle();
-        gltf.document["materials"][0]["extras"] = rubber;
-        CHECK(material_of(gltf) == "rubber");
+        const auto check_material = [&](const std::string& name) {
+            const Scene scene = load(gltf);
+            REQUIRE(scene.materials.size() == 1);
+            CHECK(scene.materials[0].name == name);
+        };
+        gltf.document["materials"][0]["extras"] = extras("rubber");
+        check_material("rubber");
         gltf.document["materials"][0]["extras"] = "anything goes";
-        CHECK(material_of(gltf) == "steel");
-        gltf.node({{"children", {0}}, {"extras", sand}});
-        CHECK(material_of(gltf) == "sand");  // inherited
-        gltf.document["nodes"][0]["extras"] = rubber;
-        CHECK(material_of(gltf) == "rubber");  // the nearest wins
+        check_material("steel");
+        gltf.node({{"children", {0}}, {"extras", extras("sand")}});
+        check_material("sand");  // inherited
+        gltf.document["nodes"][0]["extras"] = extras("rubber");
+        check_material("rubber");  // the nearest wins
         gltf.document["meshes"][0]["primitives"][0].erase("material");
-        CHECK(material_of(gltf) == "rubber");  // the node's material serves a primitive without one
+        check_material("rubber");  // the node's material serves a primitive without one
     }
 
     TEST_CASE("glTF: textures, cameras, animations and unknown members are nobody's business") {
@@ -127,29 +123,17 @@ TEST_SUITE("scene") {
         GltfBuilder gltf = one_triangle();
         const std::string binary = gltf.binary;
         const TemporaryFolder folder;
-        std::filesystem::create_directory(folder.path() / "sub");
-        folder.write("a b+c.bin", binary);
-        folder.write("sub/d.bin", binary);
+        std::filesystem::create_directory(folder.path / "sub");
+        written(folder, "a b+c.bin", binary);
+        written(folder, "sub/d.bin", binary);
         const auto count = [&](const std::string& uri) {
             gltf.document["buffers"] = {{{"byteLength", binary.size()}, {"uri", uri}}};
-            return load_scene_geometry(folder.write("x.gltf", gltf.text())).triangles.size();
+            return load_scene_geometry(written(folder, "x.gltf", gltf.text())).triangles.size();
         };
         CHECK(count("a%20b+c.bin") == 1);
         CHECK(count("sub/d.bin") == 1);
         // 36 bytes: nine floats; the fourth and the eighth are 1 (00 00 80 3f).
         CHECK(count("data:application/octet-stream;base64,"
                     "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA") == 1);
-    }
-
-    TEST_CASE("glTF: without a CSV, materials are names") {
-        const TemporaryFolder folder;
-        GltfBuilder gltf = one_triangle();
-        gltf.document["materials"][0]["name"] = "unobtainium";
-        const Scene named = load_scene_geometry(folder.write("x.glb", gltf.glb()));
-        CHECK(named.materials.at(0).name == "unobtainium");
-        CHECK(named.materials.at(0).density_kg_m3 == 0.0);
-        gltf.document["meshes"][0]["primitives"][0].erase("material");
-        const Scene nameless = load_scene_geometry(folder.write("x.glb", gltf.glb()));
-        CHECK(nameless.materials.at(0).name == "(no material)");
     }
 }

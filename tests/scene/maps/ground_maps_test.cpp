@@ -11,37 +11,8 @@ using namespace sonarsim;
 using namespace sonarsim::test;
 
 TEST_SUITE("ground maps") {
-    TEST_CASE("sums over boxes: those of the texels by the area that the box covers") {
-        Draws draws(1);
-        const int width = 7;
-        const int height = 5;
-        std::vector<double> texels;
-        for (int k = 0; k < width * height; ++k)
-            texels.push_back(draws.between(-1, 3));
-        const TexelSums<double> sums(width, height, [&](std::size_t k) { return texels[k]; });
-        for (int trial = 0; trial < 200; ++trial) {
-            TexelBox box;
-            box.x_min = draws.between(-2, 8);
-            box.x_max = box.x_min + draws.between(0, 4);
-            box.y_min = draws.between(-2, 6);
-            box.y_max = box.y_min + draws.between(0, 4);
-            double expected = 0.0;
-            for (int row = 0; row < height; ++row) {
-                for (int column = 0; column < width; ++column) {
-                    const double x =
-                        std::min(box.x_max, column + 1.0) - std::max(box.x_min, 1.0 * column);
-                    const double y =
-                        std::min(box.y_max, row + 1.0) - std::max(box.y_min, 1.0 * row);
-                    if (x > 0.0 && y > 0.0) expected += x * y * texels[row * width + column];
-                }
-            }
-            CHECK(std::fabs(sums.over(box) - expected) < 1e-12);
-        }
-    }
-
     TEST_CASE("a footprint has its materials by area, and each its mean factor") {
         // Texels of 0.5 m; footprints of 0.5 to 3 m, of any direction, against a lattice of points.
-        // A texel's border crosses a footprint in about 64 probes, each as wide as the footprint.
         Draws draws(2);
         const TexelFrame frame = square_frame(16, 8.0);
         Scene scene;
@@ -96,28 +67,5 @@ TEST_SUITE("ground maps") {
             CHECK(std::fabs(shares.front().power - static_cast<double>(alike->strength)) < 1e-5);
         }
         CHECK(worst < 0.06);
-    }
-
-    TEST_CASE("ground that keeps its own material is alike across the borders of texels") {
-        // Texels of 1 m; only that of 2 m < x < 3 m, 2 m < y < 3 m has a material.
-        const TexelFrame frame = square_frame(8, 8.0);
-        Scene scene;
-        scene.instances = {"floor"};
-        const auto lone = [](int row, int column) {
-            return row == 1 && column == 6 ? std::uint16_t{0} : MaterialTexels::own;
-        };
-        lay(scene, material_texels(frame, {3}, lone), {});
-        const auto alike = [&](double x, double y, double half_m) {
-            return scene.maps->alike_over(0, 7, {{x, y}, {half_m, 0.0}, {0.0, half_m}});
-        };
-        for (const Eigen::Vector2d& at :
-             {Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(-4.0, 1.0), Eigen::Vector2d(-6.0, 5.0)}) {
-            const auto found = alike(at.x(), at.y(), 1.6);
-            REQUIRE(found);
-            CHECK(found->material == 7);
-        }
-        CHECK_FALSE(alike(0.9, 0.9, 1.2));
-        CHECK_FALSE(alike(2.5, 2.5, 1.0));
-        CHECK(alike(2.5, 2.5, 0.4)->material == 3);
     }
 }

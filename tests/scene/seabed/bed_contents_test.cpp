@@ -34,11 +34,6 @@ double area_of_heights(const Seabed& bed) {
     return (bed.grid.columns - 1) * cell * (bed.grid.rows - 1) * cell;
 }
 
-bool same_rock(const Rock& a, const Rock& b) {
-    return a.diameter_m == b.diameter_m && a.buried == b.buried && a.shape == b.shape &&
-           a.T_world_shape.matrix() == b.T_world_shape.matrix();
-}
-
 }  // namespace
 
 TEST_CASE("rocks are a Poisson process with sizes of a power law") {
@@ -68,21 +63,16 @@ TEST_CASE("rocks are a Poisson process with sizes of a power law") {
     const auto even = [&](double at) { return (at + half) / (2.0 * half); };
     CHECK(ks_p_value(x, even) > 1e-4);
     CHECK(ks_p_value(y, even) > 1e-4);
-    // Counts of squares of 5 m, which hold 17.5 on average, vary as Poisson's do: the index of
-    // dispersion of n squares has the deviation sqrt(2 / n).
-    std::array<double, 121> counts{};
+    // Counts of squares of 5 m vary as Poisson's do: the index of dispersion of n squares has the
+    // deviation sqrt(2 / n).
+    Eigen::Array<double, 121, 1> counts = Eigen::Array<double, 121, 1>::Zero();
     for (std::size_t i = 0; i < x.size(); ++i) {
-        const auto column = static_cast<std::size_t>((x[i] + 27.5) / 5.0);
-        const auto row = static_cast<std::size_t>((y[i] + 27.5) / 5.0);
+        const int column = static_cast<int>((x[i] + 27.5) / 5.0);
+        const int row = static_cast<int>((y[i] + 27.5) / 5.0);
         if (std::abs(x[i]) < 27.5 && std::abs(y[i]) < 27.5) counts[row * 11 + column] += 1.0;
     }
-    double mean = 0.0;
-    double squares = 0.0;
-    for (const double count : counts) {
-        mean += count / 121.0;
-        squares += count * count / 121.0;
-    }
-    CHECK(std::abs((squares - mean * mean) / mean - 1.0) < 4.0 * std::sqrt(2.0 / 121.0));
+    const double variance = (counts - counts.mean()).square().mean();
+    CHECK(std::abs(variance / counts.mean() - 1.0) < 4.0 * std::sqrt(2.0 / 121.0));
 }
 
 TEST_CASE("rocks lie in the bed to their share, and their shapes fit a ball of their diameter") {
@@ -137,26 +127,27 @@ TEST_CASE("sediments cover their shares, in patches of their size") {
         }
         length_m += bed.grid.rows * (bed.grid.columns - 1) * rule.cell_m;
     }
-    // The squared correlation has the area 2 pi length^2 with length = patch / (2 pi sqrt 2), some
-    // 32 m^2: 8 beds have 900 independent places, and shares deviations of 1.4 and 1.7 %.
+    // 8 beds have 900 independent places: 4 deviations of 1.4 and 1.7 %.
     CHECK(std::abs(shares[0] - 0.25) < 0.058);
     CHECK(std::abs(shares[1] - 0.5) < 0.067);
-    // Rice: a limit at 0.674 deviations is crossed upwards exp(-0.674^2 / 2) / patch times a metre,
-    // and as often downwards. The waves of the borders have a sixteenth of the variance and 10
-    // times the slope, so that the slope is sqrt(15 / 16 + 100 / 16) = 2.68 times that of the
-    // patches.
+    // Rice: a limit at 0.674 deviations is crossed exp(-0.674^2 / 2) / patch times a metre each
+    // way, 2.68 times as often by the finer waves of the borders.
     const double expected = 2.0 * 2.0 * 0.797 / 20.0 * 2.68;
     CHECK(crossings / length_m == test::approx(expected).epsilon(0.12));
 }
 
-TEST_CASE("a part of a bed has the same rocks and sediments") {
+TEST_CASE("a part of a bed is the same bed, bit by bit, and another seed makes another") {
     SeabedRule rule = bare_rule(12.0);
+    rule.z_m = -20.0;
     rule.roughness = BedRoughness{1e-4, 3.25, 2.0};
+    rule.ripples = BedRipples{0.03, 1.0, 0.5};
     rule.sediments = {{"mud", 1.0}, {"sand", 2.0}};
     rule.rocks = BedRocks{1.0, {0.1, 2.0}, 2.4, {0.1, 0.5}};
     const Seabed whole = make_seabed(rule);
-    rule.window = {-3.0, 1.0, 4.0, 5.0};
+    CHECK(make_seabed(rule).heights == whole.heights);
+    rule.window = {-3.03, 1.2, 4.0, 5.0};
     const Seabed part = make_seabed(rule);
+    CHECK(part.heights.size() < whole.heights.size() / 4);
     bool same = true;
     for (int row = 0; row < part.grid.rows; ++row) {
         for (int column = 0; column < part.grid.columns; ++column) {
@@ -171,43 +162,13 @@ TEST_CASE("a part of a bed has the same rocks and sediments") {
     CHECK(same);
     CHECK(part.rocks.size() > 20);
     for (const Rock& rock : part.rocks) {
-        CHECK(std::ranges::any_of(whole.rocks,
-                                  [&](const Rock& other) { return same_rock(rock, other); }));
+        const auto same_rock = [&](const Rock& other) {
+            return other.diameter_m == rock.diameter_m && other.buried == rock.buried &&
+                   other.shape == rock.shape &&
+                   other.T_world_shape.matrix() == rock.T_world_shape.matrix();
+        };
+        CHECK(std::ranges::any_of(whole.rocks, same_rock));
     }
-}
-
-TEST_CASE("a bed becomes instances with classes and materials") {
-    SeabedRule rule = bare_rule(4.0);
-    rule.class_name = "bottom";
-    rule.sediments = {{"mud", 1.0}, {"sand", 2.0}};
-    rule.patch_m = 2.0;
-    rule.rocks = BedRocks{0.3, {0.1, 2.0}, 2.4, {0.1, 0.5}, "rock"};
-    PlacedFile placed;
-    placed.file = "scene.seabed";
-    placed.z_up = true;
-    placed.seabed = std::make_shared<const Seabed>(make_seabed(rule));
-    SceneFiles files;
-    const Scene scene = load_scene_geometry(placed, files);
-    const std::size_t rocks = placed.seabed->rocks.size();
-    REQUIRE(rocks > 3);
-    REQUIRE(scene.instances.size() == rocks + 1);
-    CHECK(scene.instances[0] == "seabed");
-    CHECK(scene.instances[1] == "rock_1");
-    CHECK(scene.instance_classes[0] == "bottom");
-    CHECK(scene.instance_classes[1] == "rock");
-    const auto area_of = [&](const char* material) {
-        std::size_t count = 0;
-        for (const std::uint32_t m : scene.triangle_material)
-            count += scene.materials[m].name == material;
-        return count;
-    };
-    CHECK(area_of("mud") > 0);
-    CHECK(area_of("sand") > area_of("mud"));
-    CHECK(area_of("rock") >= 20 * rocks);
-    // The node that objects rest on is the bed alone.
-    const std::vector<std::string> bed{"seabed"};
-    const Surface surface = surface_of(placed, files, bed);
-    CHECK(surface.triangles.size() ==
-          2 * static_cast<std::size_t>(placed.seabed->grid.columns - 1) *
-              static_cast<std::size_t>(placed.seabed->grid.rows - 1));
+    rule.seed += 1;
+    CHECK(make_seabed(rule).heights != part.heights);
 }

@@ -41,9 +41,8 @@ void add_cable(Scene& scene, const Eigen::Vector3f& a, const Eigen::Vector3f& b,
 TEST_SUITE_BEGIN("slices");
 
 TEST_CASE("slices: two materials that meet along a slice share the beam as they lie") {
-    // A level floor 3 m below the sonar, of one material left of a line that starts below the sonar
-    // and of another one right of it. The line is an azimuth, so at each range the left part has
-    // the share of the beam left of that azimuth.
+    // A level floor of one material left of an azimuth and of another one right of it: at each
+    // range the left part has the share of the beam left of that azimuth.
     View view = fan_view();
     view.azimuth_rad = radians(2.0);
     view.elevation_rad = radians(60.0);
@@ -81,8 +80,7 @@ TEST_CASE("slices: two materials that meet along a slice share the beam as they 
 }
 
 TEST_CASE("slices: a corner that enters the view between two slices is seen") {
-    // A leaf below the view, ten beams wide at its foot, with a tip that reaches a fiftieth of its
-    // height into the view, where it is a fifth of a beam wide.
+    // A leaf below the view whose tip, a fifth of a beam wide, reaches into it.
     View view = fan_view();
     view.elevation_rad = radians(2.0);
     test::Draws draws(32);
@@ -102,9 +100,8 @@ TEST_CASE("slices: a corner that enters the view between two slices is seen") {
 }
 
 TEST_CASE("slices: a corner of surface and the border of the view is seen") {
-    // A leaf in a plane that recedes to the left and upwards. Its left edge leans to the right: the
-    // farthest point in view is where that edge crosses the upper border, between two slices.
-    // The corner was cut off there by up to 0.7 bins.
+    // The farthest point in view is where the leaning edge of a leaf crosses the upper border
+    // between two slices. It was cut off by up to 0.7 bins.
     View view = fan_view();
     view.elevation_rad = radians(2.0);
     test::Draws draws(33);
@@ -139,10 +136,8 @@ TEST_CASE("slices: a corner of surface and the border of the view is seen") {
 }
 
 TEST_CASE("slices: a cable ends in range where its corners do") {
-    // Two cables that meet below the view in a common node, so that their mesh is one part. The
-    // planes of faces with neighbours were followed by 0.2 % of the range beyond the face, here by
-    // 1.5 bins, and bins were filled that the cable does not reach. A bin is allowed, since patches
-    // are parallelograms and the ends of faces are not.
+    // Two cables that meet in a node, so that their mesh is one part. Planes of faces with
+    // neighbours were followed beyond the face, here by 1.5 bins.
     View view = fan_view();
     view.elevation_rad = radians(2.0);
     view.range_bins = 1024;

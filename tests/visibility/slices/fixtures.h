@@ -1,29 +1,29 @@
 #pragma once
 
+#include <span>
+
 #include "core/units.h"
 #include "visibility/slices/slices_engine.h"
 
 namespace sonarsim::test {
 
 inline View fan_view() {
-    return {.azimuth_rad = radians(60.0),
-            .elevation_rad = radians(20.0),
-            .range_min_m = 0.2,
-            .range_max_m = 12.0,
-            .range_bins = 256,
-            .beams = 64,
-            .relative_l1 = 0.03};
+    return {radians(60.0), radians(20.0), 0.2, 12.0, 256, 64, 0.03};
 }
 
 inline Samples seen(const Scene& scene, const View& view, const Pose& pose, int per_beam = 2) {
     return make_slices_engine(scene, Caster(scene), per_beam)->visible_surface(view, pose);
 }
 
-inline double area_of(const Samples& samples) {
+inline double area_of(std::span<const Sample> samples) {
     double area = 0.0;
-    for (const Sample& sample : samples.items)
+    for (const Sample& sample : samples)
         area += sample.area_m2;
     return area;
+}
+
+inline double area_of(const Samples& samples) {
+    return area_of(std::span<const Sample>(samples.items));
 }
 
 }  // namespace sonarsim::test

@@ -34,8 +34,7 @@ TEST_CASE("slices: a wire of 4 mm is seen in every ping, as bright as a cylinder
             echo += sample.area_m2 * sample.height_m / sample.position.norm();
         }
         REQUIRE(area > 0.0);
-        // The wire is 4 mm wide and 2 * 5 tan 10 high, with eight sides. Four slices show four
-        // facets; the missing part is between the last of them and the limb.
+        // The wire is 4 mm wide and 2 * 5 tan 10 high. Four slices show four of its eight facets.
         CHECK(echo / (0.004 * 1.763) > 0.7);
         CHECK(echo / (0.004 * 1.763) < 1.05);
         CHECK(echo / area / 0.637 > 0.9);
@@ -48,21 +47,17 @@ TEST_CASE("slices: a ball of 2 cm is seen in every ping") {
     test::add_sphere(scene, {8, 0, 0}, 0.01F, test::add_material(scene, 0.5F), 16);
     const auto engine = make_slices_engine(scene, Caster(scene), 1);
     for (int k = 0; k < 60; ++k) {
-        const Pose pose{rotation_from_rpy(0.0, 0.0, radians(-20.0 + 0.677 * k)),
-                        Eigen::Vector3d::Zero()};
-        const double cap = 2.0 * pi * 1e-4;
-        const double share = area_of(engine->visible_surface(fan_view(), pose)) / cap;
-        // The ball's 16 meridians and 8 parallels have 0.968 of a sphere's area. A strip across a
-        // sphere has the share of its area that it has of its width (Archimedes), so an eighth lies
-        // beyond each of the outer two of four slices. If the planes of the faces that these
-        // slices meet show half of that, 0.968 (1 - 1 / 8) = 0.85 remains.
+        const Pose pose{rotation_from_rpy(0.0, 0.0, radians(-20.0 + 0.677 * k))};
+        const double share = area_of(engine->visible_surface(fan_view(), pose)) / (2.0 * pi * 1e-4);
+        // The ball's faces have 0.968 of a sphere's area, of which an eighth lies beyond each of
+        // the outer two of four slices (Archimedes). With half of that, 0.968 (1 - 1 / 8) remains.
         CHECK(share > 0.85);
         CHECK(share < 1.05);
     }
 }
 
-// A pole narrower than a gap gets its own slice. If that was one float before the last slice of the
-// view, the last strip had no width, and its samples were written beyond the last beam.
+// If a pole's own slice was one float before the last one of the view, the samples of a strip
+// without width were written beyond the last beam.
 TEST_CASE("slices: a pole at the very border of the view ends its last beam once") {
     View view = fan_view();
     view.azimuth_rad = radians(90.0);  // u = y / x runs from -1 to 1
@@ -81,9 +76,8 @@ TEST_CASE("slices: a pole at the very border of the view ends its last beam once
     }
 }
 
-// A stair whose tread is seen edge-on. In the bin of the riser lie the last d of the tread, as dark
-// as its cosine, and the riser of height h. A bin's intensity is the mean over its area, so it is
-// h / (h + d) of the riser's, for any near edge of the tread.
+// A stair whose tread is seen edge-on. In the bin of the riser lie the last d of the dark tread and
+// the riser of height h: the mean over the area is h / (h + d) of the riser's.
 TEST_CASE("slices: a grazing tread with an oblique near edge has its area in the last bin") {
     View view = fan_view();
     view.relative_l1 = 0.01;
@@ -117,16 +111,14 @@ TEST_CASE("slices: a grazing tread with an oblique near edge has its area in the
 }
 
 TEST_CASE("slices: a face that is seen nearly edge-on keeps its area") {
-    // Faces of 2 cm by 2 m, 10 m away, at 0.006 and 0.02 degrees. They take 2e-7 and 8e-7 of the
-    // picture, less than cracks by rounding, and 2 cm of range.
+    // Faces of 2 cm by 2 m, 10 m away, at 0.006 and 0.02 degrees: smaller than cracks by rounding.
     for (const float depth_m : {0.001F, 0.004F}) {
         Scene scene = test::empty_scene();
         test::add_quad(scene, {10.0F, -1.0F, -depth_m}, {10.02F, -1.0F, -depth_m},
                        {10.02F, 1.0F, -depth_m}, {10.0F, 1.0F, -depth_m},
                        test::add_material(scene, 1.0F));
         CAPTURE(depth_m);
-        CHECK(test::area_of(test::seen(scene, test::fan_view(), Pose{})) ==
-              test::approx(0.04).epsilon(0.02));
+        CHECK(area_of(seen(scene, fan_view(), Pose{})) == test::approx(0.04).epsilon(0.02));
     }
 }
 
