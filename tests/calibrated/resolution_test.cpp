@@ -91,8 +91,6 @@ TEST_SUITE("calibrated") {
             const double spacing = 2.0 * std::sin(radians(3.0)) / 121.0;
             const double beams_m = half_power_width(across) * spacing;
             const double pulse_m = half_power_width(along) * sonar.settings.view.bin_m();
-            MESSAGE(c.preset, ": across ", beams_m / width, " of the closed form, along range ",
-                    pulse_m / c.resolution_m);
             CHECK(std::fabs(beams_m / width - 1.0) < 0.02);
             // The linear spline that stands for the pulse is higher than it at its knots.
             CHECK(std::fabs(pulse_m / c.resolution_m - 1.0) < 0.03);

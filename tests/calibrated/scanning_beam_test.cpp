@@ -1,7 +1,6 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 #include "calibrated/decibel.h"
@@ -28,13 +27,9 @@ Sonar scanning(const std::string& preset) {
         "    instrument: {usual_water: none, speckle: {mode: none}, receiver: {tvg_log: 0}}\n");
 }
 
-double energy_db(const std::vector<float>& image) {
-    return db_of_power(std::accumulate(image.begin(), image.end(), 0.0));
-}
-
 /// The two-way loss of a point's level off the axis of the head: one way it is the array's pattern.
 double loss_db(const LineArray& head, double off_rad) {
-    return 4.0 * 10.0 * std::log10(std::fabs(line_pattern(head, std::sin(off_rad))));
+    return 4.0 * db_of_power(std::fabs(line_pattern(head, std::sin(off_rad))));
 }
 
 }  // namespace
@@ -50,7 +45,7 @@ TEST_SUITE("calibrated") {
                 const Pose pose{rotation_from_rpy(0.0, 0.0, off), Eigen::Vector3d::Zero()};
                 const Samples point =
                     patches({5.0, 0.0, 0.0}, {0, -1, 0}, {0, 0, 1}, 0.002, 0.002, 0.002, pose);
-                return energy_db(quiet_image(sonar, point, false, pose));
+                return db_of_power(total(quiet_image(sonar, point, false, pose)));
             };
             const double ahead = level(0.0);
             // At half of the width a quarter of the power is left.

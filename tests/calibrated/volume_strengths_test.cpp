@@ -9,10 +9,9 @@
 using namespace sonarsim;
 
 TEST_SUITE("calibrated") {
-    // Far below k a = 1 the form function is 1.25 (k a)^2 within 1 % (its two brackets are 0.996
-    // and 1.256 at 0), so that s_v = 3 M 1.25^2 k^4 a^3 / (16 pi rho): it grows with the fourth
-    // power of the frequency and the third of the diameter.
-    TEST_CASE("water: fine particles scatter by Rayleigh's law") {
+    // Far below k a = 1 the form function is 1.25 (k a)^2: s_v = 3 M 1.25^2 k^4 a^3 / (16 pi rho).
+    // Far above, a grain scatters as a sphere of the form 1 / 0.9.
+    TEST_CASE("water: fine particles scatter by Rayleigh's law, coarse ones by their area") {
         const auto by_hand = [](double mg_l, double um, double k) {
             const double a = 0.5e-6 * um;
             return 3.0 * 1e-3 * mg_l * 1.25 * 1.25 * k * k * k * k * a * a * a /
@@ -29,10 +28,6 @@ TEST_SUITE("calibrated") {
         // 10 mg/l of 50 um at 400 kHz.
         CHECK(db_of_power(suspended_strength(10.0, 50.0, 2.0 * pi * 4e5 / 1480.0)) ==
               test::approx(-73.35).epsilon(0.0005));
-    }
-
-    // Far above k a = 1 a grain scatters as a sphere of the form 1 / 0.9.
-    TEST_CASE("water: coarse particles scatter by their area") {
         constexpr double a = 1e-3;
         const double expected = 3.0 * 1e-2 / (16.0 * pi * 2650.0 * a * 0.81);
         CHECK(suspended_strength(10.0, 2e6 * a, 4e4) == test::approx(expected).epsilon(0.01));

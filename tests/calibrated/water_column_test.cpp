@@ -84,11 +84,7 @@ TEST_SUITE("calibrated") {
         InstrumentConfig config = instrument_of(Aperture::line, 2.0);
         config.beam.side_lobe_db = -25.0;
         const View view = view_of(ViewShape::fan, 90.0, 20.0, 64);
-        BeamSines sines;
-        for (int k = 0; k <= 64; ++k)
-            sines.edges.push_back(std::sin(radians(90.0 * k / 64 - 45.0)));
-        for (int k = 0; k < 64; ++k)
-            sines.middles.push_back(std::sin(radians(90.0 * (k + 0.5) / 64 - 45.0)));
+        const BeamSines sines = fan_sines(90.0, 64);
         const CalibratedModel model = calibrated_model(config, scattering_water(), view, sines);
         const LineArray array = line_array(radians(2.0), -25.0);
         const double width = taper_loss(array) / array.wavelengths;

@@ -48,13 +48,6 @@ Scene calm_scene(double wind_m_s) {
     return scene;
 }
 
-double total_of(const std::vector<float>& image) {
-    double sum = 0.0;
-    for (const float value : image)
-        sum += value;
-    return sum;
-}
-
 }  // namespace
 
 TEST_SUITE("calibrated") {
@@ -95,12 +88,7 @@ TEST_SUITE("calibrated") {
         }
     }
 
-    // The energy that a disc receives of a surface of waves is the integral of
-    //
-    //     sigma(grazing) b(theta)^4 2 pi r dr / r^4,    cos(theta) = sine of grazing = h / r
-    //
-    // with b the one-way pattern, as a sum over rings; each ring comes back with the length of the
-    // pulse, which a band of no wind would have as well, so that it cancels in the ratio of winds.
+    // The integral over rings of sigma(grazing) b(theta)^4 2 pi r dr / r^4, b the one-way pattern.
     TEST_CASE("wind: the flash of the surface in an echosounder that looks up") {
         const Sonar sonar = sounder_to_surface();
         const double scale = piston_scale(radians(10.0));
@@ -126,14 +114,14 @@ TEST_SUITE("calibrated") {
         };
         const std::vector<float> windy = image(10.0);
         const std::vector<float> breeze = image(3.0);
-        CHECK(db_of_power(total_of(windy) / total_of(breeze)) ==
+        CHECK(db_of_power(total(windy) / total(breeze)) ==
               test::approx(db_of_power(integral(10.0) / integral(3.0))).epsilon(0.01));
         // The level: the taps of the pulse sum to its integral over range.
         const CalibratedModel& model = calibrated_model_of(sonar);
         double taps = 0.0;
         for (const float tap : model.power_taps.taps)
             taps += tap;
-        CHECK(std::fabs(db_of_power(total_of(windy) / (taps * integral(10.0)))) < 0.1);
+        CHECK(std::fabs(db_of_power(total(windy) / (taps * integral(10.0)))) < 0.1);
         // The first echo is at 10 m.
         const auto brightest = std::max_element(windy.begin(), windy.end()) - windy.begin();
         CHECK(5.0 + 0.025 * (static_cast<double>(brightest) + 0.5) ==

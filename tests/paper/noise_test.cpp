@@ -7,7 +7,6 @@
 #include "paper/pixel_noise.h"
 #include "paper/range_noise.h"
 #include "support/approx.h"
-#include "support/sanitized.h"
 #include "support/statistics.h"
 
 using namespace sonarsim;
@@ -157,8 +156,7 @@ TEST_CASE("multiplicative noise is Gaussian about one half") {
     CHECK(ks_p_value(draws, [](double x) { return normal_cdf((x - 0.5) / 0.1); }) > sidak(tests));
 }
 
-TEST_CASE("each quarter of a block of pixels follows the laws by itself" *
-          doctest::skip(test::sanitized)) {
+TEST_CASE("each quarter of a block of pixels follows the laws by itself") {
     // Pixels share counters of Philox: normal draws in fours, 32 pixels apart, Rayleigh draws in
     // twos, 64 apart.
     constexpr int blocks = 800;

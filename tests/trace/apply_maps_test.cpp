@@ -8,7 +8,6 @@
 #include "support/approx.h"
 #include "support/draws.h"
 #include "support/mapped_floor.h"
-#include "support/sanitized.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

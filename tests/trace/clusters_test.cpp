@@ -10,7 +10,6 @@
 #include "paper/multipath_echoes.h"
 #include "sonar/sonar.h"
 #include "support/bounces.h"
-#include "support/sanitized.h"
 #include "support/scenes.h"
 #include "visibility/rays/rays_engine.h"
 
@@ -110,7 +109,7 @@ TEST_CASE("epsilon 0 is the exact method") {
     CHECK(render(MultipathMethod::exact, 5) != render(MultipathMethod::none, 0));
 }
 
-TEST_CASE("clusters light the bins that the exact method lights" * doctest::skip(test::sanitized)) {
+TEST_CASE("clusters light the bins that the exact method lights") {
     struct Tally {
         int exact = 0;
         int missed = 0;

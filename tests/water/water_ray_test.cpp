@@ -87,8 +87,6 @@ TEST_SUITE("water") {
                     worst = std::max(worst, std::fabs(from_centre - radius));
                     of_snell = std::max(of_snell, std::fabs(snell * c / std::cos(elevation) - 1.0));
                 }
-                MESSAGE("gradient ", g, " / s, ", degrees(elevation), " degrees: radius ", radius,
-                        " m, off by ", worst, " m; cos / c off by the share ", of_snell);
             }
         }
     }
@@ -100,8 +98,6 @@ TEST_SUITE("water") {
         const WaterRay ray = after(profile, water_ray(profile, -100.0, from), 700.0);
         const double time =
             (std::atanh(std::sin(from)) - std::atanh(std::sin(ray.elevation_rad))) / 0.3;
-        MESSAGE("700 m in ", ray.time_s, " s, closed form ", time, " s, off by ", ray.time_s - time,
-                " s");
         CHECK(ray.time_s == test::approx(time).epsilon(1e-10));
     }
 
@@ -124,8 +120,6 @@ TEST_SUITE("water") {
             apart_m = std::max(apart_m, std::hypot(ray.along_m - there.x, ray.height_m - there.z));
             apart_s = std::max(apart_s, std::fabs(ray.time_s - there.t));
         }
-        MESSAGE("40 rays of 300 m end within ", apart_m, " m and ", apart_s,
-                " s of the integration");
     }
 
     TEST_CASE("reciprocity: the way back is the way there, and its tube widens alike") {
@@ -150,8 +144,6 @@ TEST_SUITE("water") {
                 std::max(apart_m, std::hypot(back.along_m - there.along_m, back.height_m + 2.0));
             apart_s = std::max(apart_s, std::fabs(back.time_s - there.time_s));
         }
-        MESSAGE("40 ways of 150 m and back end within ", apart_m, " m and ", apart_s,
-                " s of each other");
     }
 
     // S. M. Reilly's WaveQ3D (UnderSeaModelingLibrary, waveq3d/test/refraction_test.cc) lists the
@@ -204,8 +196,6 @@ TEST_SUITE("water") {
             const double cycle = of_code.second;
             const double up = cycle_of(angle_deg);
             const double down = cycle_of(-angle_deg);
-            MESSAGE(angle_deg, " degrees: off WaveQ3D's ", cycle, " m by ", up - cycle, " and ",
-                    down - cycle, " m");
             CHECK(up == test::approx(cycle).epsilon(1e-5));
             CHECK(down == test::approx(cycle).epsilon(1e-5));
         }
