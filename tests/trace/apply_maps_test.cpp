@@ -32,13 +32,13 @@ TEST_SUITE("lay maps") {
             std::vector<Sample> none;
             apply_maps(*scene.maps, sonar.settings.view, pose, cut, none);
             CHECK(cut.items.size() > whole.items.size());
+            const auto area = [](std::span<const Sample> samples) {
+                double sum = 0.0;
+                for (const Sample& sample : samples)
+                    sum += static_cast<double>(sample.area_m2);
+                return sum;
+            };
             for (int j = 0; j < sonar.settings.view.beams; ++j) {
-                const auto area = [](std::span<const Sample> samples) {
-                    double sum = 0.0;
-                    for (const Sample& sample : samples)
-                        sum += static_cast<double>(sample.area_m2);
-                    return sum;
-                };
                 CHECK(std::fabs(area(cut.beam(j)) - area(whole.beam(j))) <
                       1e-4 * area(whole.beam(j)));
             }
@@ -128,18 +128,16 @@ TEST_SUITE("lay maps") {
         lay(by_strength, {}, strengths(square_frame(1400, 28.0), [&](int row, int column) {
                 return 0.5F + static_cast<float>(field(row, column));
             }));
-        Sonar sonar = imaging(ModelKind::calibrated, 80);
-        SonarConfig config = sonar.config;
+        SonarConfig config = imaging(ModelKind::calibrated).config;
         config.instrument.speckle.mode = SpeckleMode::scene;
-        sonar = make_sonar(config, {0.01});
+        const Sonar sonar = make_sonar(config, {0.01});
         const auto sum_of = [&](const Scene& scene) {
             const auto engine = make_engine(scene, {.type = EngineKind::slices, .octree = {}});
             double sum = 0.0;
             for (const double yaw_deg : {0.0, 40.0, 80.0, 120.0}) {
-                const Ping ping = render_ping(sonar, scene, *engine, above_floor(yaw_deg),
-                                              {.seed = 1, .ping = 0}, {.multipath = false});
-                for (const float x : ping.intensity)
-                    sum += static_cast<double>(x);
+                sum += total(render_ping(sonar, scene, *engine, above_floor(yaw_deg),
+                                         {.seed = 1, .ping = 0}, {.multipath = false})
+                                 .intensity);
             }
             return sum;
         };
