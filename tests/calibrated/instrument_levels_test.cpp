@@ -52,7 +52,7 @@ InstrumentLevels levels_of(const SonarConfig& config, const WaterConfig& water =
 }  // namespace
 
 TEST_SUITE("calibrated") {
-    // -15 + 20 log f, and 50 + 7.5 sqrt(w) + 20 log f - 40 log(f + 0.4), worked out by hand.
+    // -15 + 20 log f, and 50 + 7.5 sqrt(w) + 20 log f - 40 log(f + 0.4) of kHz, by hand.
     TEST_CASE("levels: noise of heat and of the wind at three frequencies") {
         CHECK(std::fabs(thermal_noise_db(1e5) - 25.0) < 1e-9);
         CHECK(std::fabs(thermal_noise_db(4e5) - 37.0412) < 1e-3);

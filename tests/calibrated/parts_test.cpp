@@ -38,28 +38,6 @@ TEST_SUITE("calibrated") {
         }
     }
 
-    TEST_CASE("beams: a point is the pattern, of amplitudes and of powers") {
-        const LineArray array = line_array(radians(1.0), -25.0);
-        std::vector<double> sines;
-        for (int j = 0; j < 101; ++j)
-            sines.push_back(std::sin(radians(0.3 * (j - 50))));
-        for (const bool powers : {false, true}) {
-            const Beamformer beams(array, sines, powers);
-            EchoGrid grid(8, beams.grid().columns);
-            const int column = beams.grid().columns / 2;
-            grid.column(column)[2 * 2] = 1.0F;
-            Beamformer::Scratch scratch(beams);
-            std::vector<Lanes> out(beams.beams());
-            beams.form(&grid, 0, nullptr, scratch, out.data());
-            const double at = beams.grid().first + column * beams.grid().step;
-            for (int j = 0; j < beams.beams(); ++j) {
-                const double b = line_pattern(array, sines[j] - at);
-                CHECK(std::fabs(out[j][2] - b * b) < 0.06);
-                CHECK(std::fabs(out[j][5]) < 1e-9);
-            }
-        }
-    }
-
     TEST_CASE("beams: noise has the power asked for and the correlation of the aperture") {
         // A uniform aperture: the beams' complex amplitudes are correlated by sinc(u L), their
         // powers by its square.

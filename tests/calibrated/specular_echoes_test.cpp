@@ -175,29 +175,11 @@ TEST_SUITE("calibrated") {
             const auto without = image_of(sonar, direct_echoes_alone, 0);
             const auto alone = image_of(sonar, multipath_alone, 0);
             const auto with = image_of(sonar, mean_of_all, 0);
-            // The filter of powers swings below 0 next to a glint, by some thousandths of the power
-            // that is added there. The transform rounds by some 1e-7 of the brightest of a row.
-            const View& view = sonar.settings.view;
-            double max_lost = 0.0;
-            for (int row = 0; row < view.range_bins; ++row) {
-                const auto beams = std::span(without).subspan(
-                    static_cast<std::size_t>(row) * view.beams, view.beams);
-                const float rounding = 1e-6F * *std::ranges::max_element(beams);
-                for (int j = 0; j < view.beams; ++j) {
-                    float added = 0.0F;
-                    for (int k = std::max(0, row - 12); k < std::min(view.range_bins, row + 13);
-                         ++k) {
-                        for (int i = std::max(0, j - 2); i < std::min(view.beams, j + 3); ++i)
-                            added = std::max(added,
-                                             alone[static_cast<std::size_t>(k) * view.beams + i]);
-                    }
-                    if (added == 0.0F) continue;
-                    const auto at = static_cast<std::size_t>(row) * view.beams + j;
-                    const float lost = without[at] - with[at] - rounding;
-                    max_lost = std::max<double>(max_lost, lost / added);
-                }
-            }
-            CHECK(max_lost < 1e-2);
+            // The filter of powers swings below 0 next to a glint, by some thousandths of it.
+            float most_lost = 0.0F;
+            for (std::size_t k = 0; k < with.size(); ++k)
+                most_lost = std::max(most_lost, without[k] - with[k]);
+            CHECK(most_lost < 1e-2F * *std::ranges::max_element(alone));
             CHECK(std::fabs(total(with) / (total(without) + total(alone)) - 1.0) < 1e-3);
             CHECK(total(alone) > 0.02 * total(without));
 
