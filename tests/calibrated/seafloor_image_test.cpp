@@ -139,13 +139,5 @@ TEST_SUITE("calibrated") {
         const CalibratedModel model = fan_model();
         for (const float value : image_of(model, scene_of_beds(), fan_view, strip(0.8F, 2)))
             CHECK(std::fabs(value) < 1e-25F);
-        // With facets it is a mirror: their echo alone is left, at normal incidence.
-        Scene mirror;
-        mirror.materials = {
-            {.name = "mirror", .reflection = 1.0F, .lambert_db = -300.0, .slope_rms_deg = 5.0}};
-        const std::vector<Sample> plate{square({4.0F, 0.0F, 0.0F}, {-1.0F, 0.0F, 0.0F}, 0.01F)};
-        const double facing = total(image_of(model, mirror, fan_view, plate));
-        CHECK(facing > 0.0);
-        CHECK(total(image_of(model, mirror, fan_view, strip(0.4F))) < 1e-20 * facing);
     }
 }

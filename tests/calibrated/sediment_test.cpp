@@ -60,25 +60,6 @@ TEST_SUITE("calibrated") {
         }
     }
 
-    // Each bin passes on exp(-1 / lag) of what it holds.
-    TEST_CASE("sediment: energy spreads over the bins behind, and stays") {
-        EchoGrid energy(200, 2);
-        EchoGrid lagged(200, 2);
-        energy.column(1)[2 * 20] = 3.0F;
-        lagged.column(1)[2 * 20] = 3.0F * 8.0F;
-        spread_below(lagged, energy);
-        double sum = 0.0;
-        for (int row = 0; row < 200; ++row) {
-            const double value = energy.column(1)[2 * row];
-            sum += value;
-            const double expected =
-                row < 20 ? 0.0 : 3.0 * (1.0 - std::exp(-0.125)) * std::exp(-0.125 * (row - 20));
-            CHECK(std::fabs(value - expected) < 1e-6);
-            CHECK(energy.column(0)[2 * row] == 0.0F);
-        }
-        CHECK(sum == test::approx(3.0).epsilon(1e-6));
-    }
-
     // The whole beam of 7 degrees sees the bottom within 10 m and 10 / cos(7 degrees) = 10.08 m;
     // the tail behind it is exponential. The pulse's own side lobes end two bins behind.
     TEST_CASE("sediment: an echosounder has the same echo, with a tail of that slope") {
