@@ -48,6 +48,31 @@ double bed_wavenumber() {
 }  // namespace
 
 TEST_SUITE("calibrated") {
+    TEST_CASE("sea bed: own numbers replace those of the grain size") {
+        const SeaBed sand = sea_bed_of_grain_size(1.5);
+        Material material{.name = "bed", .density_kg_m3 = 1845.0, .sound_speed_m_s = 1767.0};
+        material.loss_parameter = sand.loss;
+        material.spectral_strength_cm4 = sand.spectral_strength * 1e8 / std::pow(100.0, 3.25);
+        material.volume_parameter = sand.volume_parameter;
+        const Water water{1000.0, 1500.0};
+        SeaBed own = sea_bed_of(material, water);
+        CHECK(own.density_ratio == test::approx(1.845));
+        CHECK(own.speed_ratio == test::approx(1.178));
+        CHECK(own.spectral_strength == test::approx(sand.spectral_strength));
+        CHECK(own.spectral_exponent == 3.25);
+
+        material.grain_phi = 1.5;
+        material.volume_parameter = 0.01;
+        own = sea_bed_of(material, water);
+        CHECK(own.density_ratio == sand.density_ratio);
+        CHECK(own.volume_parameter == 0.01);
+        // Another exponent turns the spectrum about 1 / cm.
+        material.spectral_exponent = 3.0;
+        own = sea_bed_of(material, water);
+        CHECK(own.spectral_strength * std::pow(100.0, -3.0) ==
+              test::approx(sand.spectral_strength * std::pow(100.0, -3.25)));
+    }
+
     // Sound is attenuated by 8.686 k loss dB per m on its way down and up.
     TEST_CASE("sediment: at normal incidence the tail decays by the attenuation of the sediment") {
         for (const double phi : {1.5, 4.0, 6.0, 8.0}) {
