@@ -197,9 +197,8 @@ TEST_SUITE("calibrated") {
         const double down_rad = radians(20.0);
         const Sonar sonar = make_sonar(config, {});
         Scene scene = shapes::empty_scene();
-        shapes::add_floor(scene, 50.0F, static_cast<float>(-half_m * std::sin(down_rad)),
-                          shapes::add_material(scene, 0.2F), 8);
-        scene.materials[0] = example_sand();
+        scene.materials = {example_sand()};
+        shapes::add_floor(scene, 50.0F, static_cast<float>(-half_m * std::sin(down_rad)), 0, 8);
         const auto engine = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
         const Pose look{rotation_from_rpy(0.0, down_rad, 0.0), Eigen::Vector3d::Zero()};
         std::vector<float> near_half;

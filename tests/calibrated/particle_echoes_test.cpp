@@ -6,14 +6,11 @@
 #include <cmath>
 #include <vector>
 
-#include "calibrated/decibel.h"
 #include "calibrated/piston.h"
-#include "core/units.h"
+#include "calibrated/water_fixtures.h"
 #include "support/approx.h"
-#include "support/calibrated.h"
 #include "support/labelled.h"
 #include "support/patches.h"
-#include "support/scenes.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -30,26 +27,6 @@ TracedPing ping_of_points(const std::vector<Eigen::Vector3f>& places) {
         traced.particles.samples.push_back(point_facing(place, static_cast<double>(section_m2)));
     }
     return traced;
-}
-
-InstrumentConfig point_instrument(Aperture aperture, double width_deg, double resolution_m) {
-    InstrumentConfig config = bare({});
-    config.frequency_hz = 2e5;
-    config.beam.aperture = aperture;
-    config.beam.width_deg = width_deg;
-    config.pulse.resolution_m = resolution_m;
-    return config;
-}
-
-View point_view(ViewShape shape, double azimuth_deg, double elevation_deg, int beams) {
-    return {.azimuth_rad = radians(azimuth_deg),
-            .elevation_rad = radians(elevation_deg),
-            .range_min_m = 2.0,
-            .range_max_m = 22.0,
-            .range_bins = 200,
-            .beams = beams,
-            .relative_l1 = 0.03,
-            .shape = shape};
 }
 
 /// The sum of a beam's bins by that of the pulse's taps: the power of the echo before the pulse.
@@ -77,9 +54,9 @@ TEST_SUITE("calibrated") {
     // fourth power of 2 J1(x) / x, x = k a sin(angle). The taps of a pulse of several bins are not
     // below 0.
     TEST_CASE("particles: the level of a target in an echosounder, at every place") {
-        const View view = point_view(ViewShape::cone, 40.0, 40.0, 1);
+        const View view = view_of(ViewShape::cone, 40.0, 40.0, 1);
         const CalibratedModel model =
-            calibrated_model(point_instrument(Aperture::piston, 7.0, 0.5), {}, view, {});
+            calibrated_model(instrument_of(Aperture::piston, 7.0, 0.5), {}, view, {});
         for (const double range_m : {4.0, 9.03, 17.5}) {
             for (const double off_deg : {0.0, 2.0, 3.5, 6.0}) {
                 CAPTURE(range_m);
@@ -101,9 +78,9 @@ TEST_SUITE("calibrated") {
     // In a fan the beam that looks at the target has all of it; in elevation the two-way pattern is
     // a line array's, at half its width down by a factor of two.
     TEST_CASE("particles: the level of a target in the beam of a fan, and by elevation") {
-        InstrumentConfig config = point_instrument(Aperture::line, 2.0, 0.1);
+        InstrumentConfig config = instrument_of(Aperture::line, 2.0, 0.1);
         config.beam.elevation_width_deg = 20.0;
-        const View view = point_view(ViewShape::fan, 60.0, 40.0, 61);
+        const View view = view_of(ViewShape::fan, 60.0, 40.0, 61);
         const CalibratedModel model = calibrated_model(config, {}, view, fan_sines(60.0, 61));
         const auto level = [&](double elevation_deg) {
             const double up = radians(elevation_deg);
@@ -120,8 +97,8 @@ TEST_SUITE("calibrated") {
     // With speckle a single target does not flicker, and two of one strength at one place add by
     // their phases: the power is between 0 and 4 times that of one, |1 + exp(i phase)|^2.
     TEST_CASE("particles: amplitudes keep their phases from ping to ping") {
-        const View view = point_view(ViewShape::cone, 40.0, 40.0, 1);
-        InstrumentConfig config = point_instrument(Aperture::piston, 7.0, 0.1);
+        const View view = view_of(ViewShape::cone, 40.0, 40.0, 1);
+        InstrumentConfig config = instrument_of(Aperture::piston, 7.0, 0.1);
         config.speckle.mode = SpeckleMode::scene;
         const CalibratedModel model = calibrated_model(config, {}, view, {});
         const auto peak = [&](const std::vector<Eigen::Vector3f>& places, std::uint32_t ping,
@@ -152,9 +129,9 @@ TEST_SUITE("calibrated") {
     // Targets are added eight at a time, in blocks of 256. What fills up the last eight has no
     // echo. It had the amplitudes of the block before, in the first bins.
     TEST_CASE("particles: nothing is added behind the last target of a block") {
-        View view = point_view(ViewShape::fan, 20.0, 40.0, 5);
+        View view = view_of(ViewShape::fan, 20.0, 40.0, 5);
         view.range_bins = 2000;
-        InstrumentConfig config = point_instrument(Aperture::line, 4.0, 0.01);
+        InstrumentConfig config = instrument_of(Aperture::line, 4.0, 0.01);
         config.speckle.mode = SpeckleMode::scene;
         const CalibratedModel model = calibrated_model(config, {}, view, fan_sines(20.0, 5));
         std::vector<Eigen::Vector3f> places;  // from 2.5 m on

@@ -45,11 +45,12 @@ Sonar wide_echosounder() {
 TEST_SUITE("calibrated") {
     // A sonar h over the bottom and d below the surface sees the bottom at s_i = h + 2 i (h + d),
     // with the share q^i of the power left, q = 0.25 * 0.9. Echo k is out over way i and back over
-    // way k - i, over all i. A narrow view sees the area s^2 w of the longer way s, so that it has
+    // way k - i, for all i. A narrow view sees the area s^2 w of the longer way s, so that the
+    // energy of echo k by that of the first is
     //
     //     h^2 q^k e^-(loss (s_k - h)) sum over i + j = k of min(s_i, s_j)^2 / (s_i^2 s_j^2)
     //
-    // of the energy of the first. Paths end at the second surface: there is no third echo.
+    // Paths end at the second surface: there is no third echo.
     TEST_CASE("second bottom echo: range and level of an echosounder's") {
         const Scene scene = bottom_and_surface();
         const auto engine = make_engine(scene, {});

@@ -57,11 +57,11 @@ TEST_SUITE("calibrated") {
             means.push_back(mean(powers));
             seconds.push_back(mean(squares));
         }
-        // Amplitudes of Gaussian sums have 2. Of scatterers one in each cell of a lattice, with
-        // exponential strengths, 0.058 more is left at this beam and pulse: that is the sum over
-        // cells of E[s^2] a integral of w^2 - 2 (integral of w)^2, by (integral of w)^2, a the area
-        // of a cell and w the power of pulse and beam. 4.5 standard errors of 20 seeds: two such
-        // tests fail once in 2,000 runs. The spline that stands for the pulse adds a hundredth.
+        // Sums of Gaussian amplitudes have 2. One scatterer of exponential strength s in each cell
+        // of a lattice adds the sum over cells of E[s^2] a integral of w^2 - 2 (integral of w)^2,
+        // by (integral of w)^2: 0.058 at this beam and pulse, a the area of a cell and w the power
+        // of pulse and beam. 4.5 standard errors of 20 seeds: two such tests fail once in 2,000
+        // runs. The spline that stands for the pulse adds a hundredth.
         CHECK(std::fabs(mean(means) - 1.0) < 4.5 * standard_error(means));
         CHECK(std::fabs(mean(seconds) - 2.058) < 4.5 * standard_error(seconds) + 0.01 * 2.058);
     }

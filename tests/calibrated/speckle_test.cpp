@@ -206,9 +206,9 @@ TEST_SUITE("calibrated") {
     TEST_CASE("clutter: powers are K-distributed, of the shape asked for") {
         // About the strengths of the clutter, of mean 1 and variance 1 / nu, powers are
         // exponential: E[I^2] = 2 (1 + 1 / nu). A resolution cell takes the mean over the cells of
-        // clutter that it lies on, by the powers p of pulse and beam. Of the variance integral of
-        // (p * p)(d) c(d) dd is left, c(d) the probability that points d apart lie in one cube of
-        // edge e: the product of max(0, 1 - |d| / e) along x, y and z.
+        // clutter that it lies on, by the powers p of pulse and beam: the integral of (p * p)(d)
+        // c(d) dd of the variance is left, c(d) the probability that points d apart lie in one cube
+        // of edge e: the product of max(0, 1 - |d| / e) along x, y and z.
         constexpr double edge = 0.1;
         const LineArray unit = line_array(1e-3, -30.0);
         const auto share_in_one = [&](const auto& power, double reach, double slope) {
