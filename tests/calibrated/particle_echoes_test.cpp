@@ -35,10 +35,7 @@ double echo_of_beam(const CalibratedModel& model, const std::vector<float>& imag
     double sum = 0.0;
     for (std::size_t k = beam; k < image.size(); k += beams)
         sum += image[k];
-    double taps = 0.0;
-    for (const float tap : model.power_taps.taps)
-        taps += tap;
-    return sum / taps;
+    return sum / total(model.power_taps.taps);
 }
 
 /// TS - 40 log r - 2 alpha r, as a ratio.

@@ -6,13 +6,9 @@
 #include <cmath>
 #include <vector>
 
-#include "calibrated/decibel.h"
-#include "calibrated/model.h"
 #include "calibrated/piston.h"
-#include "core/units.h"
+#include "calibrated/water_fixtures.h"
 #include "support/approx.h"
-#include "support/calibrated.h"
-#include "support/scenes.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -31,11 +27,8 @@ Sonar sounder_to_surface() {
     config.range_max_m = 15.0;
     config.range_bins = 400;
     config.mount.rpy_deg = {0.0, 180.0, 0.0};
-    config.instrument = bare({});
+    config.instrument = instrument_of(Aperture::piston, 10.0, 0.05);
     config.instrument.frequency_hz = 1e5;
-    config.instrument.beam.aperture = Aperture::piston;
-    config.instrument.beam.width_deg = 10.0;
-    config.instrument.pulse.resolution_m = 0.05;
     Sonar sonar = make_sonar(config, {});
     sonar.settings.sees_water_surface = true;
     return sonar;
@@ -109,18 +102,13 @@ TEST_SUITE("calibrated") {
             }
             return sum;
         };
-        const auto image = [&](double wind_m_s) {
-            return expected_image(sonar, calm_scene(wind_m_s), EngineKind::rays);
-        };
-        const std::vector<float> windy = image(10.0);
-        const std::vector<float> breeze = image(3.0);
+        const std::vector<float> windy = expected_image(sonar, calm_scene(10.0), EngineKind::rays);
+        const std::vector<float> breeze = expected_image(sonar, calm_scene(3.0), EngineKind::rays);
         CHECK(db_of_power(total(windy) / total(breeze)) ==
               test::approx(db_of_power(integral(10.0) / integral(3.0))).epsilon(0.01));
         // The level: the taps of the pulse sum to its integral over range.
         const CalibratedModel& model = calibrated_model_of(sonar);
-        double taps = 0.0;
-        for (const float tap : model.power_taps.taps)
-            taps += tap;
+        const double taps = total(model.power_taps.taps);
         CHECK(std::fabs(db_of_power(total(windy) / (taps * integral(10.0)))) < 0.1);
         // The first echo is at 10 m.
         const auto brightest = std::max_element(windy.begin(), windy.end()) - windy.begin();
