@@ -45,34 +45,6 @@ TEST_SUITE("lay maps") {
         }
     }
 
-    TEST_CASE("labels know the material of a texel") {
-        // Half of the floor, north of y = 0.
-        Scene scene = wide_floor();
-        const std::uint32_t north = add_material(scene, 0.4F);
-        lay(scene,
-            material_texels(
-                square_frame(2, 28.0), {north},
-                [](int row, int) { return row == 0 ? std::uint16_t{0} : MaterialTexels::own; }),
-            {});
-        for (const ModelKind model : {ModelKind::paper, ModelKind::calibrated}) {
-            const Sonar sonar = imaging(model);
-            const Pose pose{Eigen::Quaterniond::Identity(), {-3.0, 0.0, 3.0}};
-            const Labelled found = label(scene, sonar, pose, EngineKind::slices);
-            const View& view = sonar.settings.view;
-            int count = 0;
-            for (int i = 0; i < view.range_bins; ++i) {
-                for (int j = 0; j < view.beams; ++j) {
-                    const std::uint16_t material = found.labels.material[found.at(i, j)];
-                    if (material == 0 || j == view.beams / 2 || j + 1 == view.beams / 2) continue;
-                    // Beams count from starboard, which is the south.
-                    CHECK(material == (j < view.beams / 2 ? 1 : north + 1));
-                    ++count;
-                }
-            }
-            CHECK(count > 1000);
-        }
-    }
-
     TEST_CASE("a second surface has the strength of its texel") {
         // A wall ahead, whose echo over the floor doubles where the floor is twice as strong.
         Scene scene = wide_floor();
