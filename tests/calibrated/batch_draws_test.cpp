@@ -1,9 +1,7 @@
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <random>
 #include <vector>
 
@@ -77,9 +75,8 @@ TEST_SUITE("calibrated") {
             for (int c = 0; c < 3; ++c) {
                 std::vector<float> expected = cells_of(before, c);
                 for (int row = 0; row < rows; ++row) {
-                    // philox_pairs() takes eight counters.
-                    std::array<std::uint32_t, 8> a{}, b{};
                     // Eight bins have the first words of their counters, the next eight the second.
+                    std::array<std::uint32_t, 8> a{}, b{};
                     const bool is_second = row % 16 >= 8;
                     a[0] = static_cast<std::uint32_t>(is_second ? row - 8 : row);
                     b[0] = static_cast<std::uint32_t>(c);
@@ -92,44 +89,6 @@ TEST_SUITE("calibrated") {
                 }
                 CHECK(cells_of(grid, c) == expected);
             }
-        }
-    }
-
-    TEST_CASE("columns of eight rows and complex numbers are where they belong") {
-        std::array<float, 64> rows{};
-        for (int k = 0; k < 64; ++k)
-            rows[k] = static_cast<float>(k);
-        const std::array<Floats8, lanes> columns = columns_of_eight(rows.data());
-        for (int c = 0; c < lanes; ++c) {
-            std::array<float, lanes> column{};
-            columns[c].store(column.data());
-            for (int row = 0; row < lanes; ++row)
-                CHECK(column[row] == static_cast<float>(8 * row + c));
-        }
-        std::array<float, 16> numbers{};
-        store_complex(Floats8::load(rows.data()), Floats8::load(rows.data() + 8), numbers.data());
-        for (int k = 0; k < lanes; ++k) {
-            CHECK(numbers[2 * k] == static_cast<float>(k));
-            CHECK(numbers[2 * k + 1] == static_cast<float>(8 + k));
-        }
-    }
-
-    TEST_CASE("a pulse counts every cell that holds an echo, in columns of any length") {
-        std::mt19937 random(12);
-        for (const int rows : {1, 7, 8, 9, 61}) {
-            CAPTURE(rows);
-            EchoGrid grid = random_powers(rows, 2, random);
-            // An amplitude may be imaginary, and the places next to the bins do not count.
-            grid.column(0)[1] = 0.5F;
-            grid.column(1)[std::ptrdiff_t{2} * rows] = 0.5F;
-            std::size_t occupied = 0;
-            for (int c = 0; c < 2; ++c) {
-                for (int row = 0; row < rows; ++row) {
-                    const float* const cell = grid.column(c) + std::ptrdiff_t{2} * row;
-                    occupied += cell[0] != 0.0F || cell[1] != 0.0F ? 1 : 0;
-                }
-            }
-            CHECK(grid.convolve_pulse({.reach = 0, .taps = {1.0F}}) == occupied);
         }
     }
 }

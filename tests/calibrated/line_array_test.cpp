@@ -45,24 +45,6 @@ TEST_SUITE("calibrated") {
         }
     }
 
-    TEST_CASE("pulse: what the taps make of a point is as wide as asked for, and 1 at its middle") {
-        for (const double width : {2.0, 3.0, 5.0}) {
-            const RangeTaps taps = range_taps(width, -30.0, false);
-            // The linear spline through the taps.
-            const auto at = [&](double x) {
-                const double from = x + taps.reach;
-                const auto k = static_cast<std::size_t>(from);
-                const double part = from - std::floor(from);
-                return taps.taps[k] * (1.0 - part) + taps.taps[k + 1] * part;
-            };
-            double half = 0.0;
-            while (at(half) * at(half) > 0.5 * at(0.0) * at(0.0))
-                half += 1e-3;
-            CHECK(std::fabs(2.0 * half / width - 1.0) < 0.08);
-            CHECK(std::fabs(at(0.0) - 1.0) < 0.1);
-        }
-    }
-
     TEST_CASE("pulse: the half-power widths of its spline, as the documents have them") {
         struct Width {
             double of_pulse, of_spline;  // bins
@@ -83,6 +65,7 @@ TEST_SUITE("calibrated") {
             while (power_at(half) > 0.5 * power_at(0.0))
                 half += 1e-3;
             CHECK(std::fabs(2.0 * half - w.of_spline) < 0.01);
+            if (w.of_pulse >= 2.0) CHECK(std::fabs(std::sqrt(power_at(0.0)) - 1.0) < 0.1);
         }
     }
 }

@@ -6,18 +6,12 @@
 
 #include "calibrated/beamformer.h"
 #include "calibrated/companding.h"
-#include "calibrated/decibel.h"
 #include "calibrated/scatterers.h"
 #include "core/units.h"
 
 using namespace sonarsim;
 
 TEST_SUITE("calibrated") {
-    TEST_CASE("decibels: a power and its inverse") {
-        CHECK(std::fabs(power_of_db(3.0) / std::pow(10.0, 0.3) - 1.0) < 1e-13);
-        CHECK(std::fabs(db_of_power(power_of_db(-87.5)) + 87.5) < 1e-11);
-    }
-
     TEST_CASE("fourier: the definition, and the inverse") {
         for (const int size : {2, 3, 5, 8, 12, 20, 24, 32, 40, 64}) {
             const Fourier fourier(size);
@@ -41,37 +35,6 @@ TEST_SUITE("calibrated") {
             fourier.backward(data.data(), scratch.data());
             for (int n = 0; n < size; ++n)
                 CHECK(std::fabs(data[n].re[5] / static_cast<float>(size) - before[n].re[5]) < 1e-5);
-        }
-    }
-
-    TEST_CASE("fourier: sizes are a power of two, or three or five times one") {
-        CHECK(transform_size(1) == 2);
-        CHECK(transform_size(6) == 6);
-        CHECK(transform_size(9) == 10);
-        CHECK(transform_size(257) == 320);
-        CHECK(transform_size(321) == 384);
-        CHECK(transform_size(385) == 512);
-    }
-
-    TEST_CASE("beams: a point is the pattern, of amplitudes and of powers") {
-        const LineArray array = line_array(radians(1.0), -25.0);
-        std::vector<double> sines;
-        for (int j = 0; j < 101; ++j)
-            sines.push_back(std::sin(radians(0.3 * (j - 50))));
-        for (const bool powers : {false, true}) {
-            const Beamformer beams(array, sines, powers);
-            EchoGrid grid(8, beams.grid().columns);
-            const int column = beams.grid().columns / 2;
-            grid.column(column)[2 * 2] = 1.0F;
-            Beamformer::Scratch scratch(beams);
-            std::vector<Lanes> out(beams.beams());
-            beams.form(&grid, 0, nullptr, scratch, out.data());
-            const double at = beams.grid().first + column * beams.grid().step;
-            for (int j = 0; j < beams.beams(); ++j) {
-                const double b = line_pattern(array, sines[j] - at);
-                CHECK(std::fabs(out[j][2] - b * b) < 0.06);
-                CHECK(std::fabs(out[j][5]) < 1e-9);
-            }
         }
     }
 
@@ -129,15 +92,19 @@ TEST_SUITE("calibrated") {
         CHECK(std::fabs(gamma_clutter(1.0, 1.0).strength[512] - std::log(2.0)) < 2e-3);
     }
 
-    TEST_CASE("companding: the laws at a quarter of the amplitude") {
-        const std::vector<float> powers{0.0F, 0.0625F, 1.0F, 7.0F};
+    TEST_CASE("companding: the laws at several powers, and an offset that makes zeros") {
+        const std::vector<float> powers{0.0F, 1e-4F, 1.0F / 256, 1.0F / 16, 1.0F, 7.0F};
+        using Raw = std::vector<std::uint16_t>;
         ReceiverConfig receiver;
-        CHECK(companded(powers, receiver) == std::vector<std::uint16_t>{0, 128, 255, 255});
+        CHECK(companded(powers, receiver) == Raw{0, 26, 64, 128, 255, 255});
+        receiver.offset = 0.25;
+        CHECK(companded(powers, receiver) == Raw{0, 0, 0, 64, 191, 191});
+        receiver.offset = 0.0;
         receiver.companding = Companding::linear;
-        CHECK(companded(powers, receiver) == std::vector<std::uint16_t>{0, 64, 255, 255});
+        CHECK(companded(powers, receiver) == Raw{0, 3, 16, 64, 255, 255});
         receiver.companding = Companding::log;
         receiver.bits = 12;
-        // 1 - 12.041 / 60 of 4095.
-        CHECK(companded(powers, receiver) == std::vector<std::uint16_t>{0, 3273, 4095, 4095});
+        // 1 + 20 log(amplitude) / 60 of 4095.
+        CHECK(companded(powers, receiver) == Raw{0, 1365, 2451, 3273, 4095, 4095});
     }
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "sonar/kinds.h"
 #include "sonar/sonar.h"
 #include "support/calibrated.h"
+#include "support/patches.h"
 
 namespace sonarsim::test {
 
@@ -38,14 +38,12 @@ inline LineArray array_of(const Sonar& sonar) {
     return array;
 }
 
-/// A rectangle about `centre` in square patches, `half_u` and `half_v` of its half edges of length
-/// 1, as it is seen from a pose.
+/// A rectangle about `centre` in square patches, as it is seen from a pose. Edges have the
+/// directions `along_u` and `along_v` and half lengths of `half_u_m` and `half_v_m`.
 inline Samples patches(const Eigen::Vector3d& centre, const Eigen::Vector3d& along_u,
                        const Eigen::Vector3d& along_v, double half_u_m, double half_v_m,
                        double patch_m, const Pose& T_world_sensor = {}) {
     const Eigen::Quaterniond R_sensor_world = T_world_sensor.rotation.conjugate();
-    const Eigen::Vector3d normal = along_u.cross(along_v);
-    const Eigen::Vector3d seen = R_sensor_world * (centre - T_world_sensor.translation);
     const auto turned = [&](const Eigen::Vector3d& v) -> Eigen::Vector3f {
         return (R_sensor_world * v).cast<float>();
     };
@@ -55,14 +53,8 @@ inline Samples patches(const Eigen::Vector3d& centre, const Eigen::Vector3d& alo
             const Eigen::Vector3d place =
                 centre + (u + 0.5 * patch_m) * along_u + (v + 0.5 * patch_m) * along_v;
             out.items.push_back(
-                {.position = turned(place - T_world_sensor.translation),
-                 .edge_u = turned(0.5 * patch_m * along_u),
-                 .edge_v = turned(0.5 * patch_m * along_v),
-                 .normal = turned(normal),
-                 .height_m = static_cast<float>(std::fabs(seen.dot(R_sensor_world * normal))),
-                 .area_m2 = static_cast<float>(patch_m * patch_m),
-                 .material = 0,
-                 .instance = 0});
+                patch_of(turned(place - T_world_sensor.translation), turned(along_u.cross(along_v)),
+                         turned(0.5 * patch_m * along_u), turned(0.5 * patch_m * along_v)));
         }
     }
     return out;

@@ -7,8 +7,8 @@
 
 #include "calibrated/decibel.h"
 #include "calibrated/preset_fixtures.h"
-#include "support/sanitized.h"
 #include "support/scenes.h"
+#include "support/statistics.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -29,9 +29,7 @@ Scene bed_of(double phi) {
 std::vector<double> mean_rows(const Sonar& sonar, const Scene& scene, double altitude_m, int first,
                               int last) {
     constexpr int pings = 6;
-    EngineSettings settings;
-    settings.type = EngineKind::rays;
-    const auto engine = make_engine(scene, settings);
+    const auto engine = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
     const View& view = sonar.settings.view;
     std::vector<double> out(view.range_bins);
     for (std::uint32_t ping = 0; ping < pings; ++ping) {
@@ -52,15 +50,10 @@ std::vector<double> mean_rows(const Sonar& sonar, const Scene& scene, double alt
 double mean_between(const Sonar& sonar, const std::vector<double>& rows, double from_m,
                     double to_m) {
     const View& view = sonar.settings.view;
-    double sum = 0.0;
-    int count = 0;
-    for (int row = 0; row < view.range_bins; ++row) {
-        const double range_m = view.range_min_m + (row + 0.5) * view.bin_m();
-        if (range_m < from_m || range_m > to_m) continue;
-        sum += rows[row];
-        ++count;
-    }
-    return sum / count;
+    const auto row_at = [&](double range_m) {
+        return static_cast<int>(std::ceil((range_m - view.range_min_m) / view.bin_m() - 0.5));
+    };
+    return mean({rows.begin() + row_at(from_m), rows.begin() + row_at(to_m)});
 }
 
 }  // namespace
@@ -68,8 +61,7 @@ double mean_between(const Sonar& sonar, const std::vector<double>& rows, double 
 TEST_SUITE("calibrated") {
     // In files of real side-scan sonars the bottom is 35 dB above the water before it. The
     // suspended matter of coastal water is chosen by that level, at 900 kHz.
-    TEST_CASE("presets: the water before the bottom of a side-scan sonar" *
-              doctest::skip(test::sanitized)) {
+    TEST_CASE("presets: the water before the bottom of a side-scan sonar") {
         const auto level_db = [](const char* preset, double altitude_m, double phi,
                                  const std::string& content = "plankton") {
             const Sonar sonar =
@@ -77,8 +69,6 @@ TEST_SUITE("calibrated") {
             const std::vector<double> rows = mean_rows(sonar, bed_of(phi), altitude_m, 0, 2);
             const double bottom = mean_between(sonar, rows, 1.33 * altitude_m, 2.67 * altitude_m);
             const double water = mean_between(sonar, rows, 1.2, 0.9 * altitude_m);
-            MESSAGE(std::string(preset), ", phi ", phi, ", ", content, ": ",
-                    db_of_power(bottom / water), " dB");
             return db_of_power(bottom / water);
         };
         // Sand, silty sand, silt.
@@ -92,8 +82,6 @@ TEST_SUITE("calibrated") {
         double darker = 100.0;
         for (const char* content : {"clear", "coastal", "plume"}) {
             const double of_sand = level_db("sidescan_400khz", 6.0, 1.5, content);
-            level_db("sidescan_400khz", 6.0, 4.0, content);
-            level_db("sidescan_400khz", 6.0, 6.0, content);
             CHECK(of_sand < darker);
             darker = of_sand;
         }
@@ -102,7 +90,7 @@ TEST_SUITE("calibrated") {
 
     // In all of 20 pings of real multibeam sonars that look down, the first bottom echo makes a
     // ring in all beams, 31 dB above the water.
-    TEST_CASE("presets: the ring of a multibeam sonar" * doctest::skip(test::sanitized)) {
+    TEST_CASE("presets: the ring of a multibeam sonar") {
         const Sonar sonar =
             preset_sonar("bathymetric_400khz", "    range_max_m: 30\n    range_bins: 600\n");
         const View& view = sonar.settings.view;
@@ -115,7 +103,6 @@ TEST_SUITE("calibrated") {
             const double ring =
                 *std::max_element(rows.begin() + first - 2, rows.begin() + first + 6);
             const double water = mean_between(sonar, rows, 0.5 * altitude_m, 0.9 * altitude_m);
-            MESSAGE("phi ", phi, ": ", db_of_power(ring / water), " dB");
             CHECK(std::fabs(db_of_power(ring / water) - 31.0) < 6.0);
         }
     }

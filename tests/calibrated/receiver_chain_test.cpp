@@ -3,9 +3,9 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <functional>
 #include <vector>
 
-#include "calibrated/companding.h"
 #include "calibrated/decibel.h"
 #include "core/units.h"
 #include "support/approx.h"
@@ -61,99 +61,50 @@ std::vector<double> noise_powers(const ReceiverConfig& chain) {
     return out;
 }
 
-struct AmplitudeShape {
-    double variation, weibull;
-};
-
-/// The coefficient of variation of the amplitudes, and the shape of the Weibull distribution whose
-/// logarithm varies as much as theirs: pi / (sqrt(6) sigma of ln A).
-AmplitudeShape shape_of(const std::vector<double>& powers) {
-    double sum = 0.0;
-    double sum2 = 0.0;
-    double logs = 0.0;
-    double logs2 = 0.0;
-    for (const double power : powers) {
-        const double log_amplitude = 0.5 * std::log(power);
-        sum += std::sqrt(power);
-        sum2 += power;
-        logs += log_amplitude;
-        logs2 += log_amplitude * log_amplitude;
-    }
-    const auto n = static_cast<double>(powers.size());
-    const double mean = sum / n;
-    const double variance_of_log = logs2 / n - logs * logs / (n * n);
-    return {std::sqrt(sum2 / n - mean * mean) / mean, pi / std::sqrt(6.0 * variance_of_log)};
-}
-
-/// The same of the largest of n Rayleigh amplitudes. The largest of n exponential powers has the
-/// density sum over k of C(n, k) (-1)^(k+1) k exp(-k x): means are such sums of those of
-/// exponential powers of rate k. E[sqrt x] = sqrt(pi / k) / 2, E[x] = 1 / k, E[ln x] = -g - ln k
-/// and E[ln^2 x] = (g + ln k)^2 + pi^2 / 6, g being Euler's constant.
-AmplitudeShape shape_of_largest(int n) {
-    constexpr double euler = 0.57721566490153286;
+/// The coefficient of variation of amplitudes.
+double variation_of(const std::vector<double>& powers) {
     double root = 0.0;
-    double mean = 0.0;
-    double log = 0.0;
-    double log2 = 0.0;
-    double binomial = 1.0;
-    for (int k = 1; k <= n; ++k) {
-        binomial *= -static_cast<double>(n - k + 1) / k;
-        const double weight = -binomial;
-        const double shift = euler + std::log(k);
-        root += weight * 0.5 * std::sqrt(pi / k);
-        mean += weight / k;
-        log -= weight * shift;
-        log2 += weight * (shift * shift + pi * pi / 6.0);
-    }
-    return {std::sqrt(mean - root * root) / root, pi / std::sqrt(6.0 * 0.25 * (log2 - log * log))};
+    for (const double power : powers)
+        root += std::sqrt(power) / static_cast<double>(powers.size());
+    return std::sqrt(mean(powers) / (root * root) - 1.0);
 }
 
 }  // namespace
 
 TEST_SUITE("calibrated") {
-    // The largest of n exponential powers lies below x with the probability (1 - exp(-x))^n.
-    TEST_CASE("receiver: the largest of several samples follows order statistics") {
-        for (const int n : {1, 2, 3}) {
+    // The largest of n exponential powers lies below x with the probability (1 - exp(-x))^n. The
+    // mean of two is gamma distributed with shape 2. Variations of the amplitudes by their moments.
+    TEST_CASE("receiver: samples and looks have the distributions of order statistics and means") {
+        const auto largest_of = [](int n) {
+            return [n](double x) { return std::pow(1.0 - std::exp(-x), n); };
+        };
+        const auto mean_of_two = [](double x) {
+            return 1.0 - (1.0 + 2.0 * x) * std::exp(-2.0 * x);
+        };
+        const double root = 0.75 * std::sqrt(pi / 2.0);
+        const double variation_of_two = std::sqrt(1.0 - root * root) / root;
+        struct Case {
+            int samples, looks;
+            SampleRule combine;
+            std::function<double(double)> law;
+            double variation;
+        };
+        constexpr SampleRule greatest = SampleRule::maximum;
+        for (const Case& c : {Case{1, 1, greatest, largest_of(1), 0.5227},
+                              Case{2, 1, greatest, largest_of(2), 0.3776},
+                              Case{3, 1, greatest, largest_of(3), 0.3180},
+                              Case{1, 2, greatest, mean_of_two, variation_of_two},
+                              Case{2, 1, SampleRule::rms, mean_of_two, variation_of_two},
+                              Case{2, 1, SampleRule::mean, {}, 0.5227 / std::sqrt(2.0)}}) {
             ReceiverConfig chain;
-            chain.samples = n;
+            chain.samples = c.samples;
+            chain.looks = c.looks;
+            chain.combine = c.combine;
+            CAPTURE(c.variation);
             const std::vector<double> powers = noise_powers(chain);
-            CHECK(ks_p_value(powers, [&](double x) { return std::pow(1.0 - std::exp(-x), n); }) >
-                  1e-3);
-            const AmplitudeShape found = shape_of(powers);
-            const AmplitudeShape closed = shape_of_largest(n);
-            CHECK(found.variation == test::approx(closed.variation).epsilon(0.025));
-            CHECK(found.weibull == test::approx(closed.weibull).epsilon(0.03));
+            if (c.law) CHECK(ks_p_value(powers, c.law) > 1e-3);
+            CHECK(variation_of(powers) == test::approx(c.variation).epsilon(0.025));
         }
-        CHECK(shape_of_largest(2).variation == test::approx(0.3776).epsilon(1e-3));
-        CHECK(shape_of_largest(3).variation == test::approx(0.3180).epsilon(1e-3));
-    }
-
-    // The mean of two exponential powers is gamma distributed with shape 2. The variance of ln A is
-    // a quarter of the trigamma function at 2, pi^2 / 6 - 1, and the variation of A follows from
-    // E[A] = Gamma(5/2) / (Gamma(2) sqrt 2).
-    TEST_CASE("receiver: two looks average powers") {
-        const double mean = 0.75 * std::sqrt(pi) / std::sqrt(2.0);
-        const double variation = std::sqrt(1.0 - mean * mean) / mean;
-        const double weibull = pi / std::sqrt(6.0 * 0.25 * (pi * pi / 6.0 - 1.0));
-        ReceiverConfig looks;
-        looks.looks = 2;
-        ReceiverConfig samples;
-        samples.samples = 2;
-        samples.combine = SampleRule::rms;
-        for (const ReceiverConfig& chain : {looks, samples}) {
-            const std::vector<double> powers = noise_powers(chain);
-            CHECK(ks_p_value(powers, [](double x) {
-                      return 1.0 - (1.0 + 2.0 * x) * std::exp(-2.0 * x);
-                  }) > 1e-3);
-            const AmplitudeShape found = shape_of(powers);
-            CHECK(found.variation == test::approx(variation).epsilon(0.025));
-            CHECK(found.weibull == test::approx(weibull).epsilon(0.03));
-        }
-        ReceiverConfig of_amplitudes = samples;
-        of_amplitudes.combine = SampleRule::mean;
-        // The mean of two Rayleigh amplitudes varies by 1 / sqrt 2 of one.
-        CHECK(shape_of(noise_powers(of_amplitudes)).variation ==
-              test::approx(0.5227 / std::sqrt(2.0)).epsilon(0.025));
     }
 
     TEST_CASE("receiver: ringing lies where it should") {
@@ -190,14 +141,5 @@ TEST_SUITE("calibrated") {
                       test::approx(beam_gain_db(receiver, k % 8, {1, 2, 0})).epsilon(1e-4));
             }
         }
-    }
-
-    TEST_CASE("receiver: an offset makes zeros") {
-        ReceiverConfig offset;
-        offset.offset = 0.25;
-        // Amplitudes of 1, 1/4, 1/16 and 1/100 of full scale have the values 1, 1/2, 1/4 and 1/10.
-        const std::vector<float> powers{1.0F, 1.0F / 16, 1.0F / 256, 1e-4F};
-        CHECK(companded(powers, offset) == std::vector<std::uint16_t>{191, 64, 0, 0});
-        CHECK(companded(powers, {}) == std::vector<std::uint16_t>{255, 128, 64, 26});
     }
 }

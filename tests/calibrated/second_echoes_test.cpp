@@ -6,7 +6,6 @@
 #include "calibrated/decibel.h"
 #include "core/units.h"
 #include "support/calibrated.h"
-#include "support/sanitized.h"
 #include "support/scenes.h"
 
 using namespace sonarsim;
@@ -45,16 +44,14 @@ Sonar wide_echosounder() {
 
 TEST_SUITE("calibrated") {
     // A sonar h over the bottom and d below the surface sees the bottom at s_i = h + 2 i (h + d),
-    // with the share q^i of the power left: q = 0.25 * 0.9. Out over one way and back over another,
-    // echo k = i + j comes at (s_i + s_j) / 2 = h + k (h + d): the second one at twice the range if
-    // d = 0. A narrow view sees the bottom that the longer way s sees, of the area s^2 times a
-    // solid angle w, and at right angles to it. So the energy of echo k by that of the first is
+    // with the share q^i of the power left, q = 0.25 * 0.9. Echo k is out over way i and back over
+    // way k - i, for all i. A narrow view sees the area s^2 w of the longer way s, so that the
+    // energy of echo k by that of the first is
     //
-    //     h^2 q^k e^-(loss (s_k - h)) sum over i + j = k of min(s_i, s_j)^2 / (s_i^2 s_j^2).
+    //     h^2 q^k e^-(loss (s_k - h)) sum over i + j = k of min(s_i, s_j)^2 / (s_i^2 s_j^2)
     //
     // Paths end at the second surface: there is no third echo.
-    TEST_CASE("second bottom echo: range and level of an echosounder's" *
-              doctest::skip(test::sanitized)) {
+    TEST_CASE("second bottom echo: range and level of an echosounder's") {
         const Scene scene = bottom_and_surface();
         const auto engine = make_engine(scene, {});
         const Pose pose{Eigen::Quaterniond::Identity(), {0.0, 0.0, over_bottom_m}};
@@ -90,8 +87,7 @@ TEST_SUITE("calibrated") {
 
     // Sound that a bottom h below and a surface d above a side-scan sonar reflect, and that the
     // bottom scatters back, has gone 2 h + d at least: straight down, up, down and up.
-    TEST_CASE("second bottom echo: that of a side-scan sonar begins at 2 h + d" *
-              doctest::skip(test::sanitized)) {
+    TEST_CASE("second bottom echo: that of a side-scan sonar begins at 2 h + d") {
         constexpr double h = 6.0;
         constexpr double d = 3.0;
         Scene scene = empty_scene();

@@ -17,15 +17,11 @@ using namespace sonarsim::test;
 
 namespace {
 
-/// The correlation of the complex amplitudes of an aperture in uniform incoherent sound with those
-/// of the same aperture, moved by the share `moved` of its length and looking `turned` half-power
-/// widths or so aside, t = sine L / lambda: the ambiguity function of its weight,
+/// The correlation of the powers of an aperture in uniform incoherent sound with those of the same
+/// aperture, moved by the share `moved` of its length and looking aside by `turned`, sine L /
+/// lambda: the square (Siegert's relation) of the ambiguity function of its weight,
 ///
 ///     integral of w(x + s/2) w*(x - s/2) exp(2 pi i x t) dx / integral of |w|^2 dx
-///
-/// since a beam's pattern is the transform of the weight, and the correlation the integral over all
-/// directions of one pattern times the other. Powers are correlated by the square of its modulus
-/// (Siegert's relation for Gaussian amplitudes).
 double power_correlation(const LineArray& array, double moved, double turned) {
     constexpr int steps = 300;
     std::complex<double> sum = 0.0;
@@ -39,20 +35,12 @@ double power_correlation(const LineArray& array, double moved, double turned) {
     return std::norm(sum / power);
 }
 
-/// A pulse's band, which has the taper of an array, so that the pulses of two ranges overlap as two
-/// beams do.
-struct PulseBand {
-    static constexpr double unit = 1e-3;
-    LineArray band;
-    double resolution_m;
-
-    explicit PulseBand(const PulseConfig& pulse)
-        : band(line_array(unit, pulse.side_lobe_db)), resolution_m(pulse.resolution_m) {}
-
-    double power_correlation_at(double apart_m) const {
-        return power_correlation(band, 0.0, apart_m / resolution_m * unit * band.wavelengths);
-    }
-};
+/// The same of two ranges: a pulse's band has the taper of an array.
+double power_correlation_of_pulse(const PulseConfig& pulse, double apart_m) {
+    constexpr double unit = 1e-3;
+    const LineArray band = line_array(unit, pulse.side_lobe_db);
+    return power_correlation(band, 0.0, apart_m / pulse.resolution_m * unit * band.wavelengths);
+}
 
 /// 20 degrees of a preset's fan, its beams as far apart as they are, and bins of half its
 /// resolution about `range_m`.
@@ -109,20 +97,6 @@ struct Patch {
     }
 };
 
-/// The greatest difference between what shares of the powers lie below a value and what an
-/// exponential distribution of mean 1 has there.
-double distance_from_exponential(std::vector<double> powers) {
-    std::ranges::sort(powers);
-    const auto n = static_cast<double>(powers.size());
-    double distance = 0.0;
-    for (std::size_t i = 0; i < powers.size(); ++i) {
-        const double below = 1.0 - std::exp(-powers[i]);
-        distance = std::max({distance, std::fabs(below - static_cast<double>(i) / n),
-                             std::fabs(below - static_cast<double>(i + 1) / n)});
-    }
-    return distance;
-}
-
 // Three presets: an aperture with errors of phase whose beams are even in sine, a wide one whose
 // beams are half a width apart, a narrow one whose beams are a width apart.
 std::vector<Patch> patches_of_presets() {
@@ -142,7 +116,7 @@ TEST_SUITE("calibrated") {
         for (const Patch& patch : patches_of_presets()) {
             CAPTURE(patch.sonar.config.instrument.frequency_hz);
             const LineArray array = array_of(patch.sonar);
-            const PulseBand pulse(patch.sonar.config.instrument.pulse);
+            const PulseConfig& pulse = patch.sonar.config.instrument.pulse;
             const double width = radians(patch.sonar.config.instrument.beam.width_deg);
             const int outer = patch.beams() / 8;
             const int inner = patch.beams() - 2 * outer;
@@ -151,49 +125,39 @@ TEST_SUITE("calibrated") {
             const int apart = static_cast<int>(std::ceil(2.0 * width / spacing));
             const std::vector<float> image = quiet_image(patch.sonar, patch.surface, true);
 
-            // Kolmogorov and Smirnov, the mean being known, of places two widths of the beam and of
-            // the pulse apart, which are independent. At 1 % in all: of three tests each is held to
-            // 1 - 0.99^(1/3) (Sidak), whose distance is sqrt(-ln(that / 2) / 2) / sqrt(n).
+            // Places two widths of beam and pulse apart are independent. Three tests at 1 % in all.
             const std::vector<double> powers = patch.normalised(image, outer, inner, apart, 4);
-            const double each = 1.0 - std::pow(0.99, 1.0 / 3.0);
-            const double most = std::sqrt(-0.5 * std::log(0.5 * each)) /
-                                std::sqrt(static_cast<double>(powers.size()));
-            MESSAGE(powers.size(), " places, distance ", distance_from_exponential(powers),
-                    " of at most ", most);
-            CHECK(distance_from_exponential(powers) < most);
+            CHECK(ks_p_value(powers, [](double x) { return 1.0 - std::exp(-x); }) >
+                  1.0 - std::pow(0.99, 1.0 / 3.0));
 
             // A correlation over n independent places is off by about 1 / sqrt(n); with neighbours
             // there are some 4 times as many that count.
             const double tolerance = 2.0 / std::sqrt(static_cast<double>(powers.size()));
             const std::vector<double> here = patch.normalised(image, outer, inner);
             for (const int lag : {1, 2, 3}) {
-                const double left =
-                    power_correlation(array, 0.0, lag * spacing * array.wavelengths);
-                const double found = correlation(here, patch.normalised(image, outer + lag, inner));
-                MESSAGE("beams ", lag, " apart: ", found, ", by the aperture ", left);
-                CHECK(std::fabs(found - left) < tolerance);
-            }
-            for (const int lag : {1, 2, 3}) {
-                const double left =
-                    pulse.power_correlation_at(lag * patch.sonar.settings.view.bin_m());
-                const double found =
-                    correlation(here, patch.normalised(image, outer, inner, 1, 1, 20 + lag));
-                MESSAGE("bins ", lag, " apart: ", found, ", by the pulse ", left);
-                CHECK(std::fabs(found - left) < tolerance);
+                CAPTURE(lag);
+                const auto off = [&](const std::vector<double>& there, double closed) {
+                    return std::fabs(correlation(here, there) - closed);
+                };
+                CHECK(off(patch.normalised(image, outer + lag, inner),
+                          power_correlation(array, 0.0, lag * spacing * array.wavelengths)) <
+                      tolerance);
+                const double apart_m = lag * patch.sonar.settings.view.bin_m();
+                CHECK(off(patch.normalised(image, outer, inner, 1, 1, 20 + lag),
+                          power_correlation_of_pulse(pulse, apart_m)) < tolerance);
             }
         }
     }
 
     TEST_CASE("speckle decorrelates with sway, yaw and surge as the aperture and the pulse say") {
-        // Moved by (x, y), sound that goes to a scatterer at azimuth a and back has a way that is
-        // shorter by 2 (x cos a + y sin a): over the sines u within a beam its phase changes as if
-        // the aperture were moved by 2 (y - x tan a), transmitter and receiver together. Besides,
-        // the scatterer is seen under another angle, by (y cos a - x sin a) / r less, and turning
-        // by a yaw takes it as far aside; and its echo comes earlier than the pulse is long.
+        // Moved by (x, y), the way to a scatterer at azimuth a and back is shorter by
+        // 2 (x cos a + y sin a): within a beam as if the aperture were moved by 2 (y - x tan a).
+        // The scatterer is seen under another angle, by (y cos a - x sin a) / r less, and aside by
+        // a yaw; and its echo comes earlier.
         const Patch patch("didson_1800khz", 5.0, 0.02, 66,
                           "    instrument: {usual_water: none, receiver: {samples: 1}}\n");
         const LineArray array = array_of(patch.sonar);
-        const PulseBand pulse(patch.sonar.config.instrument.pulse);
+        const PulseConfig& pulse = patch.sonar.config.instrument.pulse;
         constexpr int outer = 10;
         const int inner = patch.beams() - 2 * outer;
         // The correlation of one seed is off by about 0.02: the mean of four is compared with the
@@ -205,14 +169,15 @@ TEST_SUITE("calibrated") {
                                             outer, inner));
         }
         struct Motion {
-            std::string name;
             double x_m, y_m, yaw_deg;
         };
         for (const Motion& motion :
-             {Motion{"sway", 0.0, 0.010, 0.0}, Motion{"sway", 0.0, 0.025, 0.0},
-              Motion{"yaw", 0.0, 0.0, 0.1}, Motion{"yaw", 0.0, 0.0, 0.2},
-              Motion{"surge", 0.005, 0.0, 0.0}, Motion{"surge", 0.010, 0.0, 0.0},
-              Motion{"all three", 0.004, 0.012, 0.1}}) {
+             {Motion{0.0, 0.010, 0.0}, Motion{0.0, 0.025, 0.0}, Motion{0.0, 0.0, 0.1},
+              Motion{0.0, 0.0, 0.2}, Motion{0.005, 0.0, 0.0}, Motion{0.010, 0.0, 0.0},
+              Motion{0.004, 0.012, 0.1}}) {
+            CAPTURE(motion.x_m);
+            CAPTURE(motion.y_m);
+            CAPTURE(motion.yaw_deg);
             const Pose pose{rotation_from_rpy(0.0, 0.0, radians(motion.yaw_deg)),
                             {motion.x_m, motion.y_m, 0.0}};
             double left = 0.0;
@@ -224,7 +189,8 @@ TEST_SUITE("calibrated") {
                 const double angle = radians(motion.yaw_deg) +
                                      (motion.y_m * cosine - motion.x_m * sine) / patch.range_m;
                 left += power_correlation(array, moved, angle * cosine * array.wavelengths) *
-                        pulse.power_correlation_at(motion.x_m * cosine + motion.y_m * sine) / inner;
+                        power_correlation_of_pulse(pulse, motion.x_m * cosine + motion.y_m * sine) /
+                        inner;
             }
             const Samples moved = patch.visible_from(pose);
             double found = 0.0;
@@ -233,22 +199,16 @@ TEST_SUITE("calibrated") {
                 found +=
                     correlation(here[seed - 1], patch.normalised(second, outer, inner)) / seeds;
             }
-            MESSAGE(motion.name, ": ", found, ", by the instrument ", left);
             CHECK(std::fabs(found - left) < 0.02);
         }
     }
 
     TEST_CASE("clutter: powers are K-distributed, of the shape asked for") {
-        // Given the strengths x of the clutter, gamma-distributed with mean 1 and variance 1 / nu,
-        // powers are exponential about them: E[I^2] = 2 E[x^2] = 2 (1 + 1 / nu). But a resolution
-        // cell may lie on more than one cell of clutter and takes the mean over them, by the powers
-        // p of pulse and beam: of the variance
-        //
-        //     integral of (p * p)(d) c(d) dd
-        //
-        // is left, with c(d) the probability that points d apart lie in one cube of edge e, the
-        // product of max(0, 1 - |d| / e) along x, y and z. On a plane that rises by 30 degrees
-        // points d apart in range are d tan 30 apart in height.
+        // About the strengths of the clutter, of mean 1 and variance 1 / nu, powers are
+        // exponential: E[I^2] = 2 (1 + 1 / nu). A resolution cell takes the mean over the cells of
+        // clutter that it lies on, by the powers p of pulse and beam: the integral of (p * p)(d)
+        // c(d) dd of the variance is left, c(d) the probability that points d apart lie in one cube
+        // of edge e: the product of max(0, 1 - |d| / e) along x, y and z.
         constexpr double edge = 0.1;
         const LineArray unit = line_array(1e-3, -30.0);
         const auto share_in_one = [&](const auto& power, double reach, double slope) {
@@ -280,23 +240,18 @@ TEST_SUITE("calibrated") {
             const double across = share_in_one(
                 [&](double y) { return std::pow(line_pattern(array, y / patch.range_m), 2.0); },
                 0.08, 0.0);
-            double mean = 0.0;
-            double squares = 0.0;
+            std::vector<double> powers, squares;
             for (const std::uint32_t seed : {1U, 2U, 3U}) {
-                const std::vector<double> powers = patch.normalised(
-                    quiet_image(patch.sonar, patch.surface, true, {}, seed), 8, 50);
-                for (const double p : powers) {
-                    mean += p / (3.0 * static_cast<double>(powers.size()));
-                    squares += p * p / (3.0 * static_cast<double>(powers.size()));
+                for (const double p : patch.normalised(
+                         quiet_image(patch.sonar, patch.surface, true, {}, seed), 8, 50)) {
+                    powers.push_back(p);
+                    squares.push_back(p * p);
                 }
             }
+            const double moment = mean(squares) / std::pow(mean(powers), 2.0);
             // With L looks at one clutter, <p^2> / <p>^2 = (1 + 1 / L) (1 + its variance).
-            const double found =
-                1.0 / (squares / (mean * mean) / (1.0 + 1.0 / looks) - 1.0) * along * across;
-            MESSAGE("shape ", found, " where ", shape, " was asked for; of the variance ",
-                    along * across, " is left");
-            // The ratio of 3 times 400 cells with the moments of a gamma distribution of shape 1 is
-            // off by 2 / sqrt(1200), 6 %; higher shapes give less, but speckle adds as much.
+            const double found = 1.0 / (moment / (1.0 + 1.0 / looks) - 1.0) * along * across;
+            // The ratio of 3 times 400 cells is off by 2 / sqrt(1200), 6 %, and by speckle.
             CHECK(std::fabs(found / shape - 1.0) < 0.15);
         }
     }

@@ -5,13 +5,13 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <vector>
 
 #include "calibrated/scatterer_search.h"
 #include "core/units.h"
 #include "support/approx.h"
 #include "support/calibrated.h"
+#include "support/patches.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -42,14 +42,9 @@ Sample footprint(int column, double from_m, double to_m) {
     const double half_length = 0.5 * (to_m - from_m);
     const Eigen::Vector3d ahead(std::cos(azimuth), std::sin(azimuth), 0.0);
     const Eigen::Vector3d across(-std::sin(azimuth), std::cos(azimuth), 0.0);
-    return {.position = (middle * ahead - Eigen::Vector3d(0.0, 0.0, below_m)).cast<float>(),
-            .edge_u = (half_width * across).cast<float>(),
-            .edge_v = (half_length * ahead).cast<float>(),
-            .normal = {0.0F, 0.0F, 1.0F},
-            .height_m = static_cast<float>(below_m),
-            .area_m2 = static_cast<float>(4.0 * half_width * half_length),
-            .material = 0,
-            .instance = 0};
+    return patch_of((middle * ahead - Eigen::Vector3d(0.0, 0.0, below_m)).cast<float>(),
+                    {0.0F, 0.0F, 1.0F}, (half_width * across).cast<float>(),
+                    (half_length * ahead).cast<float>());
 }
 
 /// The floor in `parts` footprints along each column.
@@ -108,11 +103,9 @@ TEST_SUITE("calibrated") {
         config.frequency_hz = 7e5;
         config.beam.width_deg = 1.0;
         const View view = view_of_floor();
-        std::vector<double> sines;
-        for (int j = 0; j < columns; ++j)
-            sines.push_back(std::sin((j + 0.5 - 0.5 * columns) * column_rad));
+        const BeamSines sines = fan_sines(0.5 * columns, columns);
         const CalibratedModel model =
-            calibrated_model(config, {}, view, {.middles = sines, .edges = {}});
+            calibrated_model(config, {}, view, {.middles = sines.middles, .edges = {}});
         const auto image_of = [&](int parts) {
             Samples samples;
             samples.items = floor_in(parts);
@@ -123,8 +116,7 @@ TEST_SUITE("calibrated") {
         for (int row = 28; row < 68; ++row) {  // 8.4 to 10.4 m, within the floor
             CAPTURE(row);
             const auto sum = [&](const std::vector<float>& image) {
-                const auto begin = image.begin() + std::ptrdiff_t{row} * columns;
-                return std::accumulate(begin + 10, begin + columns - 10, 0.0);
+                return total(std::span(image).subspan(row * columns + 10, columns - 20));
             };
             CHECK(sum(coarse) == approx(sum(exact)).epsilon(0.01));
         }

@@ -1,36 +1,26 @@
 #pragma once
 
 #include <cmath>
-#include <memory>
-#include <numeric>
 #include <vector>
 
+#include "calibrated/decibel.h"
 #include "core/units.h"
 #include "ping/form_image.h"
 #include "support/calibrated.h"
+#include "support/patches.h"
 #include "support/scenes.h"
 
 namespace sonarsim::test {
 
 inline constexpr double slope_deg = 5.0;
 
-inline constexpr EngineKind engine_kinds[] = {EngineKind::rays, EngineKind::slices,
-                                              EngineKind::automatic};
-
-inline double total(const std::vector<float>& image) {
-    return std::accumulate(image.begin(), image.end(), 0.0);
-}
-
-inline double decibels(double ratio) {
-    return 10.0 * std::log10(ratio);
-}
-
 /// A sonar of a kind with the beams of a usual instrument.
-inline Sonar target_sonar(SonarKind kind) {
+inline Sonar target_sonar(SonarKind kind, SpeckleMode speckle = SpeckleMode::none) {
     SonarConfig config = calibrated(default_sonar(kind), 9e5);
     config.instrument = bare(config.instrument);
+    config.instrument.speckle.mode = speckle;
     config.range_min_m = 0.5;
-    config.range_max_m = 20.0;
+    config.range_max_m = 20.5;
     config.range_bins = 400;
     config.azimuth_bins = 128;
     if (kind == SonarKind::sidescan) {
@@ -41,43 +31,41 @@ inline Sonar target_sonar(SonarKind kind) {
     return make_sonar(config, {});
 }
 
+/// A scene of metal, material 0. A corner far away keeps its bounds.
+inline Scene metal_scene() {
+    Scene scene = empty_scene();
+    scene.materials[add_material(scene, 0.8F)].slope_rms_deg = slope_deg;
+    add_quad(scene, {-40, -40, -40}, {-39, -40, -40}, {-39, -39, -40}, {-40, -39, -40}, 0);
+    return scene;
+}
+
 /// A sphere in a scene, and where it is.
 struct BallScene {
-    Scene scene = empty_scene();
+    Scene scene = metal_scene();
     Eigen::Vector3d centre;
     double radius;
 
     BallScene(const Eigen::Vector3d& at, double radius_m, int sides)
         : centre(at), radius(radius_m) {
-        const std::uint32_t metal = add_material(scene, 0.8F);
-        scene.materials[metal].slope_rms_deg = slope_deg;
-        add_sphere(scene, at.cast<float>(), static_cast<float>(radius_m), metal, sides);
-        // A corner far away keeps the scene's bounds.
-        add_quad(scene, {-40, -40, -40}, {-39, -40, -40}, {-39, -39, -40}, {-40, -39, -40}, metal);
+        add_sphere(scene, at.cast<float>(), static_cast<float>(radius_m), 0, sides);
     }
 };
 
-inline double energy_by(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
-                        const Pose& T_world_vehicle = {}) {
-    return total(
-        render_ping(sonar, scene, engine, T_world_vehicle, {}, direct_echoes_alone).intensity);
-}
-
-inline std::unique_ptr<VisibilityEngine> engine_of(const Scene& scene, EngineKind kind) {
-    EngineSettings settings;
-    settings.type = kind;
-    return make_engine(scene, settings);
-}
-
-inline Sonar with_targets(Sonar sonar, const Scene& scene) {
+/// The energy of the direct echoes of a scene whose targets are found.
+inline double energy_by(Sonar sonar, const Scene& scene, const VisibilityEngine& engine,
+                        const Pose& T_world_vehicle = {}, const PingKey& key = {},
+                        const Terms& terms = direct_echoes_alone) {
     find_targets({&sonar, 1}, scene);
-    return sonar;
+    return total(render_ping(sonar, scene, engine, T_world_vehicle, key, terms).intensity);
+}
+
+inline double energy_by_rays(const Sonar& sonar, const Scene& scene) {
+    return energy_by(sonar, scene, *make_engine(scene, {.type = EngineKind::rays, .octree = {}}));
 }
 
 /// The energy of a sphere from points on it, close together where it glints.
-inline double energy_of_points(const Sonar& sonar, const BallScene& ball,
-                               const Pose& T_world_vehicle = {}) {
-    const Pose T_world_sensor = sensor_pose(sonar, T_world_vehicle, 0);
+inline double energy_of_points(const Sonar& sonar, const BallScene& ball) {
+    const Pose T_world_sensor = sensor_pose(sonar, {}, 0);
     const Eigen::Vector3d c =
         T_world_sensor.rotation.conjugate() * (ball.centre - T_world_sensor.translation);
     const Eigen::Vector3d to_sonar = -c.normalized();
@@ -94,26 +82,19 @@ inline double energy_of_points(const Sonar& sonar, const BallScene& ball,
         return k < half ? glint * k / half : glint + (0.5 * pi - glint) * (k - half) / half;
     };
     for (int k = 0; k < rings; ++k) {
-        const double low = angle(k);
-        const double high = angle(k + 1.0);
         const double t = angle(k + 0.5);
-        const double area =
-            2.0 * pi * ball.radius * ball.radius * (std::cos(low) - std::cos(high)) / around;
+        const double area = 2.0 * pi * ball.radius * ball.radius *
+                            (std::cos(angle(k)) - std::cos(angle(k + 1.0))) / around;
         for (int j = 0; j < around; ++j) {
             const double turn = 2.0 * pi * (j + 0.5 * (k % 2)) / around;
             const Eigen::Vector3d n = std::cos(t) * to_sonar +
                                       std::sin(t) * (std::cos(turn) * across + std::sin(turn) * up);
             const Eigen::Vector3d p = c + ball.radius * n;
-            const double height = -p.dot(n);
-            if (height <= 0.0 || beam_of(sonar.settings.view, p.cast<float>()) < 0) continue;
-            traced.samples.items.push_back({.position = p.cast<float>(),
-                                            .edge_u = Eigen::Vector3f::Zero(),
-                                            .edge_v = Eigen::Vector3f::Zero(),
-                                            .normal = n.cast<float>(),
-                                            .height_m = static_cast<float>(height),
-                                            .area_m2 = static_cast<float>(area),
-                                            .material = 0,
-                                            .instance = 0});
+            if (p.dot(n) >= 0.0 || beam_of(sonar.settings.view, p.cast<float>()) < 0) continue;
+            Sample& point = traced.samples.items.emplace_back(
+                patch_of(p.cast<float>(), n.cast<float>(), Eigen::Vector3f::Zero(),
+                         Eigen::Vector3f::Zero()));
+            point.area_m2 = static_cast<float>(area);
         }
     }
     return total(form_image(traced, sonar.settings, ball.scene, {}, direct_echoes_alone).intensity);

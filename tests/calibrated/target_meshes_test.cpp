@@ -14,42 +14,29 @@ TEST_SUITE("calibrated") {
     TEST_CASE("targets: bodies that move and copies of a mesh are sampled where they are") {
         const Sonar sonar = target_sonar(SonarKind::imaging);
         const BallScene still({8.0, 0.3, 0.2}, 0.15, 32);
-        const double expected = energy_by(with_targets(sonar, still.scene), still.scene,
-                                          *engine_of(still.scene, EngineKind::rays));
-        // The sphere about the origin of its own frame, with half of the radius for the copy.
-        const BallScene ball({0.0, 0.0, 0.0}, 0.15, 32);
-        const BallScene half({0.0, 0.0, 0.0}, 0.075, 32);
-        const auto without_sphere = [&] {
-            Scene scene = still.scene;
-            const auto last = static_cast<std::ptrdiff_t>(scene.triangles.size() - 2);
-            scene.triangles.erase(scene.triangles.begin(), scene.triangles.begin() + last);
-            scene.triangle_material.resize(2);
-            scene.triangle_instance.erase(scene.triangle_instance.begin(),
-                                          scene.triangle_instance.begin() + last);
-            return scene;
+        const double expected = energy_by_rays(sonar, still.scene);
+        // Spheres about the origin of their own frames, of half of the radius for the copy.
+        const auto mesh_of = [](float radius) {
+            Scene mesh = empty_scene();
+            add_sphere(mesh, {0, 0, 0}, radius, add_material(mesh, 0.8F), 32);
+            return mesh;
         };
-        const std::size_t count = ball.scene.triangles.size() - 2;
-        const auto triangles = [&](const BallScene& of) {
-            return std::vector(of.scene.triangles.begin(),
-                               of.scene.triangles.begin() + static_cast<std::ptrdiff_t>(count));
-        };
-        const std::vector<std::uint32_t> materials(count, 0);
+        const Scene ball = mesh_of(0.15F);
+        const Scene half = mesh_of(0.075F);
 
-        Scene moving = without_sphere();
-        moving.bodies.push_back({0, ball.scene.vertices, triangles(ball), materials});
-        const auto engine = engine_of(moving, EngineKind::rays);
+        Scene moving = metal_scene();
+        moving.bodies.push_back({0, ball.vertices, ball.triangles, ball.triangle_material});
+        const auto engine = make_engine(moving, {.type = EngineKind::rays, .octree = {}});
         const Pose there{rotation_from_rpy(0.0, 0.0, 0.7), {8.0, 0.3, 0.2}};
-        CHECK(energy_by(with_targets(sonar, moving), moving, *engine->at({&there, 1})) ==
+        CHECK(energy_by(sonar, moving, *engine->at({&there, 1})) ==
               test::approx(expected).epsilon(0.01));
 
-        Scene copied = without_sphere();
-        copied.shared_meshes.push_back({half.scene.vertices, triangles(half), materials});
+        Scene copied = metal_scene();
+        copied.shared_meshes.push_back({half.vertices, half.triangles, half.triangle_material});
         MeshCopy copy{.mesh = 0, .instance = 0};
         copy.T_world_mesh = Eigen::Translation3d(8.0, 0.3, 0.2) * Eigen::Scaling(2.0);
         copied.copies.push_back(copy);
-        CHECK(
-            energy_by(with_targets(sonar, copied), copied, *engine_of(copied, EngineKind::rays)) ==
-            test::approx(expected).epsilon(0.01));
+        CHECK(energy_by_rays(sonar, copied) == test::approx(expected).epsilon(0.01));
     }
 
     TEST_CASE("targets: a cube keeps its faces, a sphere's mesh is a sphere") {

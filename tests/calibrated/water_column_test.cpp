@@ -42,32 +42,6 @@ double sinc4(double t) {
 }  // namespace
 
 TEST_SUITE("calibrated") {
-    TEST_CASE("water: the directions of a view fill its solid angle") {
-        const auto solid_angle = [](const View& view, const GuardBeams& guard_beams) {
-            const EqualDirections found = traced_directions(view, guard_beams, radians(0.5));
-            for (const Eigen::Vector3f& direction : found.all)
-                CHECK(direction.norm() == test::approx(1.0).epsilon(1e-6));
-            return static_cast<double>(found.all.size()) * found.each_sr;
-        };
-        const View fan = view_of(ViewShape::fan, 90.0, 20.0, 90);
-        const double of_fan = radians(90.0) * 2.0 * std::sin(radians(10.0));
-        CHECK(solid_angle(fan, {}) == test::approx(of_fan).epsilon(1e-3));
-        CHECK(solid_angle(view_of(ViewShape::port_starboard, 170.0, 2.0, 2), {}) ==
-              test::approx(radians(170.0) * 2.0 * std::sin(radians(1.0))).epsilon(1e-3));
-        CHECK(solid_angle(view_of(ViewShape::cone, 40.0, 40.0, 1), {}) ==
-              test::approx(2.0 * pi * (1.0 - std::cos(radians(20.0)))).epsilon(1e-3));
-        // Guard beams add what the cones of the fan's beams reach: at the elevation e up to the
-        // azimuth asin(sin(45) / cos(e)).
-        double with_guards = 0.0;
-        constexpr int steps = 1000;
-        for (int k = 0; k < steps; ++k) {
-            const double sine = std::sin(radians(10.0)) * ((2.0 * k + 1.0) / steps - 1.0);
-            with_guards += 2.0 * std::asin(std::sin(radians(45.0)) / std::sqrt(1.0 - sine * sine)) *
-                           2.0 * std::sin(radians(10.0)) / steps;
-        }
-        CHECK(solid_angle(fan, {.count = 5}) == test::approx(with_guards).epsilon(2e-3));
-    }
-
     // The equivalent beam angle of a disc is 5.78 / (ka)^2 (e.g. Simmonds and MacLennan, Fisheries
     // Acoustics, 2005). The far side lobes outside the view, and that constant, leave 0.03 dB.
     TEST_CASE("water: the level in an echosounder, at every range") {
@@ -84,11 +58,7 @@ TEST_SUITE("calibrated") {
         InstrumentConfig config = instrument_of(Aperture::line, 2.0);
         config.beam.side_lobe_db = -25.0;
         const View view = view_of(ViewShape::fan, 90.0, 20.0, 64);
-        BeamSines sines;
-        for (int k = 0; k <= 64; ++k)
-            sines.edges.push_back(std::sin(radians(90.0 * k / 64 - 45.0)));
-        for (int k = 0; k < 64; ++k)
-            sines.middles.push_back(std::sin(radians(90.0 * (k + 0.5) / 64 - 45.0)));
+        const BeamSines sines = fan_sines(90.0, 64);
         const CalibratedModel model = calibrated_model(config, scattering_water(), view, sines);
         const LineArray array = line_array(radians(2.0), -25.0);
         const double width = taper_loss(array) / array.wavelengths;

@@ -19,12 +19,13 @@ inline WaterConfig scattering_water() {
     return water;
 }
 
-inline InstrumentConfig instrument_of(Aperture aperture, double width_deg) {
+inline InstrumentConfig instrument_of(Aperture aperture, double width_deg,
+                                      double resolution_m = 0.2) {
     InstrumentConfig config = bare({});
     config.frequency_hz = 2e5;
     config.beam.aperture = aperture;
     config.beam.width_deg = width_deg;
-    config.pulse.resolution_m = 0.2;
+    config.pulse.resolution_m = resolution_m;
     return config;
 }
 

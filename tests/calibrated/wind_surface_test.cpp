@@ -6,13 +6,9 @@
 #include <cmath>
 #include <vector>
 
-#include "calibrated/decibel.h"
-#include "calibrated/model.h"
 #include "calibrated/piston.h"
-#include "core/units.h"
+#include "calibrated/water_fixtures.h"
 #include "support/approx.h"
-#include "support/calibrated.h"
-#include "support/scenes.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -31,11 +27,8 @@ Sonar sounder_to_surface() {
     config.range_max_m = 15.0;
     config.range_bins = 400;
     config.mount.rpy_deg = {0.0, 180.0, 0.0};
-    config.instrument = bare({});
+    config.instrument = instrument_of(Aperture::piston, 10.0, 0.05);
     config.instrument.frequency_hz = 1e5;
-    config.instrument.beam.aperture = Aperture::piston;
-    config.instrument.beam.width_deg = 10.0;
-    config.instrument.pulse.resolution_m = 0.05;
     Sonar sonar = make_sonar(config, {});
     sonar.settings.sees_water_surface = true;
     return sonar;
@@ -46,13 +39,6 @@ Scene calm_scene(double wind_m_s) {
     add_floor(scene, 40.0F, -15.0F, add_material(scene, 0.4F), 4);
     scene.water_surface = WaterSurface{.height_m = 10.0, .reflection = 1.0F, .wind_m_s = wind_m_s};
     return scene;
-}
-
-double total_of(const std::vector<float>& image) {
-    double sum = 0.0;
-    for (const float value : image)
-        sum += value;
-    return sum;
 }
 
 }  // namespace
@@ -95,12 +81,7 @@ TEST_SUITE("calibrated") {
         }
     }
 
-    // The energy that a disc receives of a surface of waves is the integral of
-    //
-    //     sigma(grazing) b(theta)^4 2 pi r dr / r^4,    cos(theta) = sine of grazing = h / r
-    //
-    // with b the one-way pattern, as a sum over rings; each ring comes back with the length of the
-    // pulse, which a band of no wind would have as well, so that it cancels in the ratio of winds.
+    // The integral over rings of sigma(grazing) b(theta)^4 2 pi r dr / r^4, b the one-way pattern.
     TEST_CASE("wind: the flash of the surface in an echosounder that looks up") {
         const Sonar sonar = sounder_to_surface();
         const double scale = piston_scale(radians(10.0));
@@ -121,19 +102,14 @@ TEST_SUITE("calibrated") {
             }
             return sum;
         };
-        const auto image = [&](double wind_m_s) {
-            return expected_image(sonar, calm_scene(wind_m_s), EngineKind::rays);
-        };
-        const std::vector<float> windy = image(10.0);
-        const std::vector<float> breeze = image(3.0);
-        CHECK(db_of_power(total_of(windy) / total_of(breeze)) ==
+        const std::vector<float> windy = expected_image(sonar, calm_scene(10.0), EngineKind::rays);
+        const std::vector<float> breeze = expected_image(sonar, calm_scene(3.0), EngineKind::rays);
+        CHECK(db_of_power(total(windy) / total(breeze)) ==
               test::approx(db_of_power(integral(10.0) / integral(3.0))).epsilon(0.01));
         // The level: the taps of the pulse sum to its integral over range.
         const CalibratedModel& model = calibrated_model_of(sonar);
-        double taps = 0.0;
-        for (const float tap : model.power_taps.taps)
-            taps += tap;
-        CHECK(std::fabs(db_of_power(total_of(windy) / (taps * integral(10.0)))) < 0.1);
+        const double taps = total(model.power_taps.taps);
+        CHECK(std::fabs(db_of_power(total(windy) / (taps * integral(10.0)))) < 0.1);
         // The first echo is at 10 m.
         const auto brightest = std::max_element(windy.begin(), windy.end()) - windy.begin();
         CHECK(5.0 + 0.025 * (static_cast<double>(brightest) + 0.5) ==

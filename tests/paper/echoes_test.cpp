@@ -5,21 +5,17 @@
 #include <cmath>
 
 #include "support/approx.h"
+#include "support/patches.h"
 
 using namespace sonarsim;
+using namespace sonarsim::test;
 
 namespace {
 
 Echoes echoes_of(const Eigen::Vector3f& centre, const Eigen::Vector3f& edge_u,
                  const Eigen::Vector3f& edge_v, float bin_m) {
-    const Sample sample{.position = centre,
-                        .edge_u = edge_u,
-                        .edge_v = edge_v,
-                        .normal = -centre.normalized(),
-                        .height_m = centre.norm(),
-                        .area_m2 = 0.5F,
-                        .material = 0,
-                        .instance = 0};
+    Sample sample = patch_of(centre, -centre.normalized(), edge_u, edge_v);
+    sample.area_m2 = 0.5F;
     Material material;
     material.reflection = 0.25F;
     Echoes echoes;

@@ -7,7 +7,6 @@
 
 #include "core/units.h"
 #include "sonar/sonar.h"
-#include "support/sanitized.h"
 #include "support/scenes.h"
 #include "support/statistics.h"
 #include "visibility/rays/rays_engine.h"
@@ -188,8 +187,7 @@ class PlainSonar {
 
 TEST_SUITE_BEGIN("ping");
 
-TEST_CASE("a whole noisy image has the distribution of the equations" *
-          doctest::skip(test::sanitized)) {
+TEST_CASE("a whole noisy image has the distribution of the equations") {
     constexpr int pings = 400;
     const Scene scene = corner();
     const auto engine = make_rays_engine(scene);

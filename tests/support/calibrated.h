@@ -1,8 +1,11 @@
 #pragma once
 
+#include <numeric>
+#include <span>
 #include <vector>
 
 #include "calibrated/model.h"
+#include "core/units.h"
 #include "sonar/kinds.h"
 #include "sonar/sonar.h"
 #include "visibility/make_engine.h"
@@ -29,6 +32,20 @@ inline SonarConfig calibrated(SonarConfig config, double frequency_hz) {
 /// The model of a calibrated sonar.
 inline const CalibratedModel& calibrated_model_of(const Sonar& sonar) {
     return dynamic_cast<const CalibratedModel&>(*sonar.settings.model);
+}
+
+inline double total(std::span<const float> image) {
+    return std::accumulate(image.begin(), image.end(), 0.0);
+}
+
+/// The sines of beams that divide a fan into equal angles.
+inline BeamSines fan_sines(double azimuth_deg, int beams) {
+    BeamSines sines;
+    for (int k = 0; k <= 2 * beams; ++k) {
+        (k % 2 == 0 ? sines.edges : sines.middles)
+            .push_back(std::sin(radians(azimuth_deg * (0.5 * k / beams - 0.5))));
+    }
+    return sines;
 }
 
 /// A scene without surface, for samples of its only material.

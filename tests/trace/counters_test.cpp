@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 
@@ -49,27 +48,6 @@ TEST_CASE("the tables name every counter and every timer once") {
     check_complete(multipath_counters, sizeof(MultipathCounts));
     check_complete(ping_counters, sizeof(PingCounts) - sizeof(MultipathCounts));
     check_complete(ping_timers, sizeof(PingSeconds));
-}
-
-TEST_CASE("counts and seconds add up") {
-    PingCounts sum{.samples = 1, .multipath = {.hidden = 5}};
-    sum += {.samples = 2, .streak_rows = 3, .multipath = {.rays = 4, .hidden = 6}};
-    CHECK(sum.samples == 3);
-    CHECK(sum.streak_rows == 3);
-    CHECK(sum.multipath.rays == 4);
-    CHECK(sum.multipath.hidden == 11);
-    PingSeconds seconds{.trace = 0.5};
-    seconds += {.trace = 0.25, .noise = 1.0};
-    CHECK(seconds.trace == 0.75);
-    CHECK(seconds.noise == 1.0);
-}
-
-TEST_CASE("counts as JSON and as a sentence follow the table") {
-    const PingSeconds seconds{.trace = 1.0, .multipath = 2.0, .accumulate = 3.0, .noise = 4.0};
-    CHECK(json_object<nlohmann::ordered_json>(ping_timers, seconds).dump() ==
-          R"({"trace":1.0,"multipath":2.0,"accumulate":3.0,"noise":4.0})");
-    const std::string text = sentence(multipath_counters, {.samples = 12, .clusters = 3});
-    CHECK(text.starts_with("12 samples within the range, 3 clusters of them, 0 rays"));
 }
 
 TEST_CASE("the model page says what is counted and timed") {

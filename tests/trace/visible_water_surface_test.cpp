@@ -81,44 +81,32 @@ TEST_SUITE("ping") {
         }
     }
 
-    // Along the track lies an elevation e to either side, so at the range r and the horizontal
-    // distance y a strip of the width 2 r tan(e) at the most; over dy = r dr / y it sums to
-    // 2 sin(e) r^2 dr / y on each side: the jacobian of range and sine is r^2 / y.
+    // Along the track lies an elevation e to either side: over a range dr the strips of both sides
+    // have the area 4 sin(e) r^2 dr / y, y the horizontal distance. The second case is at a grazing
+    // angle, up to the end of the range.
     TEST_CASE("water's surface: a side-scan sonar sees it above") {
-        View view = view_to_surface(ViewShape::port_starboard, 170.0, 2.0);
-        view.beams = 2;
-        const Pose down = {rotation_from_rpy(0.0, radians(90.0), 0.0), Eigen::Vector3d::Zero()};
-        double expected = 0.0;
-        constexpr int steps = 4000;
-        const double sine = std::sin(radians(1.0));
-        for (int k = 0; k < steps; ++k) {
-            const double r = 8.0 + 22.0 * (k + 0.5) / steps;
-            // At the edge y^2 = r^2 (1 - s^2) - h^2, in the middle s = 0; s is small.
-            expected +=
-                2.0 * 2.0 * sine * r * r / std::sqrt(r * r - surface_m * surface_m) * 22.0 / steps;
+        struct Case {
+            double below_m, from_m, to_m;
+            int bins;
+        };
+        for (const Case& c : {Case{5.0, 8.0, 30.0, 800}, Case{1.0, 80.0, 100.0, 4000}}) {
+            View view = view_to_surface(ViewShape::port_starboard, 170.0, 2.0);
+            view.beams = 2;
+            view.range_max_m = std::max(40.0, c.to_m);
+            view.range_bins = c.bins;
+            const Pose down{rotation_from_rpy(0.0, radians(90.0), 0.0),
+                            Eigen::Vector3d(0.0, 0.0, surface_m - c.below_m)};
+            // The integral of r^2 dr / sqrt(r^2 - h^2).
+            const auto integral = [&](double r) {
+                const double y = std::sqrt(r * r - c.below_m * c.below_m);
+                return 0.5 * (r * y + c.below_m * c.below_m * std::log(r + y));
+            };
+            CHECK(
+                area_between(c.below_m < 2.0 ? empty_scene() : scene_below(), view, down, c.from_m,
+                             c.to_m) ==
+                test::approx(4.0 * std::sin(radians(1.0)) * (integral(c.to_m) - integral(c.from_m)))
+                    .epsilon(0.03));
         }
-        CHECK(area_between(scene_below(), view, down, 8.0, 30.0) ==
-              test::approx(expected).epsilon(0.03));
-    }
-
-    // As above, far and at a grazing angle: 1 m below the surface, with fine bins.
-    TEST_CASE("water's surface: it is seen up to the end of the range") {
-        View view = view_to_surface(ViewShape::port_starboard, 170.0, 2.0);
-        view.beams = 2;
-        view.range_max_m = 100.0;
-        view.range_bins = 4000;
-        const Pose down = {rotation_from_rpy(0.0, radians(90.0), 0.0),
-                           Eigen::Vector3d(0.0, 0.0, surface_m - 1.0)};
-        double expected = 0.0;
-        constexpr int steps = 4000;
-        for (int k = 0; k < steps; ++k) {
-            const double r = 80.0 + 20.0 * (k + 0.5) / steps;
-            expected +=
-                4.0 * std::sin(radians(1.0)) * r * r / std::sqrt(r * r - 1.0) * 20.0 / steps;
-        }
-        const Scene nothing = empty_scene();
-        CHECK(area_between(nothing, view, down, 80.0, 100.0) ==
-              test::approx(expected).epsilon(0.03));
     }
 
     TEST_CASE("water's surface: what hides it, and a sonar above it") {
