@@ -138,6 +138,12 @@ def relative_difference(found, expected):
     return sum(abs(a - b) for a, b in zip(found, expected, strict=True)) / sum(expected)
 
 
+def with_disk(sandbox, mode, call=0):
+    """The environment of a program whose disk fails below `out`; see faulty_disk.cpp."""
+    return dict(os.environ, LD_PRELOAD=os.environ["FAULTY_DISK"], FAULTY_DISK_BELOW=str(sandbox.out),
+                FAULTY_DISK_LOG=str(sandbox.folder / "calls"), FAULTY_DISK_MODE=mode, FAULTY_DISK_CALL=str(call))
+
+
 def digest(folder, without=()):
     """SHA-256 of every file below `folder`, by relative name."""
     return {str(p.relative_to(folder)): hashlib.sha256(p.read_bytes()).hexdigest()

@@ -94,6 +94,29 @@ class Python(Sandbox):
         self.assertRegex(result.stderr, r"\Asonarsim export: install python3-pil nothing \(.*SONARSIM_PYTHON.*\)\n\Z")
 
 
+class Usage(Sandbox):
+    def test_what_is_misspelt_is_named(self):
+        for arguments, message in (
+                ([], ""), (["render"], ""), (["render", "mission.yaml", "-j", "0"], ""),
+                (["render", "mission.yaml", "--seed", "-1"], ""), (["render", "mission.yaml", "--shard", "3/2"], ""),
+                (["render", "mission.yaml", "--shard", "0/2"], ""), (["render", "mission.yaml", "--log-level", "loud"], ""),
+                (["render", "mission.yaml", "--set", "seed"], "--set"),
+                (["render", "mission.yaml", "--set", "sensors.fls.noise.add_sgma=0.2"],
+                 "--set sensors.fls.noise.add_sgma=0.2: unknown key 'add_sgma' (did you mean 'add_sigma'?)"),
+                (["rendr", "mission.yaml"], "unknown subcommand 'rendr' (did you mean 'render'?)"),
+                (["--quiet"], "unknown option '--quiet'"),
+                (["render", "mission.yaml", "--overwite"], "unknown option '--overwite' (did you mean '--overwrite'?)"),
+                (["inspect", "box.gltf", "box.gltf"], "one argument too many: 'box.gltf'"),
+                (["inspect", "none.glb"], "none.glb"), (["render", "out"], "out: cannot open"),
+                (["render", "mission.yaml", "--out", "path.csv/out"], f"{self.folder}/path.csv/out: cannot make"),
+                (["render", "mission.yaml", "--out", "/proc/none/out"], "/proc/none/out: cannot make")):
+            with self.subTest(arguments=arguments):
+                result = self.run_sonarsim(*arguments)
+                self.assertEqual(result.returncode, 2)
+                self.assertTrue(any(line.startswith("error: " + message) for line in result.stderr.splitlines()), result.stderr)
+                self.assertFalse(self.out.exists())
+
+
 # A text that stands in the small mission, what it becomes, and the key at which it is wrong.
 WRONG = (
     ("seed: 7", "sead: 7", "sead"),
