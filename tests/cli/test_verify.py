@@ -3,6 +3,7 @@ checked; and datasets that somebody else made, to do harm: each attack is refuse
 import hashlib
 import json
 import random
+import re
 import shutil
 import subprocess
 import unittest
@@ -108,8 +109,6 @@ class Verify(Sandbox):
 
 
 class Hostile(Sandbox):
-    COMMANDS = ("verify", "out"), ("status", "out"), ("merge", "out", "merged")
-
     def setUp(self):
         super().setUp()
         self.write("path.csv", path_csv(2))
@@ -119,23 +118,36 @@ class Hostile(Sandbox):
     def describe(self, text):
         """Writes dataset.json. Whoever changes a file can give its sum."""
         self.write("out/dataset.json", text)
-        own = hashlib.sha256((self.out / "dataset.json").read_bytes()).hexdigest()
-        self.write("out/SHA256SUMS", "".join(
-            f"{own}  dataset.json\n" if line.endswith("  dataset.json\n") else line
-            for line in (self.out / "SHA256SUMS").read_text().splitlines(keepends=True)))
+        own = hashlib.sha256(text.encode()).hexdigest()
+        sums = (self.out / "SHA256SUMS").read_text()
+        self.write("out/SHA256SUMS", re.sub(r"(?m)^\w+(?=  dataset.json$)", own, sums))
 
     def test_descriptions(self):
-        """Values of one key: tests/dataset/dataset_file_test.cpp."""
-        for text in (json.dumps(self.sound).replace("fls/meta/", "../secret/"), "[" * 200000):
-            self.describe(text)
-            for command in self.COMMANDS:
-                self.assert_refused(self.run_sonarsim(*command), "out/dataset.json")
-        for text in ('{"format": "sonarsim variants", "variants": 5}', "[" * 200000):
+        sound = json.dumps(self.sound)
+        for right, wrong, words in (
+                ('"complete": true', '"complete": "yes"', "type must be boolean"),
+                ('"poses": 2', '"poses": 1000000000', "more than ten million poses"),
+                ('"pings": 2', f'"pings": {1 << 60}', "another number of pings of 'fls'"),
+                ('"name": "fls"', '"name": "../fls"', "'../fls', which is not the name of a folder"),
+                ("fls/meta/%06d", "fls/../secret/%06d", "not the path of a file in 'fls/'"),
+                ("fls/meta/%06d", "/etc/%06d", "not the path of a file in 'fls/'"),
+                ('"poses": 2', '"poses": 2, "products": ["../../x"]', "not the path of a file in 'seabed/'"),
+                (sound, "[" * 200000, "not sonarsim's, or damaged")):
+            self.assertIn(right, sound)
+            self.describe(sound.replace(right, wrong, 1))
+            self.assert_all_refuse("out/dataset.json", words)
+        (self.out / "dataset.json").unlink()
+        for text in ('{"format": "sonarsim variants", "variants": 5}', "[]", "[" * 200000):
             self.write("out/variants.json", text)
-            (self.out / "dataset.json").unlink(missing_ok=True)
-            for command in self.COMMANDS:
-                self.assert_refused(self.run_sonarsim(*command), "out/variants.json")
-        self.assertFalse((self.folder / "merged").exists())
+            self.assert_all_refuse("out/variants.json")
+
+    def assert_all_refuse(self, *words):
+        for command in (("verify", "out"), ("status", "out"), ("merge", "out", "merged")):
+            with self.subTest(command=command, words=words):
+                result = self.run_sonarsim(*command)
+                self.assert_refused(result, *words)
+                self.assertNotIn("json.exception", result.stderr)
+                self.assertFalse((self.folder / "merged").exists())
 
     def test_names_of_shards(self):
         """The name of a part of the journal has the number of shards."""
