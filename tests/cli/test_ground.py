@@ -281,7 +281,8 @@ class Vary(Composed):
             mission = "seed: 5\nscene:\n  materials: materials.csv\n" + ground + BED[BED.index("trajectory:"):]
             mission = mission.replace("labels: true", "labels: [material]")
             self.write("one.yaml", mission)
-            self.write("mission.yaml", mission + "variants: 2\nvary:\n" + "".join(f"  - {{key: scene.{key}, {rule}}}\n" for key, rule in rules.items()))
+            rules_yaml = "".join(f"  - {{key: scene.{key}, {rule}}}\n" for key, rule in rules.items())
+            self.write("mission.yaml", f"{mission}variants: 2\nvary:\n{rules_yaml}")
             self.assert_renders("--overwrite")
             for one in self.variants():
                 self.assertEqual(list(one["drawn"]), [f"scene.{key}" for key in rules])

@@ -40,7 +40,8 @@ class Render(Sandbox):
         self.assertIn("box: 12 triangles, 6 poses", lines[0])
         self.assertIn("complete; 6 pings rendered", lines[1])
         self.assertIn("all of its 6 pings were there already", self.assert_renders().stderr)
-        debug = self.assert_renders("--overwrite", "--log-level", "debug", "--set", "sensors.fls.noise.range_lambda_m=3").stderr
+        far = ("--set", "sensors.fls.noise.range_lambda_m=3")
+        debug = self.assert_renders("--overwrite", "--log-level", "debug", *far).stderr
         for words in ("12 triangles without area are left out", "multipath:", "footprints dropped"):
             self.assertIn(words, debug)
 
