@@ -3,10 +3,10 @@
 
     tests/golden/goldens.py PROGRAM [--write] [--keep FOLDER]
 
-Each mission is rendered with one and with two threads, one also in three shards that are merged, and one
-that is killed and resumed. A line of goldens.txt is a dataset, a sensor (or `-`), a kind of file, the number of such files, and
-the hash of their contents: arrays, decoded pixels, parsed JSON without what names a build, a version or a sum. The
-variants of a mission are one dataset here. --write writes goldens.txt again; say in the commit why its lines changed.
+Each mission is rendered with one and with two threads, one also in three shards that are merged, and one that is killed
+and resumed. A line of goldens.txt is a dataset with its variants, a sensor (or `-`), a kind of file, the number of such
+files, and the hash of their arrays, decoded pixels, or parsed JSON without what names a build, a version or a sum.
+--write writes goldens.txt again; say in the commit why its lines changed.
 """
 import argparse
 import concurrent.futures
@@ -166,9 +166,7 @@ def all_runs(renderer):
 
 def differences(expected, found):
     """One line for each line that differs, by dataset, sensor and kind."""
-    def by_kind(lines):
-        return {tuple(line.split()[:3]): line for line in lines}
-    expected, found = by_kind(expected), by_kind(found)
+    expected, found = ({tuple(line.split()[:3]): line for line in lines} for lines in (expected, found))
     for kind in sorted(expected.keys() | found.keys()):
         if expected.get(kind) != found.get(kind):
             state = "new" if kind not in expected else "gone" if kind not in found else "differs"
