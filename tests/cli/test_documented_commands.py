@@ -9,11 +9,10 @@ import pathlib
 import re
 import subprocess
 import sys
-import tempfile
 import unittest
 
-from sandbox import (IN_MEMORY, MATERIALS, MISSION, ROOT, SANITIZED, SONARSIM, Sandbox, box_gltf, clone_to, path_csv,
-                     python_with)
+from clone import Clone
+from sandbox import MATERIALS, MISSION, ROOT, SONARSIM, Sandbox, box_gltf, path_csv, python_with
 
 PAGES = ("README.md", "docs/tutorial.md", "docs/running.md")
 
@@ -114,18 +113,10 @@ def run(command, folder):
     return "" if result.returncode == 0 else f"{command}\n{result.stderr[-2000:]}"
 
 
-class DocumentedCommands(unittest.TestCase):
+class DocumentedCommands(Clone):
     @classmethod
     def setUpClass(cls):
-        temporary = tempfile.TemporaryDirectory(prefix="sonarsim-", dir=IN_MEMORY)
-        cls.addClassCleanup(temporary.cleanup)
-        cls.folder = pathlib.Path(temporary.name)
-        cls.clone = cls.folder / "clone"
-        cls.clone.mkdir()
-        if SANITIZED:
-            raise unittest.SkipTest("the sanitizers see in other tests what these commands run")
-        if not clone_to(cls.clone):
-            raise unittest.SkipTest("this is not a checkout of git")
+        super().setUpClass()
         cls.commands = {page: commands_of((ROOT / page).read_text()) for page in PAGES}
 
     def run_page(self, page):
