@@ -101,6 +101,8 @@ class Preset(Sandbox):
 
 
 class Preview(Sandbox):
+    """Its picture: tests/preview."""
+
     def test_one_picture_of_every_kind(self):
         self.write("mission.yaml", ALL_FILES.replace("name: faults", "name: box").replace(
             "output:", "  head: {kind: scanning, range_max_m: 6, range_bins: 48, step_deg: 45}\noutput:"))
@@ -108,11 +110,9 @@ class Preview(Sandbox):
         picture = (self.folder / "box_preview.png").read_bytes()
         # Five sonars and a plan: two rows of three tiles, RGB.
         self.assertEqual(struct.unpack(">II", picture[16:24]) + (picture[25],), (3 * 612 + 12, 30 + 2 * 452, 2))
+        self.succeeds("preview", "mission.yaml", "--ping", 0, "--out", "other.png", "-q")
+        self.assertNotEqual((self.folder / "other.png").read_bytes(), picture)
         self.assertFalse(self.out.exists())
-        # The same bytes once more; another ping is another picture.
-        for ping, same in ((5, True), (0, False)):
-            self.succeeds("preview", "mission.yaml", "--ping", ping, "--out", "again.png", "-q")
-            self.assertEqual((self.folder / "again.png").read_bytes() == picture, same)
         self.assert_refused(self.run_sonarsim("preview", "mission.yaml", "--ping", 6, "--out", "none.png"),
                             "--ping 6: the mission has the pings 0 to 5")
         self.assertFalse((self.folder / "none.png").exists())
