@@ -1,5 +1,6 @@
 """Disks that fail, memory that runs out, signals and power cuts at any moment: an exit code, a sentence, and what is
 written is whole or, by the same command run again, becomes so."""
+import contextlib
 import json
 import os
 import random
@@ -125,15 +126,12 @@ class FaultyDisk(Faults):
 
 
 class RandomSignals(Faults):
-    POSES = 120
-
     def start(self, *arguments):
         return subprocess.Popen([SONARSIM, "render", "mission.yaml", *arguments], cwd=self.folder, text=True,
                                 stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
 
     def test_signals_at_random_moments(self):
-        """After half of the kills the power is gone, too."""
-        self.write("path.csv", path_csv(self.POSES))
+        self.write("path.csv", path_csv(120))
         start = time.monotonic()
         whole = self.render_whole()
         longest = time.monotonic() - start
@@ -145,7 +143,7 @@ class RandomSignals(Faults):
             wait = draw.uniform(0.0, longest)
             before = digest(self.out) if self.out.exists() else {}
             with self.subTest(signal=number, wait=wait):
-                with self.start("--checkpoint", "0.01") as process:
+                with self.start() as process:
                     time.sleep(wait)
                     process.send_signal(number)
                     _, stderr = process.communicate(timeout=60)
@@ -162,55 +160,56 @@ class RandomSignals(Faults):
                 self.assert_whole(killed)
         self.assert_can_go_on(whole)
 
+    def test_power_cuts(self):
+        """Where the power goes, files of pings that no line of the journal names are there, in part, or not at all."""
+        self.write("mission.yaml", ALL_FILES)
+        self.write("path.csv", path_csv(80))
+        whole = self.render_whole()
+        draw = random.Random(7)
+        lost = 0
+        for k in range(3 if SANITIZED else 10):
+            begun = len(self.durable_pings())
+            with self.start("-j2", "--checkpoint", "0.01") as process:
+                while process.poll() is None and len(self.durable_pings()) == begun:
+                    time.sleep(0.001)
+                process.kill()
+            lost += self.lose_power(draw)
+            if k % 3 == 2:
+                self.assert_can_go_on(whole)
+        self.assert_can_go_on(whole)
+        self.assertGreater(lost, 0)
+
+    def durable_pings(self):
+        """Pairs of a sensor's number and a ping."""
+        lines = ""
+        for path in (*self.out.glob("journal.d/*"), self.out / "journal.txt"):
+            with contextlib.suppress(FileNotFoundError):
+                lines += path.read_text()
+        return {(int(sensor), int(ping)) for sensor, ping in re.findall(r"^ping (\d+) (\d+) ", lines, re.M)}
+
+    def lose_power(self, draw):
+        """The number of files that are lost."""
+        durable = self.durable_pings()
+        lost = 0
+        for number, sensor in enumerate(("fls", "mbes", "sss", "sounder")):
+            for path in self.out.glob(f"{sensor}/*/*"):
+                fate = draw.choice(("there", "part", "none"))
+                if (number, int(path.name.strip(".")[:6])) not in durable and fate != "there":
+                    lost += 1
+                    os.truncate(path, path.stat().st_size // 2) if fate == "part" else path.unlink()
+        return lost
+
     def test_a_second_signal_ends_at_once(self):
-        self.write("path.csv", path_csv(20 * self.POSES))
+        self.write("path.csv", path_csv(2400))
         with self.start() as process:
             while not list(self.out.glob("fls/meta/*.json")):
                 self.assertIsNone(process.poll())
                 time.sleep(0.01)
             process.send_signal(signal.SIGSTOP)  # so that both are there before it can react
-            process.send_signal(signal.SIGINT)
-            process.send_signal(signal.SIGTERM)
-            process.send_signal(signal.SIGCONT)
+            for number in (signal.SIGINT, signal.SIGTERM, signal.SIGCONT):
+                process.send_signal(number)
             process.communicate(timeout=60)
         self.assertIn(process.returncode, {-signal.SIGINT, -signal.SIGTERM, 130, 143})
-
-    def test_power_cuts(self):
-        """The program is killed, and of the files of pings that no durable line of the journal names each is there, in
-        part, or not at all. A run that is cut again and again comes to the same bytes."""
-        self.write("mission.yaml", ALL_FILES)
-        self.write("path.csv", path_csv(self.POSES // 4))
-        start = time.monotonic()
-        whole = self.render_whole()
-        longest = time.monotonic() - start
-        draw = random.Random(7)
-        listed = lost = 0
-        for _ in range(3 if SANITIZED else 12):
-            with self.start("-j2", "--checkpoint", "0.01") as process:
-                time.sleep(draw.uniform(0.3, 0.9) * longest)
-                process.kill()
-            durable, files = self.lose_power(draw)
-            listed, lost = listed + durable, lost + files
-            if draw.random() < 0.5:
-                self.assert_can_go_on(whole)
-        self.assert_renders()
-        self.assertEqual(digest(self.out), whole)
-        self.assertGreater(min(listed, lost), 0)
-
-    def lose_power(self, draw):
-        """The number of pings in the journal, and of the files that were lost."""
-        parts = [path for path in (*self.out.glob("journal.d/*"), self.out / "journal.txt") if path.exists()]
-        lines = "".join(path.read_text() for path in parts)
-        durable = set(re.findall(r"^ping (\d+) (\d+) ", lines, re.M))
-        lost = 0
-        for number, sensor in enumerate(("fls", "mbes", "sss", "sounder")):
-            for path in self.out.glob(f"{sensor}/*/*"):
-                fate = draw.choice(("there", "part", "none"))
-                if (str(number), str(int(path.name.strip(".")[:6]))) in durable or fate == "there":
-                    continue
-                lost += 1
-                os.truncate(path, path.stat().st_size // 2) if fate == "part" else path.unlink()
-        return len(durable), lost
 
 
 class Machine(Faults):
