@@ -6,6 +6,8 @@ import xml.etree.ElementTree
 
 from sandbox import ROOT, Sandbox, python_with
 
+ROW = {"sensor", "engine", "setting", "current", "on_front", "goal", "ms_per_ping", "pings_per_s", "times_131k_rays",
+       "ms_131k_rays", "relative_l1", "worst_relative_l1", "miss_rate", "samples_per_ping"}
 # A million rays show whether the figures are sound.
 QUICK = ("--quick", "--reference-rays", "1000000")
 PYTHON = python_with("matplotlib")
@@ -23,6 +25,7 @@ class Report(Sandbox):
         self.assertEqual(report, json.loads((self.folder / "report/report.json").read_text()))
         self.assertEqual({row["engine"] for row in report["rows"]}, {"rays", "slices", "octree", "auto"})
         for row in report["rows"]:
+            self.assertEqual(set(row), ROW)
             self.assertGreater(row["ms_per_ping"], 0)
             self.assertIn(row["goal"], ("met", "missed") if row["engine"] in ("rays", "slices", "auto") else ("-",))
         # Inside a plain box the rays have no trouble.
