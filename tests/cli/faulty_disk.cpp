@@ -7,7 +7,8 @@
 //                      "once": it alone fails, with EIO; "stall": it never comes back
 //                      "short": a write takes half of what it is given
 //                      "interrupted": every third one is, by a signal
-//                      "readonly": every call fails with EROFS; "nolock": flock() alone, with ENOLCK
+//                      "readonly": every call fails, with EROFS
+//                      "nolock": flock() alone fails, with ENOLCK
 
 #include <dlfcn.h>
 #include <fcntl.h>

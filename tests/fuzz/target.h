@@ -14,8 +14,8 @@
 #include "scene/scene.h"
 #include "scene/summary.h"
 
-// What the targets share. Each takes any bytes: it keeps a promise of the reader, or InputError
-// comes.
+// The targets share this. Each takes any bytes: the reader keeps its promises, or throws
+// InputError.
 
 namespace sonarsim {
 
