@@ -3,12 +3,12 @@
 //   FAULTY_DISK_BELOW  only files below this folder count
 //   FAULTY_DISK_LOG    a line for each call that counts: its name and the file's
 //   FAULTY_DISK_CALL   the number, from 1, of the call that is the first to fail; 0: none does
-//   FAULTY_DISK_MODE   "full": that call and all later ones fail with ENOSPC; "once": it alone
-//                      fails, with EIO; "short": a write takes half of what it is given;
-//                      "interrupted": every third one is, by a signal; "stall": that call never
-//                      comes back; "kill": the program is killed (SIGKILL) before that call
-//                      "readonly": every call fails with EROFS; "nolock": none fails, but flock()
-//                      fails with ENOLCK
+//   FAULTY_DISK_MODE   "full": that call and all later ones fail with ENOSPC
+//                      "once": it alone fails, with EIO; "stall": it never comes back
+//                      "short": a write takes half of what it is given
+//                      "interrupted": every third one is, by a signal
+//                      "readonly": every call fails, with EROFS
+//                      "nolock": flock() alone fails, with ENOLCK
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -20,7 +20,6 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
-#include <csignal>
 #include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
@@ -77,25 +76,25 @@ bool fails(const char* call, const char* path) {
     }
     while (number == first && setting("FAULTY_DISK_MODE") == "stall")
         pause();
-    if (number == first && setting("FAULTY_DISK_MODE") == "kill") std::raise(SIGKILL);
     const bool full = setting("FAULTY_DISK_MODE") == "full";
     if (first == 0 || (full ? number < first : number != first)) return false;
     errno = full ? ENOSPC : EIO;
     return true;
 }
 
-bool fails(const char* call, int fd) {
+/// The path of an open file or folder; empty if it has none.
+std::string path_of(int fd) {
     std::array<char, 4096> path{};
     const std::string link = "/proc/self/fd/" + std::to_string(fd);
-    if (readlink(link.c_str(), path.data(), path.size() - 1) < 0) std::abort();
-    return fails(call, path.data());
+    return readlink(link.c_str(), path.data(), path.size() - 1) < 0 ? "" : path.data();
 }
 
-/// True if the file or folder lies below the watched one, whichever way it was opened.
+bool fails(const char* call, int fd) {
+    return fails(call, path_of(fd).c_str());
+}
+
 bool is_below_open(int fd) {
-    std::array<char, 4096> path{};
-    const std::string link = "/proc/self/fd/" + std::to_string(fd);
-    return readlink(link.c_str(), path.data(), path.size() - 1) > 0 && is_below(path.data());
+    return is_below(path_of(fd).c_str());
 }
 
 /// The number of bytes that a write of `size` bytes takes; 0: it is interrupted, and errno is set.

@@ -1,6 +1,7 @@
 """Folders with small, sound missions, and the binary under test. Each test spoils one thing."""
 import array
 import base64
+import contextlib
 import hashlib
 import importlib
 import json
@@ -68,22 +69,18 @@ def gltf(nodes, meshes, materials=("Concrete",)):
     """Nodes as glTF has them over meshes of (points, indices, material)."""
     data, views, accessors, out = b"", [], [], []
     for points, indices, material in meshes:
-        parts = (b"".join(struct.pack("<3f", *p) for p in points),
-                 struct.pack(f"<{len(indices)}I", *indices))
-        for part, kind, code, count in ((parts[0], "VEC3", 5126, len(points)),
-                                        (parts[1], "SCALAR", 5125, len(indices))):
+        for part, kind, code, count in (
+                (b"".join(struct.pack("<3f", *p) for p in points), "VEC3", 5126, len(points)),
+                (struct.pack(f"<{len(indices)}I", *indices), "SCALAR", 5125, len(indices))):
             views.append({"buffer": 0, "byteOffset": len(data), "byteLength": len(part)})
-            accessors.append({"bufferView": len(views) - 1, "componentType": code,
-                              "count": count, "type": kind})
+            accessors.append({"bufferView": len(views) - 1, "componentType": code, "count": count, "type": kind})
             data += part
         out.append({"primitives": [{"attributes": {"POSITION": len(accessors) - 2},
                                     "indices": len(accessors) - 1, "material": material}]})
+    uri = "data:application/octet-stream;base64," + base64.b64encode(data).decode()
     return json.dumps({
-        "asset": {"version": "2.0"}, "nodes": nodes, "meshes": out,
-        "materials": [{"name": name} for name in materials],
-        "accessors": accessors, "bufferViews": views,
-        "buffers": [{"byteLength": len(data), "uri": "data:application/octet-stream;base64,"
-                     + base64.b64encode(data).decode()}]})
+        "asset": {"version": "2.0"}, "nodes": nodes, "meshes": out, "materials": [{"name": name} for name in materials],
+        "accessors": accessors, "bufferViews": views, "buffers": [{"byteLength": len(data), "uri": uri}]})
 
 
 def box_mesh(half=(0.5, 0.5, 0.5)):
@@ -120,8 +117,7 @@ def png(rows, bits=8, channels=1, size=None):
     code = ">%dH" if bits == 16 else "%dB"
     lines = b"".join(b"\0" + struct.pack(code % len(row), *row) for row in rows)
     head = struct.pack(">IIBBBBB", width, height, bits, {1: 0, 3: 2, 4: 6}[channels], 0, 0, 0)
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(lines)) +
-            chunk(b"IEND", b""))
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(lines)) + chunk(b"IEND", b"")
 
 
 def numbers_of(path):
@@ -138,6 +134,12 @@ def relative_difference(found, expected):
     return sum(abs(a - b) for a, b in zip(found, expected, strict=True)) / sum(expected)
 
 
+def with_disk(sandbox, mode, call=0):
+    """The environment of a program whose disk fails below `out`; see faulty_disk.cpp."""
+    return dict(os.environ, LD_PRELOAD=os.environ["FAULTY_DISK"], FAULTY_DISK_BELOW=str(sandbox.out),
+                FAULTY_DISK_LOG=str(sandbox.folder / "calls"), FAULTY_DISK_MODE=mode, FAULTY_DISK_CALL=str(call))
+
+
 def digest(folder, without=()):
     """SHA-256 of every file below `folder`, by relative name."""
     return {str(p.relative_to(folder)): hashlib.sha256(p.read_bytes()).hexdigest()
@@ -147,12 +149,9 @@ def digest(folder, without=()):
 def python_with(module):
     """Debian's packages belong to Debian's Python, which need not be the one of the tests."""
     for python in (sys.executable, "/usr/bin/python3"):
-        try:
-            if subprocess.run([python, "-c", f"import {module}"], capture_output=True,
-                              check=False).returncode == 0:
+        with contextlib.suppress(FileNotFoundError):
+            if subprocess.run([python, "-c", f"import {module}"], capture_output=True, check=False).returncode == 0:
                 return python
-        except FileNotFoundError:
-            pass
     return None
 
 
@@ -164,26 +163,8 @@ def run_with(*modules):
     except ImportError:
         python = python_with(", ".join(modules))
         if python in (None, sys.executable):
-            print(f"needs {', '.join(modules)}")
             sys.exit(77)
         os.execv(python, [python, "-B", *sys.argv])
-
-
-def clone_to(folder):
-    """Copies what git tracks, as it stands here, and nothing else: no generated scene, no build.
-    False where this is not a checkout of git."""
-    try:
-        # The checkout may belong to another user than the tests.
-        listed = subprocess.run(["git", "-c", "safe.directory=*", "-C", ROOT, "ls-files", "-z"],
-                                capture_output=True, check=True).stdout
-    except (OSError, subprocess.CalledProcessError):
-        return False
-    for name in listed.decode().split("\0"):
-        source = ROOT / name
-        if name and source.is_file():
-            (folder / name).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy(source, folder / name)
-    return True
 
 
 class Sandbox(unittest.TestCase):
@@ -213,8 +194,8 @@ class Sandbox(unittest.TestCase):
         self.write("mission.yaml", (self.folder / "mission.yaml").read_text() + text)
 
     def run_sonarsim(self, *arguments, **options):
-        return subprocess.run([SONARSIM, *map(str, arguments)], cwd=self.folder, text=True,
-                              capture_output=True, timeout=120, check=False, **options)
+        return subprocess.run([SONARSIM, *map(str, arguments)], cwd=self.folder, text=True, capture_output=True, timeout=120,
+                              check=False, **options)
 
     def succeeds(self, *arguments, **options):
         result = self.run_sonarsim(*arguments, **options)

@@ -50,13 +50,11 @@ def path_of(name):
 
 
 def free_ports(count):
-    sockets = [socket.socket() for _ in range(count)]
-    for one in sockets:
-        one.bind(("127.0.0.1", 0))
-    ports = [one.getsockname()[1] for one in sockets]
-    for one in sockets:
-        one.close()
-    return ports
+    with contextlib.ExitStack() as stack:
+        sockets = [stack.enter_context(socket.socket()) for _ in range(count)]
+        for one in sockets:
+            one.bind(("127.0.0.1", 0))
+        return [one.getsockname()[1] for one in sockets]
 
 
 @contextlib.contextmanager
@@ -78,10 +76,9 @@ def one_node(folder):
     daemons = []
 
     def start(*command):
-        log = open(folder / (command[0] + ".out"), "wb")
-        daemons.append(subprocess.Popen([path_of(command[0]), *command[1:]], env=environment,
-                                        stdout=log, stderr=subprocess.STDOUT))
-        log.close()
+        with open(folder / (command[0] + ".out"), "wb") as log:
+            daemons.append(subprocess.Popen([path_of(command[0]), *command[1:]], env=environment, stdout=log,
+                                            stderr=subprocess.STDOUT))
 
     try:
         start("munged", "--foreground", "--force", f"--key-file={key}",

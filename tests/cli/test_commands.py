@@ -7,7 +7,7 @@ import re
 import subprocess
 import unittest
 
-from sandbox import ROOT, SONARSIM, Sandbox
+from sandbox import MISSION, ROOT, SONARSIM, Sandbox
 
 try:
     import jsonschema
@@ -45,9 +45,9 @@ class Texts(Sandbox):
     def test_examples_name_commands_and_options_that_there_are(self):
         for command in COMMANDS:
             page = lines_of(command, "--help")
-            for line in re.findall(r"^  sonarsim (.*)$", page, re.MULTILINE):
-                self.assertIn(line.split()[0], COMMANDS)
-                for option in re.findall(r" (--[a-z-]+)", line) if line.split()[0] == command else ():
+            for name, rest in re.findall(r"^  sonarsim (\S+)(.*)$", page, re.MULTILINE):
+                self.assertIn(name, COMMANDS)
+                for option in re.findall(r" (--[a-z-]+)", rest) if name == command else ():
                     self.assertIn(option, page.split("Examples:")[0])
 
     def test_version_names_the_build(self):
@@ -95,6 +95,29 @@ class Python(Sandbox):
                                "export")
         self.assertEqual(result.returncode, 2)
         self.assertRegex(result.stderr, r"\Asonarsim export: install python3-pil nothing \(.*SONARSIM_PYTHON.*\)\n\Z")
+
+
+class Usage(Sandbox):
+    def test_what_is_misspelt_is_named(self):
+        for arguments, message in (
+                ([], ""), (["render"], ""), (["render", "mission.yaml", "-j", "0"], ""),
+                (["render", "mission.yaml", "--seed", "-1"], ""), (["render", "mission.yaml", "--shard", "3/2"], ""),
+                (["render", "mission.yaml", "--shard", "0/2"], ""), (["render", "mission.yaml", "--log-level", "loud"], ""),
+                (["render", "mission.yaml", "--set", "seed"], "--set"),
+                (["render", "mission.yaml", "--set", "sensors.fls.noise.add_sgma=0.2"],
+                 "--set sensors.fls.noise.add_sgma=0.2: unknown key 'add_sgma' (did you mean 'add_sigma'?)"),
+                (["rendr", "mission.yaml"], "unknown subcommand 'rendr' (did you mean 'render'?)"),
+                (["--quiet"], "unknown option '--quiet'"),
+                (["render", "mission.yaml", "--overwite"], "unknown option '--overwite' (did you mean '--overwrite'?)"),
+                (["inspect", "box.gltf", "box.gltf"], "one argument too many: 'box.gltf'"),
+                (["inspect", "none.glb"], "none.glb"), (["render", "out"], "out: cannot open"),
+                (["render", "mission.yaml", "--out", "path.csv/out"], f"{self.folder}/path.csv/out: cannot make"),
+                (["render", "mission.yaml", "--out", "/proc/none/out"], "/proc/none/out: cannot make")):
+            with self.subTest(arguments=arguments):
+                result = self.run_sonarsim(*arguments)
+                self.assertEqual(result.returncode, 2)
+                self.assertTrue(any(line.startswith("error: " + message) for line in result.stderr.splitlines()), result.stderr)
+                self.assertFalse(self.out.exists())
 
 
 # A text that stands in the small mission, what it becomes, and the key at which it is wrong.
@@ -153,19 +176,18 @@ class Schema(Sandbox):
         for path in missions:
             with self.subTest(path=path.name):
                 self.assertEqual(self.faults(path.read_text()), "")
-        small = (self.folder / "mission.yaml").read_text()
         for path in sorted((ROOT / "configs/sensors").glob("*.yaml")):
-            lines = "\n".join("    " + line for line in path.read_text().splitlines())
             with self.subTest(preset=path.name):
-                self.assertEqual(self.faults(small[:small.index("    kind")] + lines + "\n"), "")
+                lines = path.read_text().splitlines(keepends=True)
+                start = MISSION[:MISSION.index("    kind")]
+                self.assertEqual(self.faults(start + "".join("    " + line for line in lines)), "")
 
     def test_what_the_schema_refuses_the_program_refuses(self):
-        sound = (self.folder / "mission.yaml").read_text()
         self.write("mine.yaml", "kind: imaging\nrange_bins: 48\n")
         for right, wrong, key in WRONG:
             with self.subTest(wrong=wrong):
-                self.assertIn(right, sound)
-                text = sound.replace(right, wrong)
+                self.assertIn(right, MISSION)
+                text = MISSION.replace(right, wrong)
                 self.assertIn(key, self.faults(text))
                 self.write("wrong.yaml", text)
                 self.assertEqual(self.run_sonarsim("validate", "wrong.yaml").returncode, 2)
@@ -175,7 +197,7 @@ class Schema(Sandbox):
                              ("seed: 7", "seed: 7\nwater: {sound_speed_m_s: auto}"),
                              ("    kind: imaging\n", "    preset: mine.yaml\n")):
             with self.subTest(other=other):
-                text = sound.replace(right, other)
+                text = MISSION.replace(right, other)
                 self.assertEqual(self.faults(text), "")
                 self.write("other.yaml", text)
                 self.succeeds("validate", "other.yaml")

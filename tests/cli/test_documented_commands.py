@@ -8,11 +8,11 @@ import os
 import pathlib
 import re
 import subprocess
-import tempfile
+import sys
 import unittest
 
-from sandbox import (IN_MEMORY, MATERIALS, MISSION, ROOT, SANITIZED, SONARSIM, Sandbox, box_gltf, clone_to, path_csv,
-                     python_with)
+from clone import Clone
+from sandbox import MATERIALS, MISSION, ROOT, SONARSIM, Sandbox, box_gltf, path_csv, python_with
 
 PAGES = ("README.md", "docs/tutorial.md", "docs/running.md")
 
@@ -27,11 +27,13 @@ NOT_RUN = {
     "yolo detect train model=yolo11n.pt data=anchors/data.yaml": "the same",
     "./scripts/package.sh && sudo apt install ./build-package/sonarsim_*.deb": "CI runs it: builds the program anew",
     "scripts/slurm/render.sh 64 mission.yaml out/big --time=60 --cpus-per-task=4":
-        "needs Slurm; test_merge.py runs it with a stand-in",
+        "needs Slurm; test_clusters.py runs it with a stand-in",
     "parallel sonarsim render mission.yaml --threads 1 --shard {}/4 --out part{} ::: $(seq 4)":
         "needs GNU parallel",
 }
 PYTHON = python_with("matplotlib")
+PACKAGE = os.environ.get("SONARSIM_PYTHON_PACKAGE", "")
+MODULE_PYTHON = os.environ.get("SONARSIM_PYTHON_EXECUTABLE", sys.executable)
 
 # What is run in place of a command that is too large or has place-holders.
 TINY = "--set sensors.fls.range_bins=64 --set sensors.fls.azimuth_bins=64"
@@ -111,18 +113,10 @@ def run(command, folder):
     return "" if result.returncode == 0 else f"{command}\n{result.stderr[-2000:]}"
 
 
-class DocumentedCommands(unittest.TestCase):
+class DocumentedCommands(Clone):
     @classmethod
     def setUpClass(cls):
-        temporary = tempfile.TemporaryDirectory(prefix="sonarsim-", dir=IN_MEMORY)
-        cls.addClassCleanup(temporary.cleanup)
-        cls.folder = pathlib.Path(temporary.name)
-        cls.clone = cls.folder / "clone"
-        cls.clone.mkdir()
-        if SANITIZED:
-            raise unittest.SkipTest("the sanitizers see in other tests what these commands run")
-        if not clone_to(cls.clone):
-            raise unittest.SkipTest("this is not a checkout of git")
+        super().setUpClass()
         cls.commands = {page: commands_of((ROOT / page).read_text()) for page in PAGES}
 
     def run_page(self, page):
@@ -160,49 +154,51 @@ class DocumentedCommands(unittest.TestCase):
                                                                "PATH": f"{self.folder}:{os.environ['PATH']}"})
         self.assertRegex(result.stdout, r"\nsudo apt-get update .*\nsudo env .* apt-get install .* g\+\+ cmake ")
 
-    def test_what_is_a_command(self):
-        self.assertEqual(commands_of("text\n\n    sonarsim keys     prints keys\n    A=1 ./x.sh # why\n    I = R\n"
-                                     "```python\nfor a in b:\n```\n```sh\nmake -f x \\\n    b=1\n```\n"),
-                         [(3, "sonarsim keys"), (4, "A=1 ./x.sh"), (10, "make -f x b=1")])
 
-
-@unittest.skipIf(python_with("numpy") is None, "needs numpy")
 class Snippets(Sandbox):
-    """Of docs/dataset.md."""
+    """Of docs/dataset.md: the first one, and those with a mark."""
 
-    def run_snippet(self, more=""):
-        page = (ROOT / "docs/dataset.md").read_text()
+    def run_snippet(self, python, mark="", more="", folder=None):
+        page = (ROOT / "docs/dataset.md").read_text().split(f"<!-- {mark} -->" if mark else "# ", 1)[1]
         program = re.search(r"```python\n(.*?)```", page, re.DOTALL).group(1) + more
-        result = subprocess.run([python_with("numpy"), "-c", program], cwd=self.folder, text=True,
-                                capture_output=True, check=False)
+        result = subprocess.run([python, "-Bc", program], cwd=folder or self.folder, text=True, capture_output=True,
+                                check=False, timeout=300, env={**os.environ, "PYTHONPATH": PACKAGE, "OMP_NUM_THREADS": "1"})
         self.assertEqual(result.returncode, 0, result.stderr)
-        return result.stdout
+        return result.stdout.splitlines()
 
+    @unittest.skipIf(python_with("numpy") is None, "needs numpy")
     def test_every_kind(self):
+        """The ranges of the columns of a waterfall are those of what it shows."""
         render = ("render", ROOT / "tests/four_sonars.yaml", "--out", "out/survey", "--set", "trajectory.rate_hz=0.5")
         self.succeeds(*render)
-        lines = self.run_snippet()
+        lines = "\n".join(self.run_snippet(python_with("numpy")))
         for name in ("fls", "mbes", "sss", "sounder"):
             self.assertIn(name + " (", lines)
         self.succeeds(*render, "--overwrite", "--set", "output.polar=false")
-        self.run_snippet()
-
-    def test_the_columns_of_a_waterfall(self):
-        """Slant range is linear in the column, through nadir; nothing echoes before range_min."""
-        self.edit("mission.yaml", "output:\n  folder: out\n",
-                  "  sss: {kind: sidescan, range_min_m: 0.5, range_max_m: 6.5, range_bins: 60}\n"
-                  "output:\n  folder: out/survey\n")
-        self.assert_renders()
+        self.run_snippet(python_with("numpy"))
         # The side-scan is the last of the sensors, so its are what the loop leaves behind.
-        printed = self.run_snippet("print(json.dumps([ranges.tolist(), pings.tolist()]))")
-        ranges, rows = json.loads(printed.splitlines()[-1])
-        self.assertEqual((len(rows), len(rows[0])), (6, 130))
-        for column, expected in ((0, 6.45), (64, 0.05), (65, 0.05), (129, 6.45)):
-            self.assertAlmostEqual(ranges[column], expected)
+        self.edit("mission.yaml", "output:\n  folder: out\n", "  sss: {kind: sidescan, range_min_m: 0.5, range_max_m: 6.5, "
+                  "range_bins: 60}\noutput:\n  folder: out/survey\n")
+        self.assert_renders("--overwrite")
+        more = "print(json.dumps([ranges.tolist(), pings[0].tolist()]))"
+        ranges, row = json.loads(self.run_snippet(python_with("numpy"), more=more)[-1])
+        self.assert_near((len(row), ranges[0], ranges[64], ranges[65], ranges[129]), (130, 6.45, 0.05, 0.05, 6.45))
         # The floor of the box is 1.5 m below, at the edge of a bin, so nothing is nearer.
         for side in (slice(0, 65), slice(65, 130)):
-            nearest = min(r for r, value in zip(ranges[side], rows[0][side]) if value > 0)
-            self.assertAlmostEqual(nearest, 1.55, delta=0.101)
+            self.assertAlmostEqual(min(r for r, value in zip(ranges[side], row[side]) if value > 0), 1.55, delta=0.101)
+
+    @unittest.skipIf(not PACKAGE, "needs the compiled module")
+    def test_pings_in_memory(self):
+        lines = self.run_snippet(MODULE_PYTHON, "pings in memory", folder=ROOT)
+        self.assertEqual((lines[0], len(lines)), ("(256, 256)", 4 + 90))
+
+    @unittest.skipIf(not PACKAGE or subprocess.run([MODULE_PYTHON, "-c", "import torch"], capture_output=True,
+                                                   check=False).returncode, "needs torch and the compiled module")
+    def test_a_training_loop(self):
+        lines = self.run_snippet(MODULE_PYTHON, "training loop", folder=ROOT)
+        losses = [float(line.split()[-1]) for line in lines if "loss" in line]
+        self.assertGreater(len(losses), 1, lines)
+        self.assertLess(losses[-1], losses[0])
 
 
 class Figures(unittest.TestCase):

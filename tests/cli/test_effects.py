@@ -22,21 +22,19 @@ class Moving(Composed):
         visible = 0
         for k in range(6):
             meta = self.meta(k)
-            pose = meta["T_world_object"]["fish"]
+            pose, sonar = meta["T_world_object"]["fish"], meta["T_world_sensor"]
             self.assert_near(pose["position_m"], (4, -2 + 0.8 * k, 1))
             for one in self.objects_of(k):
                 self.assertEqual(one.get("T_world_object"), pose if one["name"] == "fish" else None)
-                if one["name"] != "fish":
-                    continue
-                visible += 1
-                # A cube of 1 m that is not turned: its centre is where its pose is, and it is turned
-                # against the sonar as the world is.
-                box = one["box_sensor"]
-                self.assert_near(box["size_m"], (1, 1, 1), 1e-6)
-                self.assertAlmostEqual(math.hypot(*box["position_m"]),
-                                       math.dist(pose["position_m"], meta["T_world_sensor"]["position_m"]), places=9)
-                x, y, z, w = meta["T_world_sensor"]["quaternion_xyzw"]
-                self.assert_near(box["quaternion_xyzw"], (-x, -y, -z, w))
+                if one["name"] == "fish":
+                    visible += 1
+                    # A cube of 1 m that is turned against the sonar as the world is.
+                    box = one["box_sensor"]
+                    self.assert_near(box["size_m"], (1, 1, 1), 1e-6)
+                    self.assertAlmostEqual(math.hypot(*box["position_m"]), math.dist(pose["position_m"], sonar["position_m"]),
+                                           places=9)
+                    x, y, z, w = sonar["quaternion_xyzw"]
+                    self.assert_near(box["quaternion_xyzw"], (-x, -y, -z, w))
         self.assertGreater(visible, 1)
         self.assertEqual(len({v for k, v in digest(self.out).items() if "polar" in k}), 6)
 

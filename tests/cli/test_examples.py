@@ -6,10 +6,9 @@ import pathlib
 import re
 import shutil
 import subprocess
-import tempfile
 import unittest
 
-from sandbox import IN_MEMORY, SANITIZED, clone_to
+from clone import Clone
 
 # Its mesh is of Debian's openfoam-examples and converted by assimp, which render.sh installs; here it is
 # rendered where both are there.
@@ -31,18 +30,7 @@ GROUPS = (
 )
 
 
-class Examples(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls._temporary = tempfile.TemporaryDirectory(prefix="sonarsim-", dir=IN_MEMORY)
-        cls.addClassCleanup(cls._temporary.cleanup)
-        cls.clone = pathlib.Path(cls._temporary.name) / "clone"
-        cls.clone.mkdir()
-        if SANITIZED:
-            raise unittest.SkipTest("the sanitizers see in other tests what these missions run")
-        if not clone_to(cls.clone):
-            raise unittest.SkipTest("this is no checkout of git")
-
+class Examples(Clone):
     def render(self, *arguments):
         """scripts/render.sh with the program under test: nothing is installed or built."""
         return subprocess.run([self.clone / "scripts/render.sh", *arguments], cwd=self.clone, text=True,

@@ -1,5 +1,6 @@
-"""Disks that fail, memory that runs out, signals at any moment: an exit code, a sentence, and what
-is written is whole or, by the same command run again, becomes so."""
+"""Disks that fail, memory that runs out, signals and power cuts at any moment: an exit code, a sentence, and what is
+written is whole or, by the same command run again, becomes so."""
+import contextlib
 import json
 import os
 import random
@@ -11,11 +12,15 @@ import subprocess
 import time
 import unittest
 
-from sandbox import ALL_FILES, SANITIZED, SONARSIM, Sandbox, digest, path_csv
-
-FAULTY_DISK = os.environ["FAULTY_DISK"]
+from sandbox import ALL_FILES, SANITIZED, SONARSIM, Sandbox, digest, path_csv, with_disk
 
 RECORDS = ("soundings.npy", "waterfall.npy", "echogram.npy")
+# What a line of the journal or dataset.json counts on is durable before it is written.
+CHECKPOINT = ["syncfs out", "write out/journal.d/1-of-1.txt", "fdatasync out/journal.d/1-of-1.txt"]
+BEGIN = ["fsync out/..dataset.json.part.part", "close out/..dataset.json.part.part", "rename out/.dataset.json.part",
+         "fsync out", "link out/dataset.json", "syncfs out"]
+END = ["syncfs out", "open out/.dataset.json.part", "write out/.dataset.json.part", "fsync out/.dataset.json.part",
+       "close out/.dataset.json.part", "rename out/dataset.json", "fsync out"]
 
 
 class Faults(Sandbox):
@@ -55,35 +60,35 @@ class FaultyDisk(Faults):
         super().setUp()
         self.write("mission.yaml", ALL_FILES)
         self.write("path.csv", path_csv(1))
-        self.log = self.folder / "calls"
+        self.whole = self.render_whole()
 
     def render_faulty(self, mode, call=0):
-        self.log.unlink(missing_ok=True)
-        environment = dict(os.environ, LD_PRELOAD=FAULTY_DISK, FAULTY_DISK_BELOW=str(self.out),
-                           FAULTY_DISK_LOG=str(self.log), FAULTY_DISK_MODE=mode,
-                           FAULTY_DISK_CALL=str(call))
-        result = self.render("-j1", env=environment)
-        calls = self.log.read_text() if self.log.exists() else ""
+        """The result, and the calls that write, by their names in the sandbox."""
+        log = self.folder / "calls"
+        log.unlink(missing_ok=True)
+        result = self.render("-j1", env=with_disk(self, mode, call))
+        calls = log.read_text().replace(f"{self.folder}/", "") if log.exists() else ""
         return result, re.sub(r"\.[0-9a-f]{16}\.part", ".part", calls).splitlines()
 
     def test_every_call_that_writes_may_fail(self):
-        whole = self.render_whole()
         result, calls = self.render_faulty("none")
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(digest(self.out), whole)
-        shutil.rmtree(self.out)
+        self.assertEqual(digest(self.out), self.whole)
         # Four kinds of sonar with all their files: fewer would mean that the disk is not asked.
         self.assertEqual({call.split()[0] for call in calls},
                          {"open", "write", "pwrite", "ftruncate", "rename", "link", "mkdir", "fopen",
                           "fwrite", "fclose", "close", "fsync", "fdatasync", "syncfs"})
         self.assertGreater(len(calls), self.FEWEST_CALLS)
+        for expected, at in ((BEGIN, calls.index(BEGIN[0])), (CHECKPOINT, calls.index(CHECKPOINT[1]) - 1),
+                             (END, len(calls) - len(END) - 1)):
+            self.assertEqual(calls[at:at + len(expected)], expected)
         every = 10 if SANITIZED else 1
         for number in range(1, len(calls) + 1, every):
-            self.check_call("once", "Input/output error", calls, number, number % 12 == 0, whole)
+            self.check_call("once", "Input/output error", calls, number, number % 12 == 0)
         for number in range(1, len(calls) + 1, 10 * every):
-            self.check_call("full", "No space left on device", calls, number, True, whole)
+            self.check_call("full", "No space left on device", calls, number, True)
 
-    def check_call(self, mode, reason, calls, number, go_on, whole):
+    def check_call(self, mode, reason, calls, number, go_on):
         with self.subTest(mode=mode, number=number, call=calls[number - 1]):
             shutil.rmtree(self.out, ignore_errors=True)
             result, seen = self.render_faulty(mode, number)
@@ -96,38 +101,37 @@ class FaultyDisk(Faults):
             self.assertIn(reason, result.stderr)
             self.assertIn(str(self.out), result.stderr)
             if self.is_complete():
-                # All of it is durable but the name that says so: the very last call.
-                self.assertTrue(calls[number - 1].startswith("fsync"), calls[number - 1])
-                self.assertFalse([c for c in calls[number:] if c.startswith(("write", "rename"))])
+                self.assertEqual(number, len(calls) - 1, "the last fsync, after which all is durable")
             self.assert_whole()
             if go_on:
-                self.assert_can_go_on(whole)
+                self.assert_can_go_on(self.whole)
 
     def test_writes_that_are_done_in_parts(self):
-        whole = self.render_whole()
         for mode in ("short", "interrupted"):
             with self.subTest(mode=mode):
                 result, calls = self.render_faulty(mode)
                 self.assertEqual(result.returncode, 0, result.stderr)
-                self.assertEqual(digest(self.out), whole)
+                self.assertEqual(digest(self.out), self.whole)
                 self.assertGreater(len(calls), self.FEWEST_CALLS)
                 shutil.rmtree(self.out)
 
     def test_results_that_nobody_can_take(self):
-        for arguments in (["render", "mission.yaml", "--no-files"], ["inspect", "box.gltf"],
-                          ["validate", "mission.yaml"], ["--help"]):
+        for arguments in (["render", "mission.yaml", "--no-files"], ["inspect", "box.gltf"], ["validate", "mission.yaml"],
+                          ["--help"]):
             with self.subTest(arguments=arguments), open("/dev/full", "w") as full:
-                result = subprocess.run([SONARSIM, *arguments], cwd=self.folder, text=True,
-                                        stdout=full, stderr=subprocess.PIPE, check=False)
+                result = subprocess.run([SONARSIM, *arguments], cwd=self.folder, text=True, stdout=full,
+                                        stderr=subprocess.PIPE, check=False)
                 self.assertEqual(result.returncode, 1, result.stderr)
                 self.assertIn("No space left on device", result.stderr)
 
 
 class RandomSignals(Faults):
-    POSES = 120
+    def start(self, *arguments):
+        return subprocess.Popen([SONARSIM, "render", "mission.yaml", *arguments], cwd=self.folder, text=True,
+                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
 
     def test_signals_at_random_moments(self):
-        self.write("path.csv", path_csv(self.POSES))
+        self.write("path.csv", path_csv(120))
         start = time.monotonic()
         whole = self.render_whole()
         longest = time.monotonic() - start
@@ -139,9 +143,7 @@ class RandomSignals(Faults):
             wait = draw.uniform(0.0, longest)
             before = digest(self.out) if self.out.exists() else {}
             with self.subTest(signal=number, wait=wait):
-                with subprocess.Popen([SONARSIM, "render", "mission.yaml"], cwd=self.folder,
-                                      text=True, stdout=subprocess.DEVNULL,
-                                      stderr=subprocess.PIPE) as process:
+                with self.start() as process:
                     time.sleep(wait)
                     process.send_signal(number)
                     _, stderr = process.communicate(timeout=60)
@@ -158,41 +160,73 @@ class RandomSignals(Faults):
                 self.assert_whole(killed)
         self.assert_can_go_on(whole)
 
+    def test_power_cuts(self):
+        """Where the power goes, files of pings that no line of the journal names are there, in part, or not at all."""
+        self.write("mission.yaml", ALL_FILES)
+        self.write("path.csv", path_csv(80))
+        whole = self.render_whole()
+        draw = random.Random(7)
+        lost = 0
+        for k in range(3 if SANITIZED else 10):
+            begun = len(self.durable_pings())
+            with self.start("-j2", "--checkpoint", "0.01") as process:
+                while process.poll() is None and len(self.durable_pings()) == begun:
+                    time.sleep(0.001)
+                process.kill()
+            lost += self.lose_power(draw)
+            if k % 3 == 2:
+                self.assert_can_go_on(whole)
+        self.assert_can_go_on(whole)
+        self.assertGreater(lost, 0)
+
+    def durable_pings(self):
+        """Pairs of a sensor's number and a ping."""
+        lines = ""
+        for path in (*self.out.glob("journal.d/*"), self.out / "journal.txt"):
+            with contextlib.suppress(FileNotFoundError):
+                lines += path.read_text()
+        return {(int(sensor), int(ping)) for sensor, ping in re.findall(r"^ping (\d+) (\d+) ", lines, re.M)}
+
+    def lose_power(self, draw):
+        """The number of files that are lost."""
+        durable = self.durable_pings()
+        lost = 0
+        for number, sensor in enumerate(("fls", "mbes", "sss", "sounder")):
+            for path in self.out.glob(f"{sensor}/*/*"):
+                fate = draw.choice(("there", "part", "none"))
+                if (number, int(path.name.strip(".")[:6])) not in durable and fate != "there":
+                    lost += 1
+                    os.truncate(path, path.stat().st_size // 2) if fate == "part" else path.unlink()
+        return lost
+
     def test_a_second_signal_ends_at_once(self):
-        self.write("path.csv", path_csv(20 * self.POSES))
-        with subprocess.Popen([SONARSIM, "render", "mission.yaml"], cwd=self.folder,
-                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as process:
+        self.write("path.csv", path_csv(2400))
+        with self.start() as process:
             while not list(self.out.glob("fls/meta/*.json")):
                 self.assertIsNone(process.poll())
                 time.sleep(0.01)
             process.send_signal(signal.SIGSTOP)  # so that both are there before it can react
-            process.send_signal(signal.SIGINT)
-            process.send_signal(signal.SIGTERM)
-            process.send_signal(signal.SIGCONT)
+            for number in (signal.SIGINT, signal.SIGTERM, signal.SIGCONT):
+                process.send_signal(number)
             process.communicate(timeout=60)
         self.assertIn(process.returncode, {-signal.SIGINT, -signal.SIGTERM, 130, 143})
 
 
 class Machine(Faults):
-    def limited(self, *arguments, megabytes):
-        def limit():
-            resource.setrlimit(resource.RLIMIT_AS, (megabytes << 20, megabytes << 20))
-
-        return self.run_sonarsim(*arguments, preexec_fn=limit)
-
     @unittest.skipIf(SANITIZED, "a program under a sanitizer cannot be held to so little memory")
     def test_memory_runs_out_anywhere(self):
         """From what suffices down to what the libraries cannot even be loaded with."""
-        whole = self.render_whole()
-        def loads(megabytes):
-            return self.limited("--version", megabytes=megabytes).returncode == 0
+        def limited(*arguments, megabytes):
+            return self.run_sonarsim(*arguments, preexec_fn=lambda: resource.setrlimit(
+                resource.RLIMIT_AS, (megabytes << 20, megabytes << 20)))
 
-        least = next(mb for mb in range(100, 2000, 10) if loads(mb))
+        whole = self.render_whole()
+        least = next(mb for mb in range(100, 2000, 10) if limited("--version", megabytes=mb).returncode == 0)
         failed = 0
         # Where a library lies in memory is up to chance, and so is the last bit that it needs.
         for megabytes in range(least + 40, least + 500, 40):
             with self.subTest(megabytes=megabytes):
-                result = self.limited("render", "mission.yaml", "-j2", megabytes=megabytes)
+                result = limited("render", "mission.yaml", "-j2", megabytes=megabytes)
                 self.assertIn(result.returncode, (0, 1), result.stderr)
                 self.assertEqual(self.is_complete(), result.returncode == 0)
                 self.assert_whole()
@@ -215,7 +249,7 @@ class Machine(Faults):
             self.skipTest("root writes everywhere, and nobody cannot run the program here")
         result = self.render(**options)
         self.assertEqual(result.returncode, 1, result.stderr)
-        self.assertIn("out", result.stderr)
+        self.assertIn(f"{self.out}", result.stderr)
         self.assertIn("Permission denied", result.stderr)
 
 

@@ -5,17 +5,21 @@ import struct
 import subprocess
 import unittest
 
-from sandbox import ROOT, SONARSIM, Sandbox, box_gltf, python_with
+from sandbox import ALL_FILES, MISSION, ROOT, SONARSIM, Sandbox, box_gltf, python_with
 
 
 class Inspect(Sandbox):
     def test_a_scene(self):
-        text = self.succeeds("inspect", "box.gltf").stdout
-        self.assertIn("Concrete", text)
-        self.assertIn("walls", text)
         scene = json.loads(self.succeeds("inspect", "box.gltf", "--json").stdout)
         # Half-extents 2, 1.5, 2 in glTF axes; (x, y, z)_world = (x, -z, y)_gltf.
         self.assertEqual((scene["triangles"], scene["bounds_min_m"], scene["bounds_max_m"]), (12, [-2, -2, -1.5], [2, 2, 1.5]))
+        # ((2400 * 3200 - 997 * 1480) / (2400 * 3200 + 997 * 1480))^2 = 0.459.
+        text = self.succeeds("inspect", "box.gltf", "--materials", "materials.csv").stdout
+        self.assertEqual(text.split("reflection\n")[1].split()[:4], ["Concrete", "2400", "3200", "0.459"])
+        self.assertIn("walls", text)
+        self.write("box.gltf", box_gltf(material="Granite"))
+        result = self.succeeds("inspect", "box.gltf", "--materials", "materials.csv")
+        self.assertIn("Granite   not in materials.csv", result.stdout)
 
     def test_a_csv_to_fill_in(self):
         self.write("box.gltf", box_gltf(material="Con, crete"))
@@ -27,15 +31,6 @@ class Inspect(Sandbox):
         self.succeeds("validate", "mission.yaml")
         again = self.succeeds("inspect", "box.gltf", "--materials-csv", "--materials", "materials.csv")
         self.assertEqual(again.stdout, result.stdout.replace(",,", ",2400,3200"))
-
-    def test_reflection_coefficients(self):
-        """((2400 * 3200 - 997 * 1480) / (2400 * 3200 + 997 * 1480))^2 = 0.459."""
-        result = self.succeeds("inspect", "box.gltf", "--materials", "materials.csv")
-        row = result.stdout.split("reflection\n")[1].splitlines()[0].split()
-        self.assertEqual(row, ["Concrete", "2400", "3200", "0.459"])
-        self.write("box.gltf", box_gltf(material="Granite"))
-        result = self.succeeds("inspect", "box.gltf", "--materials", "materials.csv")
-        self.assertIn("Granite   not in materials.csv", result.stdout)
 
     def test_the_tables_of_scattering_in_the_docs(self):
         """Every row of docs/calibrated.md under `| 100 kHz |` and `| 400 kHz |` is what is printed."""
@@ -68,9 +63,7 @@ class Preset(Sandbox):
 
     def test_a_preset_that_came_with_the_program(self):
         text = self.succeeds("preset", "gemini_720is").stdout
-        for line in ("preset      gemini_720is\n", "source      ", " dB re 1 uPa, auto\n",
-                     "Mean echo and noise are equal at (bottoms at 20 degrees of grazing)", "sphere "):
-            self.assertIn(line, text)
+        self.assertIn("Mean echo and noise are equal at (bottoms at 20 degrees of grazing)", text)
         base = self.reported("gemini_720is")
         ranges = base["noise_range_m"]
         self.assertTrue(ranges["mud"] < ranges["sand"] < ranges["rock"], ranges)
@@ -95,54 +88,31 @@ class Preset(Sandbox):
         names = [one["preset"] for one in self.reported()]
         self.assertEqual(names, sorted(p.stem for p in (ROOT / "configs/sensors").glob("*.yaml")))
 
-    def calibrated(self, instrument):
-        text = (self.folder / "mission.yaml").read_text()
-        noise = text[text.index("    noise:"):text.index("output:")]
-        self.edit("mission.yaml", noise, f"    model: calibrated\n    instrument: {instrument}\n")
-
-    def test_a_dataset_has_the_numbers_that_auto_came_to(self):
-        self.calibrated("{frequency_hz: 9e5, receiver: {tvg_from_m: 1.5}}")
-        self.assert_renders()
-        reported = self.dataset()["sensors"][0]["instrument"]
-        self.assertEqual((reported["echo_level_unit"], reported["tvg_from_m"]), ("dB re 1 uPa", 1.5))
-        self.assertIn("tvg_log log10(max(range_m, tvg_from_m))", reported["echo_level"])
-        self.assertGreater(reported["source_level_db"], 150)
-        self.assertTrue(0 < reported["noise_db"] < reported["full_scale_db"])
-        self.assertIn("noise_db: auto", (self.out / "mission.resolved.yaml").read_text())
-
     def test_levels_that_do_not_fit(self):
-        self.calibrated("{source_level_db: 210, receiver: {noise_db: -100}}")
-        self.refused("mission.yaml:17:", "source_level_db: 0")
-        sound = "source_level_db: 210, receiver: {noise_db: -100}"
-        for levels, advice in (("source_level_db: 0, receiver: {noise_db: -20}", r"lower instrument.receiver.noise_db \(-20\)"),
+        noise = MISSION[MISSION.index("    noise:"):MISSION.index("output:")]
+        for levels, advice in (("source_level_db: 210, receiver: {noise_db: -100}", None),
+                               ("source_level_db: 0, receiver: {noise_db: -20}", r"lower instrument.receiver.noise_db \(-20\)"),
                                ("source_level_db: 120, frequency_hz: 2.5e6", "raise instrument.source_level_db")):
-            self.edit("mission.yaml", sound, levels)
-            sound = levels
-            self.assertRegex(self.succeeds("validate", "mission.yaml").stderr, rf"W18.*{advice} by \d+ dB")
+            self.write("mission.yaml", MISSION.replace(noise, f"    model: calibrated\n    instrument: {{{levels}}}\n"))
+            if advice is None:
+                self.refused("mission.yaml:17:", "source_level_db: 0")
+            else:
+                self.assertRegex(self.succeeds("validate", "mission.yaml").stderr, rf"W18.*{advice} by \d+ dB")
 
 
 class Preview(Sandbox):
+    """Its picture: tests/preview."""
+
     def test_one_picture_of_every_kind(self):
-        text = (self.folder / "mission.yaml").read_text()
-        self.write("mission.yaml", text[:text.index("sensors:")] + """\
-sensors:
-  fls: {kind: imaging, range_max_m: 6, range_bins: 48, azimuth_bins: 32}
-  mbes: {kind: profiling, range_max_m: 6, range_bins: 48, azimuth_bins: 32}
-  sss: {kind: sidescan, range_max_m: 6, range_bins: 48, every: 2}
-  sounder: {kind: echosounder, range_max_m: 6, range_bins: 48}
-  head: {kind: scanning, range_max_m: 6, range_bins: 48, step_deg: 45}
-output: {folder: out}
-""")
+        self.write("mission.yaml", ALL_FILES.replace("name: faults", "name: box").replace(
+            "output:", "  head: {kind: scanning, range_max_m: 6, range_bins: 48, step_deg: 45}\noutput:"))
         self.assertIn("box_preview.png: ping 5 of box", self.succeeds("preview", "mission.yaml", "--ping", 5).stderr)
         picture = (self.folder / "box_preview.png").read_bytes()
         # Five sonars and a plan: two rows of three tiles, RGB.
         self.assertEqual(struct.unpack(">II", picture[16:24]) + (picture[25],), (3 * 612 + 12, 30 + 2 * 452, 2))
-        self.assertFalse(self.out.exists())
-        # The same bytes once more; another ping is another picture.
-        self.succeeds("preview", "mission.yaml", "--ping", 5, "--out", "again.png")
-        self.assertEqual((self.folder / "again.png").read_bytes(), picture)
         self.succeeds("preview", "mission.yaml", "--ping", 0, "--out", "other.png", "-q")
         self.assertNotEqual((self.folder / "other.png").read_bytes(), picture)
+        self.assertFalse(self.out.exists())
         self.assert_refused(self.run_sonarsim("preview", "mission.yaml", "--ping", 6, "--out", "none.png"),
                             "--ping 6: the mission has the pings 0 to 5")
         self.assertFalse((self.folder / "none.png").exists())

@@ -1,26 +1,20 @@
-"""sonarsim merge, and the render that completes what it copied: the dataset of a single run, to the byte; shards by
-the tasks of a Slurm array, with its merge; and what `sonarsim status` says of a job."""
+"""sonarsim merge, and the render that completes what it copied: the dataset of a single run, to the byte; and what
+`sonarsim status` says of a job."""
 import json
-import os
 import shutil
 import subprocess
 import time
 import unittest
 
-from sandbox import ALL_FILES, ROOT, SONARSIM, Sandbox, digest, path_csv
+from sandbox import ALL_FILES, SONARSIM, Sandbox, digest, path_csv
 
 
-class Whole(Sandbox):
+class Merge(Sandbox):
     def setUp(self):
         super().setUp()
         self.write("mission.yaml", ALL_FILES)
         self.write("path.csv", path_csv(5))
         self.whole = self.render_whole()
-
-
-class Merge(Whole):
-    def setUp(self):
-        super().setUp()
         for k in "123":
             self.assert_renders("--shard", f"{k}/3", "--out", f"part{k}", "-j" + k)
 
@@ -39,17 +33,13 @@ class Merge(Whole):
         self.assertEqual(self.run_sonarsim("verify", folders[-1]).returncode, 0)
         return merged
 
-    def test_in_any_order_without_the_inputs(self):
+    def test_in_any_order_without_the_inputs_and_again(self):
         for name in ("box.gltf", "path.csv"):
             (self.folder / name).rename(self.folder / f"away.{name}")
         self.succeeds("merge", "part3", "part1", "part2", "all")
         for name in ("box.gltf", "path.csv"):
             (self.folder / f"away.{name}").rename(self.folder / name)
         self.assertEqual(self.assert_merges("part1", "part2", "part3", "all")["pings"], 0)
-
-    def test_again_and_what_overlaps(self):
-        shutil.copytree(self.folder / "part1", self.folder / "all")
-        self.assertEqual(self.assert_merges("part2", "part3", "all")["pings"], 13)
         self.assertIs(self.assert_merges("part1", "all", "part1", "copy")["complete"], True)
 
     def test_render_renders_what_is_missing(self):
@@ -107,71 +97,6 @@ class Merge(Whole):
         result = self.run_sonarsim("merge", "part1", "part2", "part3", "all")
         self.assertEqual(result.returncode, 1)
         self.assertIn("part2/sss/", result.stderr)
-
-
-# Stands in for Slurm's: runs the tasks of a job at once, and one that depends on a job only if that did well.
-SBATCH = """\
-#!/usr/bin/env bash
-tasks=0 log=/dev/null ok=1
-while [[ $1 == --* ]]; do
-    case $1 in
-        --array=1-*) tasks=${1#--array=1-} ;;
-        --output=*) log=${1#--output=} ;;
-        --dependency=afterok:*) [[ ! -e $SLURM_FAILED/${1#--dependency=afterok:} ]] || ok=0 ;;
-        --parsable | --kill-on-invalid-dep=yes | --job-name=* | --time=5) ;;
-        *) exit 1 ;;
-    esac
-    shift
-done
-job=$$
-echo $job
-[[ $ok == 1 ]] || exit 0
-export SLURM_CPUS_PER_TASK=2
-if [[ $tasks == 0 ]]; then "$@" >"$log" 2>&1; exit 0; fi
-export SLURM_ARRAY_TASK_COUNT=$tasks SLURM_ARRAY_TASK_MIN=1 SLURM_ARRAY_TASK_MAX=$tasks
-for ((k = 1; k <= tasks; ++k)); do
-    SLURM_ARRAY_TASK_ID=$k "$@" >"${log/\\%a/$k}" 2>&1 || touch "$SLURM_FAILED/$job"
-done
-"""
-
-
-class Clusters(Whole):
-    def in_array(self, task, count, first=1, last=None):
-        return dict(os.environ, SLURM_ARRAY_TASK_ID=str(task), SLURM_ARRAY_TASK_COUNT=str(count),
-                    SLURM_ARRAY_TASK_MIN=str(first), SLURM_ARRAY_TASK_MAX=str(count if last is None else last))
-
-    def test_shards_by_the_task_of_an_array(self):
-        for task, shard in ((4, 1), (6, 2), (8, 3)):
-            result = self.assert_renders(env=self.in_array(task, 3, 4, 8))
-            self.assertIn(f"--shard {shard}/3", result.stderr)
-        self.assertEqual(digest(self.out), self.whole)
-        # The command line counts first, and an array may have a gap.
-        shutil.rmtree(self.out)
-        self.assert_renders("--shard", "1/1", env=self.in_array(2, 3))
-        self.assertEqual(digest(self.out), self.whole)
-        self.assert_refused(self.render(env=self.in_array(3, 3, 1, 7)),
-                            "task 3 of a Slurm array", "--array=1-N", "--shard I/N")
-
-    def test_the_scripts_of_slurm(self):
-        self.write("bin/sbatch", SBATCH).chmod(0o755)
-        failed = self.folder / "failed"
-        failed.mkdir()
-        environment = dict(os.environ, SONARSIM=SONARSIM, SLURM_FAILED=str(failed),
-                           PATH=f"{self.folder}/bin:{os.environ['PATH']}")
-
-        def submit():
-            subprocess.run([ROOT / "scripts/slurm/render.sh", "3", "mission.yaml", "all", "--time=5"], cwd=self.folder,
-                           env=environment, capture_output=True, text=True, timeout=60, check=True)
-            return "\n".join(p.read_text() for p in (self.folder / "all.parts").glob("*.log"))
-
-        # Where a shard fails nothing is merged; the same command goes on from what is there.
-        (self.folder / "box.gltf").rename(self.folder / "away")
-        self.assertIn("box.gltf", submit())
-        self.assertFalse((self.folder / "all").exists())
-        (self.folder / "away").rename(self.folder / "box.gltf")
-        logs = submit()
-        self.assertTrue((self.folder / "all").exists(), logs)
-        self.assertEqual(digest(self.folder / "all"), self.whole, logs)
 
 
 class Status(Sandbox):

@@ -1,12 +1,10 @@
 """The Python package: the pings of a mission in memory are those of the files of `render`."""
 import ast
-import copy
 import gc
 import importlib
 import inspect
 import os
 import pathlib
-import subprocess
 import sys
 import threading
 import time
@@ -23,34 +21,18 @@ if os.environ.get("SONARSIM_PYTHON_STARTED") != PYTHON:     # the Python that th
     os.environ["SONARSIM_PYTHON_STARTED"] = PYTHON
     os.execv(PYTHON, [PYTHON, "-B", __file__, *sys.argv[1:]])
 sys.path.insert(0, PACKAGE)
-from sandbox import ROOT, Sandbox, path_csv, run_with
+from sandbox import ALL_FILES, Sandbox, path_csv, run_with
 
 run_with("numpy")
 import numpy as np
 import sonarsim
 import sonarsim.data
 
-try:
-    import torch
-except ImportError:
-    torch = None
-
-KINDS = """\
-name: kinds
-seed: 7
-scene: {file: box.gltf, materials: materials.csv}
-trajectory: {file: path.csv}
-sensors:
-  fls: {kind: imaging, azimuth_deg: 60, range_max_m: 6, range_bins: 40, azimuth_bins: 24,
-        noise: {add_sigma: 0.05, range_lambda_m: 0.02}, multipath: {method: exact}}
+KINDS = ALL_FILES.replace("output: {folder: out, image: true}", """\
   oculus: {preset: sensors/oculus_m1200d_2100khz_10m.yaml, range_max_m: 6, range_bins: 64}
-  mbes: {kind: profiling, range_max_m: 6, range_bins: 16, azimuth_bins: 8, every: 2}
-  sss: {kind: sidescan, range_max_m: 6, range_bins: 16, noise: {add_sigma: 0.05}}
-  sounder: {kind: echosounder, range_max_m: 6, range_bins: 16}
-  head: {kind: scanning, range_max_m: 6, range_bins: 16}
+  head: {kind: scanning, range_max_m: 6, range_bins: 16, every: 2}
   towed: {kind: sidescan, model: calibrated, range_max_m: 6, range_bins: 64}
-output: {folder: out, labels: true}
-"""
+output: {folder: out, labels: true}""")
 POSES = 5
 # The files of a ping that are pictures for people, or products of several pings.
 PICTURES = {"image", "fan", "stages", "meta", "soundings"}
@@ -65,14 +47,9 @@ vary:
 
 def content_of(ping):
     """What a ping holds, for comparisons."""
-    labels = {name: value.tobytes() if isinstance(value, np.ndarray) else value
-              for name, value in ping.labels.items()}
-    return (ping.sensor, ping.number, ping.variant, ping.image.tobytes(),
-            None if ping.raw is None else ping.raw.tobytes(), labels, ping.metadata)
-
-
-def resident_bytes():
-    return int(pathlib.Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+    arrays = {"image": ping.image, "raw": ping.raw, **ping.labels}
+    return (ping.sensor, ping.number, ping.variant, ping.metadata,
+            {name: value.tobytes() if isinstance(value, np.ndarray) else value for name, value in arrays.items()})
 
 
 class Package(Sandbox):
@@ -102,20 +79,11 @@ class Package(Sandbox):
         self.assertEqual(set(arrays), set(sample) - PICTURES)
         for name, value in arrays.items():
             expected = sample[name]
-            if not isinstance(value, np.ndarray):
-                self.assertEqual(value, expected, name)
-                continue
-            self.assertEqual((value.dtype, value.shape), (expected.dtype, expected.shape), name)
-            self.assertEqual(value.tobytes(), np.ascontiguousarray(expected).tobytes(), name)
+            if isinstance(value, np.ndarray):
+                self.assertEqual((value.dtype, value.shape), (expected.dtype, expected.shape), name)
+                value, expected = value.tobytes(), np.ascontiguousarray(expected).tobytes()
+            self.assertEqual(value, expected, name)
         self.assertEqual(ping.metadata, sample["meta"])
-
-    def run_page(self, program):
-        """The lines that a program of the page prints, run where the examples are."""
-        result = subprocess.run([sys.executable, "-B", "-c", program], cwd=ROOT, capture_output=True,
-                                text=True, check=False, timeout=300,
-                                env={**os.environ, "PYTHONPATH": PACKAGE, "OMP_NUM_THREADS": "1"})
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return result.stdout.splitlines()
 
 
 class SameBytes(Package):
@@ -135,8 +103,7 @@ class SameBytes(Package):
                               "elevation", "clean", "shadow", "objects", "fan_instance"}, seen)
         self.assertEqual(len(mission), 6 * POSES + 3)
         pings = list(mission)
-        self.assertEqual([(p.number, p.sensor) for p in pings[:4]],
-                         [(0, "fls"), (0, "oculus"), (0, "mbes"), (0, "sss")])
+        self.assertEqual([p.sensor for p in pings[:4]], ["fls", "mbes", "sss", "sounder"])
         self.assertEqual(len(pings), len(mission))
         # Another order, more threads and shards change nothing.
         parts = [list(mission.pings(threads=2, shard=(k, 2))) for k in range(2)]
@@ -154,12 +121,11 @@ class SameBytes(Package):
             self.assert_same(variant, dataset.folder)
         pings = [content_of(p) for p in mission]
         self.assertEqual([p[2] for p in pings], [0] * 6 + [1] * 6 + [2] * 6)
-        for count in (2, 5):    # whole variants, and parts of them
-            shards = [list(mission.pings("fls", shard=(k, count))) for k in range(count)]
-            self.assertEqual([len(one) for one in shards],
-                             [mission.count("fls", shard=(k, count)) for k in range(count)])
-            merged = sorted((p for one in shards for p in one), key=lambda p: (p.variant, p.number))
-            self.assertEqual([content_of(p) for p in merged], pings)
+        # Parts of variants; whole ones are in Torch.
+        shards = [list(mission.pings("fls", shard=(k, 5))) for k in range(5)]
+        self.assertEqual([len(one) for one in shards], [mission.count("fls", shard=(k, 5)) for k in range(5)])
+        merged = sorted((p for one in shards for p in one), key=lambda p: (p.variant, p.number))
+        self.assertEqual([content_of(p) for p in merged], pings)
         with self.assertRaisesRegex(ValueError, r"has 3 variants: ask one of them.*variants\[0\]"):
             mission.ping(0)
 
@@ -168,17 +134,13 @@ class SameBytes(Package):
                             "--set", "sensors.fls.noise={add_sigma: 0.2}")
         changes = {"seed": 9, "sensors.fls.range_bins": np.int64(40), "sensors.fls.noise": {"add_sigma": 0.2}}
         self.assert_same(self.open(changes), self.out)
-        as_text = {"seed": "9", "sensors.fls.range_bins": "40", "sensors.fls.noise": "{add_sigma: 0.2}"}
-        self.assert_same(self.open(as_text), self.out)
         written = {
             "name": "box", "seed": 9,
             "scene": {"file": pathlib.Path("box.gltf"), "materials": "materials.csv"},
             "trajectory": {"file": "path.csv"},
             "sensors": {"fls": {"kind": "imaging", "azimuth_deg": 60, "elevation_deg": 12, "range_max_m": 6,
                                 "range_bins": 40, "azimuth_bins": 32, "noise": {"add_sigma": 0.2}}}}
-        before = copy.deepcopy(written)
         self.assert_same(sonarsim.open(written, paths_from=self.folder), self.out)
-        self.assertEqual(written, before)
 
 
 class Use(Package):
@@ -192,7 +154,6 @@ class Use(Package):
                              result.stderr.replace(f"{self.folder}/", "").splitlines())
             return str(caught.exception)
 
-        said("sensors.fls.range_bins=none")
         said("sensors.fls.rang_bins=5", "seed=-1")
         said("trajectory.file=nowhere.csv")
         self.edit("mission.yaml", "azimuth_bins: 32", "azimuth_bims: 32")
@@ -219,8 +180,8 @@ class Use(Package):
             mission.pings(shard=(2, 2))
 
     def test_other_threads_run_meanwhile(self):
-        """One ping of several tenths of a second; a thread counts its own turns meanwhile. A thread that
-        held the lock would leave it none."""
+        """A ping of several tenths of a second; a thread counts its own turns meanwhile, of which a ping that held the
+        lock would leave none."""
         mission = self.open({"sensors.fls.range_bins": 3000, "sensors.fls.azimuth_bins": 1500,
                              "sensors.fls.multipath": {"method": "exact"}})
         turns, done = [0], threading.Event()
@@ -231,15 +192,13 @@ class Use(Package):
 
         thread = threading.Thread(target=count)
         thread.start()
-        time.sleep(0.01)
         before, began = turns[0], time.monotonic()
         mission.ping(0)
         seconds, counted = time.monotonic() - began, turns[0] - before
         done.set()
         thread.join()
         # Of some 900 turns a second a busy machine may take most.
-        self.assertGreater(counted, 20 * seconds, f"{counted} turns in {seconds:.2f} s")
-        self.assertGreater(counted, 3)
+        self.assertGreater(counted, max(3, 20 * seconds))
 
     def test_memory_does_not_grow(self):
         mission = self.open({"output.labels": "[instance, class, objects, clean]"})
@@ -249,7 +208,7 @@ class Use(Package):
             for k in range(times):
                 self.assertEqual(content_of(mission.ping(k % 6)), content_of(pings[k % 6]))
             gc.collect()
-            return resident_bytes()
+            return int(pathlib.Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
 
         before = work(100)
         # A ping takes some 40 kB; 400 of them 16 MB.
@@ -258,9 +217,6 @@ class Use(Package):
     def test_arrays_are_their_own(self):
         mission = self.open({"output.labels": "[class]"})
         ping = mission.ping(0)
-        self.assertEqual([repr(one) for one in (ping, mission, mission.sensors["fls"])],
-                         ["<ping 0 of 'fls': image, class [48, 32]>", "<mission 'box': sensors fls>",
-                          "<sensor 'fls': imaging, 6 pings>"])
         before = content_of(ping)
         ping.image[:] = ping.pose[:] = -1
         ping.labels["class"][:] = 7
@@ -269,11 +225,6 @@ class Use(Package):
         gc.collect()
         self.assertEqual(content_of(again), before)
         self.assertNotEqual(again.pose[0], -1)
-
-    def test_the_first_program_of_the_page(self):
-        program = (ROOT / "docs/dataset.md").read_text().split("<!-- pings in memory -->\n```python\n")[1].split("```")[0]
-        lines = self.run_page(program)
-        self.assertEqual((lines[0], len(lines)), ("(256, 256)", 4 + 90))
 
     def test_the_stubs_are_those_of_the_code(self):
         """Every name of a stub is in the module, and functions have the parameters of the stub."""
@@ -310,7 +261,6 @@ class Torch(Package):
         tools = types.SimpleNamespace(IterableDataset=object, get_worker_info=None)
         module = self.module(types.SimpleNamespace(utils=types.SimpleNamespace(data=tools)))
         for variants, shard, expected in (
-                (VARIED, (1, 3), [(1, k) for k in range(6)]),
                 (VARIED, (0, 2), [(v, k) for v in (0, 2) for k in range(6)]),
                 (VARIED, (1, 4), [(v, k) for v in range(3) for k in (1, 5)]),
                 ("", (1, 2), [(None, k) for k in (1, 3, 5)])):
@@ -328,16 +278,6 @@ class Torch(Package):
         objects = {"ping": 3, "objects": []}
         text = module.tensor_of(types.SimpleNamespace(image=None, raw=None, sensor="fls", labels={"objects": objects}), "objects")
         self.assertEqual(text, '{"ping": 3, "objects": []}')
-
-    @unittest.skipIf(torch is None, "needs torch")
-    def test_the_training_loop_of_the_page(self):
-        page = (ROOT / "docs/dataset.md").read_text()
-        loop = page.split("<!-- training loop -->\n```python\n")[1].split("```")[0]
-        self.assertLessEqual(len(loop.splitlines()), 35)
-        lines = self.run_page(loop)
-        losses = [float(line.split()[-1]) for line in lines if "loss" in line]
-        self.assertGreater(len(losses), 1, lines)
-        self.assertLess(losses[-1], losses[0])
 
 
 if __name__ == "__main__":

@@ -74,25 +74,22 @@ class Sweep(Sandbox):
         self.assertEqual(len(self.index()), 3)
 
     def test_mistakes(self):
-        for arguments, message in ((["add_sgma=0"], "unknown: add_sgma"), (["add_sigma=0"], "SENSOR"),
-                                   ([], "at least one of"), (["MISSION=none.yaml", "seed=1"], "none.yaml: no such file"),
-                                   (["MISSION=my mission.yaml", "seed=1"], "MISSION must be one file without blanks")):
-            with self.subTest(arguments=arguments):
-                result = self.sweep(*arguments)
-                self.assertEqual(result.returncode, 2)
-                self.assertIn(message, result.stderr)
-
-    def test_what_make_or_the_shell_would_run_is_refused(self):
-        """A value reaches neither: nothing runs, and the message names the variable and the sign."""
+        """A value reaches neither make nor the shell: nothing runs."""
         marker = self.folder / "ran"
-        for name, value in (("seed", f"$(shell touch {marker})1"), ("seed", f"1';touch {marker};'2"),
-                            ("seed", f"`touch {marker}`"), ("seed", '1"'), ("seed", "1\\"), ("scene.file", "*.gltf"),
-                            ("scene.file", "a(b).gltf"), ("a.b';id;'", "1"), ("OUT", f"$(shell touch {marker})grid"),
-                            ("SENSOR", f"x';touch {marker};'"), ("MISSION", f"$(shell touch {marker})mission.yaml")):
-            with self.subTest(name=name, value=value):
-                result = self.sweep("SENSOR=fls", f"{name}={value}", "engine=rays")
+        sign = ": its name and its value must not hold "
+        for argument, message in (
+                ("add_sgma=0", "unknown: add_sgma"), ("add_sigma=0", "SENSOR"), ("-j1", "at least one of"),
+                ("MISSION=none.yaml", "none.yaml: no such file"),
+                ("MISSION=my mission.yaml", "MISSION must be one file without blanks"),
+                (f"seed=$(shell touch {marker})1", sign), (f"seed=1';touch {marker};'2", sign), (f"seed=`touch {marker}`", sign),
+                ('seed=1"', sign), ("seed=1\\", sign), ("scene.file=*.gltf", sign), ("scene.file=a(b).gltf", sign),
+                ("a.b';id;'=1", sign), (f"OUT=$(shell touch {marker})grid", sign),
+                (f"SENSOR=x';touch {marker};'", sign), (f"MISSION=$(shell touch {marker})mission.yaml", sign)):
+            with self.subTest(argument=argument):
+                more = ["engine=rays"] if "=" in argument and not argument.startswith("add_") else []
+                result = self.sweep(argument, *more)
                 self.assertEqual(result.returncode, 2, result.stdout)
-                self.assertIn(f"{name}: its name and its value must not hold ", result.stderr)
+                self.assertIn(message, result.stderr)
                 self.assertFalse(marker.exists() or (self.folder / "grid").exists())
 
 

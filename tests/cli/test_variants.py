@@ -46,8 +46,7 @@ class Variants(Sandbox):
         self.assertEqual(digest(self.out), first)
         # One alone, and fewer of them.
         self.succeeds("render", "out/variant_0004/mission.resolved.yaml", "--paths-from", ".", "--out", "alone")
-        for what in ("polar", "image"):
-            self.assertEqual(digest(self.folder / "alone/fls" / what), digest(self.out / "variant_0004/fls" / what))
+        self.assertEqual(digest(self.folder / "alone/fls/polar"), digest(self.out / "variant_0004/fls/polar"))
         self.assert_renders("--overwrite", "--set", "variants=3")
         self.assertEqual(self.variants(), index[:3])
         self.assertFalse((self.out / "variant_0003").exists())
@@ -99,7 +98,6 @@ class Variants(Sandbox):
     def test_validate_counts(self):
         found = json.loads(self.succeeds("validate", "mission.yaml", "--json").stdout)
         self.assertEqual((found["variants"], found["pings"], found["images"]), (6, 36, 36))
-        self.assertGreater(found["set_up_seconds"], 0)
         text = self.succeeds("validate", "mission.yaml").stdout
         for words in ("variants    6\n", "surveyed    variant_0000:\n", "together    6 variants:\n", "36 pings\n"):
             self.assertIn(words, text)
@@ -122,11 +120,10 @@ class Variants(Sandbox):
     def scatter(self, *lines):
         """Lets the mission scatter small boxes, and writes only the rules `lines`."""
         self.write("small.gltf", box_gltf(half=(0.1, 0.1, 0.1)))
-        self.write("mission.yaml", MISSION.replace(
-            "trajectory:", "  scatter:\n" + "".join(
-                f"    - {{name: {name}, count: [0, 1], files: small.gltf, area_min_m: [-1.5, -1.5], "
-                "area_max_m: [1.5, 1.5]}\n" for name in ("mine", "tyre", "drum")) + "trajectory:", 1)
-            + "  labels: [class, instance]\nvariants: 8\n" + "\n".join(lines) + "\n")
+        scattered = "".join(f"    - {{name: {name}, count: [0, 1], files: small.gltf, area_min_m: [-1.5, -1.5], "
+                            "area_max_m: [1.5, 1.5]}\n" for name in ("mine", "tyre", "drum"))
+        self.write("mission.yaml", MISSION.replace("trajectory:", f"  scatter:\n{scattered}trajectory:", 1) +
+                   "\n".join(("  labels: [class, instance]\nvariants: 8", *lines, "")))
 
     def test_classes_have_the_same_numbers(self):
         self.scatter("classes:", "  - {nodes: 'mine_*', class: threat}", "vary:",
@@ -157,11 +154,9 @@ class PingDraws(Sandbox):
             self.assertTrue(0.001 <= meta["drawn"][self.KEYS[2]] <= 0.2)
             # The path lies in the plane z = 0, and the sonar in the middle of the vehicle.
             self.assertEqual(meta["T_world_vehicle"]["position_m"][2], meta["drawn"][self.KEYS[0]])
-            # A mount that is turned about z by a: the scalar product of the two attitudes is
-            # cos(a / 2), of whatever the vehicle's is.
-            cosine = abs(sum(a * b for a, b in zip(*(meta[f"T_world_{what}"]["quaternion_xyzw"]
-                                                     for what in ("vehicle", "sensor")))))
-            angle = 2 * math.degrees(math.acos(min(1.0, cosine)))
+            # The scalar product of two attitudes that are turned by a is cos(a / 2).
+            vehicle, sensor = (meta[f"T_world_{what}"]["quaternion_xyzw"] for what in ("vehicle", "sensor"))
+            angle = 2 * math.degrees(math.acos(min(1.0, abs(sum(a * b for a, b in zip(vehicle, sensor))))))
             self.assertAlmostEqual(angle, abs(meta["drawn"][self.KEYS[3]]), places=4)
         # Shards, and the dataset's own mission; tests/golden has any number of threads.
         self.assert_shards_agree()

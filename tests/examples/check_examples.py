@@ -7,6 +7,7 @@ in lib. Its new and changed sources must compile, over the rest of lib. The test
 examples_test.cpp run what is new.
 """
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -23,25 +24,21 @@ def run(*command, cwd=None):
     return done.stdout
 
 
-def patched_files(patch):
-    return [line.split()[1].removeprefix("b/") for line in patch.read_text().splitlines()
-            if line.startswith("+++ ")]
-
-
 def overlay_of(root, example, folder):
     """The files of lib that an example adds or changes, in `folder`; by their paths."""
-    patch = example / "wiring.patch"
-    changed = patched_files(patch)
-    for name in changed:
+    def copy(source, name):
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy(root / name, folder / name)
+        shutil.copy(source, folder / name)
+
+    patch = example / "wiring.patch"
+    changed = re.findall(r"^\+\+\+ b/(\S+)", patch.read_text(), re.MULTILINE)
+    for name in changed:
+        copy(root / name, name)
     run("git", "apply", patch, cwd=folder)
-    added = [path.relative_to(example).as_posix() for path in (example / "lib").rglob("*")
-             if path.is_file()]
+    added = [path.relative_to(example).as_posix() for path in (example / "lib").rglob("*") if path.is_file()]
     for name in added:
         assert not (root / name).exists(), f"{example.name} adds {name}, which lib has"
-        (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy(example / name, folder / name)
+        copy(example / name, name)
     return sorted(changed + added)
 
 

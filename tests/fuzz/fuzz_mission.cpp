@@ -1,22 +1,17 @@
 #include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
-#include <string>
-#include <string_view>
 #include <vector>
 
-#include "core/error.h"
 #include "mission/parse.h"
 #include "mission/resolved.h"
 #include "sonar/kinds.h"
+#include "target.h"
 
 // The input is a mission, followed by lines "--set ..." after the first zero byte, if any. Whatever
 // is accepted must survive the way through the resolved mission.
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace sonarsim;
-    const std::string_view input(reinterpret_cast<const char*>(data), size);
+    const std::string_view input = text_of(data, size);
     const std::size_t end = std::min(input.find('\0'), size);
     std::vector<std::string> overrides;
     for (std::size_t start = end + 1; start < size;) {
@@ -29,8 +24,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             parse_mission(input.substr(0, end), "f.yaml", "/base", overrides, sonar_keys());
         const std::string resolved = resolved_yaml(mission, sonar_keys());
         const Mission again = parse_mission(resolved, "f.yaml", "/other", {}, sonar_keys());
-        if (resolved_yaml(again, sonar_keys()) != resolved) std::abort();
+        require(resolved_yaml(again, sonar_keys()) == resolved);
     } catch (const InputError&) {
+        return 0;
     }
     return 0;
 }

@@ -1,24 +1,17 @@
 #include <cmath>
-#include <cstdint>
-#include <cstdlib>
-#include <string_view>
 
-#include "core/error.h"
+#include "target.h"
 #include "trajectory/files.h"
 #include "trajectory/interpolate.h"
 
 // The first byte chooses the reader: 't' for TUM, anything else for CSV. What a reader accepts must
 // keep the promises of Trajectory and survive writing, reading and resampling.
 
-using namespace sonarsim;
+namespace sonarsim {
 
 namespace {
 
-void require(bool holds) {
-    if (!holds) std::abort();
-}
-
-void check_promises(const Trajectory& poses) {
+void check_poses(const Trajectory& poses) {
     require(!poses.empty());
     for (std::size_t i = 0; i < poses.size(); ++i) {
         require(std::isfinite(poses[i].t_s));
@@ -28,34 +21,29 @@ void check_promises(const Trajectory& poses) {
     }
 }
 
-void check_round_trip(const Trajectory& poses) {
-    const std::string written = write_tum(poses);
-    const Trajectory again = parse_tum(written, "again.tum");
-    require(again.size() == poses.size() && write_tum(again) == written);
-}
-
-void check_resampling(const Trajectory& poses) {
-    const double duration = poses.back().t_s - poses.front().t_s;
-    try {
-        check_promises(resample(poses, duration > 0.0 ? 7.0 / duration : 1.0));
-    } catch (const InputError&) {
-        // Times that lie too close together for the rate are refused.
-    }
-}
-
 }  // namespace
 
+}  // namespace sonarsim
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace sonarsim;
     if (size == 0) return 0;
-    const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
+    const std::string_view text = text_of(data + 1, size - 1);
     Trajectory poses;
     try {
         poses = data[0] == 't' ? parse_tum(text, "in.tum") : parse_csv_trajectory(text, "in.csv");
     } catch (const InputError&) {
         return 0;
     }
-    check_promises(poses);
-    check_round_trip(poses);
-    check_resampling(poses);
+    check_poses(poses);
+    const std::string written = write_tum(poses);
+    const Trajectory again = parse_tum(written, "again.tum");
+    require(again.size() == poses.size() && write_tum(again) == written);
+    const double duration = poses.back().t_s - poses.front().t_s;
+    try {
+        check_poses(resample(poses, duration > 0.0 ? 7.0 / duration : 1.0));
+    } catch (const InputError&) {
+        return 0;  // times that lie too close together for the rate
+    }
     return 0;
 }

@@ -208,12 +208,13 @@ class Export(tool.ToolTest):
                             (("--format", "voc"), "argument --format: invalid choice"), ((*coco, self.out), "is given twice")):
             self.refused(text, *words)
         path = self.out / "dataset.json"
-        sound = json.loads(path.read_text())
-        for change, text in (({"labels": {}}, "has no objects; set output.labels"),
-                             ({"poses": "x"}, "'poses' is 'x'"), ({"sensors": [sound["sensors"][0] | {"fan": 3}]}, "is damaged")):
+        text = path.read_text()
+        sound = json.loads(text)
+        for change, words in (({"labels": {}}, "has no objects; set output.labels"), ({"poses": "x"}, "'poses' is 'x'"),
+                              ({"sensors": [sound["sensors"][0] | {"fan": 3}]}, "is damaged")):
             path.write_text(json.dumps(sound | change))
-            self.refused(text, *coco)
-        path.write_text(json.dumps(sound))
+            self.refused(words, *coco)
+        path.write_text(text)
         facts = self.out / "fls/objects/000003.json"
         text = facts.read_text()
         for bad in ("[]", text.replace('"mask": "', '"mask": "0'), text.replace('"fan"', '"f"'), "[" * 100000):

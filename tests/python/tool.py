@@ -27,6 +27,11 @@ class ToolTest(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(prefix="sonarsim-")))
 
+    def sonarsim(self, *words, code=0):
+        result = subprocess.run([os.environ["SONARSIM"], *words], cwd=self.folder, text=True, capture_output=True, check=False)
+        self.assertEqual((result.returncode, "Traceback" in result.stderr), (code, False), result.stderr)
+        return result
+
     def succeeds(self, name, *words):
         """What it prints; it has nothing to warn of."""
         result = run(name, *words)
