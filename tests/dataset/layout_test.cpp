@@ -15,18 +15,6 @@ Layout layout_of(const Mission& mission, int poses) {
     return make_layout(mission, make_writers(mission, assembly), poses);
 }
 
-/// The names of what a sensor leaves of each ping: folders, and files of records.
-std::vector<std::string> per_ping(const SensorLayout& sensor) {
-    std::vector<std::string> names;
-    for (const auto& part : sensor.per_ping) {
-        const auto* file = std::get_if<PingFile>(&part);
-        names.push_back(file ? file->name : std::get<PingRecord>(part).file);
-    }
-    return names;
-}
-
-using Names = std::vector<std::string>;
-
 }  // namespace
 
 TEST_SUITE("dataset") {
@@ -41,23 +29,9 @@ TEST_SUITE("dataset") {
         CHECK(make_layout(mission, {}, 0).number(0) == "000000");
     }
 
-    TEST_CASE("layout: output chooses the files") {
-        Mission mission = small_mission("out");
-        mission.output.polar = false;
-        mission.output.fan = false;
-        CHECK(per_ping(layout_of(mission, 1).sensors[1]) == Names{"image", "meta"});
-    }
-
-    TEST_CASE("layout: side-scan and echosounders have records and no image per ping") {
-        const Mission mission = survey_mission("out");
-        const Layout layout = layout_of(mission, 7);
+    TEST_CASE("layout: records are counted by the pings of their sensor") {
+        const Layout layout = layout_of(survey_mission("out"), 7);
         REQUIRE(layout.sensors.size() == 4);
-        CHECK(per_ping(layout.sensors[0]) == Names{"polar", "image", "fan", "meta"});
-        CHECK(per_ping(layout.sensors[1]) ==
-              Names{"polar", "image", "fan", "soundings.npy", "meta"});
-        CHECK(per_ping(layout.sensors[2]) == Names{"waterfall.npy", "meta"});
-        CHECK(per_ping(layout.sensors[3]) == Names{"echogram.npy", "meta"});
-        CHECK(layout.sensors[2].products == Names{"waterfall.png", "waterfall_view.png"});
         // The sounder pings at poses 0, 2, 4 and 6.
         CHECK(layout.sensors[3].pings == 4);
         CHECK(layout.record_of({6, 3}) == 3);
