@@ -33,7 +33,6 @@ TEST_SUITE("job") {
         run_job(mission, assembly, {}, {}, std::atomic<bool>(false));
         const PingSource source(mission, assembly);
         const std::vector<Writers> writers = make_writers(mission, assembly);
-        const std::vector<Writers> writers = make_writers(mission, assembly);
         const Layout layout = make_layout(mission, writers, assembly.trajectory.size());
         const auto engine = make_engine(assembly.scene, engine_settings(mission, assembly));
         const auto content = [&](const PingId& id, const char* name, const char* extension) {
