@@ -46,4 +46,15 @@ inline std::string refusal(const std::string& text,
     return "";
 }
 
+/// What is added to a text, and the refusal without "m.yaml:", its place and its sentence.
+struct Refused {
+    std::string text, message;
+};
+
+inline void check_refused(const std::string& before, const std::vector<Refused>& cases,
+                          const std::string& after = "") {
+    for (const Refused& one : cases)
+        CHECK(refusal(before + one.text + after) == "m.yaml:" + one.message);
+}
+
 }  // namespace sonarsim
