@@ -203,9 +203,8 @@ TEST_CASE("cone labels: the shadow of a box lies where rays of its beams are hid
 }
 
 TEST_CASE("cone labels: the echoes of all kinds have the energies of the image") {
-    // Two planes that mirror sound to each other, as the sides of a roof seen from below, 50
-    // degrees from the view's axis. A sonar's image is its labels' echoes times one factor, direct
-    // or by multipath: of a fan that of its grid, else the pulse's.
+    // Two planes that mirror sound to each other, as the sides of a roof seen from below. An image
+    // is its labels' echoes times one factor, direct or by multipath.
     for (const SonarKind kind :
          {SonarKind::imaging, SonarKind::sidescan, SonarKind::echosounder, SonarKind::scanning}) {
         CAPTURE(static_cast<int>(kind));
@@ -249,9 +248,8 @@ TEST_CASE("cone labels: the echoes of all kinds have the energies of the image")
 }
 
 TEST_CASE("cone labels: the shadow of a large face has no holes and ends where it should") {
-    // A plate from x = 4 m, 1 m high, stands on a floor 2 m below the sonar. It hides the floor
-    // from x = 4 to x = 8. A beam of the sine s sees the place x of the floor at r^2 (1 - s^2) =
-    // x^2 + 4.
+    // A plate at x = 4 m, 1 m high, stands 2 m below the sonar and hides the floor up to x = 8 m. A
+    // beam of the sine s sees the place x at r^2 (1 - s^2) = x^2 + 4.
     Scene scene = empty_scene();
     const std::uint32_t m = add_material(scene, 0.4F);
     add_floor(scene, 30.0F, -2.0F, m);
