@@ -110,45 +110,6 @@ TEST_CASE("cone labels: the pieces of targets cover the bins that an engine's sa
     }
 }
 
-TEST_CASE("cone labels: a piece that several beams receive is one patch with their echoes") {
-    Scene scene = empty_scene();
-    add_floor(scene, 30.0F, 0.0F, add_material(scene, 0.4F));
-    const Sonar sonar = wide_fan(Spacing::angle);
-    const auto engine = make_engine(scene, {.type = EngineKind::slices, .octree = {}});
-    const TracedPing traced =
-        trace(sonar, scene, *engine, {Eigen::Quaterniond::Identity(), {0.0, 0.0, 3.0}}, 0);
-    const View& view = sonar.settings.view;
-    struct Echo {
-        std::uint32_t beam;
-        float power;
-        const Sample* sample;
-    };
-    std::vector<Echo> direct;
-    const SurfaceEchoes echoes =
-        sonar.settings.model->surface_echoes(traced, view, scene, true, [&](const EchoBlock& of) {
-            for (int k = 0; k < of.count; ++k)
-                direct.push_back({of.beam[k], of.weight[k], of.sample[k]});
-        });
-    // A piece is at most a beam wide and lies anywhere: many are in two beams.
-    CHECK(echoes.patches.size() > 1000);
-    CHECK(echoes.patch_echoes.size() > echoes.patches.size() * 5 / 4);
-    // They are the direct echoes, in the same order.
-    REQUIRE(direct.size() == echoes.patch_echoes.size());
-    std::uint32_t end = 0;
-    bool alike = true;
-    for (const EchoPatch& patch : echoes.patches) {
-        alike = alike && patch.echo_begin == end && patch.echo_end > end;
-        end = patch.echo_end;
-        for (std::uint32_t k = patch.echo_begin; k < patch.echo_end; ++k) {
-            const PatchEcho& echo = echoes.patch_echoes[k];
-            alike = alike && echo.beam == direct[k].beam && echo.echo == direct[k].power &&
-                    direct[k].sample == patch.sample;
-        }
-    }
-    CHECK(alike);
-    CHECK(end == echoes.patch_echoes.size());
-}
-
 TEST_CASE("cone labels: the shadow of a box lies where rays of its beams are hidden" *
           doctest::skip(test::sanitized)) {
     // A box on a floor, seen from above under 30 degrees and 25 degrees aside.
