@@ -51,7 +51,7 @@ TEST_CASE("labels: the elevation of a floor is that of its range") {
         const Labelled out = label(scene, sonar, {Eigen::Quaterniond::Identity(), {0, 0, H}}, type);
         int bins = 0;
         for (int i = bin_at(sonar, 6.5); i < bin_at(sonar, 9.5); ++i) {
-            const double r = 0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]);
+            const double r = bin_centre(sonar, i);
             for (int j = 0; j < out.labels.beams; ++j) {
                 const float theta = out.labels.elevation_rad[out.at(i, j)];
                 const double truth = -std::asin(H / r);
@@ -106,7 +106,7 @@ TEST_CASE("labels: heights above the bottom, of a box, of a ramp and of the bott
                 for (int i = bin_at(sonar, from); i < bin_at(sonar, to); ++i, ++bins) {
                     CAPTURE(sonar.range_edges_m[i]);
                     check(height[static_cast<std::size_t>(j) * config.range_bins + i],
-                          0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]));
+                          bin_centre(sonar, i));
                 }
             };
             between(3.3, 4.1, [](float h, double) { CHECK(h == 0.0F); });

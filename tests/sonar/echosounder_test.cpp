@@ -8,6 +8,7 @@
 #include "sonar/sonar.h"
 #include "support/approx.h"
 #include "support/scenes.h"
+#include "support/sonars.h"
 #include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
@@ -42,7 +43,7 @@ TEST_CASE("echosounder: a flat bottom echoes as R H / r over the cone, from its 
         CAPTURE(H);
         CHECK(std::fabs(detected_depth(sonar, ping).value() - H) <= bin_m);
         for (int i = 0; i < ping.range_bins; ++i) {
-            const double r = 0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]);
+            const double r = bin_centre(sonar, i);
             if (r < H - bin_m || r > end + bin_m) CHECK(ping.at(i, 0) == 0.0F);
             if (r > H + bin_m && r < end - bin_m)
                 CHECK(ping.at(i, 0) == test::approx(R * H / r).epsilon(0.01));

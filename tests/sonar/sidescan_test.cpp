@@ -38,15 +38,6 @@ Ping look(const Scene& scene, const Sonar& sonar, double yaw = 0.0) {
     return render_ping(sonar, scene, *make_rays_engine(scene), pose, {});
 }
 
-double centre(const Sonar& sonar, int i) {
-    return 0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]);
-}
-
-int sidescan_bin(const Sonar& sonar, double range) {
-    return static_cast<int>((range - sonar.settings.view.range_min_m) /
-                            sonar.settings.view.bin_m());
-}
-
 }  // namespace
 
 TEST_SUITE_BEGIN("sonar");
@@ -59,13 +50,13 @@ TEST_CASE(
     const Sonar sonar = make_sonar(sidescan(), {});
     const Ping ping = look(scene, sonar);
     REQUIRE(ping.beams == 2);
-    const int first = sidescan_bin(sonar, H);
+    const int first = bin_at(sonar, H);
     for (int side = 0; side < 2; ++side) {
         for (int i = 0; i < first; ++i)
             CHECK(ping.at(i, side) == 0.0F);
         CHECK(ping.at(first, side) == test::approx(R).epsilon(0.01));
         for (int i = first + 1; i < ping.range_bins; ++i)
-            CHECK(ping.at(i, side) == test::approx(R * H / centre(sonar, i)).epsilon(0.01));
+            CHECK(ping.at(i, side) == test::approx(R * H / bin_centre(sonar, i)).epsilon(0.01));
     }
     const FirstReturns returns = first_returns(sonar, ping);
     CHECK(std::fabs(returns.port_m.value() - H) <= sonar.settings.view.bin_m());
@@ -83,7 +74,7 @@ TEST_CASE("sidescan: a box casts a shadow of length r h / (H - h) on its far sid
     const Ping ping = look(scene, sonar);
     const double r = std::sqrt(y * y + (H - h) * (H - h));
     const double length = r * h / (H - h);
-    int first = sidescan_bin(sonar, r) + 1;
+    int first = bin_at(sonar, r) + 1;
     while (ping.at(first, 1) > 0.0F)
         ++first;
     int last = first;
@@ -92,8 +83,8 @@ TEST_CASE("sidescan: a box casts a shadow of length r h / (H - h) on its far sid
     CHECK(std::fabs(sonar.range_edges_m[first] - r) <= 2.0 * sonar.settings.view.bin_m());
     CHECK(std::fabs(sonar.range_edges_m[last] - (r + length)) <= 2.0 * sonar.settings.view.bin_m());
     // Before the box, and on the other side, the bottom is occupied.
-    CHECK(ping.at(sidescan_bin(sonar, 6.5), 1) > 0.0F);
-    for (int i = sidescan_bin(sonar, H) + 1; i < ping.range_bins; ++i)
+    CHECK(ping.at(bin_at(sonar, 6.5), 1) > 0.0F);
+    for (int i = bin_at(sonar, H) + 1; i < ping.range_bins; ++i)
         CHECK(ping.at(i, 0) > 0.0F);
 }
 
@@ -119,7 +110,7 @@ TEST_CASE("sidescan: a target to port is in the left half only; turned round, in
     std::size_t nearest = n - 1;
     while (there[nearest] == 0.0F)
         --nearest;
-    CHECK(std::fabs(centre(sonar, static_cast<int>(n - 1 - nearest) - 10) -
+    CHECK(std::fabs(bin_centre(sonar, static_cast<int>(n - 1 - nearest) - 10) -
                     (std::hypot(8.0, H - 1.0) - 0.5)) <= 0.1);
 }
 
