@@ -59,7 +59,8 @@ TEST_SUITE("assembly") {
     }
 
     TEST_CASE("sound profiles: the named ones follow Mackenzie's formula") {
-        // By hand: 1448.96 + 4.591 t - 0.05304 t^2 + 2.374e-4 t^3 + 0.0163 d + 1.675e-7 d^2
+        // Worked out by hand, 1448.96 + 4.591 t - 0.05304 t^2 + 2.374e-4 t^3 + 0.0163 d + 1.675e-7
+        // d^2
         // - 7.139e-13 t d^3 at 35 psu is 1521.46 at t = 20, d = 0 and 1484.05 at t = 8, d = 100.
         const SoundProfile summer = sound_profile(watery(named(NamedProfile::summer)));
         CHECK(summer.speed_at(3.0) == test::approx(1521.46).epsilon(1e-5));
@@ -80,8 +81,7 @@ TEST_SUITE("assembly") {
             mission.water.temperature_c = celsius;
             return sound_profile(mission).speed_at(-97.0);
         };
-        CHECK(speed_at_100_m(4.0) ==
-              test::approx(1450.592).epsilon(1e-6));  // by hand, at 0 degrees
+        CHECK(speed_at_100_m(4.0) == test::approx(1450.592).epsilon(1e-6));   // at 0 degrees
         CHECK(speed_at_100_m(-2.0) == test::approx(1441.196).epsilon(1e-6));  // at -2 degrees
     }
 

@@ -62,7 +62,7 @@ TEST_SUITE("dataset") {
         CHECK(list_pings(small_mission("out"), 0).empty());
     }
 
-    // What the goldens do not see: closed forms of the places.
+    // The goldens do not see whether the places are right.
     TEST_CASE("metadata: mounts, edges of bins and the apex of a fan, by hand") {
         const Mission mission = small_mission("out");
         const Assembly assembly = small_assembly(mission, 7);

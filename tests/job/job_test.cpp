@@ -96,7 +96,7 @@ TEST_SUITE("job") {
         const Mission mission = small_mission(temporary.path / "out");
         const fs::path half =
             mission.output.folder / "front/polar/.000001.npy.0123456789abcdef.part";
-        // Ten pings: 0, 3, 6, 9 then 1, 4, 7 then 2, 5, 8. Of 12 shards the last two have none.
+        // Ten pings: 0, 3, 6, 9 then 1, 4, 7 then 2, 5, 8. The last two of 12 shards have none.
         CHECK(run(mission, {.shard = 2, .shards = 3}).pings == 3);
         write_file(half, "at work");
         CHECK(run(mission, {.shard = 0, .shards = 3}).pings == 4);

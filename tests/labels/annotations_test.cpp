@@ -25,7 +25,7 @@ SceneObjects objects_on_floor(const Scene& scene) {
     return objects;
 }
 
-/// What annotations say of a scene on a floor.
+/// The annotations of a scene on a floor.
 struct FoundObjects {
     Sonar sonar;
     SceneObjects objects;

@@ -46,7 +46,7 @@ inline std::string refusal(const std::string& text,
     return "";
 }
 
-/// What is added to a text, and the refusal without "m.yaml:", its place and its sentence.
+/// An addition to a text, and its refusal without "m.yaml:": place and sentence.
 struct Refused {
     std::string text, message;
 };

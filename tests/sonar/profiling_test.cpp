@@ -143,7 +143,7 @@ TEST_CASE("profiling, side-scan, echosounder: on rough ground the error goal is 
         SonarKind kind;
         double range_max_m, altitude_m;
         int range_bins, beams;
-        double spread;  ///< of the reference
+        double spread;  ///< the goal of the reference
     };
     for (const Case& one : {Case{SonarKind::profiling, 20.0, 6.0, 400, 240, 0.005},
                             {SonarKind::sidescan, 25.5, 5.02, 500, 2, 0.003},
