@@ -59,9 +59,8 @@ TEST_SUITE("assembly") {
     }
 
     TEST_CASE("sound profiles: the named ones follow Mackenzie's formula") {
-        // Worked out by hand, 1448.96 + 4.591 t - 0.05304 t^2 + 2.374e-4 t^3 + 0.0163 d + 1.675e-7
-        // d^2
-        // - 7.139e-13 t d^3 at 35 psu is 1521.46 at t = 20, d = 0 and 1484.05 at t = 8, d = 100.
+        // Worked out by hand from the formula at 35 psu: 1521.46 at 20 degrees and the surface,
+        // 1484.05 at 8 degrees and 100 m.
         const SoundProfile summer = sound_profile(watery(named(NamedProfile::summer)));
         CHECK(summer.speed_at(3.0) == test::approx(1521.46).epsilon(1e-5));
         CHECK(summer.speed_at(-97.0) == test::approx(1484.05).epsilon(1e-5));
