@@ -2,8 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <cmath>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,8 +9,6 @@
 #include "calibrated/model.h"
 #include "core/error.h"
 #include "core/file.h"
-#include "core/units.h"
-#include "job/run_job.h"
 #include "mission/parse.h"
 #include "sonar/kinds.h"
 #include "support/approx.h"
@@ -21,7 +17,6 @@
 
 using namespace sonarsim;
 using namespace sonarsim::test;
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -31,33 +26,18 @@ struct MissionOnDisk {
 
     MissionOnDisk() {
         // World (x, y, z) is glTF (x, z, -y): the wall lies in glTF's plane x = 5.
-        const std::vector<float> corners{5, -10, -10, 5, 10, -10, 5, 10, 10, 5, -10, 10};
-        const std::vector<std::uint16_t> order{0, 1, 2, 0, 2, 3};
+        const std::vector<float> corners{5, -10, -10, 5, 10, -10, 5, 10,  10,
+                                         5, -10, -10, 5, 10, 10,  5, -10, 10};
         write_file(folder.path / "wall.bin",
-                   std::string(reinterpret_cast<const char*>(corners.data()), 48) +
-                       std::string(reinterpret_cast<const char*>(order.data()), 12));
-        const nlohmann::json gltf = {
-            {"asset", {{"version", "2.0"}}},
-            {"scene", 0},
-            {"scenes", {{{"nodes", {0}}}}},
-            {"nodes", {{{"mesh", 0}, {"name", "wall"}}}},
-            {"meshes",
-             {{{"primitives",
-                {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}, {"material", 0}}}}}}},
-            {"materials", {{{"name", "concrete"}}}},
-            {"accessors",
-             {{{"bufferView", 0},
-               {"componentType", 5126},
-               {"count", 4},
-               {"type", "VEC3"},
-               {"min", {5, -10, -10}},
-               {"max", {5, 10, 10}}},
-              {{"bufferView", 1}, {"componentType", 5123}, {"count", 6}, {"type", "SCALAR"}}}},
-            {"bufferViews",
-             {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 48}},
-              {{"buffer", 0}, {"byteOffset", 48}, {"byteLength", 12}}}},
-            {"buffers", {{{"byteLength", 60}, {"uri", "wall.bin"}}}}};
-        write_file(folder.path / "wall.gltf", gltf.dump());
+                   std::string(reinterpret_cast<const char*>(corners.data()), 72));
+        write_file(folder.path / "wall.gltf", R"({"asset": {"version": "2.0"}, "scene": 0,
+            "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "name": "wall"}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+            "materials": [{"name": "concrete"}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 6, "type": "VEC3",
+                           "min": [5, -10, -10], "max": [5, 10, 10]}],
+            "bufferViews": [{"buffer": 0, "byteLength": 72}],
+            "buffers": [{"byteLength": 72, "uri": "wall.bin"}]})");
         write_file(folder.path / "materials.csv",
                    "material,density_kg_m3,sound_speed_m_s\nconcrete,2400,3100\n");
         write_file(folder.path / "poses.csv",
@@ -77,30 +57,10 @@ struct MissionOnDisk {
 }  // namespace
 
 TEST_SUITE("assembly") {
-    TEST_CASE("assemble: a mission's files become a scene, poses and sonars") {
-        const MissionOnDisk disk;
-        const Assembly assembly = assemble(disk.load("{file: poses.csv}"));
-        CHECK(assembly.scene.triangles.size() == 2);
-        CHECK(assembly.scene.instances == std::vector<std::string>{"wall"});
-        REQUIRE(assembly.sonars.size() == 1);
-        CHECK(assembly.sonars[0].config.name == "fls");
-        REQUIRE(assembly.trajectory.size() == 2);
-        CHECK(assembly.trajectory[1].T_world_vehicle.translation.x() == 1.0);
-    }
-
-    TEST_CASE("assemble: every kind of trajectory") {
+    TEST_CASE("assemble: trajectories of files and of lines, at the rate that is asked for") {
         const MissionOnDisk disk;
         // 1 s at 10 Hz: 11 poses.
         CHECK(assemble(disk.load("{file: poses.csv, rate_hz: 10}")).trajectory.size() == 11);
-        // 4 m at 2 m/s and 5 Hz: 2 s, 11 poses, from heading 0 to 90 degrees.
-        const Trajectory legs =
-            assemble(disk.load("{waypoints: [{position_m: [0, 0, 1]}, {position_m: [4, 0, 1], "
-                               "rpy_deg: [0, 0, 90]}], speed_m_s: 2, rate_hz: 5}"))
-                .trajectory;
-        REQUIRE(legs.size() == 11);
-        CHECK(legs[5].T_world_vehicle.translation.isApprox(Eigen::Vector3d(2, 0, 1)));
-        const Eigen::Vector3d bow = legs.back().T_world_vehicle.rotation * Eigen::Vector3d::UnitX();
-        CHECK((bow - Eigen::Vector3d::UnitY()).norm() < 1e-9);
         const Trajectory survey =
             assemble(disk.load("{lawnmower: {area_min_m: [0, 0], area_max_m: [10, 10], z_m: 3, "
                                "line_spacing_m: 5, speed_m_s: 1, rate_hz: 1}}"))
@@ -131,29 +91,6 @@ TEST_SUITE("assembly") {
                              "sensor 'fls': engine: octree has votes in place of areas, and model: "
                              "calibrated needs areas; use engine: auto",
                              InputError);
-    }
-
-    TEST_CASE("assemble: errors in files name the file") {
-        const MissionOnDisk disk;
-        const Mission mission = disk.load("{file: poses.csv}");
-        write_file(disk.folder.path / "materials.csv",
-                   "material,density_kg_m3,sound_speed_m_s\nsteel,7700,5050\n");
-        CHECK_THROWS_AS(assemble(mission), InputError);
-        fs::remove(disk.folder.path / "poses.csv");
-        CHECK_THROWS_AS(assemble(mission), InputError);
-    }
-
-    TEST_CASE("assemble: from files to a dataset, and again after a file has changed") {
-        const MissionOnDisk disk;
-        const Mission mission = disk.load("{file: poses.csv}");
-        const std::atomic<bool> stop = false;
-        CHECK(run_job(mission, assemble(mission), {}, {}, stop).pings == 2);
-        CHECK(fs::exists(disk.folder.path / "out/fls/fan/000001.png"));
-        CHECK(run_job(mission, assemble(mission), {}, {}, stop).pings == 0);
-        write_file(disk.folder.path / "materials.csv",
-                   "material,density_kg_m3,sound_speed_m_s\nconcrete,2401,3100\n");
-        CHECK_THROWS_AS(run_job(mission, assemble(mission), {}, {}, stop), InputError);
-        CHECK(run_job(mission, assemble(mission), {.overwrite = true}, {}, stop).pings == 2);
     }
 
     TEST_CASE("assemble: the instances of the bottom, for heights") {

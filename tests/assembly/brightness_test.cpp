@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assembly/engines.h"
 #include "assembly/sample_pings.h"
 #include "support/approx.h"
 #include "support/calibrated.h"
@@ -16,8 +17,7 @@ using namespace sonarsim::test;
 namespace {
 
 std::vector<double> scales_of(const Mission& mission) {
-    const Assembly assembly = small_assembly(mission, 9);
-    return assembly.full_scales;
+    return small_assembly(mission, 9).full_scales;
 }
 
 }  // namespace
@@ -30,12 +30,6 @@ TEST_SUITE("assembly") {
         CHECK(sample_pings(12, 3, 2) == Poses{3, 9});
         CHECK(sample_pings(2, 1, 5) == Poses{0, 1});
         CHECK(sample_pings(0, 1, 5).empty());
-    }
-
-    TEST_CASE("brightness: a number of the mission is taken as it stands") {
-        Mission mission = small_mission("out");
-        mission.output.full_scale = 0.37;
-        CHECK(scales_of(mission) == std::vector<double>{0.37, 0.37});
     }
 
     TEST_CASE("brightness: auto has two digits and grows with the gain") {
@@ -51,6 +45,8 @@ TEST_SUITE("assembly") {
         // Without noise an intensity is proportional to the gain; a power of ten moves no digit.
         CHECK(more[0] / half[0] == test::approx(100.0));
         CHECK(more[1] == half[1]);
+        mission.sensors[1].range_max_m = 0.11;  // the walls are farther away
+        CHECK(scales_of(mission)[1] == 1.0);
         // No echo of a surface with reflection below 1 is above the gain.
         for (const double scale : half) {
             CHECK(scale > 0.0);
@@ -77,10 +73,22 @@ TEST_SUITE("assembly") {
         CHECK(scales[1] / scales[0] == test::approx(1.0).epsilon(0.1));
     }
 
-    TEST_CASE("brightness: auto is 1 where nothing is seen") {
+    TEST_CASE(
+        "auto: rays trace views of more than 90 degrees of elevation, and energies that add") {
         Mission mission = small_mission("out");
-        mission.output.full_scale = 0.0;
-        mission.sensors[1].range_max_m = 0.11;  // the walls are farther away
-        CHECK(scales_of(mission)[1] == 1.0);
+        mission.engine = EngineKind::automatic;
+        for (SonarConfig& sensor : mission.sensors)
+            sensor.multipath.method = MultipathMethod::none;
+        for (const double elevation_deg : {150.0, 91.0, 90.0}) {
+            mission.sensors[0].elevation_deg = elevation_deg;
+            const EngineSettings settings = engine_settings(mission, small_assembly(mission, 9));
+            CHECK(settings.by_rays.empty() == (elevation_deg <= 90.0));
+        }
+        Assembly assembly = small_assembly(mission, 9);
+        for (const bool energies_add : {false, true}) {
+            for (Sonar& sonar : assembly.sonars)
+                sonar.settings.view.energies_add = energies_add;
+            CHECK((engine_settings(mission, assembly).type == EngineKind::rays) == energies_add);
+        }
     }
 }

@@ -87,13 +87,11 @@ TEST_SUITE("assembly") {
     }
 
     TEST_CASE("particles: keyed by the seed, timed from the first ping") {
-        const auto first = [](std::uint64_t seed) {
-            return draw(school(ParticleRegion::box, 5.0), seed).particles().all[0].start_m;
-        };
-        CHECK(first(5) == first(5));
-        CHECK(first(5) != first(6));
-        CHECK(draw(school(ParticleRegion::box, 5.0), 5).particles().time_s ==
-              std::vector<double>{0.0, 1.0, 2.5});
+        const Drawn one = draw(school(ParticleRegion::box, 5.0), 5);
+        const auto start_of = [](const Drawn& drawn) { return drawn.particles().all[0].start_m; };
+        CHECK(start_of(draw(school(ParticleRegion::box, 5.0), 5)) == start_of(one));
+        CHECK(start_of(draw(school(ParticleRegion::box, 5.0), 6)) != start_of(one));
+        CHECK(one.particles().time_s == std::vector<double>{0.0, 1.0, 2.5});
     }
 
     TEST_CASE("particles: single targets and groups are instances") {

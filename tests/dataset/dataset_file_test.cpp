@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <random>
+#include <tuple>
 #include <vector>
 
 #include "core/error.h"
@@ -29,32 +30,10 @@ void list_values(Json& json, std::vector<Json*>& values) {
 
 /// Values that somebody might put in place of another.
 Json foreign_value(std::mt19937_64& random) {
-    static const std::vector<Json> values{nullptr,
-                                          true,
-                                          false,
-                                          0,
-                                          1,
-                                          -1,
-                                          1.5,
-                                          1e300,
-                                          -1e300,
-                                          18446744073709551615U,
-                                          "",
-                                          ".",
-                                          "..",
-                                          "../victim",
-                                          "/etc/passwd",
-                                          "front/../../%06d.json",
-                                          "front/%06d/%06d.json",
-                                          "%s%n",
-                                          "javascript:alert(1)//%06d",
-                                          "C:\\%06d",
-                                          std::string("front/a\0b", 9),
-                                          "front/polar/%d.npy",
-                                          Json::array(),
-                                          Json::object(),
-                                          Json::array({1, "a"}),
-                                          Json{{"file", "../x"}}};
+    static const Json values = Json::parse(R"([null, true, false, 0, 1, -1, 1.5, 1e300, -1e300,
+        18446744073709551615, "", ".", "..", "../victim", "/etc/passwd", "front/../../%06d.json",
+        "front/%06d/%06d.json", "%s%n", "javascript:alert(1)//%06d", "C:\\%06d", "front/a\u0000b",
+        "front/polar/%d.npy", [], {}, [1, "a"], {"file": "../x"}])");
     return values[random() % values.size()];
 }
 
@@ -88,7 +67,9 @@ TEST_SUITE("dataset") {
         CHECK(numbered("fls-%09d.png", 0) == "fls-000000000.png");
     }
 
-    TEST_CASE("dataset file: sound keys are read, others are refused") {
+    // cli/test_verify.py has what is refused by every command.
+    TEST_CASE(
+        "dataset file: sound keys are read, paths that are not the sensor's own are refused") {
         const TemporaryFolder folder;
         run(small_mission(folder.path / "out"));
         const Json sound = read_json(folder.path / "out/dataset.json");
@@ -98,39 +79,16 @@ TEST_SUITE("dataset") {
         REQUIRE(dataset.sensors.size() == 2);
         CHECK(dataset.sensors[1].every == 3);
         CHECK(dataset.sensors[1].pings == 3);
-        struct Case {
-            const char* pointer;
-            Json value;
-            const char* words;
-        };
-        const Case cases[] = {
-            {"/complete", "true", "is damaged: type must be boolean"},
-            {"/poses", "7", "in place of a whole number"},
-            {"/poses", 100'000'000, "more than ten million poses"},
-            {"/format_version", 2, "has format_version 2, and this program knows 3"},
-            {"/sensors", 5, "is damaged"},
-            {"/sensors/1/name", "../a", "'../a', which is not the name of a folder"},
-            {"/sensors/1/name", "front", "not the path of a file in 'front/'"},
-            {"/sensors/1/pings", 4, "another number of pings of 'left'"},
-            {"/sensors/0/files/meta", "front/../x/%06d.json", "not the path of a file in 'front/'"},
-            {"/sensors/0/files/meta", "/etc/%06d.json", "not the path of a file in 'front/'"},
-            {"/sensors/0/files/meta", "left/meta/%06d.json", "not the path of a file in 'front/'"},
-            {"/sensors/0/files/meta", "front/%06d-%06d.json", "not the path of a file"},
-            {"/sensors/0/files/meta", "front/%d.json", "without a number as '%06d'"},
-            {"/products", {"../x"}, "not the path of a file in 'seabed/'"},
-        };
-        for (const Case& one : cases) {
-            CAPTURE(one.pointer);
+        for (const auto& [pointer, value, words] :
+             {std::tuple("/sensors/1/name", "front", "not the path of a file in 'front/'"),
+              {"/sensors/0/files/meta", "left/meta/%06d.json",
+               "not the path of a file in 'front/'"},
+              {"/sensors/0/files/meta", "front/%06d-%06d.json", "not the path of a file"},
+              {"/sensors/0/files/meta", "front/%d.json", "without a number as '%06d'"}}) {
             Json json = sound;
-            json[Json::json_pointer(one.pointer)] = one.value;
-            try {
-                parse_description(json, "a/dataset.json");
-                FAIL("it was taken");
-            } catch (const InputError& error) {
-                const std::string message = error.what();
-                CHECK_MESSAGE(message.starts_with("a/dataset.json: "), message);
-                CHECK_MESSAGE(message.find(one.words) != std::string::npos, message);
-            }
+            json[Json::json_pointer(pointer)] = value;
+            CHECK_THROWS_WITH_AS(parse_description(json, "a/dataset.json"),
+                                 doctest::Contains(words), InputError);
         }
         Json lacks = sound;
         lacks["sensors"][0].erase("every");
@@ -138,8 +96,6 @@ TEST_SUITE("dataset") {
             parse_description(lacks, "d"),
             "d: is damaged: key 'every' not found; copy the dataset again, or render it again",
             InputError);
-        write_file(folder.path / "deep", std::string(100'000, '[') + std::string(100'000, ']'));
-        CHECK_THROWS_AS(read_json(folder.path / "deep"), InputError);
     }
 
     // Whatever stands in dataset.json, each command refuses it with a sentence or does its work,

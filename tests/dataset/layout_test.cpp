@@ -2,8 +2,19 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
 #include "core/error.h"
+#include "core/units.h"
+#include "dataset/encode_ping.h"
+#include "dataset/metadata.h"
+#include "job/run_job.h"
+#include "support/approx.h"
 #include "support/small_mission.h"
+#include "support/sonars.h"
+#include "support/temporary_folder.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -15,17 +26,13 @@ Layout layout_of(const Mission& mission, int poses) {
     return make_layout(mission, make_writers(mission, assembly), poses);
 }
 
-/// The names of what a sensor leaves of each ping: folders, and files of records.
-std::vector<std::string> per_ping(const SensorLayout& sensor) {
-    std::vector<std::string> names;
-    for (const auto& part : sensor.per_ping) {
-        const auto* file = std::get_if<PingFile>(&part);
-        names.push_back(file ? file->name : std::get<PingRecord>(part).file);
-    }
-    return names;
+Ping image_of(std::vector<float> pixels) {
+    Ping image;
+    image.range_bins = 1;
+    image.beams = static_cast<int>(pixels.size());
+    image.intensity = std::move(pixels);
+    return image;
 }
-
-using Names = std::vector<std::string>;
 
 }  // namespace
 
@@ -41,23 +48,9 @@ TEST_SUITE("dataset") {
         CHECK(make_layout(mission, {}, 0).number(0) == "000000");
     }
 
-    TEST_CASE("layout: output chooses the files") {
-        Mission mission = small_mission("out");
-        mission.output.polar = false;
-        mission.output.fan = false;
-        CHECK(per_ping(layout_of(mission, 1).sensors[1]) == Names{"image", "meta"});
-    }
-
-    TEST_CASE("layout: side-scan and echosounders have records and no image per ping") {
-        const Mission mission = survey_mission("out");
-        const Layout layout = layout_of(mission, 7);
+    TEST_CASE("layout: records are counted by the pings of their sensor") {
+        const Layout layout = layout_of(survey_mission("out"), 7);
         REQUIRE(layout.sensors.size() == 4);
-        CHECK(per_ping(layout.sensors[0]) == Names{"polar", "image", "fan", "meta"});
-        CHECK(per_ping(layout.sensors[1]) ==
-              Names{"polar", "image", "fan", "soundings.npy", "meta"});
-        CHECK(per_ping(layout.sensors[2]) == Names{"waterfall.npy", "meta"});
-        CHECK(per_ping(layout.sensors[3]) == Names{"echogram.npy", "meta"});
-        CHECK(layout.sensors[2].products == Names{"waterfall.png", "waterfall_view.png"});
         // The sounder pings at poses 0, 2, 4 and 6.
         CHECK(layout.sensors[3].pings == 4);
         CHECK(layout.record_of({6, 3}) == 3);
@@ -67,5 +60,91 @@ TEST_SUITE("dataset") {
         const std::vector<PingId> expected{{0, 0}, {0, 1}, {1, 0}, {2, 0}, {3, 0}, {3, 1}};
         CHECK(list_pings(small_mission("out"), 4) == expected);
         CHECK(list_pings(small_mission("out"), 0).empty());
+    }
+
+    // The goldens do not see whether the places are right.
+    TEST_CASE("metadata: mounts, edges of bins and the apex of a fan, by hand") {
+        const Mission mission = small_mission("out");
+        const Assembly assembly = small_assembly(mission, 7);
+        const std::vector<Writers> writers = make_writers(mission, assembly);
+        const Json json = Json::parse(json_text(
+            describe_dataset(mission, assembly, make_layout(mission, writers, 7), writers)));
+        CHECK(json.at("complete") == false);
+        CHECK(json.at("seed").get<std::uint64_t>() == 18446744073709551615U);
+        const Json& left = json.at("sensors")[1];
+        const std::vector<double> ranges = left.at("range_edges_m");
+        const std::vector<double> azimuths = left.at("azimuth_edges_rad");
+        CHECK(ranges.size() == 49);
+        CHECK(ranges.front() == 0.1);
+        CHECK(ranges.back() == 10.0);
+        CHECK(azimuths.front() == test::approx(-radians(30)));
+        // The mount of the left sonar is turned by 90 degrees about z: q = (0, 0, sin 45, cos 45).
+        const std::vector<double> q = left.at("T_vehicle_sensor").at("quaternion_xyzw");
+        CHECK(q[2] == test::approx(std::sqrt(0.5)));
+        CHECK(q[3] == test::approx(std::sqrt(0.5)));
+        // The apex of a 60 degree fan: the middle of the lower edge.
+        const Json& fan = left.at("fan");
+        CHECK(fan.at("apex_px")[0] == 0.5 * fan.at("width_px").get<double>());
+        CHECK(fan.at("apex_px")[1].get<double>() ==
+              test::approx(fan.at("height_px").get<double>()));
+    }
+
+    TEST_CASE("metadata: the pose of a sensor is that of the vehicle with its mount") {
+        const Mission mission = small_mission("out");
+        Assembly assembly = small_assembly(mission, 7);
+        // At (1, 2, 3), turned by 90 degrees to port: the sonar half a metre ahead lies along y.
+        assembly.trajectory[3].T_world_vehicle = {rotation_from_rpy(0, 0, 0.5 * pi),
+                                                  Eigen::Vector3d(1, 2, 3)};
+        const TracedPing traced;
+        const Ping ping;
+        const FinishedPing finished{{3, 0}, assembly.sonars[0], traced, ping, Json(), 13};
+        const Json json = Json::parse(json_text(describe_ping(mission, assembly, finished)));
+        CHECK(json.at("time_s") == test::approx(0.3));
+        const std::vector<double> vehicle = json.at("T_world_vehicle").at("position_m");
+        CHECK(vehicle == std::vector<double>{1, 2, 3});
+        const std::vector<double> sensor = json.at("T_world_sensor").at("position_m");
+        CHECK(sensor[0] == test::approx(1.0));
+        CHECK(sensor[1] == test::approx(2.5));
+        CHECK(sensor[2] == test::approx(3.0));
+        const std::vector<double> q = json.at("T_world_sensor").at("quaternion_xyzw");
+        CHECK(q[2] == test::approx(std::sqrt(0.5)));
+        CHECK(q[3] == test::approx(std::sqrt(0.5)));
+        CHECK(json.at("clipped_pixels") == 13);
+    }
+
+    TEST_CASE("metadata: numbers are the shortest that read back, names may be any bytes") {
+        CHECK(json_text({{"x", 0.1}}) == "{\n \"x\": 0.1\n}\n");
+        CHECK(json_text({{"x", 1.0 / 3.0}}) == "{\n \"x\": 0.3333333333333333\n}\n");
+        CHECK(json_text({{"x", "a\xff"}}) == "{\n \"x\": \"a\xef\xbf\xbd\"\n}\n");
+    }
+
+    TEST_CASE("finite image: the brightest pixel is found, and one that is not finite, anywhere") {
+        constexpr float infinity = std::numeric_limits<float>::infinity();
+        for (std::size_t at = 0; at < 19; ++at) {
+            std::vector<float> pixels(19, 0.25F);
+            pixels[at] = 3e38F;
+            CHECK(brightest_pixel(image_of(pixels), "fls", 0) == 3e38F);
+            for (const float bad : {std::nanf(""), -std::nanf(""), infinity, -infinity}) {
+                pixels[at] = bad;
+                CHECK_THROWS_WITH_AS(brightest_pixel(image_of(pixels), "fls", 12),
+                                     "sensor 'fls', ping at pose 12: 1 of 19 pixels are NaN or "
+                                     "infinite, a fault of sonarsim; please report it with the "
+                                     "mission",
+                                     std::runtime_error);
+            }
+        }
+    }
+
+    TEST_CASE("finite image: a run ends before it writes one that is not") {
+        const TemporaryFolder temporary;
+        const Mission mission = small_mission(temporary.path / "out");
+        Assembly assembly = small_assembly(mission, 1);
+        change_paper_model(assembly.sonars[1], [](PaperModel& model) {
+            model.pixel_noise.lobe_scale[3] = std::nanf("");
+        });
+        CHECK_THROWS_WITH_AS(run_job(mission, assembly, {.threads = 1}, {}, {false}),
+                             doctest::Contains("sensor 'left', ping at pose 0: 48 of 1536"),
+                             std::runtime_error);
+        CHECK_FALSE(std::filesystem::exists(temporary.path / "out/left/polar/000000.npy"));
     }
 }

@@ -28,6 +28,6 @@ TEST_SUITE("dataset") {
         REQUIRE(in->read_image(0, 0, 0, 1, OIIO::TypeDesc::FLOAT, pixels.data()));
         for (std::size_t k = 0; k < 6; ++k)
             CHECK((k == 2 ? std::isnan(pixels[k]) : pixels[k] == values[k]));
-        // cli/test_map.py tests the place with GDAL.
+        // cli/test_swath_files.py tests the place with GDAL.
     }
 }

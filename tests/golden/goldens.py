@@ -6,7 +6,8 @@
 Each mission is rendered with one and with two threads, one also in three shards that are merged, and one
 that is killed and resumed. A line of goldens.txt is a dataset, a sensor (or `-`), a kind of file, the number of such files, and
 the hash of their contents: arrays, decoded pixels, parsed JSON without what names a build, a version or a sum. The
-variants of a mission are one dataset here. --write writes goldens.txt again; say in the commit why its lines changed.
+variants of a mission are one dataset here. Two missions are previewed. --write writes goldens.txt again; say in the
+commit why its lines changed.
 """
 import argparse
 import base64
@@ -28,7 +29,7 @@ from PIL import Image
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 GOLDENS = HERE / "goldens.txt"
-SHARDED, KILLED = "records", "moving"
+SHARDED, KILLED, PREVIEWED = "records", "moving", ("imaging_slices", "records")
 # Files about the making of a dataset, and the keys of JSON files that name a build, a version or a sum of a file.
 NOT_HASHED = ("SHA256SUMS", "journal.txt", "mission.resolved.yaml")
 NOT_COMPARED = {"build", "program_version", "format_version", "mission_hash", "inputs_hash", "sha256"}
@@ -170,12 +171,22 @@ class Renderer:
         return self.lines(name, out)
 
 
+    def previews(self):
+        """The pictures of sonarsim preview, of a fan, and of a side-scan sonar, an echosounder and a scanning sonar."""
+        lines = []
+        for name in PREVIEWED:
+            out = self.folder / f"out/{name}_preview.png"
+            self.run(self.program, "preview", f"missions/{name}.yaml", "--ping", "3", "--quiet", "--out", out)
+            lines.append(f"preview - {name}.png 1 {hashlib.sha256(pixel_bytes(out)).hexdigest()[:32]}")
+        return lines
+
+
 def all_runs(renderer):
     """Name, way of rendering, and lines of every run, two at a time."""
     names = sorted(path.stem for path in (HERE / "missions").glob("*.yaml"))
     jobs = [(name, f"{threads} threads", renderer.with_threads, (name, threads))
             for threads in (1, 2) for name in names]
-    jobs += [(SHARDED, "three shards", renderer.sharded, (SHARDED,)), (KILLED, "killed", renderer.killed, (KILLED,))]
+    jobs += [("preview", "1 threads", renderer.previews, ()), (SHARDED, "three shards", renderer.sharded, (SHARDED,)), (KILLED, "killed", renderer.killed, (KILLED,))]
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         futures = [(name, way, pool.submit(run, *arguments)) for name, way, run, arguments in jobs]
         return [(name, way, future.result()) for name, way, future in futures]

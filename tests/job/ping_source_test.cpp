@@ -34,6 +34,7 @@ TEST_SUITE("job") {
         const PingSource source(mission, assembly);
         const std::vector<Writers> writers = make_writers(mission, assembly);
         const Layout layout = make_layout(mission, writers, assembly.trajectory.size());
+        const auto engine = make_engine(assembly.scene, engine_settings(mission, assembly));
         const auto content = [&](const PingId& id, const char* name, const char* extension) {
             return read_file(layout.file(id, {name, extension}), 1 << 24);
         };
@@ -44,11 +45,17 @@ TEST_SUITE("job") {
             CAPTURE(id.sensor);
             CHECK(ping.metadata == content(id, "meta", ".json"));
             const bool has_images = kind_of(mission.sensors[id.sensor].kind).has_images;
-            if (has_images) CHECK(file_of(ping.image) == content(id, "polar", ".npy"));
+            if (has_images) {
+                const Ping alone = render_ping(assembly.sonars[id.sensor], assembly.scene, *engine,
+                                               assembly.trajectory[id.pose].T_world_vehicle,
+                                               {mission.seed, id.pose});
+                CHECK(std::get<std::vector<float>>(ping.image.values) == alone.intensity);
+                CHECK(file_of(ping.image) == content(id, "polar", ".npy"));
+            }
             for (const PingInMemory::Array& array : ping.arrays) {
-                const bool is_float =
-                    std::holds_alternative<std::vector<float>>(array.numbers.values);
-                if (!has_images || !is_float) continue;
+                if (!has_images ||
+                    !std::holds_alternative<std::vector<float>>(array.numbers.values))
+                    continue;
                 CHECK(file_of(array.numbers) == content(id, array.name.c_str(), ".npy"));
                 compared.insert(array.name);
             }

@@ -2,41 +2,27 @@
 
 #include <algorithm>
 
-#include "core/file.h"
-#include "job/run_job.h"
+#include "job/small_job.h"
 #include "support/npy_data.h"
-#include "support/small_mission.h"
-#include "support/temporary_folder.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
 namespace fs = std::filesystem;
 
-namespace {
-
-constexpr int series_poses = 7;  // front, mbes and sss ping at all of them, sounder at 0, 2, 4, 6
-
-RenderSummary run_series(const Mission& mission, const RenderOptions& options = {}) {
-    return run_job(mission, small_assembly(mission, series_poses), options, {},
-                   std::atomic<bool>(false));
-}
-
-}  // namespace
-
 TEST_SUITE("job") {
     TEST_CASE("series: bytes depend neither on threads nor on interruptions nor on shards") {
         const TemporaryFolder temporary;
         const auto whole = [&] {
-            run_series(survey_mission(temporary.path / "whole"), {.threads = 1});
+            run(survey_mission(temporary.path / "whole"), {.threads = 1});
             return contents(temporary.path / "whole");
         }();
-        run_series(survey_mission(temporary.path / "two"), {.threads = 2});
+        run(survey_mission(temporary.path / "two"), {.threads = 2});
         CHECK(contents(temporary.path / "two") == whole);
 
         const Mission stopped = survey_mission(temporary.path / "stopped");
         std::atomic<bool> stop = false;
         const RenderSummary first = run_job(
-            stopped, small_assembly(stopped, series_poses), {.threads = 1},
+            stopped, small_assembly(stopped, poses), {.threads = 1},
             [&](const RenderSummary& so_far, std::uint64_t) { stop = so_far.pings >= 9; }, stop);
         CHECK(first.stopped);
         // Record files can be opened at once; missing records are zero; products come at the end.
@@ -45,59 +31,44 @@ TEST_SUITE("job") {
         CHECK(std::any_of(part.begin(), part.begin() + 192, [](float v) { return v > 0.0F; }));
         CHECK(std::all_of(part.end() - 192, part.end(), [](float v) { return v == 0.0F; }));
         CHECK_FALSE(fs::exists(temporary.path / "stopped/sss/waterfall.png"));
-        const RenderSummary second = run_series(stopped);
+        const RenderSummary second = run(stopped);
         CHECK(second.skipped == first.pings);
         CHECK(contents(temporary.path / "stopped") == whole);
 
         const Mission shared = survey_mission(temporary.path / "shared");
-        CHECK_FALSE(run_series(shared, {.shard = 1, .shards = 2}).complete);
-        CHECK(run_series(shared, {.shard = 0, .shards = 2}).complete);
+        CHECK_FALSE(run(shared, {.shard = 1, .shards = 2}).complete);
+        CHECK(run(shared, {.shard = 0, .shards = 2}).complete);
         CHECK(contents(temporary.path / "shared") == whole);
     }
 
     TEST_CASE("series: shards merged by copying lose records, and one more run brings them back") {
         const TemporaryFolder temporary;
-        run_series(survey_mission(temporary.path / "whole"));
+        run(survey_mission(temporary.path / "whole"));
         const fs::path merged = temporary.path / "merged";
         for (int shard = 0; shard < 2; ++shard) {
             const fs::path out = temporary.path / std::to_string(shard);
-            run_series(survey_mission(out), {.shard = shard, .shards = 2});
+            run(survey_mission(out), {.shard = shard, .shards = 2});
             fs::copy(out, merged,
                      fs::copy_options::recursive | fs::copy_options::overwrite_existing);
         }
-        const RenderSummary summary = run_series(survey_mission(merged));
+        const RenderSummary summary = run(survey_mission(merged));
         CHECK(summary.pings > 0);
         CHECK(summary.complete);
         CHECK(contents(merged) == contents(temporary.path / "whole"));
     }
 
-    TEST_CASE("series: what is missing is made again, a finished dataset is left alone") {
+    TEST_CASE(
+        "series: pictures are made again without a ping, an old folder of a sensor goes whole") {
         const TemporaryFolder temporary;
         const fs::path out = temporary.path / "out";
         const Mission mission = survey_mission(out);
-        run_series(mission);
+        run(mission);
         const auto whole = contents(out);
-        const auto before = fs::last_write_time(out / "sss/waterfall.npy");
-        CHECK(run_series(mission).pings == 0);
-        CHECK(fs::last_write_time(out / "sss/waterfall.npy") == before);
-
-        fs::remove(out / "sss/waterfall.npy");
-        fs::remove(out / "mbes/bathymetry.tif");
-        write_file(out / "mbes/.soundings.csv.0123456789abcdef.part", "half");
-        const RenderSummary again = run_series(mission);
-        CHECK(again.pings == 7);
-        CHECK(again.complete);
-        CHECK(contents(out) == whole);
-
         fs::remove(out / "sounder/echogram_view.png");
-        CHECK(run_series(mission).pings == 0);
+        CHECK(run(mission).pings == 0);
         CHECK(contents(out) == whole);
-
         write_file(out / "sss/mine.txt", "mine");
-        const RenderSummary anew = run_series(mission, {.overwrite = true});
-        CHECK(anew.pings == 25);
-        // A sensor's folder is removed whole.
-        CHECK_FALSE(fs::exists(out / "sss/mine.txt"));
+        CHECK(run(mission, {.overwrite = true}).pings == 25);
         CHECK(contents(out) == whole);
     }
 }

@@ -2,9 +2,7 @@
 
 #include <atomic>
 #include <filesystem>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <string>
 
 #include "core/file.h"
 #include "job/run_job.h"
@@ -22,13 +20,6 @@ inline RenderSummary run(const Mission& mission, const RenderOptions& options = 
 
 inline bool is_complete(const std::filesystem::path& folder) {
     return nlohmann::json::parse(read_file(folder / "dataset.json", 1 << 20)).at("complete");
-}
-
-/// The result of a whole render of the small mission.
-inline std::map<std::string, std::string> whole_dataset() {
-    const TemporaryFolder folder;
-    run(small_mission(folder.path / "out"));
-    return contents(folder.path / "out");
 }
 
 }  // namespace sonarsim::test

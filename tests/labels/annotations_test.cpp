@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
+#include <memory>
 #include <vector>
 
 #include "core/units.h"
 #include "product/object_table.h"
 #include "support/approx.h"
+#include "support/draws.h"
 #include "support/labelled.h"
 #include "support/scenes.h"
 
@@ -16,25 +17,34 @@ using namespace sonarsim::test;
 
 namespace {
 
-/// A scene on a floor, which is its first object and background, and what annotations say of it.
+/// The objects of a scene, of which the first is a floor and background.
+SceneObjects objects_on_floor(const Scene& scene) {
+    SceneObjects objects = group_objects(scene, {});
+    objects.background.assign(objects.classes.size(), 0);
+    objects.background[0] = 1;
+    return objects;
+}
+
+/// The annotations of a scene on a floor.
 struct FoundObjects {
     Sonar sonar;
+    SceneObjects objects;
+    std::unique_ptr<VisibilityEngine> engine;
+    TracedPing traced;
     PingLabels labels;
     std::vector<ObjectInPing> seen;
 
     FoundObjects(const Scene& scene, const SonarConfig& config, const Pose& pose,
                  const std::vector<ObjectSphere>& spheres, bool all_shadows = false)
-        : sonar(noise_free(config)) {
-        SceneObjects objects = group_objects(scene, {});
-        objects.background.assign(objects.classes.size(), 0);
-        objects.background[0] = 1;
-        const auto engine = make_engine(scene, {});
-        const TracedPing traced = trace(sonar, scene, *engine, pose, 0);
+        : sonar(noise_free(config)),
+          objects(objects_on_floor(scene)),
+          engine(make_engine(scene, {})),
+          traced(trace(sonar, scene, *engine, pose, 0)) {
         labels = label_ping(
             traced, sonar.settings, scene, objects, *engine,
             {.objects = true, .shadow = all_shadows, .annotations = true, .annotated = spheres});
-        const Ping ping = form_image(traced, sonar.settings, scene, {});
-        seen = visible_objects(sonar, objects, traced, labels, ping, {});
+        seen = visible_objects(sonar, objects, traced, labels,
+                               form_image(traced, sonar.settings, scene, {}), {});
     }
 
     const ObjectInPing& object(std::uint32_t id) const {
@@ -83,16 +93,12 @@ TEST_CASE("annotations: the azimuth of an object astern, in a full turn") {
 }
 
 TEST_CASE("annotations: the shadow of a wall on a flat floor is h r / (H - h) long") {
-    // The line over the edge of a wall of height h at the distance r falls by H - h on r, and by
-    // the h that is left on h r / (H - h): the shadow ends r + h r / (H - h) = r H / (H - h) away.
+    // The line over a wall of height h at the distance r meets the floor at r H / (H - h).
     constexpr double sonar_m = 3.0;
-    std::mt19937 bits(7);
-    for (int draw = 0; draw < 6; ++draw) {
-        const auto between = [&](double low, double high) {
-            return low + (high - low) * (bits() / 4294967296.0);
-        };
-        const double h = between(0.3, 1.2);
-        const double r = between(4.0, 6.5);
+    Uniform draw(7);
+    for (int k = 0; k < 6; ++k) {
+        const double h = draw.between(0.3, 1.2);
+        const double r = draw.between(4.0, 6.5);
         CAPTURE(h);
         CAPTURE(r);
         Scene scene = empty_scene();
@@ -120,8 +126,8 @@ TEST_CASE("annotations: the shadow of a wall on a flat floor is h r / (H - h) lo
 }
 
 TEST_CASE("annotations: a sphere on a flat floor") {
-    // Its centre lies at the angle b below the horizon, D away. The line that touches it is
-    // asin(a / D) above that and meets the floor H / sin(b - asin(a / D)) away.
+    // The line that touches it is asin(a / D) above its centre, which lies at the angle b below the
+    // horizon, and meets the floor H / sin(b - asin(a / D)) away.
     constexpr double sonar_m = 3.0;
     constexpr double a = 0.4;
     constexpr double x = 5.0;
@@ -148,38 +154,29 @@ TEST_CASE("annotations: a sphere on a flat floor") {
 }
 
 TEST_CASE("annotations: visible shares are those of all sight lines, and the shadows are, too") {
-    // Spheres at random, some behind others and some half in the floor. The lines that annotations
-    // follow must find all that hides them and all that they hide.
-    std::mt19937 bits(3);
-    const auto between = [&](double low, double high) {
-        return static_cast<float>(low + (high - low) * (bits() / 4294967296.0));
-    };
+    // Spheres at random, some behind others and some half in the floor.
+    Uniform draw(3);
     double both = 0.0;
     double either = 0.0;
     int partly_hidden = 0;
-    for (int draw = 0; draw < 4; ++draw) {
+    for (int n = 0; n < 4; ++n) {
         Scene scene = empty_scene();
         const std::uint32_t m = add_material(scene, 0.5F);
         add_floor(scene, 40.0F, 0.0F, m);
         std::vector<ObjectSphere> spheres;
         for (int k = 0; k < 12; ++k) {
-            const Eigen::Vector3f centre(between(3.0, 9.0), between(-3.0, 3.0), between(-0.1, 0.6));
-            const float radius = between(0.1, 0.5);
+            const Eigen::Vector3f centre(draw.single(3.0, 9.0), draw.single(-3.0, 3.0),
+                                         draw.single(-0.1, 0.6));
+            const float radius = draw.single(0.1, 0.5);
             add_sphere(scene, centre, radius, m, 24);
             spheres.push_back({centre.cast<double>(), 1.0001 * radius});
         }
         const FoundObjects found(scene, wide_fan(), looking_down(3.0, 25.0), spheres, true);
-        const SceneObjects objects = group_objects(scene, {});
-        SceneObjects with_background = objects;
-        const auto engine = make_engine(scene, {});
-        const TracedPing traced = trace(found.sonar, scene, *engine, looking_down(3.0, 25.0), 0);
-        with_background.background.assign(objects.classes.size(), 0);
-        with_background.background[0] = 1;
         // The box lets lines end where they leave the scene.
         const Eigen::AlignedBox3d surface(Eigen::Vector3d(-40, -40, -0.6),
                                           Eigen::Vector3d(40, 40, 1.1));
         const PingLabels few = label_ping(
-            traced, found.sonar.settings, scene, with_background, *engine,
+            found.traced, found.sonar.settings, scene, found.objects, *found.engine,
             {.objects = true, .annotations = true, .annotated = spheres, .surface = &surface});
         for (std::size_t k = 1; k < few.visible_share.size(); ++k) {
             CAPTURE(k);

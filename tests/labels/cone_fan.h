@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <random>
 #include <vector>
 
 #include "core/units.h"
 #include "support/calibrated.h"
+#include "support/draws.h"
 #include "support/labelled.h"
 #include "support/scenes.h"
 #include "visibility/angles.h"
@@ -17,18 +17,6 @@ namespace sonarsim::test {
 
 enum class Spacing { angle, sine };
 constexpr std::array spacings{Spacing::angle, Spacing::sine};
-
-/// Uniform numbers; std::uniform_real_distribution differs between libraries.
-class Uniform {
-  public:
-    explicit Uniform(std::uint32_t seed) : bits_(seed) {}
-    double between(double low, double high) {
-        return low + (high - low) * (bits_() / 4294967296.0);
-    }
-
-  private:
-    std::mt19937 bits_;
-};
 
 /// 90 degrees of azimuth and of elevation, 1 to 9 m in 320 bins, 160 narrow beams, no noise.
 inline Sonar wide_fan(Spacing spacing) {

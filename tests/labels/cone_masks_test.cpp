@@ -2,6 +2,7 @@
 // the echo.
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
 #include <numeric>
 
 #include "labels/cone_fan.h"
@@ -12,28 +13,16 @@ using namespace sonarsim::test;
 
 namespace {
 
-/// Half-open; empty: last = first.
-struct Box {
-    int bin_first = 1 << 20, bin_last = 0, beam_first = 1 << 20, beam_last = 0;
+/// Bins along x, beams along y, half-open.
+using Box = Eigen::AlignedBox2i;
 
-    void add(int bin, int beam) {
-        bin_first = std::min(bin_first, bin);
-        bin_last = std::max(bin_last, bin + 1);
-        beam_first = std::min(beam_first, beam);
-        beam_last = std::max(beam_last, beam + 1);
-    }
-    int bins() const { return std::max(bin_last - bin_first, 0); }
-    int beams() const { return std::max(beam_last - beam_first, 0); }
-    double area() const { return static_cast<double>(bins()) * beams(); }
-};
+double area(const Box& box) {
+    return box.isEmpty() ? 0.0 : static_cast<double>(box.sizes().x()) * box.sizes().y();
+}
 
 double overlap(const Box& a, const Box& b) {
-    Box both = a;
-    both.bin_first = std::max(a.bin_first, b.bin_first);
-    both.bin_last = std::min(a.bin_last, b.bin_last);
-    both.beam_first = std::max(a.beam_first, b.beam_first);
-    both.beam_last = std::min(a.beam_last, b.beam_last);
-    return both.area() / (a.area() + b.area() - both.area());
+    const double both = area(a.intersection(b));
+    return both / (area(a) + area(b) - both);
 }
 
 Thing draw_thing(Uniform& draw) {
@@ -113,18 +102,17 @@ Box box_above(const std::vector<double>& energies, double least, int beams,
               const std::vector<bool>& mask = {}) {
     Box box;
     for (std::size_t at = 0; at < energies.size(); ++at) {
+        const Eigen::Vector2i bin(static_cast<int>(at) / beams, static_cast<int>(at) % beams);
         if (energies[at] > least && (mask.empty() || mask[at]))
-            box.add(static_cast<int>(at) / beams, static_cast<int>(at) % beams);
+            box.extend(Box(bin, bin + Eigen::Vector2i::Ones()));
     }
     return box;
 }
 
 /// The box nearest to `box` that holds `least` and lies within `most`.
 Box between(const Box& box, const Box& least, const Box& most) {
-    return {std::clamp(box.bin_first, most.bin_first, least.bin_first),
-            std::clamp(box.bin_last, least.bin_last, most.bin_last),
-            std::clamp(box.beam_first, most.beam_first, least.beam_first),
-            std::clamp(box.beam_last, least.beam_last, most.beam_last)};
+    return {box.min().cwiseMax(most.min()).cwiseMin(least.min()),
+            box.max().cwiseMax(least.max()).cwiseMin(most.max())};
 }
 
 /// The correlation of a mask with an image in decibels above its noise, where the mask is moved by
@@ -171,7 +159,8 @@ TEST_CASE("cone labels: masks of 500 things lie on their echoes" * doctest::skip
         const double least = noise * *std::ranges::max_element(by_points);
         const Box loud = box_above(by_points, 2.0 * least, view.beams);
         const Box faint = box_above(by_points, 0.5 * least, view.beams);
-        if (loud.bins() < 20 || loud.beams() < 20) continue;  // a bin more or less tells nothing
+        if (loud.isEmpty() || loud.sizes().minCoeff() < 20)
+            continue;  // a bin more or less tells nothing
         ++measured;
         const std::vector<double> by_labels = energies_of_labels(traced, sonar, thing.scene);
         const auto sum = [](const std::vector<double>& of) {
@@ -182,7 +171,7 @@ TEST_CASE("cone labels: masks of 500 things lie on their echoes" * doctest::skip
         const Box box = box_above(by_labels, unit * least, view.beams, mask);
         const double o = overlap(box, between(box, loud, faint));
         // One bin and one beam more or less.
-        const double min_overlap = (1.0 - 1.0 / loud.bins()) * (1.0 - 1.0 / loud.beams());
+        const double min_overlap = (1.0 - 1.0 / loud.sizes().x()) * (1.0 - 1.0 / loud.sizes().y());
         CHECK(o >= std::min(0.95, min_overlap));
         const Ping clean =
             form_image(traced, sonar.settings, thing.scene, {}, without_random_terms);

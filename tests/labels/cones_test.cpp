@@ -110,45 +110,6 @@ TEST_CASE("cone labels: the pieces of targets cover the bins that an engine's sa
     }
 }
 
-TEST_CASE("cone labels: a piece that several beams receive is one patch with their echoes") {
-    Scene scene = empty_scene();
-    add_floor(scene, 30.0F, 0.0F, add_material(scene, 0.4F));
-    const Sonar sonar = wide_fan(Spacing::angle);
-    const auto engine = make_engine(scene, {.type = EngineKind::slices, .octree = {}});
-    const TracedPing traced =
-        trace(sonar, scene, *engine, {Eigen::Quaterniond::Identity(), {0.0, 0.0, 3.0}}, 0);
-    const View& view = sonar.settings.view;
-    struct Echo {
-        std::uint32_t beam;
-        float power;
-        const Sample* sample;
-    };
-    std::vector<Echo> direct;
-    const SurfaceEchoes echoes =
-        sonar.settings.model->surface_echoes(traced, view, scene, true, [&](const EchoBlock& of) {
-            for (int k = 0; k < of.count; ++k)
-                direct.push_back({of.beam[k], of.weight[k], of.sample[k]});
-        });
-    // A piece is at most a beam wide and lies anywhere: many are in two beams.
-    CHECK(echoes.patches.size() > 1000);
-    CHECK(echoes.patch_echoes.size() > echoes.patches.size() * 5 / 4);
-    // They are the direct echoes, in the same order.
-    REQUIRE(direct.size() == echoes.patch_echoes.size());
-    std::uint32_t end = 0;
-    bool alike = true;
-    for (const EchoPatch& patch : echoes.patches) {
-        alike = alike && patch.echo_begin == end && patch.echo_end > end;
-        end = patch.echo_end;
-        for (std::uint32_t k = patch.echo_begin; k < patch.echo_end; ++k) {
-            const PatchEcho& echo = echoes.patch_echoes[k];
-            alike = alike && echo.beam == direct[k].beam && echo.echo == direct[k].power &&
-                    direct[k].sample == patch.sample;
-        }
-    }
-    CHECK(alike);
-    CHECK(end == echoes.patch_echoes.size());
-}
-
 TEST_CASE("cone labels: the shadow of a box lies where rays of its beams are hidden" *
           doctest::skip(test::sanitized)) {
     // A box on a floor, seen from above under 30 degrees and 25 degrees aside.
@@ -203,9 +164,8 @@ TEST_CASE("cone labels: the shadow of a box lies where rays of its beams are hid
 }
 
 TEST_CASE("cone labels: the echoes of all kinds have the energies of the image") {
-    // Two planes that mirror sound to each other, as the sides of a roof seen from below, 50
-    // degrees from the view's axis. A sonar's image is its labels' echoes times one factor, direct
-    // or by multipath: of a fan that of its grid, else the pulse's.
+    // Two planes that mirror sound to each other, as the sides of a roof seen from below. An image
+    // is its labels' echoes times one factor, direct or by multipath.
     for (const SonarKind kind :
          {SonarKind::imaging, SonarKind::sidescan, SonarKind::echosounder, SonarKind::scanning}) {
         CAPTURE(static_cast<int>(kind));
@@ -249,9 +209,8 @@ TEST_CASE("cone labels: the echoes of all kinds have the energies of the image")
 }
 
 TEST_CASE("cone labels: the shadow of a large face has no holes and ends where it should") {
-    // A plate from x = 4 m, 1 m high, stands on a floor 2 m below the sonar. It hides the floor
-    // from x = 4 to x = 8. A beam of the sine s sees the place x of the floor at r^2 (1 - s^2) =
-    // x^2 + 4.
+    // A plate at x = 4 m, 1 m high, stands 2 m below the sonar and hides the floor up to x = 8 m. A
+    // beam of the sine s sees the place x at r^2 (1 - s^2) = x^2 + 4.
     Scene scene = empty_scene();
     const std::uint32_t m = add_material(scene, 0.4F);
     add_floor(scene, 30.0F, -2.0F, m);

@@ -15,6 +15,28 @@
 using namespace sonarsim;
 using namespace sonarsim::test;
 
+namespace {
+
+Sonar height_sonar(double elevation_deg = 40.0) {
+    SonarConfig config = small_imaging();
+    config.elevation_deg = elevation_deg;
+    return noise_free(config, 0.01);
+}
+
+std::vector<float> heights(const Scene& scene, const Sonar& sonar, const Pose& pose,
+                           EngineKind type, const Bottom* bottom) {
+    const auto engine = make_engine(scene, {.type = type, .octree = {}});
+    const TracedPing traced = trace(sonar, scene, *engine, pose, 0);
+    return label_ping(traced, sonar.settings, scene, group_objects(scene, {}), *engine,
+                      {.height = true, .bottom = bottom})
+        .height_m;
+}
+
+/// 2 m above the floor, 20 degrees down.
+const Pose down{rotation_from_rpy(0.0, radians(20.0), 0.0), {0, 0, 2}};
+
+}  // namespace
+
 TEST_SUITE_BEGIN("ping");
 
 TEST_CASE("labels: the elevation of a floor is that of its range") {
@@ -22,16 +44,14 @@ TEST_CASE("labels: the elevation of a floor is that of its range") {
     // theta spreads evenly over b d(theta)/dr, a standard deviation of that over sqrt(12).
     Scene scene = empty_scene();
     add_floor(scene, 100.0F, 0.0F, add_material(scene, 0.6F));
-    SonarConfig config = small_imaging();
-    config.elevation_deg = 40.0;
-    const Sonar sonar = noise_free(config, 0.01);
+    const Sonar sonar = height_sonar();
     constexpr double H = 2.0;
     for (const EngineKind type : engine_types) {
         CAPTURE(static_cast<int>(type));
         const Labelled out = label(scene, sonar, {Eigen::Quaterniond::Identity(), {0, 0, H}}, type);
         int bins = 0;
         for (int i = bin_at(sonar, 6.5); i < bin_at(sonar, 9.5); ++i) {
-            const double r = 0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]);
+            const double r = bin_centre(sonar, i);
             for (int j = 0; j < out.labels.beams; ++j) {
                 const float theta = out.labels.elevation_rad[out.at(i, j)];
                 const double truth = -std::asin(H / r);
@@ -50,12 +70,9 @@ TEST_CASE("labels: the elevation of a floor is that of its range") {
 }
 
 TEST_CASE("labels: heights above the bottom, of a box, of a ramp and of the bottom itself") {
-    // A sonar 2 m above a floor, 20 degrees down, sees 0 to 40 degrees of depression: the floor
-    // from 3.1 m on. Straight ahead stands a box half a metre high, from x = 4 to 5 m. The floor
-    // before it ends at a range of hypot(4, 2) = 4.47 m and is seen again from x = 5 * 2
-    // / 1.5, 6.96 m, on; its top lies at hypot(4, 1.5) = 4.27 to hypot(5, 1.5) = 5.22 m. A ramp
-    // from (8, 0) to (9, 0.5) lies at 8.25 to 9.12 m and hides the floor up to x = 9 * 2
-    // / 1.5, 12.17 m.
+    // The sonar sees the floor from 3.1 m on. Straight ahead stands a box, half a metre high, from
+    // x = 4 to 5 m: its top lies at 4.27 to 5.22 m, and it hides the floor up to 6.96 m. A ramp
+    // from (8, 0) to (9, 0.5) lies at 8.25 to 9.12 m and hides the floor up to 12.17 m.
     Scene scene = empty_scene();
     const std::uint32_t m = add_material(scene, 0.5F);
     add_floor(scene, 100.0F, 0.0F, m);
@@ -78,18 +95,9 @@ TEST_CASE("labels: heights above the bottom, of a box, of a ramp and of the bott
     config.range_max_m = 18.0;
     config.range_bins = 512;
     const Sonar sonar = noise_free(config, 0.01);
-    const Pose pose{rotation_from_rpy(0.0, radians(20.0), 0.0), {0, 0, 2}};
     for (const EngineKind type : engine_types) {
         CAPTURE(static_cast<int>(type));
-        const auto engine = make_engine(scene, {.type = type, .octree = {}});
-        const TracedPing traced = trace(sonar, scene, *engine, pose, 0);
-        const SceneObjects objects = group_objects(scene, {});
-        const auto heights = [&](const Bottom* above) {
-            return label_ping(traced, sonar.settings, scene, objects, *engine,
-                              {.height = true, .bottom = above})
-                .height_m;
-        };
-        const std::vector<float> height = heights(&bottom);
+        const std::vector<float> height = heights(scene, sonar, down, type, &bottom);
         int bins = 0;
         for (int j = 0; j < sonar.settings.view.beams; ++j) {
             // Beams near the middle, in which azimuth changes no range by more than half a bin.
@@ -98,7 +106,7 @@ TEST_CASE("labels: heights above the bottom, of a box, of a ramp and of the bott
                 for (int i = bin_at(sonar, from); i < bin_at(sonar, to); ++i, ++bins) {
                     CAPTURE(sonar.range_edges_m[i]);
                     check(height[static_cast<std::size_t>(j) * config.range_bins + i],
-                          0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]));
+                          bin_centre(sonar, i));
                 }
             };
             between(3.3, 4.1, [](float h, double) { CHECK(h == 0.0F); });
@@ -115,35 +123,29 @@ TEST_CASE("labels: heights above the bottom, of a box, of a ramp and of the bott
             between(14.5, 17.0, [](float h, double) { CHECK(std::isnan(h)); });  // no bottom
         }
         CHECK(bins > 500);
-        CHECK(std::ranges::all_of(heights(nullptr), [](float h) { return std::isnan(h); }));
+        CHECK(std::ranges::all_of(heights(scene, sonar, down, type, nullptr),
+                                  [](float h) { return std::isnan(h); }));
     }
 }
 
 TEST_CASE("labels: a wall on the border of the bottom has heights") {
-    // A sonar 2 m above a floor that ends at a wall 6 m ahead, looking level: of the wall it sees
-    // the heights from 2 - 6 tan(10) = 0.94 m to 3.06 m, straight ahead first the middle of them.
+    // 6 m ahead of a sonar that looks level, which first sees the middle of it.
     Scene scene = empty_scene();
     add_quad(scene, {6, -9, 0}, {6, 9, 0}, {6, 9, 5}, {6, -9, 5}, add_material(scene, 0.5F));
     const Bottom bottom({{{-1, -9, 0}, {6, -9, 0}, {6, 9, 0}, {-1, 9, 0}}, {{0, 1, 2}, {0, 2, 3}}});
-    SonarConfig config = small_imaging();
-    config.elevation_deg = 20.0;
-    const Sonar sonar = noise_free(config, 0.01);
+    const Sonar sonar = height_sonar(20.0);
     const Pose pose{Eigen::Quaterniond::Identity(), {0, 0, 2}};
     for (const EngineKind type : engine_types) {
         CAPTURE(static_cast<int>(type));
-        const auto engine = make_engine(scene, {.type = type, .octree = {}});
-        const TracedPing traced = trace(sonar, scene, *engine, pose, 0);
-        const PingLabels labels =
-            label_ping(traced, sonar.settings, scene, group_objects(scene, {}), *engine,
-                       {.elevation = true, .height = true, .bottom = &bottom});
+        const Labelled seen = label(scene, sonar, pose, type);
+        const std::vector<float> height = heights(scene, sonar, pose, type, &bottom);
         int occupied = 0;
-        for (std::size_t k = 0; k < labels.size(); ++k) {
-            const bool seen = !std::isnan(labels.elevation_rad[k]);
-            REQUIRE(std::isnan(labels.height_m[k]) == !seen);
-            if (!seen) continue;
+        for (std::size_t k = 0; k < height.size(); ++k) {
+            REQUIRE(std::isnan(height[k]) == std::isnan(seen.labels.elevation_rad[k]));
+            if (std::isnan(height[k])) continue;
             ++occupied;
             // Surface as far above the sonar as below it falls into one bin.
-            CHECK(std::fabs(labels.height_m[k] - 2.0F) < 0.2F);
+            CHECK(std::fabs(height[k] - 2.0F) < 0.2F);
         }
         CHECK(occupied > 50);
     }
@@ -161,23 +163,13 @@ TEST_CASE("labels: surface of the bottom has the same height with and without a 
     surface.triangles = scene.triangles;
     const Bottom bottom(surface);
     add_quad(scene, {4, -3, 0.5F}, {5, -3, 0.5F}, {5, 3, 0.5F}, {4, 3, 0.5F}, m);
-    SonarConfig config = small_imaging();
-    config.elevation_deg = 40.0;
-    const Sonar sonar = noise_free(config, 0.01);
-    const Pose pose{rotation_from_rpy(0.0, radians(20.0), 0.0), {0, 0, 2}};
+    const Sonar sonar = height_sonar();
     for (const EngineKind type : engine_types) {
         CAPTURE(static_cast<int>(type));
         scene.is_bottom.clear();
-        const auto engine = make_engine(scene, {.type = type, .octree = {}});
-        const TracedPing traced = trace(sonar, scene, *engine, pose, 0);
-        const auto heights = [&] {
-            return label_ping(traced, sonar.settings, scene, group_objects(scene, {}), *engine,
-                              {.height = true, .bottom = &bottom})
-                .height_m;
-        };
-        const std::vector<float> searched = heights();
+        const std::vector<float> searched = heights(scene, sonar, down, type, &bottom);
         scene.is_bottom = {1, 1, 0};
-        const std::vector<float> known = heights();
+        const std::vector<float> known = heights(scene, sonar, down, type, &bottom);
         int of_wall = 0;
         for (std::size_t k = 0; k < known.size(); ++k) {
             CHECK(std::isnan(known[k]) == std::isnan(searched[k]));

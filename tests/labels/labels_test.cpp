@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numeric>
 
 #include "support/approx.h"
@@ -21,9 +20,7 @@ using namespace sonarsim::test;
 namespace {
 
 /// The echo of each object in each bin, [beams, range bins, objects], by rays alone: a ray at angle
-/// `theta` stands for the solid angle cos(theta), for r^2 times that over the cosine of incidence
-/// of surface, and for an echo of reflection times r^2 times that, since Eq. 6 has the cosine once
-/// more. No footprints: each ray falls into one bin.
+/// `theta` has an echo of reflection times r^2 cos(theta). Each falls into one bin.
 std::vector<double> echoes_by_rays(const Scene& scene, const SceneObjects& objects,
                                    const Sonar& sonar, const Pose& pose) {
     constexpr int across = 12;
@@ -56,27 +53,6 @@ std::vector<double> echoes_by_rays(const Scene& scene, const SceneObjects& objec
     }
     return echoes;
 }
-
-/// The tank, and a sonar with multipath and without noise that looks at it.
-struct TankWithGhosts {
-    Scene scene = tank();
-    Sonar sonar;
-    std::unique_ptr<VisibilityEngine> engine = make_engine(scene, {});
-    SceneObjects objects = group_objects(scene, {});
-
-    TankWithGhosts() {
-        SonarConfig config = small_imaging();
-        config.multipath.method = MultipathMethod::cluster;
-        sonar = noise_free(config);
-    }
-    TracedPing see(const Pose& pose) const { return trace(sonar, scene, *engine, pose, 0); }
-    Ping image(const TracedPing& traced, const Terms& terms) const {
-        return form_image(traced, sonar.settings, scene, {}, terms);
-    }
-    PingLabels label(const TracedPing& traced, const LabelRequest& request) const {
-        return label_ping(traced, sonar.settings, scene, objects, *engine, request);
-    }
-};
 
 }  // namespace
 
@@ -158,17 +134,27 @@ TEST_CASE("labels: two things in one bin share its echo by area and reflection")
 
 TEST_CASE(
     "labels: occupied bins are those of the clean image, multipath bins those of its ghosts") {
-    const TankWithGhosts the_tank;
+    const Scene scene = tank();
+    SonarConfig config = small_imaging();
+    config.multipath.method = MultipathMethod::cluster;
+    const Sonar sonar = noise_free(config);
+    const auto engine = make_engine(scene, {});
+    const SceneObjects objects = group_objects(scene, {});
     std::uint64_t ghosts = 0;
+    std::uint64_t shadows = 0;
     for (const Pose& pose : tank_poses()) {
-        const TracedPing traced = the_tank.see(pose);
-        const PingLabels labels = the_tank.label(traced, everything);
-        const Ping clean = the_tank.image(traced, without_random_terms);
-        const Ping direct = the_tank.image(traced, direct_echoes_alone);
+        const TracedPing traced = trace(sonar, scene, *engine, pose, 0);
+        const auto label_as = [&](const LabelRequest& request) {
+            return label_ping(traced, sonar.settings, scene, objects, *engine, request);
+        };
+        const PingLabels labels = label_as(everything);
+        const Ping clean = form_image(traced, sonar.settings, scene, {}, without_random_terms);
+        const Ping direct = form_image(traced, sonar.settings, scene, {}, direct_echoes_alone);
         for (int j = 0; j < clean.beams; ++j) {
             for (int i = 0; i < clean.range_bins; ++i) {
                 const std::size_t k = static_cast<std::size_t>(j) * clean.range_bins + i;
                 REQUIRE((labels.object[k] > 0) == (clean.at(i, j) > 0.0F));
+                shadows += labels.shadow[k] > 0;
                 if (labels.object[k] == 0) continue;
                 REQUIRE(labels.share[k] >= labels.second_share[k]);
                 if (direct.at(i, j) == 0.0F) {
@@ -178,23 +164,13 @@ TEST_CASE(
                 if (labels.shadow[k] > 0) REQUIRE(direct.at(i, j) == 0.0F);
             }
         }
+        // Asked for alone, shadows take another way to the bins that are occupied.
+        const PingLabels alone = label_as({.shadow = true});
+        CHECK(alone.shadow == labels.shadow);
+        CHECK(alone.visible_share.size() == objects.objects.size());
+        CHECK(alone.object.empty());
     }
     CHECK(ghosts > 0);
-}
-
-TEST_CASE("labels: shadows are the same whether or not objects are asked for") {
-    // Alone they take another way to the bins that are occupied, by multipath as well.
-    const TankWithGhosts the_tank;
-    std::ptrdiff_t shadows = 0;
-    for (const Pose& pose : tank_poses()) {
-        const TracedPing traced = the_tank.see(pose);
-        const PingLabels all = the_tank.label(traced, everything);
-        const PingLabels alone = the_tank.label(traced, {.shadow = true});
-        CHECK(alone.shadow == all.shadow);
-        CHECK(alone.visible_share.size() == the_tank.objects.objects.size());
-        CHECK(alone.object.empty());
-        shadows += std::ranges::count_if(all.shadow, [](std::uint16_t id) { return id > 0; });
-    }
     CHECK(shadows > 0);
 }
 
@@ -241,25 +217,6 @@ TEST_CASE("labels: in the tank the objects are those that rays without number fi
             CHECK(unexplained / occupied < 0.001);
         }
     }
-}
-
-TEST_CASE("labels: azimuth runs from starboard to port, as in the image") {
-    Scene scene = empty_scene();
-    const std::uint32_t m = add_material(scene, 1.0F);
-    add_sphere(scene, {5, 1.5F, 0}, 0.2F, m, 32);
-    add_sphere(scene, {5, -1.5F, 0}, 0.2F, m, 32);
-    const Sonar sonar = noise_free(small_imaging());
-    const Labelled out = label(scene, sonar, Pose{}, EngineKind::rays);
-    int seen = 0;
-    for (int j = 0; j < out.labels.beams; ++j) {
-        for (int i = 0; i < out.labels.range_bins; ++i) {
-            const std::uint16_t id = out.labels.object[out.at(i, j)];
-            if (id == 0) continue;
-            ++seen;
-            CHECK(id == (j >= out.labels.beams / 2 ? 1 : 2));
-        }
-    }
-    CHECK(seen > 20);
 }
 
 TEST_SUITE_END();

@@ -46,4 +46,15 @@ inline std::string refusal(const std::string& text,
     return "";
 }
 
+/// An addition to a text, and its refusal without "m.yaml:": place and sentence.
+struct Refused {
+    std::string text, message;
+};
+
+inline void check_refused(const std::string& before, const std::vector<Refused>& cases,
+                          const std::string& after = "") {
+    for (const Refused& one : cases)
+        CHECK(refusal(before + one.text + after) == "m.yaml:" + one.message);
+}
+
 }  // namespace sonarsim

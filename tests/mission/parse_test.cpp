@@ -4,27 +4,50 @@
 #include <fstream>
 
 #include "mission/fixtures.h"
+#include "mission/preset.h"
 #include "sonar/kinds.h"
+#include "support/approx.h"
+#include "support/temporary_folder.h"
 
 namespace sonarsim {
 
+namespace {
+
+/// A mission in `folder` whose only sensor is `sensor`, written in one line.
+Mission mission_with(const std::filesystem::path& folder, const std::string& sensor,
+                     const std::vector<std::string>& settings = {}) {
+    return parse_mission(
+        "scene: {file: a.glb, materials: a.csv}\ntrajectory: {file: a.tum}\nsensors:\n  fls: " +
+            sensor + "\n",
+        "m.yaml", folder, settings, sonar_keys());
+}
+
+std::string refusal_of_preset(const std::filesystem::path& folder, const std::string& sensor) {
+    try {
+        mission_with(folder, sensor);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+}  // namespace
+
 TEST_SUITE_BEGIN("mission");
 
-TEST_CASE("what a mission leaves out takes the defaults of the structs") {
+TEST_CASE("names and paths of a mission") {
     const Mission mission = parse(smallest_mission);
     CHECK(mission.name == "m");
-    CHECK(mission.seed == 0);
     CHECK(mission.scene.file == "/base/a.glb");
     CHECK(mission.scene.materials == "/base/a.csv");
     CHECK(std::get<FileTrajectoryConfig>(mission.trajectory).file == "/base/a.tum");
     CHECK(std::get<FileTrajectoryConfig>(mission.trajectory).rate_hz == 0.0);
-    CHECK(mission.output.folder == std::filesystem::current_path() / "out" / "m");
-    Mission defaults = mission;
-    defaults.water = {};
-    defaults.accuracy = {};
-    defaults.sensors[0] = {};
-    defaults.sensors[0].name = "fls";
-    CHECK(yaml_of(mission) == yaml_of(defaults));
+    // The default output folder starts at the current directory, a given one at the mission.
+    const auto here = std::filesystem::current_path();
+    CHECK(mission.output.folder == here / "out" / "m");
+    CHECK(parse(smallest_mission + "output: {folder: o/p}\n").output.folder == "/base/o/p");
+    CHECK(parse_mission(smallest_mission, "m.yaml", "", {}, sonar_keys()).scene.file ==
+          here / "a.glb");
 }
 
 TEST_CASE("waypoints") {
@@ -39,15 +62,6 @@ TEST_CASE("waypoints") {
     expected.trajectory =
         WaypointTrajectoryConfig{{{{0, 0, 1}, {0, 0, 0}}, {{4, 0, 1}, {0, 0, 90}}}, 2, 10};
     CHECK(yaml_of(mission) == yaml_of(expected));
-
-    CHECK(refusal(rest + "  waypoints: [{position_m: [0, 0, 1]}]\n") ==
-          "m.yaml:4:14: 'waypoints' must have at least 2 items, not 1");
-    CHECK(refusal(rest + "  waypoints: [{}, {}]\n") ==
-          "m.yaml:4:15: 'waypoints.0' lacks the key 'position_m'");
-    CHECK(refusal(rest + "  waypoints: [1, 2]\n") ==
-          "m.yaml:4:15: 'waypoints.0' must be a section of keys, not '1'");
-    CHECK(refusal(rest + "  waypoints: {}\n") ==
-          "m.yaml:4:14: 'waypoints' must be a list, not a section of keys");
 }
 
 TEST_CASE("numbers are decimal and booleans are true and false") {
@@ -82,32 +96,9 @@ TEST_CASE("numbers are decimal and booleans are true and false") {
     }
 }
 
-TEST_CASE("paths") {
-    CHECK(refusal("scene: {file: '', materials: b}\n") == "m.yaml:1:15: 'file' must not be empty");
-    CHECK(refusal("scene: {file: \"a\\0b\", materials: b}\n") ==
-          "m.yaml:1:15: 'file' must not hold control characters");
-    CHECK(refusal("scene: {file: [a], materials: b}\n") ==
-          "m.yaml:1:15: 'file' must be text, not a list");
-    const auto here = std::filesystem::current_path();
-    const Mission mission = parse_mission(smallest_mission, "m.yaml", "", {}, sonar_keys());
-    CHECK(mission.scene.file == here / "a.glb");
-    // The default output folder starts at the current directory, a given one at the mission.
-    CHECK(parse(smallest_mission + "output: {folder: o/p}\n").output.folder == "/base/o/p");
-}
-
-TEST_CASE("the name of a mission cannot leave the output folder") {
-    for (const char* name : {"..", ".", "a/b", "/tmp/x", "SHA256SUMS"}) {
-        CHECK(refusal(smallest_mission + "name: " + name + "\n") ==
-              "m.yaml:6:7: 'name' names a folder: at most 200 bytes, without '/', not "
-              "SHA256SUMS");
-    }
-    CHECK(parse(smallest_mission + "name: 5\n").name == "5");
-    CHECK(parse(smallest_mission + "name: \"see tests/\\\"x\"\n", {"name=tëst"}).name == "tëst");
-}
-
 TEST_CASE("load_mission reads a file and refuses what is none") {
-    const auto folder = std::filesystem::temp_directory_path() / "sonarsim_mission_test";
-    std::filesystem::create_directories(folder);
+    const test::TemporaryFolder temporary;
+    const std::filesystem::path& folder = temporary.path;
     const auto file = folder / "harbour.v2.yaml";
     std::ofstream(file) << smallest_mission;
     const Mission mission = load_mission({file, folder}, sonar_keys());
@@ -120,8 +111,84 @@ TEST_CASE("load_mission reads a file and refuses what is none") {
         (file.string() + ": is 1048577 bytes long; at most 1048576 are read").c_str(), InputError);
     CHECK_THROWS_AS(load_mission({folder, folder}, sonar_keys()), InputError);
     CHECK_THROWS_AS(load_mission({folder / "missing.yaml", folder}, sonar_keys()), InputError);
-    std::filesystem::remove_all(folder);
     CHECK(refusal(std::string((1U << 20) + 1, '#')) == "m.yaml: is larger than 1 MiB");
+}
+
+TEST_CASE("a preset fills in keys, and the mission overrides it key by key") {
+    const test::TemporaryFolder folder;
+    std::ofstream(folder.path / "p.yaml")
+        << "kind: imaging\nmodel: calibrated\nrange_max_m: 30\n"
+           "instrument:\n  frequency_hz: 7e5\n  beam: {width_deg: 1.5, side_lobe_db: -20}\n";
+    const Mission mission = mission_with(
+        folder.path, "{preset: p.yaml, range_max_m: 20, instrument: {beam: {width_deg: 2}}}",
+        {"sensors.fls.instrument.receiver.bits=12"});
+    const SonarConfig& sonar = mission.sensors[0];
+    CHECK(sonar.model == ModelKind::calibrated);
+    CHECK(sonar.range_max_m == 20.0);
+    CHECK(sonar.instrument.frequency_hz == 7e5);
+    CHECK(sonar.instrument.beam.width_deg == 2.0);
+    CHECK(sonar.instrument.beam.side_lobe_db == -20.0);
+    CHECK(sonar.instrument.receiver.bits == 12);
+    CHECK(sonar.preset.empty());
+}
+
+TEST_CASE("what is wrong with a preset is said where it stands") {
+    const test::TemporaryFolder folder;
+    CHECK(refusal_of_preset(folder.path, "{preset: none.yaml}").find("there is no preset") !=
+          std::string::npos);
+    std::ofstream(folder.path / "typo.yaml") << "kind: imaging\nrange_maxm: 3\n";
+    CHECK(refusal_of_preset(folder.path, "{preset: typo.yaml}")
+              .find("typo.yaml:2:1: unknown key 'range_maxm' (did you mean 'range_max_m'?)") !=
+          std::string::npos);
+    std::ofstream(folder.path / "nested.yaml") << "preset: typo.yaml\n";
+    CHECK(refusal_of_preset(folder.path, "{preset: nested.yaml}")
+              .find("nested.yaml:1:1: a preset cannot name a preset") != std::string::npos);
+}
+
+TEST_CASE("each kind of sonar has defaults of its own") {
+    const auto with = [](const std::string& sensor) {
+        return parse("scene: {file: a, materials: b}\ntrajectory: {file: c}\nsensors: {x: {kind: " +
+                     sensor + "}}\n")
+            .sensors[0];
+    };
+    const SonarConfig sidescan = with("sidescan, range_max_m: 50");
+    CHECK(sidescan.name == "x");
+    CHECK(sidescan.azimuth_deg == 170.0);
+    CHECK(sidescan.elevation_deg == 0.25);
+    CHECK(sidescan.range_max_m == 50.0);
+    CHECK(with("profiling").azimuth_bins == 480);
+    CHECK(with("echosounder, opening_deg: 20").opening_deg == 20.0);
+}
+
+TEST_CASE("values that are read: engines, labels, classes, water, sensors in their order") {
+    CHECK(parse(smallest_mission).engine == EngineKind::automatic);
+    CHECK(parse(smallest_mission + "engine: \"rays\"\n").engine == EngineKind::rays);  // as JSON
+    CHECK(parse(smallest_mission + "octree: {leaf_m: 0.05}\n").octree.leaf_m == 0.05);
+    CHECK(parse(smallest_mission + "output: {labels: false}\n").output.labels.empty());
+    CHECK(parse(smallest_mission + "output: {labels: true}\n").output.labels.size() == 14);
+    CHECK(parse(smallest_mission + "name: 5\n").name == "5");
+    CHECK(parse(smallest_mission +
+                "water: {sound_speed_m_s: auto, temperature_c: 25, depth_m: 1000}\n")
+              .water.sound_speed_m_s == test::approx(1550.744).epsilon(1e-6));
+    CHECK(parse(smallest_mission +
+                "    model: calibrated\n    azimuth_deg: 60\n    instrument: {beam: "
+                "{view_azimuth_deg: 60}}\n")
+              .sensors.size() == 1);
+    CHECK(refusal(smallest_mission + "    moves_in_ping: true\n    shutter: {groups: 2}\n") == "");
+    const Mission mission = parse(smallest_mission +
+                                  "  'null': {kind: imaging}\n  A-_9: {kind: imaging}\n"
+                                  "output: {labels: [shadow, instance]}\n"
+                                  "classes:\n  - {nodes: 'ship_*', class: ship, instance: s1}\n"
+                                  "  - {nodes: '*', class: other}\n");
+    CHECK(mission.output.labels == std::vector<Label>{Label::instance, Label::shadow});
+    REQUIRE(mission.classes.size() == 2);
+    CHECK(mission.classes[0].instance == "s1");
+    CHECK(mission.classes[1].nodes == "*");
+    CHECK(mission.classes[1].place.text() == "m.yaml:11:5");
+    REQUIRE(mission.sensors.size() == 3);
+    CHECK(mission.sensors[1].name == "null");
+    CHECK(mission.sensors[2].name == "A-_9");
+    CHECK(reads_back(mission));
 }
 
 TEST_SUITE_END();

@@ -27,9 +27,12 @@ scene:
        yaw_deg: 7, roll_deg: [-1, 1], scale: [0.5, 2], bury_m: 0.1, spacing_m: 0.3,
        class: target}
     - {name: tyre, files: t.glb, area_min_m: [0, 1], area_max_m: [2, 3]}
+  particles:
+    - {name: cod, class: cod, kind: fish, length_m: [0.3, 0.5], count: 7, region: ellipsoid,
+       position_m: [1, 2, 3], size_m: [4, 5, 6], drift_m_s: [0.1, 0, 0]}
   water_surface: {height_m: 3, roughness: 0.2}
 trajectory: {file: a.tum}
-sensors: {fls: {kind: imaging}}
+sensors: {fls: {kind: imaging, model: calibrated}}
 variants: 3
 vary:
   - {key: water.density_kg_m3, uniform: [990, 1030]}
@@ -54,6 +57,10 @@ TEST_CASE("the keys of a composed scene") {
     CHECK(scene.scatter[0].yaw_deg == std::array{7.0, 7.0});
     CHECK(scene.scatter[1].files == std::vector<std::filesystem::path>{"/base/t.glb"});
     CHECK(scene.scatter[1].yaw_deg == std::array{0.0, 360.0});
+    REQUIRE(scene.particles.size() == 1);
+    CHECK(scene.particles[0].kind == ParticleKind::fish);
+    CHECK(scene.particles[0].length_m == std::array{0.3, 0.5});
+    CHECK(scene.particles[0].count == std::array{7.0, 7.0});
     CHECK(scene.water_surface->roughness == 0.2);
     CHECK(mission.vary[1].choice.items == std::vector<std::string>{"\"w.glb\"", "\"x y.glb\""});
     CHECK(files_of(mission) ==
@@ -70,22 +77,6 @@ TEST_CASE("a composed scene is written as it is read, and goes to another machin
     CHECK(elsewhere.scene.objects[1].file == "/other/place/f.glb");
     CHECK(elsewhere.scene.scatter[0].files[1] == "/other/place/n.glb");
     CHECK(mission_hash(elsewhere, sonar_keys()) == mission_hash(mission, sonar_keys()));
-}
-
-TEST_CASE("what the scene's keys refuse") {
-    const auto object = [](const std::string& keys) {
-        return refusal("scene: {materials: a.csv, objects: [{" + keys +
-                       "}]}\ntrajectory: {file: a}\nsensors: {x: {kind: imaging}}\n");
-    };
-    CHECK(object("file: a.glb").empty());
-    CHECK(object("name: a") == "m.yaml:1:37: 'objects.0' lacks the key 'file'");
-    CHECK(object("file: a, scale: 0") == "m.yaml:1:54: 'scale' must be at least 1e-06, not '0'");
-    CHECK(object("file: a, place: on_botom") ==
-          "m.yaml:1:54: unknown place 'on_botom' (did you mean 'on_bottom'?); known: free, "
-          "on_bottom");
-    CHECK(object("file: a, units: inch").find("known: m, mm, cm, km, in, ft") != std::string::npos);
-    CHECK(object("file: a, exclude: Light").ends_with("delete these nodes in the file"));
-    CHECK(object("file: a, class: 5, clas: 6").find("unknown key 'clas'") != std::string::npos);
 }
 
 TEST_SUITE_END();

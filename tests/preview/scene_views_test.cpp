@@ -3,10 +3,13 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <limits>
+#include <random>
 #include <utility>
 #include <vector>
 
 #include "core/units.h"
+#include "preview/object_boxes.h"
 #include "support/approx.h"
 #include "support/scenes.h"
 #include "visibility/make_engine.h"
@@ -15,9 +18,10 @@ using namespace sonarsim;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+// The whole pictures: tests/golden.
 namespace {
 
-constexpr Rgb panel_red{255, 0, 0};
+constexpr Rgb red{255, 0, 0};
 constexpr Rgb green{0, 255, 0};
 constexpr Rgb blue{0, 0, 255};
 constexpr Rgb white{255, 255, 255};
@@ -41,16 +45,22 @@ BeamOutline mark(const Vector3d& at, Rgb colour) {
     return {at, {at}, colour};
 }
 
-/// The one pixel that has the colour.
-Vector2d place_of(Picture& picture, Rgb colour) {
-    std::vector<Vector2d> places;
+/// The pixels of a colour, as x + 1000 y.
+std::vector<int> painted(Picture& picture, Rgb colour) {
+    std::vector<int> pixels;
     for (int y = 0; y < picture.height; ++y) {
         for (int x = 0; x < picture.width; ++x) {
-            if (picture.row(y)[x] == colour) places.emplace_back(x, y);
+            if (picture.row(y)[x] == colour) pixels.push_back(x + 1000 * y);
         }
     }
+    return pixels;
+}
+
+/// The one pixel that has the colour.
+Vector2d place_of(Picture& picture, Rgb colour) {
+    const std::vector<int> places = painted(picture, colour);
     REQUIRE(places.size() == 1);
-    return places.front();
+    return {places[0] % 1000, places[0] / 1000};
 }
 
 bool is_about(double pixels, double expected) {
@@ -60,34 +70,68 @@ bool is_about(double pixels, double expected) {
 }  // namespace
 
 TEST_SUITE("preview") {
-    TEST_CASE("plan: x to the right, y up, and the same scale both ways") {
-        const Assembly assembly = box_on_a_floor(8.0, 0.0);
-        const auto engine = make_engine(assembly.scene, {});
-        const Moment moment{
-            assembly,
-            *engine,
-            0,
-            {mark({-15, 0, 1}, panel_red), mark({15, 0, 1}, green), mark({0, 15, 1}, blue)}};
-        Picture plan = draw_plan(moment, 600, 420);
-        const Vector2d west = place_of(plan, panel_red);
-        const Vector2d east = place_of(plan, green);
-        const Vector2d north = place_of(plan, blue);
-        CHECK(east.y() == west.y());
-        const double px_per_m = (east.x() - west.x()) / 30.0;
-        // 400 rows show the scene's 40 m.
-        CHECK(px_per_m == test::approx(10.0).epsilon(0.02));
-        CHECK(is_about(north.x() - west.x(), 15.0 * px_per_m));
-        CHECK(is_about(east.y() - north.y(), 15.0 * px_per_m));
+    TEST_CASE(
+        "plane frame: one scale for both axes, x to the right, y up, the wanted in the middle") {
+        const PlaneFrame frame = plane_frame(400, 300, {-20.0, 5.0}, {20.0, 25.0});
+        // 343 pixels for 40 m, 280 for 20 m: the width decides.
+        REQUIRE(frame.plot_width == 400 - frame.left - 1);
+        REQUIRE(frame.plot_height == 280);
+        CHECK(frame.pixel_m == test::approx(40.0 / frame.plot_width));
+        const Vector2d middle = frame.pixel({0.0, 15.0});
+        CHECK(middle.x() == test::approx(frame.left + 0.5 * frame.plot_width));
+        CHECK(middle.y() == test::approx(frame.top + 0.5 * frame.plot_height));
+        // Three metres along x and two along y.
+        const Vector2d moved = frame.pixel({3.0, 17.0}) - middle;
+        CHECK(moved.x() == test::approx(3.0 / frame.pixel_m));
+        CHECK(moved.y() == test::approx(-2.0 / frame.pixel_m));
+        const Vector2d back = frame.pixel(frame.metres(50, 77));
+        CHECK(back.x() == test::approx(frame.left + 50.5));
+        CHECK(back.y() == test::approx(frame.top + 77.5));
+        // Its ends are those of the plot.
+        CHECK(frame.pixel({-20.0, 15.0}).x() == test::approx(frame.left));
+        CHECK(frame.pixel({20.0, 15.0}).x() == test::approx(frame.left + frame.plot_width));
     }
 
-    TEST_CASE("plan: a line of 18 pixels points where the bow does") {
+    TEST_CASE("lines and dots: what lies outside is cut off, however far away it ends") {
+        for (const double far : {100.0, 1e6, 1e12}) {
+            Picture picture(10, 6, backdrop);
+            draw_line(picture, {-far, 2.5}, {far, 2.5}, red);
+            const std::vector<int> row = painted(picture, red);
+            REQUIRE(row.size() == 10);
+            CHECK(row.front() == 2000);
+            CHECK(row.back() == 2009);
+        }
+        Picture picture(10, 6, backdrop);
+        draw_line(picture, {-5.0, -1.0}, {15.0, -1.0}, red);
+        draw_line(picture, {4.0, 6.0}, {4.0, 9.0}, red);
+        draw_dot(picture, {std::numeric_limits<double>::quiet_NaN(), 4.0}, 1, red);
+        draw_dot(picture, {1e300, 4.0}, 1, red);
+        CHECK(painted(picture, red).empty());
+        draw_line(picture, {3.5, 1.5}, {3.5, 1.5}, red);
+        CHECK(painted(picture, red) == std::vector<int>{1003});
+    }
+
+    TEST_CASE(
+        "plan: x to the right, y up, one scale, and a line of 18 pixels where the bow points") {
         for (const double yaw : {0.0, 0.5 * pi}) {
             const Assembly assembly = box_on_a_floor(8.0, yaw);
             const auto engine = make_engine(assembly.scene, {});
             const Moment moment{
-                assembly, *engine, 0, {mark({-15, 0, 1}, panel_red), mark({15, 0, 1}, green)}};
+                assembly,
+                *engine,
+                0,
+                {mark({-15, 0, 1}, red), mark({15, 0, 1}, green), mark({0, 15, 1}, blue)}};
             Picture plan = draw_plan(moment, 600, 420);
-            const Vector2d here = 0.5 * (place_of(plan, panel_red) + place_of(plan, green));
+            const Vector2d west = place_of(plan, red);
+            const Vector2d east = place_of(plan, green);
+            const Vector2d north = place_of(plan, blue);
+            CHECK(east.y() == west.y());
+            const double px_per_m = (east.x() - west.x()) / 30.0;
+            // 400 rows show the scene's 40 m.
+            CHECK(px_per_m == test::approx(10.0).epsilon(0.02));
+            CHECK(is_about(north.x() - west.x(), 15.0 * px_per_m));
+            CHECK(is_about(east.y() - north.y(), 15.0 * px_per_m));
+            const Vector2d here = 0.5 * (west + east);
             const int x = static_cast<int>(here.x());
             const int y = static_cast<int>(here.y());
             CHECK((plan.row(y)[x + 12] == white) == (yaw == 0.0));
@@ -114,5 +158,30 @@ TEST_SUITE("preview") {
         // At a height of 2 m the vehicle no longer sees the top.
         const std::vector<float> beside = heights_below(*engine, {0.0, 0.0, 2.0}, frame);
         CHECK(std::fabs(height_at(beside, 5.5, 3.0)) < 1e-5F);
+    }
+
+    TEST_CASE(
+        "objects in the plan: names lie within it and over no other name, the floor has none") {
+        const PlaneFrame frame = plane_frame(600, 420, {-20.0, -20.0}, {20.0, 20.0});
+        std::mt19937 random(7);
+        std::uniform_real_distribution<double> place(-22.0, 22.0);
+        std::vector<ObjectBox> objects{
+            {"floor", {Vector3d(-20.0, -20.0, 0.0), Vector3d(20.0, 20.0, 0.0)}}};
+        for (int k = 0; k < 60; ++k) {
+            const double x = place(random);
+            const double y = place(random);
+            objects.push_back({"object number " + std::to_string(k),
+                               {Vector3d(x, y, 0.0), Vector3d(x + 1.0, y + 1.0, 1.0)}});
+        }
+        Picture tile(600, 420, backdrop);
+        const std::vector<Eigen::AlignedBox2d> names = draw_objects(tile, frame, objects);
+        CHECK(names.size() == 20);
+        for (std::size_t k = 0; k < names.size(); ++k) {
+            CHECK(names[k].min().x() >= frame.left);
+            CHECK(names[k].max().x() <= frame.left + frame.plot_width);
+            CHECK(names[k].sizes().x() >= text_width("object number 1"));
+            for (std::size_t other = 0; other < k; ++other)
+                CHECK_FALSE(names[k].intersects(names[other]));
+        }
     }
 }

@@ -4,12 +4,35 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <random>
 #include <vector>
 
 #include "product/contrast.h"
+#include "product/object_masks.h"
 #include "support/approx.h"
 
 using namespace sonarsim;
+
+namespace {
+
+using Ids = std::vector<std::uint16_t>;
+
+/// The ids that masks stand for.
+Ids ids_of(const std::vector<ObjectMask>& masks, std::size_t pixels) {
+    Ids ids(pixels, 0);
+    for (const ObjectMask& mask : masks) {
+        std::size_t at = 0;
+        for (std::size_t k = 0; k < mask.runs.size(); ++k) {
+            for (std::size_t n = at; n < at + mask.runs[k] && k % 2 == 1; ++n)
+                ids[n] = static_cast<std::uint16_t>(mask.id);
+            at += mask.runs[k];
+        }
+        CHECK(at == pixels);
+    }
+    return ids;
+}
+
+}  // namespace
 
 TEST_SUITE("product") {
     TEST_CASE("boxes of pixels: an empty one adds nothing") {
@@ -66,6 +89,8 @@ TEST_SUITE("product") {
         object[11] = object[0] = 2;
         level[11] = level[0] = 8.0F;
         CHECK(contrast_of(true, {0, 11, 0, 0}) == test::approx(6.0206).epsilon(1e-4));
+        CHECK(over_seam({12, 1, object, {}, level, true}, object, 2, {0, 11, 0, 0}).first_line ==
+              -1);
         // Without a seam the object is as wide as the picture: 8 over (4 x 2 + 6 x 100) / 10.
         CHECK(contrast_of(false, {0, 11, 0, 0}) == test::approx(-8.8081).epsilon(1e-4));
         // An object of the line 0 alone: 11 is background as dark as 10.
@@ -76,14 +101,43 @@ TEST_SUITE("product") {
         CHECK(contrast_of(false, {0, 0, 0, 0}) == test::approx(1.2494).epsilon(1e-4));
     }
 
-    TEST_CASE("contrast: the box of an object over the seam of a full turn") {
-        const std::vector<std::uint16_t> marks{5, 0, 5, 0, 0, 0, 0, 0, 5, 5};
-        const LevelMap map{10, 1, marks, {}, {}, true};
-        const BinBox box = over_seam(map, map.object, 5, {0, 9, 0, 0});
-        CHECK(box.first_line == -2);
-        CHECK(box.last_line == 2);
-        CHECK(over_seam(map, map.object, 5, {2, 9, 0, 0}).first_line == 2);
-        const LevelMap fan{10, 1, marks, {}, {}, false};
-        CHECK(over_seam(fan, fan.object, 5, {0, 9, 0, 0}).first_line == 0);
+    TEST_CASE("masks: runs column by column") {
+        // Three columns of four pixels.
+        const auto masks = object_masks(Ids{0, 0, 2, 2, 2, 5, 5, 5, 5, 0, 0, 0}, 4);
+        REQUIRE(masks.size() == 2);
+        CHECK(masks[0].runs == std::vector<std::uint32_t>{2, 3, 7});
+        CHECK(masks[1].runs == std::vector<std::uint32_t>{5, 4, 3});
+        CHECK(object_masks(Ids(12, 7), 4)[0].runs == std::vector<std::uint32_t>{0, 12});
+    }
+
+    TEST_CASE("masks: random pictures come back") {
+        std::mt19937 random(3);
+        for (int trial = 0; trial < 50; ++trial) {
+            const int height = 1 + static_cast<int>(random() % 9);
+            Ids ids(static_cast<std::size_t>(height) * (1 + random() % 9));
+            for (std::uint16_t& id : ids)
+                id = static_cast<std::uint16_t>(random() % 4);
+            const auto masks = object_masks(ids, height);
+            CHECK(ids_of(masks, ids.size()) == ids);
+            for (const ObjectMask& mask : masks) {
+                int left = 1000, right = 0, top = 1000, bottom = 0;
+                std::uint64_t area = 0;
+                for (std::size_t n = 0; n < ids.size(); ++n) {
+                    if (ids[n] != mask.id) continue;
+                    const int x = static_cast<int>(n) / height;
+                    const int y = static_cast<int>(n) % height;
+                    left = std::min(left, x);
+                    right = std::max(right, x + 1);
+                    top = std::min(top, y);
+                    bottom = std::max(bottom, y + 1);
+                    ++area;
+                }
+                CHECK(mask.left == left);
+                CHECK(mask.right == right);
+                CHECK(mask.top == top);
+                CHECK(mask.bottom == bottom);
+                CHECK(mask.area == area);
+            }
+        }
     }
 }

@@ -11,22 +11,39 @@
 
 using namespace sonarsim;
 
+namespace {
+
+/// A flat bottom 40 m below the origin.
+Scene deep_bottom() {
+    Scene scene = test::empty_scene();
+    test::add_floor(scene, 200.0F, -40.0F, test::add_material(scene, 0.5F));
+    return scene;
+}
+
+/// 1500 m/s + `gradient` z.
+std::shared_ptr<const SoundProfile> linear_profile(double gradient) {
+    return std::make_shared<const SoundProfile>(
+        SoundProfile{{-100.0, 0.0}, {1500.0 - 100.0 * gradient, 1500.0}, 1500.0});
+}
+
+Sonar multibeam(double range_max_m, int beams, double azimuth_deg = 120.0) {
+    SonarConfig config = default_sonar(SonarKind::profiling);
+    config.name = "mbes";
+    config.azimuth_deg = azimuth_deg;
+    config.range_max_m = range_max_m;
+    config.range_bins = static_cast<int>(50.0 * range_max_m);  // 2 cm
+    config.azimuth_bins = beams;
+    return make_sonar(config, {0.02});
+}
+
+}  // namespace
+
 TEST_SUITE("product") {
     TEST_CASE("soundings in a gradient lie on the flat bottom, by the profile of the water") {
-        // The bottom is flat, 40 m below a multibeam at z = 0, and the speed is 1500 m/s + g z.
         for (const double g : {0.5, -0.5}) {
-            Scene scene = test::empty_scene();
-            const std::uint32_t material = test::add_material(scene, 0.5F);
-            test::add_quad(scene, {-20.0F, -200.0F, -40.0F}, {20.0F, -200.0F, -40.0F},
-                           {20.0F, 200.0F, -40.0F}, {-20.0F, 200.0F, -40.0F}, material);
-            scene.sound_profile = std::make_shared<const SoundProfile>(
-                SoundProfile{{-100.0, 0.0}, {1500.0 - 100.0 * g, 1500.0}, 1500.0});
-            SonarConfig config = default_sonar(SonarKind::profiling);
-            config.name = "mbes";
-            config.range_max_m = 120.0;
-            config.range_bins = 6000;
-            config.azimuth_bins = 240;
-            Sonar sonar = make_sonar(config, {0.02});
+            Scene scene = deep_bottom();
+            scene.sound_profile = linear_profile(g);
+            Sonar sonar = multibeam(120.0, 240);
             sonar.sound_profile = scene.sound_profile;
             const auto engine = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
             const Ping ping = render_ping(sonar, scene, *engine, {}, {}, {});
@@ -47,24 +64,14 @@ TEST_SUITE("product") {
     TEST_CASE("soundings of a sonar that rolls and drives in a ping lie on the flat bottom") {
         // In the 80 ms until the echo is back the sonar rolls by a degree, which moves a sounding
         // 50 degrees off by 0.8 m in height, and drives by 0.3 m.
-        Scene scene = test::empty_scene();
-        const std::uint32_t material = test::add_material(scene, 0.5F);
-        test::add_quad(scene, {-20.0F, -200.0F, -40.0F}, {20.0F, -200.0F, -40.0F},
-                       {20.0F, 200.0F, -40.0F}, {-20.0F, 200.0F, -40.0F}, material);
-        SonarConfig config = default_sonar(SonarKind::profiling);
-        config.name = "mbes";
-        config.azimuth_deg = 100.0;
-        config.range_max_m = 90.0;
-        config.range_bins = 4500;
-        config.azimuth_bins = 100;
-        Sonar sonar = make_sonar(config, {0.02});
+        Scene scene = deep_bottom();
+        Sonar sonar = multibeam(90.0, 100, 100.0);
         // In the sensor's frame, whose z axis points ahead.
         const PingMotion motion{{0.0, 0.0, 4.0}, {0.0, 0.0, radians(12.0)}, 1500.0};
         sonar.motions = std::make_shared<const std::vector<PingMotion>>(1, motion);
         for (const bool bends : {false, true}) {
             if (bends) {
-                scene.sound_profile = std::make_shared<const SoundProfile>(
-                    SoundProfile{{-100.0, 0.0}, {1550.0, 1500.0}, 1500.0});
+                scene.sound_profile = linear_profile(-0.5);
                 sonar.sound_profile = scene.sound_profile;
             }
             const auto engine = make_engine(scene, {.type = EngineKind::rays, .octree = {}});

@@ -2,11 +2,12 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "core/units.h"
-#include "product/fan_store.h"
+#include "product/even_kernel.h"
 #include "sonar/sonar.h"
 #include "support/approx.h"
 
@@ -27,6 +28,25 @@ Sonar fan_sonar(double azimuth_deg, bool equal_azimuth = true) {
         config.instrument.beam.spread = BeamSpacing::equal_sine;
     }
     return make_sonar(config, {});
+}
+
+struct Moments {
+    double sum = 0.0;
+    double centroid = 0.0;  ///< bins from the middle of the pixel's bin
+    double squares = 0.0;
+    double least = 0.0;
+};
+
+Moments moments(const KernelTable& table, int phase) {
+    Moments m;
+    for (int k = 0; k < table.taps; ++k) {
+        const double weight = table.weights[static_cast<std::size_t>(phase) * table.taps + k];
+        m.sum += weight;
+        m.centroid += weight * (table.first[phase] + k);
+        m.squares += weight * weight;
+        m.least = std::min(m.least, weight);
+    }
+    return m;
 }
 
 }  // namespace
@@ -92,16 +112,27 @@ TEST_SUITE("product") {
         CHECK(fan.boxes == boxes);
     }
 
-    TEST_CASE("fans: sonars whose bins have the same borders share them") {
-        Sonar turned = fan_sonar(120.0);
-        turned.config.name = "other";
-        turned.T_vehicle_sensor.translation.x() = 1.0;
-        FanStore store;
-        const auto map = store.map(fan_sonar(120.0));
-        const auto bins = store.bins(fan_sonar(120.0));
-        CHECK(store.map(turned) == map);
-        CHECK(store.bins(turned) == bins);
-        CHECK(store.map(fan_sonar(90.0)) != map);
-        CHECK(store.bins(fan_sonar(120.0, false)) != bins);
+    TEST_CASE("even kernel: whatever the place, the same noise, the right centroid, no lobes") {
+        // Weights are rounded to 1/256, so to half of that; in the sum of squares twice the weight.
+        for (const double extent : {0.1, 1.0, 1.3, 2.0, 3.7, 20.0}) {
+            const KernelTable table = make_kernel(extent, 4);
+            CHECK(table.taps % 4 == 0);
+            double low = 1.0;
+            double high = 0.0;
+            for (int phase = 0; phase < KernelTable::phases; ++phase) {
+                const Moments m = moments(table, phase);
+                CAPTURE(extent);
+                CAPTURE(phase);
+                REQUIRE(m.sum == 1.0);
+                REQUIRE(m.least == 0.0);
+                const double centre = (phase + 0.5) / KernelTable::phases - 0.5;
+                REQUIRE(std::fabs(m.centroid - centre) < 0.02);
+                low = std::min(low, m.squares);
+                high = std::max(high, m.squares);
+            }
+            CHECK(high / low < 1.05);
+            if (extent <= 1.0) CHECK(high == test::approx(0.5).epsilon(0.02));
+            if (extent > 4.0) CHECK(high == test::approx(1.0 / extent).epsilon(0.1));
+        }
     }
 }

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <random>
 
 #include "core/units.h"
 #include "sonar/sonar.h"
 #include "support/approx.h"
+#include "support/sanitized.h"
 
 using namespace sonarsim;
 
@@ -64,36 +66,75 @@ double depth(const Sonar& sonar, const FanFrame& frame, std::size_t index) {
     return edge / frame.pixel_m;
 }
 
+/// True if all points within 1.5 pixels of a pixel's centre lie in the sector.
+bool is_far_inside(const Sonar& sonar, const FanFrame& frame, std::size_t index) {
+    const View& view = sonar.settings.view;
+    const double column = static_cast<double>(index % frame.width);
+    const double row = static_cast<double>(index / frame.width);
+    for (int k = 0; k < 16; ++k) {
+        const double angle = 2.0 * pi * k / 16.0;
+        if (!is_inside_sector(view,
+                              fan_place(frame, view.range_max_m, column + 1.5 * std::cos(angle),
+                                        row + 1.5 * std::sin(angle))))
+            return false;
+    }
+    return true;
+}
+
+/// The grey value of a pixel, without a table: kernels in range and in azimuth at its centre.
+int direct_grey(const Sonar& sonar, const FanMap& map, const Ping& ping, std::size_t index) {
+    const View& view = sonar.settings.view;
+    const int column = static_cast<int>(index) % map.frame.width;
+    const int row = static_cast<int>(index) / map.frame.width;
+    const FanPlace place = fan_place(map.frame, view.range_max_m, column, row);
+    const double beams_per_pixel =
+        map.frame.pixel_m * view.beams / view.azimuth_rad / place.range_m;
+    // The extent of a kernel grows in steps of an eighth from ring to ring.
+    double extent = 1.0;
+    while (extent < std::min({beams_per_pixel, 128.0, static_cast<double>(view.beams)}))
+        extent *= 1.125;
+    const KernelTable across = make_kernel(extent, 4);
+    const KernelTable along = make_kernel(std::min(map.frame.pixel_m / view.bin_m(), 128.0), 1);
+    const KernelPlace bin = kernel_place((place.range_m - view.range_min_m) / view.bin_m());
+    const KernelPlace beam = kernel_place(ColumnFinder(sonar)(place.azimuth_rad));
+    double mean = 0.0;
+    for (int k = 0; k < along.taps; ++k) {
+        for (int b = 0; b < across.taps; ++b) {
+            const int i = std::clamp(bin.bin + along.first[bin.phase] + k, 0, ping.range_bins - 1);
+            int j = beam.bin + across.first[beam.phase] + b;
+            const int turns = ping.beams * (1 + across.taps / ping.beams);
+            j = map.full_turn ? (j + turns) % ping.beams : std::clamp(j, 0, ping.beams - 1);
+            mean += static_cast<double>(along.weights[bin.phase * along.taps + k]) *
+                    across.weights[beam.phase * across.taps + b] * ping.at(i, j);
+        }
+    }
+    return static_cast<int>(255.0 * std::sqrt(std::clamp(mean, 0.0, 1.0)) + 0.5);
+}
+
 }  // namespace
 
 TEST_SUITE("product") {
     TEST_CASE("fan: the frame fits the sector") {
-        // 60 degrees: the chord is 2 * 10 m * sin 30 = 10 m, as wide as the sector is high.
-        const FanFrame narrow = fan_frame(fan_sonar(60, 0, 512, 256), 1024);
-        CHECK(narrow.width == 1024);
-        CHECK(narrow.height == 1024);
-        CHECK(narrow.pixel_m == test::approx(10.0 / 1024));
-        // 120 degrees: 2 * 10 m * sin 60 = 17.32 m wide, 10 m high; 1000 / 1.732 = 577.4.
-        const FanFrame usual = fan_frame(fan_sonar(120, 0, 512, 256), 1000);
-        CHECK(usual.height == 578);
-        // 240 degrees: 20 m wide; 10 m ahead and 10 m * cos 60 = 5 m behind.
-        const FanFrame wide = fan_frame(fan_sonar(240, 0, 512, 256), 1000);
-        CHECK(wide.height == 750);
-        const FanFrame circle = fan_frame(fan_sonar(360, 0, 512, 256), 1000);
-        CHECK(circle.height == 1000);
-        // Two degrees: never higher than twice the width, however slim the sector.
-        const FanFrame slim = fan_frame(fan_sonar(2, 0, 512, 8), 100);
-        CHECK(slim.width == 100);
-        CHECK(slim.height == 200);
-    }
-
-    TEST_CASE("fan: by default a pixel is a range bin, and no image is wider than 1024") {
-        const FanFrame tank = fan_frame(fan_sonar(60, 0, 512, 256), 0);
-        CHECK(tank.width == 512);
-        CHECK(tank.height == 512);
-        const FanFrame slim = fan_frame(fan_sonar(2, 0, 512, 8), 0);
-        CHECK(slim.width == 256);
-        CHECK(slim.height == 512);
+        struct Case {
+            double azimuth_deg;
+            int range_bins, asked, width, height;
+        };
+        // The chord is 2 x 10 m x sin(half the angle); 10 m cos(half of it) lie behind the sonar. A
+        // sector is never higher than twice its width. By default a pixel is a range bin.
+        for (const Case& one : {Case{60, 512, 1024, 1024, 1024},
+                                {120, 512, 1000, 1000, 578},
+                                {240, 512, 1000, 1000, 750},
+                                {360, 512, 1000, 1000, 1000},
+                                {2, 512, 100, 100, 200},
+                                {60, 512, 0, 512, 512},
+                                {2, 512, 0, 256, 512}}) {
+            CAPTURE(one.azimuth_deg);
+            const FanFrame frame =
+                fan_frame(fan_sonar(one.azimuth_deg, 0, one.range_bins, 8), one.asked);
+            CHECK(frame.width == one.width);
+            CHECK(frame.height == one.height);
+        }
+        CHECK(fan_frame(fan_sonar(60, 0, 512, 8), 1024).pixel_m == test::approx(10.0 / 1024));
         CHECK(fan_frame(fan_sonar(120, 0, 4096, 8), 0).width == 1024);
     }
 
@@ -141,16 +182,6 @@ TEST_SUITE("product") {
                 }
             }
         }
-        // Said once without formulas: the last beam is port, and port is on the left.
-        const Sonar sonar = fan_sonar(120, 0, 10, 2);
-        Ping ping = uniform_ping(sonar, 0.0F);
-        for (int i = 0; i < ping.range_bins; ++i)
-            ping.intensity[2 * i + 1] = 1.0F;
-        const FanMap map = make_fan_map(sonar, 100);
-        const std::vector<std::uint8_t> image = render_fan(map, ping, 1.0);
-        const std::size_t middle = static_cast<std::size_t>(map.frame.height / 2) * 100;
-        CHECK(image[middle + 10] > 250);
-        CHECK(image[middle + 90] < 30);
     }
 
     TEST_CASE("fan: a uniform ping gives a uniform fan with smooth edges and a black surround") {
@@ -203,84 +234,42 @@ TEST_SUITE("product") {
         CHECK(partial > 300);
     }
 
-    TEST_CASE("fan: energy is kept") {
-        // sum over pixels = sum over bins of intensity times area, both in pixels. 16 points per
-        // pixel of independent bins: the statistical error is far below 0.5 %.
-        std::mt19937 random(7);
-        for (const int width : {200, 900}) {
-            const Sonar sonar = fan_sonar(120, 0.1, 256, 256);
-            Ping ping = uniform_ping(sonar, 0.0F);
+    TEST_CASE("fan: the table gives what direct resampling gives, on random sonars" *
+              doctest::skip(test::sanitized)) {
+        // A table that is off by a bin or a phase changes most pixels of noise. Rounding to floats
+        // changes those whose value or place lies next to a border.
+        std::mt19937 random(23);
+        const auto uniform = [&](double low, double high) {
+            return low + (high - low) * static_cast<double>(random() >> 8) * 0x1p-24;
+        };
+        for (int scene = 0; scene < 24; ++scene) {
+            const double azimuth_deg = scene % 6 == 0 ? 360.0 : uniform(5.0, 340.0);
+            // In this order: compilers draw the arguments of a call in different orders.
+            const double range_min_m = uniform(0.0, 3.0);
+            const int range_bins = 20 + static_cast<int>(random() % 300);
+            const int beams = 8 + static_cast<int>(random() % 200);
+            const Sonar sonar = fan_sonar(azimuth_deg, range_min_m, range_bins, beams);
+            const int width = scene % 3 == 0 ? 0 : 40 + static_cast<int>(random() % 400);
+            const FanMap map = make_fan_map(sonar, width);
+            Ping ping;
+            ping.range_bins = sonar.config.range_bins;
+            ping.beams = sonar.config.azimuth_bins;
+            ping.intensity.resize(static_cast<std::size_t>(ping.range_bins) * ping.beams);
             for (float& value : ping.intensity)
-                value = static_cast<float>(random() >> 8) * 0x1p-24F;
-            const FanMap map = make_fan_map(sonar, width);
-            double expected = 0.0;
-            for (int i = 0; i < ping.range_bins; ++i) {
-                const double r0 = sonar.range_edges_m[i];
-                const double r1 = sonar.range_edges_m[i + 1];
-                const double area = 0.5 * radians(120) / ping.beams * (r1 * r1 - r0 * r0);
-                for (int j = 0; j < ping.beams; ++j)
-                    expected += ping.at(i, j) * area;
+                value = static_cast<float>(uniform(0.0, 1.2));
+            const std::vector<std::uint8_t> image = render_fan(map, ping, 1.0);
+            std::size_t off_by_one = 0;
+            std::size_t off_by_more = 0;
+            for (std::size_t i = 0; i < image.size(); ++i) {
+                if (!is_far_inside(sonar, map.frame, i)) continue;
+                const int expected = direct_grey(sonar, map, ping, i);
+                off_by_one += image[i] != expected;
+                off_by_more += std::abs(image[i] - expected) > 1;
             }
-            expected /= map.frame.pixel_m * map.frame.pixel_m;
-            double sum = 0.0;
-            for (const std::uint8_t grey : render_fan(map, ping, 1.0))
-                sum += share(grey);
-            CHECK(sum == test::approx(expected).epsilon(0.005));
-        }
-    }
-
-    TEST_CASE("fan: white noise is as strong in a pixel as in the next") {
-        // Over 1000 pings of independent bins, the standard deviation of a pixel is known to
-        // 1 / sqrt(2000) = 2.2 %, the ratio of two to 3.2 %; of 20,000 ratios the largest is about
-        // 4.3 of those off, 14 %. Shares of area, without a kernel, give up to 2.5.
-        constexpr int pings = 1000;
-        std::mt19937 random(11);
-        for (const int width : {0, 70, 130}) {  // a pixel per range bin; larger; smaller
-            const Sonar sonar = fan_sonar(60, 0.5, 96, 48);
-            const FanMap map = make_fan_map(sonar, width);
-            const std::size_t pixels = static_cast<std::size_t>(map.frame.width) * map.frame.height;
-            std::vector<double> sum(pixels);
-            std::vector<double> squares(pixels);
-            Ping ping = uniform_ping(sonar, 0.0F);
-            for (int k = 0; k < pings; ++k) {
-                for (float& value : ping.intensity)
-                    value = (random() & 1U) != 0 ? 0.75F : 0.25F;
-                const std::vector<std::uint8_t> image = render_fan(map, ping, 1.0);
-                for (std::size_t i = 0; i < pixels; ++i) {
-                    sum[i] += share(image[i]);
-                    squares[i] += share(image[i]) * share(image[i]);
-                }
-            }
-            const auto spread = [&](std::size_t i) {
-                return std::sqrt(squares[i] / pings - sum[i] / pings * (sum[i] / pings));
-            };
-            double worst = 1.0;
-            for (std::size_t i = 0; i + map.frame.width < pixels; ++i) {
-                for (const std::size_t next : {i + 1, i + map.frame.width}) {
-                    if (depth(sonar, map.frame, i) < 1.0 || depth(sonar, map.frame, next) < 1.0)
-                        continue;
-                    const double ratio = spread(i) / spread(next);
-                    worst = std::max({worst, ratio, 1.0 / ratio});
-                }
-            }
-            CAPTURE(width);
-            CHECK(worst < 1.3);
-        }
-    }
-
-    TEST_CASE("fan: bins much smaller than a pixel are averaged, not picked") {
-        // Every other beam is occupied; 20 to 60 px from the apex, 3 to 10 beams share a pixel.
-        // Picking would give black and white, averaging gives half.
-        const Sonar sonar = fan_sonar(120, 0, 512, 512);
-        Ping ping = uniform_ping(sonar, 0.0F);
-        for (std::size_t i = 0; i < ping.intensity.size(); i += 2)
-            ping.intensity[i] = 1.0F;
-        const FanMap map = make_fan_map(sonar, 900);
-        const auto image = render_fan(map, ping, 1.0);
-        for (std::size_t i = 0; i < image.size(); ++i) {
-            const double range_px = polar(map.frame, i).range_m / map.frame.pixel_m;
-            if (range_px < 20.0 || range_px > 60.0 || depth(sonar, map.frame, i) < 1.0) continue;
-            REQUIRE(std::fabs(share(image[i]) - 0.5) < 0.2);
+            CAPTURE(scene);
+            const auto line = static_cast<std::size_t>(map.frame.width);
+            CHECK(off_by_more <= line);
+            CHECK(off_by_one <= line + image.size() / 2000);
         }
     }
 

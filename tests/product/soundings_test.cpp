@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 #include <random>
 #include <span>
 
@@ -69,103 +71,58 @@ TEST_SUITE("product") {
         CHECK((soundings[2].position - expected).norm() < 1e-9);
     }
 
-    TEST_CASE("soundings: noise that grows with range does not hide a bottom that is near") {
-        // The bottom at 3 m of strength 0.05; noise (r / r_max)^2 times Rayleigh of scale 0.02, so
-        // up to 0.06 at 10 m, above the bottom, but 0.005 at 3 m.
-        const Sonar sonar = three_beams(true);
-        std::mt19937 random(3);
-        std::uniform_real_distribution<double> unit(1e-9, 1.0);
-        int lost = 0;
-        for (int trial = 0; trial < 100; ++trial) {
-            Ping ping = dark(sonar);
-            for (int i = 0; i < 100; ++i) {
-                const double r = (i + 0.5) / 100.0;
-                for (int j = 0; j < 3; ++j) {
-                    const double noise = 0.02 * r * r * std::sqrt(-2.0 * std::log(unit(random)));
-                    ping.intensity[i * 3 + j] = static_cast<float>(noise + (i == 30 ? 0.05 : 0.0));
-                }
-            }
-            for (const Sounding& sounding : find_soundings(sonar, Pose{}, ping)) {
-                lost += std::fabs(sounding.range_m - 3.05) > 0.05;
-                CHECK(sounding.quality > map_quality);
-            }
-        }
-        CHECK(lost == 0);
-    }
-
-    TEST_CASE("soundings: noise that does not grow with range does not hide a bottom that is far") {
-        // Water that scatters is as bright at all ranges here. Divided by (r / r_max)^2, or by the
-        // receiver's noise, the first bins would stand 4e4 above the last ones, or more.
-        SonarConfig config = three_beams(true).config;
-        config.model = ModelKind::calibrated;
-        const Sonar sonar = make_sonar(config, {});
-        std::mt19937 random(3);
-        std::uniform_real_distribution<double> unit(1e-9, 1.0);
-        for (int trial = 0; trial < 100; ++trial) {
-            Ping ping = dark(sonar);
-            for (int i = 0; i < 100; ++i) {
-                for (int j = 0; j < 3; ++j) {
-                    const double noise = -0.001 * std::log(unit(random));
-                    ping.intensity[i * 3 + j] = static_cast<float>(noise + (i == 90 ? 0.05 : 0.0));
-                }
-            }
-            for (const Sounding& sounding : find_soundings(sonar, Pose{}, ping)) {
-                CHECK(sounding.range_m == test::approx(9.05).epsilon(0.006));
-                CHECK(sounding.quality > map_quality);
-            }
-        }
-    }
-
-    TEST_CASE("soundings: noise that the TVG raises does not hide a bottom that is near") {
-        // The receiver's noise of the calibrated model grows to 0.007 at 40 m, over many bins. The
-        // bottom at 4 m has 0.01 in one bin, a million times the noise there.
-        SonarConfig config = three_beams().config;
-        config.model = ModelKind::calibrated;
-        config.range_max_m = 40.0;
-        const Sonar sonar = make_sonar(config, {});
-        const std::span<const float> mean = sonar.settings.model->info.mean_noise;
+    TEST_CASE("soundings: noise hides no bottom that stands out of it") {
+        struct Case {
+            const char* what;
+            Sonar sonar;
+            std::function<double(int bin, double uniform)> noise;
+            int bottom_bin;
+            float bottom;
+        };
+        SonarConfig calibrated = three_beams(true).config;
+        calibrated.model = ModelKind::calibrated;
+        SonarConfig raised = three_beams().config;
+        raised.model = ModelKind::calibrated;
+        raised.range_max_m = 40.0;
+        const Sonar with_tvg = make_sonar(raised, {});
+        const std::span<const float> mean = with_tvg.settings.model->info.mean_noise;
         REQUIRE(mean.size() == 100);
         CHECK(mean[99] > 0.005F);
         CHECK(mean[10] < 1e-8F);
-        std::mt19937 random(3);
-        std::uniform_real_distribution<double> unit(1e-9, 1.0);
-        for (int trial = 0; trial < 100; ++trial) {
-            Ping ping = dark(sonar);
-            for (int i = 0; i < 100; ++i) {
-                for (int j = 0; j < 3; ++j) {
-                    const double noise = -mean[i] * std::log(unit(random));
-                    ping.intensity[i * 3 + j] = static_cast<float>(noise + (i == 10 ? 0.01 : 0.0));
+        const std::vector<Case> cases{
+            // (r / r_max)^2 times Rayleigh of scale 0.02: above the bottom at 10 m, not at 3 m.
+            {"grows with range, the bottom is near", three_beams(true),
+             [](int bin, double u) {
+                 return 0.02 * std::pow((bin + 0.5) / 100.0, 2) * std::sqrt(-2.0 * std::log(u));
+             },
+             30, 0.05F},
+            // Divided by (r / r_max)^2 the first bins would stand 4e4 above the last ones.
+            {"is as strong at all ranges, the bottom is far", make_sonar(calibrated, {}),
+             [](int, double u) { return -0.001 * std::log(u); }, 90, 0.05F},
+            {"is raised by the TVG, the bottom is near", with_tvg,
+             [&](int bin, double u) { return -mean[bin] * std::log(u); }, 10, 0.01F}};
+        for (const Case& one : cases) {
+            CAPTURE(one.what);
+            std::mt19937 random(3);
+            std::uniform_real_distribution<double> unit(1e-9, 1.0);
+            const std::vector<double>& edges = one.sonar.range_edges_m;
+            for (int trial = 0; trial < 100; ++trial) {
+                Ping ping = dark(one.sonar);
+                for (int i = 0; i < 100; ++i) {
+                    for (int j = 0; j < 3; ++j) {
+                        ping.intensity[i * 3 + j] = static_cast<float>(one.noise(i, unit(random))) +
+                                                    (i == one.bottom_bin ? one.bottom : 0.0F);
+                    }
+                }
+                for (const Sounding& sounding : find_soundings(one.sonar, Pose{}, ping)) {
+                    const double middle = 0.5 * (edges[one.bottom_bin] + edges[one.bottom_bin + 1]);
+                    CHECK(std::fabs(sounding.range_m - middle) < 0.05);
+                    CHECK(sounding.quality > map_quality);
                 }
             }
-            for (const Sounding& sounding : find_soundings(sonar, Pose{}, ping)) {
-                CHECK(sounding.range_m == test::approx(4.2).epsilon(0.01));
-                CHECK(sounding.quality > map_quality);
-            }
         }
-        config.instrument.receiver.noise_db = -300.0;  // none
-        CHECK(make_sonar(config, {}).settings.model->info.mean_noise.empty());
-    }
-
-    TEST_CASE("bathymetry: means per cell, north up") {
-        SoundingBounds bounds;
-        const Eigen::Vector3d points[] = {
-            {0.2, 0.3, -5}, {0.7, 0.9, -6}, {2.5, 0.5, -7}, {1.5, -1.5, -8}};
-        for (const Eigen::Vector3d& point : points)
-            bounds.add(point);
-        Bathymetry grid = make_bathymetry(bounds, 1.0);
-        CHECK(grid.columns == 3);
-        CHECK(grid.rows == 3);
-        CHECK(grid.west_m == 0.0);
-        CHECK(grid.north_m == 1.0);
-        for (const Eigen::Vector3d& point : points)
-            grid.add(point);
-        const std::vector<float> z = grid.mean_z();
-        CHECK(z[0] == -5.5F);
-        CHECK(std::isnan(z[1]));
-        CHECK(z[2] == -7.0F);
-        CHECK(z[2 * 3 + 1] == -8.0F);
-        grid.add({-0.1, 0.5, 100.0});  // outside: dropped, not clamped
-        CHECK(grid.mean_z()[0] == -5.5F);
+        raised.instrument.receiver.noise_db = -300.0;  // none
+        CHECK(make_sonar(raised, {}).settings.model->info.mean_noise.empty());
     }
 
     TEST_CASE("bathymetry: no sounding is lost on the border of a cell") {
@@ -181,10 +138,10 @@ TEST_SUITE("product") {
             Bathymetry grid = make_bathymetry(bounds, cell_m);
             for (const Eigen::Vector3d& point : points)
                 grid.add(point);
-            std::uint32_t sum = 0;
-            for (const std::uint32_t count : grid.count)
-                sum += count;
+            const auto sum = std::accumulate(grid.count.begin(), grid.count.end(), 0U);
             CHECK(sum == points.size());
+            grid.add({100.0, 0.0, -1.0});  // outside: dropped, not clamped
+            CHECK(std::accumulate(grid.count.begin(), grid.count.end(), 0U) == sum);
         }
     }
 
@@ -210,7 +167,8 @@ TEST_SUITE("product") {
         bounds.count = 32'000;  // 4 * 800 m^2 / 32000 = 0.1 m^2: cells of 0.32 m, rounded up
         CHECK(make_bathymetry(bounds, 0.0).cell_m == 0.5);
         CHECK(make_bathymetry({}, 0.0).columns == 0);
-        const Bathymetry held = make_bathymetry(bounds, 1e-4);
+        const Bathymetry held =
+            make_bathymetry(bounds, 5e-324);  // the finest that a mission can ask for
         CHECK(held.cell_m > 1e-3);
         CHECK(static_cast<double>(held.columns) * held.rows <= 1 << 24);
         SoundingBounds point;
@@ -218,28 +176,7 @@ TEST_SUITE("product") {
         CHECK(make_bathymetry(point, 0.0).columns == 1);
     }
 
-    TEST_CASE("bathymetry: the picture has the map's shape and colours from deep to shallow") {
-        SoundingBounds bounds;
-        bounds.add({0.5, 0.5, 0});
-        bounds.add({29.5, 9.5, 0});
-        Bathymetry grid = make_bathymetry(bounds, 1.0);
-        for (int x = 0; x < 30; ++x) {
-            for (int y = 0; y < 10; ++y) {
-                if (x != 15) grid.add({x + 0.5, y + 0.5, -10.0 + 0.1 * x});
-            }
-        }
-        Picture picture = draw_bathymetry(grid);
-        CHECK(picture.width == 900 + 100);  // 30 px to a cell, margins and the legend
-        const auto at = [&](int column, int row) {
-            return picture.row(10 + 30 * row + 15)[10 + 30 * column + 15];
-        };
-        CHECK(at(15, 5) == backdrop);      // not seen
-        CHECK(at(1, 5).b > at(1, 5).r);    // deep: blue
-        CHECK(at(28, 5).r > at(28, 5).b);  // shallow: red
-        CHECK(draw_bathymetry({}).width > 0);
-    }
-
-    TEST_CASE("bathymetry: a level floor far from the origin has a picture") {
+    TEST_CASE("bathymetry: cells of any size, anywhere, have a picture") {
         // 1e-3F is below the step of float there: heights from low to low + 1e-3F would be empty.
         for (const double far : {1e5, 1e7, 1e8, -1e8}) {
             SoundingBounds bounds;
@@ -249,9 +186,6 @@ TEST_SUITE("product") {
             REQUIRE(grid.count[0] == 1);
             CHECK(draw_bathymetry(grid).width > 0);
         }
-    }
-
-    TEST_CASE("bathymetry: cells of any size have a scale bar") {
         // 0.4 * 0.05 is above 0.02 in doubles: halving the bar that way never ended.
         for (double cell_m = 1e-3; cell_m < 1e3; cell_m *= 1.07) {
             SoundingBounds bounds;
@@ -261,14 +195,5 @@ TEST_SUITE("product") {
         }
         for (const double cell_m : {0.0685851289138515, 0.05, 0.5})
             CHECK(round_down_125(cell_m) <= cell_m);
-    }
-
-    TEST_CASE("bathymetry: the finest cell that a mission can ask for") {
-        SoundingBounds bounds;
-        bounds.add({0, 0, 0});
-        bounds.add({4, 2, 0});
-        const Bathymetry grid = make_bathymetry(bounds, 5e-324);
-        CHECK(grid.cell_m >= 1e-6);
-        CHECK(static_cast<double>(grid.columns) * grid.rows <= 1 << 24);
     }
 }

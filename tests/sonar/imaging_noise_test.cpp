@@ -47,13 +47,9 @@ TEST_CASE("noise is a function of seed, sensor and ping; without it the seed doe
 }
 
 TEST_CASE("the mean over 1,000 seeds agrees with theory") {
-    // A wall within one scatterer cell, so that a ping has one w: the echo moves as a whole and
-    // every bin that it then covers holds I exp(-w / lambda). The wall's ranges span
-    // [D, D + 0.2 mm], far less than a bin, so bin [a, b) is occupied when D + w falls into it:
-    // E[I'] = int_a^b I e^(-w/lambda) e^(-w/lambda) / lambda dw
-    //       = I / 2 (e^(-2 (a-D)/lambda) - e^(-2 (b-D)/lambda)), with a, b >= D.
-    // Pixel noise adds s sigma sqrt(pi / 2) and halves the rest (m = 0.5); clipping at 0 does not
-    // occur, since sigma_m is a tenth of m.
+    // A wall within one scatterer cell: a ping has one w, and bins [a, b) hold the echo when D + w
+    // falls into them: E[I'] = I / 2 (exp(-2 (a - D) / lambda) - exp(-2 (b - D) / lambda)). Pixel
+    // noise adds s sigma sqrt(pi / 2) and halves the rest (m = 0.5).
     constexpr double R = 0.8;
     constexpr double D = 2.01;
     constexpr double lambda = 0.1;

@@ -92,21 +92,4 @@ TEST_SUITE("sonar") {
         CHECK(json.at("head_angle_rad") == test::approx(radians(-155)));
         CHECK(json.at("altitude_m").is_null());
     }
-
-    TEST_CASE("scanning: the display shows the last ping at each step") {
-        SonarConfig config = scanning_sonar();
-        config.sector_deg = 40.0;
-        config.range_bins = 3;
-        ScanDisplay display(make_sonar(config, {}));
-        for (std::size_t ping = 0; ping < 6; ++ping) {
-            const std::vector<float> bins(3, static_cast<float>(ping + 1));
-            display.show(ping, bins);
-        }
-        // Pings 0 to 3 fall on steps 0 to 3, pings 4 and 5 come back over steps 3 and 2.
-        const float expected[] = {1, 2, 6, 5};
-        for (int step = 0; step < 4; ++step) {
-            for (int bin = 0; bin < 3; ++bin)
-                CHECK(display.image().at(bin, step) == expected[step]);
-        }
-    }
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <cstdint>
+#include <random>
 
 #include "core/random.h"
 
@@ -39,6 +40,20 @@ class Draws {
 
     std::uint32_t number_;
     std::uint32_t count_ = 0;
+};
+
+/// Uniform numbers; std::uniform_real_distribution differs between libraries.
+class Uniform {
+  public:
+    explicit Uniform(std::uint32_t seed) : bits_(seed) {}
+
+    double between(double low, double high) {
+        return low + (high - low) * (bits_() / 4294967296.0);
+    }
+    float single(double low, double high) { return static_cast<float>(between(low, high)); }
+
+  private:
+    std::mt19937 bits_;
 };
 
 }  // namespace sonarsim::test

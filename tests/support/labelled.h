@@ -38,10 +38,4 @@ inline Labelled label(const Scene& scene, const Sonar& sonar, const Pose& pose, 
     return out;
 }
 
-/// The range bin that contains a range.
-inline int bin_at(const Sonar& sonar, double range_m) {
-    return static_cast<int>((range_m - sonar.settings.view.range_min_m) /
-                            sonar.settings.view.bin_m());
-}
-
 }  // namespace sonarsim::test

@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
+#include <cstdint>
 #include <vector>
 
 #include "core/elementary.h"
 #include "core/units.h"
 #include "support/draws.h"
-#include "support/lattice_builder.h"
 #include "support/shapes.h"
 
 namespace sonarsim::test {
@@ -18,6 +17,50 @@ namespace sonarsim::test {
 namespace {
 
 using Eigen::Vector3f;
+
+/// Adds bars and faces to a scene, about the origin, some two units wide.
+class LatticeBuilder {
+  public:
+    LatticeBuilder(Draws& draws, Scene& scene)
+        : draws_(draws), scene_(scene), welded_(draws.half()) {
+        material_ = shapes::add_material(scene, draws.between(0.2F, 0.9F));
+        scene.instances.emplace_back("lattice");
+    }
+
+    Draws& draws() { return draws_; }
+
+    /// A prism from a to b. Welded bars that meet in a node share its vertex.
+    void bar(const Vector3f& a, const Vector3f& b, float radius, int sides) {
+        const Vector3f along = b - a;
+        const Vector3f u = along.unitOrthogonal() * radius;
+        const Vector3f v = along.normalized().cross(u);
+        const auto rim = [&](const Vector3f& centre, int k) -> Vector3f {
+            const SinCos at = sincos(2.0 * pi * (k % sides) / sides);
+            return centre + static_cast<float>(at.cos) * u + static_cast<float>(at.sin) * v;
+        };
+        for (int k = 0; k < sides; ++k) {
+            quad(rim(a, k), rim(a, k + 1), rim(b, k + 1), rim(b, k));
+            if (!welded_) continue;
+            triangle(a, rim(a, k), rim(a, k + 1));
+            triangle(b, rim(b, k), rim(b, k + 1));
+        }
+    }
+
+    void quad(const Vector3f& a, const Vector3f& b, const Vector3f& c, const Vector3f& d) {
+        triangle(a, b, c);
+        triangle(a, c, d);
+    }
+
+  private:
+    void triangle(const Vector3f& a, const Vector3f& b, const Vector3f& c) {
+        shapes::add_triangle(scene_, a, b, c, material_);
+    }
+
+    Draws& draws_;
+    Scene& scene_;
+    bool welded_;
+    std::uint32_t material_ = 0;
+};
 
 /// A girder of four chords with frames and diagonals, as of a crane.
 void truss(LatticeBuilder& lattice) {
@@ -170,6 +213,12 @@ void ladder(LatticeBuilder& lattice) {
     }
 }
 
+/// A shape by draws of the builder.
+struct LatticeShape {
+    const char* name;
+    void (*build)(LatticeBuilder&);
+};
+
 constexpr std::array<LatticeShape, 7> known_shapes{{{"truss", truss},
                                                     {"net", net},
                                                     {"stairs", stairs},
@@ -187,7 +236,6 @@ SonarConfig draw_sonar(Draws& draws, std::uint32_t number, float size_m, float d
     config.name = "sonar";
     config.kind = kinds[number % kinds.size()];
     config.range_bins = 128;
-    // A quarter each of the imaging sonars has 64, 128, 256 and 512 beams.
     config.azimuth_bins = config.kind == SonarKind::imaging ? 64 << (number / 8 % 4) : 64;
     config.range_min_m = 0.2;
     config.range_max_m = static_cast<double>(distance_m + draws.between(0.8F, 1.5F) * size_m);
@@ -228,8 +276,7 @@ Lattice draw_lattice(std::uint32_t number) {
         const Vector3f axis = draws.in_ball().normalized();
         turn = Eigen::AngleAxisf(draws.between(0.0F, 3.14F), axis) * turn;
     }
-    // The lattice stands aside of the boresight by up to half of its own size, or anywhere in a
-    // side-scan's plane.
+    // Aside of the boresight by up to half of its size, or anywhere in a side-scan's plane.
     const bool sides = out.sonar.kind == SonarKind::sidescan;
     const double aside = static_cast<double>(sides ? draws.between(-0.8F, 0.8F) : 0.0F);
     const SinCos at = sincos(aside);

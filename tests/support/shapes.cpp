@@ -10,15 +10,6 @@ namespace sonarsim::shapes {
 
 namespace {
 
-void add_triangle(Scene& scene, const Eigen::Vector3f& a, const Eigen::Vector3f& b,
-                  const Eigen::Vector3f& c, std::uint32_t material) {
-    const auto first = static_cast<std::uint32_t>(scene.vertices.size());
-    scene.vertices.insert(scene.vertices.end(), {a, b, c});
-    scene.triangles.push_back({first, first + 1, first + 2});
-    scene.triangle_material.push_back(material);
-    scene.triangle_instance.push_back(static_cast<std::uint32_t>(scene.instances.size() - 1));
-}
-
 Eigen::Vector3f polar(float radius, double azimuth, double elevation) {
     return radius * direction_of(azimuth, elevation).cast<float>();
 }
@@ -30,6 +21,15 @@ Scene empty_scene(const Eigen::Vector3d& origin) {
     scene.origin = origin;
     scene.bounds_min = scene.bounds_max = origin;
     return scene;
+}
+
+void add_triangle(Scene& scene, const Eigen::Vector3f& a, const Eigen::Vector3f& b,
+                  const Eigen::Vector3f& c, std::uint32_t material) {
+    const auto first = static_cast<std::uint32_t>(scene.vertices.size());
+    scene.vertices.insert(scene.vertices.end(), {a, b, c});
+    scene.triangles.push_back({first, first + 1, first + 2});
+    scene.triangle_material.push_back(material);
+    scene.triangle_instance.push_back(static_cast<std::uint32_t>(scene.instances.size() - 1));
 }
 
 std::uint32_t add_material(Scene& scene, float reflection) {

@@ -16,6 +16,10 @@ Scene empty_scene(const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 /// The index of a material with power reflection coefficient `reflection`.
 std::uint32_t add_material(Scene& scene, float reflection);
 
+/// A triangle of the last instance.
+void add_triangle(Scene& scene, const Eigen::Vector3f& a, const Eigen::Vector3f& b,
+                  const Eigen::Vector3f& c, std::uint32_t material);
+
 /// A quadrilateral a, b, c, d (in order around it), cut into n x n x 2 triangles.
 void add_quad(Scene& scene, const Eigen::Vector3f& a, const Eigen::Vector3f& b,
               const Eigen::Vector3f& c, const Eigen::Vector3f& d, std::uint32_t material,

@@ -28,6 +28,17 @@ inline Sonar noise_free(const SonarConfig& config, double relative_l1 = 0.03) {
     return make_sonar(with_gain_1, {relative_l1});
 }
 
+/// The range bin that contains a range.
+inline int bin_at(const Sonar& sonar, double range_m) {
+    return static_cast<int>((range_m - sonar.settings.view.range_min_m) /
+                            sonar.settings.view.bin_m());
+}
+
+/// The middle of a range bin.
+inline double bin_centre(const Sonar& sonar, int i) {
+    return 0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]);
+}
+
 /// Changes a copy of the sonar's model, which is the paper's.
 template <class Change>
 void change_paper_model(Sonar& sonar, Change change) {
