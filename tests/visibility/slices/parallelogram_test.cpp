@@ -7,13 +7,36 @@
 #include <random>
 
 #include "support/approx.h"
-#include "visibility/slices/drawn_quads.h"
 
 using namespace sonarsim;
 
 TEST_SUITE_BEGIN("slices");
 
 namespace {
+
+/// A random quadrilateral of a plane that faces the sonar. Its range is wide: no corner is moved.
+Quad draw_quad(std::mt19937& random) {
+    const auto between = [&](float low, float high) {
+        return std::uniform_real_distribution<float>(low, high)(random);
+    };
+    // One after the other: compilers differ in the order of a function's arguments.
+    const float tilt = between(-0.5F, 0.5F);
+    const float rise = between(-0.5F, 0.5F);
+    const Eigen::Vector3f normal = Eigen::Vector3f(-1.0F, tilt, rise).normalized();
+    Quad quad{};
+    quad.height_m = between(1.0F, 10.0F);
+    quad.low = {between(-0.3F, 0.0F), between(-0.4F, -0.2F), between(0.0F, 0.2F)};
+    quad.high = {quad.low.u + 0.01F, quad.low.low + between(-0.01F, 0.01F),
+                 quad.low.high + between(-0.01F, 0.01F)};
+    // On a plane -h q = n . (1, u, w).
+    quad.u = quad.low.u;
+    quad.w = quad.low.low;
+    quad.q_u = -normal.y() / quad.height_m;
+    quad.q_w = -normal.z() / quad.height_m;
+    quad.q = -normal.x() / quad.height_m + quad.q_u * quad.u + quad.q_w * quad.w;
+    quad.range_m = {0.0F, 1e4F};
+    return quad;
+}
 
 struct Surface {
     double area_m2 = 0.0;
@@ -48,24 +71,21 @@ Surface surface_of(const Quad& quad) {
 TEST_CASE("slices: a parallelogram has the area and the range of its quadrilateral") {
     std::mt19937 random(2);
     for (int run = 0; run < 160; ++run) {
-        Quad quad = test::draw_quad(random);
+        Quad quad = draw_quad(random);
         // Short along w: the ranges of a parallelogram are linear.
         quad.low.high = quad.low.low + 0.1F;
         quad.high.high = quad.high.low + 0.1F;
-        const int lane = run % lanes;
-        QuadBatch batch{};
-        batch.set(lane, quad, quad.corners());
-        const Parallelograms patches =
-            fit_parallelograms(batch, Eigen::Matrix3f::Identity(), false);
+        const Parallelogram patch =
+            fit_parallelogram(quad, quad.corners(), Eigen::Matrix3f::Identity(), false);
         const Surface surface = surface_of(quad);
-        CHECK(patches.area_m2[lane] == test::approx(surface.area_m2).epsilon(1e-3));
+        CHECK(patch.area_m2 == test::approx(surface.area_m2).epsilon(1e-3));
         // The range of a parallelogram that bends little, from its edges.
-        const Eigen::Vector3f at = patches.position.at(lane);
-        const float half_m = (std::fabs(at.dot(patches.edge_u.at(lane))) +
-                              std::fabs(at.dot(patches.edge_v.at(lane)))) /
-                             at.norm();
-        CHECK(at.norm() - half_m == test::approx(surface.nearest_m).epsilon(5e-3));
-        CHECK(at.norm() + half_m == test::approx(surface.farthest_m).epsilon(5e-3));
+        const float range_m = patch.position.norm();
+        const float half_m = (std::fabs(patch.position.dot(patch.edge_u)) +
+                              std::fabs(patch.position.dot(patch.edge_v))) /
+                             range_m;
+        CHECK(range_m - half_m == test::approx(surface.nearest_m).epsilon(5e-3));
+        CHECK(range_m + half_m == test::approx(surface.farthest_m).epsilon(5e-3));
     }
 }
 
