@@ -8,7 +8,7 @@
 #include "support/sanitized.h"
 #include "support/scenes.h"
 #include "visibility/slices/fixtures.h"
-#include "visibility/slices/scan.h"
+#include "visibility/slices/slice_frames.h"
 
 using namespace sonarsim;
 using test::fan_view;
