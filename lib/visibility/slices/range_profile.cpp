@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace sonarsim {
 
@@ -101,10 +102,11 @@ void RangeProfile::add(float from_m, float to_m, float weight, float height_m, f
 }
 
 void RangeProfile::finish() {
-    for (int i = first_; i < last_; ++i) {
-        echo_[i] = weight_[i] > 0.0F ? echo_[i] / weight_[i] : 0.0F;
-        sum_ += echo_[i];
-    }
+    float* const __restrict echo = echo_.data();
+    const float* const __restrict weight = weight_.data();
+    for (int i = first_; i < last_; ++i)
+        echo[i] = weight[i] > 0.0F ? echo[i] / weight[i] : 0.0F;
+    sum_ = std::accumulate(echo + first_, echo + last_, 0.0F);
 }
 
 float RangeProfile::change(const RangeProfile& a, const RangeProfile& b,
