@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
+#include <utility>
 
 #include "core/elementary.h"
 #include "trace/target_surface.h"
@@ -15,12 +17,6 @@ namespace {
 /// belongs to the highlight.
 using Sums = Eigen::Array<float, 8, 1>;
 enum Term : int { section, range, x, y, z, highlight };
-
-/// A piece or, when its pieces are joined, a cell.
-struct Cell {
-    std::uint64_t number;
-    Sums sums;
-};
 
 /// The number of the cell at an offset from the middle one, 21 bits. `size` 0: there is one cell.
 std::uint64_t cell_at(float offset, float size) {
@@ -38,35 +34,31 @@ bool is_in_highlight(const Backscatter& material, float range_m, float height_m)
 }
 
 /// Joins the pieces of one smooth surface. Their cells are found from the middle of the highlight.
-void join_surface(std::vector<Cell>& pieces, const PointLimits& cell, const Sample& of,
+void join_surface(std::span<const Sums> pieces, const PointLimits& cell, const Sample& of,
                   PhiloxKey key, PointScatterers& out) {
     Sums all = Sums::Zero();
     Sums bright = Sums::Zero();
-    for (const Cell& piece : pieces) {
-        all += piece.sums;
-        if (piece.sums[highlight] > 0.0F) bright += piece.sums;
+    for (const Sums& piece : pieces) {
+        all += piece;
+        if (piece[highlight] > 0.0F) bright += piece;
     }
     const Sums& about = bright[section] > 0.0F ? bright : all;
     const Sums middle = about / about[section];
-    std::size_t kept = 0;
-    for (const Cell& piece : pieces) {
-        const Sums off = piece.sums / piece.sums[section] - middle;
+    std::vector<std::pair<std::uint64_t, Sums>> runs;  // in one cell
+    for (const Sums& piece : pieces) {
+        const Sums off = piece / piece[section] - middle;
         const std::uint64_t number = cell_at(off[range], cell.depth_m) << 42U |
                                      cell_at(off[y] / middle[range], cell.sine) << 21U |
                                      cell_at(off[z] / middle[range], cell.elevation_sine);
-        // Pieces of one cell often come one after the other.
-        if (kept > 0 && pieces[kept - 1].number == number)
-            pieces[kept - 1].sums += piece.sums;
+        if (runs.empty() || runs.back().first != number)
+            runs.emplace_back(number, piece);
         else
-            pieces[kept++] = {number, piece.sums};
+            runs.back().second += piece;
     }
-    pieces.resize(kept);
-    std::ranges::stable_sort(pieces, {}, &Cell::number);
-    for (std::size_t k = 0; k < pieces.size();) {
-        const std::uint64_t number = pieces[k].number;
-        Sums sums = Sums::Zero();
-        for (; k < pieces.size() && pieces[k].number == number; ++k)
-            sums += pieces[k].sums;
+    std::map<std::uint64_t, Sums> cells;
+    for (const auto& [number, sums] : runs)
+        cells.try_emplace(number, Sums::Zero()).first->second += sums;
+    for (const auto& [number, sums] : cells) {
         const PhiloxBlock words =
             philox({of.instance, of.region - 1, static_cast<std::uint32_t>(number),
                     static_cast<std::uint32_t>(number >> 32U)},
@@ -96,7 +88,7 @@ PointScatterers join_targets(std::span<const Sample> pieces, ViewShape shape,
                              const PointLimits& cell, const Scattering& scattering, PhiloxKey key) {
     PointScatterers out;
     PatchBlock block;
-    std::vector<Cell> of_surface;
+    std::vector<Sums> of_surface;
     for (std::size_t first = 0; first < pieces.size();) {
         const auto is_other = [&](const Sample& piece) {
             return piece.instance != pieces[first].instance || piece.region != pieces[first].region;
@@ -114,8 +106,8 @@ PointScatterers join_targets(std::span<const Sample> pieces, ViewShape shape,
                 if (!(area > 0.0F)) continue;
                 const float is_bright =
                     is_in_highlight(material, at.range_m, height_m) ? 1.0F : 0.0F;
-                of_surface.push_back({0, area * Sums(1.0F, at.range_m, parts.x[k], parts.y[k],
-                                                     parts.z[k], is_bright, 0.0F, 0.0F)});
+                of_surface.emplace_back(area * Sums(1.0F, at.range_m, parts.x[k], parts.y[k],
+                                                    parts.z[k], is_bright, 0.0F, 0.0F));
             }
         });
         if (!of_surface.empty()) join_surface(of_surface, cell, pieces[first], key, out);

@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "core/elementary.h"
+#include "core/groups.h"
 #include "scene/maps/ground_maps.h"
 #include "scene/materials.h"
 #include "trace/arrivals.h"
@@ -31,16 +31,13 @@ constexpr float part_by_diameter = 1.0F / 8.0F;
 // radius times slope; no smaller than a share of a resolution cell.
 constexpr float glint_by_highlight = 1.5F;
 constexpr float min_glint_by_cell = 0.25F;
-// The normal turns by up to this many slopes along a side of a piece of a highlight.
-constexpr float turn_by_slope = 1.0F;
 // A part of a triangle is halved at most this many times, to a thousandth of its sides and less.
 constexpr int max_halvings = 22;
 
 /// The width in which a view resolves directions, or an engine samples them, rad.
 double resolved_width(const View& view) {
-    const double parts = std::max<double>(min_parts, view.beams);
-    if (view.shape == ViewShape::fan) return view.azimuth_rad / parts;
-    return view.elevation_rad / min_parts;
+    if (view.shape != ViewShape::fan) return view.elevation_rad / min_parts;
+    return view.azimuth_rad / std::max<double>(min_parts, view.beams);
 }
 
 /// A corner of a piece of a triangle, in the sensor frame.
@@ -67,6 +64,21 @@ float least_off(const Corners& corners) {
     return middle.norm() - std::sqrt(spread2);
 }
 
+/// A ray, and the piece that it should reach.
+struct Aim {
+    Ray ray;
+    float range_m;
+    float cosine;   ///< cosine of the angle between the ray and the normal
+    float slack_m;  ///< greatest distance of the piece from the surface
+
+    bool arrives(const Intersection& hit) const {
+        // The ray hit nothing: it passed the outline of the target, where vertices were moved to
+        // join them.
+        if (!std::isfinite(hit.distance_m)) return true;
+        return hit.distance_m + (hit.rounding_m + slack_m) / std::max(cosine, 1e-3F) >= range_m;
+    }
+};
+
 /// Cuts the objects of a ping into pieces.
 class TargetSampler {
   public:
@@ -74,7 +86,6 @@ class TargetSampler {
         : view_(view),
           field_(view, guard_beams),
           volume_(widened_view(view, guard_beams), Pose{}),
-          fills_volume_(guard_beams.count == 0 && view.shape != ViewShape::cone),
           maps_(scene.maps.get()) {
         for (const Material& material : scene.materials)
             slopes_.push_back(static_cast<float>(facet_slope(material)));
@@ -87,12 +98,9 @@ class TargetSampler {
         const Eigen::Vector3f centre = T_sensor_shape * shape.centre;
         const float radius = scale * shape.radius_m;
         const float range = arrival_range(centre);
-        if (range < min_distance_by_radius * radius) return false;
-        const Containment contained =
-            volume_.of_sensor_frame(centre, radius + volume_.rounding_m());
-        if (contained == Containment::outside) return false;
-        // The cones of a fan's beams do not fill the guard beams, nor does a cone its volume.
-        inside_ = fills_volume_ && contained == Containment::inside;
+        if (range < min_distance_by_radius * radius ||
+            volume_.of_sensor_frame(centre, radius + volume_.rounding_m()) == Containment::outside)
+            return false;
         const float cell = std::max(static_cast<float>(resolved_width(view_)) * range,
                                     static_cast<float>(view_.bin_m()));
         const float highlight =
@@ -101,7 +109,7 @@ class TargetSampler {
         const bool is_smooth = shape.turn <= placed.min_slope;
         if (highlight > max_cells * cell && is_smooth) return false;
         part_m_ = part_by_diameter * 2.0F * radius;
-        min_glint_m_ = min_glint_by_cell * cell;
+        min_glint_m_ = std::min(min_glint_by_cell * cell, part_m_);
         weld_m_ = weld_slack * radius;
         cut(placed, shape, T_sensor_shape, scale);
         return true;
@@ -109,45 +117,32 @@ class TargetSampler {
 
     /// The pieces that are seen.
     std::vector<Sample> take_seen(const VisibilityEngine& engine, const Pose& T_world_sensor) {
-        std::vector<Intersection> hits(rays_.size());
-        engine.intersect(T_world_sensor, rays_, hits);
+        std::vector<Ray> rays;
+        std::ranges::transform(aims_, std::back_inserter(rays), &Aim::ray);
+        std::vector<Intersection> hits(rays.size());
+        engine.intersect(T_world_sensor, rays, hits);
         std::size_t kept = 0;
         for (std::size_t k = 0; k < pieces_.size(); ++k) {
             const std::uint32_t ray = ray_of_[k];
-            if (ray_arrives(aims_[ray], hits[ray])) pieces_[kept++] = pieces_[k];
+            if (aims_[ray].arrives(hits[ray])) pieces_[kept++] = pieces_[k];
         }
         pieces_.resize(kept);
         return std::move(pieces_);
     }
 
   private:
-    /// The piece that a ray should reach.
-    struct Aim {
-        float range_m;
-        float cosine;   ///< cosine of the angle between the ray and the normal
-        float slack_m;  ///< greatest distance of the piece from the surface
-    };
-
-    static bool ray_arrives(const Aim& aim, const Intersection& hit) {
-        // The ray hit nothing: it passed the outline of the target, where vertices were moved to
-        // join them.
-        if (!std::isfinite(hit.distance_m)) return true;
-        const float slack = (hit.rounding_m + aim.slack_m) / std::max(aim.cosine, 1e-3F);
-        return hit.distance_m + slack >= aim.range_m;
-    }
-
     void cut(const PlacedTarget& placed, const TargetShape& shape,
              const Eigen::Affine3f& T_sensor_shape, float scale) {
-        std::vector<Eigen::Vector3f> vertices;
-        for (const Eigen::Vector3f& p : shape.vertices)
-            vertices.push_back(T_sensor_shape * p);
         const Eigen::Matrix3f R = T_sensor_shape.linear() / scale;
         const bool is_mapped = maps_ && maps_->lie_on(placed.instance);
         last_point_.reset();
         piece_.instance = placed.instance;
         for (const TargetTriangle& triangle : shape.triangles) {
+            const auto place = [&](int k) -> Eigen::Vector3f {
+                return T_sensor_shape * shape.vertices[triangle.corners[k]];
+            };
             flat_normal_ = R * triangle.normal;
-            const float height = -flat_normal_.dot(vertices[triangle.corners[0]]);
+            const float height = -flat_normal_.dot(place(0));
             if (shape.closed && !(height > 0.0F)) continue;
             const float side = height < 0.0F ? -1.0F : 1.0F;
             flat_normal_ *= side;
@@ -156,7 +151,7 @@ class TargetSampler {
             piece_.material = triangle.material;
             piece_.region = triangle.region + 1;
             const auto corner = [&](int k) {
-                return Corner(vertices[triangle.corners[k]], side * (R * triangle.normals[k]));
+                return Corner(place(k), side * (R * triangle.normals[k]));
             };
             halve({corner(0), corner(1), corner(2)}, max_halvings, slope_ > 0.0F);
         }
@@ -168,7 +163,7 @@ class TargetSampler {
     void halve(const Corners& corners, int halvings, bool may_glint) {
         const bool glints = may_glint && least_off(corners) <= highlight_slopes * slope_;
         const float per_part = 1.0F / part_m_;
-        const float per_turn = glints ? 1.0F / (turn_by_slope * slope_) : 0.0F;
+        const float per_turn = glints ? 1.0F / slope_ : 0.0F;
         int longest = -1;
         float size = 1.0F;
         for (int k = 0; k < 3; ++k) {
@@ -192,18 +187,16 @@ class TargetSampler {
     void add_piece(const Corners& corners, bool glints) {
         // From b to c is the shortest side, so that the edges of the footprint are far from
         // parallel.
-        std::array<float, 3> sides2;
-        for (int k = 0; k < 3; ++k)
-            sides2[k] = (corners[(k + 1) % 3].place - corners[k].place).squaredNorm();
-        const auto shortest = std::ranges::min_element(sides2) - sides2.begin();
+        const auto length2 = [&](int k) {
+            return (corners[(k + 1) % 3].place - corners[k].place).squaredNorm();
+        };
+        const int shortest = std::ranges::min({0, 1, 2}, {}, length2);
         const Corner& a = corners[(shortest + 2) % 3];
         const Corner& b = corners[shortest];
         const Corner& c = corners[(shortest + 1) % 3];
         const Eigen::Vector3f middle = (a.place + b.place + c.place) / 3.0F;
-        if (!inside_ && !field_.contains(middle)) return;
-        const float glint_m = glint_by_highlight * std::fabs(curvature_m_) * slope_;
-        find_ray(middle,
-                 glints ? std::clamp(glint_m, std::min(min_glint_m_, part_m_), part_m_) : part_m_);
+        if (!field_.contains(middle)) return;
+        aim_at(middle, glints);
         const Eigen::Vector3f n = (a.normal + b.normal + c.normal) / 3.0F;
         const float length = n.norm();
         const float flat_m2 = 0.5F * (b.place - a.place).cross(c.place - a.place).norm();
@@ -216,17 +209,21 @@ class TargetSampler {
         piece_.area_m2 =
             flat_m2 * std::max(flat_normal_.dot(piece_.normal), 0.0F) / (length * length);
         pieces_.push_back(piece_);
-        ray_of_.push_back(static_cast<std::uint32_t>(rays_.size() - 1));
+        ray_of_.push_back(static_cast<std::uint32_t>(aims_.size() - 1));
     }
 
-    /// Aims a ray at a piece, unless the last one arrives on the same part, `part_m` across.
-    void find_ray(const Eigen::Vector3f& middle, float part_m) {
-        const bool shares = last_point_ && (middle - *last_point_).norm() < 0.5F * part_m &&
-                            flat_normal_.dot(last_normal_) > 0.9F;
-        if (shares) return;
+    /// Aims a ray at a piece, unless the last one arrives on the same part of its surface.
+    void aim_at(const Eigen::Vector3f& middle, bool glints) {
+        const float glint_m = glint_by_highlight * std::fabs(curvature_m_) * slope_;
+        const float part_m = glints ? std::clamp(glint_m, min_glint_m_, part_m_) : part_m_;
+        if (last_point_ && (middle - *last_point_).norm() < 0.5F * part_m &&
+            flat_normal_.dot(last_normal_) > 0.9F)
+            return;
         const auto [range, direction] = arrival_of(middle);
-        rays_.push_back({Eigen::Vector3f::Zero(), direction});
-        aims_.push_back({range, std::fabs(flat_normal_.dot(direction)), weld_m_});
+        aims_.push_back({{Eigen::Vector3f::Zero(), direction},
+                         range,
+                         std::fabs(flat_normal_.dot(direction)),
+                         weld_m_});
         last_point_ = middle;
         last_normal_ = flat_normal_;
     }
@@ -234,11 +231,10 @@ class TargetSampler {
     const View& view_;
     GuardedField field_;
     ViewVolume volume_;
-    bool fills_volume_;          ///< the field of view is all of its volume
-    bool inside_ = false;        ///< the target that is cut lies in the view with all of its parts
     const GroundMaps* maps_;     ///< null: none
     std::vector<float> slopes_;  ///< RMS slopes of the materials' facets
-    float part_m_ = 0.0F;        ///< the greatest size of a piece of the target that is cut
+    // The target that is cut:
+    float part_m_ = 0.0F;       ///< the greatest size of a piece
     float min_glint_m_ = 0.0F;  ///< the least size of a part of a highlight that one ray decides on
     float weld_m_ = 0.0F;       ///< the way by which its vertices were moved at most
     // The triangle that is cut:
@@ -249,7 +245,6 @@ class TargetSampler {
 
     std::vector<Sample> pieces_;
     std::vector<std::uint32_t> ray_of_;
-    std::vector<Ray> rays_;
     std::vector<Aim> aims_;
     std::optional<Eigen::Vector3f> last_point_;
     Eigen::Vector3f last_normal_ = Eigen::Vector3f::Zero();
@@ -290,26 +285,20 @@ void replace_samples(const TargetSurface& targets, const View& view, VisibleSurf
     const auto is_replaced = [&](const Sample& sample) { return targets.has(sample.instance); };
     std::erase_if(surface.outside_sector, is_replaced);
     const BeamLocator field(view);
-    std::vector<std::pair<int, std::uint32_t>> by_beam;  // beam and index of each piece
-    for (std::uint32_t k = 0; k < targets.pieces.size(); ++k) {
-        const Sample& piece = targets.pieces[k];
+    std::vector<std::uint32_t> beam_of_piece;
+    for (const Sample& piece : targets.pieces) {
         const float beam = field.beam(piece.position, arrival_range(piece.position));
-        if (beam < 0.0F)
-            surface.outside_sector.push_back(piece);
-        else
-            by_beam.emplace_back(static_cast<int>(beam), k);
+        if (beam < 0.0F) surface.outside_sector.push_back(piece);
+        beam_of_piece.push_back(beam < 0.0F ? no_group : static_cast<std::uint32_t>(beam));
     }
-    std::ranges::sort(by_beam);
-    auto next = by_beam.begin();
-    Samples merged;
-    merged.dropped = surface.samples.dropped;
+    const Groups by_beam = sort_into_groups(beam_of_piece, view.beams);
+    Samples merged{.items = {}, .beam_begin = {0}, .dropped = surface.samples.dropped};
     merged.items.reserve(surface.samples.items.size() + targets.pieces.size());
-    merged.beam_begin.push_back(0);
     for (int j = 0; j < view.beams; ++j) {
         std::ranges::remove_copy_if(surface.samples.beam(j), std::back_inserter(merged.items),
                                     is_replaced);
-        for (; next != by_beam.end() && next->first == j; ++next)
-            merged.items.push_back(targets.pieces[next->second]);
+        for (std::uint32_t k = by_beam.begin[j]; k < by_beam.begin[j + 1]; ++k)
+            merged.items.push_back(targets.pieces[by_beam.items[k]]);
         merged.beam_begin.push_back(static_cast<std::uint32_t>(merged.items.size()));
     }
     surface.samples = std::move(merged);

@@ -5,7 +5,7 @@
 
 #include "calibrated/target_fixtures.h"
 #include "support/approx.h"
-#include "trace/target_mesh.h"
+#include "trace/target_shapes.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <span>
 
+#include "core/groups.h"
 #include "scene/mesh_topology.h"
 #include "visibility/cut_triangle.h"
 #include "visibility/view_volume.h"
@@ -178,9 +179,11 @@ Samples FineSurface::seen(const Caster& caster, const View& view, const Pose& T_
         piece.sample.instance = scene_.triangle_instance[t];
         cut(p, piece_rad * middle.norm(), view, field, piece, pieces);
     }
-    std::vector<std::uint32_t> order(pieces.size());
-    std::iota(order.begin(), order.end(), 0U);
-    std::ranges::stable_sort(order, {}, [&](std::uint32_t k) { return pieces[k].beam; });
+    std::vector<std::uint32_t> beams;
+    beams.reserve(pieces.size());
+    for (const Piece& piece : pieces)
+        beams.push_back(piece.beam);
+    const std::vector<std::uint32_t> order = sort_into_groups(beams, view.beams).items;
     std::vector<Eigen::Vector3f> directions;
     directions.reserve(order.size());
     for (const std::uint32_t k : order)

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "visibility/slices/scan.h"
+#include "visibility/slices/slice_frames.h"
 
 namespace sonarsim {
 

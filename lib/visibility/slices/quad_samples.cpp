@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+
+#include "visibility/slices/parallelogram.h"
 
 namespace sonarsim {
 
@@ -189,34 +190,20 @@ void QuadSampler::divide_across(const Quad& quad, const QuadPoints& corners) {
     }
 }
 
+/// Adds the sample of a quadrilateral.
 void QuadSampler::push(const Quad& quad, const QuadPoints& corners) {
-    facets_[waiting_] = quad.facet_index;
-    queue_.set(waiting_++, quad, corners);
-    if (waiting_ == lanes) flush();
-}
-
-void QuadSampler::flush() {
-    if (waiting_ == 0) return;
-    const Parallelograms patches = fit_parallelograms(queue_, R_sensor_frame_, !any_width_);
-    const int count = std::exchange(waiting_, 0);
-    for (int k = 0; k < count; ++k)
-        add_sample(facets_[k], patches, k);
-}
-
-void QuadSampler::add_sample(std::uint32_t facet_index, const Parallelograms& patches, int lane) {
-    const float area = patches.area_m2[lane];
-    if (!(area > 0.0F)) return;
-    const FrontFacet& seen = scan_.scene().facets[facet_index];
-    const SliceFacet& facet = scan_.mesh().facets[seen.facet];
-    Sample& sample = out_.emplace_back();
-    sample.position = patches.position.at(lane);
-    sample.edge_u = patches.edge_u.at(lane);
-    sample.edge_v = patches.edge_v.at(lane);
-    sample.normal = R_sensor_frame_ * seen.normal;
-    sample.height_m = seen.height_m;
-    sample.area_m2 = area;
-    sample.material = facet.material;
-    sample.instance = facet.instance;
+    const Parallelogram patch = fit_parallelogram(quad, corners, R_sensor_frame_, !any_width_);
+    if (!(patch.area_m2 > 0.0F)) return;
+    const FrontFacet& front = scan_.scene().facets[quad.facet_index];
+    const SliceFacet& facet = scan_.mesh().facets[front.facet];
+    out_.push_back({.position = patch.position,
+                    .edge_u = patch.edge_u,
+                    .edge_v = patch.edge_v,
+                    .normal = R_sensor_frame_ * front.normal,
+                    .height_m = front.height_m,
+                    .area_m2 = patch.area_m2,
+                    .material = facet.material,
+                    .instance = facet.instance});
 }
 
 }  // namespace sonarsim

@@ -4,7 +4,6 @@
 
 #include "visibility/engine.h"
 #include "visibility/slices/frame_scan.h"
-#include "visibility/slices/parallelogram.h"
 #include "visibility/slices/patch_limits.h"
 #include "visibility/slices/quad.h"
 
@@ -29,9 +28,6 @@ class QuadSampler {
 
     void add(const Quad& quad);
 
-    /// Adds the samples of the quadrilaterals that wait, at the end of a beam.
-    void flush();
-
   private:
     bool is_small(const QuadPoints& corners) const;
     void cut_along(const Quad& quad);
@@ -40,7 +36,6 @@ class QuadSampler {
     void add_part(const Quad& quad, float from, float to);
     void divide_across(const Quad& quad, const QuadPoints& corners);
     void push(const Quad& quad, const QuadPoints& corners);
-    void add_sample(std::uint32_t facet_index, const Parallelograms& patches, int lane);
 
     const FrameScan& scan_;
     const PatchLimits limits_;
@@ -48,9 +43,6 @@ class QuadSampler {
     std::vector<Sample>& out_;
     const Eigen::Matrix3f R_sensor_frame_;
     std::vector<float> cuts_;
-    QuadBatch queue_{};
-    std::array<std::uint32_t, lanes> facets_{};  ///< their FrontFacets
-    int waiting_ = 0;
 };
 
 }  // namespace sonarsim

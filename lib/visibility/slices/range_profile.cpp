@@ -1,10 +1,8 @@
 #include "visibility/slices/range_profile.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-
-#include "core/lanes.h"
+#include <numeric>
 
 namespace sonarsim {
 
@@ -13,21 +11,6 @@ namespace {
 // The least depth of surface, in bins, since areas are divided by depths. The step of a float just
 // below 8192 bins is half of this.
 constexpr float min_depth_bins = 1e-3F;
-
-/// The sum of term(i) over the bins [first, last), and over dark bins up to a whole vector, in
-/// parts, so that the loop vectorises.
-template <class Term>
-float sum_over_bins(int first, int last, const Term& term) {
-    std::array<float, lanes> parts{};
-    for (int begin = first; begin < last; begin += lanes) {
-        for (int k = 0; k < lanes; ++k)
-            parts[k] += term(begin + k);
-    }
-    float sum = 0.0F;
-    for (const float part : parts)
-        sum += part;
-    return sum;
-}
 
 /// Four points of a plane of the scene in the directions (1, u, w).
 struct PlanePoints {
@@ -52,9 +35,9 @@ RangeProfile::RangeProfile(const View& view)
     : min_bins_(static_cast<float>(view.range_min_m / view.bin_m())),
       per_m_(static_cast<float>(1.0 / view.bin_m())),
       bins_(view.range_bins),
-      per_range_(view.range_bins + lanes, 0.0F),
-      weight_(view.range_bins + lanes, 0.0F),
-      echo_(view.range_bins + lanes, 0.0F) {
+      per_range_(view.range_bins, 0.0F),
+      weight_(view.range_bins, 0.0F),
+      echo_(view.range_bins, 0.0F) {
     for (int i = 0; i < bins_; ++i)
         per_range_[i] = per_m_ / (min_bins_ + static_cast<float>(i) + 0.5F);
 }
@@ -110,24 +93,20 @@ void RangeProfile::add(float from_m, float to_m, float weight, float height_m, f
     const int end = static_cast<int>(std::ceil(to));
     first_ = last_ == 0 ? first : std::min(first_, first);
     last_ = std::max(last_, end);
-    // In multiples of 8: a load that overlaps the last store only in part waits for that store.
-    for (int i = first / lanes * lanes; i < end; i += lanes) {
-        const Floats8 bins = static_cast<float>(i) + to_floats(lane_numbers());
-        const Floats8 overlaps = greatest(least(to, bins + 1.0F) - greatest(low, bins), 0.0F);
-        const Floats8 w = density * overlaps;
-        const Floats8 cosine = least(height_m * Floats8::load(&per_range_[i]), 1.0F);
-        add_to(&weight_[i], w);
-        add_to(&echo_[i], w * reflection * cosine);
+    for (int i = first; i < end; ++i) {
+        const auto bin = static_cast<float>(i);
+        const float w = density * (std::min(to, bin + 1.0F) - std::max(low, bin));
+        weight_[i] += w;
+        echo_[i] += w * reflection * std::min(height_m * per_range_[i], 1.0F);
     }
 }
 
 void RangeProfile::finish() {
     float* const __restrict echo = echo_.data();
     const float* const __restrict weight = weight_.data();
-    sum_ = sum_over_bins(first_, last_, [&](int i) {
+    for (int i = first_; i < last_; ++i)
         echo[i] = weight[i] > 0.0F ? echo[i] / weight[i] : 0.0F;
-        return echo[i];
-    });
+    sum_ = std::accumulate(echo + first_, echo + last_, 0.0F);
 }
 
 float RangeProfile::change(const RangeProfile& a, const RangeProfile& b,
@@ -145,10 +124,11 @@ float RangeProfile::change(const RangeProfile& a, const RangeProfile& b,
 }
 
 float RangeProfile::difference(const RangeProfile& a, const RangeProfile& b) {
-    const float* const echo_a = a.echo_.data();
-    const float* const echo_b = b.echo_.data();
-    return sum_over_bins(std::min(a.first_, b.first_), std::max(a.last_, b.last_),
-                         [&](int i) { return std::fabs(echo_a[i] - echo_b[i]); });
+    float sum = 0.0F;
+    const int last = std::max(a.last_, b.last_);
+    for (int i = std::min(a.first_, b.first_); i < last; ++i)
+        sum += std::fabs(a.echo_[i] - b.echo_[i]);
+    return sum;
 }
 
 }  // namespace sonarsim

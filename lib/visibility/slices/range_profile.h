@@ -43,7 +43,7 @@ class RangeProfile {
     int first_ = 0;  ///< bins outside of [first_, last_) are empty
     int last_ = 0;
     float sum_ = 0.0F;
-    std::vector<float> per_range_;  ///< 1 / range of each bin, 1/m; 0 behind the last
+    std::vector<float> per_range_;  ///< 1 / range of each bin, 1/m
     std::vector<float> weight_;
     std::vector<float> echo_;  ///< echo, and after finish() the intensity
 };

@@ -10,7 +10,7 @@
 #include "visibility/local_pose.h"
 #include "visibility/slices/clusters.h"
 #include "visibility/slices/edge_line.h"
-#include "visibility/slices/scan.h"
+#include "visibility/slices/slice_frames.h"
 
 namespace sonarsim {
 

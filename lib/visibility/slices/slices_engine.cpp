@@ -7,7 +7,7 @@
 #include "visibility/slices/clusters.h"
 #include "visibility/slices/frame_scan.h"
 #include "visibility/slices/patch_limits.h"
-#include "visibility/slices/scan.h"
+#include "visibility/slices/slice_frames.h"
 #include "visibility/slices/strip_quads.h"
 
 namespace sonarsim {

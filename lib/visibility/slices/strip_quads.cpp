@@ -65,7 +65,6 @@ void StripQuads::add_between(const SliceResult& result, const MovedEnds& low,
 void StripQuads::end_beam() {
     for (const Quad& quad : open_)
         out_.add(quad);
-    out_.flush();
     open_.clear();
     last_uncovered_.clear();
     samples_.beam_begin[scan_.frame().first_beam + ++beam_] =

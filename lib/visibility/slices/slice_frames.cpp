@@ -1,4 +1,4 @@
-#include "visibility/slices/scan.h"
+#include "visibility/slices/slice_frames.h"
 
 #include <algorithm>
 #include <array>
