@@ -48,8 +48,7 @@ void add_element_errors(const LineArray& array, const ElementsConfig& elements, 
                         Complexes& weights) {
     if (!elements.exist()) return;
     const double scale = std::sqrt(samples / element_count(array));
-    const Complexes errors =
-        element_errors(elements, static_cast<int>(weights.size()), ElementAxis::beams);
+    const Complexes errors = element_errors(elements, static_cast<int>(weights.size()));
     for (std::size_t k = 0; k < weights.size(); ++k)
         weights[k] *= 1.0 + scale * errors[k];
 }

@@ -26,7 +26,8 @@ struct Backscatter {
     ///
     /// The first is Lambert's rule (Mackenzie 1961), the second the high-frequency limit of the
     /// Kirchhoff integral over a surface of Gaussian slopes (e.g. Jackson and Richardson,
-    /// "High-Frequency Seafloor Acoustics", Springer 2007, chapter 13). A sea bed has D + K.
+    /// "High-Frequency Seafloor Acoustics", Springer 2007, chapter 13), with R the power reflection
+    /// times 1 - pi mu. A sea bed has D + K.
     float at(float sine) const;
 
     /// sigma for incident and scattered sound at grazing angles of these sines. Its facets face
@@ -69,7 +70,7 @@ Scattering scattering_of(std::span<const Material> materials, double frequency_h
 /// Appends a material with tables.
 void append(const Backscatter& tabled, Scattering& scattering);
 
-/// The material with `lambert_db` = 10 log mu, power reflection R at normal incidence and facets of
+/// The material with `lambert_db` = 10 log mu, power reflection at normal incidence and facets of
 /// slope s; s = 0 has no facets.
 Backscatter backscatter(double lambert_db, double reflection, double slope_rms);
 Backscatter backscatter(const SeafloorScattering& sea_bed);

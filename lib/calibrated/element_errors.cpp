@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calibrated/decibel.h"
+#include "calibrated/directivity.h"
 #include "core/elementary.h"
 #include "core/normal_pair.h"
 #include "core/random.h"
@@ -11,15 +12,13 @@
 
 namespace sonarsim {
 
-std::vector<std::complex<double>> element_errors(const ElementsConfig& elements, int count,
-                                                 ElementAxis axis) {
+std::vector<std::complex<double>> element_errors(const ElementsConfig& elements, int count) {
     const PhiloxKey key{static_cast<std::uint32_t>(elements.serial),
                         number_of_name("element errors")};
     std::vector<std::complex<double>> out;
     out.reserve(count);
     for (int n = 0; n < count; ++n) {
-        const PhiloxBlock draw =
-            philox({static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(axis), 0, 0}, key);
+        const PhiloxBlock draw = philox({static_cast<std::uint32_t>(n), 1, 0, 0}, key);
         const NormalPair normals = normal_pair(draw.x0);
         const double gain = power_of_db(0.5 * elements.gain_error_db * normals.first);
         const SinCos phase = sincos(radians(elements.phase_error_deg) * normals.second);
@@ -32,12 +31,17 @@ double element_count(const LineArray& array) {
     return std::max(1.0, std::round(2.0 * array.wavelengths));
 }
 
-PatternWithErrors::PatternWithErrors(const LineArray& array, const ElementsConfig& elements,
-                                     ElementAxis axis)
+double mean_side_lobe(const LineArray& array, const ElementsConfig& elements) {
+    const double gain = 0.05 * ln_10 * elements.gain_error_db;
+    const double phase = radians(elements.phase_error_deg);
+    return (gain * gain + phase * phase) * taper_loss(array) / element_count(array);
+}
+
+PatternWithErrors::PatternWithErrors(const LineArray& array, const ElementsConfig& elements)
     : array_(array) {
     if (!elements.exist()) return;
     const double count = element_count(array);
-    errors_ = element_errors(elements, static_cast<int>(count), axis);
+    errors_ = element_errors(elements, static_cast<int>(count));
     for (std::size_t n = 0; n < errors_.size(); ++n) {
         const double x = (static_cast<double>(n) + 0.5) / count - 0.5;
         errors_[n] = array.weight(x) * errors_[n];

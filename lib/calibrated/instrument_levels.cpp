@@ -16,8 +16,8 @@ namespace {
 /// The pressure at 1 m of a watt of sound that spreads evenly, 10 log(rho c / (4 pi)) re 1 uPa.
 constexpr double watt_db = 170.8;
 
-// Shares of the largest value of raw/: at a third, speckle is rarely clipped.
-constexpr double share_of_sand = 1.0 / 3.0;
+// Shares of the largest value of raw/.
+constexpr double recorded_share_of_sand = 1.0 / 3.0;
 constexpr double max_share_of_noise = 2.0 / 3.0;
 
 /// The decibels from a share of the largest value of raw/ to that value.
@@ -30,6 +30,13 @@ double headroom_db(const ReceiverConfig& receiver, double share) {
         default:
             return -2.0 * db_of_power(share) / receiver.gamma;
     }
+}
+
+/// The decibels from the mean power of sand to the largest value of raw/. Values by `gamma` are
+/// made to be seen: sand fills them. Records of decibels and of amplitudes keep a reserve.
+double headroom_of_sand_db(const ReceiverConfig& receiver) {
+    return receiver.companding == Companding::gamma ? db_of_power(speckle_p99)
+                                                    : headroom_db(receiver, recorded_share_of_sand);
 }
 
 /// Sets the levels after TVG.
@@ -46,7 +53,7 @@ void set_received_levels(const InstrumentConfig& instrument, const WaterConfig& 
                      gain_db(half_m);
     const double noise_db = levels.noise_db + gain_db(view.range_max_m);
     levels.full_scale_db = receiver.full_scale_db.value_or(
-        std::max(levels.sand_db + headroom_db(receiver, share_of_sand),
+        std::max(levels.sand_db + headroom_of_sand_db(receiver),
                  noise_db + headroom_db(receiver, max_share_of_noise)));
 }
 

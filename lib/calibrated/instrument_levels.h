@@ -21,6 +21,9 @@ struct InstrumentLevels {
     double wind_noise_db = 0.0;
 };
 
+/// The 99 % quantile of speckle, whose powers are exponential, over its mean: ln 100.
+inline constexpr double speckle_p99 = 4.60517;
+
 /// The levels that are given, and the others by rule:
 ///
 /// - Source level: 170.8 dB + 10 log(power_w efficiency) + the transmitter's directivity index. It
@@ -28,8 +31,9 @@ struct InstrumentLevels {
 /// - Noise: thermal noise, raised by noise figure and efficiency, and that of the wind, in the band
 ///   of the matched filter, less the receiving directivity index. If the source level is relative,
 ///   the noise is relative to the source level of the rule.
-/// - Full scale: after TVG and companding, a sand bottom at half of the range is a third of the
-///   largest value, or less where the noise at range_max_m would otherwise be above two thirds.
+/// - Full scale: after TVG the 99 % quantile of the speckle of a sand bottom at half of the range
+///   is the largest value; if companding is not `gamma`, its mean is a third of that value. It is
+///   less where the noise at range_max_m would otherwise be above two thirds.
 InstrumentLevels instrument_levels(const InstrumentConfig& instrument, const WaterConfig& water,
                                    const View& view);
 

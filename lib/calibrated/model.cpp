@@ -109,11 +109,10 @@ std::vector<float> noise_values(const std::vector<float>& row_gain, double noise
 }
 
 /// The value that is white in pictures of a fan: the 99 % quantile of the speckle of sand at half
-/// of the range, but at most full scale. Powers are exponential, so it is ln 100 times the mean.
-/// Other sonars show what no such rule covers: a bottom from above, fish, plankton.
+/// of the range, but at most full scale. Other sonars show what no such rule covers: a bottom from
+/// above, fish, plankton.
 double white_of_fan(const InstrumentLevels& levels) {
-    constexpr double quantile_by_mean = 4.60517;
-    return std::min(1.0, quantile_by_mean * power_of_db(levels.sand_db - levels.full_scale_db));
+    return std::min(1.0, speckle_p99 * power_of_db(levels.sand_db - levels.full_scale_db));
 }
 
 /// Sets the properties of the model but for its guard beams.

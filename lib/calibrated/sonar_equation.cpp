@@ -104,11 +104,13 @@ ElevationPattern elevation_pattern(double width_rad, double side_lobe_db,
                                    const ElementsConfig& elements) {
     ElevationPattern out;
     if (width_rad <= 0.0) return out;
-    const PatternWithErrors pattern(line_array(width_rad, side_lobe_db), elements,
-                                    ElementAxis::elevation);
+    // The mean over instruments: one draw of the errors of so few elements would move the nulls.
+    const LineArray array = line_array(width_rad, side_lobe_db);
+    const double errors = mean_side_lobe(array, elements);
     for (int k = 0; k <= ElevationPattern::steps + 1; ++k) {
         const double sine = 2.0 * k / ElevationPattern::steps - 1.0;
-        out.power.push_back(static_cast<float>(std::norm(pattern(sine))));
+        const double amplitude = line_pattern(array, sine);
+        out.power.push_back(static_cast<float>(amplitude * amplitude + errors));
     }
     return out;
 }

@@ -90,7 +90,7 @@ TransducerBeams transducer_beams(const BeamConfig& beam, const View& view, doubl
     if (beam.aperture == Aperture::head) {
         const LineArray across = line_array(radians(beam.width_deg), beam.side_lobe_db);
         const double end = sincos(0.5 * view.azimuth_rad).sin;
-        const PatternWithErrors pattern(across, beam.elements, ElementAxis::beams);
+        const PatternWithErrors pattern(across, beam.elements);
         out.pattern = sine_table(-end, end, [&](double sine) { return std::norm(pattern(sine)); });
         return out;
     }

@@ -254,10 +254,12 @@ void describe(Visitor& v, ReceiverConfig& c) {
     v.flag("tvg_absorption", c.tvg_absorption, "TVG compensates absorption");
     v.number("tvg_from_m", c.tvg_from_m, at_least(0),
              "range at which TVG starts; at shorter ranges the gain is constant");
-    v.number("full_scale_db", c.full_scale_db, any_level_db,
-             "echo level after TVG that becomes the largest value of raw/; with `auto` a "
-             "bottom of sand at half of the range is a third of that value, or less if the "
-             "noise at range_max_m would else be above two thirds");
+    v.number(
+        "full_scale_db", c.full_scale_db, any_level_db,
+        "echo level after TVG that becomes the largest value of raw/; with `auto` a "
+        "bottom of sand at half of the range has 1 % of its speckle above it, or the mean at a "
+        "third of it if companding is not gamma; less if the noise at range_max_m would else "
+        "be above two thirds");
     v.choice(
         "companding", c.companding, compandings,
         "law that turns an amplitude A into a value of raw/: A^gamma, the decibels of A, or A");

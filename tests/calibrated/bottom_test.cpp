@@ -14,9 +14,12 @@ TEST_SUITE("calibrated") {
         const Backscatter sand = backscatter(-27.0, 0.1, std::tan(radians(10.0)));
         // At 30 degrees of grazing the facets are gone.
         CHECK(std::fabs(sand.at(0.5F) / (std::pow(10.0, -2.7) * 0.25) - 1.0) < 1e-4);
-        const double s2 = std::pow(std::tan(radians(10.0)), 2.0);
-        CHECK(std::fabs(sand.at(1.0F) / (std::pow(10.0, -2.7) + 0.1 / (8.0 * pi * s2)) - 1.0) <
+        // Facets reflect what Lambert's rule leaves.
+        const double s2 = std::tan(radians(10.0)) * std::tan(radians(10.0));
+        const double mu = std::pow(10.0, -2.7);
+        CHECK(std::fabs(sand.at(1.0F) / (mu + 0.1 * (1.0 - pi * mu) / (8.0 * pi * s2)) - 1.0) <
               1e-5);
+        CHECK(backscatter(-4.0, 0.9, 0.1).facet == 0.0F);
     }
 
     TEST_CASE("bottom: exp_neg is e^-x") {

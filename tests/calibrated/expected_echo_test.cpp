@@ -100,7 +100,7 @@ TEST_SUITE("calibrated") {
         }
     }
 
-    // The pulse, 19 cm, holds the whole beam: at its edge the bottom is 2 cm farther.
+    // The pulse, 11 cm, holds the whole beam: at its edge the bottom is 2 cm farther.
     TEST_CASE("presets: the bottom below an echosounder is as loud as by closed form") {
         const Sonar sonar =
             preset_sonar("echosounder_200khz", "    range_max_m: 25\n    range_bins: 500\n");

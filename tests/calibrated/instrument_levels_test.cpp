@@ -159,9 +159,7 @@ TEST_SUITE("calibrated") {
         CHECK(levels_of(config).source_level_db == 0.0);
     }
 
-    TEST_CASE(
-        "levels: full scale puts sand at a third of the largest value, noise at two thirds at "
-        "most") {
+    TEST_CASE("levels: full scale holds the speckle of sand, and noise at two thirds at most") {
         SonarConfig config = imaging();
         ReceiverConfig& receiver = config.instrument.receiver;
         receiver.noise_db = 150.0;  // louder than sand
@@ -178,11 +176,17 @@ TEST_SUITE("calibrated") {
                 static_cast<float>(power_of_db(noise_db - model.levels.full_scale_db))};
             CHECK(model.raw(ping)[0] == 170);
         }
-        // Less noise than sand does not change it.
-        receiver.noise_db = 30.0;
-        const double full_scale_db = levels_of(config).full_scale_db;
-        receiver.noise_db = 20.0;
-        CHECK(levels_of(config).full_scale_db == full_scale_db);
+        // Less noise than sand does not change it: ln 100 above its mean, or three times its
+        // amplitude.
+        for (const double noise_db : {20.0, 30.0}) {
+            receiver.noise_db = noise_db;
+            receiver.companding = Companding::gamma;
+            const InstrumentLevels shown = levels_of(config);
+            CHECK(std::fabs(shown.full_scale_db - shown.sand_db - 6.632) < 1e-3);
+            receiver.companding = Companding::linear;
+            const InstrumentLevels recorded = levels_of(config);
+            CHECK(std::fabs(recorded.full_scale_db - recorded.sand_db - 9.542) < 1e-3);
+        }
     }
 
     // The sonar looks down at a floor of sand, which the axis meets at half of the range and at 20

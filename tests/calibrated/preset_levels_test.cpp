@@ -59,33 +59,21 @@ double mean_between(const Sonar& sonar, const std::vector<double>& rows, double 
 }  // namespace
 
 TEST_SUITE("calibrated") {
-    // In files of real side-scan sonars the bottom is 35 dB above the water before it. The
-    // suspended matter of coastal water is chosen by that level, at 900 kHz.
+    // In files of real side-scan sonars the bottom is 35 dB above the water before it, which is
+    // even along range. Their bottoms are not known: silt at 900 kHz is the weakest of these.
     TEST_CASE("presets: the water before the bottom of a side-scan sonar") {
-        const auto level_db = [](const char* preset, double altitude_m, double phi,
-                                 const std::string& content = "plankton") {
-            const Sonar sonar =
-                preset_sonar(preset, "    instrument: {usual_water: " + content + "}\n");
+        const auto level_db = [](const char* preset, double altitude_m, double phi) {
+            const Sonar sonar = preset_sonar(preset, "");
             const std::vector<double> rows = mean_rows(sonar, bed_of(phi), altitude_m, 0, 2);
             const double bottom = mean_between(sonar, rows, 1.33 * altitude_m, 2.67 * altitude_m);
             const double water = mean_between(sonar, rows, 1.2, 0.9 * altitude_m);
             return db_of_power(bottom / water);
         };
         // Sand, silty sand, silt.
-        for (const double phi : {1.5, 4.0, 6.0})
-            CHECK(std::fabs(level_db("sidescan_900khz", 5.0, phi) - 35.0) < 6.0);
-        CHECK(std::fabs(level_db("sidescan_400khz", 6.0, 6.0) - 35.0) < 6.0);
-        // Above sand the water is too dark at 400 kHz (docs/calibrated.md).
-        CHECK(level_db("sidescan_400khz", 6.0, 1.5) < 47.0);
-        CHECK(level_db("sidescan_400khz", 6.0, 4.0) < 42.0);
-        // Water of -55 dB reaches the real level there.
-        double darker = 100.0;
-        for (const char* content : {"clear", "coastal", "plume"}) {
-            const double of_sand = level_db("sidescan_400khz", 6.0, 1.5, content);
-            CHECK(of_sand < darker);
-            darker = of_sand;
+        for (const double phi : {1.5, 4.0, 6.0}) {
+            CHECK(std::fabs(level_db("sidescan_900khz", 5.0, phi) - 35.0) < 9.0);
+            CHECK(std::fabs(level_db("sidescan_400khz", 6.0, phi) - 35.0) < 6.0);
         }
-        CHECK(std::fabs(darker - 35.0) < 6.0);
     }
 
     // In all of 20 pings of real multibeam sonars that look down, the first bottom echo makes a
