@@ -29,6 +29,7 @@ TEST_SUITE("calibrated") {
         for (const double side_lobe_db : {-13.3, -30.0}) {
             const LineArray array = line_array(radians(1.0), side_lobe_db);
             double sum = 0.0;
+            double expected = 0.0;
             for (int serial = 0; serial < 300; ++serial) {
                 ElementsConfig drawn = errors;
                 drawn.serial = serial;
