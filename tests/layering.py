@@ -2,7 +2,8 @@
 
     python3 tests/layering.py <root of the repository>
 
-Rules: a folder of lib/ includes only the folders below it, a part of a folder only the parts below it,
+Rules: a folder of lib/ lies behind its door and includes only the folders below it, a door only the doors
+below it, a part of a folder only the parts below it,
 no files include each other in a circle, no two headers define a class of one name, folders after the
 trace take ranges from lib/trace/arrivals.h, and folders whose results reach files take elementary
 functions from lib/core/elementary.h; x.h and x.cpp count as one. Tests compare numbers by
@@ -14,6 +15,16 @@ import re
 import sys
 import tempfile
 
+# The doors of lib/ from the bottom up, and the folders behind them. core is a door and a folder.
+DOORS = {
+    "core": ("core",),
+    "input": ("mission", "scene", "trajectory"),
+    "simulate": ("water", "visibility", "trace", "paper", "calibrated", "ping", "labels", "product", "sonar", "assembly",
+                 "reference"),
+    "output": ("format", "dataset"),
+    "run": ("checks", "job", "report", "preview"),
+}
+DOOR_OF = {folder: door for door, folders in DOORS.items() for folder in folders}
 # The folders of lib/ with the folders that each may include. The table of docs/development.md says the
 # same.
 ALLOWED = {
@@ -34,8 +45,12 @@ ALLOWED = {
                  "labels", "product", "sonar"},
     "format": {"core"},
 }
-for upper in ("dataset", "checks", "validation", "job", "benchmark", "preview"):
+ALLOWED["reference"] = {"core", "mission", "scene", "visibility", "trace", "ping"}
+for upper in ("dataset", "checks", "job", "report", "preview"):
     ALLOWED[upper] = set(ALLOWED)
+assert ALLOWED.keys() == DOOR_OF.keys()
+assert all(list(DOORS).index(DOOR_OF[lower]) <= list(DOORS).index(DOOR_OF[folder])
+           for folder, lowers in ALLOWED.items() for lower in lowers), "an arrow from a door to a higher one"
 
 # The parts of the folders that have subfolders, from the bottom up; those in one row do not know
 # each other. "x/" is a subfolder, "x" the files x.h and x.cpp, "*" every other file of the folder.
@@ -69,6 +84,14 @@ OWNERS = {
 }
 
 
+def without_door(path: str) -> str | None:
+    """A path below lib/ from its folder on; None where no folder of that name lies behind that door."""
+    door, *rest = path.split("/")
+    if door == "core":
+        return path if rest else None
+    return "/".join(rest) if len(rest) > 1 and rest[0] in DOORS.get(door, ()) else None
+
+
 def part_of(unit: str) -> tuple[str, int] | None:
     """The part of its folder that a unit, "folder/sub/file", belongs to, and its height; None where
     the folder has no such part."""
@@ -88,12 +111,13 @@ def fault_of(here: str, unit: str, name: str, quoted: bool) -> str | None:
             return f"{name} belongs to {owner} alone"
     if not quoted or here == "apps":
         return None
-    target = name.split("/")[0]
-    if "/" not in name or target not in ALLOWED:
-        return f'write "folder/file.h", not "{name}"'
-    if target != here:
-        return None if target in ALLOWED[here] else f"{here} may not include {target}"
-    own, other = part_of(unit), part_of(name.removesuffix(".h"))
+    target = without_door(name)
+    if target is None:
+        return f'write "door/folder/file.h", not "{name}"'
+    folder = target.split("/")[0]
+    if folder != here:
+        return None if folder in ALLOWED[here] else f"{here} may not include {folder}"
+    own, other = part_of(unit), part_of(target.removesuffix(".h"))
     if own and other and own != other and other[1] >= own[1]:
         return f"{here}: {own[0]} may not include {other[0]} ({name})"
     return None
@@ -126,11 +150,13 @@ def faults_in_code(root: pathlib.Path) -> tuple[int, list[str]]:
     includes, classes = {}, {}
     for path in files:
         relative = path.relative_to(root)
-        unit = relative.with_suffix("").as_posix().removeprefix("lib/")
-        here = unit.split("/")[0]
-        if here != "apps" and here not in ALLOWED:
-            faults.append(f"{relative}: ALLOWED has no folder {here}")
+        unit = relative.with_suffix("").as_posix()
+        if unit.startswith("lib/"):
+            unit = without_door(unit.removeprefix("lib/"))
+        if unit is None:
+            faults.append(f"{relative}: DOORS has no such folder")
             continue
+        here = unit.split("/")[0]
         if here != "apps" and not part_of(unit):
             faults.append(f"{relative}: PARTS does not say where {here}/{unit.split('/')[1]}/ lies")
         for number, line in enumerate(path.read_text().splitlines(), 1):
@@ -149,7 +175,7 @@ def faults_in_code(root: pathlib.Path) -> tuple[int, list[str]]:
             if fault:
                 faults.append(f"{relative}:{number}: {fault}")
             if quoted:
-                includes.setdefault(unit, []).append(name.removesuffix(".h"))
+                includes.setdefault(unit, []).append((without_door(name) or name).removesuffix(".h"))
     return len(files), faults + [f"a circle: {circle}" for circle in circles_of(includes)]
 
 
@@ -162,12 +188,12 @@ def faults_in_tests(root: pathlib.Path) -> list[str]:
 def faults_in_table(text: str) -> list[str]:
     """The differences between the table of docs/development.md and ALLOWED."""
     faults, listed = [], {}
-    for folder, row in re.findall(r"^\| `lib/(\w+)` \|.*\| *([^|]*?) *\|$", text, re.MULTILINE):
+    for folder, row in re.findall(r"^\| `lib/(?:\w+/)?(\w+)` \|.*\| *([^|]*?) *\|$", text, re.MULTILINE):
         words = set(listed) if row == "all of the above" else set(row.split(", ")) - {""}
         listed[folder] = words
         if words != ALLOWED.get(folder):
             faults.append(f"docs/development.md: the row of lib/{folder} is not what ALLOWED says")
-    return faults + [f"docs/development.md: no row for lib/{folder}"
+    return faults + [f"docs/development.md: no row for lib/{DOOR_OF[folder]}/{folder}"
                      for folder in ALLOWED if folder not in listed]
 
 
@@ -185,34 +211,34 @@ def try_the_rules():
     """Each rule finds what breaks it, and nothing else."""
     sound = {
         "lib/core/text.h": "#include <string>\nclass Text;\nstruct Text {\n",
-        "lib/visibility/engine.h": '#include "visibility/view.h"\n',
-        "lib/visibility/view.h": '#include "core/text.h"\n',
-        "lib/visibility/rays/rays.h": '#include "visibility/engine.h"\n',
-        "lib/visibility/make_engine.cpp": '#include "visibility/rays/rays.h"\n',
-        "apps/sonarsim/main.cpp": '#include <CLI/CLI.hpp>\n#include "visibility/make_engine.h"\n',
+        "lib/simulate/visibility/engine.h": '#include "simulate/visibility/view.h"\n',
+        "lib/simulate/visibility/view.h": '#include "core/text.h"\n',
+        "lib/simulate/visibility/rays/rays.h": '#include "simulate/visibility/engine.h"\n',
+        "lib/simulate/visibility/make_engine.cpp": '#include "simulate/visibility/rays/rays.h"\n',
+        "apps/sonarsim/main.cpp": '#include <CLI/CLI.hpp>\n#include "simulate/visibility/make_engine.h"\n',
     }
     assert fault_when(sound) == [], fault_when(sound)
     for name, text, fault in (
-            ("lib/core/file.h", '#include "visibility/view.h"', "core may not include visibility"),
-            ("lib/visibility/view.h", '#include "visibility/rays/rays.h"', "* may not include rays/"),
-            ("lib/visibility/view.h", '#include "visibility/make_engine.h"',
+            ("lib/core/file.h", '#include "simulate/visibility/view.h"', "core may not include visibility"),
+            ("lib/simulate/visibility/view.h", '#include "simulate/visibility/rays/rays.h"', "* may not include rays/"),
+            ("lib/simulate/visibility/view.h", '#include "simulate/visibility/make_engine.h"',
              "* may not include make_engine"),
-            ("lib/visibility/octree/tree.h", '#include "visibility/rays/rays.h"',
+            ("lib/simulate/visibility/octree/tree.h", '#include "simulate/visibility/rays/rays.h"',
              "octree/ may not include rays/"),
-            ("lib/visibility/view.cpp", '#include "visibility/engine.h"',
+            ("lib/simulate/visibility/view.cpp", '#include "simulate/visibility/engine.h"',
              "a circle: visibility/engine -> visibility/view -> visibility/engine"),
-            ("lib/visibility/lamps/lamp.h", "", "does not say where visibility/lamps/ lies"),
-            ("lib/lamps/lamp.h", "", "no folder lamps"),
-            ("lib/paper/file.h", "float r = sample.position.norm();", "from trace/arrivals.h"),
-            ("lib/labels/file.h", "x = std::asin(y);", "from core/elementary.h"),
+            ("lib/simulate/visibility/lamps/lamp.h", "", "does not say where visibility/lamps/ lies"),
+            ("lib/lamps/lamp.h", "", "DOORS has no such folder"),
+            ("lib/simulate/paper/file.h", "float r = sample.position.norm();", "from trace/arrivals.h"),
+            ("lib/simulate/labels/file.h", "x = std::asin(y);", "from core/elementary.h"),
             ("tests/core/text_test.cpp", "CHECK(x == doctest::Approx(1e-8));", "compare by test::approx"),
-            ("lib/visibility/view.h", "class Text final {", "lib/core/text.h has a Text"),
-            ("lib/core/file.h", '#include "text.h"', 'write "folder/file.h"'),
+            ("lib/simulate/visibility/view.h", "class Text final {", "lib/core/text.h has a Text"),
+            ("lib/core/file.h", '#include "text.h"', 'write "door/folder/file.h"'),
             ("lib/core/file.h", "#include <yaml-cpp/yaml.h>", "belongs to mission alone"),
     ):
         found = fault_when({**sound, name: text + "\n"})
         assert any(fault in line for line in found), f"not found: {fault}; but {found}"
-    row = "| `lib/core` | | |\n| `lib/mission` | | core |\n"
+    row = "| `lib/core` | | |\n| `lib/input/mission` | | core |\n"
     assert len(faults_in_table(row)) == len(ALLOWED) - 2, faults_in_table(row)
     assert any("row of lib/mission" in line for line in faults_in_table(row.replace("| core", "| ping")))
 

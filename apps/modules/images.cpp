@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "guarded.h"
-#include "scene/images/module.h"
+#include "input/scene/images/module.h"
 #include "tiff_header.h"
 
 // PNG, TIFF and OpenEXR through OpenImageIO. Pixels keep their values in the file: by default

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "guarded.h"
-#include "scene/meshes/module.h"
+#include "input/scene/meshes/module.h"
 
 // OBJ, STL and PLY through libassimp. Only triangulation is asked for: whatever else assimp offers
 // joins, sorts or moves vertices.

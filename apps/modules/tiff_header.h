@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/images/module.h"
+#include "input/scene/images/module.h"
 
 /// Adds to `head` the place of a TIFF's pixels by its tags (OGC GeoTIFF 1.1, 19-008r4) and the text
 /// of GDAL's tag for the value of unknown pixels. std::runtime_error for a TIFF that

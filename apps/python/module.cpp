@@ -15,15 +15,15 @@
 #include <utility>
 #include <vector>
 
-#include "assembly/poses.h"
-#include "assembly/possible_objects.h"
-#include "checks/find_warnings.h"
 #include "core/build_info.h"
 #include "core/error.h"
-#include "dataset/metadata.h"
-#include "job/ping_source.h"
-#include "mission/parse.h"
-#include "sonar/kinds.h"
+#include "input/mission/parse.h"
+#include "output/dataset/metadata.h"
+#include "run/checks/find_warnings.h"
+#include "run/job/ping_source.h"
+#include "simulate/assembly/poses.h"
+#include "simulate/assembly/possible_objects.h"
+#include "simulate/sonar/kinds.h"
 
 namespace py = pybind11;
 

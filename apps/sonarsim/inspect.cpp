@@ -6,23 +6,23 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "assembly/placed_files.h"
-#include "calibrated/bottom.h"
-#include "calibrated/decibel.h"
-#include "checks/find_warnings.h"
 #include "commands.h"
 #include "core/text.h"
 #include "core/units.h"
-#include "dataset/json.h"
+#include "input/mission/scene_keys.h"
+#include "input/scene/gltf/load.h"
+#include "input/scene/gltf/surface_of.h"
+#include "input/scene/images/read_image.h"
+#include "input/scene/materials.h"
+#include "input/scene/placing/standing.h"
+#include "input/scene/summary.h"
+#include "input/scene/unit_question.h"
 #include "logging.h"
-#include "mission/scene_keys.h"
-#include "scene/gltf/load.h"
-#include "scene/gltf/surface_of.h"
-#include "scene/images/read_image.h"
-#include "scene/materials.h"
-#include "scene/placing/standing.h"
-#include "scene/summary.h"
-#include "scene/unit_question.h"
+#include "output/dataset/json.h"
+#include "run/checks/find_warnings.h"
+#include "simulate/assembly/placed_files.h"
+#include "simulate/calibrated/bottom.h"
+#include "simulate/calibrated/decibel.h"
 
 namespace sonarsim {
 

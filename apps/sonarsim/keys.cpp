@@ -3,11 +3,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "checks/warning.h"
 #include "commands.h"
+#include "input/mission/reference.h"
 #include "logging.h"
-#include "mission/reference.h"
-#include "sonar/kinds.h"
+#include "run/checks/warning.h"
+#include "simulate/sonar/kinds.h"
 
 namespace sonarsim {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "checks/warning.h"
+#include "run/checks/warning.h"
 
 namespace sonarsim {
 

@@ -18,8 +18,8 @@
 #include "core/build_info.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "format/png.h"
 #include "logging.h"
+#include "output/format/png.h"
 #include "python_tools.h"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "job/merge.h"
+#include "run/job/merge.h"
 
 #include <spdlog/spdlog.h>
 
@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "checks/warning.h"
 #include "commands.h"
 #include "logging.h"
 #include "progress.h"
+#include "run/checks/warning.h"
 #include "signals.h"
 
 namespace sonarsim {

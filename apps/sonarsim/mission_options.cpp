@@ -1,8 +1,8 @@
 #include "mission_options.h"
 
-#include "assembly/possible_objects.h"
-#include "mission/parse.h"
-#include "sonar/kinds.h"
+#include "input/mission/parse.h"
+#include "simulate/assembly/possible_objects.h"
+#include "simulate/sonar/kinds.h"
 
 namespace sonarsim {
 

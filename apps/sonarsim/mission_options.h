@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mission/mission.h"
+#include "input/mission/mission.h"
 
 namespace sonarsim {
 

@@ -1,4 +1,4 @@
-#include "mission/preset.h"
+#include "input/mission/preset.h"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -8,16 +8,16 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "calibrated/example_bottoms.h"
-#include "calibrated/expected_echo.h"
-#include "calibrated/model.h"
 #include "commands.h"
 #include "core/text.h"
 #include "core/units.h"
+#include "input/mission/parse.h"
 #include "logging.h"
-#include "mission/parse.h"
-#include "sonar/kinds.h"
-#include "sonar/sonar.h"
+#include "simulate/calibrated/example_bottoms.h"
+#include "simulate/calibrated/expected_echo.h"
+#include "simulate/calibrated/model.h"
+#include "simulate/sonar/kinds.h"
+#include "simulate/sonar/sonar.h"
 
 namespace sonarsim {
 

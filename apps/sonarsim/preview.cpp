@@ -1,16 +1,16 @@
-#include "preview/preview.h"
+#include "run/preview/preview.h"
 
 #include <spdlog/spdlog.h>
 
 #include <memory>
 #include <optional>
 
-#include "checks/find_warnings.h"
 #include "commands.h"
 #include "core/error.h"
-#include "format/png.h"
 #include "logging.h"
 #include "mission_options.h"
+#include "output/format/png.h"
+#include "run/checks/find_warnings.h"
 
 namespace sonarsim {
 

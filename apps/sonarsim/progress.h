@@ -7,8 +7,8 @@
 #include <string_view>
 #include <utility>
 
-#include "job/parallel.h"
 #include "logging.h"
+#include "run/job/parallel.h"
 
 namespace sonarsim {
 

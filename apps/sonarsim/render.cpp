@@ -11,15 +11,15 @@
 #include <utility>
 #include <vector>
 
-#include "checks/find_warnings.h"
 #include "commands.h"
 #include "core/error.h"
-#include "dataset/layout.h"
-#include "job/run_job.h"
-#include "job/variants.h"
 #include "logging.h"
 #include "mission_options.h"
+#include "output/dataset/layout.h"
 #include "progress.h"
+#include "run/checks/find_warnings.h"
+#include "run/job/run_job.h"
+#include "run/job/variants.h"
 #include "shard.h"
 #include "signals.h"
 

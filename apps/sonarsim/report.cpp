@@ -1,4 +1,4 @@
-#include "benchmark/report.h"
+#include "run/report/report.h"
 
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
@@ -7,14 +7,14 @@
 #include <memory>
 #include <set>
 
-#include "checks/find_warnings.h"
 #include "commands.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/text.h"
 #include "logging.h"
 #include "mission_options.h"
-#include "validation/measured_error.h"
+#include "run/checks/find_warnings.h"
+#include "run/checks/measured_error.h"
 
 namespace sonarsim {
 

@@ -1,4 +1,4 @@
-#include "job/status.h"
+#include "run/job/status.h"
 
 #include <spdlog/fmt/fmt.h>
 

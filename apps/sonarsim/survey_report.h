@@ -6,10 +6,10 @@
 #include <span>
 #include <string>
 
-#include "assembly/assemble.h"
-#include "checks/survey.h"
-#include "checks/warning.h"
-#include "validation/measured_error.h"
+#include "run/checks/measured_error.h"
+#include "run/checks/survey.h"
+#include "run/checks/warning.h"
+#include "simulate/assembly/assemble.h"
 
 namespace sonarsim {
 

@@ -14,23 +14,23 @@
 #include <utility>
 #include <variant>
 
-#include "assembly/engines.h"
-#include "checks/find_warnings.h"
 #include "commands.h"
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/machine_memory.h"
-#include "dataset/metadata.h"
-#include "job/folder.h"
-#include "job/ping_cost.h"
-#include "job/variants.h"
+#include "input/mission/variants.h"
 #include "logging.h"
-#include "mission/variants.h"
 #include "mission_options.h"
+#include "output/dataset/metadata.h"
 #include "progress.h"
+#include "run/checks/find_warnings.h"
+#include "run/checks/measured_error.h"
+#include "run/job/folder.h"
+#include "run/job/ping_cost.h"
+#include "run/job/variants.h"
+#include "simulate/assembly/engines.h"
+#include "simulate/visibility/make_engine.h"
 #include "survey_report.h"
-#include "validation/measured_error.h"
-#include "visibility/make_engine.h"
 
 namespace sonarsim {
 

@@ -1,4 +1,4 @@
-#include "job/verify.h"
+#include "run/job/verify.h"
 
 #include <spdlog/spdlog.h>
 

@@ -4,7 +4,7 @@ namespace sonarsim {
 
 /// Build information, as written to dataset.json.
 struct BuildInfo {
-    const char* version;   ///< of the program
+    const char* version;
     const char* compiler;  ///< name and version
     const char* flags;     ///< build type and the user's additional flags
     /// Instruction set of the arithmetic. Two builds with the same one give the same image values

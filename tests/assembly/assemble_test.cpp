@@ -1,4 +1,4 @@
-#include "assembly/assemble.h"
+#include "simulate/assembly/assemble.h"
 
 #include <doctest/doctest.h>
 
@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "calibrated/model.h"
 #include "core/error.h"
 #include "core/file.h"
-#include "mission/parse.h"
-#include "sonar/kinds.h"
+#include "input/mission/parse.h"
+#include "simulate/calibrated/model.h"
+#include "simulate/sonar/kinds.h"
 #include "support/approx.h"
 #include "support/small_mission.h"
 #include "support/temporary_folder.h"

@@ -1,12 +1,12 @@
-#include "assembly/brightness.h"
+#include "simulate/assembly/brightness.h"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "assembly/engines.h"
-#include "assembly/sample_pings.h"
+#include "simulate/assembly/engines.h"
+#include "simulate/assembly/sample_pings.h"
 #include "support/approx.h"
 #include "support/calibrated.h"
 #include "support/small_mission.h"

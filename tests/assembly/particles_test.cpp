@@ -1,14 +1,14 @@
-#include "assembly/particles.h"
+#include "simulate/assembly/particles.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "calibrated/decibel.h"
 #include "core/error.h"
-#include "sonar/kinds.h"
-#include "sonar/sonar.h"
+#include "simulate/calibrated/decibel.h"
+#include "simulate/sonar/kinds.h"
+#include "simulate/sonar/sonar.h"
 #include "support/shapes.h"
 #include "support/statistics.h"
 

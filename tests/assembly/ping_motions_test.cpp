@@ -1,18 +1,18 @@
-#include "assembly/ping_motions.h"
+#include "simulate/assembly/ping_motions.h"
 
 #include <doctest/doctest.h>
 
 #include <array>
 #include <cmath>
 
-#include "assembly/heightmap_part.h"
 #include "core/error.h"
 #include "core/units.h"
-#include "sonar/kinds.h"
-#include "sonar/sonar.h"
-#include "sonar/sonar_at_pose.h"
+#include "simulate/assembly/heightmap_part.h"
+#include "simulate/sonar/kinds.h"
+#include "simulate/sonar/sonar.h"
+#include "simulate/sonar/sonar_at_pose.h"
+#include "simulate/trace/ping_motion.h"
 #include "support/approx.h"
-#include "trace/ping_motion.h"
 
 using namespace sonarsim;
 

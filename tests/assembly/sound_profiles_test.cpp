@@ -1,4 +1,4 @@
-#include "assembly/sound_profiles.h"
+#include "simulate/assembly/sound_profiles.h"
 
 #include <doctest/doctest.h>
 

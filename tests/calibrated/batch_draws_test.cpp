@@ -5,12 +5,12 @@
 #include <random>
 #include <vector>
 
-#include "calibrated/echo_grid.h"
-#include "calibrated/normals.h"
-#include "calibrated/speckle.h"
 #include "core/lanes.h"
 #include "core/normal_pair.h"
 #include "core/random.h"
+#include "simulate/calibrated/echo_grid.h"
+#include "simulate/calibrated/normals.h"
+#include "simulate/calibrated/speckle.h"
 
 using namespace sonarsim;
 

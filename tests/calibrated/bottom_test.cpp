@@ -1,4 +1,4 @@
-#include "calibrated/bottom.h"
+#include "simulate/calibrated/bottom.h"
 
 #include <doctest/doctest.h>
 

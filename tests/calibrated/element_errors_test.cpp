@@ -1,4 +1,4 @@
-#include "calibrated/element_errors.h"
+#include "simulate/calibrated/element_errors.h"
 
 #include <doctest/doctest.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <vector>
 
-#include "calibrated/directivity.h"
-#include "calibrated/sonar_equation.h"
 #include "core/units.h"
+#include "simulate/calibrated/directivity.h"
+#include "simulate/calibrated/sonar_equation.h"
 #include "support/approx.h"
 #include "support/calibrated.h"
 #include "support/patches.h"

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <random>
 
+#include "simulate/reference/energy_reference.h"
+#include "simulate/reference/image_error.h"
+#include "simulate/visibility/rays/rays_engine.h"
 #include "support/calibrated.h"
 #include "support/lattices.h"
 #include "support/scenes.h"
-#include "validation/energy_reference.h"
-#include "validation/image_error.h"
-#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

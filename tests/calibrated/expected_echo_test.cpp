@@ -1,4 +1,4 @@
-#include "calibrated/expected_echo.h"
+#include "simulate/calibrated/expected_echo.h"
 
 #include <doctest/doctest.h>
 
@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "calibrated/decibel.h"
-#include "calibrated/example_bottoms.h"
-#include "calibrated/preset_fixtures.h"
+#include "simulate/calibrated/decibel.h"
+#include "simulate/calibrated/example_bottoms.h"
+#include "simulate/calibrated/preset_fixtures.h"
 #include "support/scenes.h"
 
 using namespace sonarsim;

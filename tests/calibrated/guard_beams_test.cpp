@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "core/units.h"
+#include "simulate/reference/image_error.h"
+#include "simulate/trace/visible_surface.h"
+#include "simulate/visibility/angles.h"
 #include "support/calibrated.h"
 #include "support/scenes.h"
-#include "trace/visible_surface.h"
-#include "validation/image_error.h"
-#include "visibility/angles.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -1,4 +1,4 @@
-#include "calibrated/instrument_levels.h"
+#include "simulate/calibrated/instrument_levels.h"
 
 #include <doctest/doctest.h>
 
@@ -6,15 +6,15 @@
 #include <cmath>
 #include <vector>
 
-#include "calibrated/ambient_noise.h"
-#include "calibrated/decibel.h"
-#include "calibrated/directivity.h"
-#include "calibrated/example_bottoms.h"
-#include "calibrated/model.h"
-#include "calibrated/piston.h"
-#include "calibrated/pulse_band.h"
-#include "calibrated/range_response.h"
 #include "core/units.h"
+#include "simulate/calibrated/ambient_noise.h"
+#include "simulate/calibrated/decibel.h"
+#include "simulate/calibrated/directivity.h"
+#include "simulate/calibrated/example_bottoms.h"
+#include "simulate/calibrated/model.h"
+#include "simulate/calibrated/piston.h"
+#include "simulate/calibrated/pulse_band.h"
+#include "simulate/calibrated/range_response.h"
 #include "support/calibrated.h"
 #include "support/shapes.h"
 

@@ -1,4 +1,4 @@
-#include "calibrated/levels.h"
+#include "simulate/calibrated/levels.h"
 
 #include <doctest/doctest.h>
 
@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "calibrated/decibel.h"
-#include "calibrated/model.h"
+#include "simulate/calibrated/decibel.h"
+#include "simulate/calibrated/model.h"
 #include "support/calibrated.h"
 #include "support/patches.h"
 

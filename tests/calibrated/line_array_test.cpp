@@ -1,4 +1,4 @@
-#include "calibrated/line_array.h"
+#include "simulate/calibrated/line_array.h"
 
 #include <doctest/doctest.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <complex>
 
-#include "calibrated/decibel.h"
-#include "calibrated/range_response.h"
 #include "core/units.h"
+#include "simulate/calibrated/decibel.h"
+#include "simulate/calibrated/range_response.h"
 
 using namespace sonarsim;
 

@@ -1,4 +1,4 @@
-#include "calibrated/model.h"
+#include "simulate/calibrated/model.h"
 
 #include <doctest/doctest.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <vector>
 
-#include "calibrated/decibel.h"
 #include "core/elementary.h"
 #include "core/units.h"
+#include "simulate/calibrated/decibel.h"
 #include "support/approx.h"
 #include "support/calibrated.h"
 #include "support/patches.h"

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <vector>
 
-#include "calibrated/decibel.h"
-#include "calibrated/filtered_noise.h"
-#include "calibrated/range_response.h"
 #include "core/units.h"
+#include "simulate/calibrated/decibel.h"
+#include "simulate/calibrated/filtered_noise.h"
+#include "simulate/calibrated/range_response.h"
 #include "support/calibrated.h"
 #include "support/statistics.h"
 

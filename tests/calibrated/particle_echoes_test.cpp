@@ -1,4 +1,4 @@
-#include "calibrated/particle_echoes.h"
+#include "simulate/calibrated/particle_echoes.h"
 
 #include <doctest/doctest.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "calibrated/piston.h"
-#include "calibrated/water_fixtures.h"
+#include "simulate/calibrated/piston.h"
+#include "simulate/calibrated/water_fixtures.h"
 #include "support/approx.h"
 #include "support/labelled.h"
 #include "support/patches.h"

@@ -4,10 +4,10 @@
 #include <complex>
 #include <vector>
 
-#include "calibrated/beamformer.h"
-#include "calibrated/companding.h"
-#include "calibrated/scatterers.h"
 #include "core/units.h"
+#include "simulate/calibrated/beamformer.h"
+#include "simulate/calibrated/companding.h"
+#include "simulate/calibrated/scatterers.h"
 
 using namespace sonarsim;
 

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "calibrated/model.h"
 #include "core/units.h"
-#include "mission/parse.h"
-#include "sonar/kinds.h"
-#include "sonar/sonar.h"
+#include "input/mission/parse.h"
+#include "simulate/calibrated/model.h"
+#include "simulate/sonar/kinds.h"
+#include "simulate/sonar/sonar.h"
 #include "support/calibrated.h"
 #include "support/patches.h"
 

@@ -1,4 +1,4 @@
-#include "calibrated/receiver_chain.h"
+#include "simulate/calibrated/receiver_chain.h"
 
 #include <doctest/doctest.h>
 
@@ -6,8 +6,8 @@
 #include <functional>
 #include <vector>
 
-#include "calibrated/decibel.h"
 #include "core/units.h"
+#include "simulate/calibrated/decibel.h"
 #include "support/approx.h"
 #include "support/calibrated.h"
 #include "support/statistics.h"

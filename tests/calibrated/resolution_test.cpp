@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "calibrated/decibel.h"
-#include "calibrated/preset_fixtures.h"
-#include "product/scan.h"
+#include "simulate/calibrated/decibel.h"
+#include "simulate/calibrated/preset_fixtures.h"
+#include "simulate/product/scan.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

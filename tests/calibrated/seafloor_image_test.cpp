@@ -3,9 +3,9 @@
 #include <cmath>
 #include <vector>
 
-#include "calibrated/decibel.h"
-#include "calibrated/model.h"
 #include "core/units.h"
+#include "simulate/calibrated/decibel.h"
+#include "simulate/calibrated/model.h"
 #include "support/calibrated.h"
 #include "support/patches.h"
 

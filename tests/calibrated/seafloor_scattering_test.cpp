@@ -1,4 +1,4 @@
-#include "calibrated/seafloor_scattering.h"
+#include "simulate/calibrated/seafloor_scattering.h"
 
 #include <doctest/doctest.h>
 
@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "calibrated/bottom.h"
-#include "calibrated/decibel.h"
 #include "core/units.h"
+#include "simulate/calibrated/bottom.h"
+#include "simulate/calibrated/decibel.h"
 
 using namespace sonarsim;
 

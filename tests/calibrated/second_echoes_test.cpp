@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibrated/decibel.h"
 #include "core/units.h"
+#include "simulate/calibrated/decibel.h"
 #include "support/calibrated.h"
 #include "support/scenes.h"
 

@@ -1,13 +1,13 @@
-#include "calibrated/sediment.h"
+#include "simulate/calibrated/sediment.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "calibrated/decibel.h"
-#include "calibrated/seafloor_scattering.h"
 #include "core/units.h"
+#include "simulate/calibrated/decibel.h"
+#include "simulate/calibrated/seafloor_scattering.h"
 #include "support/approx.h"
 #include "support/calibrated.h"
 #include "support/scenes.h"

@@ -1,20 +1,20 @@
-#include "calibrated/specular_echoes.h"
+#include "simulate/calibrated/specular_echoes.h"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "calibrated/decibel.h"
-#include "calibrated/model.h"
 #include "core/units.h"
-#include "sonar/setup.h"
+#include "simulate/calibrated/decibel.h"
+#include "simulate/calibrated/model.h"
+#include "simulate/sonar/setup.h"
+#include "simulate/visibility/rays/rays_engine.h"
 #include "support/bounces.h"
 #include "support/calibrated.h"
 #include "support/patches.h"
 #include "support/scenes.h"
 #include "support/sonars.h"
-#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -1,4 +1,4 @@
-#include "trace/taper.h"
+#include "simulate/trace/taper.h"
 
 #include <doctest/doctest.h>
 
@@ -7,8 +7,8 @@
 #include <map>
 #include <vector>
 
-#include "calibrated/scatterer_search.h"
 #include "core/units.h"
+#include "simulate/calibrated/scatterer_search.h"
 #include "support/approx.h"
 #include "support/calibrated.h"
 #include "support/patches.h"

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <vector>
 
-#include "calibrated/decibel.h"
 #include "core/units.h"
-#include "ping/form_image.h"
+#include "simulate/calibrated/decibel.h"
+#include "simulate/ping/form_image.h"
 #include "support/calibrated.h"
 #include "support/patches.h"
 #include "support/scenes.h"

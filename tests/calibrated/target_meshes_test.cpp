@@ -3,9 +3,9 @@
 #include <array>
 #include <vector>
 
-#include "calibrated/target_fixtures.h"
+#include "simulate/calibrated/target_fixtures.h"
+#include "simulate/trace/target_shapes.h"
 #include "support/approx.h"
-#include "trace/target_shapes.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

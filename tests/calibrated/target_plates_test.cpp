@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "calibrated/target_fixtures.h"
+#include "simulate/calibrated/target_fixtures.h"
 #include "support/draws.h"
 #include "support/maps.h"
 

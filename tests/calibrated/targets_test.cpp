@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "calibrated/target_fixtures.h"
+#include "simulate/calibrated/target_fixtures.h"
 #include "support/approx.h"
 
 using namespace sonarsim;

@@ -1,4 +1,4 @@
-#include "calibrated/transducer_beams.h"
+#include "simulate/calibrated/transducer_beams.h"
 
 #include <doctest/doctest.h>
 
@@ -7,11 +7,11 @@
 #include <complex>
 #include <vector>
 
-#include "calibrated/model.h"
-#include "calibrated/near_field.h"
-#include "calibrated/piston.h"
 #include "core/elementary.h"
 #include "core/units.h"
+#include "simulate/calibrated/model.h"
+#include "simulate/calibrated/near_field.h"
+#include "simulate/calibrated/piston.h"
 #include "support/calibrated.h"
 #include "support/patches.h"
 

@@ -1,12 +1,12 @@
-#include "calibrated/water_column.h"
+#include "simulate/calibrated/water_column.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "calibrated/piston.h"
-#include "calibrated/water_fixtures.h"
+#include "simulate/calibrated/piston.h"
+#include "simulate/calibrated/water_fixtures.h"
 #include "support/approx.h"
 
 using namespace sonarsim;

@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "calibrated/decibel.h"
-#include "calibrated/directivity.h"
-#include "calibrated/model.h"
 #include "core/units.h"
+#include "simulate/calibrated/decibel.h"
+#include "simulate/calibrated/directivity.h"
+#include "simulate/calibrated/model.h"
 #include "support/calibrated.h"
 #include "support/scenes.h"
 

@@ -1,14 +1,14 @@
-#include "calibrated/water.h"
+#include "simulate/calibrated/water.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
-#include "calibrated/decibel.h"
-#include "calibrated/target_strength.h"
-#include "calibrated/volume_strengths.h"
 #include "core/units.h"
-#include "mission/mission.h"
+#include "input/mission/mission.h"
+#include "simulate/calibrated/decibel.h"
+#include "simulate/calibrated/target_strength.h"
+#include "simulate/calibrated/volume_strengths.h"
 #include "support/approx.h"
 
 using namespace sonarsim;

@@ -1,4 +1,4 @@
-#include "calibrated/wind_surface.h"
+#include "simulate/calibrated/wind_surface.h"
 
 #include <doctest/doctest.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "calibrated/piston.h"
-#include "calibrated/water_fixtures.h"
+#include "simulate/calibrated/piston.h"
+#include "simulate/calibrated/water_fixtures.h"
 #include "support/approx.h"
 
 using namespace sonarsim;

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "checks/find_warnings.h"
-#include "job/run_job.h"
-#include "sonar/kinds.h"
-#include "sonar/sonar.h"
+#include "run/checks/find_warnings.h"
+#include "run/job/run_job.h"
+#include "simulate/sonar/kinds.h"
+#include "simulate/sonar/sonar.h"
 #include "support/small_mission.h"
 
 using namespace sonarsim;

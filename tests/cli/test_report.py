@@ -1,4 +1,4 @@
-"""The report of speed against error, from the command line, and its plot. Its figures: tests/benchmark."""
+"""The report of speed against error, from the command line, and its plot. Its figures: tests/report."""
 import json
 import subprocess
 import unittest

@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <iostream>
 
-#include "assembly/assemble.h"
-#include "mission/parse.h"
-#include "sonar/kinds.h"
-#include "sonar/sonar.h"
-#include "visibility/make_engine.h"
+#include "input/mission/parse.h"
+#include "simulate/assembly/assemble.h"
+#include "simulate/sonar/kinds.h"
+#include "simulate/sonar/sonar.h"
+#include "simulate/visibility/make_engine.h"
 
 using namespace sonarsim;
 

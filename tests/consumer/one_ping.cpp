@@ -1,9 +1,9 @@
 // One ping of an imaging sonar at a wall of concrete 5 m ahead: prints the range of the first echo.
 #include <iostream>
 
-#include "scene/scene.h"
-#include "sonar/sonar.h"
-#include "visibility/make_engine.h"
+#include "input/scene/scene.h"
+#include "simulate/sonar/sonar.h"
+#include "simulate/visibility/make_engine.h"
 
 using namespace sonarsim;
 

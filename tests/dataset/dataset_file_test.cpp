@@ -1,4 +1,4 @@
-#include "dataset/dataset_file.h"
+#include "output/dataset/dataset_file.h"
 
 #include <doctest/doctest.h>
 
@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "core/error.h"
-#include "dataset/metadata.h"
-#include "job/merge.h"
-#include "job/small_job.h"
-#include "job/status.h"
-#include "job/verify.h"
+#include "output/dataset/metadata.h"
+#include "run/job/merge.h"
+#include "run/job/small_job.h"
+#include "run/job/status.h"
+#include "run/job/verify.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "assembly/engines.h"
-#include "dataset/labelled_ping.h"
-#include "job/run_job.h"
-#include "sonar/kinds.h"
+#include "output/dataset/labelled_ping.h"
+#include "run/job/run_job.h"
+#include "simulate/assembly/engines.h"
+#include "simulate/sonar/kinds.h"
 #include "support/npy_data.h"
 #include "support/small_mission.h"
 #include "support/sonars.h"

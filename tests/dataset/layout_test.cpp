@@ -1,4 +1,4 @@
-#include "dataset/layout.h"
+#include "output/dataset/layout.h"
 
 #include <doctest/doctest.h>
 
@@ -8,9 +8,9 @@
 
 #include "core/error.h"
 #include "core/units.h"
-#include "dataset/encode_ping.h"
-#include "dataset/metadata.h"
-#include "job/run_job.h"
+#include "output/dataset/encode_ping.h"
+#include "output/dataset/metadata.h"
+#include "run/job/run_job.h"
 #include "support/approx.h"
 #include "support/small_mission.h"
 #include "support/sonars.h"

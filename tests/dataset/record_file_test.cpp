@@ -1,4 +1,4 @@
-#include "dataset/record_file.h"
+#include "output/dataset/record_file.h"
 
 #include <doctest/doctest.h>
 

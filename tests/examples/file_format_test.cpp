@@ -7,11 +7,11 @@
 #include <optional>
 #include <string>
 
-#include "dataset/writer.h"
+#include "output/dataset/writer.h"
+#include "simulate/visibility/make_engine.h"
 #include "support/scenes.h"
 #include "support/small_mission.h"
 #include "support/temporary_folder.h"
-#include "visibility/make_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 
+#include "simulate/visibility/make_engine.h"
 #include "support/approx.h"
 #include "support/scenes.h"
 #include "support/sonars.h"
-#include "visibility/make_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -1,4 +1,4 @@
-#include "format/geotiff.h"
+#include "output/format/geotiff.h"
 
 #include <OpenImageIO/imageio.h>
 #include <doctest/doctest.h>

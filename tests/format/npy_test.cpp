@@ -1,4 +1,4 @@
-#include "format/npy.h"
+#include "output/format/npy.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "format/png.h"
+#include "output/format/png.h"
 
 #include <OpenImageIO/imageio.h>
 #include <doctest/doctest.h>

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "scene/images/read_image.h"
+#include "input/scene/images/read_image.h"
 #include "target.h"
 
 // Any bytes as an image and as the world file next to it, read with the limits of a mission: as

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "scene/materials.h"
+#include "input/scene/materials.h"
 #include "target.h"
 
 // Any bytes as a material CSV: materials with positive finite densities and speeds and with finite

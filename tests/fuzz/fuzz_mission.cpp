@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "mission/parse.h"
-#include "mission/resolved.h"
-#include "sonar/kinds.h"
+#include "input/mission/parse.h"
+#include "input/mission/resolved.h"
+#include "simulate/sonar/kinds.h"
 #include "target.h"
 
 // The input is a mission, followed by lines "--set ..." after the first zero byte, if any. Whatever

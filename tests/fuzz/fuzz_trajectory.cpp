@@ -1,8 +1,8 @@
 #include <cmath>
 
+#include "input/trajectory/files.h"
+#include "input/trajectory/interpolate.h"
 #include "target.h"
-#include "trajectory/files.h"
-#include "trajectory/interpolate.h"
 
 // The first byte chooses the reader: 't' for TUM, anything else for CSV. What a reader accepts must
 // keep the promises of Trajectory and survive writing, reading and resampling.

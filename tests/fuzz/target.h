@@ -10,9 +10,9 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "scene/gltf/load.h"
-#include "scene/scene.h"
-#include "scene/summary.h"
+#include "input/scene/gltf/load.h"
+#include "input/scene/scene.h"
+#include "input/scene/summary.h"
 
 // The targets share this. Each takes any bytes: the reader keeps its promises, or throws
 // InputError.

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "core/pose.h"
-#include "mission/mission.h"
-#include "scene/scene.h"
-#include "sonar/sonar.h"
-#include "trace/ping.h"
+#include "input/mission/mission.h"
+#include "input/scene/scene.h"
+#include "simulate/sonar/sonar.h"
+#include "simulate/trace/ping.h"
 
 namespace sonarsim {
 

@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "hard/cases.h"
-#include "mission/instrument.h"
-#include "sonar/engine_settings.h"
-#include "sonar/kinds.h"
+#include "input/mission/instrument.h"
+#include "simulate/sonar/engine_settings.h"
+#include "simulate/sonar/kinds.h"
 #include "support/shapes.h"
 
 using namespace sonarsim;

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "paper/accumulate.h"
+#include "simulate/paper/accumulate.h"
 #include "support/approx.h"
 
 using namespace sonarsim;

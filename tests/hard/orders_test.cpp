@@ -5,10 +5,10 @@
 
 #include "core/units.h"
 #include "hard/cases.h"
+#include "simulate/reference/image_error.h"
+#include "simulate/reference/reference.h"
+#include "simulate/visibility/make_engine.h"
 #include "support/scenes.h"
-#include "validation/image_error.h"
-#include "validation/reference.h"
-#include "visibility/make_engine.h"
 
 using namespace sonarsim;
 

@@ -2,11 +2,11 @@
 
 #include "core/units.h"
 #include "hard/cases.h"
-#include "sonar/engine_settings.h"
-#include "sonar/kinds.h"
+#include "simulate/reference/reference.h"
+#include "simulate/sonar/engine_settings.h"
+#include "simulate/sonar/kinds.h"
 #include "support/shapes.h"
 #include "support/sonars.h"
-#include "validation/reference.h"
 
 namespace sonarsim {
 

@@ -1,4 +1,4 @@
-#include "job/folder.h"
+#include "run/job/folder.h"
 
 #include <doctest/doctest.h>
 
@@ -6,8 +6,8 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "format/png.h"
-#include "job/run_job.h"
+#include "output/format/png.h"
+#include "run/job/run_job.h"
 #include "support/small_mission.h"
 #include "support/temporary_folder.h"
 

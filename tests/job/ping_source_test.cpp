@@ -1,14 +1,14 @@
-#include "job/ping_source.h"
+#include "run/job/ping_source.h"
 
 #include <doctest/doctest.h>
 
 #include <set>
 
-#include "assembly/engines.h"
 #include "core/file.h"
-#include "dataset/encode_ping.h"
-#include "dataset/layout.h"
-#include "job/small_job.h"
+#include "output/dataset/encode_ping.h"
+#include "output/dataset/layout.h"
+#include "run/job/small_job.h"
+#include "simulate/assembly/engines.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

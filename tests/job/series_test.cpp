@@ -5,13 +5,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "assembly/engines.h"
 #include "core/file.h"
-#include "dataset/averaged_rows.h"
-#include "dataset/writer.h"
-#include "job/small_job.h"
-#include "product/soundings.h"
-#include "sonar/kinds.h"
+#include "output/dataset/averaged_rows.h"
+#include "output/dataset/writer.h"
+#include "run/job/small_job.h"
+#include "simulate/assembly/engines.h"
+#include "simulate/product/soundings.h"
+#include "simulate/sonar/kinds.h"
 #include "support/approx.h"
 #include "support/npy_data.h"
 #include "support/sonars.h"

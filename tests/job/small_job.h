@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/file.h"
-#include "job/run_job.h"
+#include "run/job/run_job.h"
 #include "support/small_mission.h"
 #include "support/temporary_folder.h"
 

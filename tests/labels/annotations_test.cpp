@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/units.h"
-#include "product/object_table.h"
+#include "simulate/product/object_table.h"
 #include "support/approx.h"
 #include "support/draws.h"
 #include "support/labelled.h"

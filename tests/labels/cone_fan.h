@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "core/units.h"
+#include "simulate/visibility/angles.h"
 #include "support/calibrated.h"
 #include "support/draws.h"
 #include "support/labelled.h"
 #include "support/scenes.h"
-#include "visibility/angles.h"
 
 namespace sonarsim::test {
 

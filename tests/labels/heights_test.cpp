@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "core/units.h"
-#include "labels/labels.h"
+#include "simulate/labels/labels.h"
+#include "simulate/visibility/make_engine.h"
 #include "support/labelled.h"
 #include "support/scenes.h"
 #include "support/sonars.h"
-#include "visibility/make_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -1,4 +1,4 @@
-#include "labels/labels.h"
+#include "simulate/labels/labels.h"
 
 #include <doctest/doctest.h>
 
@@ -6,13 +6,13 @@
 #include <cmath>
 #include <numeric>
 
+#include "simulate/visibility/make_engine.h"
 #include "support/approx.h"
 #include "support/bounces.h"
 #include "support/labelled.h"
 #include "support/sanitized.h"
 #include "support/scenes.h"
 #include "support/sonars.h"
-#include "visibility/make_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -1,4 +1,4 @@
-#include "labels/shadow.h"
+#include "simulate/labels/shadow.h"
 
 #include <doctest/doctest.h>
 
@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "core/units.h"
-#include "labels/hidden_surface.h"
-#include "sonar/kinds.h"
+#include "simulate/labels/hidden_surface.h"
+#include "simulate/sonar/kinds.h"
+#include "simulate/visibility/angles.h"
 #include "support/calibrated.h"
 #include "support/draws.h"
 #include "support/labelled.h"
 #include "support/sanitized.h"
 #include "support/scenes.h"
-#include "visibility/angles.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -1,6 +1,6 @@
-#include "mission/document.h"
+#include "input/mission/document.h"
 
-#include "mission/fixtures.h"
+#include "input/mission/fixtures.h"
 
 namespace sonarsim {
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/error.h"
-#include "mission/parse.h"
-#include "mission/resolved.h"
-#include "sonar/kinds.h"
+#include "input/mission/parse.h"
+#include "input/mission/resolved.h"
+#include "simulate/sonar/kinds.h"
 
 namespace sonarsim {
 

@@ -1,6 +1,6 @@
-#include "mission/override.h"
+#include "input/mission/override.h"
 
-#include "mission/fixtures.h"
+#include "input/mission/fixtures.h"
 
 namespace sonarsim {
 

@@ -1,11 +1,11 @@
-#include "mission/parse.h"
+#include "input/mission/parse.h"
 
 #include <filesystem>
 #include <fstream>
 
-#include "mission/fixtures.h"
-#include "mission/preset.h"
-#include "sonar/kinds.h"
+#include "input/mission/fixtures.h"
+#include "input/mission/preset.h"
+#include "simulate/sonar/kinds.h"
 #include "support/approx.h"
 #include "support/temporary_folder.h"
 

@@ -1,10 +1,10 @@
-#include "mission/reference.h"
+#include "input/mission/reference.h"
 
 #include <algorithm>
 
-#include "mission/fixtures.h"
-#include "mission/resolved.h"
-#include "sonar/kinds.h"
+#include "input/mission/fixtures.h"
+#include "input/mission/resolved.h"
+#include "simulate/sonar/kinds.h"
 
 namespace sonarsim {
 

@@ -1,6 +1,6 @@
 #include <string>
 
-#include "mission/fixtures.h"
+#include "input/mission/fixtures.h"
 
 namespace sonarsim {
 

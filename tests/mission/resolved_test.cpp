@@ -1,12 +1,12 @@
-#include "mission/resolved.h"
+#include "input/mission/resolved.h"
 
 #include <doctest/doctest.h>
 
 #include <string>
 
-#include "mission/differences.h"
-#include "mission/fixtures.h"
-#include "sonar/kinds.h"
+#include "input/mission/differences.h"
+#include "input/mission/fixtures.h"
+#include "simulate/sonar/kinds.h"
 
 namespace sonarsim {
 

@@ -1,6 +1,6 @@
-#include "mission/files.h"
-#include "mission/fixtures.h"
-#include "mission/resolved.h"
+#include "input/mission/files.h"
+#include "input/mission/fixtures.h"
+#include "input/mission/resolved.h"
 
 namespace sonarsim {
 

@@ -1,12 +1,12 @@
-#include "mission/variants.h"
+#include "input/mission/variants.h"
 
 #include <cmath>
 #include <map>
 
 #include "core/file.h"
 #include "core/text.h"
-#include "mission/draw_value.h"
-#include "mission/fixtures.h"
+#include "input/mission/draw_value.h"
+#include "input/mission/fixtures.h"
 #include "support/temporary_folder.h"
 
 namespace sonarsim {

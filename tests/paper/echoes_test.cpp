@@ -1,4 +1,4 @@
-#include "paper/echoes.h"
+#include "simulate/paper/echoes.h"
 
 #include <doctest/doctest.h>
 

@@ -5,8 +5,8 @@
 #include <set>
 #include <utility>
 
-#include "paper/pixel_noise.h"
-#include "paper/range_noise.h"
+#include "simulate/paper/pixel_noise.h"
+#include "simulate/paper/range_noise.h"
 #include "support/approx.h"
 #include "support/statistics.h"
 

@@ -1,12 +1,12 @@
-#include "paper/streaks.h"
+#include "simulate/paper/streaks.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
-#include "sonar/sonar.h"
+#include "simulate/sonar/sonar.h"
+#include "simulate/visibility/rays/rays_engine.h"
 #include "support/scenes.h"
-#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -6,10 +6,10 @@
 #include <random>
 
 #include "core/units.h"
-#include "sonar/sonar.h"
+#include "simulate/sonar/sonar.h"
+#include "simulate/visibility/rays/rays_engine.h"
 #include "support/scenes.h"
 #include "support/statistics.h"
-#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

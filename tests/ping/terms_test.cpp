@@ -1,11 +1,11 @@
-#include "trace/terms.h"
+#include "simulate/trace/terms.h"
 
 #include <doctest/doctest.h>
 
-#include "sonar/sonar.h"
+#include "simulate/sonar/sonar.h"
+#include "simulate/visibility/rays/rays_engine.h"
 #include "support/scenes.h"
 #include "support/sonars.h"
-#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

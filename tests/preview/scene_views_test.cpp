@@ -1,4 +1,4 @@
-#include "preview/scene_views.h"
+#include "run/preview/scene_views.h"
 
 #include <doctest/doctest.h>
 
@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "core/units.h"
-#include "preview/object_boxes.h"
+#include "run/preview/object_boxes.h"
+#include "simulate/visibility/make_engine.h"
 #include "support/approx.h"
 #include "support/scenes.h"
-#include "visibility/make_engine.h"
 
 using namespace sonarsim;
 using Eigen::Vector2d;

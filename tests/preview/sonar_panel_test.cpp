@@ -1,4 +1,4 @@
-#include "preview/sonar_panel.h"
+#include "run/preview/sonar_panel.h"
 
 #include <doctest/doctest.h>
 
@@ -6,9 +6,9 @@
 #include <set>
 
 #include "core/units.h"
-#include "product/fan.h"
-#include "sonar/kinds.h"
-#include "sonar/sonar.h"
+#include "simulate/product/fan.h"
+#include "simulate/sonar/kinds.h"
+#include "simulate/sonar/sonar.h"
 #include "support/approx.h"
 
 using namespace sonarsim;

@@ -1,4 +1,4 @@
-#include "product/annotation.h"
+#include "simulate/product/annotation.h"
 
 #include <doctest/doctest.h>
 
@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "product/contrast.h"
-#include "product/object_masks.h"
+#include "simulate/product/contrast.h"
+#include "simulate/product/object_masks.h"
 #include "support/approx.h"
 
 using namespace sonarsim;

@@ -4,10 +4,10 @@
 #include <memory>
 
 #include "core/units.h"
-#include "product/soundings.h"
-#include "sonar/sonar.h"
+#include "simulate/product/soundings.h"
+#include "simulate/sonar/sonar.h"
+#include "simulate/visibility/make_engine.h"
 #include "support/scenes.h"
-#include "visibility/make_engine.h"
 
 using namespace sonarsim;
 

@@ -1,4 +1,4 @@
-#include "product/detect_return.h"
+#include "simulate/product/detect_return.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "product/fan_bins.h"
+#include "simulate/product/fan_bins.h"
 
 #include <doctest/doctest.h>
 
@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "core/units.h"
-#include "product/even_kernel.h"
-#include "sonar/sonar.h"
+#include "simulate/product/even_kernel.h"
+#include "simulate/sonar/sonar.h"
 #include "support/approx.h"
 
 using namespace sonarsim;

@@ -1,4 +1,4 @@
-#include "product/fan.h"
+#include "simulate/product/fan.h"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 
 #include "core/units.h"
-#include "sonar/sonar.h"
+#include "simulate/sonar/sonar.h"
 #include "support/approx.h"
 #include "support/sanitized.h"
 

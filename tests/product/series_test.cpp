@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
-#include "product/bottom.h"
-#include "product/gain.h"
-#include "product/picture.h"
+#include "simulate/product/bottom.h"
+#include "simulate/product/gain.h"
+#include "simulate/product/picture.h"
 #include "support/approx.h"
 
 using namespace sonarsim;

@@ -1,4 +1,4 @@
-#include "product/soundings.h"
+#include "simulate/product/soundings.h"
 
 #include <doctest/doctest.h>
 
@@ -10,9 +10,9 @@
 #include <span>
 
 #include "core/units.h"
-#include "product/bathymetry.h"
-#include "sonar/kinds.h"
-#include "sonar/sonar.h"
+#include "simulate/product/bathymetry.h"
+#include "simulate/sonar/kinds.h"
+#include "simulate/sonar/sonar.h"
 #include "support/approx.h"
 
 using namespace sonarsim;

@@ -1,4 +1,4 @@
-#include "scene/placing/bottom.h"
+#include "input/scene/placing/bottom.h"
 
 #include <doctest/doctest.h>
 
@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "scene/waves.h"
+#include "input/scene/waves.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

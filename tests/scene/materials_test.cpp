@@ -1,4 +1,4 @@
-#include "scene/materials.h"
+#include "input/scene/materials.h"
 
 #include <doctest/doctest.h>
 

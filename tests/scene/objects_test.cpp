@@ -1,4 +1,4 @@
-#include "scene/objects.h"
+#include "input/scene/objects.h"
 
 #include <doctest/doctest.h>
 

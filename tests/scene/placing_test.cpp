@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "core/pose.h"
-#include "scene/placing/rest.h"
-#include "scene/placing/scatter.h"
-#include "scene/waves.h"
+#include "input/scene/placing/rest.h"
+#include "input/scene/placing/scatter.h"
+#include "input/scene/waves.h"
 #include "support/sanitized.h"
 
 using namespace sonarsim;

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "scene/gltf/builder.h"
+#include "input/scene/gltf/builder.h"
 
 using namespace sonarsim;
 

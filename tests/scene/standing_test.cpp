@@ -1,4 +1,4 @@
-#include "scene/placing/standing.h"
+#include "input/scene/placing/standing.h"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/units.h"
-#include "scene/unit_question.h"
+#include "input/scene/unit_question.h"
 
 using namespace sonarsim;
 

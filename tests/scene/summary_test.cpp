@@ -1,8 +1,8 @@
-#include "scene/summary.h"
+#include "input/scene/summary.h"
 
 #include <doctest/doctest.h>
 
-#include "scene/gltf/builder.h"
+#include "input/scene/gltf/builder.h"
 
 using namespace sonarsim;
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "scene/surface.h"
+#include "input/scene/surface.h"
 
 namespace sonarsim::test {
 

@@ -3,13 +3,13 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "product/echogram.h"
-#include "sonar/kinds.h"
-#include "sonar/sonar.h"
+#include "simulate/product/echogram.h"
+#include "simulate/sonar/kinds.h"
+#include "simulate/sonar/sonar.h"
+#include "simulate/visibility/rays/rays_engine.h"
 #include "support/approx.h"
 #include "support/scenes.h"
 #include "support/sonars.h"
-#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "sonar/sonar.h"
+#include "simulate/sonar/sonar.h"
+#include "simulate/visibility/rays/rays_engine.h"
 #include "support/scenes.h"
 #include "support/sonars.h"
 #include "support/statistics.h"
-#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -3,12 +3,12 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "sonar/sonar.h"
+#include "simulate/reference/image_error.h"
+#include "simulate/sonar/sonar.h"
+#include "simulate/visibility/rays/rays_engine.h"
 #include "support/approx.h"
 #include "support/scenes.h"
 #include "support/sonars.h"
-#include "validation/image_error.h"
-#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -3,17 +3,17 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "product/bathymetry.h"
-#include "product/soundings.h"
-#include "sonar/kinds.h"
-#include "sonar/sonar.h"
+#include "simulate/product/bathymetry.h"
+#include "simulate/product/soundings.h"
+#include "simulate/reference/image_error.h"
+#include "simulate/reference/reference.h"
+#include "simulate/sonar/kinds.h"
+#include "simulate/sonar/sonar.h"
+#include "simulate/visibility/rays/rays_engine.h"
 #include "support/approx.h"
 #include "support/sanitized.h"
 #include "support/scenes.h"
 #include "support/sonars.h"
-#include "validation/image_error.h"
-#include "validation/reference.h"
-#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -3,13 +3,13 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "product/scan.h"
-#include "sonar/kinds.h"
-#include "sonar/measured.h"
-#include "sonar/sonar.h"
+#include "simulate/product/scan.h"
+#include "simulate/sonar/kinds.h"
+#include "simulate/sonar/measured.h"
+#include "simulate/sonar/sonar.h"
+#include "simulate/visibility/rays/rays_engine.h"
 #include "support/approx.h"
 #include "support/shapes.h"
-#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 

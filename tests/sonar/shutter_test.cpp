@@ -4,13 +4,13 @@
 #include <memory>
 
 #include "core/units.h"
-#include "labels/labels.h"
-#include "product/object_table.h"
-#include "sonar/kinds.h"
-#include "sonar/sonar.h"
+#include "simulate/labels/labels.h"
+#include "simulate/product/object_table.h"
+#include "simulate/sonar/kinds.h"
+#include "simulate/sonar/sonar.h"
+#include "simulate/visibility/rays/rays_engine.h"
 #include "support/labelled.h"
 #include "support/scenes.h"
-#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/units.h"
-#include "scene/seabed/seabed.h"
+#include "input/scene/seabed/seabed.h"
 
 namespace sonarsim::test {
 

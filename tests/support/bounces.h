@@ -6,9 +6,9 @@
 
 #include "core/pose.h"
 #include "core/units.h"
-#include "scene/scene.h"
-#include "trace/multipath.h"
-#include "visibility/rays/rays_engine.h"
+#include "input/scene/scene.h"
+#include "simulate/trace/multipath.h"
+#include "simulate/visibility/rays/rays_engine.h"
 
 namespace sonarsim::test {
 

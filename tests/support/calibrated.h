@@ -4,11 +4,11 @@
 #include <span>
 #include <vector>
 
-#include "calibrated/model.h"
 #include "core/units.h"
-#include "sonar/kinds.h"
-#include "sonar/sonar.h"
-#include "visibility/make_engine.h"
+#include "simulate/calibrated/model.h"
+#include "simulate/sonar/kinds.h"
+#include "simulate/sonar/sonar.h"
+#include "simulate/visibility/make_engine.h"
 
 namespace sonarsim::test {
 

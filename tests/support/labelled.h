@@ -3,9 +3,9 @@
 #include <array>
 #include <cstddef>
 
-#include "labels/labels.h"
+#include "simulate/labels/labels.h"
+#include "simulate/visibility/make_engine.h"
 #include "support/sonars.h"
-#include "visibility/make_engine.h"
 
 namespace sonarsim::test {
 

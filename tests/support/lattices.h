@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string>
 
-#include "scene/scene.h"
-#include "sonar/sonar.h"
+#include "input/scene/scene.h"
+#include "simulate/sonar/sonar.h"
 
 namespace sonarsim::test {
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "scene/maps/ground_maps.h"
-#include "scene/scene.h"
+#include "input/scene/maps/ground_maps.h"
+#include "input/scene/scene.h"
 
 namespace sonarsim::test {
 

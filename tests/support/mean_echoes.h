@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "scene/scene.h"
-#include "visibility/engine.h"
+#include "input/scene/scene.h"
+#include "simulate/visibility/engine.h"
 
 namespace sonarsim::test {
 

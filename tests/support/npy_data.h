@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/file.h"
-#include "format/npy.h"
+#include "output/format/npy.h"
 
 namespace sonarsim::test {
 

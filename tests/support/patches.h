@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "visibility/engine.h"
+#include "simulate/visibility/engine.h"
 
 namespace sonarsim::test {
 

@@ -4,7 +4,7 @@
 
 #include "core/elementary.h"
 #include "core/units.h"
-#include "visibility/angles.h"
+#include "simulate/visibility/angles.h"
 
 namespace sonarsim::shapes {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "scene/scene.h"
+#include "input/scene/scene.h"
 
 namespace sonarsim::shapes {
 

@@ -1,8 +1,8 @@
 #include "support/small_mission.h"
 
-#include "assembly/brightness.h"
 #include "core/file.h"
-#include "sonar/kinds.h"
+#include "simulate/assembly/brightness.h"
+#include "simulate/sonar/kinds.h"
 #include "support/scenes.h"
 
 namespace sonarsim::test {

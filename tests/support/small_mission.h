@@ -4,8 +4,8 @@
 #include <map>
 #include <string>
 
-#include "assembly/assemble.h"
-#include "mission/mission.h"
+#include "input/mission/mission.h"
+#include "simulate/assembly/assemble.h"
 
 namespace sonarsim::test {
 

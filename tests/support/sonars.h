@@ -3,8 +3,8 @@
 #include <memory>
 #include <utility>
 
-#include "paper/paper_model.h"
-#include "sonar/sonar.h"
+#include "simulate/paper/paper_model.h"
+#include "simulate/sonar/sonar.h"
 
 namespace sonarsim::test {
 

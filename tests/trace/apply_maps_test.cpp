@@ -1,4 +1,4 @@
-#include "trace/apply_maps.h"
+#include "simulate/trace/apply_maps.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "trace/arrivals.h"
+#include "simulate/trace/arrivals.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "trace/clusters.h"
+#include "simulate/trace/clusters.h"
 
 #include <doctest/doctest.h>
 
@@ -7,12 +7,12 @@
 #include <set>
 
 #include "core/units.h"
-#include "paper/accumulate.h"
-#include "paper/multipath_echoes.h"
-#include "sonar/sonar.h"
+#include "simulate/paper/accumulate.h"
+#include "simulate/paper/multipath_echoes.h"
+#include "simulate/sonar/sonar.h"
+#include "simulate/visibility/rays/rays_engine.h"
 #include "support/bounces.h"
 #include "support/scenes.h"
-#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

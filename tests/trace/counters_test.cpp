@@ -1,4 +1,4 @@
-#include "trace/counters.h"
+#include "simulate/trace/counters.h"
 
 #include <doctest/doctest.h>
 

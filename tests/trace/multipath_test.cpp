@@ -1,4 +1,4 @@
-#include "trace/multipath.h"
+#include "simulate/trace/multipath.h"
 
 #include <doctest/doctest.h>
 
@@ -7,13 +7,13 @@
 #include <functional>
 
 #include "core/units.h"
-#include "paper/multipath_echoes.h"
-#include "sonar/sonar.h"
+#include "simulate/paper/multipath_echoes.h"
+#include "simulate/sonar/sonar.h"
+#include "simulate/visibility/rays/rays_engine.h"
 #include "support/approx.h"
 #include "support/bounces.h"
 #include "support/patches.h"
 #include "support/scenes.h"
-#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -1,10 +1,10 @@
-#include "trace/particles.h"
+#include "simulate/trace/particles.h"
 
 #include <doctest/doctest.h>
 
 #include "core/units.h"
+#include "simulate/visibility/rays/rays_engine.h"
 #include "support/scenes.h"
-#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

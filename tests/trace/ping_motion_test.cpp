@@ -1,4 +1,4 @@
-#include "trace/ping_motion.h"
+#include "simulate/trace/ping_motion.h"
 
 #include <doctest/doctest.h>
 

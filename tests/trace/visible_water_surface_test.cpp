@@ -1,4 +1,4 @@
-#include "trace/visible_water_surface.h"
+#include "simulate/trace/visible_water_surface.h"
 
 #include <doctest/doctest.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "core/units.h"
+#include "simulate/visibility/rays/rays_engine.h"
 #include "support/approx.h"
 #include "support/scenes.h"
-#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "core/units.h"
+#include "simulate/trace/multipath.h"
+#include "simulate/visibility/rays/rays_engine.h"
 #include "support/bounces.h"
 #include "support/scenes.h"
-#include "trace/multipath.h"
-#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

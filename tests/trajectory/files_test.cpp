@@ -1,4 +1,4 @@
-#include "trajectory/files.h"
+#include "input/trajectory/files.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "trajectory/interpolate.h"
+#include "input/trajectory/interpolate.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "trajectory/navigation.h"
+#include "input/trajectory/navigation.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "trajectory/patterns.h"
+#include "input/trajectory/patterns.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "trajectory/wave_motion.h"
+#include "input/trajectory/wave_motion.h"
 
 #include <doctest/doctest.h>
 

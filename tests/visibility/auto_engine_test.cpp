@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "core/units.h"
+#include "simulate/visibility/make_engine.h"
+#include "simulate/visibility/rays/rays_engine.h"
+#include "simulate/visibility/slices/slices_engine.h"
+#include "simulate/water/sound_profile.h"
 #include "support/scenes.h"
-#include "visibility/make_engine.h"
-#include "visibility/rays/rays_engine.h"
-#include "visibility/slices/slices_engine.h"
-#include "water/sound_profile.h"
 
 using namespace sonarsim;
 

@@ -1,4 +1,4 @@
-#include "visibility/rays/bent_rays.h"
+#include "simulate/visibility/rays/bent_rays.h"
 
 #include <doctest/doctest.h>
 
@@ -6,10 +6,10 @@
 #include <memory>
 
 #include "core/units.h"
+#include "simulate/visibility/make_engine.h"
+#include "simulate/water/water_ray.h"
 #include "support/approx.h"
 #include "support/scenes.h"
-#include "visibility/make_engine.h"
-#include "water/water_ray.h"
 
 using namespace sonarsim;
 

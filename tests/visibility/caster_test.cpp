@@ -1,4 +1,4 @@
-#include "visibility/caster.h"
+#include "simulate/visibility/caster.h"
 
 #include <doctest/doctest.h>
 

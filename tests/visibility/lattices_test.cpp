@@ -2,11 +2,11 @@
 
 #include <doctest/doctest.h>
 
-#include "trace/ping.h"
-#include "validation/image_error.h"
-#include "validation/reference.h"
-#include "visibility/caster.h"
-#include "visibility/make_engine.h"
+#include "simulate/reference/image_error.h"
+#include "simulate/reference/reference.h"
+#include "simulate/trace/ping.h"
+#include "simulate/visibility/caster.h"
+#include "simulate/visibility/make_engine.h"
 
 using namespace sonarsim;
 

@@ -5,9 +5,9 @@
 
 #include "core/error.h"
 #include "core/units.h"
+#include "simulate/visibility/octree/octree_engine.h"
 #include "support/approx.h"
 #include "support/scenes.h"
-#include "visibility/octree/octree_engine.h"
 
 using namespace sonarsim;
 

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "core/units.h"
+#include "simulate/visibility/rays/rays_engine.h"
 #include "support/scenes.h"
-#include "visibility/rays/rays_engine.h"
 
 // Copies of shared meshes, and bodies that move.
 

@@ -1,8 +1,8 @@
 #include <doctest/doctest.h>
 
 #include "core/units.h"
+#include "simulate/visibility/rays/rays_engine.h"
 #include "support/scenes.h"
-#include "visibility/rays/rays_engine.h"
 
 using namespace sonarsim;
 

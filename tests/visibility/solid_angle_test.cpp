@@ -4,8 +4,8 @@
 #include <string>
 
 #include "core/units.h"
+#include "simulate/visibility/make_engine.h"
 #include "support/scenes.h"
-#include "visibility/make_engine.h"
 
 using namespace sonarsim;
 

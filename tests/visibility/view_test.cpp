@@ -1,4 +1,4 @@
-#include "visibility/view.h"
+#include "simulate/visibility/view.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "water/water_ray.h"
+#include "simulate/water/water_ray.h"
 
 #include <doctest/doctest.h>
 

@@ -12,7 +12,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "scene/gltf/load.h"
+#include "input/scene/gltf/load.h"
 #include "support/temporary_folder.h"
 
 namespace sonarsim {

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "scene/gltf/builder.h"
-#include "scene/gltf/primitives.h"
+#include "input/scene/gltf/builder.h"
+#include "input/scene/gltf/primitives.h"
 
 using namespace sonarsim;
 using nlohmann::json;

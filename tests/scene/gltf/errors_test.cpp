@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/gltf/builder.h"
+#include "input/scene/gltf/builder.h"
 
 using namespace sonarsim;
 using nlohmann::json;

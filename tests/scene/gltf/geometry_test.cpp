@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <limits>
 
-#include "scene/gltf/builder.h"
-#include "scene/gltf/load.h"
+#include "input/scene/gltf/builder.h"
+#include "input/scene/gltf/load.h"
 #include "support/approx.h"
 
 using namespace sonarsim;

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "scene/gltf/load.h"
+#include "input/scene/gltf/load.h"
 
 using namespace sonarsim;
 namespace fs = std::filesystem;

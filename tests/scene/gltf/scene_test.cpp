@@ -3,9 +3,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include "scene/copies.h"
-#include "scene/gltf/builder.h"
-#include "scene/gltf/load.h"
+#include "input/scene/copies.h"
+#include "input/scene/gltf/builder.h"
+#include "input/scene/gltf/load.h"
 
 using namespace sonarsim;
 using nlohmann::json;

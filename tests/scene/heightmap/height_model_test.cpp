@@ -1,4 +1,4 @@
-#include "scene/heightmap/height_model.h"
+#include "input/scene/heightmap/height_model.h"
 
 #include <doctest/doctest.h>
 
@@ -12,10 +12,10 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "format/geotiff.h"
-#include "scene/gltf/load.h"
-#include "scene/gltf/surface_of.h"
-#include "scene/placing/bottom.h"
+#include "input/scene/gltf/load.h"
+#include "input/scene/gltf/surface_of.h"
+#include "input/scene/placing/bottom.h"
+#include "output/format/geotiff.h"
 #include "support/approx.h"
 #include "support/temporary_folder.h"
 

@@ -1,4 +1,4 @@
-#include "scene/images/read_image.h"
+#include "input/scene/images/read_image.h"
 
 #include <doctest/doctest.h>
 
@@ -10,7 +10,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "format/geotiff.h"
+#include "output/format/geotiff.h"
 #include "support/approx.h"
 #include "support/temporary_folder.h"
 

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "scene/images/read_image.h"
+#include "input/scene/images/read_image.h"
 #include "support/temporary_folder.h"
 
 using namespace sonarsim;

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "scene/gltf/builder.h"
-#include "scene/gltf/load.h"
+#include "input/scene/gltf/builder.h"
+#include "input/scene/gltf/load.h"
 
 using namespace sonarsim;
 

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "scene/gltf/load.h"
-#include "scene/gltf/surface_of.h"
-#include "scene/placing/bottom.h"
-#include "scene/seabed/seabed.h"
+#include "input/scene/gltf/load.h"
+#include "input/scene/gltf/surface_of.h"
+#include "input/scene/placing/bottom.h"
+#include "input/scene/seabed/seabed.h"
 #include "support/approx.h"
 #include "support/statistics.h"
 

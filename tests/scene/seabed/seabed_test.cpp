@@ -1,4 +1,4 @@
-#include "scene/seabed/seabed.h"
+#include "input/scene/seabed/seabed.h"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "core/units.h"
-#include "scene/gltf/surface_of.h"
+#include "input/scene/gltf/surface_of.h"
 #include "support/bed_spectrum.h"
 
 using namespace sonarsim;

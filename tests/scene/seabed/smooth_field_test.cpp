@@ -1,4 +1,4 @@
-#include "scene/seabed/smooth_field.h"
+#include "input/scene/seabed/smooth_field.h"
 
 #include <doctest/doctest.h>
 

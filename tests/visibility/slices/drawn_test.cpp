@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "core/units.h"
+#include "simulate/reference/reference.h"
+#include "simulate/visibility/slices/slices_engine.h"
 #include "support/draws.h"
 #include "support/lattices.h"
 #include "support/mean_echoes.h"
 #include "support/scenes.h"
-#include "validation/reference.h"
-#include "visibility/slices/slices_engine.h"
 
 using namespace sonarsim;
 

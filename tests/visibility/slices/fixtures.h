@@ -3,7 +3,7 @@
 #include <span>
 
 #include "core/units.h"
-#include "visibility/slices/slices_engine.h"
+#include "simulate/visibility/slices/slices_engine.h"
 
 namespace sonarsim::test {
 

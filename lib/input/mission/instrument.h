@@ -1,0 +1,301 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "input/mission/limits.h"
+
+// The instrument that `model: calibrated` simulates: its keys, with their defaults and their
+// descriptions as in mission.h.
+
+namespace sonarsim {
+
+/// The content of the water, which scatters. `automatic`: the usual water of each instrument.
+enum class WaterContent { automatic, none, clear, coastal, plankton, plume };
+
+/// The transducer's shape. It has no key: it follows from the kind of sonar.
+enum class Aperture {
+    line,            ///< an array across track that forms beams
+    port_starboard,  ///< two arrays along track, one for each side
+    piston,          ///< a circular disc
+    head             ///< a turning array, across the boresight, that sends and receives ahead
+};
+
+/// The quantity in which the beams of a fan have equal steps.
+enum class BeamSpacing { equal_angle, equal_sine };
+
+enum class SpeckleMode {
+    scene,  ///< scatterers stay in place in the scene
+    ping,   ///< scatterers are drawn for every ping
+    none    ///< no speckle, the mean power
+};
+
+enum class Companding { gamma, log, linear };
+
+/// The errors of an array's elements, which are drawn once for each instrument.
+struct ElementsConfig {
+    double gain_error_db = 0.0;    ///< standard deviation
+    double phase_error_deg = 0.0;  ///< standard deviation
+    int serial = 0;                ///< one instrument of its type
+
+    bool exist() const { return gain_error_db > 0.0 || phase_error_deg > 0.0; }
+};
+
+struct BeamConfig {
+    Aperture aperture = Aperture::line;
+    double width_deg = 1.0;       ///< one-way half-power beamwidth
+    double side_lobe_db = -13.3;  ///< highest side lobe of the array; sets the taper
+    /// Phase errors at the ends of the aperture: quadratic, cubic, quartic.
+    std::array<double, 3> aberration_rad{};
+    BeamSpacing spread = BeamSpacing::equal_angle;
+    double view_azimuth_deg = 0.0;  ///< full azimuth that a line array insonifies; 0: azimuth_deg
+    double elevation_width_deg = 0.0;  ///< two-way half-power width; 0: constant pattern
+    double elevation_side_lobe_db = -13.3;
+    double across_width_deg = 50.0;  ///< port_starboard: one-way half-power width across track
+    double tilt_deg = 20.0;          ///< port_starboard: depression of the axes
+    ElementsConfig elements = {};
+};
+
+struct PulseConfig {
+    double resolution_m = 0.0;    ///< half-power width of a point target in range; 0: one bin
+    double duration_s = 0.0;      ///< transmitted pulse; 0: that of a pulse without a code
+    double side_lobe_db = -30.0;  ///< highest range side lobe after compression
+};
+
+struct SpeckleConfig {
+    SpeckleMode mode = SpeckleMode::scene;
+    double clutter_shape = 0.0;  ///< nu of the K-distribution; 0: Rayleigh
+    double clutter_m = 0.1;      ///< edge of the cells that share one clutter strength
+};
+
+/// The rule by which several samples become the one that is delivered.
+enum class SampleRule { maximum, mean, rms };
+
+struct ReceiverConfig {
+    std::optional<double> noise_db;  ///< noise power in a beam; empty: by instrument_levels()
+    double common_mode_db = -300.0;  ///< power of the noise that all elements share
+    double tvg_log = 40.0;           ///< spreading factor k of k log10 r
+    bool tvg_absorption = true;      ///< TVG has the term 2 alpha r
+    double tvg_from_m = 0.0;         ///< TVG is constant at shorter ranges
+    /// Highest echo level after TVG that is not clipped; empty: by instrument_levels().
+    std::optional<double> full_scale_db;
+    Companding companding = Companding::gamma;
+    double gamma = 0.5;            ///< value = (amplitude / full scale)^gamma
+    double dynamic_range_db = 60;  ///< for Companding::log
+    int bits = 8;
+    int samples = 1;  ///< for each range bin
+    SampleRule combine = SampleRule::maximum;
+    int looks = 1;              ///< their powers are averaged
+    double offset = 0.0;        ///< subtracted from raw/, as a share of its largest value
+    double ring_down_db = 0.0;  ///< at range 0, above the noise; 0: none
+    double ring_down_m = 0.1;   ///< range over which it falls by 10 dB
+    double beam_gain_db = 0.0;  ///< standard deviation of the gains of the beams
+};
+
+/// Echoes and noise of the sea lie above 0 dB re 1 uPa, so a lower level must be relative to the
+/// source level. -300 means none.
+constexpr bool is_relative_level(double level_db) {
+    return level_db < 0.0 && level_db > -300.0;
+}
+
+constexpr bool has_relative_level(const ReceiverConfig& receiver) {
+    return is_relative_level(receiver.noise_db.value_or(0.0)) ||
+           is_relative_level(receiver.full_scale_db.value_or(0.0)) ||
+           is_relative_level(receiver.common_mode_db);
+}
+
+/// 120 dB re 1 uPa at 1 m are 8 microwatts of sound. A smaller number is not a source level but the
+/// reference of the other levels.
+constexpr bool is_relative_source(double source_level_db) {
+    return source_level_db < 120.0;
+}
+
+struct InstrumentConfig {
+    double frequency_hz = 1e6;
+    std::optional<double> source_level_db;  ///< empty: by instrument_levels()
+    BeamConfig beam;
+    PulseConfig pulse;
+    SpeckleConfig speckle;
+    ReceiverConfig receiver;
+    WaterContent usual_water = WaterContent::none;  ///< for WaterContent::automatic
+    bool below_bottom = false;  ///< the volume of the sediment echoes behind its surface
+};
+
+inline constexpr Choice<BeamSpacing> beam_spacings[]{{"angle", BeamSpacing::equal_angle},
+                                                     {"sine", BeamSpacing::equal_sine}};
+inline constexpr Choice<SpeckleMode> speckle_modes[]{
+    {"scene", SpeckleMode::scene}, {"ping", SpeckleMode::ping}, {"none", SpeckleMode::none}};
+inline constexpr Choice<Companding> compandings[]{
+    {"gamma", Companding::gamma}, {"log", Companding::log}, {"linear", Companding::linear}};
+
+inline constexpr Choice<WaterContent> water_contents[]{
+    {"auto", WaterContent::automatic},    {"none", WaterContent::none},
+    {"clear", WaterContent::clear},       {"coastal", WaterContent::coastal},
+    {"plankton", WaterContent::plankton}, {"plume", WaterContent::plume}};
+inline constexpr Limits any_level_db{-300.0, 300.0};
+inline constexpr Choice<SampleRule> sample_rules[]{
+    {"max", SampleRule::maximum}, {"mean", SampleRule::mean}, {"rms", SampleRule::rms}};
+/// Levels above the noise.
+inline constexpr Limits raised_levels_db{0.0, 200.0};
+/// From a Hamming taper to no taper.
+inline constexpr Limits side_lobes_db{-42.0, -13.0};
+
+template <class Visitor>
+void describe(Visitor& v, ElementsConfig& c) {
+    v.number("gain_error_db", c.gain_error_db, between(0, 6),
+             "standard deviation of the gains of the array's elements");
+    v.number("phase_error_deg", c.phase_error_deg, between(0, 60),
+             "standard deviation of their phases");
+    v.number("serial", c.serial, between(0, 2e9),
+             "serial number of the instrument; each has errors of its own, the same in all its "
+             "datasets");
+}
+
+template <class Visitor>
+void describe(Visitor& v, BeamConfig& c) {
+    v.number("width_deg", c.width_deg, between(0.05, 60),
+             "one-way half-power beamwidth: of the receiving line array, across a scanning sonar's "
+             "beam, along track of a side-scan sonar, or of an echosounder's cone");
+    if (c.aperture == Aperture::piston) return;
+    v.number("side_lobe_db", c.side_lobe_db, side_lobes_db,
+             "highest side lobe of that array, set by its taper; -13.3 means no taper");
+    if (c.aperture == Aperture::port_starboard) {
+        v.number("across_width_deg", c.across_width_deg, between(5, 120),
+                 "one-way half-power beamwidth of each side across the track");
+        v.number("tilt_deg", c.tilt_deg, between(-90, 90),
+                 "depression angle of each side's axis below the horizontal");
+        return;
+    }
+    v.section("elements", c.elements,
+              "errors of the array's elements, half a wavelength apart; they fill the nulls of "
+              "its pattern");
+    if (c.aperture == Aperture::line) {
+        v.array("aberration_rad", c.aberration_rad, between(-100, 100),
+                "phase error at the ends of the array: quadratic, cubic and quartic part");
+        v.choice("spread", c.spread, beam_spacings,
+                 "beam spacing: equal steps of the angle, or of its sine");
+        v.number(
+            "view_azimuth_deg", c.view_azimuth_deg, between(0, 180),
+            "full azimuth of the surface that is insonified; 0 means azimuth_deg. A beam of a line "
+            "array is a cone: at steep elevations it receives surface from greater azimuths");
+    }
+    v.number(
+        "elevation_width_deg", c.elevation_width_deg, between(0, 120),
+        "two-way half-power beamwidth in elevation; 0 means a constant pattern over elevation_deg");
+    v.number("elevation_side_lobe_db", c.elevation_side_lobe_db, side_lobes_db,
+             "highest two-way side lobe in elevation");
+    v.require(c.elevation_width_deg == 0.0 || c.elevation_width_deg >= 0.01,
+              {"elevation_width_deg"},
+              "elevation_width_deg is 0, for a constant pattern, or at least 0.01");
+}
+
+template <class Visitor>
+void describe(Visitor& v, PulseConfig& c) {
+    v.number("resolution_m", c.resolution_m, between(0, 1000),
+             "half-power width in range of a point target's echo; 0 means one range bin");
+    // Speckle cells have this length. The number of much shorter cells would overflow.
+    v.require(c.resolution_m == 0.0 || c.resolution_m >= 1e-6, {"resolution_m"},
+              "resolution_m is 0, for one range bin, or at least 1e-6");
+    v.number("duration_s", c.duration_s, between(0, 10),
+             "length of the transmitted pulse, for noise_db: auto. A pulse that is longer than its "
+             "resolution is coded, and its noise is that of the long pulse; 0 means no code");
+    v.number("side_lobe_db", c.side_lobe_db, side_lobes_db,
+             "highest range side lobe of the compressed pulse");
+}
+
+template <class Visitor>
+void describe(Visitor& v, SpeckleConfig& c) {
+    v.choice("mode", c.mode, speckle_modes,
+             "`scene`: scatterers stay in place in the scene; `ping`: scatterers are drawn "
+             "for every ping, which is faster; `none`: no speckle, the mean power");
+    v.number("clutter_shape", c.clutter_shape, between(0, 100),
+             "shape nu of K-distributed clutter; 0 means Rayleigh");
+    // At much smaller shapes nearly all cells draw a power of 0.
+    v.require(c.clutter_shape == 0.0 || c.clutter_shape >= 0.05, {"clutter_shape"},
+              "clutter_shape is 0, for Rayleigh, or at least 0.05");
+    v.number("clutter_m", c.clutter_m, between(1e-3, 1e3),
+             "edge of the cells of the scene that share one clutter strength");
+}
+
+/// The keys of a receiver besides noise, gain and companding.
+template <class Visitor>
+void describe_chain(Visitor& v, ReceiverConfig& c) {
+    v.number("samples", c.samples, between(1, 16), "samples that become one range bin");
+    v.choice("combine", c.combine, sample_rules,
+             "what these become: their largest amplitude, the mean of the amplitudes, or the root "
+             "of the mean power");
+    v.number("looks", c.looks, between(1, 16),
+             "looks with independent speckle and noise whose powers are averaged, as of several "
+             "pulses or bands");
+    v.number("offset", c.offset, between(0, 0.9),
+             "share of the largest value that is taken from the values of raw/; what would be "
+             "negative is 0");
+    v.number("ring_down_db", c.ring_down_db, raised_levels_db,
+             "level of the transducer's ringing at range 0 above the noise; 0 means none");
+    v.number("ring_down_m", c.ring_down_m, between(1e-4, 1e4),
+             "range over which the ringing falls by 10 dB");
+    v.number("beam_gain_db", c.beam_gain_db, between(0, 30),
+             "standard deviation of the gains of single beams, which stay from ping to ping");
+}
+
+template <class Visitor>
+void describe(Visitor& v, ReceiverConfig& c) {
+    v.number("noise_db", c.noise_db, any_level_db,
+             "noise level in a beam before TVG, in the unit of source_level_db; `auto` "
+             "computes it from frequency, pulse, beam and water.wind_m_s; -300 means none");
+    v.number(
+        "common_mode_db", c.common_mode_db, any_level_db,
+        "level of the noise that all elements share, in the beam straight ahead; -300 means none");
+    v.number("tvg_log", c.tvg_log, between(0, 60), "spreading factor k of the TVG k log10 r");
+    v.flag("tvg_absorption", c.tvg_absorption, "TVG compensates absorption");
+    v.number("tvg_from_m", c.tvg_from_m, at_least(0),
+             "range at which TVG starts; at shorter ranges the gain is constant");
+    v.number(
+        "full_scale_db", c.full_scale_db, any_level_db,
+        "echo level after TVG that becomes the largest value of raw/; with `auto` a "
+        "bottom of sand at half of the range has 1 % of its speckle above it, or the mean at a "
+        "third of it if companding is not gamma; less if the noise at range_max_m would else "
+        "be above two thirds");
+    v.choice(
+        "companding", c.companding, compandings,
+        "law that turns an amplitude A into a value of raw/: A^gamma, the decibels of A, or A");
+    v.number("gamma", c.gamma, between(0.1, 2), "exponent of `gamma`");
+    v.number("dynamic_range_db", c.dynamic_range_db, between(10, 200),
+             "decibels between the values 0 and the largest one with `log`");
+    v.number("bits", c.bits, between(4, 16), "bits of raw/; more than 8 make 16-bit files");
+    describe_chain(v, c);
+}
+
+/// Levels are in one unit: all in dB re 1 uPa, or all relative to the source level.
+template <class Visitor>
+void require_one_unit(Visitor& v, const InstrumentConfig& c) {
+    const bool absolute = c.source_level_db && !is_relative_source(*c.source_level_db);
+    v.require(!absolute || !has_relative_level(c.receiver), {"source_level_db", "receiver"},
+              "source_level_db is in dB re 1 uPa, where a noise_db, full_scale_db or "
+              "common_mode_db below 0 makes no sense: give them in dB re 1 uPa or leave them out; "
+              "or give source_level_db: 0, to which they are then relative");
+}
+
+template <class Visitor>
+void describe(Visitor& v, InstrumentConfig& c) {
+    v.number("frequency_hz", c.frequency_hz, between(1e3, 1e7), "frequency of the sound");
+    v.number("source_level_db", c.source_level_db, any_level_db,
+             "source level, re 1 uPa at 1 m; with 0 all levels are relative to it. `auto` is that "
+             "of 100 W of electric power; if another level is below 0 dB, it is 0");
+    v.section("beam", c.beam, "beam pattern");
+    v.section("pulse", c.pulse, "the pulse after compression");
+    v.section("speckle", c.speckle, "interference of the echoes of many scatterers");
+    v.section("receiver", c.receiver, "noise, TVG and the values of raw/");
+    v.choice("usual_water", c.usual_water, std::span(water_contents).subspan(1),
+             "content of the water if water.content is `auto`: the water in which such an "
+             "instrument is used");
+    v.flag("below_bottom", c.below_bottom,
+           "the volume of the sediment echoes behind its surface, as a tail, in place of at it");
+    require_one_unit(v, c);
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,180 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/engine_kind.h"
+#include "input/mission/dataset_names.h"
+#include "input/mission/limits.h"
+#include "input/mission/output_keys.h"
+#include "input/mission/scene_keys.h"
+#include "input/mission/sonar_keys.h"
+#include "input/mission/trajectory_keys.h"
+#include "input/mission/variation_keys.h"
+#include "input/mission/water_keys.h"
+
+// The keys of a mission, each written once, here and in the headers that this one includes: its
+// name, which carries the unit, its default, its limits, its meaning and its checks. A visitor gets
+// every key: the MissionReader fills the value from YAML, the MissionWriter turns it into YAML, and
+// the ReferenceBuilder makes the tables of keys, of which the JSON Schema is made.
+
+namespace sonarsim {
+
+struct AccuracyConfig {
+    double relative_l1 = 0.03;  ///< error goal of the noise-free image
+};
+
+struct OctreeConfig {
+    double leaf_m = 0.02;  ///< edge of the leaves
+};
+
+/// Gives a class to all nodes whose names match a pattern.
+struct ClassConfig {
+    std::string nodes;     ///< `*` stands for any text, `?` for any one byte
+    std::string name;      ///< the class
+    std::string instance;  ///< one instance of all these nodes; "": each is its own
+    Location place = {};
+};
+
+/// The classes that are background: they have neither contrast, shadow nor visible share.
+struct LabelConfig {
+    std::vector<std::string> background{"auto"};  ///< classes that are not objects
+    Location place = {};
+};
+
+struct Mission {
+    std::string name;
+    std::uint64_t seed = 0;
+    WaterConfig water;
+    SceneConfig scene;
+    TrajectoryConfig trajectory;
+    VehicleConfig vehicle;
+    std::vector<SonarConfig> sensors;  ///< in the order of the file
+    AccuracyConfig accuracy;
+    EngineKind engine = EngineKind::automatic;
+    OctreeConfig octree;
+    std::vector<ClassConfig> classes;  ///< in the order of the file; the first match applies
+    LabelConfig labels;
+    OutputConfig output;
+    int variants = 0;              ///< number of datasets to draw; 0: the mission as it stands
+    std::vector<VaryConfig> vary;  ///< rules of what is drawn, in the order of the file
+    Variant variant;               ///< the variant that this mission is
+};
+
+inline constexpr Choice<EngineKind> engine_names[]{{"auto", EngineKind::automatic},
+                                                   {"rays", EngineKind::rays},
+                                                   {"octree", EngineKind::octree},
+                                                   {"slices", EngineKind::slices}};
+
+/// True if a mission may have the name. It names a folder that holds nothing but this mission.
+inline bool is_folder_name(std::string_view name) {
+    return !name.empty() && name != "." && name != ".." && name.size() <= 200 &&
+           name.find('/') == std::string_view::npos && name != checksums_name;
+}
+
+template <class Visitor>
+void describe(Visitor& v, AccuracyConfig& c) {
+    v.number("relative_l1", c.relative_l1, between(1e-4, 0.5),
+             "error goal of the image without noise: the sum of its absolute errors over its sum. "
+             "The sampling is derived from it");
+}
+
+template <class Visitor>
+void describe(Visitor& v, OctreeConfig& c) {
+    // Leaves below a millimetre are finer than any sonar's bins.
+    v.number("leaf_m", c.leaf_m, between(1e-3, 1e3),
+             "edge of the octree's leaves; the octree is the paper's, a baseline");
+}
+
+template <class Visitor>
+void describe(Visitor& v, ClassConfig& c) {
+    v.text("nodes", c.nodes,
+           "names of nodes of the scene; `*` stands for any text and `?` for any one byte");
+    v.text("class", c.name, "class of these nodes");
+    v.text("instance", c.instance,
+           "name of the one instance that these nodes form; without it each node is an instance of "
+           "its own");
+    v.require(!c.nodes.empty() && !c.name.empty(), {},
+              "a rule for classes needs the keys 'nodes' and 'class'");
+}
+
+template <class Visitor>
+void describe(Visitor& v, LabelConfig& c) {
+    v.text("background", c.background,
+           "background classes, which are not objects and have no contrast, shadow or visible "
+           "share. `auto` stands "
+           "for the classes of the nodes that scene.bottom names and for the class of the largest "
+           "surface; `none` for no class");
+    v.require(!c.background.empty(), {"background"},
+              "'background' names classes, auto or none; with [none] all classes are objects");
+}
+
+template <class Visitor>
+void describe(Visitor& v, Mission& c) {
+    v.text("name", c.name, "name of the dataset; default: the name of the mission's file");
+    v.require(is_folder_name(c.name), {"name"},
+              "'name' names a folder: at most 200 bytes, without '/', not SHA256SUMS");
+    v.number("seed", c.seed, any_unsigned, "seed of all random draws; 0 is a seed like any other");
+    v.section("water", c.water, "the water");
+    v.section("scene", c.scene, "what the sonars look at", required);
+    v.section("trajectory", c.trajectory, "path of the vehicle; exactly one of the three forms",
+              required);
+    v.section("vehicle", c.vehicle,
+              "offset of the vehicle from its trajectory, its movements and its navigation");
+    v.require(c.water.layers.empty() || c.scene.water_surface, {"water", "scene"},
+              "water.layers are depths below the water's surface: give its height by "
+              "scene.water_surface");
+    v.require(!c.water.profile || c.scene.water_surface, {"water", "scene"},
+              "water.profile has depths below the water's surface: give its height by "
+              "scene.water_surface");
+    v.named("sensors", c.sensors, "one section per sonar; NAME is its folder in the dataset");
+    const bool is_seen =
+        !c.scene.particles.empty() || (c.scene.water_surface && c.scene.water_surface->scatters);
+    v.require(!is_seen || std::ranges::all_of(c.sensors,
+                                              [](const SonarConfig& s) {
+                                                  return s.model == ModelKind::calibrated;
+                                              }),
+              {"scene", "sensors"},
+              "scene.particles and scene.water_surface.scatters need model: calibrated on all "
+              "sensors");
+    v.require(
+        !is_seen || !c.water.profile, {"scene", "water"},
+        "scene.particles and scene.water_surface.scatters need straight paths of sound: leave "
+        "out water.profile or these keys");
+    v.section("accuracy", c.accuracy, "error goal of the images");
+    v.choice(
+        "engine", c.engine, engine_names,
+        "method that finds the visible surface. `auto` takes the rays for the calibrated model and "
+        "for a sonar with multipath or more than 90 degrees of elevation, where objects move or "
+        "sound bends, and over more than 2^19 triangles; else the slices");
+    v.section("octree", c.octree, "settings of the octree");
+    v.list_of("classes", c.classes, 0,
+              "rules that give nodes of the scene a class, for labels; the first rule that fits a "
+              "node applies");
+    v.section("labels", c.labels, "which classes are background");
+    v.section("output", c.output, "files to write, and their folder");
+    v.number("variants", c.variants, between(0, 1e6),
+             "number of variants of the mission, each a dataset with a seed of its own; 0: none");
+    v.list_of("vary", c.vary, 0, "keys that are drawn at random");
+    const auto is_of_pings = [](const VaryConfig& rule) { return rule.per == VaryPer::ping; };
+    v.require(c.variants > 0 || std::ranges::all_of(c.vary, is_of_pings), {"vary", "variants"},
+              "'vary' needs 'variants', the number of variants to draw, or per: ping in each of "
+              "its rules");
+}
+
+/// True if the water scatters sound back to some sonar.
+inline bool some_water_scatters(const Mission& mission) {
+    const bool is_usual = mission.water.content == WaterContent::automatic;
+    return scatters(mission.water) ||
+           std::ranges::any_of(mission.sensors, [&](const SonarConfig& sensor) {
+               return is_usual && sensor.model == ModelKind::calibrated &&
+                      sensor.instrument.usual_water != WaterContent::none;
+           });
+}
+
+}  // namespace sonarsim

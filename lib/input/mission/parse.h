@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "input/mission/document.h"
+#include "input/mission/mission.h"
+#include "input/mission/sonar_keys.h"
+
+namespace sonarsim {
+
+/// The source of a mission: a file, or its text in memory.
+struct MissionSource {
+    std::filesystem::path file;         ///< in memory the name for messages
+    std::filesystem::path base_folder;  ///< relative paths of the mission start here
+    std::vector<std::string> overrides = {};
+    std::optional<std::string> text = {};  ///< in memory; its lines are not in messages
+};
+
+/// Reads and checks a mission, at most 1 MiB of strict YAML. Paths become absolute and normalised;
+/// relative ones start at the base folder. A mission without a name gets the name of its file, one
+/// without an output folder gets out/<name> below the current directory.
+/// `overrides` are settings "a.b.c=value" that replace or add keys; the last one wins. `sonars` are
+/// the kinds of sonar that a mission may name: sonar_keys() of simulate/sonar/kinds.h. Throws InputError
+/// with file:line:column, or with the override, for anything wrong; also for the mission of a
+/// dataset if `base_folder` is the folder of the dataset and the files of the scene are not there.
+Mission load_mission(const MissionSource& source, SonarKeyTable sonars);
+
+/// The same for a mission in memory. `file_name` is for messages and for the default name.
+Mission parse_mission(std::string_view text, const std::string& file_name,
+                      const std::filesystem::path& base_folder,
+                      std::span<const std::string> overrides, SonarKeyTable sonars);
+
+/// Reads the document of a mission and applies the overrides. Checks nothing else.
+YamlNode read_mission_document(const MissionSource& source);
+
+/// Reads the mission in a document. `file_name` is for the default name.
+Mission parse_mission(const YamlNode& root, const std::string& file_name,
+                      const std::filesystem::path& base_folder, SonarKeyTable sonars);
+
+}  // namespace sonarsim

@@ -1,0 +1,201 @@
+#include "input/mission/ping_draws.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "core/error.h"
+#include "core/random.h"
+#include "core/text.h"
+#include "input/mission/draw_value.h"
+#include "input/mission/key_visitor.h"
+#include "input/mission/sonar_keys.h"
+#include "input/mission/trajectory_keys.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// A number that may be drawn for pings.
+struct VaryingNumber {
+    std::string key;
+    double* value;
+    Limits limits;
+};
+
+/// The visitor that lists the numbers of sections.
+struct NumberList : KeyVisitor<NumberList> {
+    std::string prefix;  ///< before the keys, with a dot at its end
+    std::vector<VaryingNumber> list;
+
+    void value(const char* key, double& value, const NumberType& type, const char* /*meaning*/,
+               Presence) {
+        list.push_back({prefix + key, &value, type.limits});
+    }
+    template <std::size_t N>
+    void value(const char* key, std::array<double, N>& values, const ArrayType& type,
+               const char* /*meaning*/, Presence) {
+        for (std::size_t k = 0; k < N; ++k)
+            list.push_back({prefix + key + "." + std::to_string(k), &values[k], type.limits});
+    }
+    // Other keys do not vary for pings.
+    template <class T, class Type>
+    void value(const char*, const T&, const Type&, const char*, Presence) const {}
+    template <class T>
+    void section(const char*, T&, const char*) const {}
+
+    template <class T>
+    void add(const std::string& section, T& values) {
+        prefix = section;
+        describe(*this, values);
+    }
+
+    /// The number with this key; null if there is none.
+    const VaryingNumber* find(std::string_view key) const {
+        const auto found = std::ranges::find(list, key, &VaryingNumber::key);
+        return found == list.end() ? nullptr : &*found;
+    }
+};
+
+constexpr const char* vehicle_section = "vehicle.";
+
+std::string section_of(std::string_view sensor) {
+    return "sensors." + std::string(sensor) + ".";
+}
+
+/// The numbers of a sensor that may be drawn for pings. Their keys begin with `section`.
+NumberList numbers_of(SonarConfig& sensor, const std::string& section) {
+    NumberList numbers;
+    numbers.add(section + "mount.", sensor.mount);
+    if (sensor.model != ModelKind::paper) return numbers;
+    numbers.add(section + "noise.", sensor.noise);
+    // A side-scan sonar has no range noise.
+    if (sensor.kind == SonarKind::sidescan) {
+        std::erase_if(numbers.list, [&](const VaryingNumber& one) {
+            return one.value == &sensor.noise.range_lambda_m;
+        });
+    }
+    numbers.add(section + "streaks.", sensor.streaks);
+    return numbers;
+}
+
+NumberList numbers_of(VehicleConfig& vehicle) {
+    NumberList numbers;
+    numbers.add(vehicle_section, vehicle);
+    return numbers;
+}
+
+/// A rule that is drawn for pings, and its index in `vary`.
+struct PingRule {
+    const VaryConfig& rule;
+    std::uint32_t index;
+
+    std::string draw(const Mission& mission, std::uint32_t pose) const {
+        return draw_value(rule, mission.seed, index, pose, Stream::ping_variation);
+    }
+};
+
+/// The rules whose key begins with `section`.
+std::vector<PingRule> rules_of(const Mission& mission, std::string_view section) {
+    std::vector<PingRule> rules;
+    for (std::size_t k = 0; k < mission.vary.size(); ++k) {
+        const VaryConfig& rule = mission.vary[k];
+        if (rule.per == VaryPer::ping && rule.key.starts_with(section))
+            rules.push_back({rule, static_cast<std::uint32_t>(k)});
+    }
+    return rules;
+}
+
+void draw_section(const Mission& mission, std::string_view section, std::uint32_t pose,
+                  const NumberList& numbers) {
+    for (const PingRule& one : rules_of(mission, section))
+        *numbers.find(one.rule.key)->value = *parse_number(one.draw(mission, pose));
+}
+
+/// The limits of a rule's draws, or all of its choices, as YAML.
+std::vector<std::string> extremes_of(const VaryConfig& rule) {
+    for (const auto& range : {rule.uniform, rule.log_uniform, rule.whole, rule.within}) {
+        if (range) return {number_text((*range)[0]), number_text((*range)[1])};
+    }
+    return rule.choice.items;
+}
+
+/// The limits of the number that a key names; none if it cannot be drawn for pings.
+std::optional<Limits> limits_of(const Mission& mission, const std::string& key) {
+    VehicleConfig vehicle;
+    const NumberList of_vehicle = numbers_of(vehicle);
+    if (const VaryingNumber* const found = of_vehicle.find(key)) return found->limits;
+    for (SonarConfig sensor : mission.sensors) {
+        const NumberList numbers = numbers_of(sensor, section_of(sensor.name));
+        if (const VaryingNumber* const found = numbers.find(key)) return found->limits;
+    }
+    return std::nullopt;
+}
+
+void check_rule(const Mission& mission, const VaryConfig& rule) {
+    constexpr double min_share = 0.05;
+    const auto refuse = [&](const std::string& what) { throw InputError(rule.place, what); };
+    const std::optional<Limits> limits = limits_of(mission, rule.key);
+    if (!limits) {
+        std::string keys;
+        VehicleConfig vehicle;
+        SonarConfig sensor;
+        for (const NumberList& numbers : {numbers_of(sensor, ""), numbers_of(vehicle)}) {
+            for (const VaryingNumber& number : numbers.list)
+                keys += (keys.empty() ? "" : ", ") + number.key;
+        }
+        refuse("'" + printable(rule.key) +
+               "' cannot be drawn for every ping; write per: variant, or one of the keys that can, "
+               "the first of them below sensors.NAME: " +
+               keys);
+    }
+    for (const std::string& text : extremes_of(rule)) {
+        const std::optional<double> value = parse_number(text);
+        if (!value) refuse("'choice' for every ping takes numbers for '" + rule.key + "'");
+        const std::string fault = fault_of(*value, *limits);
+        if (!fault.empty()) refuse("'" + rule.key + "' must be " + fault + ", not " + text);
+    }
+    if (share_within(rule) < min_share) {
+        refuse("'within' holds less than 5 % of the normal draws of '" + rule.key +
+               "'; make it wider");
+    }
+}
+
+}  // namespace
+
+void check_ping_draws(const Mission& mission) {
+    ErrorList errors;
+    for (const PingRule& one : rules_of(mission, ""))
+        errors.attempt([&] { check_rule(mission, one.rule); });
+    errors.raise();
+}
+
+bool varies_by_ping(const Mission& mission, std::string_view sensor) {
+    return !rules_of(mission, section_of(sensor)).empty();
+}
+
+bool vehicle_varies_by_ping(const Mission& mission) {
+    return !rules_of(mission, vehicle_section).empty();
+}
+
+void draw_for_ping(const Mission& mission, std::uint32_t pose, SonarConfig& sensor) {
+    const std::string section = section_of(sensor.name);
+    draw_section(mission, section, pose, numbers_of(sensor, section));
+}
+
+VehicleConfig vehicle_at(const Mission& mission, std::uint32_t pose) {
+    VehicleConfig vehicle = mission.vehicle;
+    draw_section(mission, vehicle_section, pose, numbers_of(vehicle));
+    return vehicle;
+}
+
+DrawnValues drawn_for_ping(const Mission& mission, std::string_view sensor, std::uint32_t pose) {
+    DrawnValues drawn;
+    for (const std::string& section : {std::string(vehicle_section), section_of(sensor)}) {
+        for (const PingRule& one : rules_of(mission, section))
+            drawn.emplace_back(one.rule.key, one.draw(mission, pose));
+    }
+    return drawn;
+}
+
+}  // namespace sonarsim

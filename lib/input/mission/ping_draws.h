@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "input/mission/mission.h"
+
+// The numbers that `vary` draws for every ping; neither the scene nor the view depends on them. A
+// draw is a function of the seed, the index of its rule in `vary` and the pose.
+
+namespace sonarsim {
+
+/// Throws InputError at the place of each rule whose key cannot be drawn for every ping, or that
+/// may draw a number which the key cannot have.
+void check_ping_draws(const Mission& mission);
+
+/// True if any key of a sensor is drawn for every ping.
+bool varies_by_ping(const Mission& mission, std::string_view sensor);
+
+/// True if any key of the vehicle is drawn for every ping.
+bool vehicle_varies_by_ping(const Mission& mission);
+
+/// Draws the varying keys of a sensor at a pose.
+void draw_for_ping(const Mission& mission, std::uint32_t pose, SonarConfig& sensor);
+
+/// The vehicle's offset from a pose.
+VehicleConfig vehicle_at(const Mission& mission, std::uint32_t pose);
+
+/// The values drawn for a ping of a sensor, with those of the vehicle.
+DrawnValues drawn_for_ping(const Mission& mission, std::string_view sensor, std::uint32_t pose);
+
+}  // namespace sonarsim

@@ -1,0 +1,142 @@
+#include "input/mission/preset.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "core/file.h"
+#include "core/module.h"
+#include "core/text.h"
+#include "input/mission/value_types.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr std::size_t largest_preset = std::size_t{1} << 20;
+
+constexpr const char* preset_key = "preset";
+
+/// Adds the keys of `preset` that `section` lacks.
+void fill_in(YamlNode& section, const YamlNode& preset) {
+    for (const YamlNode& item : preset.items) {
+        YamlNode* const own = section.find(item.key);
+        if (own == nullptr) {
+            section.items.push_back(item);
+        } else if (own->kind == YamlNode::Kind::map && item.kind == YamlNode::Kind::map) {
+            fill_in(*own, item);
+        }
+    }
+}
+
+/// The folders with files that come with the program: share/ of an installation, or the checkout
+/// that holds the build folder. The module of Python lies three folders below a checkout, or four
+/// below the prefix of an installation.
+std::vector<std::filesystem::path> shipped_folders() {
+    std::vector<std::filesystem::path> out;
+    const auto add = [&](const std::filesystem::path& above) {
+        out.insert(out.end(), {above / "share/sonarsim/configs", above / "configs"});
+    };
+    std::filesystem::path above = module_of_python().parent_path();
+    for (int level = 0; !above.empty() && level < 4; ++level) {
+        above = above.parent_path();
+        add(above);
+    }
+    std::error_code unknown;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", unknown);
+    if (!unknown) add(program.parent_path().parent_path());
+    return out;
+}
+
+/// The path of a preset that comes with the program, such as "sensors/NAME.yaml". Empty if there is
+/// none.
+std::filesystem::path shipped_preset(const std::filesystem::path& name) {
+    std::error_code unknown;
+    if (name.is_absolute()) return {};
+    for (const std::filesystem::path& folder : shipped_folders()) {
+        std::filesystem::path path = folder / name;
+        if (std::filesystem::is_regular_file(path, unknown)) return path;
+    }
+    return {};
+}
+
+YamlNode read_preset(const YamlNode& name, const std::filesystem::path& base_folder,
+                     const std::string& kind) {
+    if (name.kind != YamlNode::Kind::scalar || name.text.empty()) {
+        throw InputError(name.place.location(), "'preset' must be the path of a YAML file");
+    }
+    const std::filesystem::path path = preset_file(name.text, base_folder);
+    if (path.empty()) {
+        const auto file = std::filesystem::absolute(base_folder / name.text).lexically_normal();
+        throw InputError(name.place.location(),
+                         "there is no preset " + in_quotes(file.string()) +
+                             ", and none of this name came with the program" +
+                             shipped_hint(name.text, kind) + ", written as " + kind + "/NAME.yaml");
+    }
+    YamlNode preset = read_document(read_file(path, largest_preset), path.string());
+    if (preset.kind != YamlNode::Kind::map) {
+        throw InputError(Location{path.string()}, "a preset is a section of keys");
+    }
+    if (const YamlNode* const nested = preset.find(preset_key)) {
+        throw InputError(nested->key_place.location(), "a preset cannot name a preset");
+    }
+    return preset;
+}
+
+/// Fills in the keys of the file that the key `preset` of a section names, if there is one.
+void fill_in_section(YamlNode& section, const std::filesystem::path& base_folder,
+                     const std::string& kind) {
+    if (section.kind != YamlNode::Kind::map) return;
+    const YamlNode* const name = section.find(preset_key);
+    if (name == nullptr) return;
+    const YamlNode preset = read_preset(*name, base_folder, kind);
+    std::erase_if(section.items, [](const YamlNode& item) { return item.key == preset_key; });
+    section.implied = false;
+    fill_in(section, preset);
+}
+
+}  // namespace
+
+std::filesystem::path preset_file(const std::filesystem::path& name,
+                                  const std::filesystem::path& base_folder) {
+    auto path = std::filesystem::absolute(base_folder / name).lexically_normal();
+    return std::filesystem::is_regular_file(path) ? path : shipped_preset(name);
+}
+
+std::vector<std::string> shipped_presets(const std::string& kind) {
+    std::vector<std::string> names;
+    std::error_code unknown;
+    for (const std::filesystem::path& folder : shipped_folders()) {
+        for (const auto& file : std::filesystem::directory_iterator(folder / kind, unknown)) {
+            if (file.path().extension() == ".yaml") names.push_back(file.path().stem().string());
+        }
+    }
+    std::ranges::sort(names);
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    return names;
+}
+
+std::string shipped_hint(std::string name, const std::string& kind) {
+    std::ranges::replace(name, '\\', '/');
+    const std::vector<std::string> names = shipped_presets(kind);
+    const std::string stem = std::filesystem::path(name).stem().string();
+    if (std::ranges::find(names, stem) != names.end())
+        return " (did you mean '" + kind + "/" + stem + ".yaml'?)";
+    return did_you_mean(stem, names) + "; there are: " + listed(names);
+}
+
+void fill_in_presets(YamlNode& mission, const std::filesystem::path& base_folder) {
+    const auto section_of = [](YamlNode* node, const char* key) -> YamlNode* {
+        return node != nullptr && node->kind == YamlNode::Kind::map ? node->find(key) : nullptr;
+    };
+    if (YamlNode* const seabed = section_of(section_of(&mission, "scene"), "seabed"))
+        fill_in_section(*seabed, base_folder, seabed_presets);
+    YamlNode* const sensors = section_of(&mission, "sensors");
+    if (sensors == nullptr || sensors->kind != YamlNode::Kind::map) return;
+    for (YamlNode& sensor : sensors->items)
+        fill_in_section(sensor, base_folder, sensor_presets);
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "input/mission/document.h"
+
+namespace sonarsim {
+
+/// The folders of the presets that come with the program.
+inline constexpr const char* sensor_presets = "sensors";
+inline constexpr const char* seabed_presets = "seabeds";
+
+/// The presets in one of these folders, as "oculus_m750d_750khz", sorted.
+std::vector<std::string> shipped_presets(const std::string& kind = sensor_presets);
+
+/// The end of a message about an unknown preset: the nearest name, and all of them. `name` may be
+/// a path.
+std::string shipped_hint(std::string name, const std::string& kind = sensor_presets);
+
+/// The file that the path of a preset means: one below `base_folder`, else one that came with the
+/// program. Empty if there is none.
+std::filesystem::path preset_file(const std::filesystem::path& name,
+                                  const std::filesystem::path& base_folder);
+
+/// Fills the sections `sensors.NAME` and `scene.seabed` with the keys of the file that their key
+/// `preset` names, and removes that key. Keys that a section already has stay as they are. Relative
+/// paths start at `base_folder`. InputError for a file that cannot be read, is not a section or
+/// names a preset itself.
+void fill_in_presets(YamlNode& mission, const std::filesystem::path& base_folder);
+
+}  // namespace sonarsim

@@ -1,0 +1,179 @@
+#include "input/mission/reader.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "core/text.h"
+#include "input/mission/dataset_names.h"
+#include "input/mission/removed_keys.h"
+
+namespace sonarsim {
+
+namespace {
+
+bool is_name(std::string_view text) {
+    constexpr std::string_view allowed =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+    return !text.empty() && text.size() <= 64 &&
+           text.find_first_not_of(allowed) == std::string_view::npos;
+}
+
+/// The cure for a key that is known, but not in this section; "" for any other.
+std::string misplaced(const std::string& key, const std::vector<std::string>& known) {
+    const auto knows = [&](const char* name) {
+        return std::ranges::find(known, name) != known.end();
+    };
+    if (knows("sensors")) {
+        constexpr std::array of_sensors{"instrument", "model",       "mount",       "multipath",
+                                        "noise",      "range_max_m", "range_min_m", "streaks"};
+        if (std::ranges::find(of_sensors, key) != of_sensors.end())
+            return "; it belongs to a sensor: sensors.NAME." + key;
+    }
+    if (!knows("range_max_m")) return "";
+    if (key == "instrument") return "; it needs model: calibrated";
+    if (key == "noise" || key == "streaks") return "; it needs model: paper";
+    if (key == "azimuth_bins" || key == "azimuth_deg" || key == "elevation_deg")
+        return "; this kind of sonar has none, leave it out";
+    return "";
+}
+
+}  // namespace
+
+MissionReader::MissionReader(const YamlNode& node, std::string name,
+                             const std::filesystem::path& base_folder, SonarKeyTable sonars,
+                             ErrorList& errors)
+    : node_(node),
+      name_(std::move(name)),
+      base_folder_(base_folder),
+      sonars_(sonars),
+      errors_(errors) {
+    if (node.kind != YamlNode::Kind::map) refuse_type(node, name_, "a section of keys");
+}
+
+const YamlNode* MissionReader::find(const char* key, Presence presence) {
+    known_.emplace_back(key);
+    const YamlNode* found_node = node_.find(key);
+    if (found_node == nullptr && presence == Presence::required) {
+        // The key may be misspelt.
+        for (const YamlNode& item : node_.items) {
+            const std::vector<std::string> candidate{key};
+            const std::string hint = did_you_mean(item.key, candidate);
+            if (hint.empty()) continue;
+            throw InputError(item.key_place.location(),
+                             "unknown key " + in_quotes(item.key) + hint);
+        }
+        refuse(node_, "'" + name_ + "' lacks the key '" + key + "'");
+    }
+    return found_node;
+}
+
+const SonarKeys& MissionReader::one_of(const char* key, SonarConfig& value,
+                                       const char* /*meaning*/) {
+    std::vector<std::string> names;
+    for (const SonarKeys& one : sonars_)
+        names.emplace_back(one.name);
+    const SonarKeys& keys = sonars_[index_of(*find(key, required), key, names)];
+    std::string name = std::move(value.name);
+    value = keys.defaults;
+    value.name = std::move(name);
+    return keys;
+}
+
+std::size_t MissionReader::index_of_present(const std::vector<std::string>& keys) const {
+    std::vector<std::string> present;
+    std::string hint;
+    for (const YamlNode& item : node_.items) {
+        if (std::ranges::find(keys, item.key) != keys.end()) present.push_back(item.key);
+        if (hint.empty()) hint = did_you_mean(item.key, keys);
+    }
+    if (present.empty()) {
+        refuse(node_, "'" + name_ + "' needs one of the keys: " + listed(keys) + hint);
+    }
+    if (present.size() > 1) {
+        throw InputError(node_.find(present[1])->key_place.location(),
+                         "'" + name_ + "' takes one of the keys: " + listed(keys) + "; here are " +
+                             listed(present));
+    }
+    return static_cast<std::size_t>(std::ranges::find(keys, present[0]) - keys.begin());
+}
+
+std::span<const YamlNode> MissionReader::list_items(const char* key, std::size_t fewest) {
+    const Presence presence = fewest > 0 ? Presence::required : Presence::optional;
+    const YamlNode* const present = find(key, presence);
+    if (present == nullptr) return {};
+    const YamlNode& node = *present;
+    if (node.kind != YamlNode::Kind::list) refuse_type(node, key, "a list");
+    if (node.items.size() < fewest) {
+        refuse(node, "'" + std::string(key) + "' must have at least " + std::to_string(fewest) +
+                         " items, not " + std::to_string(node.items.size()));
+    }
+    return node.items;
+}
+
+const std::vector<YamlNode>& MissionReader::named_items(const char* key) {
+    const YamlNode& node = *find(key, Presence::required);
+    if (node.kind != YamlNode::Kind::map) refuse_type(node, key, "a section of names");
+    if (node.items.empty()) refuse(node, "'" + std::string(key) + "' must not be empty");
+    std::vector<std::string> names;
+    for (const YamlNode& item : node.items) {
+        if (item.implied) {
+            const std::string hint = did_you_mean(item.key, names);
+            refuse(item, "there is no " + in_quotes(item.key) + " in '" + key + "'" +
+                             (hint.empty() ? "; there are: " + listed(names) : hint));
+        }
+        if (!is_name(item.key)) {
+            throw InputError(
+                item.key_place.location(),
+                "the name " + in_quotes(item.key) + " must be 1 to 64 letters, digits, '_' or '-'");
+        }
+        if (is_taken_by_dataset(item.key)) {
+            throw InputError(item.key_place.location(),
+                             "the name " + in_quotes(item.key) +
+                                 " is that of a file or folder of the dataset; take another");
+        }
+        names.push_back(item.key);
+    }
+    return node.items;
+}
+
+void MissionReader::require(bool holds, std::initializer_list<const char*> keys,
+                            const char* message) {
+    if (holds) return;
+    const auto is_faulty = [&](const char* key) {
+        return std::ranges::find(faulty_, key) != faulty_.end();
+    };
+    if (std::ranges::any_of(keys, is_faulty)) return;
+    const YamlNode* last = nullptr;
+    // An override has no line and counts as written after the file.
+    const auto after = [](const YamlPlace& a, const YamlPlace& b) {
+        if (a.line == 0 || b.line == 0) return a.line == 0;
+        return std::pair(a.line, a.column) > std::pair(b.line, b.column);
+    };
+    for (const char* key : keys) {
+        const YamlNode* node = node_.find(key);
+        if (node != nullptr && (last == nullptr || after(node->place, last->place))) last = node;
+    }
+    errors_.attempt(
+        [&] { refuse(last != nullptr ? *last : node_, message + values_text(numbers_, keys)); });
+    faulty_.insert(faulty_.end(), keys.begin(), keys.end());
+}
+
+void MissionReader::finish() {
+    for (const YamlNode& item : node_.items) {
+        if (std::ranges::find(known_, item.key) != known_.end()) continue;
+        const std::string removed =
+            instead_of_removed(std::string_view(name_).substr(0, name_.find('.')), item.key);
+        if (!removed.empty()) {
+            errors_.add(InputError(item.key_place.location(), removed));
+            continue;
+        }
+        std::string hint = misplaced(item.key, known_);
+        if (hint.empty()) hint = did_you_mean(item.key, known_);
+        errors_.add(InputError(item.key_place.location(),
+                               "unknown key " + in_quotes(item.key) +
+                                   (hint.empty() ? "; known here: " + listed(known_) : hint)));
+    }
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,177 @@
+#include "input/mission/reference.h"
+
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+#include <iterator>
+#include <string_view>
+#include <variant>
+
+#include "input/mission/key_visitor.h"
+#include "input/mission/mission.h"
+
+namespace sonarsim {
+
+namespace {
+
+std::string unit_of(std::string_view key) {
+    using Unit = std::pair<std::string_view, const char*>;
+    // Longer endings first: a speed ends in _m_s and a length in _m.
+    constexpr std::array units{Unit{"_kg_m3", "kg/m^3"}, Unit{"_db", "dB"},   Unit{"_rad", "rad"},
+                               Unit{"_c", "Celsius"},    Unit{"_psu", "psu"}, Unit{"_m_s", "m/s"},
+                               Unit{"_deg", "deg"},      Unit{"_hz", "Hz"},   Unit{"_mb", "MB"},
+                               Unit{"_px", "pixels"},    Unit{"_m", "m"},     Unit{"_s", "s"},
+                               Unit{"_w", "W"}};
+    for (const auto& [ending, unit] : units) {
+        if (key.ends_with(ending)) return unit;
+    }
+    return "";
+}
+
+/// Adds the values that are not in `all`.
+void add_new(const std::vector<std::string>& values, std::vector<std::string>& all) {
+    for (const std::string& value : values) {
+        if (std::ranges::find(all, value) == all.end()) all.push_back(value);
+    }
+}
+
+/// The visitor that lists the keys of a section and of those below it. A sonar is visited once for
+/// each kind and model, a trajectory once for each form.
+class ReferenceBuilder : public KeyVisitor<ReferenceBuilder> {
+  public:
+    ReferenceBuilder(SonarKeyTable sonars, std::vector<SectionReference>& sections)
+        : sonars_(sonars), sections_(sections) {}
+
+    template <class T, class Type>
+    void value(const char* key, const T& value, const Type& type, const char* meaning,
+               Presence presence) {
+        const TypeNote note = type.note(value);
+        const std::string yaml = yaml_of(type, value);
+        add(key, note, meaning, presence == required, yaml.empty() ? note.empty : yaml);
+    }
+
+    template <class T>
+    void section(const char* key, T& value, const char* meaning,
+                 Presence presence = Presence::optional) {
+        add(key, {"section"}, meaning, presence == required);
+        below(key).visit(value);
+    }
+    template <class... T>
+    void section(const char* key, std::variant<T...>& value, const char* meaning,
+                 Presence presence = Presence::optional) {
+        add(key, {"section"}, meaning, presence == required);
+        if (!path_.empty()) return;
+        ((value.template emplace<T>(), below(key).visit(value)), ...);
+    }
+    template <class T>
+    void section(const char* key, std::optional<T>&, const char* meaning) {
+        T value;
+        section(key, value, meaning);
+    }
+
+    template <class T>
+    void list_of(const char* key, std::vector<T>&, std::size_t fewest, const char* meaning) {
+        const bool needed = fewest > 0;
+        add(key, {needed ? "list of " + std::to_string(fewest) + " or more" : "list of sections"},
+            meaning, needed, "[]");
+        T item;
+        below(key + std::string(".0")).visit(item);
+    }
+
+    void named(const char* key, std::vector<SonarConfig>&, const char* meaning) {
+        add(key, {"section per name"}, meaning, true);
+        for (const SonarKeys& kind : sonars_) {
+            for (const Choice<ModelKind>& model : echo_models) {
+                SonarConfig sonar = kind.defaults;
+                sonar.model = model.value;
+                ReferenceBuilder builder = below(key + std::string(".NAME"));
+                builder.kind_ = kind.name;
+                builder.sonar_ = builder.kind_ + ", " + model.name;
+                builder.visit(sonar);
+            }
+        }
+    }
+
+    /// Each form requires a key of its own.
+    template <class... T>
+    void one_of(const std::variant<T...>& value,
+                const std::array<const char*, sizeof...(T)>& keys) {
+        form_ = keys[value.index()];
+    }
+
+    const SonarKeys& one_of(const char* key, const SonarConfig& value, const char* meaning) {
+        const auto keys = std::ranges::find(sonars_, value.kind, &SonarKeys::kind);
+        add(key, {"choice", {}, {std::string(keys->name)}}, meaning, true);
+        return *keys;
+    }
+
+    void require(bool, std::initializer_list<const char*>, const char* message) {
+        add_new({message}, here().checks);
+    }
+
+    template <class T>
+    void visit(T& value) {
+        describe(*this, value);
+    }
+
+  private:
+    ReferenceBuilder below(const std::string& key) const {
+        ReferenceBuilder builder = *this;
+        builder.path_ = path_.empty() ? key : path_ + "." + key;
+        builder.form_.clear();
+        builder.last_key_.clear();
+        return builder;
+    }
+
+    SectionReference& here() {
+        const auto found = std::ranges::find_if(sections_, [&](const SectionReference& one) {
+            return one.path == path_ && one.form == form_;
+        });
+        if (found != sections_.end()) return *found;
+        return sections_.emplace_back(SectionReference{path_, form_, {}, {}});
+    }
+
+    void add(const char* name, const TypeNote& note, const char* meaning, bool needed,
+             const std::string& default_text = "") {
+        std::vector<KeyReference>& keys = here().keys;
+        auto row = std::ranges::find(keys, name, &KeyReference::name);
+        if (row == keys.end()) {
+            // A key that only a later kind of sonar has is inserted in the order of that kind.
+            const auto before = std::ranges::find(keys, last_key_, &KeyReference::name);
+            row = keys.insert(before == keys.end() ? before : std::next(before),
+                              KeyReference{.name = name,
+                                           .type = note.name,
+                                           .unit = unit_of(name),
+                                           .required = needed,
+                                           .defaults = {},
+                                           .limits = note.limits,
+                                           .choices = {},
+                                           .meaning = meaning,
+                                           .sonars = {}});
+        }
+        add_new(note.choices, row->choices);
+        add_new({sonar_}, row->sonars);
+        last_key_ = name;
+        // Both models of a kind have the same defaults.
+        const bool known =
+            std::ranges::any_of(row->defaults, [&](const auto& one) { return one.first == kind_; });
+        if (!needed && !default_text.empty() && !known)
+            row->defaults.emplace_back(kind_, default_text);
+    }
+
+    SonarKeyTable sonars_;
+    std::vector<SectionReference>& sections_;
+    std::string path_, form_, last_key_;
+    std::string kind_, sonar_;  ///< the visited sonar
+};
+
+}  // namespace
+
+std::vector<SectionReference> mission_reference(SonarKeyTable sonars) {
+    std::vector<SectionReference> sections;
+    Mission mission;
+    ReferenceBuilder(sonars, sections).visit(mission);
+    return sections;
+}
+
+}  // namespace sonarsim

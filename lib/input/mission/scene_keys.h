@@ -1,0 +1,260 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "input/mission/ground_map_keys.h"
+#include "input/mission/limits.h"
+#include "input/mission/particles_keys.h"
+#include "input/mission/seabed_keys.h"
+#include "input/mission/trajectory_keys.h"
+
+// The keys of the scene, with their defaults and their descriptions as in mission.h.
+
+namespace sonarsim {
+
+enum class LengthUnit { m, mm, cm, km, inch, foot };
+enum class UpAxis { y, z };
+
+/// Options for reading a file of a mesh.
+struct MeshConfig {
+    LengthUnit units = LengthUnit::m;
+    UpAxis up = UpAxis::y;
+    std::string material;  ///< for all triangles; "": the file's materials
+
+    bool operator==(const MeshConfig&) const = default;
+};
+
+enum class ObjectPlace { free, on_bottom };
+
+/// A file that is placed in the scene.
+struct ObjectConfig {
+    std::string name;        ///< name of the instance that all nodes form; "": each is its own
+    std::string class_name;  ///< "": the class in the file
+    std::filesystem::path file;
+    MeshConfig mesh;
+    std::array<double, 3> position_m{};  ///< the file's origin in the world
+    std::array<double, 3> rpy_deg{};
+    double scale = 1.0;
+    ObjectPlace place_on = ObjectPlace::free;
+    double bury_m = 0.0;  ///< burial depth of an object on the bottom
+    bool align = false;   ///< upright on the bottom's slope
+    std::optional<TrajectoryConfig> trajectory;
+    Location place = {};
+};
+
+/// Objects placed on the bottom at random. Pairs are limits of uniform draws.
+struct ScatterConfig {
+    std::string name;  ///< the objects are NAME_1, NAME_2, ...
+    std::string class_name;
+    std::vector<std::filesystem::path> files;  ///< all equally likely
+    MeshConfig mesh;
+    std::array<double, 2> count{1, 1};
+    std::array<double, 2> area_min_m{};  ///< x, y
+    std::array<double, 2> area_max_m{};
+    std::array<double, 2> roll_deg{};
+    std::array<double, 2> pitch_deg{};
+    std::array<double, 2> yaw_deg{0, 360};
+    std::array<double, 2> scale{1, 1};
+    std::array<double, 2> bury_m{};
+    double spacing_m = 0.0;  ///< least distance between objects, seen from above
+    bool align = false;
+    Location place = {};
+};
+
+/// An image whose pixels are heights, which becomes the bottom.
+struct HeightmapConfig : AppliedMapConfig {
+    double height_scale = 1.0;  ///< metres of a step of the pixels' values
+    double height_offset_m = 0.0;
+    std::string material;
+    std::string class_name;
+};
+
+/// The instance that a heightmap makes.
+inline constexpr const char* heightmap_instance = "heightmap";
+
+/// The surface of the water, which reflects sound from below.
+struct WaterSurfaceConfig {
+    double height_m = 0.0;
+    double roughness = 0.0;  ///< share of the sound that is not reflected specularly
+    bool scatters = false;   ///< scatters sound back, by the speed of the wind
+};
+
+struct SceneConfig {
+    std::filesystem::path file;            ///< .gltf or .glb; "": objects alone make the scene
+    std::filesystem::path materials;       ///< CSV
+    std::string material_default = {};     ///< for surfaces without a known material; "": an error
+    MeshConfig mesh = {};                  ///< options for `file`
+    std::vector<std::string> bottom = {};  ///< patterns of the nodes of `file` that objects rest on
+    std::optional<HeightmapConfig> heightmap = {};
+    std::optional<SedimentMapConfig> sediment_map = {};
+    std::optional<AppliedMapConfig> backscatter_map = {};
+    std::optional<SeabedConfig> seabed = {};
+    std::vector<ObjectConfig> objects = {};
+    std::vector<ScatterConfig> scatter = {};
+    std::vector<ParticlesConfig> particles = {};
+    std::optional<WaterSurfaceConfig> water_surface = {};
+    Location place = {};
+};
+
+inline constexpr Choice<LengthUnit> length_units[]{
+    {"m", LengthUnit::m},   {"mm", LengthUnit::mm},   {"cm", LengthUnit::cm},
+    {"km", LengthUnit::km}, {"in", LengthUnit::inch}, {"ft", LengthUnit::foot}};
+inline constexpr Choice<UpAxis> up_axes[]{{"y", UpAxis::y}, {"z", UpAxis::z}};
+inline constexpr Choice<ObjectPlace> object_places[]{{"free", ObjectPlace::free},
+                                                     {"on_bottom", ObjectPlace::on_bottom}};
+
+/// The largest factor by which an object is enlarged or made smaller.
+inline constexpr double largest_scale = 1e6;
+
+template <class Visitor>
+void describe_mesh(Visitor& v, MeshConfig& c) {
+    v.choice("units", c.units, length_units, "unit of the file's lengths");
+    v.choice(
+        "up", c.up, up_axes,
+        "axis of the file that points up; glTF says y, and STL, PLY and OBJ files often have z");
+}
+
+template <class Visitor>
+void describe(Visitor& v, ObjectConfig& c) {
+    v.text("name", c.name,
+           "name of the one instance that all nodes of the file form; without it each node is an "
+           "instance of its own");
+    v.path("file", c.file, "a .glb, .gltf, .obj, .stl or .ply file, which several objects may use",
+           required);
+    v.text("class", c.class_name,
+           "class of the object, for labels; default: the class in the file");
+    v.array("position_m", c.position_m, any_position_m,
+            "position of the file's origin in the world; an object on the bottom uses x and y "
+            "only; for a moving object it is relative to the trajectory");
+    v.array("rpy_deg", c.rpy_deg, any_angle_deg, "roll, pitch and yaw of the object");
+    v.number("scale", c.scale, {1.0 / largest_scale, largest_scale},
+             "factor that enlarges the object");
+    v.text("material", c.mesh.material,
+           "material of the whole object; default: the file's materials");
+    describe_mesh(v, c.mesh);
+    v.choice("place", c.place_on, object_places,
+             "`on_bottom` lowers or raises the object until it touches the bottom");
+    v.number("bury_m", c.bury_m, any_position_m,
+             "depth to which an object on the bottom is buried; a negative one raises it above the "
+             "bottom");
+    v.flag("align", c.align, "an object on the bottom stands upright on the slope below it");
+    v.section("trajectory", c.trajectory,
+              "trajectory of a moving object, written like the vehicle's. Waypoints and a "
+              "lawnmower begin with the first ping; a file has its own times");
+    v.require(c.place_on == ObjectPlace::on_bottom || (c.bury_m == 0.0 && !c.align),
+              {"place", "bury_m", "align"}, "bury_m and align need place: on_bottom");
+    v.require(!c.trajectory || c.place_on == ObjectPlace::free, {"place", "trajectory"},
+              "an object that moves cannot rest on the bottom: its trajectory says where it is");
+    v.require(!c.trajectory || !c.name.empty(), {"trajectory"},
+              "an object that moves needs a name, for its poses in the metadata");
+}
+
+template <class Visitor>
+void describe(Visitor& v, ScatterConfig& c) {
+    v.text("name", c.name, "the objects are the instances NAME_1, NAME_2 and so on", required);
+    v.path("files", c.files,
+           "a file of a mesh as in `objects`, or a list of them, each equally likely", required);
+    v.text("class", c.class_name, "class of the objects, for labels; default: NAME");
+    v.number("count", c.count, {0, 1e5}, "number of objects");
+    v.array("area_min_m", c.area_min_m, any_position_m,
+            "corner of the area with the least x and y; objects lie wholly within", required);
+    v.array("area_max_m", c.area_max_m, any_position_m,
+            "corner of the area with the largest x and y", required);
+    v.number("yaw_deg", c.yaw_deg, any_angle_deg, "heading of an object");
+    v.number("roll_deg", c.roll_deg, any_angle_deg, "roll of an object");
+    v.number("pitch_deg", c.pitch_deg, any_angle_deg, "pitch of an object");
+    v.number("scale", c.scale, {1.0 / largest_scale, largest_scale},
+             "factor that enlarges an object");
+    v.text("material", c.mesh.material, "material of the objects; default: the files' materials");
+    describe_mesh(v, c.mesh);
+    v.number("bury_m", c.bury_m, any_position_m,
+             "depth to which an object is buried in the bottom");
+    v.number("spacing_m", c.spacing_m, at_least(0),
+             "least distance between two objects, seen from above");
+    v.flag("align", c.align, "objects stand upright on the slope below them");
+    v.require(c.area_min_m[0] < c.area_max_m[0] && c.area_min_m[1] < c.area_max_m[1],
+              {"area_min_m", "area_max_m"}, "area_min_m must be below area_max_m in x and in y");
+    v.require(c.count[0] == std::floor(c.count[0]) && c.count[1] == std::floor(c.count[1]),
+              {"count"}, "'count' must be a whole number or two of them");
+}
+
+template <class Visitor>
+void describe(Visitor& v, HeightmapConfig& c) {
+    v.path("file", c.file,
+           "an image of one channel, PNG, TIFF (GeoTIFF) or OpenEXR, whose pixels are heights and "
+           "whose first row is the north",
+           required);
+    describe_image_place(v, c);
+    v.number("height_scale", c.height_scale, {-largest_scale, largest_scale},
+             "metres for each step of the pixels' values; -1 for depths");
+    v.number("height_offset_m", c.height_offset_m, any_position_m,
+             "height of the value 0 in the world");
+    v.text("material", c.material, "material of the bottom; default: scene.material_default");
+    v.text("class", c.class_name, "class of the bottom, for labels");
+    v.require(c.height_scale != 0.0, {"height_scale"}, "height_scale of 0 makes all flat");
+}
+
+template <class Visitor>
+void describe(Visitor& v, WaterSurfaceConfig& c) {
+    v.number("height_m", c.height_m, any_position_m, "height of the surface in the world",
+             required);
+    v.number("roughness", c.roughness, between(0, 1),
+             "share of the sound that the surface scatters away instead of reflecting it");
+    v.flag("scatters", c.scatters,
+           "the surface sends sound back to sonars of the calibrated model, by water.wind_m_s");
+}
+
+/// True if an object has the name of an instance that the heightmap or seabed makes.
+inline bool names_ground(const SceneConfig& c) {
+    return std::ranges::any_of(c.objects, [&](const ObjectConfig& object) {
+        return (c.heightmap && object.name == heightmap_instance) ||
+               (c.seabed && object.name == seabed_instance);
+    });
+}
+
+template <class Visitor>
+void describe(Visitor& v, SceneConfig& c) {
+    v.path("file", c.file,
+           "the scene, a .glb, .gltf, .obj, .stl or .ply file; optional if there are objects, a "
+           "heightmap or a seabed");
+    v.path("materials", c.materials,
+           "CSV with the density and speed of sound of every material of the scene", required);
+    v.text("material_default", c.material_default,
+           "material of surfaces whose material the CSV lacks or the file does not name; without "
+           "it they are an error");
+    describe_mesh(v, c.mesh);
+    v.text("bottom", c.bottom,
+           "nodes of `file` that objects rest on; default: the heightmap or seabed, else all nodes "
+           "of `file`, else the first object");
+    v.section("heightmap", c.heightmap, "an image of heights, which is the bottom");
+    v.section("sediment_map", c.sediment_map, "an image whose pixels are materials of the ground");
+    v.section("backscatter_map", c.backscatter_map,
+              "an image of decibels that are added to the strength of the ground");
+    v.section("seabed", c.seabed,
+              "a bottom that is made from these numbers and the mission's seed");
+    v.list_of("objects", c.objects, 0, "files that are placed in the scene one by one");
+    v.list_of("scatter", c.scatter, 0, "files that are placed on the bottom at random");
+    v.list_of("particles", c.particles, 0,
+              "groups of point targets in the water, for the calibrated model: fish, bubbles and "
+              "others");
+    v.section(
+        "water_surface", c.water_surface,
+        "the surface of the water: it reflects multipath and, with `scatters`, is seen itself");
+    v.require(!c.file.empty() || c.heightmap || c.seabed || !c.objects.empty(), {},
+              "'scene' needs the key 'file', a heightmap, a seabed or objects");
+    v.require(!c.heightmap || !c.seabed, {"heightmap", "seabed"},
+              "heightmap and seabed are both the bottom; give one of them");
+    v.require(!names_ground(c), {"objects"},
+              "an object has the name of the ground, which is 'heightmap' or 'seabed'; "
+              "give it another");
+}
+
+}  // namespace sonarsim

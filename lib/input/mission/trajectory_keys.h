@@ -1,0 +1,151 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <variant>
+#include <vector>
+
+#include "input/mission/limits.h"
+
+// The keys of a trajectory, of the vehicle or of a moving object, as in mission.h.
+
+namespace sonarsim {
+
+/// Poses from a file, either as they are or interpolated at `rate_hz`.
+struct FileTrajectoryConfig {
+    std::filesystem::path file;  ///< .csv or TUM .txt/.tum
+    double rate_hz = 0.0;        ///< 0: one ping per pose of the file
+};
+
+struct WaypointConfig {
+    std::array<double, 3> position_m{};
+    std::array<double, 3> rpy_deg{};
+};
+
+/// Straight legs from waypoint to waypoint at constant speed.
+struct WaypointTrajectoryConfig {
+    std::vector<WaypointConfig> waypoints;
+    double speed_m_s = 1.0;
+    double rate_hz = 10.0;
+};
+
+/// Parallel lines over a rectangle at constant height, in alternating directions.
+struct LawnmowerTrajectoryConfig {
+    std::array<double, 2> area_min_m{};  ///< x, y
+    std::array<double, 2> area_max_m{};
+    double z_m = 0.0;          ///< world height of the vehicle
+    double heading_deg = 0.0;  ///< direction of the first line
+    double line_spacing_m = 5.0;
+    double speed_m_s = 1.0;
+    double rate_hz = 10.0;
+};
+
+/// Standard deviations of the movements that waves add to a trajectory.
+struct MotionConfig {
+    std::array<double, 3> position_m{};  ///< surge, sway, heave
+    std::array<double, 3> turn_deg{};    ///< roll, pitch, yaw
+    double period_s = 8.0;               ///< at the spectrum's peak
+};
+
+/// Standard deviations of the errors of a vehicle's navigation.
+struct NavigationConfig {
+    double position_m = 0.0;
+    double depth_m = 0.0;
+    double tilt_deg = 0.0;
+    double heading_deg = 0.0;
+
+    bool operator==(const NavigationConfig&) const = default;
+};
+
+/// The offset of a vehicle from its trajectory, its movements and its navigation.
+struct VehicleConfig {
+    std::array<double, 3> offset_m{};  ///< world frame
+    std::array<double, 3> turn_deg{};  ///< roll, pitch, yaw, vehicle frame
+    MotionConfig motion = {};
+    NavigationConfig navigation = {};
+};
+
+using TrajectoryConfig =
+    std::variant<FileTrajectoryConfig, WaypointTrajectoryConfig, LawnmowerTrajectoryConfig>;
+
+template <class Visitor>
+void describe(Visitor& v, FileTrajectoryConfig& c) {
+    v.path("file", c.file, "timed poses, a .csv or a TUM .txt or .tum", required);
+    v.number("rate_hz", c.rate_hz, at_least(0),
+             "poses are interpolated at this rate; 0 pings at every pose of the file");
+}
+
+template <class Visitor>
+void describe(Visitor& v, WaypointConfig& c) {
+    v.array("position_m", c.position_m, any_position_m, "x, y, z in the world", required);
+    v.array("rpy_deg", c.rpy_deg, any_angle_deg, "roll, pitch and yaw of the vehicle");
+}
+
+template <class Visitor>
+void describe(Visitor& v, WaypointTrajectoryConfig& c) {
+    v.list_of("waypoints", c.waypoints, 2,
+              "poses in the order of the trajectory, joined by straight legs");
+    v.number("speed_m_s", c.speed_m_s, above(0), "speed along the legs");
+    v.number("rate_hz", c.rate_hz, above(0), "poses per second");
+}
+
+template <class Visitor>
+void describe(Visitor& v, LawnmowerTrajectoryConfig& c) {
+    v.array("area_min_m", c.area_min_m, any_position_m,
+            "corner of the rectangle with the least x and y", required);
+    v.array("area_max_m", c.area_max_m, any_position_m,
+            "corner of the rectangle with the largest x and y", required);
+    v.number("z_m", c.z_m, any_position_m,
+             "height of the vehicle in the world; negative below a surface at 0", required);
+    v.number("heading_deg", c.heading_deg, any_angle_deg,
+             "direction of the first line; 0 is along x, positive to the left");
+    v.number("line_spacing_m", c.line_spacing_m, above(0), "distance between the lines");
+    v.number("speed_m_s", c.speed_m_s, above(0), "speed along the lines and between them");
+    v.number("rate_hz", c.rate_hz, above(0), "poses per second");
+    v.require(c.area_min_m[0] < c.area_max_m[0] && c.area_min_m[1] < c.area_max_m[1],
+              {"area_min_m", "area_max_m"}, "area_min_m must be below area_max_m in x and in y");
+}
+
+template <class Visitor>
+void describe(Visitor& v, TrajectoryConfig& c) {
+    v.one_of(c, {"file", "waypoints", "lawnmower"});
+    if (auto* lawnmower = std::get_if<LawnmowerTrajectoryConfig>(&c)) {
+        v.section("lawnmower", *lawnmower,
+                  "parallel lines over a rectangle, to and fro at constant height", required);
+    } else {
+        std::visit([&v](auto& form) { describe(v, form); }, c);
+    }
+}
+
+template <class Visitor>
+void describe(Visitor& v, MotionConfig& c) {
+    constexpr Limits deviation_m{0.0, 100.0};
+    constexpr Limits deviation_deg{0.0, 45.0};
+    v.array("position_m", c.position_m, deviation_m,
+            "standard deviations of surge (ahead), sway (to port) and heave (up)");
+    v.array("turn_deg", c.turn_deg, deviation_deg, "standard deviations of roll, pitch and yaw");
+    v.number("period_s", c.period_s, between(0.1, 1000),
+             "period of the strongest waves; the spectrum is that of Pierson and Moskowitz");
+}
+
+template <class Visitor>
+void describe(Visitor& v, NavigationConfig& c) {
+    v.number("position_m", c.position_m, at_least(0), "of x and of y, drawn for every pose");
+    v.number("depth_m", c.depth_m, at_least(0), "of z, drawn for every pose");
+    v.number("tilt_deg", c.tilt_deg, between(0, 45), "of roll and of pitch, drawn for every pose");
+    v.number("heading_deg", c.heading_deg, between(0, 180), "of the heading, drawn for every pose");
+}
+
+template <class Visitor>
+void describe(Visitor& v, VehicleConfig& c) {
+    v.array("offset_m", c.offset_m, any_position_m,
+            "added to the position of every pose: x, y, z in the world");
+    v.array("turn_deg", c.turn_deg, any_angle_deg,
+            "roll, pitch and yaw that are added to every pose, in the vehicle's own frame");
+    v.section("motion", c.motion, "movements by waves that are added to the trajectory");
+    v.section("navigation", c.navigation,
+              "errors of the poses that the vehicle reports, as standard deviations; images do not "
+              "depend on them");
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,250 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <iterator>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/text.h"
+#include "input/mission/document.h"
+#include "input/mission/ground_map_keys.h"
+#include "input/mission/limits.h"
+#include "input/mission/variation_keys.h"
+
+// The types of the keys that have one value. A type reads a value from YAML, writes it as YAML, and
+// is described in the tables of keys. `key` is a name in messages: read() throws InputError with
+// the place of a wrong value.
+
+namespace sonarsim {
+
+[[noreturn]] void refuse(const YamlNode& node, const std::string& what);
+
+/// Throws "'key' must be WANTED, not FOUND".
+[[noreturn]] void refuse_type(const YamlNode& node, const std::string& key,
+                              const std::string& wanted);
+
+/// "at least 0" for a number that is not within the limits, else "".
+std::string fault_of(double value, const Limits& limits);
+
+/// "a, b, c".
+std::string listed(const std::vector<std::string>& names);
+
+/// Values as text, by key.
+using KeyTexts = std::vector<std::pair<std::string, std::string>>;
+
+/// " (key is 1, other is 2)": those of `keys` that have a value; "" if none has.
+std::string values_text(const KeyTexts& values, std::initializer_list<const char*> keys);
+
+/// Returns the index of the node's text in `names`.
+std::size_t index_of(const YamlNode& node, const char* key, const std::vector<std::string>& names);
+
+/// Reads a list of exactly as many numbers as `values` has.
+void read_numbers(const YamlNode& node, const char* key, std::span<double> values,
+                  const Limits& limits);
+
+/// Returns for each name whether it is chosen: `true` chooses all, `false` none, a list some.
+std::vector<bool> chosen_of(const YamlNode& node, const char* key,
+                            const std::vector<std::string>& names);
+
+// The value of a key as YAML; "": the key is not written.
+
+inline std::string yaml_text(double value) {
+    return number_text(value);
+}
+inline std::string yaml_text(int value) {
+    return std::to_string(value);
+}
+inline std::string yaml_text(std::uint64_t value) {
+    return std::to_string(value);
+}
+inline std::string yaml_text(bool value) {
+    return value ? "true" : "false";
+}
+inline std::string yaml_text(const std::optional<double>& value) {
+    return value ? number_text(*value) : "auto";
+}
+
+/// Text is always quoted, so that a sensor named "null" stays text.
+inline std::string yaml_text(const std::string& value) {
+    return value.empty() ? "" : quoted_text(value);
+}
+inline std::string yaml_text(const std::filesystem::path& value) {
+    return yaml_text(value.string());
+}
+
+/// "[1, 2]"; "" for no items.
+template <class Items, class ToText>
+std::string yaml_list(const Items& items, const ToText& to_text) {
+    std::string list;
+    for (const auto& item : items)
+        list += (list.empty() ? "[" : ", ") + to_text(item);
+    return list.empty() ? "" : list + "]";
+}
+
+template <class T>
+std::string yaml_text(const std::vector<T>& values) {
+    return yaml_list(values, [](const T& value) { return yaml_text(value); });
+}
+template <std::size_t N>
+std::string yaml_text(const std::array<double, N>& values) {
+    return yaml_list(values, number_text);
+}
+template <std::size_t N>
+std::string yaml_text(const std::optional<std::array<double, N>>& values) {
+    return values ? yaml_text(*values) : "";
+}
+inline std::string yaml_text(const YamlValues& values) {
+    return yaml_list(values.items, [](const std::string& item) { return item; });
+}
+inline std::string yaml_text(const Renaming& values) {
+    std::string map;
+    for (const auto& [from, to] : values)
+        map += (map.empty() ? "{" : ", ") + quoted_text(from) + ": " + quoted_text(to);
+    return map.empty() ? "" : map + "}";
+}
+
+/// The description of a type in the tables of keys.
+struct TypeNote {
+    std::string name;
+    std::optional<Limits> limits = {};      ///< limits of the number, or of every number of a list
+    std::vector<std::string> choices = {};  ///< allowed names; empty: anything
+    std::string empty = {};                 ///< default of a value that is not written
+};
+
+/// A number, or with std::array a number or a list of the least and the largest.
+struct NumberType {
+    Limits limits;
+    bool automatic = false;  ///< takes the word auto, which is kept as 0
+
+    void read(const YamlNode& node, const char* key, double& value) const;
+    void read(const YamlNode& node, const char* key, int& value) const;
+    void read(const YamlNode& node, const char* key, std::uint64_t& value) const;
+    void read(const YamlNode& node, const char* key, std::optional<double>& value) const;
+    void read(const YamlNode& node, const char* key, std::array<double, 2>& value) const;
+    template <class T>
+    std::string yaml(const T& value) const {
+        return automatic && value == T{} ? "auto" : yaml_text(value);
+    }
+    TypeNote note(double) const {
+        return automatic ? note(std::optional<double>()) : TypeNote{"number", limits};
+    }
+    TypeNote note(const std::optional<double>&) const { return {"number", limits, {"auto"}}; }
+    TypeNote note(int) const { return {"whole number", limits}; }
+    TypeNote note(std::uint64_t) const { return {"whole number", limits}; }
+    TypeNote note(const std::array<double, 2>&) const {
+        return {"number or [least, largest]", limits};
+    }
+};
+
+/// A list of numbers.
+struct ArrayType {
+    Limits limits;
+
+    template <std::size_t N>
+    void read(const YamlNode& node, const char* key, std::array<double, N>& values) const {
+        read_numbers(node, key, values, limits);
+    }
+    template <std::size_t N>
+    void read(const YamlNode& node, const char* key,
+              std::optional<std::array<double, N>>& values) const {
+        read_numbers(node, key, values.emplace(), limits);
+    }
+    template <std::size_t N>
+    TypeNote note(const std::array<double, N>&) const {
+        return {std::to_string(N) + " numbers", limits};
+    }
+    template <std::size_t N>
+    TypeNote note(const std::optional<std::array<double, N>>&) const {
+        return {std::to_string(N) + " numbers", limits};
+    }
+};
+
+/// A text, a list of texts, a map from texts to texts, or a list of any values.
+struct TextType {
+    void read(const YamlNode& node, const char* key, std::string& value) const;
+    void read(const YamlNode& node, const char* key, std::vector<std::string>& values) const;
+    void read(const YamlNode& node, const char* key, Renaming& values) const;
+    void read(const YamlNode& node, const char* key, YamlValues& values) const;
+    TypeNote note(const std::string&) const { return {"text"}; }
+    TypeNote note(const std::vector<std::string>&) const {
+        return {.name = "list of texts", .empty = "[]"};
+    }
+    TypeNote note(const Renaming&) const { return {.name = "text per name", .empty = "{}"}; }
+    TypeNote note(const YamlValues&) const { return {"list of values"}; }
+};
+
+struct FlagType {
+    void read(const YamlNode& node, const char* key, bool& value) const;
+    TypeNote note(bool) const { return {"true or false"}; }
+};
+
+/// A path, or a list of one or more. Relative ones start at the base folder of the mission.
+struct PathType {
+    void read(const YamlNode& node, const char* key, std::filesystem::path& path,
+              const std::filesystem::path& base_folder) const;
+    void read(const YamlNode& node, const char* key, std::vector<std::filesystem::path>& paths,
+              const std::filesystem::path& base_folder) const;
+    TypeNote note(const std::filesystem::path&) const { return {"path"}; }
+    TypeNote note(const std::vector<std::filesystem::path>&) const {
+        return {"path or list of paths"};
+    }
+};
+
+/// One of some names.
+template <class T>
+struct ChoiceType {
+    Choices<T> choices;
+
+    void read(const YamlNode& node, const char* key, T& value) const {
+        value = choices[index_of(node, key, names_of(choices))].value;
+    }
+    std::string yaml(const T& value) const {
+        return std::ranges::find(choices, value, &Choice<T>::value)->name;
+    }
+    TypeNote note(const T&) const { return {"choice", {}, names_of(choices)}; }
+};
+
+/// `true` for all names, `false` for none, or a list of some.
+template <class T>
+struct SubsetType {
+    Choices<T> choices;
+
+    void read(const YamlNode& node, const char* key, std::vector<T>& values) const {
+        const std::vector<bool> chosen = chosen_of(node, key, names_of(choices));
+        values.clear();
+        for (std::size_t i = 0; i < chosen.size(); ++i) {
+            if (chosen[i]) values.push_back(choices[i].value);
+        }
+    }
+    std::string yaml(const std::vector<T>& values) const {
+        std::vector<Choice<T>> chosen;
+        std::ranges::copy_if(choices, std::back_inserter(chosen), [&](const Choice<T>& one) {
+            return std::ranges::find(values, one.value) != values.end();
+        });
+        if (chosen.empty()) return "false";
+        return yaml_list(chosen, [](const Choice<T>& one) { return std::string(one.name); });
+    }
+    TypeNote note(const std::vector<T>&) const {
+        return {"true, false or a list", {}, names_of(choices)};
+    }
+};
+
+/// A value as YAML.
+template <class Type, class T>
+std::string yaml_of(const Type& type, const T& value) {
+    if constexpr (requires { type.yaml(value); }) {
+        return type.yaml(value);
+    } else {
+        return yaml_text(value);
+    }
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "input/mission/limits.h"
+
+// The keys of what varies, with their defaults and their descriptions as in mission.h.
+
+namespace sonarsim {
+
+/// Values of any kind, as YAML.
+struct YamlValues {
+    std::vector<std::string> items;
+};
+
+/// When a key is drawn: for each variant, once for all variants, or for every ping.
+enum class VaryPer { variant, dataset, ping };
+
+/// A key of the mission that is drawn at random. Exactly one of the distributions is given.
+struct VaryConfig {
+    std::string key;  ///< as in --set
+    VaryPer per = VaryPer::variant;
+    std::optional<std::array<double, 2>> uniform;      ///< least and largest
+    std::optional<std::array<double, 2>> log_uniform;  ///< uniform in the logarithm
+    std::optional<std::array<double, 2>> whole;        ///< whole numbers, both ends included
+    std::optional<std::array<double, 2>> normal;       ///< mean and standard deviation
+    std::optional<std::array<double, 2>> within;       ///< limits of a normal draw
+    YamlValues choice;                                 ///< all equally likely
+    Location place = {};
+};
+
+/// Keys of a mission and the values drawn for them, as YAML text.
+using DrawnValues = std::vector<std::pair<std::string, std::string>>;
+
+/// The variant of a mission.
+struct Variant {
+    int index = -1;  ///< -1: none
+    int of = 0;      ///< number of variants
+    DrawnValues drawn;
+    std::vector<std::string> classes;  ///< classes of all choices of `vary`
+    /// Likewise the instances, each with the class that its file gives it.
+    std::vector<std::pair<std::string, std::string>> instances;
+};
+
+inline constexpr Choice<VaryPer> vary_pers[]{
+    {"variant", VaryPer::variant}, {"dataset", VaryPer::dataset}, {"ping", VaryPer::ping}};
+
+template <class Visitor>
+void describe(Visitor& v, VaryConfig& c) {
+    constexpr Limits any{-1e18, 1e18};
+    v.text("key", c.key,
+           "a key of the mission, as --set takes it: sensors.fls.noise.add_sigma, "
+           "scene.objects.0.position_m.2",
+           required);
+    v.choice("per", c.per, vary_pers,
+             "when the key is drawn: for every variant, once for all variants (`dataset`), or for "
+             "every ping. Keys that may vary per ping are a sensor's mount, the numbers of its "
+             "noise and streaks, and the offset of the vehicle");
+    v.array("uniform", c.uniform, any, "the least and the largest number");
+    v.array("log_uniform", c.log_uniform, any,
+            "the least and the largest number; each decade is equally likely");
+    v.array("whole", c.whole, any, "the least and the largest whole number");
+    v.array("normal", c.normal, any, "mean and standard deviation");
+    v.array("within", c.within, any, "limits of a normal draw; a draw outside them is repeated");
+    v.text("choice", c.choice, "values of any kind, each equally likely");
+    const auto rises = [](const auto& pair) { return !pair || (*pair)[0] <= (*pair)[1]; };
+    v.require(
+        c.uniform.has_value() + c.log_uniform.has_value() + c.whole.has_value() +
+                c.normal.has_value() + !c.choice.items.empty() ==
+            1,
+        {}, "a key that varies needs exactly one of: uniform, log_uniform, whole, normal, choice");
+    v.require(rises(c.uniform) && rises(c.log_uniform) && rises(c.whole) && rises(c.within),
+              {"uniform", "log_uniform", "whole", "within"},
+              "the first number must not be above the second");
+    v.require(!c.log_uniform || (*c.log_uniform)[0] > 0.0, {"log_uniform"},
+              "'log_uniform' takes numbers above 0");
+    v.require(!c.normal || (*c.normal)[1] >= 0.0, {"normal"},
+              "the standard deviation must not be negative");
+    v.require(!c.within || c.normal, {"within"}, "'within' needs 'normal'");
+    v.require(c.per != VaryPer::ping || !c.normal || c.within, {"normal", "per"},
+              "a normal draw for every ping needs 'within', the limits of the draw");
+}
+
+}  // namespace sonarsim

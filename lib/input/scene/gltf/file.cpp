@@ -1,0 +1,295 @@
+#include "input/scene/gltf/file.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdint>
+#include <cstring>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/json_depth.h"
+#include "core/known_format.h"
+#include "core/text.h"
+#include "input/scene/gltf/extras.h"
+
+namespace sonarsim {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t max_bytes = std::size_t{1} << 31;
+constexpr std::uint32_t json_type = 0x4E4F534A;
+
+bool contains(std::span<const std::string_view> list, std::string_view word) {
+    return std::ranges::find(list, word) != list.end();
+}
+
+constexpr std::array<std::string_view, 8> unread_of_file{
+    "images", "textures", "samplers", "skins", "animations", "cameras", "extensions", "extras"};
+constexpr std::array<std::string_view, 6> unread_of_materials{
+    "pbrMetallicRoughness", "normalTexture",  "occlusionTexture",
+    "emissiveTexture",      "emissiveFactor", "extensions"};
+
+std::uint32_t little_endian(std::string_view bytes, std::size_t at) {
+    std::uint32_t value = 0;
+    std::memcpy(&value, bytes.data() + at, sizeof(value));
+    return value;
+}
+
+/// Removes a chunk of a .glb from the front of `bytes`.
+std::string_view take_chunk(std::string_view& bytes, std::uint32_t type, const Location& where) {
+    constexpr std::size_t head = 8;
+    if (bytes.size() < head) throw InputError(where, "the .glb ends within a chunk header");
+    const std::size_t length = little_endian(bytes, 0);
+    if (little_endian(bytes, 4) != type) {
+        throw InputError(where, "the .glb has an unexpected chunk; expected JSON, then BIN");
+    }
+    if (length > bytes.size() - head) {
+        throw InputError(where, "a chunk of the .glb claims " + std::to_string(length) +
+                                    " bytes; the file has " + std::to_string(bytes.size() - head) +
+                                    " left");
+    }
+    const std::string_view chunk = bytes.substr(head, length);
+    bytes.remove_prefix(head + length);
+    return chunk;
+}
+
+void append_little_endian(std::string& bytes, std::size_t number) {
+    const auto value = static_cast<std::uint32_t>(number);
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
+}
+
+std::string glb_of(std::string json, std::string_view binary) {
+    constexpr std::size_t heads = 20;  // the file's and the first chunk's
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    std::string bytes = "glTF";
+    append_little_endian(bytes, 2);
+    append_little_endian(bytes, heads + json.size() + binary.size());
+    append_little_endian(bytes, json.size());
+    append_little_endian(bytes, json_type);
+    return bytes.append(json).append(binary);
+}
+
+/// The JSON without the parts that are not read: tinygltf would load textures, and it recurses as
+/// deep as the JSON does.
+std::string surfaces_of(std::string_view text, const Location& where) {
+    constexpr std::size_t max_json_bytes = std::size_t{1} << 28;
+    constexpr int max_depth = 64;
+    if (text.size() > max_json_bytes) {
+        throw InputError(where,
+                         "holds more than 256 MiB of JSON; put the vertices into a .glb or a .bin "
+                         "file");
+    }
+    if (is_nested_deeper(text, max_depth))
+        throw InputError(where, "the JSON is nested more than 64 deep");
+    // Unread parts are not even stored: they may be much larger than the meshes.
+    const auto is_read = [](int depth, json::parse_event_t event, const json& parsed) {
+        constexpr int of_file = 1;
+        constexpr int of_material = 3;
+        if (event != json::parse_event_t::key) return true;
+        const auto& key = parsed.get_ref<const std::string&>();
+        return !(depth == of_file && contains(unread_of_file, key)) &&
+               !(depth == of_material && contains(unread_of_materials, key));
+    };
+    json document;
+    try {
+        document = json::parse(text, is_read);
+    } catch (const json::exception& error) {
+        // "[json.exception.parse_error.101] parse error at line 1, column 2: ..."
+        const std::string fault = error.what();
+        throw InputError(where, fault.substr(fault.find("] ") + 2));
+    }
+    const json::json_pointer place("/asset/version");
+    const bool has_version = document.contains(place) && document[place].is_string();
+    const std::string version = has_version ? document[place].get<std::string>() : "";
+    if (version.empty())
+        throw InputError(where, "asset.version is missing; expected glTF version 2.0");
+    if (!version.starts_with("2.")) {
+        throw InputError(where,
+                         "is glTF version " + printable(version.substr(0, 20)) + "; expected 2.0");
+    }
+    for (const json& mesh : document["meshes"]) {
+        // tinygltf takes an object for an array of none.
+        if (mesh.is_object() && mesh.contains("primitives") && !mesh["primitives"].is_array())
+            throw InputError(where, "the primitives of a mesh are not an array");
+    }
+    for (json& buffer : document["buffers"]) {
+        if (!buffer.is_object() || !buffer.contains("uri") || !buffer["uri"].is_string()) continue;
+        auto& uri = buffer["uri"].get_ref<std::string&>();
+        if (uri.starts_with("data:")) continue;
+        // tinygltf decodes a plus sign as a blank.
+        for (std::size_t at = 0; (at = uri.find('+', at)) != std::string::npos;)
+            uri.replace(at, 1, "%2B");
+    }
+    return document.dump();
+}
+
+/// A .glb without the parts of its JSON that are not read. Checks that its chunks lie within it,
+/// which tinygltf 2.7 does not do for the last 8 bytes.
+std::string reduced_glb(std::string_view bytes, const Location& where) {
+    constexpr std::uint32_t binary_type = 0x004E4942;
+    constexpr std::size_t head = 12;
+    if (bytes.size() < head) throw InputError(where, "the .glb ends within its header");
+    if (little_endian(bytes, 4) != 2) {
+        throw InputError(where, "is a .glb of version " + std::to_string(little_endian(bytes, 4)) +
+                                    "; expected 2");
+    }
+    const std::size_t length = little_endian(bytes, 8);
+    if (length > bytes.size() || length < head) {
+        throw InputError(where, "the .glb claims " + std::to_string(length) +
+                                    " bytes; the file has " + std::to_string(bytes.size()));
+    }
+    bytes = bytes.substr(head, length - head);
+    const std::string_view text = take_chunk(bytes, json_type, where);
+    const std::string_view rest = bytes;
+    if (!bytes.empty()) take_chunk(bytes, binary_type, where);
+    return glb_of(surfaces_of(text, where), rest.substr(0, rest.size() - bytes.size()));
+}
+
+/// InputError for a file that is not even JSON; it names the formats of other meshes.
+void require_json(const std::filesystem::path& path, std::string_view bytes) {
+    const Location where{path.string()};
+    constexpr std::array<std::string_view, 5> others{".fbx", ".dae", ".3ds", ".blend", ".off"};
+    std::string extension = path.extension().string();
+    for (char& c : extension)
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (contains(others, extension)) {
+        const std::string name = path.stem().string();
+        throw InputError(where,
+                         "is not glTF, OBJ, STL or PLY, the formats that are read; convert it: "
+                         "assimp export " +
+                             name + path.extension().string() + " " + name + ".glb");
+    }
+    const std::string_view text = trim(without_byte_order_mark(bytes));
+    if (text.starts_with('{') || text.starts_with('[')) return;
+    const std::string format(known_format(bytes));
+    const bool is_picture = format.find("picture") != std::string::npos;
+    throw InputError(where, "is " + (format.empty() ? "" : format + ", ") + "not glTF; " +
+                                (is_picture ? "an image of heights belongs into scene.heightmap"
+                                            : "a .gltf is JSON, which begins with '{'"));
+}
+
+void check_extensions(const tinygltf::Model& model, const Location& where) {
+    constexpr std::array<std::string_view, 3> compressed{
+        "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"};
+    constexpr std::array<std::string_view, 4> appearance{"KHR_materials_", "KHR_texture_",
+                                                         "EXT_texture_", "KHR_lights_"};
+    const auto check = [&](const std::string& name, bool is_required) {
+        if (contains(compressed, name)) {
+            throw InputError(where, "is compressed with " + name +
+                                        ", which is not read; export it uncompressed");
+        }
+        if (name == "EXT_mesh_gpu_instancing") {
+            throw InputError(where, "places copies with " + name +
+                                        ", which is not read; export one node a copy");
+        }
+        const bool is_harmless =
+            name == "KHR_mesh_quantization" ||
+            std::any_of(appearance.begin(), appearance.end(),
+                        [&](std::string_view prefix) { return name.starts_with(prefix); });
+        if (is_required && !is_harmless)
+            throw InputError(where, "requires the extension '" + name + "', which is not read");
+    };
+    for (const std::string& name : model.extensionsUsed)
+        check(name, false);
+    for (const std::string& name : model.extensionsRequired)
+        check(name, true);
+}
+
+/// Sets the file size callback that tinygltf 2.9 requires; 2.8 has none. read_file limits the size.
+template <class Callbacks>
+void ignore_sizes(Callbacks& callbacks) {
+    if constexpr (requires { callbacks.GetFileSizeInBytes; }) {
+        callbacks.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string&,
+                                          void*) {
+            *size = 0;
+            return true;
+        };
+    }
+}
+
+/// True if a URI of a glTF file names a file in its folder or below.
+bool stays_below(const std::string& uri) {
+    const std::filesystem::path path(uri);
+    return uri.find(':') == std::string::npos && uri.find('\0') == std::string::npos &&
+           !path.is_absolute() && std::find(path.begin(), path.end(), "..") == path.end();
+}
+
+/// The buffers that tinygltf may read: in the folder of the glTF file or below, `bytes_left` at
+/// most.
+struct BufferFiles {
+    const std::filesystem::path& gltf;
+    std::size_t bytes_left = max_bytes;
+};
+
+tinygltf::FsCallbacks buffer_callbacks(BufferFiles& files) {
+    tinygltf::FsCallbacks callbacks{};
+    ignore_sizes(callbacks);
+    callbacks.user_data = &files;
+    // Never called, but tinygltf 2.9 requires all callbacks or none.
+    callbacks.WriteWholeFile = [](std::string*, const std::string&,
+                                  const std::vector<unsigned char>&, void*) { return false; };
+    callbacks.ExpandFilePath = [](const std::string& name, void*) { return name; };
+    callbacks.FileExists = [](const std::string& name, void* user) {
+        if (stays_below(name)) return !name.empty();
+        throw InputError(
+            Location{static_cast<const BufferFiles*>(user)->gltf.string()},
+            "the buffer '" + printable(name.substr(0, 200)) +
+                "' is not in the folder of the glTF file or below, where buffers must lie");
+    };
+    callbacks.ReadWholeFile = [](std::vector<unsigned char>* out, std::string*,
+                                 const std::string& name, void* user) {
+        auto& from = *static_cast<BufferFiles*>(user);
+        const std::string bytes = read_file(from.gltf.parent_path() / name, from.bytes_left);
+        from.bytes_left -= bytes.size();
+        out->assign(bytes.begin(), bytes.end());
+        return true;
+    };
+    return callbacks;
+}
+
+}  // namespace
+
+tinygltf::Model read_gltf(const std::filesystem::path& path) {
+    const Location where{path.string()};
+    std::string bytes = read_file(path, max_bytes);
+    const bool is_binary = bytes.starts_with("glTF");
+    if (!is_binary) require_json(path, bytes);
+    bytes = is_binary ? reduced_glb(bytes, where) : surfaces_of(bytes, where);
+
+    tinygltf::TinyGLTF reader;
+    BufferFiles files{path};
+    reader.SetFsCallbacks(buffer_callbacks(files));
+    tinygltf::Model model;
+    std::string error;
+    std::string warning;
+    bool is_read = false;
+    try {
+        const auto size = static_cast<unsigned int>(bytes.size());
+        is_read =
+            is_binary
+                ? reader.LoadBinaryFromMemory(&model, &error, &warning,
+                                              reinterpret_cast<unsigned char*>(bytes.data()), size)
+                : reader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size, "");
+    } catch (const InputError&) {
+        throw;
+    } catch (const std::exception& fault) {  // a byteLength of 0, or of more than there is
+        error = fault.what();
+    }
+    check_extensions(model, where);
+    // tinygltf continues after some errors, and quotes whole data URIs in its messages.
+    if (!is_read || !error.empty())
+        throw InputError(where, "is not a valid glTF: " + error.substr(0, 300));
+    check_extras(model, where);
+    return model;
+}
+
+}  // namespace sonarsim

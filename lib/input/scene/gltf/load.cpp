@@ -1,0 +1,206 @@
+#include "input/scene/gltf/load.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstdint>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "input/scene/gltf/extent.h"
+#include "input/scene/gltf/mesh_builder.h"
+#include "input/scene/gltf/primitives.h"
+#include "input/scene/gltf/repeats.h"
+#include "input/scene/objects.h"
+#include "input/scene/seabed/seabed.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// A file larger or smaller than these was probably read in the wrong unit.
+constexpr double suspicious_length_m = 1e4;
+constexpr double suspicious_smallness_m = 1e-3;
+
+Eigen::Vector3d choose_origin(const Eigen::AlignedBox3d& box) {
+    if (box.isEmpty()) return Eigen::Vector3d::Zero();
+    // Extents of 100 m and centres at 50 m are common. Without the shift `limit_shift` they would
+    // lie exactly on a limit, and the rounding of a moved scene could change the result.
+    constexpr double limit_shift = 1e-6;
+    double grid = 1.0;
+    while (grid < box.sizes().maxCoeff() * (1.0 - limit_shift))
+        grid *= 10.0;
+    const Eigen::Vector3d cells = box.center() / grid;
+    return grid * (cells.array() + 0.5 + limit_shift).floor().matrix();
+}
+
+/// Warns once for each file and unit if the file is implausibly long or short.
+void warn_of_unit(const OpenFile& file, const Eigen::AlignedBox3d& box,
+                  std::set<std::pair<std::string, double>>& warned, Scene& scene) {
+    if (box.isEmpty()) return;
+    const double length_m = box.sizes().maxCoeff();
+    if (length_m < suspicious_length_m && length_m > suspicious_smallness_m) return;
+    const std::string path = file.placed->file.string();
+    if (!warned.emplace(path, file.placed->unit_m).second) return;
+    scene.warnings.push_back(path + fmt::format(" is {:.4g} m long", length_m) +
+                             "; if that is wrong, set its `units`, as in units: mm");
+}
+
+/// Finds the extents of the files, and from them the origin of the scene.
+std::vector<SurfaceExtent> find_extents(const std::vector<OpenFile>& open, const Repeats& repeats,
+                                        ReadingLimit& limit, Scene& scene) {
+    std::vector<SurfaceExtent> extents;
+    Eigen::AlignedBox3d whole;
+    std::set<std::pair<std::string, double>> warned;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+        const RepeatedFile* const repeated = repeats.of_file[i];
+        const SurfaceExtent& extent =
+            extents.emplace_back(repeated ? moved(repeated->extent, open[i].placed->T_world_file)
+                                          : find_extent(open[i], limit));
+        warn_of_unit(open[i], extent.box, warned, scene);
+        scene.vertex_rounding_m = std::max(scene.vertex_rounding_m, extent.vertex_rounding_m);
+        if (!open[i].placed->moves) whole.extend(extent.box);
+    }
+    scene.origin = choose_origin(whole);
+    return extents;
+}
+
+void set_bounds(const std::vector<SurfaceExtent>& extents, const Repeats& repeats, Scene& scene) {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3f& vertex : scene.vertices)
+        box.extend(vertex.cast<double>());
+    for (std::size_t i = 0; i < extents.size(); ++i) {
+        if (!repeats.of_file[i] || extents[i].box.isEmpty()) continue;
+        box.extend(Eigen::AlignedBox3d(extents[i].box.min() - scene.origin,
+                                       extents[i].box.max() - scene.origin));
+    }
+    if (box.isEmpty()) return;
+    scene.bounds_min = scene.origin + box.min();
+    scene.bounds_max = scene.origin + box.max();
+}
+
+/// `materials` must be empty.
+Scene compose(std::span<const PlacedFile> files, SceneFiles& models, const MaterialRules& rules,
+              std::size_t sharing_threshold, MaterialNumbers& materials) {
+    Scene scene;
+    const std::vector<OpenFile> open = open_files(files, models, scene);
+    ReadingLimit looked_at;
+    const Repeats repeats = find_repeats(open, sharing_threshold, looked_at);
+    const std::vector<SurfaceExtent> extents = find_extents(open, repeats, looked_at, scene);
+    ReadingLimit limit;
+    MeshBuilder<Scene> still{scene, scene.rejects, scene.origin};
+    for (std::size_t i = 0; i < open.size(); ++i) {
+        const OpenFile& file = open[i];
+        if (RepeatedFile* const repeated = repeats.of_file[i]) {
+            add_copy(*repeated, file, rules, limit, materials, scene);
+            continue;
+        }
+        Body body;
+        MeshBuilder<Body> moving{body, scene.rejects, Eigen::Vector3d::Zero()};
+        scene.rejects.skipped_primitives +=
+            for_each_primitive(file, limit, [&](const PlacedPrimitive& primitive) {
+                const std::uint32_t material = materials.of(primitive, rules, scene);
+                take_class_of_material(primitive, scene.instance_classes[primitive.instance]);
+                if (file.placed->moves) {
+                    moving.add(primitive, [&] { body.triangle_material.push_back(material); });
+                    return;
+                }
+                still.add(primitive, [&] {
+                    scene.triangle_material.push_back(material);
+                    scene.triangle_instance.push_back(primitive.instance);
+                });
+            });
+        if (!file.placed->moves) continue;
+        body.instance = file.instance_of_mesh.front();
+        scene.bodies.push_back(std::move(body));
+    }
+    set_bounds(extents, repeats, scene);
+    return scene;
+}
+
+/// True if all of the mesh's instance is the bottom of heights.
+bool is_bottom(const PlacedFile& file, const PlacedMesh& mesh) {
+    if (!file.bottom) return false;
+    if (file.bottom->empty()) return true;
+    return file.name.empty() && std::ranges::any_of(*file.bottom, [&](const std::string& pattern) {
+               return fits_pattern(pattern, mesh.instance);
+           });
+}
+
+/// InputError, with the place in the mission, for a material that the table lacks.
+void require_materials(std::span<const PlacedFile> files, const MaterialTable& table) {
+    for (const PlacedFile& file : files) {
+        if (!file.material.empty()) require_material(table, file.material, file.place);
+        if (file.seabed) {
+            for (const std::string& material : materials_of(*file.seabed))
+                require_material(table, material, file.place);
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& models,
+                                 Scene& scene) {
+    UniqueNames names;
+    for (const PlacedFile& file : files) {
+        if (file.name.empty() || names.taken.insert(file.name).second) continue;
+        throw InputError(file.place, "there is an object '" + printable(file.name) +
+                                         "' already; give each a name of its own");
+    }
+    // The rules of the mission know the ground by the names of its nodes, so they come first.
+    std::vector<PlacedMesh> ground;
+    const auto is_ground = [](const PlacedFile& file) { return file.heightmap || file.seabed; };
+    for (const PlacedFile& file : files) {
+        if (is_ground(file)) ground = place_meshes(models.model(file), file, names);
+    }
+    std::vector<OpenFile> open;
+    for (const PlacedFile& file : files) {
+        OpenFile& next = open.emplace_back();
+        next.placed = &file;
+        next.model = &models.model(file);
+        next.meshes = is_ground(file) ? std::move(ground) : place_meshes(*next.model, file, names);
+        for (const PlacedMesh& mesh : next.meshes) {
+            const bool is_part = !file.name.empty() && !next.instance_of_mesh.empty();
+            if (!is_part) {
+                scene.instances.push_back(mesh.instance);
+                scene.instance_classes.push_back(file.class_name.empty() ? mesh.label
+                                                                         : file.class_name);
+                scene.is_bottom.push_back(is_bottom(file, mesh) ? 1 : 0);
+            }
+            next.instance_of_mesh.push_back(static_cast<std::uint32_t>(scene.instances.size() - 1));
+        }
+    }
+    return open;
+}
+
+Scene load_scene(std::span<const PlacedFile> files, SceneFiles& models, const MaterialTable& table,
+                 const std::string& material_default, const Water& water,
+                 std::size_t sharing_threshold) {
+    require_materials(files, table);
+    MaterialRules rules;
+    rules.fallback = material_default;
+    for (const Material& material : table.materials)
+        rules.known.insert(material.name);
+    MaterialNumbers materials;
+    Scene scene = compose(files, models, rules, sharing_threshold, materials);
+    resolve_materials(scene, table, water, materials.users);
+    return scene;
+}
+
+Scene load_scene_geometry(const PlacedFile& file, SceneFiles& models) {
+    MaterialNumbers materials;
+    return compose({&file, 1}, models, {true, {}, {}}, share_nothing, materials);
+}
+
+Scene load_scene_geometry(const std::filesystem::path& path) {
+    SceneFiles models;
+    return load_scene_geometry({.file = path}, models);
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <limits>
+#include <span>
+#include <string>
+
+#include "input/scene/gltf/scene_files.h"
+#include "input/scene/materials.h"
+#include "input/scene/placed_file.h"
+#include "input/scene/scene.h"
+
+namespace sonarsim {
+
+struct OpenFile;  // input/scene/gltf/primitives.h
+
+/// For load_scene: no meshes are shared; every copy of a file becomes triangles of the scene.
+inline constexpr std::size_t share_nothing = std::numeric_limits<std::size_t>::max();
+
+/// Reads .gltf or .glb files (their content says which), and .obj, .stl and .ply files as
+/// read_mesh() does, each where it is placed; files that move become bodies. The scene is bit by
+/// bit that of one file that holds all nodes in the same order, with the same transforms.
+///
+/// World frame: (x, y, z)_world = (x, -z, y)_gltf, node transforms composed in double precision.
+/// Reads a file's default scene, else its first, else all root nodes. A triangle's material is the
+/// first that exists of: `extras.sonar.material` of its node or of the nearest ancestor that has
+/// one, `extras.sonar.material` of its glTF material, the name of that material. Its instance is
+/// its node's name; a node without one is "node<index>", and a name that is taken gets "_2", "_3",
+/// ... Its class is `extras.sonar.class` of the node or of the nearest ancestor that has one, else
+/// of the glTF materials. Animated nodes and morph targets stay at rest. `origin` is the centre of
+/// the bounding box rounded to a multiple of g, the smallest power of ten that holds the scene's
+/// largest extent (at least 1 m), so that a scene moved by multiples of g keeps its local
+/// coordinates bit by bit.
+///
+/// Materials without a name or without a row in `table` become `material_default`, unless that is
+/// empty. Named files that do not move and are placed more than once become shared meshes with
+/// copies, if all their copies have more than `sharing_threshold` triangles together.
+///
+/// InputError for an invalid glTF 2.0 file, for compressed or skinned meshes, unknown required
+/// extensions, buffers outside of the file's folder, primitives without material, and materials
+/// that the table lacks. InputError at the place of the file in the mission for a name that is
+/// taken, and for a material to rename that the file lacks. Points, lines, degenerate and
+/// non-finite triangles are dropped and counted in `rejects`; a scene may end up empty.
+Scene load_scene(std::span<const PlacedFile> files, SceneFiles& models, const MaterialTable& table,
+                 const std::string& material_default, const Water& water,
+                 std::size_t sharing_threshold = share_nothing);
+
+/// Opens the files and appends the names and classes of their instances to those of `scene`. Names
+/// of objects in the mission take precedence, then those of the heightmap or seabed: nodes with the
+/// same name get another one. InputError for a name that is taken.
+std::vector<OpenFile> open_files(std::span<const PlacedFile> files, SceneFiles& models,
+                                 Scene& scene);
+
+/// Reads one file without a table of materials: materials have only a name, "(no material)" if the
+/// file names none.
+Scene load_scene_geometry(const PlacedFile& file, SceneFiles& models);
+Scene load_scene_geometry(const std::filesystem::path& path);
+
+}  // namespace sonarsim

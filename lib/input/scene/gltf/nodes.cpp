@@ -1,0 +1,211 @@
+#include "input/scene/gltf/nodes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/error.h"
+#include "input/scene/gltf/extras.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr int deepest_node = 256;
+constexpr int no_parent = -1;
+
+struct Graph {
+    const tinygltf::Model& model;
+    const std::string& file;
+
+    std::size_t size() const { return model.nodes.size(); }
+    const tinygltf::Node& node(int index) const {
+        return model.nodes[static_cast<std::size_t>(index)];
+    }
+    std::string name(int index) const {
+        return node(index).name.empty() ? "node" + std::to_string(index) : node(index).name;
+    }
+    [[noreturn]] void fail(int index, const std::string& what) const {
+        throw InputError(Location{file}, "node '" + name(index) + "' " + what);
+    }
+    void check_exists(int index, const std::string& what) const {
+        if (static_cast<std::size_t>(index) < size()) return;
+        throw InputError(Location{file},
+                         what + " node " + std::to_string(index) + ", which does not exist");
+    }
+};
+
+std::vector<int> parents_of(const Graph& graph) {
+    std::vector<int> parent(graph.size(), no_parent);
+    for (int i = 0; i < static_cast<int>(graph.size()); ++i) {
+        for (const int child : graph.node(i).children) {
+            graph.check_exists(child, "node '" + graph.name(i) + "' has the child");
+            int& known = parent[static_cast<std::size_t>(child)];
+            if (known != no_parent) {
+                graph.fail(child, "has two parents, '" + graph.name(known) + "' and '" +
+                                      graph.name(i) + "'");
+            }
+            known = i;
+        }
+    }
+    // Refuse nodes below a cycle and nodes that lie too deep.
+    for (int i = 0; i < static_cast<int>(graph.size()); ++i) {
+        int above = i;
+        for (int depth = 1; above != no_parent; ++depth) {
+            if (depth > deepest_node) graph.fail(i, "lies deeper than 256 levels in the hierarchy");
+            above = parent[static_cast<std::size_t>(above)];
+            if (above == i) graph.fail(i, "is its own ancestor");
+        }
+    }
+    return parent;
+}
+
+std::vector<int> scene_roots(const Graph& graph, const std::vector<int>& parent) {
+    const tinygltf::Model& model = graph.model;
+    std::vector<int> roots;
+    if (model.scenes.empty() && model.defaultScene < 0) {
+        for (int i = 0; i < static_cast<int>(graph.size()); ++i) {
+            if (parent[static_cast<std::size_t>(i)] == no_parent) roots.push_back(i);
+        }
+        return roots;
+    }
+    const auto scene = static_cast<std::size_t>(std::max(model.defaultScene, 0));
+    if (scene >= model.scenes.size()) {
+        throw InputError(Location{graph.file}, "the default scene is " + std::to_string(scene) +
+                                                   ", which does not exist");
+    }
+    std::vector<bool> is_listed(graph.size(), false);
+    for (const int root : model.scenes[scene].nodes) {
+        graph.check_exists(root, "the scene has the root");
+        const auto i = static_cast<std::size_t>(root);
+        if (parent[i] != no_parent) {
+            graph.fail(root, "is a root of the scene, but also a child of '" +
+                                 graph.name(parent[i]) + "'");
+        }
+        if (is_listed[i]) graph.fail(root, "is listed twice in the scene");
+        is_listed[i] = true;
+        roots.push_back(root);
+    }
+    return roots;
+}
+
+Eigen::Affine3d local_transform(const Graph& graph, int index) {
+    const tinygltf::Node& node = graph.node(index);
+    const auto require_size = [&](const char* key, const std::vector<double>& numbers,
+                                  std::size_t size) {
+        if (numbers.empty() || numbers.size() == size) return;
+        graph.fail(index, "has a " + std::string(key) + " of " + std::to_string(numbers.size()) +
+                              " numbers; expected " + std::to_string(size));
+    };
+    require_size("matrix", node.matrix, 16);
+    require_size("translation", node.translation, 3);
+    require_size("rotation", node.rotation, 4);
+    require_size("scale", node.scale, 3);
+    Eigen::Affine3d transform = Eigen::Affine3d::Identity();
+    if (!node.matrix.empty()) {
+        transform.matrix() = Eigen::Map<const Eigen::Matrix4d>(node.matrix.data());
+        if (transform.matrix().row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0)) {
+            graph.fail(index, "has a matrix whose last row is not 0 0 0 1");
+        }
+        return transform;
+    }
+    if (!node.translation.empty()) {
+        transform.translate(Eigen::Map<const Eigen::Vector3d>(node.translation.data()));
+    }
+    if (!node.rotation.empty()) {
+        constexpr double tolerance = 1e-3;  // exporters round the components
+        const auto& q = node.rotation;
+        const Eigen::Quaterniond rotation(q[3], q[0], q[1], q[2]);
+        if (!(std::abs(rotation.norm() - 1.0) <= tolerance)) {
+            graph.fail(index, "has a rotation that is not a unit quaternion");
+        }
+        transform.rotate(rotation.normalized());
+    }
+    if (!node.scale.empty()) {
+        transform.scale(Eigen::Map<const Eigen::Vector3d>(node.scale.data()));
+    }
+    return transform;
+}
+
+void check_rigid(const Graph& graph, int index) {
+    const tinygltf::Node& node = graph.node(index);
+    const auto& meshes = graph.model.meshes;
+    if (static_cast<std::size_t>(node.mesh) >= meshes.size()) {
+        graph.fail(index, "has mesh " + std::to_string(node.mesh) + ", which does not exist");
+    }
+    if (node.skin >= 0) {
+        graph.fail(index, "is skinned, which is not read; apply the armature before the export");
+    }
+    const auto& mesh = meshes[static_cast<std::size_t>(node.mesh)];
+    const auto& weights = node.weights.empty() ? mesh.weights : node.weights;
+    if (std::any_of(weights.begin(), weights.end(), [](double w) { return w != 0.0; })) {
+        graph.fail(index, "is morphed, which is not read; apply the shape keys before the export");
+    }
+}
+
+/// The transform from the file's axes and unit to metres with z up.
+Eigen::Affine3d file_from_gltf(const PlacedFile& placed) {
+    Eigen::Affine3d T_file_gltf = Eigen::Affine3d::Identity();
+    if (!placed.z_up) T_file_gltf.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+    T_file_gltf.linear() *= placed.unit_m;
+    return T_file_gltf;
+}
+
+}  // namespace
+
+std::string UniqueNames::unique(const std::string& name) {
+    std::string candidate = name;
+    while (!taken.insert(candidate).second) {
+        int& number = last.emplace(name, 1).first->second;
+        candidate = name + "_" + std::to_string(++number);
+    }
+    return candidate;
+}
+
+std::vector<PlacedMesh> place_meshes(const tinygltf::Model& model, const PlacedFile& placed_file,
+                                     UniqueNames& names) {
+    const std::string file = placed_file.file.string();
+    const Graph graph{model, file};
+    const std::vector<int> parent = parents_of(graph);
+
+    struct Visit {
+        int node;
+        Eigen::Affine3d T_world_parent;
+        std::string material;
+        std::string label;
+    };
+    const Eigen::Affine3d T_world_gltf = placed_file.T_world_file * file_from_gltf(placed_file);
+    std::vector<Visit> pending;
+    const auto push = [&pending](const std::vector<int>& nodes, const auto& transform,
+                                 const std::string& material, const std::string& label) {
+        // Pushed in reverse, so that the stack yields them in their order.
+        for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
+            pending.push_back({*node, transform, material, label});
+        }
+    };
+    push(scene_roots(graph, parent), T_world_gltf, "", "");
+
+    std::vector<PlacedMesh> placed;
+    while (!pending.empty()) {
+        const Visit visit = std::move(pending.back());
+        pending.pop_back();
+        const tinygltf::Node& node = graph.node(visit.node);
+        const Eigen::Affine3d T_world_node =
+            visit.T_world_parent * local_transform(graph, visit.node);
+        const std::string own = sonar_material(node.extras);
+        const std::string& material = own.empty() ? visit.material : own;
+        const std::string own_class = sonar_class(node.extras);
+        const std::string& label = own_class.empty() ? visit.label : own_class;
+        if (node.mesh >= 0) {
+            check_rigid(graph, visit.node);
+            placed.push_back(
+                {node.mesh, T_world_node,
+                 placed_file.name.empty() ? names.unique(graph.name(visit.node)) : placed_file.name,
+                 material, label});
+        }
+        push(node.children, T_world_node, material, label);
+    }
+    return placed;
+}
+
+}  // namespace sonarsim

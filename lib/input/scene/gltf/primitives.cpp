@@ -1,0 +1,88 @@
+#include "input/scene/gltf/primitives.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "input/scene/gltf/extras.h"
+#include "input/scene/meshes/read_mesh.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr std::size_t max_triangles = std::size_t{1} << 28;
+constexpr std::size_t piece_cost = 64;
+
+/// The name of a primitive's material in the file; "" if it has none.
+std::string name_in_file(const PlacedPrimitive& primitive) {
+    if (!primitive.mesh.material.empty()) return primitive.mesh.material;
+    if (primitive.material < 0) return "";
+    const auto index = static_cast<std::size_t>(primitive.material);
+    const tinygltf::Model& model = *primitive.file.model;
+    if (index >= model.materials.size()) {
+        throw InputError(primitive.where + ": material " + std::to_string(index) +
+                         " does not exist");
+    }
+    const tinygltf::Material& material = model.materials[index];
+    const std::string own = sonar_material(material.extras);
+    return own.empty() ? material.name : own;
+}
+
+}  // namespace
+
+void ReadingLimit::add(const TriangleSource* source, const std::string& file) {
+    work += piece_cost;
+    if (source) work += source->count + source->positions.sparse_at.size();
+    if (work <= max_triangles) return;
+    throw InputError(Location{file},
+                     "places more than 2^28 triangles (a primitive counts as 64 more)");
+}
+
+std::string material_name(const PlacedPrimitive& primitive, const MaterialRules& rules) {
+    const PlacedFile& placed = *primitive.file.placed;
+    if (!placed.material.empty()) return placed.material;
+    std::string name = name_in_file(primitive);
+    if (!rules.fallback.empty() && !rules.known.contains(name)) return rules.fallback;
+    if (!name.empty()) return name;
+    if (rules.nameless_allowed) return "(no material)";
+    if (placed.heightmap || placed.seabed) {
+        const std::string ground = placed.seabed ? "seabed" : "heightmap";
+        throw InputError(placed.place, "the " + ground + " has no material; write scene." + ground +
+                                           ".material: NAME");
+    }
+    if (is_mesh_file(placed.file)) {
+        throw InputError(placed.place, "'" + printable(primitive.mesh.instance) +
+                                           "' has no material in " + placed.file.string() +
+                                           "; write material: NAME for an object, or "
+                                           "scene.material_default for all that have none");
+    }
+    throw InputError(primitive.where + " of node '" + primitive.mesh.instance + "': " +
+                     (primitive.material < 0 ? "has no material" : "its material has no name") +
+                     "; name one in the glTF material or as extras.sonar.material of the node, or "
+                     "give scene.material_default");
+}
+
+std::string user_of(const PlacedPrimitive& primitive) {
+    const PlacedFile& file = *primitive.file.placed;
+    return "'" + printable(primitive.mesh.instance) + "' in " + file.file.string() +
+           (file.place.file.empty() ? "" : " (" + file.place.text() + ")");
+}
+
+void take_class_of_material(const PlacedPrimitive& primitive, std::string& class_name) {
+    if (!primitive.file.placed->class_name.empty()) return;
+    if (!primitive.mesh.label.empty() || primitive.material < 0) return;
+    const auto index = static_cast<std::size_t>(primitive.material);
+    const tinygltf::Model& model = *primitive.file.model;
+    if (index >= model.materials.size()) return;  // reported where the material is looked up
+    const std::string own = sonar_class(model.materials[index].extras);
+    if (own.empty() || own == class_name) return;
+    if (!class_name.empty()) {
+        throw InputError(primitive.where + " of node '" + primitive.mesh.instance +
+                         "': its material has the class '" + own + "', another of the node's '" +
+                         class_name + "'; give the node a class as its extras.sonar.class");
+    }
+    class_name = own;
+}
+
+}  // namespace sonarsim

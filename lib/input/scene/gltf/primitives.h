@@ -1,0 +1,89 @@
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <cstdint>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "input/scene/gltf/nodes.h"
+#include "input/scene/gltf/triangles.h"
+#include "input/scene/placed_file.h"
+
+namespace sonarsim {
+
+/// A file of the scene with its placed meshes.
+struct OpenFile {
+    const PlacedFile* placed;
+    const tinygltf::Model* model;
+    std::vector<PlacedMesh> meshes;
+    std::vector<std::uint32_t> instance_of_mesh;  ///< indices into Scene::instances
+};
+
+/// One primitive of one placed mesh.
+struct PlacedPrimitive {
+    const OpenFile& file;
+    const PlacedMesh& mesh;
+    std::uint32_t instance;
+    const TriangleSource& source;
+    int material;       ///< index into the glTF's materials; -1: none
+    std::string where;  ///< location for error messages
+};
+
+inline Eigen::Vector3d corner(const PlacedPrimitive& primitive, std::uint32_t vertex) {
+    return primitive.mesh.T_world_mesh * position(primitive.source.positions, vertex);
+}
+
+/// Limits the work of reading a scene, since a small file can place a large mesh, or many small
+/// ones, many times. InputError with `file` beyond the limit.
+struct ReadingLimit {
+    std::size_t work = 0;
+
+    void add(const TriangleSource* source, const std::string& file);
+};
+
+/// Calls `visit` with every primitive of a file. Returns the number of primitives that are not
+/// surfaces.
+template <class Visit>
+std::uint64_t for_each_primitive(const OpenFile& file, ReadingLimit& limit, const Visit& visit) {
+    std::uint64_t skipped = 0;
+    const std::string path = file.placed->file.string();
+    for (std::size_t i = 0; i < file.meshes.size(); ++i) {
+        const auto mesh_index = static_cast<std::size_t>(file.meshes[i].mesh);
+        const tinygltf::Mesh& mesh = file.model->meshes[mesh_index];
+        const std::string name =
+            mesh.name.empty() ? std::to_string(mesh_index) : "'" + mesh.name + "'";
+        const std::string prefix = path + ": mesh " + name + " primitive ";
+        for (std::size_t k = 0; k < mesh.primitives.size(); ++k) {
+            const std::string where = prefix + std::to_string(k);
+            const auto source = open_triangles(*file.model, mesh.primitives[k], where);
+            limit.add(source ? &*source : nullptr, path);
+            if (!source) {
+                ++skipped;
+                continue;
+            }
+            visit(PlacedPrimitive{file, file.meshes[i], file.instance_of_mesh[i], *source,
+                                  mesh.primitives[k].material, where});
+        }
+    }
+    return skipped;
+}
+
+/// The names that materials of the scene may have.
+struct MaterialRules {
+    bool nameless_allowed = false;  ///< a missing name becomes "(no material)"
+    std::set<std::string> known;    ///< names in the CSV
+    std::string fallback;           ///< replaces a missing or unknown name; "": no replacement
+};
+
+/// The name of a primitive's material in the CSV. InputError if it has none.
+std::string material_name(const PlacedPrimitive& primitive, const MaterialRules& rules);
+
+/// "'NODE' in FILE (mission.yaml:6:7)": the primitive's node, for messages.
+std::string user_of(const PlacedPrimitive& primitive);
+
+/// Gives an instance without a class the class of its materials. InputError if they differ.
+void take_class_of_material(const PlacedPrimitive& primitive, std::string& class_name);
+
+}  // namespace sonarsim

@@ -1,0 +1,92 @@
+#include "input/scene/gltf/repeats.h"
+
+#include <map>
+#include <tuple>
+
+#include "core/error.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// The settings that decide how a file is read, without its place.
+auto reading_of(const PlacedFile& file) {
+    return std::tie(file.file, file.unit_m, file.z_up, file.material, file.class_name);
+}
+
+struct LessReading {
+    bool operator()(const PlacedFile* a, const PlacedFile* b) const {
+        return reading_of(*a) < reading_of(*b);
+    }
+};
+
+std::size_t triangles_of(const OpenFile& file) {
+    std::size_t triangles = 0;
+    ReadingLimit limit;
+    for_each_primitive(file, limit, [&](const PlacedPrimitive& primitive) {
+        triangles += primitive.source.count;
+    });
+    return triangles;
+}
+
+void add_mesh(RepeatedFile& repeated, const MaterialRules& rules, ReadingLimit& limit,
+              MaterialNumbers& materials, Scene& scene) {
+    repeated.mesh = static_cast<std::uint32_t>(scene.shared_meshes.size());
+    repeated.class_name = scene.instance_classes[repeated.open.instance_of_mesh.front()];
+    SharedMesh& mesh = scene.shared_meshes.emplace_back();
+    MeshBuilder<SharedMesh> builder{mesh, scene.rejects, repeated.extent.centre()};
+    scene.rejects.skipped_primitives +=
+        for_each_primitive(repeated.open, limit, [&](const PlacedPrimitive& primitive) {
+            const std::uint32_t material = materials.of(primitive, rules, scene);
+            take_class_of_material(primitive, repeated.class_name);
+            builder.add(primitive, [&] { mesh.triangle_material.push_back(material); });
+        });
+}
+
+}  // namespace
+
+Repeats find_repeats(const std::vector<OpenFile>& open, std::size_t sharing_threshold,
+                     ReadingLimit& limit) {
+    constexpr std::size_t max_triangles = 0xFFFF0000U;
+    std::map<const PlacedFile*, std::vector<std::size_t>, LessReading> alike;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+        const PlacedFile& file = *open[i].placed;
+        if (!file.name.empty() && !file.moves) alike[&file].push_back(i);
+    }
+    std::erase_if(alike, [](const auto& group) { return group.second.size() < 2; });
+    std::size_t triangles = 0;
+    for (const auto& group : alike)
+        triangles += group.second.size() * triangles_of(open[group.second.front()]);
+    Repeats repeats;
+    repeats.of_file.assign(open.size(), nullptr);
+    if (triangles <= sharing_threshold) return repeats;
+    if (triangles > max_triangles) {
+        throw InputError(alike.begin()->first->place,
+                         "repeated files have " + std::to_string(triangles) +
+                             " triangles together with this one; at most 4294901760 are supported");
+    }
+    for (const auto& group : alike) {
+        const OpenFile& first = open[group.second.front()];
+        RepeatedFile& repeated = repeats.files.emplace_back(RepeatedFile{*first.placed, first});
+        repeated.placed.T_world_file = Eigen::Affine3d::Identity();
+        UniqueNames names;
+        repeated.open.placed = &repeated.placed;
+        repeated.open.meshes = place_meshes(*first.model, repeated.placed, names);
+        repeated.extent = find_extent(repeated.open, limit);
+        for (const std::size_t file : group.second)
+            repeats.of_file[file] = &repeated;
+    }
+    return repeats;
+}
+
+void add_copy(RepeatedFile& repeated, const OpenFile& file, const MaterialRules& rules,
+              ReadingLimit& limit, MaterialNumbers& materials, Scene& scene) {
+    if (!repeated.mesh) add_mesh(repeated, rules, limit, materials, scene);
+    const std::uint32_t instance = file.instance_of_mesh.front();
+    scene.instance_classes[instance] = repeated.class_name;
+    scene.copies.push_back(
+        {*repeated.mesh, instance,
+         file.placed->T_world_file * Eigen::Translation3d(repeated.extent.centre())});
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,233 @@
+#include "input/scene/gltf/triangles.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+#include "core/error.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr std::size_t max_count = std::size_t{1} << 28;
+/// Elements without a bufferView are zeros, which take memory and no bytes of the file.
+constexpr std::size_t max_zeros = std::size_t{1} << 20;
+
+template <class T>
+double number(const unsigned char* bytes, bool is_normalized) {
+    T stored;
+    std::memcpy(&stored, bytes, sizeof(T));
+    const auto value = static_cast<double>(stored);
+    if (!is_normalized) return value;
+    return std::max(value / static_cast<double>(std::numeric_limits<T>::max()), -1.0);
+}
+
+double number(const unsigned char* bytes, int component_type, bool is_normalized) {
+    switch (component_type) {
+        case TINYGLTF_COMPONENT_TYPE_BYTE:
+            return number<std::int8_t>(bytes, is_normalized);
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return number<std::uint8_t>(bytes, is_normalized);
+        case TINYGLTF_COMPONENT_TYPE_SHORT:
+            return number<std::int16_t>(bytes, is_normalized);
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return number<std::uint16_t>(bytes, is_normalized);
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+            return number<std::uint32_t>(bytes, is_normalized);
+        default:
+            return number<float>(bytes, false);
+    }
+}
+
+std::size_t bytes_of(int component_type) {
+    return static_cast<std::size_t>(
+        tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component_type)));
+}
+
+bool is_index_type(int component_type) {
+    return component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+           component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+           component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+}
+
+bool is_position_type(int component_type) {
+    return component_type == TINYGLTF_COMPONENT_TYPE_FLOAT ||
+           component_type == TINYGLTF_COMPONENT_TYPE_BYTE ||
+           component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+           component_type == TINYGLTF_COMPONENT_TYPE_SHORT ||
+           component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
+}
+
+/// Finds `count` >= 1 elements from `offset` on in a buffer view and checks that they lie within
+/// their buffer.
+Elements locate(const tinygltf::Model& model, int view_index, std::size_t offset,
+                std::size_t element_bytes, std::size_t count, const std::string& where) {
+    const std::string name = "bufferView " + std::to_string(view_index);
+    if (static_cast<std::size_t>(view_index) >= model.bufferViews.size()) {
+        throw InputError(where + ": " + name + " does not exist");
+    }
+    const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(view_index)];
+    if (static_cast<std::size_t>(view.buffer) >= model.buffers.size()) {
+        throw InputError(where + ": " + name + " lies in buffer " + std::to_string(view.buffer) +
+                         ", which does not exist");
+    }
+    const auto& bytes = model.buffers[static_cast<std::size_t>(view.buffer)].data;
+    if (view.byteOffset > bytes.size() || view.byteLength > bytes.size() - view.byteOffset) {
+        throw InputError(where + ": " + name + " reaches beyond the end of its buffer (" +
+                         std::to_string(bytes.size()) + " bytes)");
+    }
+    const std::size_t stride = view.byteStride == 0 ? element_bytes : view.byteStride;
+    if (stride < element_bytes) {
+        throw InputError(where + ": byteStride " + std::to_string(stride) +
+                         " is less than the size of an element, " + std::to_string(element_bytes));
+    }
+    // `max_count` limits the count, and strides are at most 252, so that this does not overflow.
+    const std::size_t needed = stride * (count - 1) + element_bytes;
+    if (needed > view.byteLength || offset > view.byteLength - needed) {
+        throw InputError(where + ": claims " + std::to_string(count) + " elements; " + name +
+                         " is too short for them (" + std::to_string(view.byteLength) + " bytes)");
+    }
+    return {bytes.data() + view.byteOffset + offset, stride};
+}
+
+void open_sparse(const tinygltf::Model& model, const tinygltf::Accessor& from,
+                 std::size_t element_bytes, Accessor& to, const std::string& where) {
+    const auto& sparse = from.sparse;
+    const auto count = static_cast<std::size_t>(sparse.count);
+    if (count == 0 || count > to.count) {
+        throw InputError(where + ": sparse count " + std::to_string(count) +
+                         " is not between 1 and the accessor's " + std::to_string(to.count));
+    }
+    const int type = sparse.indices.componentType;
+    if (!is_index_type(type)) {
+        throw InputError(where + ": sparse indices must be unsigned integers");
+    }
+    const Elements indices = locate(model, sparse.indices.bufferView,
+                                    static_cast<std::size_t>(sparse.indices.byteOffset),
+                                    bytes_of(type), count, where + ": sparse indices");
+    to.sparse =
+        locate(model, sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset),
+               element_bytes, count, where + ": sparse values");
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto at = static_cast<std::uint32_t>(number(indices.at(i), type, false));
+        if (at >= to.count || (i > 0 && at <= to.sparse_at.back())) {
+            throw InputError(where + ": sparse indices must ascend and stay below " +
+                             std::to_string(to.count));
+        }
+        to.sparse_at.push_back(at);
+    }
+}
+
+/// An accessor to positions (VEC3), or to vertex indices (SCALAR, unsigned). InputError starting
+/// with `where` if its type is wrong or it claims more than its buffer holds.
+Accessor open_accessor(const tinygltf::Model& model, int index, bool is_positions,
+                       const std::string& where) {
+    if (static_cast<std::size_t>(index) >= model.accessors.size())
+        throw InputError(where + ": accessor " + std::to_string(index) + " does not exist");
+    const tinygltf::Accessor& from = model.accessors[static_cast<std::size_t>(index)];
+    if (is_positions && !is_position_type(from.componentType))
+        throw InputError(where + ": positions must be float, or 8- or 16-bit integers");
+    if (!is_positions && !is_index_type(from.componentType))
+        throw InputError(where + ": indices must be unsigned 8-, 16- or 32-bit integers");
+    if (from.type != (is_positions ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_SCALAR)) {
+        throw InputError(where + ": expected an accessor of type " +
+                         (is_positions ? "VEC3" : "SCALAR"));
+    }
+    if (from.count == 0 || from.count > max_count) {
+        throw InputError(where + ": count " + std::to_string(from.count) +
+                         " is not between 1 and " + std::to_string(max_count));
+    }
+    Accessor to;
+    to.count = from.count;
+    to.component_type = from.componentType;
+    to.component_bytes = bytes_of(from.componentType);
+    to.is_normalized = from.normalized;
+    const std::size_t element_bytes = (is_positions ? 3 : 1) * to.component_bytes;
+    if (from.bufferView >= 0) {
+        to.elements =
+            locate(model, from.bufferView, from.byteOffset, element_bytes, to.count, where);
+    } else if (!from.sparse.isSparse) {
+        throw InputError(where + ": has neither a bufferView nor sparse elements");
+    } else if (from.count > max_zeros) {
+        throw InputError(where + ": count " + std::to_string(from.count) +
+                         " needs a bufferView; without one it is at most " +
+                         std::to_string(max_zeros));
+    }
+    if (from.sparse.isSparse) open_sparse(model, from, element_bytes, to, where);
+    return to;
+}
+
+/// The bytes of an element; null for a zero.
+const unsigned char* element(const Accessor& accessor, std::size_t i) {
+    const auto& at = accessor.sparse_at;
+    const auto found = std::lower_bound(at.begin(), at.end(), i);
+    if (found != at.end() && *found == i)
+        return accessor.sparse.at(static_cast<std::size_t>(found - at.begin()));
+    return accessor.elements.data ? accessor.elements.at(i) : nullptr;
+}
+
+std::uint32_t vertex_index(const Accessor& accessor, std::size_t i) {
+    const unsigned char* const bytes = element(accessor, i);
+    return bytes ? static_cast<std::uint32_t>(number(bytes, accessor.component_type, false)) : 0;
+}
+
+}  // namespace
+
+Eigen::Vector3d position(const Accessor& accessor, std::size_t i) {
+    const unsigned char* const bytes = element(accessor, i);
+    if (!bytes) return Eigen::Vector3d::Zero();
+    const auto component = [&](std::size_t k) {
+        return number(bytes + k * accessor.component_bytes, accessor.component_type,
+                      accessor.is_normalized);
+    };
+    return {component(0), component(1), component(2)};
+}
+
+std::optional<TriangleSource> open_triangles(const tinygltf::Model& model,
+                                             const tinygltf::Primitive& primitive,
+                                             const std::string& where) {
+    if (primitive.mode < 0 || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
+        throw InputError(where + ": mode " + std::to_string(primitive.mode) +
+                         " is not one of glTF's, 0 to 6");
+    }
+    if (primitive.mode < TINYGLTF_MODE_TRIANGLES) return std::nullopt;
+    const auto attribute = primitive.attributes.find("POSITION");
+    if (attribute == primitive.attributes.end()) throw InputError(where + ": has no POSITION");
+
+    TriangleSource source;
+    source.mode = primitive.mode;
+    source.positions = open_accessor(model, attribute->second, true, where + ": POSITION");
+    if (primitive.indices >= 0) {
+        source.indices = open_accessor(model, primitive.indices, false, where + ": indices");
+    }
+    const std::size_t corners = source.indices ? source.indices->count : source.positions.count;
+    const bool is_list = primitive.mode == TINYGLTF_MODE_TRIANGLES;
+    if (is_list ? corners % 3 != 0 : corners < 3) {
+        throw InputError(where + ": " + std::to_string(corners) +
+                         " corners do not make whole triangles");
+    }
+    source.count = is_list ? corners / 3 : corners - 2;
+    return source;
+}
+
+std::array<std::uint32_t, 3> triangle(const TriangleSource& source, std::size_t i,
+                                      const std::string& where) {
+    std::array<std::size_t, 3> corners{i, i + 1, i + 2};
+    if (source.mode == TINYGLTF_MODE_TRIANGLES) corners = {3 * i, 3 * i + 1, 3 * i + 2};
+    if (source.mode == TINYGLTF_MODE_TRIANGLE_FAN) corners[0] = 0;
+
+    std::array<std::uint32_t, 3> vertices{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        vertices[k] = source.indices ? vertex_index(*source.indices, corners[k])
+                                     : static_cast<std::uint32_t>(corners[k]);
+        if (vertices[k] >= source.positions.count) {
+            throw InputError(where + ": index " + std::to_string(vertices[k]) +
+                             " is out of range; there are " +
+                             std::to_string(source.positions.count) + " vertices");
+        }
+    }
+    return vertices;
+}
+
+}  // namespace sonarsim

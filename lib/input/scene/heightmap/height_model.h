@@ -1,0 +1,21 @@
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <filesystem>
+
+#include "input/scene/placed_file.h"
+
+namespace sonarsim {
+
+/// Reads an image of heights as tinygltf's structs, as if it were a glTF with z up and one node
+/// "heightmap". Only the rule's window of a larger map is read. A vertex stands at the centre of
+/// each pixel; four neighbours make two triangles that share the edge from the first row and column
+/// to the next row and column. A triangle needs three known heights. Positions are (column, row,
+/// value); the node's matrix turns them into the map's coordinates, so that maps far from their
+/// origin lose nothing.
+/// InputError as read_image(), for an image of several channels, one whose place is not known or in
+/// degrees, values that are not heights, and a map without a triangle.
+tinygltf::Model height_model(const std::filesystem::path& path, const HeightmapRule& rule);
+
+}  // namespace sonarsim

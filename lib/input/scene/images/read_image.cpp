@@ -1,0 +1,164 @@
+#include "input/scene/images/read_image.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "core/error.h"
+#include "core/known_format.h"
+#include "core/module.h"
+#include "core/text.h"
+#include "input/scene/images/image_place.h"
+#include "input/scene/images/module.h"
+
+namespace sonarsim {
+
+namespace {
+
+std::string first_bytes(const std::filesystem::path& path) {
+    std::string bytes(16, '\0');
+    std::ifstream file(path, std::ios::binary);
+    file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    bytes.resize(static_cast<std::size_t>(file.gcount()));
+    return bytes;
+}
+
+/// The name that OpenImageIO has for the format of a file; "" if it is none of those that are read.
+std::string image_format(std::string_view bytes) {
+    using namespace std::literals;
+    if (bytes.starts_with("\x89PNG")) return "png";
+    if (bytes.starts_with("\x76\x2f\x31\x01")) return "openexr";
+    constexpr std::array tiffs{"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv};
+    return std::ranges::find(tiffs, bytes.substr(0, 4)) == tiffs.end() ? "" : "tiff";
+}
+
+/// InputError unless the path is that of a regular file that can be opened and is not too large.
+void require_readable(const std::filesystem::path& path, const Location& where) {
+    constexpr std::uintmax_t max_bytes = std::uintmax_t{1} << 31;
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (!std::filesystem::exists(status)) throw InputError(where, "no such file");
+    if (!std::filesystem::is_regular_file(status)) throw InputError(where, "is not a regular file");
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    if (error || size > max_bytes)
+        throw InputError(where,
+                         "is larger than 2 GiB; cut a part out with gdal_translate -projwin");
+}
+
+struct Reading {
+    SonarsimImageHead head;
+    Image image;
+};
+
+/// Keeps the head of an image. Returns the room for its values, unless they are too many.
+float* make_room(void* user, const SonarsimImageHead* head) {
+    auto& reading = *static_cast<Reading*>(user);
+    reading.head = *head;
+    if (head->channels == 0 || head->width > max_image_values || head->height > max_image_values ||
+        head->width * head->height > max_image_values / head->channels)
+        return nullptr;
+    reading.image.values.resize(head->width * head->height * head->channels);
+    return reading.image.values.data();
+}
+
+/// Reads the pixels and the head of a file.
+Reading read_file_with_module(const std::filesystem::path& path, const std::string& format,
+                              const Location& where) {
+    std::array<char, 400> error{};
+    Reading reading{};
+    std::string reason;
+    try {
+        const auto read = reinterpret_cast<SonarsimReadImage>(
+            module_symbol(image_module, image_module_symbol, image_package));
+        if (read(format.c_str(), path.c_str(), &make_room, &reading, error.data(), error.size()) !=
+            0)
+            reason = error.data();
+    } catch (const InputError& fault) {
+        reason = fault.what();
+    }
+    std::ranges::replace(reason, '\n', ' ');
+    if (!reason.empty()) throw InputError(where, "cannot be read: " + printable(reason));
+    if (!reading.image.values.empty()) return reading;
+    throw InputError(where, "has " + std::to_string(reading.head.width) + " x " +
+                                std::to_string(reading.head.height) + " pixels of " +
+                                std::to_string(reading.head.channels) +
+                                (reading.head.channels == 1 ? " value" : " values") +
+                                ", and at most 2^26 values are read; make it coarser with "
+                                "gdal_translate -outsize 50% 50%, or cut a part out with "
+                                "gdal_translate -projwin");
+}
+
+void set_reference(const SonarsimImageHead& head, const std::filesystem::path& path,
+                   const Location& where, Image& image) {
+    image.grid = head.has_grid == 0
+                     ? read_world_file(path)
+                     : PixelGrid{head.grid[0], head.grid[1], head.grid[2], head.grid[3]};
+    image.in_degrees = head.in_degrees != 0;
+    if (!image.grid) return;
+    const auto& [x_m, y_m, column_m, row_m] = *image.grid;
+    if (std::isfinite(x_m + y_m + column_m + row_m) && column_m != 0.0 && row_m != 0.0) return;
+    throw InputError(where, "has no valid pixel size or origin; export it again");
+}
+
+/// Makes the pixels that have no value NaN. Many files mark them with the largest float, but write
+/// this mark with few digits: then every huge value with the sign of the mark is unknown.
+void mark_unknown(const SonarsimImageHead& head, const Location& where, Image& image) {
+    const std::string_view text = trim(head.no_data);
+    if (text.empty()) return;
+    const std::optional<double> mark = parse_number(text);
+    if (!mark) {
+        throw InputError(where, "has the mark of unknown pixels '" + printable(text) +
+                                    "' (GDAL_NODATA), which is not a number; set it again, as with "
+                                    "gdal_translate -a_nodata -9999");
+    }
+    if (std::isnan(*mark)) return;
+    image.has_no_data = true;
+    constexpr double huge = 1e30;
+    const auto is_unknown = [&](float value) {
+        return std::isnan(value) || value == static_cast<float>(*mark) ||
+               (std::fabs(*mark) > huge && std::fabs(value) > huge &&
+                (value < 0.0F) == (*mark < 0.0));
+    };
+    for (std::size_t i = 0; i < image.values.size(); i += head.channels) {
+        float* const pixel = &image.values[i];
+        if (std::all_of(pixel, pixel + image.colours(), is_unknown))
+            std::fill(pixel, pixel + image.colours(), std::nanf(""));
+    }
+}
+
+}  // namespace
+
+bool is_image_file(const std::filesystem::path& path) {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(path, ignored) &&
+           !image_format(first_bytes(path)).empty();
+}
+
+Image read_image(const std::filesystem::path& path) {
+    const Location where{path.string()};
+    require_readable(path, where);
+    const std::string bytes = first_bytes(path);
+    const std::string format = image_format(bytes);
+    if (format.empty()) {
+        const std::string_view known = known_format(bytes);
+        throw InputError(where, (known.empty() ? "is not an image" : "is " + std::string(known)) +
+                                    "; PNG, TIFF and OpenEXR are read");
+    }
+    Reading reading = read_file_with_module(path, format, where);
+    const SonarsimImageHead& head = reading.head;
+    Image& image = reading.image;
+    image.width = static_cast<int>(head.width);
+    image.height = static_cast<int>(head.height);
+    image.channels = static_cast<int>(head.channels);
+    image.bits = static_cast<int>(head.bits);
+    image.is_float = head.is_float != 0;
+    set_reference(head, path, where, image);
+    mark_unknown(head, where, image);
+    return std::move(image);
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,235 @@
+#include "input/scene/materials.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+
+#include "core/csv.h"
+#include "core/elementary.h"
+#include "core/error.h"
+#include "core/input_limits.h"
+#include "core/text.h"
+#include "core/units.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr std::size_t max_file_bytes = 1 << 24;
+
+/// A column that a file may have or not. Its cells may be empty.
+struct OptionalColumn {
+    std::string_view name;
+    double low, high;
+    void (*put)(Material&, double);
+};
+
+constexpr std::array<OptionalColumn, 8> optional_columns{
+    {{"lambert_db", -300.0, 20.0, [](Material& m, double value) { m.lambert_db = value; }},
+     {"slope_rms_deg", 0.0, 45.0, [](Material& m, double value) { m.slope_rms_deg = value; }},
+     {"grain_phi", -10.0, 9.0, [](Material& m, double value) { m.grain_phi = value; }},
+     {"loss_parameter", 1e-6, 1.0, [](Material& m, double value) { m.loss_parameter = value; }},
+     {"spectral_strength_cm4", 1e-9, 10.0,
+      [](Material& m, double value) { m.spectral_strength_cm4 = value; }},
+     {"spectral_exponent", 2.4, 3.9,
+      [](Material& m, double value) { m.spectral_exponent = value; }},
+     {"volume_parameter", 0.0, 1.0, [](Material& m, double value) { m.volume_parameter = value; }},
+     // Older files have it; it has no effect.
+     {"roughness_m", 0.0, 10.0, [](Material& /*m*/, double /*value*/) {}}}};
+
+/// The optional columns of the table, in its order, from its fourth column on.
+std::vector<OptionalColumn> optional_columns_of(const CsvTable& csv) {
+    const std::vector<std::string> ours{"material", "density_kg_m3", "sound_speed_m_s"};
+    const std::vector<std::string> holoocean{"Material", "Density kg/m^3", "Speed of Sound m/s"};
+    const Location where{csv.file, csv.header.line};
+    const std::vector<std::string>& names = csv.header.fields;
+    const std::vector<std::string> first(
+        names.begin(), names.begin() + std::min<std::ptrdiff_t>(3, std::ssize(names)));
+    if (first != ours && first != holoocean) {
+        throw InputError(where,
+                         "the first columns must be 'material,density_kg_m3,sound_speed_m_s' or "
+                         "'Material, Density kg/m^3, Speed of Sound m/s'");
+    }
+    std::vector<std::string> known;
+    for (const OptionalColumn& column : optional_columns)
+        known.emplace_back(column.name);
+    std::vector<OptionalColumn> columns;
+    for (auto name = names.begin() + 3; name != names.end(); ++name) {
+        const auto column = std::ranges::find(optional_columns, *name, &OptionalColumn::name);
+        if (column == optional_columns.end()) {
+            throw InputError(where, "unknown column '" + printable(*name) + "'" +
+                                        did_you_mean(*name, known) + "; docs/scenes.md lists them");
+        }
+        if (std::find(names.begin() + 3, name, *name) != name)
+            throw InputError(where, "the column '" + *name + "' occurs twice; leave one out");
+        columns.push_back(*column);
+    }
+    return columns;
+}
+
+double number_within(const std::string& text, const char* quantity, double low, double high,
+                     const Location& where) {
+    const auto value = parse_number(text);
+    if (!value) throw InputError(where, std::string(quantity) + " '" + text + "' is not a number");
+    if (!(*value >= low && *value <= high)) {
+        throw InputError(where, std::string(quantity) + " is " + text +
+                                    "; expected a number from " + number_text(low) + " to " +
+                                    number_text(high));
+    }
+    return *value;
+}
+
+/// A density or a speed of sound.
+double medium_number(const std::string& text, const char* quantity, const Location& where) {
+    return number_within(text, quantity, min_medium, largest_medium, where);
+}
+
+/// InputError if the columns of a sea bed have some numbers of the model and lack others.
+void check_sea_bed(const Material& material, const Location& where) {
+    if (material.grain_phi) return;
+    const std::array<std::pair<const char*, bool>, 3> needed{
+        {{"loss_parameter", material.loss_parameter.has_value()},
+         {"spectral_strength_cm4", material.spectral_strength_cm4.has_value()},
+         {"volume_parameter", material.volume_parameter.has_value()}}};
+    const auto given = std::ranges::count_if(needed, [](const auto& n) { return n.second; });
+    if (given == std::ssize(needed) || (given == 0 && !material.spectral_exponent)) return;
+    std::string missing;
+    for (const auto& [name, is_given] : needed) {
+        if (!is_given) missing += (missing.empty() ? "'" : ", '") + std::string(name) + "'";
+    }
+    throw InputError(where, "without a grain_phi a sea bed needs " + missing +
+                                ", too; fill them in, or fill in grain_phi");
+}
+
+MaterialTable to_materials(const CsvTable& csv) {
+    const std::vector<OptionalColumn> optional = optional_columns_of(csv);
+    MaterialTable table;
+    table.file = csv.file;
+    std::map<std::string, int> line_of;
+    for (const CsvRow& row : csv.rows) {
+        const Location where{csv.file, row.line};
+        Material material;
+        material.name = row.fields[0];
+        if (material.name.empty()) throw InputError(where, "the material has no name");
+        const auto [known, is_new] = line_of.emplace(material.name, row.line);
+        if (!is_new) {
+            throw InputError(where, "material '" + material.name + "' is already in line " +
+                                        std::to_string(known->second));
+        }
+        material.density_kg_m3 = medium_number(row.fields[1], "density", where);
+        material.sound_speed_m_s = medium_number(row.fields[2], "sound speed", where);
+        for (std::size_t i = 0; i < optional.size(); ++i) {
+            const OptionalColumn& column = optional[i];
+            const std::string& cell = row.fields[3 + i];
+            if (cell.empty()) continue;
+            column.put(material,
+                       number_within(cell, column.name.data(), column.low, column.high, where));
+        }
+        check_sea_bed(material, where);
+        table.materials.push_back(std::move(material));
+    }
+    return table;
+}
+
+/// Quotes a name for CSV if it needs quotes.
+std::string field_of(const std::string& name) {
+    if (name.find_first_of(",\"# ") == std::string::npos) return name;
+    std::string out = "\"";
+    for (const char c : name)
+        out += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return out + "\"";
+}
+
+}  // namespace
+
+MaterialTable read_materials(const std::filesystem::path& path) {
+    return to_materials(read_csv(path, max_file_bytes));
+}
+
+MaterialTable parse_materials(std::string_view text, const std::string& file_name) {
+    return to_materials(parse_csv(text, file_name));
+}
+
+void resolve_materials(Scene& scene, const MaterialTable& table, const Water& water,
+                       std::span<const std::string> users) {
+    std::map<std::string, const Material*> by_name;
+    std::vector<std::string> names;
+    for (const Material& material : table.materials) {
+        by_name.emplace(material.name, &material);
+        names.push_back(material.name);
+    }
+    ErrorList errors;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        Material& material = scene.materials[i];
+        const auto found = by_name.find(material.name);
+        if (found == by_name.end()) {
+            const std::string name = "'" + printable(material.name) + "'";
+            errors.add(InputError(Location{table.file},
+                                  "lacks the material " + name +
+                                      (i < users.size() ? " of " + users[i] : "") +
+                                      did_you_mean(material.name, names) +
+                                      "; add it to the CSV or give scene.material_default"));
+            continue;
+        }
+        material = *found->second;
+        material.reflection = static_cast<float>(
+            power_reflection(material.density_kg_m3, material.sound_speed_m_s, water));
+    }
+    errors.raise();
+}
+
+void require_material(const MaterialTable& table, const std::string& name, const Location& place) {
+    std::vector<std::string> known;
+    for (const Material& material : table.materials)
+        known.push_back(material.name);
+    if (std::ranges::find(known, name) != known.end()) return;
+    throw InputError(place, "unknown material '" + printable(name) + "'" +
+                                did_you_mean(name, known) + "; " + table.file +
+                                " lists the materials");
+}
+
+std::string materials_csv(const Scene& scene, const MaterialTable& known) {
+    std::string csv = "material,density_kg_m3,sound_speed_m_s\n";
+    for (const Material& material : scene.materials) {
+        const auto row = std::ranges::find(known.materials, material.name, &Material::name);
+        csv += field_of(material.name);
+        csv += row == known.materials.end() ? ",,"
+                                            : "," + number_text(row->density_kg_m3) + "," +
+                                                  number_text(row->sound_speed_m_s);
+        csv += "\n";
+    }
+    return csv;
+}
+
+double facet_slope(const Material& material) {
+    const SinCos slope = sincos(radians(material.slope_rms_deg));
+    return slope.sin / slope.cos;
+}
+
+std::vector<std::string> unit_warnings(std::span<const Material> materials) {
+    // Gases are lighter than 10 kg/m^3 and their speed of sound is below 1,300 m/s; liquids and
+    // solids are heavier than 30 kg/m^3.
+    constexpr double lightest_solid = 30.0;
+    constexpr double fast_for_a_gas = 1300.0;
+    constexpr double slowest = 20.0;
+    std::vector<std::string> warnings;
+    for (const Material& material : materials) {
+        if (material.density_kg_m3 <= 0.0 || material.sound_speed_m_s <= 0.0) continue;
+        const std::string name = "material '" + printable(material.name) + "': ";
+        const bool slow = material.sound_speed_m_s < slowest;
+        if (slow) {
+            warnings.push_back(name + "a speed of sound of " +
+                               number_text(material.sound_speed_m_s) +
+                               " looks like km/s; the CSV takes m/s");
+        }
+        const double speed = material.sound_speed_m_s * (slow ? 1000.0 : 1.0);
+        if (material.density_kg_m3 < lightest_solid && speed > fast_for_a_gas) {
+            warnings.push_back(name + "a density of " + number_text(material.density_kg_m3) +
+                               " looks like g/cm^3; the CSV takes kg/m^3");
+        }
+    }
+    return warnings;
+}
+
+}  // namespace sonarsim

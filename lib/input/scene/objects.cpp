@@ -1,0 +1,134 @@
+#include "input/scene/objects.h"
+
+#include <algorithm>
+#include <map>
+#include <string_view>
+
+namespace sonarsim {
+
+namespace {
+
+constexpr std::size_t max_ids = 65535;  // 16 bits without 0
+
+/// Numbers names in the order in which they occur.
+struct NumberedNames {
+    std::vector<std::string> names;
+    std::map<std::string, std::uint32_t> numbers;
+
+    std::uint32_t number(const std::string& name) {
+        const auto [entry, is_new] =
+            numbers.emplace(name, static_cast<std::uint32_t>(names.size()));
+        if (is_new) names.push_back(name);
+        return entry->second;
+    }
+};
+
+/// The rule that applies to each instance; null if none does. InputError for a rule that applies to
+/// no instance.
+std::vector<const ClassRule*> rule_of_instances(std::span<const NamedInstance> instances,
+                                                std::span<const ClassRule> rules) {
+    std::vector<const ClassRule*> chosen(instances.size(), nullptr);
+    for (const ClassRule& rule : rules) {
+        bool fits = false;
+        bool taken = false;
+        for (std::size_t i = 0; i < chosen.size(); ++i) {
+            if (!fits_pattern(rule.nodes, instances[i].name)) continue;
+            taken = taken || chosen[i] != nullptr;
+            fits = fits || chosen[i] == nullptr;
+            if (!chosen[i]) chosen[i] = &rule;
+        }
+        if (fits) continue;
+        throw InputError(rule.place,
+                         "no node of the scene " + std::string(taken ? "is left for" : "fits") +
+                             " '" + rule.nodes + "'" +
+                             (taken ? ": rules above it take all that fit"
+                                    : "; `sonarsim inspect` lists the names of its nodes"));
+    }
+    return chosen;
+}
+
+/// The possible instances, followed by those of the scene.
+std::vector<NamedInstance> all_instances(const Scene& scene, const PossibleObjects& possible) {
+    std::vector<NamedInstance> all = possible.instances;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const bool known = i < scene.instance_classes.size();
+        all.push_back({scene.instances[i], known ? scene.instance_classes[i] : std::string()});
+    }
+    return all;
+}
+
+void require_ids(std::size_t count, const char* what) {
+    if (count <= max_ids) return;
+    throw InputError("the scene has " + std::to_string(count) + " " + what +
+                     ", and labels of 16 bits have at most 65535: group them with `classes`");
+}
+
+}  // namespace
+
+bool fits_pattern(std::string_view pattern, std::string_view text) {
+    std::size_t p = 0;
+    std::size_t t = 0;
+    std::size_t star = std::string_view::npos;  // last star, and the end of its text
+    std::size_t resume = 0;
+    while (t < text.size()) {
+        if (p < pattern.size() && pattern[p] == '*') {
+            star = p++;
+            resume = t;
+        } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == text[t])) {
+            ++p;
+            ++t;
+        } else if (star != std::string_view::npos) {
+            p = star + 1;
+            t = ++resume;
+        } else {
+            return false;
+        }
+    }
+    return pattern.find_first_not_of('*', p) == std::string_view::npos;
+}
+
+SceneObjects group_objects(const Scene& scene, std::span<const ClassRule> rules,
+                           const PossibleObjects& possible) {
+    const std::vector<NamedInstance> instances = all_instances(scene, possible);
+    const std::vector<const ClassRule*> rule_of = rule_of_instances(instances, rules);
+    SceneObjects out;
+    NumberedNames classes;
+    NumberedNames names;
+    for (const std::string& name : possible.classes)
+        classes.number(name);
+    std::vector<const ClassRule*> maker;  // the rule that made each object
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        const auto& [name, own] = instances[i];
+        const ClassRule* const rule = rule_of[i];
+        const bool grouped = rule && !rule->instance.empty();
+        const std::uint32_t class_index =
+            classes.number(rule ? rule->name : (own.empty() ? name : own));
+        if (i < possible.instances.size()) continue;
+        const std::uint32_t object = names.number(grouped ? rule->instance : name);
+        out.object_of_instance.push_back(object);
+        if (object == out.objects.size()) {
+            out.objects.push_back({names.names[object], class_index});
+            maker.push_back(grouped ? rule : nullptr);
+            continue;
+        }
+        // Names of nodes are unique, so if two nodes share a name, a rule has grouped one of them.
+        const ClassRule& culprit = grouped ? *rule : *maker[object];
+        if (!grouped || !maker[object]) {
+            throw InputError(culprit.place, "the instance '" + culprit.instance +
+                                                "' has the name of a node that is not in it; "
+                                                "choose another");
+        }
+        if (out.objects[object].class_index != class_index) {
+            throw InputError(culprit.place, "the instance '" + culprit.instance +
+                                                "' has the class '" + rule->name + "' here and '" +
+                                                classes.names[out.objects[object].class_index] +
+                                                "' in another rule; an instance has one class");
+        }
+    }
+    require_ids(out.objects.size(), "objects");
+    require_ids(classes.names.size(), "classes");
+    out.classes = std::move(classes.names);
+    return out;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,178 @@
+#include "input/scene/placing/scatter.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/pose.h"
+#include "core/random.h"
+#include "input/scene/placing/rest.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// The quantity that is drawn for an object: the second word of the counter. The first word is the
+/// number of the attempt.
+enum class Draw : std::uint32_t { count, shape, scale, roll, pitch, yaw, bury, x, y };
+
+/// The draws of one object of one rule.
+class Draws {
+  public:
+    Draws(std::uint64_t seed, std::uint32_t rule, std::uint32_t object)
+        : key_(stream_key(seed, rule, object, Stream::scatter)) {}
+
+    double in(const std::array<double, 2>& range, Draw what, std::uint32_t attempt = 0) const {
+        return range[0] + (range[1] - range[0]) * unit(what, attempt);
+    }
+    /// Index of one of `count` equally likely choices.
+    std::size_t one_of(std::size_t count, Draw what) const {
+        const auto chosen = static_cast<std::size_t>(unit(what, 0) * static_cast<double>(count));
+        return std::min(chosen, count - 1);
+    }
+
+  private:
+    double unit(Draw what, std::uint32_t attempt) const {
+        const PhiloxBlock block = philox({attempt, static_cast<std::uint32_t>(what), 0, 0}, key_);
+        return unit_double(block.x0, block.x1);
+    }
+
+    PhiloxKey key_;
+};
+
+std::size_t count_of(const ScatterRule& rule, std::uint64_t seed, std::uint32_t rule_index) {
+    constexpr std::uint32_t rule_count_key = 0xFFFFFFFFU;
+    const auto fewest = static_cast<std::size_t>(rule.count[0]);
+    const auto most = static_cast<std::size_t>(rule.count[1]);
+    return fewest + Draws(seed, rule_index, rule_count_key).one_of(most - fewest + 1, Draw::count);
+}
+
+/// Number of refused positions by reason.
+struct Refusals {
+    int outside = 0;
+    int taken = 0;
+    int no_bottom = 0;
+};
+
+[[noreturn]] void give_up(const ScatterRule& rule, std::size_t object, std::size_t count,
+                          const Refusals& refusals) {
+    throw InputError(
+        rule.place,
+        "'" + rule.name + "': object " + std::to_string(object + 1) + " of " +
+            std::to_string(count) + " finds no room in " + std::to_string(rule.tries) +
+            " tries: " + std::to_string(refusals.outside) + " reach out of the area, " +
+            std::to_string(refusals.taken) + " come too near to other objects, " +
+            std::to_string(refusals.no_bottom) +
+            " have no bottom below; take a larger area, fewer or smaller objects or more tries");
+}
+
+Hull shifted(Hull hull, const Eigen::Vector2d& by) {
+    for (Eigen::Vector2d& corner : hull)
+        corner += by;
+    return hull;
+}
+
+bool has_room(const Hull& room, double spacing_m, const std::vector<Hull>& taken) {
+    return std::ranges::none_of(taken, [&](const Hull& other) {
+        const double distance = distance_between(room, other, spacing_m);
+        return distance <= 0.0 || distance < spacing_m;
+    });
+}
+
+/// One object whose positions are tried one after the other.
+struct Attempt {
+    const ScatterRule& rule;
+    const Bottom& bottom;
+    const Surface& shape;
+    const Stance& stance;
+    const Hull& outline;  ///< outline of the rotated shape about its origin
+};
+
+/// Returns the object's transform if there is room for it, and marks the ground as taken.
+std::optional<Eigen::Affine3d> try_at(const Eigen::Vector2d& position, const Attempt& attempt,
+                                      std::vector<Hull>& taken, Refusals& refusals) {
+    const ScatterRule& rule = attempt.rule;
+    const auto fits = [&](const Hull& room) {
+        const bool inside = std::ranges::all_of(
+            room, [&](const Eigen::Vector2d& p) { return rule.area.contains(p); });
+        const bool alone = inside && has_room(room, rule.spacing_m, taken);
+        refusals.outside += !inside;
+        refusals.taken += inside && !alone;
+        return alone;
+    };
+    // Cheap test first, with the outline before the object is lowered.
+    if (!fits(shifted(attempt.outline, position))) return std::nullopt;
+    std::optional<Eigen::Affine3d> T_world_shape =
+        put_on_bottom(attempt.bottom, attempt.shape, position, attempt.stance);
+    if (!T_world_shape) {
+        ++refusals.no_bottom;
+        return std::nullopt;
+    }
+    if (!rule.align) {
+        taken.push_back(shifted(attempt.outline, position));
+        return T_world_shape;
+    }
+    // The object may have been tilted on a slope, so its outline is tested again.
+    Hull room = hull_of(moved(attempt.shape, *T_world_shape).vertices);
+    if (!fits(room)) return std::nullopt;
+    taken.push_back(std::move(room));
+    return T_world_shape;
+}
+
+}  // namespace
+
+std::optional<Eigen::Affine3d> put_on_bottom(const Bottom& bottom, const Surface& shape,
+                                             const Eigen::Vector2d& position,
+                                             const Stance& stance) {
+    const auto at = [&](const Eigen::Quaterniond& rotation) {
+        Eigen::Affine3d T = Eigen::Affine3d::Identity();
+        T.translation() << position, 0.0;
+        T.linear() = stance.scale * rotation.toRotationMatrix();
+        return T;
+    };
+    Eigen::Affine3d T_world_shape = at(stance.rotation);
+    if (stance.align) {
+        const Eigen::AlignedBox3d box = box_of(moved(shape, T_world_shape));
+        const Eigen::AlignedBox2d below(box.min().head<2>(), box.max().head<2>());
+        T_world_shape = at(slope_of(bottom, below) * stance.rotation);
+    }
+    const auto lift = lift_to_rest(bottom, moved(shape, T_world_shape));
+    if (!lift) return std::nullopt;
+    T_world_shape.translation().z() = *lift - stance.bury_m;
+    return T_world_shape;
+}
+
+std::vector<ScatteredObject> scatter(const ScatterRule& rule, std::uint32_t rule_index,
+                                     std::uint64_t seed, const Bottom& bottom,
+                                     std::vector<Hull>& taken) {
+    const std::size_t count = count_of(rule, seed, rule_index);
+    std::vector<ScatteredObject> objects;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Draws draws(seed, rule_index, static_cast<std::uint32_t>(i));
+        const std::size_t chosen = draws.one_of(rule.shapes.size(), Draw::shape);
+        const Surface& shape = *rule.shapes[chosen];
+        const Stance stance{.rotation = rotation_from_rpy(draws.in(rule.rpy_rad[0], Draw::roll),
+                                                          draws.in(rule.rpy_rad[1], Draw::pitch),
+                                                          draws.in(rule.rpy_rad[2], Draw::yaw)),
+                            .scale = draws.in(rule.scale, Draw::scale),
+                            .align = rule.align,
+                            .bury_m = draws.in(rule.bury_m, Draw::bury)};
+        Eigen::Affine3d upright = Eigen::Affine3d::Identity();
+        upright.linear() = stance.scale * stance.rotation.toRotationMatrix();
+        const Hull outline = hull_of(moved(shape, upright).vertices);
+
+        Refusals refusals;
+        std::optional<Eigen::Affine3d> found;
+        for (int attempt = 0; attempt < rule.tries && !found; ++attempt) {
+            const auto n = static_cast<std::uint32_t>(attempt);
+            const Eigen::Vector2d position(
+                draws.in({rule.area.min().x(), rule.area.max().x()}, Draw::x, n),
+                draws.in({rule.area.min().y(), rule.area.max().y()}, Draw::y, n));
+            found = try_at(position, {rule, bottom, shape, stance, outline}, taken, refusals);
+        }
+        if (!found) give_up(rule, i, count, refusals);
+        objects.push_back({chosen, *found});
+    }
+    return objects;
+}
+
+}  // namespace sonarsim

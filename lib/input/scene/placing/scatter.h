@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "input/scene/placing/bottom.h"
+#include "input/scene/placing/hull.h"
+#include "input/scene/surface.h"
+
+namespace sonarsim {
+
+/// Objects placed on the bottom at random. Pairs are ranges of uniform draws.
+struct ScatterRule {
+    std::string name;
+    std::vector<const Surface*> shapes;  ///< in their own frames, equally likely
+    std::array<double, 2> count{};       ///< whole numbers, both ends included
+    Eigen::AlignedBox2d area;            ///< every object lies within it entirely
+    std::array<std::array<double, 2>, 3> rpy_rad{};
+    std::array<double, 2> scale{1.0, 1.0};
+    std::array<double, 2> bury_m{};
+    double spacing_m = 0.0;
+    bool align = false;
+    int tries = 1;   ///< positions tried for each object
+    Location place;  ///< in the mission, for messages
+};
+
+struct ScatteredObject {
+    std::size_t shape = 0;
+    Eigen::Affine3d T_world_shape = Eigen::Affine3d::Identity();
+};
+
+/// The attitude, scale and depth at which an object rests on the bottom.
+struct Stance {
+    Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+    double scale = 1.0;
+    bool align = false;
+    double bury_m = 0.0;
+};
+
+/// The transform that puts `shape` on the bottom above or below `position`, so that it touches the
+/// bottom, and then lowers it by `bury_m`. Returns nullopt if a part of it would have no bottom.
+std::optional<Eigen::Affine3d> put_on_bottom(const Bottom& bottom, const Surface& shape,
+                                             const Eigen::Vector2d& position, const Stance& stance);
+
+/// Draws the objects of a rule, the `rule_index`-th of the mission, and adds their hulls to
+/// `taken`. No hull comes nearer to another than the spacing. The properties of an object are drawn
+/// once, its position up to `tries` times. Every draw depends on the seed, the rule and the object,
+/// not on earlier draws. InputError at the rule's place if an object finds no room.
+std::vector<ScatteredObject> scatter(const ScatterRule& rule, std::uint32_t rule_index,
+                                     std::uint64_t seed, const Bottom& bottom,
+                                     std::vector<Hull>& taken);
+
+}  // namespace sonarsim

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "input/scene/placed_file.h"
+#include "input/scene/surface.h"
+
+namespace sonarsim {
+
+/// True if a surface rests broadly along an axis of its frame: the outline of its lowest
+/// hundredth, seen along the axis, covers at least a third of its whole outline. A box stands, and
+/// a tyre on its side; a ball, a lying cylinder and a tyre on its tread do not.
+bool rests_upright(const Surface& surface, int axis);
+
+/// "tyre.stl lies on its side ...: does its z point up? up: z" for a file that does not say which
+/// axis points up, is read as y up, and stands only with z up; else "". `surface` is that of the
+/// file before it is placed.
+std::string up_question(const PlacedFile& file, const Surface& surface);
+
+}  // namespace sonarsim

@@ -1,0 +1,131 @@
+#include "input/scene/seabed/seabed.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sonarsim {
+
+namespace {
+
+/// With two triangles each, a scene then takes about 12 GB.
+constexpr double max_cells_of_bed = 33554432.0;
+
+/// The cells from `low` to `high` along one axis, with a margin: the first, and the one after the
+/// last. A bed with a size has no cells outside it; if fewer than two of its cells remain, all are
+/// taken.
+std::array<double, 2> cells_within(double low, double high, double cell_m, double size_m) {
+    constexpr double margin = 2.0;
+    const double first = std::floor(low / cell_m) - margin;
+    const double last = std::ceil(high / cell_m) + margin;
+    if (size_m == 0.0) return {first, last};
+    const double count = std::floor(size_m / cell_m + 1e-9);
+    const double from = std::max(first, 0.0);
+    const double to = std::min(last, count);
+    if (to - from < 2.0) return {0.0, count};
+    return {from, to};
+}
+
+BedGrid grid_of_rule(const SeabedRule& rule) {
+    const std::array<double, 2> size = rule.size_m.value_or(std::array{0.0, 0.0});
+    const BedArea& w = rule.window;
+    const auto x = cells_within(w[0], w[2], rule.cell_m, size[0]);
+    const auto y = cells_within(w[1], w[3], rule.cell_m, size[1]);
+    const double columns = x[1] - x[0];
+    const double rows = y[1] - y[0];
+    if (columns < 2.0 || rows < 2.0) {
+        throw InputError(rule.place, "size_m has fewer than 2 x 2 cells of cell_m; make it larger");
+    }
+    if (columns * rows > max_cells_of_bed) {
+        throw InputError(
+            rule.place,
+            fmt::format("the mission needs {:.0f} x {:.0f} heights of the seabed, and at most 2^25 "
+                        "have room; raise cell_m, or shorten the trajectory or the ranges",
+                        columns, rows));
+    }
+    return {rule.cell_m, static_cast<std::int64_t>(x[0]), static_cast<std::int64_t>(y[1]) - 1,
+            static_cast<int>(columns), static_cast<int>(rows)};
+}
+
+/// The height of the bed between the heights of the grid, on its triangles.
+double height_at(const Seabed& bed, double x_m, double y_m) {
+    const BedGrid& grid = bed.grid;
+    // Counted from the bed's (0, 0), so that the rounding is the same in every part.
+    const double across = x_m / grid.cell_m - 0.5;
+    const double up = y_m / grid.cell_m - 0.5;
+    const double west = std::floor(across);
+    const double north = std::ceil(up);
+    const double u = across - west;
+    const double v = north - up;
+    const int column =
+        std::clamp(static_cast<int>(west - static_cast<double>(grid.west)), 0, grid.columns - 2);
+    const int row =
+        std::clamp(static_cast<int>(static_cast<double>(grid.north) - north), 0, grid.rows - 2);
+    const auto z = [&](int r, int c) {
+        return static_cast<double>(
+            bed.heights[static_cast<std::size_t>(row + r) * static_cast<std::size_t>(grid.columns) +
+                        static_cast<std::size_t>(column + c)]);
+    };
+    // The diagonal runs from the north-west to the south-east.
+    if (u > v) return z(0, 0) + u * (z(0, 1) - z(0, 0)) + v * (z(1, 1) - z(0, 1));
+    return z(0, 0) + v * (z(1, 0) - z(0, 0)) + u * (z(1, 1) - z(1, 0));
+}
+
+void add_rocks(const SeabedRule& rule, Seabed& bed) {
+    constexpr double max_rocks = 50000.0;
+    const BedGrid& grid = bed.grid;
+    // Within the outer heights, where every point has a height.
+    const BedArea area{grid.x_m(0), grid.y_m(grid.rows - 1), grid.x_m(grid.columns - 1),
+                       grid.y_m(0)};
+    const double count = (area[2] - area[0]) * (area[3] - area[1]) * rule.rocks->density_per_m2;
+    if (count > max_rocks) {
+        throw InputError(rule.place, fmt::format("the part of the seabed that the mission needs "
+                                                 "has some {:.0f} rocks, and at most {:.0f} have "
+                                                 "room; lower their density_per_m2",
+                                                 count, max_rocks));
+    }
+    bed.rock_shapes = rock_shapes(rule.seed);
+    bed.rocks = rocks_in(area, *rule.rocks, rule.cell_m, rule.seed);
+    bed.rock_material = rule.rocks->material;
+    for (Rock& rock : bed.rocks) {
+        auto at = rock.T_world_shape.translation();
+        const Eigen::AlignedBox3d box = box_of(bed.rock_shapes[rock.shape]);
+        const double z = height_at(bed, at.x(), at.y());
+        at.z() = z - rock.diameter_m * (box.min().z() + rock.buried * box.sizes().z());
+    }
+}
+
+}  // namespace
+
+std::string rock_name(std::size_t index) {
+    return "rock_" + std::to_string(index + 1);
+}
+
+std::vector<std::string> materials_of(const Seabed& bed) {
+    std::vector<std::string> names = bed.materials;
+    names.push_back(bed.rock_material);
+    std::erase(names, "");
+    return names;
+}
+
+Seabed make_seabed(const SeabedRule& rule) {
+    Seabed bed;
+    bed.grid = grid_of_rule(rule);
+    bed.class_name = rule.class_name;
+    std::vector<double> heights(bed.grid.size(), rule.z_m);
+    if (rule.ripples) add_ripples(bed.grid, *rule.ripples, rule.seed, heights);
+    if (rule.roughness) add_roughness(bed.grid, *rule.roughness, rule.seed, heights);
+    bed.heights.reserve(heights.size());
+    for (const double z : heights)
+        bed.heights.push_back(static_cast<float>(z));
+    bed.materials = {rule.material};
+    if (!rule.sediments.empty()) bed.materials.clear();
+    for (const BedSediment& sediment : rule.sediments)
+        bed.materials.push_back(sediment.material);
+    bed.sediments = sediments_of(bed.grid, rule.sediments, rule.patch_m, rule.seed);
+    if (rule.rocks) add_rocks(rule, bed);
+    return bed;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "input/scene/seabed/bed_grid.h"
+#include "input/scene/seabed/relief.h"
+#include "input/scene/seabed/rocks.h"
+#include "input/scene/seabed/sediments.h"
+#include "input/scene/surface.h"
+
+namespace sonarsim {
+
+/// The parameters of a generated sea bed, and the part of it to generate.
+struct SeabedRule {
+    std::uint64_t seed = 0;
+    double cell_m = 1.0;
+    std::optional<std::array<double, 2>> size_m = {};  ///< x, y from (0, 0); none: no end
+    BedArea window{};                                  ///< the part to generate
+    double z_m = 0.0;                                  ///< mean height
+    std::optional<BedRoughness> roughness = {};
+    std::optional<BedRipples> ripples = {};
+    std::vector<BedSediment> sediments = {};  ///< none: `material` everywhere
+    double patch_m = 10.0;
+    std::optional<BedRocks> rocks = {};
+    std::string material = {};  ///< "": none
+    std::string class_name = {};
+    Location place = {};  ///< in the mission, for messages
+};
+
+/// A bed, or a part of one.
+struct Seabed {
+    BedGrid grid;
+    std::vector<float> heights;           ///< world z of the cells, in the order of the grid
+    std::vector<std::string> materials;   ///< the bed's; "" is none
+    std::vector<std::uint8_t> sediments;  ///< index into `materials` for each cell
+    std::string class_name;
+    std::vector<Surface> rock_shapes;
+    std::vector<Rock> rocks;
+    std::string rock_material;
+};
+
+/// The class of the rocks, for labels.
+inline constexpr const char* rock_class = "rock";
+
+/// "rock_1", the node of the first rock.
+std::string rock_name(std::size_t index);
+
+/// The names of all materials that a bed names.
+std::vector<std::string> materials_of(const Seabed& bed);
+
+/// Makes a part of a bed. The same rule makes the same bed in every part, except for the numbers of
+/// the rocks. InputError at the rule's place for a part with more than 2^25 heights, fewer than 2 x
+/// 2, or more than 50,000 rocks.
+Seabed make_seabed(const SeabedRule& rule);
+
+}  // namespace sonarsim

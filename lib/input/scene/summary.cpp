@@ -1,0 +1,117 @@
+#include "input/scene/summary.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "core/text.h"
+
+namespace sonarsim {
+
+namespace {
+
+struct Share {
+    std::uint64_t triangles = 0;
+    double area_m2 = 0.0;
+
+    void add(double area) {
+        ++triangles;
+        area_m2 += area;
+    }
+};
+
+double area_of(const Scene& scene, const std::array<std::uint32_t, 3>& triangle) {
+    const Eigen::Vector3d a = scene.vertices[triangle[0]].cast<double>();
+    const Eigen::Vector3d b = scene.vertices[triangle[1]].cast<double>();
+    const Eigen::Vector3d c = scene.vertices[triangle[2]].cast<double>();
+    return 0.5 * (b - a).cross(c - a).norm();
+}
+
+std::string point(const Eigen::Vector3d& p) {
+    return fmt::format("({:.3f}, {:.3f}, {:.3f})", p.x(), p.y(), p.z());
+}
+
+/// Counts bytes; fmt counts the columns of a terminal.
+std::string padded(std::string text, std::size_t width) {
+    text.resize(std::max(text.size(), width), ' ');
+    return text;
+}
+
+std::string table(const std::string& title, const std::vector<std::string>& names,
+                  const std::vector<Share>& shares) {
+    std::vector<std::string> shown;
+    shown.reserve(names.size());
+    for (const std::string& name : names)
+        shown.push_back(printable(name));
+    std::size_t width = title.size();
+    for (const std::string& name : shown)
+        width = std::max(width, name.size());
+    std::string out = padded("\n" + title, width + 1) + "   triangles     area m^2\n";
+    for (std::size_t i = 0; i < shown.size(); ++i)
+        out += padded(shown[i], width) +
+               fmt::format("{:>12}{:>13.3f}\n", shares[i].triangles, shares[i].area_m2);
+    return out;
+}
+
+}  // namespace
+
+std::string describe_scene(const Scene& scene) {
+    Share whole;
+    std::vector<Share> of_material(scene.materials.size());
+    std::vector<Share> of_instance(scene.instances.size());
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+        const double area = area_of(scene, scene.triangles[i]);
+        whole.add(area);
+        of_material[scene.triangle_material[i]].add(area);
+        of_instance[scene.triangle_instance[i]].add(area);
+    }
+    std::vector<std::string> materials;
+    for (const Material& material : scene.materials)
+        materials.push_back(material.name);
+
+    std::string out = fmt::format(
+        "bounds     {} to {} m\nsize       {} m\norigin     {} m\n"
+        "triangles  {} with {} vertices, {:.3f} m^2\n",
+        point(scene.bounds_min), point(scene.bounds_max),
+        point(scene.bounds_max - scene.bounds_min), point(scene.origin), whole.triangles,
+        scene.vertices.size(), whole.area_m2);
+    const SceneRejects& rejects = scene.rejects;
+    if (rejects.degenerate_triangles + rejects.non_finite_triangles + rejects.skipped_primitives) {
+        out += fmt::format(
+            "dropped    {} triangles without area, {} that are not finite, {} primitives of points "
+            "or lines\n",
+            rejects.degenerate_triangles, rejects.non_finite_triangles, rejects.skipped_primitives);
+    }
+    if (has_coarse_vertices(scene)) {
+        out += fmt::format(
+            "rounding   {:.3f} m, since vertices lie far from the origin of their file or node\n",
+            scene.vertex_rounding_m);
+    }
+    return out + table("material", materials, of_material) +
+           table("instance", scene.instances, of_instance);
+}
+
+std::string describe_materials(const Scene& scene, const MaterialTable& table, const Water& water) {
+    const std::string title = "material";
+    std::size_t width = title.size();
+    for (const Material& material : scene.materials)
+        width = std::max(width, printable(material.name).size());
+    std::string out = padded("\n" + title, width + 1) + "  kg/m^3    m/s     reflection\n";
+    for (const Material& material : scene.materials) {
+        out += padded(printable(material.name), width);
+        const auto row = std::ranges::find(table.materials, material.name, &Material::name);
+        if (row == table.materials.end()) {
+            out += "  not in " + printable(table.file) + "\n";
+            continue;
+        }
+        out += fmt::format("{:>8}{:>8}{:>13.3f}\n", number_text(row->density_kg_m3),
+                           number_text(row->sound_speed_m_s),
+                           power_reflection(row->density_kg_m3, row->sound_speed_m_s, water));
+    }
+    return out;
+}
+
+}  // namespace sonarsim

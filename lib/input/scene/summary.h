@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "input/scene/materials.h"
+#include "input/scene/scene.h"
+
+namespace sonarsim {
+
+/// Summary of a scene as lines of text: bounds, triangles and area, dropped parts, then a table of
+/// materials and one of instances with their triangles and area.
+std::string describe_scene(const Scene& scene);
+
+/// A table of the scene's materials as a CSV has them, with their power reflection coefficients in
+/// `water`. Materials that the CSV lacks are marked.
+std::string describe_materials(const Scene& scene, const MaterialTable& table, const Water& water);
+
+}  // namespace sonarsim

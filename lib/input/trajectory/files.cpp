@@ -1,0 +1,253 @@
+#include "input/trajectory/files.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/csv.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "core/input_limits.h"
+#include "core/text.h"
+#include "core/units.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr std::size_t max_bytes = std::size_t{64} << 20;
+
+/// A column and the largest magnitude that is plausible in it.
+struct Column {
+    std::string_view name;
+    double limit;
+};
+
+// Both attitude formats start with the same four columns; TUM files have the first set.
+constexpr std::array<Column, 8> with_quaternion{{{"t_s", furthest_s},
+                                                 {"x_m", furthest_m},
+                                                 {"y_m", furthest_m},
+                                                 {"z_m", furthest_m},
+                                                 {"qx", 1e9},
+                                                 {"qy", 1e9},
+                                                 {"qz", 1e9},
+                                                 {"qw", 1e9}}};
+constexpr std::array<Column, 7> with_angles{{{"t_s", furthest_s},
+                                             {"x_m", furthest_m},
+                                             {"y_m", furthest_m},
+                                             {"z_m", furthest_m},
+                                             {"roll_deg", 1e6},
+                                             {"pitch_deg", 1e6},
+                                             {"yaw_deg", 1e6}}};
+constexpr std::size_t attitude_begin = 4;
+constexpr const char* header_help =
+    "t_s, x_m, y_m, z_m and either qx, qy, qz, qw or roll_deg, pitch_deg, yaw_deg";
+
+/// A field as shown in a message: quoted, shortened if long, without control characters.
+std::string shown(std::string_view field) {
+    constexpr std::size_t longest = 40;
+    std::string out(field.substr(0, longest));
+    for (char& c : out) {
+        if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
+    }
+    return "'" + out + (field.size() > longest ? "...'" : "'");
+}
+
+double field_value(std::string_view field, const Column& column, const Location& where) {
+    const std::string name(column.name);
+    const std::optional<double> value = parse_number(field);
+    if (!value) throw InputError(where, name + ": " + shown(field) + " is not a number");
+    if (!std::isfinite(*value)) {
+        throw InputError(where, name + ": " + shown(field) + " is not a finite number");
+    }
+    if (std::fabs(*value) > column.limit) {
+        throw InputError(where, name + ": " + shown(field) + " is beyond " +
+                                    number_text(column.limit) +
+                                    "; the column's name gives the unit");
+    }
+    return *value;
+}
+
+Eigen::Quaterniond unit_quaternion(std::span<const double, 4> xyzw, const Location& where) {
+    const Eigen::Quaterniond q(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
+    const double norm = q.norm();
+    if (norm == 0.0) throw InputError(where, "the quaternion is zero; a rotation has norm 1");
+    if (std::fabs(norm - 1.0) > 1e-3) {
+        throw InputError(where, "the quaternion has norm " + number_text(norm) +
+                                    "; a rotation has norm 1 (1e-3 off is tolerated)");
+    }
+    // Unit quaternions keep their bits, so that written poses read back exactly.
+    return std::fabs(norm - 1.0) < 1e-14 ? q : q.normalized();
+}
+
+/// Takes `values` in the order of with_quaternion or with_angles.
+TimedPose pose_from(std::span<const double> values, const Location& where) {
+    const auto attitude = values.subspan(attitude_begin);
+    const Eigen::Quaterniond rotation =
+        attitude.size() == 4
+            ? unit_quaternion(attitude.first<4>(), where)
+            : rotation_from_rpy(radians(attitude[0]), radians(attitude[1]), radians(attitude[2]));
+    return {values[0], {rotation, {values[1], values[2], values[3]}}};
+}
+
+void append(Trajectory& trajectory, const TimedPose& pose, const Location& where) {
+    if (!trajectory.empty() && !(pose.t_s > trajectory.back().t_s)) {
+        throw InputError(where, "time " + number_text(pose.t_s) + " s does not come after the " +
+                                    number_text(trajectory.back().t_s) +
+                                    " s of the pose before; times must increase strictly");
+    }
+    trajectory.push_back(pose);
+}
+
+Trajectory require_poses(Trajectory trajectory, const std::string& file) {
+    if (trajectory.empty())
+        throw InputError(Location{file}, "holds no pose; at least one is needed");
+    return trajectory;
+}
+
+/// True if a header, or a set of columns, has a column of that name.
+bool has(std::span<const std::string> header, std::string_view name) {
+    return std::find(header.begin(), header.end(), name) != header.end();
+}
+bool has(std::span<const Column> columns, std::string_view name) {
+    return std::any_of(columns.begin(), columns.end(),
+                       [&](const Column& column) { return column.name == name; });
+}
+
+void check_names(std::span<const std::string> header, const Location& where) {
+    for (std::size_t i = 0; i < header.size(); ++i) {
+        if (has(header.first(i), header[i])) {
+            throw InputError(where, "column " + shown(header[i]) + " occurs twice");
+        }
+        if (has(with_quaternion, header[i]) || has(with_angles, header[i])) continue;
+        std::vector<std::string> known;
+        known.reserve(with_quaternion.size() + with_angles.size());
+        for (const Column& column : with_quaternion)
+            known.emplace_back(column.name);
+        for (const Column& column : std::span(with_angles).subspan(attitude_begin)) {
+            known.emplace_back(column.name);
+        }
+        throw InputError(where, "unknown column " + shown(header[i]) +
+                                    did_you_mean(header[i], known) + "; expected " + header_help);
+    }
+}
+
+/// The set of columns that a header has. InputError that lists the missing ones.
+std::span<const Column> columns_of(std::span<const std::string> header, const Location& where) {
+    check_names(header, where);
+    const auto any_of = [&](std::span<const Column> attitude) {
+        return std::any_of(attitude.begin(), attitude.end(),
+                           [&](const Column& column) { return has(header, column.name); });
+    };
+    const bool quaternion = any_of(std::span(with_quaternion).subspan(attitude_begin));
+    const bool angles = any_of(std::span(with_angles).subspan(attitude_begin));
+    if (quaternion == angles) {
+        throw InputError(where, std::string(quaternion ? "two attitudes" : "no attitude") +
+                                    "; expected " + header_help);
+    }
+    const std::span<const Column> columns = quaternion ? std::span<const Column>(with_quaternion)
+                                                       : std::span<const Column>(with_angles);
+    std::string missing;
+    for (const Column& column : columns) {
+        if (!has(header, column.name))
+            missing += (missing.empty() ? "" : ", ") + std::string(column.name);
+    }
+    if (!missing.empty()) {
+        throw InputError(where, "missing column " + missing + "; expected " + header_help);
+    }
+    return columns;
+}
+
+std::vector<std::string_view> split_blanks(std::string_view line) {
+    constexpr std::string_view blank = " \t\r";
+    std::vector<std::string_view> fields;
+    std::size_t begin = line.find_first_not_of(blank);
+    while (begin != std::string_view::npos) {
+        const std::size_t end = std::min(line.find_first_of(blank, begin), line.size());
+        fields.push_back(line.substr(begin, end - begin));
+        begin = line.find_first_not_of(blank, end);
+    }
+    return fields;
+}
+
+}  // namespace
+
+Trajectory parse_csv_trajectory(std::string_view text, const std::string& file) {
+    Trajectory trajectory;
+    std::vector<std::string> header;
+    std::span<const Column> columns;
+    std::vector<double> values;
+    for_each_csv_row(text, file, [&](const CsvRow& row) {
+        const Location where{file, row.line};
+        if (header.empty()) {
+            header = row.fields;
+            columns = columns_of(header, where);
+            values.resize(columns.size());
+            return;
+        }
+        for (std::size_t c = 0; c < columns.size(); ++c) {
+            const auto at = std::find(header.begin(), header.end(), columns[c].name);
+            const auto& field = row.fields[static_cast<std::size_t>(at - header.begin())];
+            values[c] = field_value(field, columns[c], where);
+        }
+        append(trajectory, pose_from(values, where), where);
+    });
+    return require_poses(std::move(trajectory), file);
+}
+
+Trajectory parse_tum(std::string_view text, const std::string& file) {
+    Trajectory trajectory;
+    text = without_byte_order_mark(text);
+    for (int number = 1; !text.empty(); ++number) {
+        const std::string_view line = text.substr(0, text.find('\n'));
+        text.remove_prefix(std::min(line.size() + 1, text.size()));
+        const auto fields = split_blanks(line.substr(0, line.find('#')));
+        if (fields.empty()) continue;
+        const Location where{file, number};
+        std::array<double, with_quaternion.size()> values{};
+        if (fields.size() != values.size()) {
+            throw InputError(where, std::to_string(fields.size()) +
+                                        " fields; a pose has 8: t x y z qx qy qz qw");
+        }
+        for (std::size_t c = 0; c < values.size(); ++c) {
+            const auto column = static_cast<int>(fields[c].data() - line.data()) + 1;
+            values[c] = field_value(fields[c], with_quaternion[c], {file, number, column});
+        }
+        append(trajectory, pose_from(values, where), where);
+    }
+    return require_poses(std::move(trajectory), file);
+}
+
+Trajectory read_trajectory(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    for (char& c : extension)
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const bool csv = extension == ".csv";
+    if (!csv && extension != ".txt" && extension != ".tum") {
+        throw InputError(Location{file.string()},
+                         "a trajectory's name ends in .csv, or in .txt or .tum for TUM poses");
+    }
+    const std::string text = read_file(file, max_bytes);
+    return csv ? parse_csv_trajectory(text, file.string()) : parse_tum(text, file.string());
+}
+
+std::string write_tum(const Trajectory& trajectory) {
+    std::string out = "# t_s x_m y_m z_m qx qy qz qw\n";
+    for (const TimedPose& pose : trajectory) {
+        const Eigen::Vector3d& p = pose.T_world_vehicle.translation;
+        const Eigen::Quaterniond& q = pose.T_world_vehicle.rotation;
+        out += number_text(pose.t_s);
+        for (const double value : {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()}) {
+            out += " " + number_text(value);
+        }
+        out += "\n";
+    }
+    return out;
+}
+
+}  // namespace sonarsim

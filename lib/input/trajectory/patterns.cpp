@@ -1,0 +1,126 @@
+#include "input/trajectory/patterns.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/elementary.h"
+#include "core/error.h"
+#include "core/text.h"
+#include "core/units.h"
+#include "input/trajectory/interpolate.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr int max_lines = 100'000;
+
+/// The corners of the survey's rectangle, in order: x along the heading, y to port.
+std::array<Eigen::Vector2d, 4> corners_along(const Lawnmower& survey, const SinCos& heading) {
+    const Eigen::Vector2d& lo = survey.area_min_m;
+    const Eigen::Vector2d& hi = survey.area_max_m;
+    std::array<Eigen::Vector2d, 4> corners{lo, {hi.x(), lo.y()}, hi, {lo.x(), hi.y()}};
+    for (Eigen::Vector2d& corner : corners) {
+        corner = {heading.cos * corner.x() + heading.sin * corner.y(),
+                  heading.cos * corner.y() - heading.sin * corner.x()};
+    }
+    return corners;
+}
+
+struct Interval {
+    double lo = std::numeric_limits<double>::infinity();
+    double hi = -std::numeric_limits<double>::infinity();
+
+    void include(double value) {
+        lo = std::min(lo, value);
+        hi = std::max(hi, value);
+    }
+};
+
+/// The interval of x that a polygon covers within a strip of y.
+Interval reach_in_strip(const std::array<Eigen::Vector2d, 4>& corners, const Interval& strip) {
+    Interval reach;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Eigen::Vector2d& a = corners[i];
+        const Eigen::Vector2d& b = corners[(i + 1) % corners.size()];
+        if (a.y() >= strip.lo && a.y() <= strip.hi) reach.include(a.x());
+        for (const double edge : {strip.lo, strip.hi}) {
+            if ((a.y() < edge) == (b.y() < edge)) continue;
+            reach.include(a.x() + (edge - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+        }
+    }
+    return reach;
+}
+
+}  // namespace
+
+Trajectory follow_waypoints(std::span<const Waypoint> waypoints, double speed_m_s, double rate_hz) {
+    Trajectory knots;
+    knots.reserve(waypoints.size());
+    for (const Waypoint& waypoint : waypoints) {
+        double t_s = 0.0;
+        if (!knots.empty()) {
+            const TimedPose& last = knots.back();
+            const double length = (waypoint.position_m - last.T_world_vehicle.translation).norm();
+            t_s = last.t_s + length / speed_m_s;
+            if (!(t_s > last.t_s)) {
+                throw InputError("waypoint " + std::to_string(knots.size() + 1) +
+                                 " has the position of the one before: " +
+                                 "a leg needs a length (turn along a leg, not on the spot)");
+            }
+        }
+        knots.push_back({t_s, {waypoint.attitude.normalized(), waypoint.position_m}});
+    }
+    return resample(knots, rate_hz);
+}
+
+Trajectory lawnmower(const Lawnmower& survey) {
+    const double yaw = radians(survey.heading_deg);
+    const SinCos heading = sincos(yaw);
+    const auto corners = corners_along(survey, heading);
+    Interval across;
+    for (const Eigen::Vector2d& corner : corners)
+        across.include(corner.y());
+
+    const double width = across.hi - across.lo;
+    const double spacing = survey.line_spacing_m;
+    // The subtracted 1e-9 keeps an exact multiple of the spacing from rounding up to one strip
+    // more.
+    const double lines = std::max(1.0, std::ceil(width / spacing - 1e-9));
+    if (lines > max_lines) {
+        throw InputError("line_spacing_m of " + number_text(spacing) + " gives " +
+                         number_text(lines) + " lines; at most " + std::to_string(max_lines) +
+                         " are allowed");
+    }
+    const double first_line = across.lo + 0.5 * (width - (lines - 1.0) * spacing);
+
+    const auto in_world = [&](double along, double to_port) {
+        // Explicit fma(): GCC contracts such a pair of products even where contraction is switched
+        // off.
+        return Eigen::Vector3d(std::fma(heading.cos, along, -(heading.sin * to_port)),
+                               std::fma(heading.sin, along, heading.cos * to_port), survey.z_m);
+    };
+    const auto turned = [&](double angle) { return rotation_from_rpy(0.0, 0.0, yaw + angle); };
+    std::vector<Waypoint> waypoints;
+    for (int line = 0; line < static_cast<int>(lines); ++line) {
+        const double y = first_line + line * spacing;
+        const Interval reach = reach_in_strip(corners, {y - 0.5 * spacing, y + 0.5 * spacing});
+        const bool forth = line % 2 == 0;
+        const Eigen::Vector3d start = in_world(forth ? reach.lo : reach.hi, y);
+        const Eigen::Vector3d end = in_world(forth ? reach.hi : reach.lo, y);
+        const Eigen::Quaterniond attitude = turned(forth ? 0.0 : pi);
+        // A half turn has two shortest arcs; a waypoint half-way chooses the one over port.
+        if (line > 0) {
+            waypoints.push_back({0.5 * (waypoints.back().position_m + start), turned(0.5 * pi)});
+        }
+        waypoints.push_back({start, attitude});
+        waypoints.push_back({end, attitude});
+    }
+    return follow_waypoints(waypoints, survey.speed_m_s, survey.rate_hz);
+}
+
+}  // namespace sonarsim

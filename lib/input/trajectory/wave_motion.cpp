@@ -1,0 +1,75 @@
+#include "input/trajectory/wave_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "core/elementary.h"
+#include "core/units.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr std::uint32_t cosines = 64;
+
+struct Cosine {
+    double rad_per_s;
+    double phase;
+};
+
+std::vector<Cosine> draw_cosines(std::uint32_t movement, const WaveMotion& motion,
+                                 PhiloxKey draws) {
+    std::vector<Cosine> out;
+    out.reserve(cosines);
+    for (std::uint32_t k = 0; k < cosines; ++k) {
+        const PhiloxBlock words = philox({movement, k, 0, 0}, draws);
+        // Keep the share off 0 and 1, so that its logarithm is finite and not 0.
+        const double share =
+            std::clamp((k + unit_double(words.x0, words.x1)) / cosines, 1e-9, 1.0 - 1e-9);
+        const double peak_ratio = std::sqrt(std::sqrt(1.25 / -logarithm(share)));
+        const double rad_per_s = 2.0 * pi * peak_ratio / motion.period_s;
+        out.push_back({rad_per_s, 2.0 * pi * unit_double(words.x2, words.x3)});
+    }
+    return out;
+}
+
+double sum_at(const std::vector<Cosine>& spectrum, double t_s) {
+    double sum = 0.0;
+    for (const Cosine& one : spectrum)
+        sum += sincos(one.rad_per_s * t_s + one.phase).cos;
+    return sum * std::sqrt(2.0 / cosines);
+}
+
+}  // namespace
+
+bool WaveMotion::is_on() const {
+    const auto moves = [](double deviation) { return deviation > 0.0; };
+    return std::ranges::any_of(position_m, moves) || std::ranges::any_of(turn_rad, moves);
+}
+
+void add_wave_motion(const WaveMotion& motion, PhiloxKey draws, Trajectory& poses) {
+    if (poses.empty() || !motion.is_on()) return;
+    std::array<std::vector<Cosine>, 6> spectra;
+    for (std::uint32_t movement = 0; movement < spectra.size(); ++movement)
+        spectra[movement] = draw_cosines(movement, motion, draws);
+    const double start_s = poses.front().t_s;
+    for (TimedPose& pose : poses) {
+        const auto moved = [&](std::size_t movement, double deviation) {
+            return deviation > 0.0 ? deviation * sum_at(spectra[movement], pose.t_s - start_s)
+                                   : 0.0;
+        };
+        Pose wave;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            wave.translation[static_cast<Eigen::Index>(axis)] =
+                moved(axis, motion.position_m[axis]);
+        const double roll = moved(3, motion.turn_rad[0]);
+        const double pitch = moved(4, motion.turn_rad[1]);
+        const double yaw = moved(5, motion.turn_rad[2]);
+        wave.rotation = rotation_from_rpy(roll, pitch, yaw);
+        pose.T_world_vehicle = pose.T_world_vehicle * wave;
+    }
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "output/dataset/record_file.h"
+
+namespace sonarsim {
+
+/// The most rows (or columns) of pings in a picture; a PNG cannot have many more. If there are more
+/// pings, a row is the mean of several.
+inline constexpr std::size_t max_picture_rows = 60'000;
+
+/// The number of pings that share a row.
+std::size_t pings_per_row(std::size_t pings);
+
+/// The number of rows.
+int picture_rows(std::size_t pings);
+
+/// The float32 records of a file as the rows of a picture, each the mean of pings_per_row() pings.
+class AveragedRows {
+  public:
+    explicit AveragedRows(const RecordFile& records);
+
+    std::size_t rows() const { return rows_; }
+    /// Row k; valid until the next call.
+    const std::vector<float>& row(std::size_t k);
+
+  private:
+    const RecordFile& records_;
+    std::size_t fold_;
+    std::size_t rows_;
+    std::vector<float> record_;
+    std::vector<float> mean_;
+};
+
+/// The intensity of the brightest colour in a picture for people.
+double white_of(AveragedRows& records);
+
+/// Visits the rows of a strip from the top. A row is a ping or, in an upright strip, one of the
+/// values over all pings. `read` returns the values of ping k; an upright strip reads each ping
+/// again for every block of values that fits into memory.
+template <class T, class Read, class Visit>
+void for_each_strip_row(std::size_t pings, std::size_t values, bool upright, const Read& read,
+                        const Visit& visit) {
+    if (!upright) {
+        for (std::size_t k = 0; k < pings; ++k)
+            visit(std::span<const T>(read(k)));
+        return;
+    }
+    constexpr std::size_t block_values = std::size_t{1} << 24;
+    const std::size_t at_once = std::clamp<std::size_t>(block_values / pings, 1, values);
+    std::vector<T> block(at_once * pings);
+    for (std::size_t first = 0; first < values; first += at_once) {
+        const std::size_t count = std::min(at_once, values - first);
+        for (std::size_t k = 0; k < pings; ++k) {
+            const std::vector<T>& ping = read(k);
+            for (std::size_t i = 0; i < count; ++i)
+                block[i * pings + k] = ping[first + i];
+        }
+        for (std::size_t i = 0; i < count; ++i)
+            visit(std::span<const T>(block).subspan(i * pings, pings));
+    }
+}
+
+}  // namespace sonarsim

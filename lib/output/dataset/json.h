@@ -1,0 +1,48 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/pose.h"
+#include "simulate/product/annotation.h"
+
+// The parts of JSON files as every file of a dataset has them.
+
+namespace sonarsim {
+
+template <class Vector>
+nlohmann::ordered_json describe_vector(const Vector& v) {
+    return {v.x(), v.y(), v.z()};
+}
+
+/// Null for an empty box.
+template <class Scalar>
+nlohmann::ordered_json describe_box(const Eigen::AlignedBox<Scalar, 3>& box) {
+    if (box.isEmpty()) return nullptr;
+    return {{"min", describe_vector(box.min())}, {"max", describe_vector(box.max())}};
+}
+
+/// A box of pixels.
+nlohmann::ordered_json describe_box(const PixelBox& box);
+
+/// Position in metres; quaternion as x, y, z, w.
+nlohmann::ordered_json describe_pose(const Pose& pose);
+
+/// JSON as it is written: indented, with a line feed at the end.
+std::string json_text(const nlohmann::ordered_json& json);
+
+/// Encodes the runs of a mask as the text that COCO's tools call compressed RLE. Each number is
+/// written in groups of five bits, the lowest first, as characters from '0' on; the sixth bit says
+/// that more groups follow. From the fourth number on, the difference from the number two places
+/// before is written.
+std::string coco_counts(std::span<const std::uint32_t> runs);
+
+/// The file of the objects in a picture, a line each; `head` says which picture it is.
+std::string objects_text(const nlohmann::ordered_json& head,
+                         const std::vector<nlohmann::ordered_json>& objects);
+
+}  // namespace sonarsim

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "input/mission/mission.h"
+#include "output/dataset/annotated_objects.h"
+#include "simulate/assembly/assemble.h"
+#include "simulate/labels/labels.h"
+#include "simulate/ping/sonar.h"
+#include "simulate/product/fan_bins.h"
+#include "simulate/product/object_masks.h"
+#include "simulate/product/object_table.h"
+
+namespace sonarsim {
+
+/// True if the mission asks for a label.
+bool is_listed(const Mission& mission, Label label);
+
+/// The labels to find for every ping of a sonar.
+struct LabelPlan {
+    bool on = false;  ///< the mission asks for labels
+    LabelRequest request;
+    bool objects = false;                ///< a writer needs the masks and the table of objects
+    std::shared_ptr<const FanBins> fan;  ///< null if no label is in the fan
+    bool fan_objects = false;            ///< objects have masks and boxes in the fan, too
+    /// For shadows; null without.
+    std::shared_ptr<const TriangleRuns> triangles;
+    AnnotatedObjects annotated;  ///< empty without annotations and shadows
+};
+LabelPlan plan_labels(const Mission& mission, const Assembly& assembly, const Sonar& sonar);
+
+/// The labels of a ping, for all writers.
+struct LabelledPing {
+    PingLabels bins;
+    std::vector<ObjectMask> polar;      ///< masks of the objects: rows of range, columns of beams
+    std::vector<ObjectMask> fan;        ///< the same in the picture of the fan
+    const FanBins* fan_bins = nullptr;  ///< null if no label is in the fan
+    std::vector<ObjectInPing> seen;     ///< sorted by id; empty if no writer needs it
+};
+
+/// Labels the bins at the time `t_s`, and finds the masks and seen objects that the writers need.
+/// `plan` must outlive the result.
+LabelledPing label_for_writers(const LabelPlan& plan, const Assembly& assembly, const Sonar& sonar,
+                               const VisibilityEngine& engine, const TracedPing& traced,
+                               const Ping& ping, double t_s);
+
+}  // namespace sonarsim

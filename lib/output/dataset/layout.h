@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "input/mission/dataset_names.h"
+#include "output/dataset/writer.h"
+
+// The files of a dataset:
+//
+//     OUT/dataset.json                what this is, axes of the sensors, whether it is complete
+//     OUT/mission.resolved.yaml       the mission with every default written out
+//     OUT/SHA256SUMS                  of every other file, once all of them are there
+//     OUT/trajectory.tum              the pose of every ping number
+//     OUT/journal.txt                 the size and hash of every file of a ping, see run/job/journal.h;
+//                                     while the mission runs, parts of it lie in OUT/journal.d/
+//     OUT/<sensor>/<format>/NNNNNN.*  a file per ping
+//     OUT/<sensor>/*                  files of records, one per ping, and products of them
+//     OUT/seabed/*                    the true heights and objects of a generated sea bed
+//
+// The files in dataset/writers are the formats. A record that is not written yet is zero. NNNNNN is
+// the index of the pose on the trajectory, in six digits or as many as the last one needs.
+
+namespace sonarsim {
+
+/// "3-of-8.txt": the part of the journal that a shard, counted from 1, writes.
+std::string journal_part(int shard, int shards);
+/// The parts of the journal in OUT/journal.d/: regular files, no links. Other runs may remove them
+/// meanwhile.
+std::vector<std::filesystem::path> journal_parts(const std::filesystem::path& folder);
+
+/// The files of one sensor.
+struct SensorLayout {
+    std::string name;
+    std::uint32_t every = 1;  ///< pings at every n-th pose
+    std::size_t pings = 0;
+    std::vector<PingOutput> per_ping;  ///< outputs of its writers, in their order
+    std::vector<std::string> products;
+};
+
+/// The files of a dataset.
+struct Layout {
+    std::filesystem::path folder;
+    std::vector<SensorLayout> sensors;
+    /// Files of no single sensor, written before the first ping: those of a generated sea bed, and
+    /// the reported poses.
+    std::vector<std::string> products;
+    std::size_t poses = 0;
+    int digits = 6;  ///< digits of a ping number
+
+    std::string number(std::uint32_t pose) const;
+    std::filesystem::path sensor_folder(std::size_t sensor) const;
+    std::filesystem::path file(const PingId& ping, const PingFile& kind) const;
+    /// The index of a ping among those of its sensor.
+    std::size_t record_of(const PingId& ping) const;
+    /// Every folder of the dataset but `folder` itself, parents first.
+    std::vector<std::filesystem::path> folders() const;
+};
+
+Layout make_layout(const Mission& mission, const std::vector<Writers>& writers, std::size_t poses);
+
+/// Every ping of a mission, in order.
+std::vector<PingId> list_pings(const Mission& mission, std::size_t poses);
+
+}  // namespace sonarsim

@@ -1,0 +1,101 @@
+#include <cmath>
+#include <map>
+
+#include "core/text.h"
+#include "input/mission/ping_draws.h"
+#include "output/dataset/json.h"
+#include "output/dataset/writer.h"
+#include "simulate/calibrated/decibel.h"
+
+namespace sonarsim {
+
+using Json = nlohmann::ordered_json;
+
+Json describe_drawn(const DrawnValues& drawn) {
+    Json json = Json::object();
+    for (const auto& [key, value] : drawn) {
+        if (const auto number = parse_number(value)) {
+            json[key] = *number;
+        } else if (value == "true" || value == "false") {
+            json[key] = value == "true";
+        } else {
+            const bool quoted = value.size() > 1 && value.front() == '"';
+            json[key] = quoted ? value.substr(1, value.size() - 2) : value;
+        }
+    }
+    return json;
+}
+
+namespace {
+
+/// The point targets that a ping reaches, by object: their number, mean place and total strength.
+Json describe_particles(const Assembly& assembly, const FinishedPing& finished, double time_s) {
+    struct Sum {
+        int count = 0;
+        double section_m2 = 0.0;
+        Eigen::Vector3d place = Eigen::Vector3d::Zero();
+    };
+    const SeenParticles& seen = finished.traced.particles;
+    std::map<std::uint32_t, Sum> sums;  // keyed by instance
+    for (std::size_t k = 0; k < seen.samples.size(); ++k) {
+        Sum& sum = sums[seen.samples[k].instance];
+        ++sum.count;
+        const Particle& particle = finished.sonar.settings.particles->all[seen.numbers[k]];
+        sum.section_m2 += particle.section_m2;
+        sum.place += place_at(particle, time_s);
+    }
+    Json json = Json::object();
+    for (const auto& [instance, sum] : sums) {
+        json[assembly.scene.instances[instance]] = {
+            {"count", sum.count},
+            {"position_m", describe_vector(Eigen::Vector3d(sum.place / sum.count))},
+            // Rounded to a hundredth of a decibel, since the cross-sections are floats.
+            {"target_strength_db", std::round(100.0 * db_of_power(sum.section_m2)) / 100.0}};
+    }
+    return json;
+}
+
+}  // namespace
+
+Json describe_ping(const Mission& mission, const Assembly& assembly, const FinishedPing& finished) {
+    const PingId& id = finished.id;
+    const PingCounts& counts = finished.ping.counts;
+    const Sonar& sonar = finished.sonar;
+    const TimedPose& pose = assembly.trajectory[id.pose];
+    const Pose T_world_sensor = sensor_pose(sonar, pose.T_world_vehicle, id.pose);
+    Json json = {
+        {"sensor", sonar.config.name},
+        {"settings", "mission.resolved.yaml#/sensors/" + sonar.config.name},
+        {"ping", id.pose},
+        {"time_s", pose.t_s},
+        {"T_world_vehicle", describe_pose(pose.T_world_vehicle)},
+        {"T_world_sensor", describe_pose(T_world_sensor)},
+        {"random", {{"seed", mission.seed}, {"stream", sonar.settings.stream}, {"ping", id.pose}}},
+        {"full_scale", assembly.full_scales[id.sensor]},
+        {"clipped_pixels", finished.clipped_pixels},
+        {"counts", json_object<Json>(ping_counters, counts)}};
+    if (!assembly.reported.empty()) {
+        json["T_world_vehicle_reported"] =
+            describe_pose(assembly.reported[id.pose].T_world_vehicle);
+    }
+    json["counts"]["multipath"] = json_object<Json>(multipath_counters, counts.multipath);
+    if (mission.variant.index >= 0) {
+        json["variant"] = {{"index", mission.variant.index},
+                           {"drawn", describe_drawn(mission.variant.drawn)}};
+    }
+    const DrawnValues drawn = drawn_for_ping(mission, sonar.config.name, id.pose);
+    if (!drawn.empty()) json["drawn"] = describe_drawn(drawn);
+    const std::vector<Pose> bodies = body_poses(assembly, pose.t_s);
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+        const std::string& name = assembly.scene.instances[assembly.scene.bodies[k].instance];
+        json["T_world_object"][name] = describe_pose(bodies[k]);
+    }
+    if (finished.sonar.settings.particles) {
+        json["particles"] =
+            describe_particles(assembly, finished, pose.t_s - assembly.trajectory.front().t_s);
+    }
+    if (!finished.measured.is_null()) json["measured"] = finished.measured;
+    return json;
+}
+
+}  // namespace sonarsim

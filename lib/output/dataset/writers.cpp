@@ -1,0 +1,90 @@
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <variant>
+
+#include "core/error.h"
+#include "output/dataset/writer.h"
+#include "output/dataset/writers/label_writers.h"
+
+namespace sonarsim {
+
+// The makers of the formats. They return nothing when the mission does not ask for the format or
+// the sonar has no such output.
+std::optional<Writer> make_polar_writer(const WriterContext& context);
+std::optional<Writer> make_image_writer(const WriterContext& context);
+std::optional<Writer> make_raw_writer(const WriterContext& context);
+std::optional<Writer> make_fan_writer(const WriterContext& context);
+std::optional<Writer> make_stages_writer(const WriterContext& context);
+std::optional<Writer> make_strip_writer(const WriterContext& context);
+std::optional<Writer> make_soundings_writer(const WriterContext& context);
+std::optional<Writer> make_scan_writer(const WriterContext& context);
+std::optional<Writer> make_raw_records_writer(const WriterContext& context);
+std::optional<Writer> make_meta_writer(const WriterContext& context);
+
+namespace {
+
+using MakeWriter = std::optional<Writer> (*)(const WriterContext&);
+
+/// Every format that a dataset may hold.
+constexpr MakeWriter formats[] = {
+    make_polar_writer,        //
+    make_image_writer,        //
+    make_raw_writer,          //
+    make_fan_writer,          //
+    make_stages_writer,       //
+    make_strip_writer,        //
+    make_soundings_writer,    //
+    make_scan_writer,         //
+    make_raw_records_writer,  //
+    make_meta_writer,         //
+};
+
+/// InputError when the mission lists the label `fan` and writes no fan. `true` asks only for the
+/// labels that there can be.
+void check_fan_label(const Mission& mission) {
+    const bool all = mission.output.labels.size() == static_cast<std::size_t>(Label::fan) + 1;
+    const bool has_fans =
+        mission.output.fan && std::ranges::any_of(mission.sensors, [](const auto& sensor) {
+            return kind_of(sensor.kind).has_images;
+        });
+    if (all || has_fans || !is_listed(mission, Label::fan)) return;
+    throw InputError(mission.output.place,
+                     "the label 'fan' needs output.fan: true and an imaging or profiling sonar");
+}
+
+}  // namespace
+
+std::vector<std::size_t> count_pings(const Mission& mission, std::size_t poses) {
+    std::vector<std::size_t> pings;
+    for (const SonarConfig& sensor : mission.sensors) {
+        const auto every = static_cast<std::size_t>(sensor.every);
+        pings.push_back((poses + every - 1) / every);
+    }
+    return pings;
+}
+
+Writers make_array_writers(const WriterContext& context) {
+    Writers writers;
+    for (const MakeWriter make : {make_raw_writer, make_raw_records_writer}) {
+        if (auto writer = make(context)) writers.push_back(*std::move(writer));
+    }
+    std::ranges::move(make_label_writers(context), std::back_inserter(writers));
+    return writers;
+}
+
+std::vector<Writers> make_writers(const Mission& mission, const Assembly& assembly) {
+    check_fan_label(mission);
+    const std::vector<std::size_t> pings = count_pings(mission, assembly.trajectory.size());
+    std::vector<Writers> all(mission.sensors.size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const WriterContext context{mission, assembly, i, pings[i]};
+        for (const MakeWriter make : formats) {
+            if (auto writer = make(context)) all[i].push_back(*std::move(writer));
+        }
+        std::ranges::move(make_label_writers(context), std::back_inserter(all[i]));
+    }
+    return all;
+}
+
+}  // namespace sonarsim

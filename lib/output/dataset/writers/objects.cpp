@@ -1,0 +1,136 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "output/dataset/annotated_objects.h"
+#include "output/dataset/json.h"
+#include "output/dataset/writers/label_writers.h"
+#include "simulate/sonar/setup.h"
+
+namespace sonarsim {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The box around a whole object along the axes of a frame, placed in the sensor's frame.
+Json placed_box_json(const Eigen::AlignedBox3d& box, const Pose& T_world_frame,
+                     const Pose& T_world_sensor) {
+    if (box.isEmpty()) return nullptr;
+    const Eigen::Vector3d centre =
+        T_world_frame.rotation * box.center() + T_world_frame.translation;
+    const Eigen::Quaterniond to_sensor = T_world_sensor.rotation.conjugate();
+    Json json = describe_pose(
+        {to_sensor * T_world_frame.rotation, to_sensor * (centre - T_world_sensor.translation)});
+    json["size_m"] = describe_vector(box.sizes());
+    return json;
+}
+
+/// The mask of an object in a list sorted by id; null for none.
+const ObjectMask* mask_of(const std::vector<ObjectMask>& masks, std::uint32_t id) {
+    const auto found = std::ranges::lower_bound(masks, id, {}, &ObjectMask::id);
+    return found != masks.end() && found->id == id ? &*found : nullptr;
+}
+
+/// The facts of objects in pings.
+class PingObjects {
+  public:
+    explicit PingObjects(const WriterContext& context)
+        : context_(context),
+          view_(context.sonar().settings.view),
+          boxes_(object_boxes(context.assembly)),
+          moving_(moving_objects(context.assembly)) {}
+
+    std::string text(const FinishedPing& finished) const {
+        std::vector<Json> objects;
+        const std::vector<Pose> T_world_body =
+            body_poses(context_.assembly, context_.assembly.trajectory[finished.id.pose].t_s);
+        for (const ObjectInPing& seen : finished.labels->seen) {
+            objects.push_back(visible_json(seen, finished, T_world_body));
+        }
+        return objects_text({{"ping", finished.id.pose}}, objects);
+    }
+
+  private:
+    Json visible_json(const ObjectInPing& seen, const FinishedPing& finished,
+                      std::span<const Pose> T_world_body) const {
+        const SceneObjects& objects = context_.assembly.objects;
+        const SceneObjects::Object& object = objects.objects[seen.id - 1];
+        Json json = {{"id", seen.id},
+                     {"name", object.name},
+                     {"class", objects.classes[object.class_index]},
+                     {"box_bins",
+                      {{"range", {seen.range_first, seen.range_last + 1}},
+                       {"beam", {seen.beam_first, seen.beam_last + 1}}}},
+                     {"area_bins", seen.bins},
+                     {"level", seen.level},
+                     {"level_around", number_or_null(seen.surrounding_level)},
+                     {"range_m", seen.range_m},
+                     {"azimuth_rad", number_or_null(seen.azimuth_rad)}};
+        json["seen_box_sensor_m"] = describe_box(seen.box_sensor_m);
+        const Pose& T_world_sensor = finished.traced.T_world_sensor;
+        if (const std::optional<MovingObject>& moving = moving_[seen.id - 1]) {
+            const Pose& T_world_object = T_world_body[moving->body];
+            json["T_world_object"] = describe_pose(T_world_object);
+            json["box_sensor"] = placed_box_json(moving->box, T_world_object, T_world_sensor);
+        } else {
+            json["box_sensor"] = placed_box_json(boxes_[seen.id - 1], {}, T_world_sensor);
+        }
+        if (!finished.labels->bins.visible_share.empty())
+            json["visible_share"] = finished.labels->bins.visible_share[seen.id - 1];
+        json["contrast_db"] = number_or_null(seen.contrast_db);
+        if (!seen.shadow.is_empty()) json["shadow"] = shadow_json(seen);
+        json["clipped"] = is_clipped(seen);
+        const ObjectMask* const polar = mask_of(finished.labels->polar, seen.id);
+        if (polar) json["mask"] = coco_counts(polar->runs);
+        if (finished.labels->fan_bins) {
+            json["fan"] = fan_json(seen, mask_of(finished.labels->fan, seen.id));
+        }
+        return json;
+    }
+
+    /// True if its bins touch the first or last range bin or an edge beam: the view cuts it off.
+    bool is_clipped(const ObjectInPing& seen) const {
+        const bool at_side = seen.beam_first == 0 || seen.beam_last + 1 == view_.beams;
+        return seen.range_first == 0 || seen.range_last + 1 == view_.range_bins ||
+               (at_side && !is_full_turn(view_));
+    }
+
+    static Json shadow_json(const ObjectInPing& seen) {
+        const BinBox& box = seen.shadow;
+        return {{"box_bins",
+                 {{"range", {box.first_bin, box.last_bin + 1}},
+                  {"beam", {box.first_line, box.last_line + 1}}}},
+                {"area_bins", seen.shadow_bins},
+                {"contrast_db", number_or_null(seen.shadow_contrast_db)}};
+    }
+
+    /// Null for an object that lies between the pixels.
+    Json fan_json(const ObjectInPing& seen, const ObjectMask* mask) const {
+        if (!mask) return nullptr;
+        Json json = {{"box_px", describe_box({mask->left, mask->right, mask->top, mask->bottom})},
+                     {"area_px", mask->area}};
+        if (!seen.shadow_in_fan.is_empty())
+            json["shadow_box_px"] = describe_box(seen.shadow_in_fan);
+        json["mask"] = coco_counts(mask->runs);
+        return json;
+    }
+
+    WriterContext context_;
+    const View& view_;
+    std::vector<Eigen::AlignedBox3d> boxes_;           ///< indexed by object, world frame
+    std::vector<std::optional<MovingObject>> moving_;  ///< indexed by object
+};
+
+}  // namespace
+
+Writer objects_writer(const WriterContext& context) {
+    return {.per_ping = PingFile{"objects", ".json"},
+            .encode = [facts = std::make_shared<const PingObjects>(context)](
+                          const FinishedPing& finished) { return facts->text(finished); }};
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,258 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/elementary.h"
+#include "core/file.h"
+#include "core/units.h"
+#include "output/dataset/averaged_rows.h"
+#include "output/dataset/writers/label_writers.h"
+#include "output/dataset/writers/object_records.h"
+#include "simulate/product/fan_bins.h"
+#include "simulate/product/scan.h"
+#include "simulate/product/sidescan_row.h"
+
+namespace sonarsim {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Ids = std::vector<std::uint16_t>;
+
+constexpr std::size_t max_unseen = 32;     // pings between two of one pass
+constexpr std::size_t max_passes = 65536;  // numbers of 16 bits
+
+/// The picture of all pings of a sonar. A row, or column, may stand for several pings.
+class Strip {
+  public:
+    Strip(const WriterContext& context, const std::filesystem::path& folder)
+        : source_(context, folder),
+          shape_(context.kind().record),
+          pings_(context.pings),
+          ranges_(static_cast<int>(source_.range_m.size())),
+          bins_(static_cast<int>(shape_.values(context.sonar().config))),
+          each_(pings_per_row(pings_)),
+          rows_(static_cast<std::size_t>(picture_rows(pings_))),
+          range_m_(source_.range_m) {
+        if (!shape_.two_sides) return;
+        const double column_m = context.sonar().settings.view.bin_m();
+        const double offset_m = column_offset_m(context.sonar().config);
+        range_m_.clear();
+        for (int bin = 0; bin < bins_; ++bin)
+            range_m_.push_back(std::fabs(bin + 0.5 - 0.5 * bins_) * column_m + offset_m);
+    }
+
+    void write(const std::filesystem::path& path) {
+        find_passes();
+        const std::size_t across = shape_.upright ? rows_ : static_cast<std::size_t>(bins_);
+        const std::size_t down = shape_.upright ? static_cast<std::size_t>(bins_) : rows_;
+        std::vector<Json> objects;
+        for (const ObjectMask& mask : object_masks(pass_of_pixel_, static_cast<int>(down))) {
+            complete(passes_[mask.id]);
+            objects.push_back(source_.json(passes_[mask.id], mask));
+        }
+        const Json head{{"picture", std::string(shape_.name) + ".png"},
+                        {"width", across},
+                        {"height", down},
+                        {"pings", pings_},
+                        {"pings_per_pixel", each_}};
+        write_file(path, objects_text(head, objects));
+    }
+
+  private:
+    bool is_port(int bin) const { return shape_.two_sides && bin < bins_ / 2; }
+    bool is_edge(int bin) const {
+        const int side = shape_.two_sides ? bins_ / 2 : bins_;
+        const int from_nadir = is_port(bin) ? side - 1 - bin : bin - (bins_ - side);
+        return from_nadir == side - 1 || from_nadir == side - ranges_;
+    }
+
+    /// The present pass of an object on one side.
+    struct Present {
+        std::uint16_t pass = 0;
+        std::size_t last = 0;  ///< last ping that saw the object
+        BinBox shadow;         ///< shadow since then, which counts if the pass goes on
+    };
+
+    /// Numbers the passes from 1 on. `pass_of_pixel_` has the order of object_masks(). Where a row
+    /// stands for several pings, it holds the pass of the first ping that shows an object.
+    void find_passes() {
+        std::array<std::vector<Present>, 2> present;
+        present.fill(std::vector<Present>(max_passes));
+        pass_of_pixel_.assign(static_cast<std::size_t>(bins_) * rows_, 0);
+        RecordValues values(1, bins_);
+        for (std::size_t ping = 0; ping < pings_; ++ping) {
+            source_.read(ping, 1, 0, values);
+            for (int bin = 0; bin < bins_; ++bin) {
+                const std::uint16_t id = values.object[bin];
+                if (id == 0) continue;
+                Present& one = present[is_port(bin) ? 1 : 0][id];
+                see(id, ping, bin, values.visible_share[bin], one);
+                const std::size_t at = shape_.upright
+                                           ? ping / each_ * bins_ + bin
+                                           : static_cast<std::size_t>(bin) * rows_ + ping / each_;
+                if (pass_of_pixel_[at] == 0) pass_of_pixel_[at] = one.pass;
+            }
+            for (int bin = 0; bin < bins_; ++bin) {
+                const std::uint16_t id = values.shadow[bin];
+                Present& one = present[is_port(bin) ? 1 : 0][id];
+                if (id == 0 || one.pass == 0) continue;
+                BinBox& box = one.last == ping ? passes_[one.pass].shadow : one.shadow;
+                box.extend(static_cast<int>(ping), bin);
+            }
+        }
+    }
+
+    void see(std::uint16_t id, std::size_t ping, int bin, std::uint16_t share, Present& one) {
+        const bool is_new = one.pass == 0 || ping - one.last > max_unseen;
+        if (is_new && passes_.size() < max_passes) {
+            one = {static_cast<std::uint16_t>(passes_.size()), ping, {}};
+            passes_.emplace_back().id = id;
+        }
+        SeenObject& pass = passes_[one.pass];
+        if (!one.shadow.is_empty()) {
+            pass.shadow.extend(one.shadow.first_line, one.shadow.first_bin);
+            pass.shadow.extend(one.shadow.last_line, one.shadow.last_bin);
+            one.shadow = {};
+        }
+        one.last = ping;
+        pass.add(static_cast<int>(ping), bin, range_m_[bin], share);
+    }
+
+    /// Finds the other facts of a pass.
+    void complete(SeenObject& pass) const {
+        const BinBox& box = pass.box;
+        const bool port = is_port(box.first_bin);
+        pass.pings = {box.first_line, box.last_line + 1};
+        pass.clipped = is_edge(box.first_bin) || is_edge(box.last_bin) || box.first_line == 0 ||
+                       pass.pings.second == pings_;
+        if (shape_.two_sides) pass.side = port ? "port" : "starboard";
+        if (source_.is_background(pass.id)) return;
+        if (shape_.two_sides) pass.bearing_deg = port ? -90.0 : 90.0;
+        add_contrasts_of(pass);
+        const BinBox& shadow = pass.shadow;
+        if (shadow.is_empty()) return;
+        const auto each = static_cast<int>(each_);
+        const int first = shadow.first_line / each;
+        const int end = shadow.last_line / each + 1;
+        pass.shadow_px = shape_.upright
+                             ? PixelBox{first, end, shadow.first_bin, shadow.last_bin + 1}
+                             : PixelBox{shadow.first_bin, shadow.last_bin + 1, first, end};
+    }
+
+    /// The beginning of a longer pass represents the whole pass.
+    void add_contrasts_of(SeenObject& pass) const {
+        constexpr int max_pings = 1024;
+        BinBox box = pass.box;
+        const int pings = std::min(box.last_line - box.first_line + 1, max_pings);
+        const int margin = std::max(pings, 2);
+        const int first = std::max(box.first_line - margin, 0);
+        const int end = std::min(box.first_line + pings + margin, static_cast<int>(pings_));
+        RecordValues values(end - first, bins_);
+        source_.read(first, end - first, 0, values);
+        box.first_line -= first;
+        box.last_line = box.first_line + pings - 1;
+        const bool port = is_port(box.first_bin);
+        const int middle = shape_.two_sides ? bins_ / 2 : 0;
+        const BinBox side{box.first_line, box.last_line, port ? 0 : middle,
+                          port ? middle - 1 : bins_ - 1};
+        source_.add_contrasts(values, box, side, pass);
+    }
+
+    ObjectRecords source_;
+    const RecordShape& shape_;
+    std::size_t pings_;
+    int ranges_;                          ///< range bins of a side
+    int bins_;                            ///< values per ping
+    std::size_t each_;                    ///< pings per row
+    std::size_t rows_;                    ///< rows or columns of pings
+    std::vector<double> range_m_;         ///< range of each value of a ping
+    std::vector<SeenObject> passes_{{}};  ///< indexed by number
+    Ids pass_of_pixel_;
+};
+
+/// The facts of an object in the display of a sweep.
+SeenObject visible_in_sweep(const ObjectRecords& source, const RecordValues& display,
+                            std::uint16_t id, const Sonar& whole) {
+    SeenObject seen;
+    seen.id = id;
+    double ahead = 0.0;
+    double to_port = 0.0;
+    for (int step = 0; step < display.lines; ++step) {
+        const SinCos at =
+            sincos(0.5 * (whole.azimuth_edges_rad[step] + whole.azimuth_edges_rad[step + 1]));
+        for (int bin = 0; bin < display.bins; ++bin) {
+            const std::size_t k = static_cast<std::size_t>(step) * display.bins + bin;
+            if (display.object[k] != id) continue;
+            seen.add(step, bin, source.range_m[bin], display.visible_share[k]);
+            ahead += at.cos;
+            to_port += at.sin;
+        }
+    }
+    const BinBox& box = seen.box;
+    const bool at_side =
+        !display.full_turn && (box.first_line == 0 || box.last_line + 1 == display.lines);
+    seen.clipped = at_side || box.first_bin == 0 || box.last_bin + 1 == display.bins;
+    if (source.is_background(id)) return seen;
+    seen.bearing_deg = -degrees(arctan2(to_port, ahead));
+    source.add_contrasts(display, box, {0, display.lines - 1, 0, display.bins - 1}, seen);
+    return seen;
+}
+
+/// Writes a file for every sweep of a scanning sonar. A step that an unfinished sweep has not
+/// reached shows the sweep before.
+void write_sweeps(const WriterContext& context, const std::filesystem::path& folder) {
+    const ObjectRecords source(context, folder);
+    const SonarConfig& config = context.sonar().config;
+    const Sonar whole = whole_scan(context.sonar());
+    const std::shared_ptr<const FanBins> fan = context.assembly.fans->bins(whole);
+    const auto masks = [&](const Ids& ids) {
+        return object_masks(fan_values(fan->by_column, ids, std::uint16_t{0}), fan->frame.height);
+    };
+    RecordValues display(scan_steps(config), config.range_bins, config.sector_deg >= 360.0);
+    const auto write_sweep = [&](std::size_t sweep, std::size_t end) {
+        const std::size_t begin = sweep * static_cast<std::size_t>(display.lines);
+        const std::vector<ObjectMask> shadows = masks(display.shadow);
+        std::vector<Json> objects;
+        for (const ObjectMask& mask : masks(display.object)) {
+            SeenObject seen =
+                visible_in_sweep(source, display, static_cast<std::uint16_t>(mask.id), whole);
+            seen.pings = {begin, end};
+            const auto shadow = std::ranges::find(shadows, mask.id, &ObjectMask::id);
+            if (shadow != shadows.end() && !source.is_background(mask.id))
+                seen.shadow_px = {shadow->left, shadow->right, shadow->top, shadow->bottom};
+            objects.push_back(source.json(seen, mask));
+        }
+        const Json head{{"picture", scan_file_name("scan", sweep, ".png")},
+                        {"width", fan->frame.width},
+                        {"height", fan->frame.height},
+                        {"pings", end - begin},
+                        {"pings_per_pixel", 1}};
+        write_file(folder / scan_file_name("objects", sweep, ".json"), objects_text(head, objects));
+    };
+    for_each_sweep(
+        config, context.pings,
+        [&](std::size_t ping, int step) {
+            source.read(ping, 1, static_cast<std::size_t>(step), display);
+        },
+        write_sweep);
+}
+
+}  // namespace
+
+void add_record_objects(const WriterContext& context, Writer& writer) {
+    const bool is_strip = context.kind().record.pictures == RecordPictures::strip;
+    const std::size_t sweeps = is_strip ? 0 : scan_sweeps(context.sonar().config, context.pings);
+    if (is_strip) writer.products = {record_objects_name};
+    for (std::size_t k = 0; k < sweeps; ++k)
+        writer.products.push_back(scan_file_name("objects", k, ".json"));
+    writer.write_products = [context, is_strip](const RecordFile&,
+                                                const std::filesystem::path& folder) {
+        if (is_strip)
+            Strip(context, folder).write(folder / record_objects_name);
+        else
+            write_sweeps(context, folder);
+    };
+}
+
+}  // namespace sonarsim

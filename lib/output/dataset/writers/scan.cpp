@@ -1,0 +1,73 @@
+#include "simulate/product/scan.h"
+
+#include <memory>
+
+#include "core/file.h"
+#include "output/dataset/writer.h"
+#include "simulate/product/fan.h"
+
+namespace sonarsim {
+
+namespace {
+
+void write_displays(const WriterContext& context, const FanMap& map, const RecordFile& records,
+                    const std::filesystem::path& folder) {
+    const std::string stem(context.kind().record.name);
+    std::vector<float> bins(context.sonar().config.range_bins);
+    ScanDisplay display(context.sonar());
+    for_each_sweep(
+        context.sonar().config, context.pings,
+        [&](std::size_t ping, int) {
+            records.read(ping, std::as_writable_bytes(std::span(bins)));
+            display.show(ping, bins);
+        },
+        [&](std::size_t sweep, std::size_t) {
+            const Ping& image = display.image();
+            write_file(folder / scan_file_name(stem, sweep, ".npy"),
+                       npy_bytes(image.intensity, image.range_bins, image.beams));
+            write_file(folder / scan_file_name(stem, sweep, ".png"),
+                       png_bytes(render_fan(map, image, context.full_scale()), map.frame.width,
+                                 map.frame.height));
+        });
+}
+
+}  // namespace
+
+/// scan.npy: float32 [ping, range], one column of the display per ping. The display after each
+/// sweep of the head, and after the unfinished one at the end: scan_NNNN.npy, float32 [range,
+/// step], and scan_NNNN.png, grey, 8 bits, round, boresight up.
+std::optional<Writer> make_scan_writer(const WriterContext& context) {
+    const RecordShape& shape = context.kind().record;
+    if (shape.pictures != RecordPictures::sweeps) return std::nullopt;
+    const SonarConfig& config = context.sonar().config;
+    const std::string stem(shape.name);
+    const auto map = context.assembly.fans->map(whole_scan(context.sonar()));
+    const auto steps = static_cast<std::size_t>(scan_steps(config));
+    std::vector<std::string> products;
+    for (std::size_t sweep = 0; sweep < scan_sweeps(config, context.pings); ++sweep) {
+        for (const char* extension : {".npy", ".png"})
+            products.push_back(scan_file_name(stem, sweep, extension));
+    }
+    const auto describe = [=](nlohmann::ordered_json& sensor) {
+        const Sonar& sonar = context.sonar();
+        if (context.kind().record.describe) context.kind().record.describe(sonar, sensor);
+        const std::string file = sonar.config.name + "/" + stem + "_%04d.png";
+        sensor["pictures"].push_back({{"title", stem},
+                                      {"file", file},
+                                      {"per", "sweep"},
+                                      {"boxes_of", file},
+                                      {"pings", steps},
+                                      {"radius_px", sonar.config.range_max_m / map->frame.pixel_m},
+                                      {"width_px", map->frame.width}});
+    };
+    return Writer{.per_ping = record_of_kind(context, stem, "<f4"),
+                  .products = std::move(products),
+                  .encode = [](const FinishedPing& f) { return record_bytes(f.ping.intensity); },
+                  .write_products =
+                      [=](const RecordFile& records, const std::filesystem::path& folder) {
+                          write_displays(context, *map, records, folder);
+                      },
+                  .describe = describe};
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,167 @@
+#include "simulate/product/soundings.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "core/atomic_file.h"
+#include "core/file.h"
+#include "output/dataset/json.h"
+#include "output/dataset/writer.h"
+#include "output/format/geotiff.h"
+#include "simulate/product/bathymetry.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// The soundings of a sensor, and the times of its pings.
+struct SoundingSource {
+    const RecordFile& records;
+    std::size_t beams;
+    std::uint32_t every;
+    const Trajectory& trajectory;
+};
+
+/// Numbers per sounding in a record: range, x, y, z and quality.
+constexpr std::size_t fields_of_sounding = 5;
+
+struct RecordedSounding {
+    std::size_t pose;
+    std::size_t beam;
+    double range_m;
+    Eigen::Vector3d position;
+    double quality;
+};
+
+/// Calls `visit` for every sounding, ping by ping and beam by beam; beams without one are left out.
+void for_each_sounding(const SoundingSource& source,
+                       const std::function<void(const RecordedSounding&)>& visit) {
+    std::vector<double> fields(source.beams * fields_of_sounding);
+    for (std::size_t k = 0; k < source.records.records(); ++k) {
+        source.records.read(k, std::as_writable_bytes(std::span(fields)));
+        for (std::size_t beam = 0; beam < source.beams; ++beam) {
+            const double* const f = fields.data() + beam * fields_of_sounding;
+            if (std::isnan(f[0])) continue;
+            visit({k * source.every, beam, f[0], {f[1], f[2], f[3]}, f[4]});
+        }
+    }
+}
+
+/// True if a sounding belongs in a map.
+bool good_for_map(const RecordedSounding& sounding) {
+    return sounding.quality >= map_quality;
+}
+
+nlohmann::ordered_json georeference(const Bathymetry& grid, std::uint64_t used,
+                                    std::uint64_t left_out) {
+    return {{"file", "bathymetry.tif"},
+            {"values", "mean world z of the soundings in a cell, m; NaN where there are none"},
+            {"rows", grid.rows},
+            {"columns", grid.columns},
+            {"cell_m", grid.cell_m},
+            {"west_m", grid.west_m},
+            {"north_m", grid.north_m},
+            {"axes",
+             "row 0 is north (greatest y), column 0 west (least x): cell (row, column) is centred "
+             "at x = west_m + (column + 0.5) cell_m, y = north_m - (row + 0.5) cell_m"},
+            {"least_quality", map_quality},
+            {"soundings", used},
+            {"soundings_left_out", left_out}};
+}
+
+void write_soundings(const SoundingSource& source, const std::filesystem::path& folder) {
+    StreamedFile csv(folder / "soundings.csv");
+    csv.append("pose,time_s,beam,range_m,x_m,y_m,z_m,quality\n");
+    std::uint64_t count = 0;
+    for_each_sounding(source, [&](const RecordedSounding& s) {
+        csv.append(fmt::format("{},{:.6f},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.3f}\n", s.pose,
+                               source.trajectory[s.pose].t_s, s.beam, s.range_m, s.position.x(),
+                               s.position.y(), s.position.z(), s.quality));
+        ++count;
+    });
+    csv.finish();
+
+    StreamedFile ply(folder / "soundings.ply");
+    ply.append("ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(count) +
+               "\nproperty double x\nproperty double y\nproperty double z\n"
+               "property float quality\nend_header\n");
+    for_each_sounding(source, [&](const RecordedSounding& s) {
+        ply.append(record_bytes(std::vector{s.position.x(), s.position.y(), s.position.z()}));
+        ply.append(record_bytes(std::vector{static_cast<float>(s.quality)}));
+    });
+    ply.finish();
+}
+
+void write_bathymetry(const SoundingSource& source, const std::filesystem::path& folder) {
+    SoundingBounds bounds;
+    std::uint64_t left_out = 0;
+    for_each_sounding(source, [&](const RecordedSounding& s) {
+        good_for_map(s) ? bounds.add(s.position) : void(++left_out);
+    });
+    Bathymetry grid = make_bathymetry(bounds, 0.0);
+    for_each_sounding(source, [&](const RecordedSounding& s) {
+        if (good_for_map(s)) grid.add(s.position);
+    });
+    // A TIFF has at least one pixel; without soundings it is NaN.
+    std::vector<float> z = grid.mean_z();
+    if (z.empty()) z.push_back(std::nanf(""));
+    const int columns = std::max(grid.columns, 1);
+    write_geotiff(folder / "bathymetry.tif", z, columns,
+                  {grid.west_m, grid.north_m, grid.cell_m > 0.0 ? grid.cell_m : 1.0});
+    write_file(folder / "bathymetry.json", json_text(georeference(grid, bounds.count, left_out)));
+    const Picture picture = draw_bathymetry(grid);
+    write_picture(folder / "bathymetry.png", picture.pixels, picture.width);
+}
+
+/// The numbers of the soundings of a ping.
+std::vector<double> sounding_fields(const WriterContext& context, const FinishedPing& finished) {
+    std::vector<double> all;
+    const Pose& T_world_vehicle = context.assembly.trajectory[finished.id.pose].T_world_vehicle;
+    for (const Sounding& s :
+         find_soundings(finished.sonar, T_world_vehicle, finished.ping, finished.traced.motion)) {
+        all.insert(all.end(),
+                   {s.range_m, s.position.x(), s.position.y(), s.position.z(), s.quality});
+    }
+    return all;
+}
+
+}  // namespace
+
+/// soundings.npy: float64 [ping, beam, 5]: range, x, y, z and quality, NaN without a sounding.
+/// soundings.csv and .ply hold the beams with a sounding; bathymetry.tif, .json and .png hold the
+/// map of the soundings.
+std::optional<Writer> make_soundings_writer(const WriterContext& context) {
+    const SonarConfig& config = context.sonar().config;
+    if (config.kind != SonarKind::profiling) return std::nullopt;
+    const std::size_t beams = context.sonar().settings.view.beams;
+    const auto write_products = [=, &config](const RecordFile& records,
+                                             const std::filesystem::path& folder) {
+        const SoundingSource source{records, beams, static_cast<std::uint32_t>(config.every),
+                                    context.assembly.trajectory};
+        write_soundings(source, folder);
+        write_bathymetry(source, folder);
+    };
+    PingRecord record;
+    record.file = "soundings.npy";
+    record.format = {"<f8", {context.pings, beams, fields_of_sounding}};
+    record.axes = {"ping", "beam", "range_m, x_m, y_m, z_m, quality"};
+    return Writer{.per_ping = std::move(record),
+                  .products = {"soundings.csv", "soundings.ply", "bathymetry.tif",
+                               "bathymetry.json", "bathymetry.png"},
+                  .encode =
+                      [=](const FinishedPing& finished) {
+                          return record_bytes(sounding_fields(context, finished));
+                      },
+                  .write_products = write_products,
+                  .describe =
+                      [&config](nlohmann::ordered_json& sensor) {
+                          sensor["pictures"].push_back({{"title", "bathymetry"},
+                                                        {"file", config.name + "/bathymetry.png"},
+                                                        {"per", "sensor"}});
+                      }};
+}
+
+}  // namespace sonarsim

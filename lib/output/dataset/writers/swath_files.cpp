@@ -1,0 +1,146 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+
+#include "core/atomic_file.h"
+#include "core/file.h"
+#include "core/pose.h"
+#include "core/units.h"
+#include "output/dataset/json.h"
+#include "output/dataset/writer.h"
+#include "output/format/geotiff.h"
+#include "output/format/xtf.h"
+#include "simulate/product/gain.h"
+#include "simulate/product/mosaic.h"
+#include "simulate/product/sidescan_row.h"
+#include "simulate/sonar/sonar_at_pose.h"
+
+namespace sonarsim {
+
+namespace {
+
+struct RecordedRow {
+    std::size_t pose;
+    Pose T_world_sensor;
+    std::span<const float> values;
+    std::optional<Swath> swath;
+};
+
+void for_each_row(const WriterContext& context, const RecordFile& rows,
+                  const std::function<void(const RecordedRow&)>& visit) {
+    const Sonar& sonar = context.sonar();
+    std::vector<float> values(rows.record_bytes() / sizeof(float));
+    for (std::size_t k = 0; k < rows.records(); ++k) {
+        rows.read(k, std::as_writable_bytes(std::span(values)));
+        const std::size_t pose = k * static_cast<std::size_t>(sonar.config.every);
+        const SonarAtPose then(context.mission, sonar, static_cast<std::uint32_t>(pose));
+        const Pose T_world_sensor =
+            sensor_pose(*then, context.assembly.trajectory[pose].T_world_vehicle,
+                        static_cast<std::uint32_t>(pose));
+        visit({pose, T_world_sensor, values, swath_of(sonar, T_world_sensor, values)});
+    }
+}
+
+/// Heading, pitch and roll of the body of a sonar that looks down: those of the vehicle, turned by
+/// the mount. Its channels are port and starboard of this heading.
+Rpy body_attitude(const Pose& T_world_sensor) {
+    return rpy_from_rotation(T_world_sensor.rotation * rotation_from_rpy(0.0, -0.5 * pi, 0.0));
+}
+
+XtfPing xtf_ping(const WriterContext& context, const RecordedRow& row) {
+    const SonarConfig& config = context.sonar().config;
+    const Trajectory& trajectory = context.assembly.trajectory;
+    const Rpy attitude = body_attitude(row.T_world_sensor);
+    const std::size_t next = row.pose + static_cast<std::size_t>(config.every);
+    const Eigen::Vector3d& position = row.T_world_sensor.translation;
+    return {.number = static_cast<std::uint32_t>(row.pose),
+            .t_s = trajectory[row.pose].t_s,
+            .x_m = position.x(),
+            .y_m = position.y(),
+            .depth_m = -position.z(),
+            .altitude_m = row.swath ? row.swath->altitude_m : 0.0,
+            .heading_deg = std::fmod(450.0 - degrees(attitude.yaw), 360.0),
+            .pitch_deg = -degrees(attitude.pitch),
+            .roll_deg = degrees(attitude.roll),
+            .sound_speed_m_s = context.mission.water.sound_speed_m_s,
+            .range_max_m = config.range_max_m,
+            .seconds_per_ping =
+                next < trajectory.size() ? trajectory[next].t_s - trajectory[row.pose].t_s : 0.0};
+}
+
+void write_xtf(const WriterContext& context, const RecordFile& rows,
+               const std::filesystem::path& folder) {
+    const SonarConfig& config = context.sonar().config;
+    StreamedFile file(folder / "waterfall.xtf");
+    file.append(xtf_header({.sonar_name = config.name,
+                            .azimuth_deg = static_cast<float>(config.azimuth_deg),
+                            .beam_width_deg = static_cast<float>(config.elevation_deg)}));
+    for_each_row(context, rows, [&](const RecordedRow& row) {
+        file.append(xtf_record(xtf_ping(context, row), grey_16(row.values, context.full_scale())));
+    });
+    file.finish();
+}
+
+/// The cell size: neighbouring pings and bins leave no cell between them empty.
+double mosaic_cell_m(const WriterContext& context) {
+    const Trajectory& trajectory = context.assembly.trajectory;
+    double way_m = 0.0;
+    for (std::size_t k = 1; k < trajectory.size(); ++k) {
+        way_m += (trajectory[k].T_world_vehicle.translation -
+                  trajectory[k - 1].T_world_vehicle.translation)
+                     .norm();
+    }
+    const double spacing_m = way_m / static_cast<double>(std::max<std::size_t>(1, context.pings));
+    return round_up_125(std::max(1.2 * spacing_m, context.sonar().settings.view.bin_m()));
+}
+
+void write_mosaic(const WriterContext& context, const RecordFile& rows,
+                  const std::filesystem::path& folder) {
+    SoundingBounds bounds;
+    std::uint64_t dark = 0;
+    for_each_row(context, rows, [&](const RecordedRow& row) {
+        row.swath ? add_bounds(*row.swath, bounds) : void(++dark);
+    });
+    Bathymetry map = make_bathymetry(bounds, mosaic_cell_m(context));
+    for_each_row(context, rows, [&](const RecordedRow& row) {
+        if (row.swath) rasterize(context.sonar(), *row.swath, row.values, map);
+    });
+    // A TIFF has at least one pixel; where no ping shows the bottom it is NaN.
+    std::vector<float> echoes = map.mean_z();
+    if (echoes.empty()) echoes.push_back(std::nanf(""));
+    write_geotiff(folder / "mosaic.tif", echoes, std::max(map.columns, 1),
+                  {map.west_m, map.north_m, map.cell_m > 0.0 ? map.cell_m : 1.0});
+    const nlohmann::ordered_json json{
+        {"file", "mosaic.tif"},
+        {"values", "mean echo of the pings over a cell; NaN where there are none"},
+        {"rows", map.rows},
+        {"columns", map.columns},
+        {"cell_m", map.cell_m},
+        {"west_m", map.west_m},
+        {"north_m", map.north_m},
+        {"ground", "level, at the first return of each ping"},
+        {"pings", rows.records() - dark},
+        {"pings_left_out", dark}};
+    write_file(folder / "mosaic.json", json_text(json));
+}
+
+}  // namespace
+
+std::vector<std::string> swath_products(const WriterContext& context) {
+    std::vector<std::string> products;
+    if (context.mission.output.xtf) products = {"waterfall.xtf"};
+    if (context.mission.output.mosaic)
+        products.insert(products.end(), {"mosaic.tif", "mosaic.json"});
+    return products;
+}
+
+void write_swath_files(const WriterContext& context, const RecordFile& rows,
+                       const std::filesystem::path& folder) {
+    if (context.mission.output.xtf) write_xtf(context, rows, folder);
+    if (context.mission.output.mosaic) write_mosaic(context, rows, folder);
+}
+
+}  // namespace sonarsim

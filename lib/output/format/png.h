@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/atomic_file.h"
+#include "core/rgb.h"
+#include "output/format/deflate.h"
+
+namespace sonarsim {
+
+/// The kind of a pixel; the value is its number of bytes.
+enum class PixelKind : std::uint8_t { grey8 = 1, grey16 = 2, rgb8 = 3 };
+
+/// The storage of a row: as it is, or each byte as its difference from the pixel to the left
+/// (noise, colours) or above (areas of one value, such as ids).
+enum class PngFilter : std::uint8_t { none = 0, left = 1, up = 2 };
+
+/// Makes a PNG file (www.w3.org/TR/png) of rows that come one by one. The bytes depend on the
+/// pixels alone.
+class PngEncoder {
+  public:
+    PngEncoder(int width, int height, PixelKind kind, PngFilter filter);
+
+    /// Adds the next row of std::uint8_t, std::uint16_t or Rgb. std::logic_error if its length is
+    /// not the width.
+    template <class Pixel>
+    void row(std::span<const Pixel> pixels) {
+        add({reinterpret_cast<const std::uint8_t*>(pixels.data()), pixels.size_bytes()});
+    }
+    /// The chunks that were not taken before; after the `last` row, the rest of the file.
+    std::string take(bool last);
+
+  private:
+    void add(std::span<const std::uint8_t> bytes);
+    void pack(bool last);
+
+    std::size_t pixel_bytes_;
+    PngFilter filter_;
+    std::string file_;                        ///< chunks that were not taken yet
+    std::vector<std::uint8_t> rows_;          ///< filtered rows that were not packed yet
+    std::vector<std::uint8_t> line_, above_;  ///< a row, highest byte first, and the one before
+    ZlibPacker packer_;
+};
+
+/// Writes a PNG file row by row, so that it may be longer than memory. Throws std::system_error
+/// when the disk does not take it.
+class ImageFile {
+  public:
+    ImageFile(const std::filesystem::path& path, int width, int height, PixelKind kind)
+        : file_(path),
+          encoder_(width, height, kind,
+                   kind == PixelKind::rgb8 ? PngFilter::left : PngFilter::none) {}
+
+    template <class Row>
+    void row(const Row& pixels) {
+        encoder_.row(std::span(pixels));
+        file_.append(encoder_.take(false));
+    }
+    /// To be called after the last row.
+    void finish() {
+        file_.append(encoder_.take(true));
+        file_.finish();
+    }
+
+  private:
+    StreamedFile file_;
+    PngEncoder encoder_;
+};
+
+/// A PNG file in memory of [height, width] grey values. std::logic_error if the size is another.
+std::string png_bytes(std::span<const std::uint8_t> pixels, int width, int height);
+std::string png_bytes(std::span<const std::uint16_t> pixels, int width, int height,
+                      PngFilter filter = PngFilter::none);
+
+/// Writes a whole picture of `width` pixels a row as a PNG file.
+void write_picture(const std::filesystem::path& path, std::span<const Rgb> pixels, int width);
+
+/// Names the way in which pixels are packed. Another way stores the same pixels in other bytes.
+inline constexpr const char* png_encoder = "sonarsim 3";
+
+}  // namespace sonarsim

@@ -1,0 +1,48 @@
+#include "run/checks/find_warnings.h"
+
+#include <string>
+#include <utility>
+
+#include "simulate/sonar/engine_settings.h"
+
+namespace sonarsim {
+
+namespace {
+
+void append(std::vector<Warning>& out, std::vector<Warning> more) {
+    for (Warning& warning : more)
+        out.push_back(std::move(warning));
+}
+
+void judge_engine(const Mission& mission, const Sonar& sonar, std::vector<Warning>& out) {
+    const std::string warning =
+        slices_warning(engine_settings(mission), sonar.settings.multipath.on,
+                       sonar.settings.model->info.energies_add);
+    if (!warning.empty())
+        out.push_back(make_warning(WarningCode::engine, about_sensor(sonar.config.name), warning));
+}
+
+}  // namespace
+
+std::vector<Warning> warnings_before_pings(const Mission& mission, const Assembly& assembly) {
+    std::vector<Warning> out = reading_warnings(assembly.scene);
+    append(out, material_warnings(mission.water, assembly.scene));
+    for (const Sonar& sonar : assembly.sonars)
+        judge_engine(mission, sonar, out);
+    return out;
+}
+
+std::vector<Warning> find_warnings(const Mission& mission, const Assembly& assembly,
+                                   std::span<const SonarSurvey> sonars,
+                                   const VisibilityEngine& rays) {
+    std::vector<Warning> out = warnings_before_pings(mission, assembly);
+    append(out, scene_warnings(mission, assembly, sonars));
+    for (std::size_t i = 0; i < sonars.size(); ++i) {
+        append(out, sonar_warnings(mission.output, assembly.sonars[i], assembly.full_scales[i],
+                                   sonars[i]));
+    }
+    append(out, hidden_objects(mission, assembly, sonars, rays));
+    return out;
+}
+
+}  // namespace sonarsim

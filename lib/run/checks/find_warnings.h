@@ -1,0 +1,63 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "output/dataset/sensor_summary.h"
+#include "run/checks/survey.h"
+#include "run/checks/warning.h"
+#include "simulate/assembly/assemble.h"
+
+namespace sonarsim {
+
+/// All warnings about a valid mission. `sonars` are by Mission::sensors; `rays` casts into the
+/// scene.
+std::vector<Warning> find_warnings(const Mission& mission, const Assembly& assembly,
+                                   std::span<const SonarSurvey> sonars,
+                                   const VisibilityEngine& rays);
+
+/// The warnings that need no ping: what reading the scene found, materials and the engine.
+std::vector<Warning> warnings_before_pings(const Mission& mission, const Assembly& assembly);
+
+/// W01: the findings of reading the scene.
+std::vector<Warning> reading_warnings(const Scene& scene);
+
+/// Warnings about the size of the scene and the cells of its heightmap.
+std::vector<Warning> scene_warnings(const Mission& mission, const Assembly& assembly,
+                                    std::span<const SonarSurvey> sonars);
+
+/// W09: materials that reflect no sound in this water.
+std::vector<Warning> material_warnings(const WaterConfig& water, const Scene& scene);
+
+/// Warnings about a sonar in a survey: blind pings and the reasons, echoes below the noise,
+/// pictures that are white or black.
+std::vector<Warning> sonar_warnings(const OutputConfig& output, const Sonar& sonar,
+                                    double full_scale, const SonarSurvey& found);
+
+/// Images of a run that are black, nearly black or white, or less accurate than the goal. `sensors`
+/// are by Mission::sensors; one without pings has no warnings.
+std::vector<Warning> image_warnings(const Mission& mission, const Assembly& assembly,
+                                    std::span<const SensorSummary> sensors);
+
+/// Objects that the mission places or gives a class, and that no sonar sees. An object that the
+/// survey did not see is looked for in pings that have it in view.
+std::vector<Warning> hidden_objects(const Mission& mission, const Assembly& assembly,
+                                    std::span<const SonarSurvey> sonars,
+                                    const VisibilityEngine& rays);
+
+/// An estimate of the memory of one ping of a sonar.
+struct PingMemory {
+    double bytes = 0.0;
+    std::string_view key;  ///< the key of the sensor that would reduce the memory most
+};
+PingMemory ping_memory(const Sonar& sonar);
+
+/// W26 for every sonar whose pings on `threads` threads take more than the `available` bytes.
+std::vector<Warning> memory_warnings(const std::vector<Sonar>& sonars, int threads,
+                                     double available);
+
+/// True if one ping of any of the sonars takes more than the `available` bytes.
+bool exceeds_memory(const std::vector<Sonar>& sonars, double available);
+
+}  // namespace sonarsim

@@ -1,0 +1,204 @@
+#include "run/checks/measured_error.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/in_parallel.h"
+#include "core/text.h"
+#include "simulate/assembly/engine_at.h"
+#include "simulate/assembly/sample_pings.h"
+#include "simulate/reference/energy_reference.h"
+#include "simulate/reference/image_error.h"
+#include "simulate/sonar/sonar_at_pose.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr std::size_t max_pings = 3;
+
+// Rays of the last cast, which with those before are half a second of one core.
+constexpr std::uint64_t mean_rays_max = 1'000'000;
+constexpr std::uint64_t energy_rays_max = 1'000'000;  // an echo costs as much as its ray
+
+/// The cell of a sonar's range noise; 1 cm^2 without that noise. A cell above 1 cm^2 is at most a
+/// tenth of a bin in the middle of the ranges: the noise of the reference decides which bins hold a
+/// cell of their own size.
+double cell_m2_of(const Sonar& sonar) {
+    constexpr double usual_m2 = 1e-4;
+    constexpr double max_by_bin = 0.1;
+    const NoiseConfig& noise = sonar.config.noise;
+    if (sonar.config.model != ModelKind::paper || !(noise.range_lambda_m > 0.0)) return usual_m2;
+    const View& view = sonar.settings.view;
+    const double across_rad =
+        view.shape == ViewShape::fan ? view.azimuth_rad / view.beams : view.elevation_rad;
+    const double middle_m = 0.5 * (view.range_min_m + view.range_max_m);
+    const double max_m2 = max_by_bin * view.bin_m() * across_rad * middle_m;
+    return std::min(noise.scatterer_m * noise.scatterer_m, std::max(max_m2, usual_m2));
+}
+
+std::vector<Sonar> measured_sonars(const Mission& mission, const Assembly& assembly) {
+    std::vector<Sonar> sonars;
+    for (std::size_t i = 0; i < mission.sensors.size(); ++i) {
+        Sonar& sonar =
+            sonars.emplace_back(make_sonar(mission.sensors[i], mission.accuracy, mission.water));
+        const PingSettings& own = assembly.sonars[i].settings;
+        sonar.settings.targets = own.targets;
+        if (auto prepared = sonar.settings.model->prepared(assembly.scene))
+            sonar.settings.model = std::move(prepared);
+    }
+    return sonars;
+}
+
+/// The ping of one sonar that is measured.
+struct Task {
+    std::size_t sonar;
+    std::uint32_t pose;
+};
+
+PingError measure(const Mission& mission, const Assembly& assembly, const Caster& caster,
+                  const VisibilityEngine& engine, const Sonar& usual, std::uint32_t pose) {
+    const Scene& scene = assembly.scene;
+    const TimedPose& at = assembly.trajectory[pose];
+    const SonarAtPose sonar(mission, usual, pose);
+    const Pose T_world_sensor = sensor_pose(*sonar, at.T_world_vehicle, pose);
+    std::vector<Pose> bodies = body_poses(assembly, at.t_s);
+    for (Pose& body : bodies)
+        body.translation -= scene.origin;
+    const Caster placed = bodies.empty() ? caster : caster.moved(bodies);
+    const double goal = mission.accuracy.relative_l1;
+    const Reference truth = cast_reference(
+        placed, scene, *sonar, T_world_sensor,
+        {.moved = 0.1 * goal,
+         .rays_per_bin = 16.0,
+         .rays_max = sonar->settings.model->info.energies_add ? energy_rays_max : mean_rays_max});
+    const Ping ping =
+        direct_image(*sonar, scene, *engine_at(engine, assembly.motions, at.t_s), T_world_sensor);
+    return {pose, image_error(ping.intensity, truth.intensity, truth.scored).relative_l1,
+            truth.apart};
+}
+
+}  // namespace
+
+double MeasuredError::mean() const {
+    double sum = 0.0;
+    for (const PingError& ping : pings)
+        sum += ping.relative_l1;
+    return sum / static_cast<double>(pings.size());
+}
+
+const PingError& MeasuredError::worst() const {
+    return *std::ranges::max_element(pings, {}, &PingError::relative_l1);
+}
+
+Mission without_water_echoes(Mission mission) {
+    mission.water.content = WaterContent::none;
+    mission.water.scattering_db_per_m3.reset();
+    mission.water.layers.clear();
+    for (SonarConfig& sensor : mission.sensors)
+        sensor.instrument.receiver.samples = 1;
+    return mission;
+}
+
+Reference cast_reference(const Caster& caster, const Scene& scene, const Sonar& sonar,
+                         const Pose& T_world_sensor, ReferenceGoal goal) {
+    goal.cell_m2 = cell_m2_of(sonar);
+    const PingSettings& settings = sonar.settings;
+    return settings.model->info.energies_add
+               ? cast_energy_reference(caster, scene, settings, T_world_sensor, goal)
+               : cast_reference(caster, scene, settings.view, T_world_sensor, goal);
+}
+
+Ping direct_image(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
+                  const Pose& T_world_sensor) {
+    PingSettings settings = sonar.settings;
+    settings.particles = nullptr;
+    settings.sees_water_surface = false;
+    const TracedPing traced =
+        trace_ping(settings, scene, engine, T_world_sensor, direct_echoes_alone);
+    return form_image(traced, settings, scene, {}, direct_echoes_alone);
+}
+
+std::vector<std::optional<MeasuredError>> measure_errors(const Mission& mission,
+                                                         const Assembly& assembly,
+                                                         const VisibilityEngine& engine) {
+    std::vector<std::optional<MeasuredError>> errors(mission.sensors.size());
+    if (assembly.scene.sound_profile) return errors;
+    const Mission measured = without_water_echoes(mission);
+    const std::vector<Sonar> sonars = measured_sonars(measured, assembly);
+    std::vector<Task> tasks;
+    for (std::size_t i = 0; i < sonars.size(); ++i) {
+        for (const std::uint32_t pose :
+             sample_pings(assembly.trajectory.size(), sonars[i].config.every, max_pings))
+            tasks.push_back({i, pose});
+    }
+    const Caster caster = assembly.caster ? *assembly.caster : Caster(assembly.scene);
+    std::vector<PingError> found(tasks.size());
+    in_parallel(tasks.size(), [&](std::size_t k) {
+        found[k] =
+            measure(measured, assembly, caster, engine, sonars[tasks[k].sonar], tasks[k].pose);
+    });
+    for (std::size_t k = 0; k < tasks.size(); ++k) {
+        std::optional<MeasuredError>& error = errors[tasks[k].sonar];
+        if (!error) error.emplace();
+        error->pings.push_back(found[k]);
+    }
+    return errors;
+}
+
+namespace {
+
+/// Rounds to a thousandth of a percent.
+double rounded(double share) {
+    constexpr double steps = 1e5;
+    return std::round(steps * share) / steps;
+}
+
+/// The key that lowers the error, as the imperative of a sentence.
+std::string cure_of(const Mission& mission, const PingError& worst) {
+    if (mission.engine == EngineKind::octree) return "use engine: auto";
+    // Errors fall about as fast as the goal.
+    const double goal = mission.accuracy.relative_l1;
+    const double lower = goal * goal / worst.without_noise();
+    const double step = std::pow(10.0, std::floor(std::log10(lower)) - 1.0);
+    return "lower accuracy.relative_l1 to " + number_text(step * std::floor(lower / step)) +
+           (mission.engine == EngineKind::automatic
+                ? ""
+                : ", or use the engine with the least error in `sonarsim report`");
+}
+
+}  // namespace
+
+nlohmann::ordered_json json_of(const MeasuredError& error) {
+    nlohmann::ordered_json pings = nlohmann::ordered_json::array();
+    for (const PingError& ping : error.pings) {
+        pings.push_back({{"pose", ping.pose},
+                         {"relative_l1", rounded(ping.relative_l1)},
+                         {"reference_noise", rounded(ping.noise)}});
+    }
+    return {{"mean", rounded(error.mean())},
+            {"worst", rounded(error.worst().relative_l1)},
+            {"pings", std::move(pings)}};
+}
+
+std::vector<Warning> error_warnings(const Mission& mission,
+                                    std::span<const std::optional<MeasuredError>> errors) {
+    const double goal = mission.accuracy.relative_l1;
+    std::vector<Warning> warnings;
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+        if (!errors[i]) continue;
+        const PingError& worst =
+            *std::ranges::max_element(errors[i]->pings, {}, &PingError::without_noise);
+        if (worst.without_noise() <= goal) continue;
+        warnings.push_back(make_warning(WarningCode::goal_missed,
+                                        about_sensor(mission.sensors[i].name),
+                                        100.0 * errors[i]->mean(), 100.0 * worst.relative_l1,
+                                        worst.pose, 100.0 * goal, cure_of(mission, worst)));
+    }
+    return warnings;
+}
+
+}  // namespace sonarsim

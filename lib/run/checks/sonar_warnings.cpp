@@ -1,0 +1,118 @@
+#include <cmath>
+
+#include "run/checks/find_warnings.h"
+
+namespace sonarsim {
+
+namespace {
+
+// docs/warnings.md says why these are the limits.
+constexpr double many_white = 0.05;  // a share of the occupied bins
+constexpr double faint = 0.25;       // a share of the noise's deviation
+constexpr double fewest_greys = 16.0;
+
+/// Warns of pings that see nothing, with the reasons.
+void judge_blindness(const Sonar& sonar, const SonarSurvey& found, std::vector<Warning>& out) {
+    const SonarConfig& config = sonar.config;
+    const std::string about = about_sensor(config.name);
+    const NoReturnReasons& why = found.no_return;
+    const auto add = [&](WarningCode code, std::size_t pings, const auto&... figures) {
+        if (pings > 0) out.push_back(make_warning(code, about, pings, found.pings, figures...));
+    };
+    const std::string depths =
+        why.depths == 0 ? "" : "; z points up, and depths are negative: these z look like depths";
+    add(WarningCode::blind, found.blind);
+    add(WarningCode::range_too_short, why.too_far, why.in_view_m.low, why.in_view_m.high,
+        config.range_max_m, depths);
+    add(WarningCode::range_begins_late, why.too_near, why.ends_m.high, config.range_min_m);
+    const bool cone = sonar.settings.view.shape == ViewShape::cone;
+    add(WarningCode::elevation_too_narrow, why.elevation_too_narrow, why.elevation_deg.low,
+        why.elevation_deg.high, cone ? "opening_deg" : "elevation_deg",
+        cone ? config.opening_deg : config.elevation_deg);
+    add(WarningCode::looks_elsewhere, why.elsewhere);
+    add(WarningCode::nothing_near, why.nothing,
+        why.nearest_m.empty()
+            ? std::string("the scene is empty")
+            : fmt::format("the nearest ever is {:.4g} m away or more", why.nearest_m.low),
+        depths);
+}
+
+/// Warns of images that are too bright or too dark for the scale of the pictures. With `auto` glints
+/// are white on purpose, and a scale that was found from pings is never too dark.
+void judge_brightness(const OutputConfig& output, const Sonar& sonar, double full_scale,
+                      double white_share, float brightest, std::vector<Warning>& out) {
+    if (output.full_scale == 0.0 && sonar.settings.model->info.white == 0.0) return;
+    const std::string about = about_sensor(sonar.config.name);
+    const double greys = 255.0 * std::sqrt(brightest / full_scale);
+    if (white_share > many_white && output.full_scale > 0.0) {
+        out.push_back(make_warning(WarningCode::saturated, about, 100.0 * white_share, full_scale,
+                                   brightest));
+    } else if (greys < fewest_greys) {
+        out.push_back(make_warning(WarningCode::dim, about, brightest, greys, full_scale));
+    }
+}
+
+/// The key to change, and the amount, so that the mean echo is as strong as the noise.
+std::string cure_of_noise(const SonarConfig& config, const SonarSurvey& found) {
+    if (config.model == ModelKind::paper) return "lower noise.add_sigma";
+    const ReceiverConfig& receiver = config.instrument.receiver;
+    const double below_db = 10.0 * std::log10(found.noise / found.signal);
+    const std::string by = found.signal > 0.0 ? fmt::format("by {:.0f} dB", std::ceil(below_db))
+                                              : "until echoes are above the noise";
+    if (receiver.noise_db)
+        return fmt::format("lower instrument.receiver.noise_db ({:.4g}) {}", *receiver.noise_db,
+                           by);
+    return fmt::format(
+        "raise instrument.source_level_db {}, or lower "
+        "range_max_m; sonarsim preset prints the ranges at which the sonar sees",
+        by);
+}
+
+double share(std::uint64_t part, std::uint64_t whole) {
+    return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
+}
+
+}  // namespace
+
+std::vector<Warning> sonar_warnings(const OutputConfig& output, const Sonar& sonar,
+                                    double full_scale, const SonarSurvey& found) {
+    std::vector<Warning> out;
+    const std::string about = about_sensor(sonar.config.name);
+    judge_blindness(sonar, found, out);
+    if (2 * found.below_surface > found.pings) {
+        out.push_back(
+            make_warning(WarningCode::below_surface, about, found.below_surface, found.pings));
+    }
+    if (found.enclosed > 0) {
+        out.push_back(make_warning(WarningCode::inside_object, about, found.enclosed, found.pings,
+                                   found.enclosed_by));
+    }
+    if (found.blind == found.pings) return out;
+    if (found.signal < faint * found.noise) {
+        out.push_back(make_warning(WarningCode::below_noise, about, found.signal, found.noise,
+                                   cure_of_noise(sonar.config, found)));
+    }
+    judge_brightness(output, sonar, full_scale, found.white_share, found.brightest, out);
+    return out;
+}
+
+std::vector<Warning> image_warnings(const Mission& mission, const Assembly& assembly,
+                                    std::span<const SensorSummary> sensors) {
+    std::vector<Warning> out;
+    for (std::size_t i = 0; i < sensors.size(); ++i) {
+        const SensorSummary& summary = sensors[i];
+        const SonarConfig& config = assembly.sonars[i].config;
+        if (summary.pings == 0) continue;
+        if (summary.dark_pings > 0) {
+            out.push_back(make_warning(WarningCode::blind, about_sensor(config.name),
+                                       summary.dark_pings, summary.pings));
+        }
+        if (summary.dark_pings == summary.pings) continue;
+        judge_brightness(mission.output, assembly.sonars[i], assembly.full_scales[i],
+                         share(summary.clipped_pixels, summary.counts.occupied_bins),
+                         summary.brightest, out);
+    }
+    return out;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,258 @@
+#include "run/checks/survey.h"
+
+#include <cmath>
+#include <memory>
+#include <span>
+
+#include "core/units.h"
+#include "input/scene/copies.h"
+#include "run/checks/directions.h"
+#include "simulate/assembly/engine_at.h"
+#include "simulate/assembly/sample_pings.h"
+#include "simulate/sonar/measured.h"
+#include "simulate/sonar/sonar_at_pose.h"
+#include "simulate/trace/arrivals.h"
+#include "simulate/visibility/view.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr std::size_t max_pings = 36;       // per sonar
+constexpr std::size_t max_bins = 1U << 25;  // per sonar, all pings together
+constexpr std::size_t max_slow = 9;         // per sonar with a slow echo model
+constexpr std::size_t images_of_slow = 3;   // one in so many of these pings becomes an image
+constexpr double coarse_l1 = 0.2;
+
+/// The surface around a sonar.
+struct Surroundings {
+    std::vector<Eigen::Vector3f> directions;
+    std::vector<Intersection> met;  ///< one for each direction
+};
+
+Surroundings look(const View& view, const VisibilityEngine& engine, const Pose& T_world_sensor) {
+    Surroundings around{look_around(view), {}};
+    std::vector<Ray> rays;
+    for (const Eigen::Vector3f& direction : around.directions)
+        rays.push_back({Eigen::Vector3f::Zero(), direction});
+    around.met.resize(rays.size());
+    engine.intersect(T_world_sensor, rays, around.met);
+    return around;
+}
+
+double elevation_deg(const Eigen::Vector3f& direction) {
+    return degrees(std::asin(std::clamp(static_cast<double>(direction.z()), -1.0, 1.0)));
+}
+
+/// Finds out why a ping saw nothing.
+void explain(const View& view, const Surroundings& around, double to_scene_m,
+             NoReturnReasons& why) {
+    ValueRange in_view;
+    bool somewhere = false;
+    double flattest = std::numeric_limits<double>::infinity();  // off the view's middle, in degrees
+    for (std::size_t i = 0; i < around.directions.size(); ++i) {
+        const Eigen::Vector3f& direction = around.directions[i];
+        const double distance = around.met[i].distance_m;
+        if (!std::isfinite(distance)) continue;
+        const bool within = distance >= view.range_min_m && distance < view.range_max_m;
+        somewhere = somewhere || within;
+        if (beam_of(view, direction) >= 0) {
+            in_view.take(distance);
+        } else if (within && is_in_azimuth(view, direction)) {
+            const double off = elevation_deg(direction);
+            if (std::fabs(off) < std::fabs(flattest)) flattest = off;
+        }
+    }
+    if (!in_view.empty() && in_view.low >= view.range_max_m) {
+        ++why.too_far;
+        why.in_view_m.take(in_view.low);
+    } else if (!in_view.empty() && in_view.high < view.range_min_m) {
+        ++why.too_near;
+        why.ends_m.take(in_view.high);
+    } else if (std::isfinite(flattest)) {
+        ++why.elevation_too_narrow;
+        why.elevation_deg.take(flattest);
+    } else if (somewhere) {
+        ++why.elsewhere;
+    } else {
+        ++why.nothing;
+        if (std::isfinite(to_scene_m)) why.nearest_m.take(to_scene_m);
+    }
+}
+
+/// The distance from a point to the box around the scene; infinite when there is no scene.
+double distance_to(const Scene& scene, const Eigen::Vector3d& point) {
+    if (scene.instances.empty()) return std::numeric_limits<double>::infinity();
+    return Eigen::AlignedBox3d(scene.bounds_min, scene.bounds_max).exteriorDistance(point);
+}
+
+/// True if a height is out of range above the scene, but its negative, a depth, is not.
+bool looks_like_depth(const Scene& scene, double z_m, double reach_m) {
+    const double highest_m = scene.bounds_max.z() + reach_m;
+    return z_m > highest_m && -z_m > scene.bounds_min.z() && -z_m < highest_m;
+}
+
+/// True for a box around the whole scene, such as that of a basin: a sonar may be inside.
+bool holds_all(const Eigen::AlignedBox3d& box, const Scene& scene) {
+    const Eigen::Vector3d extent = scene.bounds_max - scene.bounds_min;
+    return !box.isEmpty() && (box.sizes().array() >= 0.9 * extent.array()).all();
+}
+
+/// True if the scene's surface faces upwards, as a sea floor does. The upward and downward parts of
+/// a closed body cancel.
+bool faces_up(const Scene& scene) {
+    double up = 0.0;
+    double either = 0.0;
+    for (const std::array<std::uint32_t, 3>& corners : scene.triangles) {
+        const Eigen::Vector3d a = scene.vertices[corners[0]].cast<double>();
+        const Eigen::Vector3d b = scene.vertices[corners[1]].cast<double>();
+        const Eigen::Vector3d c = scene.vertices[corners[2]].cast<double>();
+        const double area = (b - a).cross(c - a).z();
+        up += area;
+        either += std::fabs(area);
+    }
+    return up > 0.1 * either;
+}
+
+/// Counts the pose if no vehicle can be there. docs/warnings.md gives the reasons for the limits.
+void check_position(const Scene& scene, bool open_upwards,
+                    std::span<const Eigen::AlignedBox3d> boxes, const Pose& T_world_sensor,
+                    const Surroundings& around, SonarSurvey& out) {
+    std::size_t above = 0;
+    std::size_t below = 0;
+    std::size_t met_above = 0;
+    std::size_t met_below = 0;
+    std::vector<std::size_t> met(scene.instances.size());
+    for (std::size_t i = 0; i < around.directions.size(); ++i) {
+        const bool up = (T_world_sensor.rotation * around.directions[i].cast<double>()).z() > 0.0;
+        const bool meets = std::isfinite(around.met[i].distance_m);
+        (up ? above : below) += 1;
+        (up ? met_above : met_below) += meets;
+        if (meets) ++met[around.met[i].instance];
+    }
+    // Below a sea floor, and below a hull, there is surface everywhere above and none below.
+    out.below_surface += open_upwards && 2 * met_above > above && 50 * met_below <= below;
+    const auto most = std::ranges::max_element(met);
+    if (scene.instances.size() < 2 || 100 * *most < 98 * around.directions.size()) return;
+    const auto instance = static_cast<std::size_t>(most - met.begin());
+    if (boxes[instance].isEmpty() || holds_all(boxes[instance], scene)) return;
+    ++out.enclosed;
+    out.enclosed_by = scene.instances[instance];
+}
+
+/// Adds the surface that a ping saw, and the range of its first and last echo. Returns false if it
+/// saw nothing.
+bool take_samples(const View& view, const Samples& samples, SonarSurvey& out) {
+    ValueRange echoes;
+    for (const Sample& sample : samples.items) {
+        const double range = arrival_range(sample.position);
+        if (range < view.range_min_m || range >= view.range_max_m) continue;
+        echoes.take(range);
+        out.visible_m2[sample.instance] += sample.area_m2;
+    }
+    if (echoes.empty()) return false;
+    out.first_echo_m.take(echoes.low);
+    out.last_echo_m.take(echoes.high);
+    return true;
+}
+
+/// Sums over the bins of a sonar's pings.
+struct BinSums {
+    std::size_t bins = 0;
+    std::size_t with_surface = 0;
+    std::size_t white = 0;
+    std::size_t occupied = 0;
+    double signal = 0.0;
+    double noise = 0.0;
+};
+
+/// `clean` is the image without pixel noise.
+void add_bins(const Sonar& sonar, double full_scale, const Ping& clean, const Ping& ping,
+              BinSums& sums, SonarSurvey& out) {
+    for (std::size_t i = 0; i < ping.intensity.size(); ++i) {
+        const float value = ping.intensity[i];
+        out.brightest = std::max(out.brightest, value);
+        if (clean.intensity[i] <= 0.0F) continue;
+        ++sums.with_surface;
+        sums.white += value > full_scale;
+        const auto [signal, noise] = sonar.settings.model->signal_and_noise(
+            clean.intensity[i], value, static_cast<int>(i) / ping.beams,
+            static_cast<int>(i) % ping.beams);
+        sums.signal += signal;
+        sums.noise += noise;
+    }
+    sums.bins += ping.intensity.size();
+    // Pulses and side lobes also fill bins beyond the image.
+    sums.occupied += std::min<std::size_t>(ping.counts.occupied_bins, ping.intensity.size());
+}
+
+void finish(const BinSums& sums, SonarSurvey& out) {
+    if (sums.bins == 0 || sums.with_surface == 0) return;
+    const auto with_surface = static_cast<double>(sums.with_surface);
+    out.occupied_share = static_cast<double>(sums.occupied) / static_cast<double>(sums.bins);
+    out.white_share = static_cast<double>(sums.white) / with_surface;
+    out.noise = sums.noise / with_surface;
+    out.signal = sums.signal / with_surface;
+}
+
+SonarSurvey survey_sonar(const Mission& mission, const Assembly& assembly, Sonar sonar,
+                         double full_scale, std::span<const Eigen::AlignedBox3d> boxes,
+                         const VisibilityEngine& rays) {
+    SonarSurvey out;
+    out.visible_m2.resize(assembly.scene.instances.size());
+    const bool open_upwards = faces_up(assembly.scene);
+    View& view = sonar.settings.view;
+    view.relative_l1 = std::max(view.relative_l1, coarse_l1);
+    const auto bins = static_cast<std::size_t>(view.range_bins) * view.beams;
+    const bool slow = sonar.settings.model->info.is_slow;
+    const std::size_t most = slow ? max_slow : max_pings;
+    BinSums sums;
+    for (const std::uint32_t pose :
+         sample_pings(assembly.trajectory.size(), sonar.config.every,
+                      std::clamp<std::size_t>(max_bins / bins, 3, most))) {
+        const TimedPose& at = assembly.trajectory[pose];
+        const SonarAtPose then(mission, sonar, pose);
+        const Pose T_world_sensor = sensor_pose(*then, at.T_world_vehicle, pose);
+        const std::shared_ptr<const VisibilityEngine> now =
+            engine_at(rays, assembly.motions, at.t_s);
+        const TracedPing traced = trace(*then, assembly.scene, *now, at.T_world_vehicle, pose);
+        const PingKey key{mission.seed, pose};
+        const Surroundings around = look(view, *now, T_world_sensor);
+        const bool in_turn = !slow || out.pings % images_of_slow == 0;
+        ++out.pings;
+        if (const auto altitude = altitude_m(*now, T_world_sensor)) out.altitude_m.take(*altitude);
+        bool is_blind = !take_samples(view, traced.samples, out);
+        check_position(assembly.scene, open_upwards, boxes, T_world_sensor, around, out);
+        if (in_turn || is_blind) {  // water and targets in it have echoes without surface
+            const Ping ping = form_image(traced, then->settings, assembly.scene, key);
+            is_blind = ping.counts.occupied_bins == 0;
+            add_bins(sonar, full_scale,
+                     form_image(traced, then->settings, assembly.scene, key, {.random = 1}), ping,
+                     sums, out);
+        }
+        if (is_blind) {
+            ++out.blind;
+            explain(view, around, distance_to(assembly.scene, T_world_sensor.translation),
+                    out.no_return);
+            out.no_return.depths +=
+                looks_like_depth(assembly.scene, T_world_sensor.translation.z(), view.range_max_m);
+        }
+    }
+    finish(sums, out);
+    return out;
+}
+
+}  // namespace
+
+std::vector<SonarSurvey> survey(const Mission& mission, const Assembly& assembly,
+                                const VisibilityEngine& rays) {
+    const std::vector<Eigen::AlignedBox3d> boxes = boxes_of_instances(assembly.scene);
+    std::vector<SonarSurvey> out;
+    for (std::size_t i = 0; i < assembly.sonars.size(); ++i) {
+        out.push_back(survey_sonar(mission, assembly, assembly.sonars[i], assembly.full_scales[i],
+                                   boxes, rays));
+    }
+    return out;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,198 @@
+#include "run/job/folder.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <optional>
+#include <set>
+
+#include "core/atomic_file.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "input/mission/differences.h"
+#include "input/mission/files.h"
+#include "output/dataset/metadata.h"
+
+namespace sonarsim {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* or_overwrite = ", or replace it with --overwrite";
+
+[[noreturn]] void refuse(const fs::path& folder, const std::string& what, const char* cure = "") {
+    throw InputError({folder.string()}, what + "; choose another output.folder" + cure);
+}
+
+bool is_temporary(const fs::directory_entry& entry) {
+    return entry.symlink_status().type() == fs::file_type::regular &&
+           is_temporary_name(entry.path().filename().string());
+}
+
+/// The names of the files and folders of a dataset in its folder, without dataset.json and the
+/// journal's folder. They may come from a dataset.json that somebody has edited.
+std::set<std::string> own_names(const Json& description) {
+    std::set<std::string> names{mission_name, trajectory_name, journal_name, checksums_name};
+    const auto add = [&](const Json& path) {
+        const std::string text = path.is_string() ? path.get<std::string>() : "";
+        const std::string name = text.substr(0, text.find('/'));
+        if (is_plain_name(name)) names.insert(name);
+    };
+    for (const Json& sensor : description.value("sensors", Json()))
+        add(sensor.is_object() ? sensor.value("name", Json()) : Json());
+    for (const Json& product : description.value("products", Json()))
+        add(product);
+    return names;
+}
+
+/// InputError when an input of the mission is one of the names in `folder`, or lies below it.
+void spare_inputs(const fs::path& folder, const std::set<std::string>& names,
+                  const Mission& mission) {
+    const fs::path home = fs::weakly_canonical(folder);
+    for (const fs::path& input : files_of(mission)) {
+        const fs::path relative = fs::weakly_canonical(input).lexically_relative(home);
+        if (relative.empty() || !names.contains(relative.begin()->string())) continue;
+        refuse(folder,
+               "the dataset would replace '" + input.string() + "', which the mission reads");
+    }
+}
+
+Json own_description(const fs::path& folder) {
+    if (auto json = read_description(folder)) return *std::move(json);
+    refuse(folder, "holds a dataset.json that is not sonarsim's");
+}
+
+}  // namespace
+
+void remove_temporary_files(const fs::path& folder) {
+    std::vector<fs::path> found;
+    std::error_code absent;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, absent)) {
+        if (is_temporary(entry)) found.push_back(entry.path());
+    }
+    for (const fs::path& file : found)
+        fs::remove(file);
+}
+
+std::string mission_differences(const fs::path& dataset, const std::string& mission) {
+    constexpr std::size_t largest_mission = std::size_t{1} << 26;
+    try {
+        return differing_keys(read_file(dataset / mission_name, largest_mission), mission);
+    } catch (const InputError&) {
+        return "";  // a run that was killed at its beginning has not written it yet
+    }
+}
+
+DatasetFile require_part(const fs::path& folder, const fs::path& first) {
+    constexpr std::size_t largest_mission = std::size_t{1} << 26;
+    DatasetFile dataset = require_dataset(folder);
+    std::string difference = difference_between(dataset.json, require_dataset(first).json);
+    if (difference.empty()) return dataset;
+    if (difference == of_another_mission)
+        difference += mission_differences(folder, read_file(first / mission_name, largest_mission));
+    throw InputError({folder.string()}, "holds a dataset " + difference + ", seen from " +
+                                            first.string() +
+                                            "; only parts of one mission become one dataset");
+}
+
+bool is_unused(const fs::path& folder) {
+    return std::all_of(
+        fs::directory_iterator(folder), fs::directory_iterator(), [](const auto& entry) {
+            return is_temporary(entry) || entry.path().filename() == journal_folder_name;
+        });
+}
+
+FolderState inspect_folder(const fs::path& folder, const Json& description,
+                           const std::string& mission, bool overwrite) {
+    if (!fs::exists(folder)) return FolderState::fresh;
+    if (!fs::is_directory(folder)) throw InputError({folder.string()}, "is not a folder");
+    // Another shard may be starting. It writes dataset.json before anything else, so look for other
+    // files first and for dataset.json second.
+    const bool unused = is_unused(folder);
+    if (!fs::exists(folder / description_name)) {
+        if (unused) return FolderState::fresh;
+        refuse(folder, "holds files that are not a sonarsim dataset");
+    }
+    const Json found = own_description(folder);
+    if (overwrite) return FolderState::fresh;
+    std::string difference = difference_between(found, description);
+    if (difference == of_another_mission) difference += mission_differences(folder, mission);
+    if (!difference.empty()) refuse(folder, "holds a dataset " + difference, or_overwrite);
+    return found.value("complete", Json()) == true ? FolderState::complete
+                                                   : FolderState::unfinished;
+}
+
+void require_no_link(const fs::path& path, const std::string& what) {
+    if (!fs::is_symlink(path)) return;
+    throw InputError({path.string()}, "is a symbolic link, and " + what +
+                                          " is written into folders of its own; remove the link "
+                                          "or choose another output folder");
+}
+
+void protect_inputs(const Layout& layout, const Mission& mission) {
+    std::set<std::string> own{description_name, mission_name, trajectory_name, journal_name,
+                              checksums_name};
+    for (const fs::path& folder : layout.folders()) {
+        require_no_link(folder, "a dataset");
+        own.insert(folder.lexically_relative(layout.folder).begin()->string());
+    }
+    own.insert(layout.products.begin(), layout.products.end());
+    spare_inputs(layout.folder, own, mission);
+}
+
+void remove_dataset(const fs::path& folder, const Mission& mission) {
+    if (!fs::exists(folder / description_name)) return;
+    std::set<std::string> own = own_names(own_description(folder));
+    spare_inputs(folder, own, mission);
+    for (const fs::path& part : journal_parts(folder))
+        part.filename() == journal_part(1, 1) ? fs::resize_file(part, 0) : void(fs::remove(part));
+    for (const std::string& name : own)
+        fs::remove_all(folder / name);
+    remove_temporary_files(folder);
+    sync_file_system(folder);
+    // dataset.json goes last: it marks the dataset, so that an interrupted removal can be repeated.
+    fs::remove(folder / description_name);
+    sync_file_system(folder);
+}
+
+bool has_files(const fs::path& folder, const DatasetFile& dataset) {
+    std::vector<std::string> names = list_files(dataset);
+    names.emplace_back(checksums_name);
+    return std::ranges::all_of(names, [&](const std::string& name) {
+        std::error_code absent;
+        return fs::symlink_status(folder / name, absent).type() == fs::file_type::regular;
+    });
+}
+
+bool create_once(const fs::path& path, const std::string& text) {
+    AtomicFile temporary(path);
+    write_file_durably(temporary.part(), text);
+    if (::link(temporary.part().c_str(), path.c_str()) != 0) {
+        const bool no_links = errno == EPERM || errno == ENOTSUP || errno == ENOSYS;
+        if (!no_links && errno != EEXIST) throw_errno("cannot write", path);
+        if (fs::exists(path)) return false;
+        temporary.commit();  // a disk without links cannot tell which of two runs came first
+    }
+    sync_file_system(path.parent_path());
+    return true;
+}
+
+FolderState claim_folder(const fs::path& folder, const CommonFiles& files) {
+    if (create_once(folder / description_name, json_text(files.description)))
+        return FolderState::fresh;
+    return inspect_folder(folder, files.description, files.mission);
+}
+
+void write_common_files(const Layout& layout, const CommonFiles& files) {
+    write_file(layout.folder / mission_name, files.mission);
+    write_file(layout.folder / trajectory_name, files.trajectory);
+    for (const fs::path& folder : layout.folders())
+        fs::create_directories(folder);
+    for (const auto& [name, bytes] : files.initial)
+        write_file(layout.folder / name, bytes);
+}
+
+}  // namespace sonarsim

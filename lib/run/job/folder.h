@@ -1,0 +1,77 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "output/dataset/dataset_file.h"
+#include "output/dataset/layout.h"
+
+namespace sonarsim {
+
+enum class FolderState {
+    fresh,       ///< holds nothing yet
+    unfinished,  ///< holds a part of this very dataset
+    complete,    ///< holds all of it, by its dataset.json
+};
+
+/// The text of the files that do not belong to one ping.
+struct CommonFiles {  // NOLINT(bugprone-exception-escape): moving JSON throws nothing
+    nlohmann::ordered_json description;  ///< dataset.json, not complete
+    std::string mission;                 ///< mission.resolved.yaml
+    std::string trajectory;              ///< trajectory.tum
+    /// Names relative to the folder and bytes of the shared products that are there from the
+    /// beginning.
+    std::vector<std::pair<std::string, std::string>> initial = {};
+};
+
+/// The keys in which the mission of a dataset differs from the text `mission`, for messages.
+std::string mission_differences(const std::filesystem::path& dataset, const std::string& mission);
+
+/// The dataset in a folder that holds all or a part of `first`. InputError when it holds another.
+DatasetFile require_part(const std::filesystem::path& folder, const std::filesystem::path& first);
+
+/// True if a folder holds only files of a run that was killed at its beginning.
+bool is_unused(const std::filesystem::path& folder);
+
+/// The state of a folder, seen from the dataset that `description` (dataset.json) and `mission`
+/// (mission.resolved.yaml) stand for. InputError when it holds something else: other files, or a
+/// dataset of another mission, of other input files or of another version of the program; with
+/// `overwrite` any dataset will do, and the folder counts as fresh.
+FolderState inspect_folder(const std::filesystem::path& folder,
+                           const nlohmann::ordered_json& description, const std::string& mission,
+                           bool overwrite = false);
+
+/// InputError when the path is a symbolic link. `what` is what a user writes there: "a dataset".
+void require_no_link(const std::filesystem::path& path, const std::string& what);
+
+/// InputError when writing the dataset would touch what is not its own: a file that the mission
+/// reads, or something behind a symbolic link. The folder of the dataset itself may be a link.
+void protect_inputs(const Layout& layout, const Mission& mission);
+
+/// Removes the dataset in a folder: the folders of its sensors, with all that is in them, and the
+/// files of the dataset next to these. Nothing else is removed, and no link is followed. It is
+/// durable, so that a new dataset is never found with an old journal. The caller holds the lock of
+/// a whole run, which stays. InputError when a file that the mission reads would go.
+void remove_dataset(const std::filesystem::path& folder, const Mission& mission);
+
+/// True if all files of a complete dataset are in the folder.
+bool has_files(const std::filesystem::path& folder, const DatasetFile& dataset);
+
+/// Creates a file durably, with all of its bytes at once. Returns false and writes nothing if the
+/// name is in use: of several processes one creates it. std::system_error when the disk refuses.
+bool create_once(const std::filesystem::path& path, const std::string& text);
+
+/// Makes dataset.json, which decides what the folder holds: of several runs one makes it, and the
+/// others find it, or InputError as inspect_folder(). Returns the state before.
+FolderState claim_folder(const std::filesystem::path& folder, const CommonFiles& files);
+
+/// Makes the folder ready for pings: subfolders, and the common files but dataset.json.
+void write_common_files(const Layout& layout, const CommonFiles& files);
+
+/// Removes the temporary files that interrupted runs left in a folder, in which nobody may be at
+/// work; nothing if there is no such folder.
+void remove_temporary_files(const std::filesystem::path& folder);
+
+}  // namespace sonarsim

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "output/dataset/writer.h"
+
+namespace sonarsim {
+
+/// Mean cost of a ping of a sonar.
+struct PingCost {
+    double seconds = 0.0;  ///< on one thread, without the disk
+    double bytes = 0.0;    ///< size of its files and records
+};
+
+/// Renders a few pings of each sonar as the mission would, with its engine and its writers, and
+/// discards them. The costs are in the order of Mission::sensors. Adds to `set_up_s` the time to
+/// make the engine and the extra time of each sonar's first ping, which fills tables.
+std::vector<PingCost> measure_pings(const Mission& mission, const Assembly& assembly,
+                                    const std::vector<Writers>& writers, double& set_up_s);
+
+}  // namespace sonarsim

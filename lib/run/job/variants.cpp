@@ -1,0 +1,245 @@
+#include "run/job/variants.h"
+
+#include <algorithm>
+#include <future>
+#include <map>
+#include <stdexcept>
+
+#include "core/build_info.h"
+#include "core/clock.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "core/sha256.h"
+#include "input/mission/files.h"
+#include "input/mission/resolved.h"
+#include "input/mission/variants.h"
+#include "output/dataset/dataset_file.h"
+#include "output/dataset/layout.h"
+#include "output/dataset/metadata.h"
+#include "run/checks/find_warnings.h"
+#include "run/job/folder.h"
+#include "run/job/shard_lock.h"
+#include "simulate/sonar/kinds.h"
+
+namespace sonarsim {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* variants_format = "sonarsim variants";
+
+/// InputError for other variants than expected.
+[[noreturn]] void refuse_variants(const fs::path& folder, const std::string& which) {
+    throw InputError(
+        {folder.string()},
+        "holds variants of another mission, number, seed or version of sonarsim" + which);
+}
+
+/// Removes the variants that the variants.json of the folder names. It goes last: the folder is
+/// recognised by it.
+void remove_variants(const fs::path& folder, const Mission& mission) {
+    const std::optional<Json> found = read_variants(folder);
+    if (!found) return;
+    for (const fs::path& variant : folders_of_variants(folder, *found)) {
+        if (!fs::is_directory(variant)) continue;
+        {
+            const ShardLock lock(variant, 0, 1);
+            remove_dataset(variant, mission);
+        }
+        if (fs::is_empty(variant)) fs::remove(variant);
+    }
+    fs::remove(folder / variants_name);
+}
+
+/// InputError for a variant whose objects find no room, before any of the variants is written.
+void require_places(std::span<const Mission* const> variants, SceneStore& models) {
+    for (const Mission* variant : variants) {
+        if (variant->scene.scatter.empty()) continue;
+        try {
+            check_places(*variant, models);
+        } catch (const InputError& error) {
+            throw InputError(error.what() + (" (in " + variant_folder(variant->variant.index)) +
+                             ")");
+        }
+    }
+}
+
+/// SHA-256 of input files by path.
+using InputSums = std::map<fs::path, std::string>;
+
+/// The number of pings of the dataset in the variant's folder, found without its scene; nothing
+/// unless it is complete, has all its files, and was made of this mission and these input files by
+/// a build with the same bytes.
+std::optional<std::uint64_t> finished_pings(const Mission& variant, InputSums& sums) try {
+    const fs::path& folder = variant.output.folder;
+    const DatasetFile found = require_dataset(folder);
+    const Json expected = {{"format_version", dataset_format_version},
+                           {"program_version", build_info().version},
+                           {"build", describe_build()},
+                           {"mission_hash", mission_hash(variant, sonar_keys())},
+                           {"inputs_hash", found.json.at("inputs_hash")}};
+    if (!found.complete || !difference_between(found.json, expected).empty()) return std::nullopt;
+    for (const Json& input : found.json.at("inputs")) {
+        const fs::path file = home_of(variant) / input.at("file").get<std::string>();
+        const auto [sum, is_new] = sums.try_emplace(file);
+        if (is_new) sum->second = sha256_of_file(file);
+        if (sum->second != input.at("sha256").get<std::string>()) return std::nullopt;
+    }
+    if (!has_files(folder, found)) return std::nullopt;
+    return count_pings(found);
+} catch (const std::exception&) {
+    return std::nullopt;  // run_job() says what is wrong
+}
+
+}  // namespace
+
+Json describe_variants(const Mission& mission, std::span<const Mission> variants) {
+    Json json = {{"format", variants_format},
+                 {"format_version", dataset_format_version},
+                 {"program_version", build_info().version},
+                 {"mission", mission.name},
+                 {"mission_hash", mission_hash(mission, sonar_keys())},
+                 {"seed", mission.seed}};
+    json["variants"] = Json::array();
+    for (const Mission& variant : variants) {
+        json["variants"].push_back({{"folder", variant_folder(variant.variant.index)},
+                                    {"seed", variant.seed},
+                                    {"drawn", describe_drawn(variant.variant.drawn)}});
+    }
+    return json;
+}
+
+std::optional<Json> read_variants(const fs::path& folder) {
+    const fs::path file = folder / variants_name;
+    if (!fs::exists(file)) return std::nullopt;
+    Json json = read_json(file);
+    if (!json.is_object() || json.value("format", Json()) != variants_format ||
+        !json.value("variants", Json()).is_array())
+        throw InputError({file.string()}, "is not sonarsim's, or damaged");
+    return json;
+}
+
+std::vector<fs::path> folders_of_variants(const fs::path& folder, const Json& json) {
+    std::vector<fs::path> folders;
+    // Names are not taken from the file, so it cannot name anything outside the folder.
+    for (std::size_t i = 0; i < json.at("variants").size(); ++i)
+        folders.push_back(folder / variant_folder(static_cast<int>(i)));
+    return folders;
+}
+
+bool is_complete(const fs::path& dataset) {
+    if (!fs::exists(dataset / description_name)) return false;
+    const std::optional<Json> description = read_description(dataset);
+    return description && description->value("complete", Json()) == true;
+}
+
+void require_same_variants(const fs::path& folder, const Json& json, const fs::path& first) {
+    const std::optional<Json> own = read_variants(folder);
+    if (!own)
+        throw InputError({folder.string()}, "has no variants.json, and " + first.string() +
+                                                " has one; give the output folders of one "
+                                                "mission");
+    if (*own != json) refuse_variants(folder, " than " + first.string());
+}
+
+void inspect_variants(const fs::path& folder, const Json& json, std::span<const Mission> variants,
+                      bool overwrite) {
+    // In this order: another shard may write variants.json at any moment.
+    const bool has_files = fs::exists(folder) && !is_unused(folder);
+    const std::optional<Json> found = read_variants(folder);
+    if (!found && has_files)
+        throw InputError({folder.string()},
+                         "holds files that are not variants of a sonarsim mission; choose another "
+                         "output.folder, or remove it");
+    if (found && *found != json && !overwrite) {
+        std::string difference;
+        if (!variants.empty())
+            difference =
+                mission_differences(folder / variant_folder(0),
+                                    resolved_yaml(portable(variants.front()), sonar_keys()));
+        refuse_variants(
+            folder, difference + "; choose another output.folder, or --overwrite to start again");
+    }
+    for (const Json& one : {found.value_or(json), json}) {
+        for (const fs::path& variant : folders_of_variants(folder, one))
+            require_no_link(variant, "a variant");
+    }
+}
+
+void claim_variants(const fs::path& folder, const Json& json) {
+    if (!create_once(folder / variants_name, json_text(json)))
+        inspect_variants(folder, json, {}, false);
+}
+
+RenderSummary run_variants(const Mission& mission, std::span<const Mission> variants,
+                           const RenderOptions& options, const VariantCallback& begin,
+                           const ProgressCallback& progress, const std::atomic<bool>& stop) {
+    check(options);
+    const fs::path& folder = mission.output.folder;
+    const Json json = describe_variants(mission, variants);
+    if (options.files) inspect_variants(folder, json, variants, options.overwrite);
+    RenderSummary all;
+    InputSums sums;
+    std::vector<const Mission*> todo;
+    for (auto i = static_cast<std::size_t>(options.shard); i < variants.size();
+         i += options.shards) {
+        const auto pings =
+            options.files && !options.overwrite ? finished_pings(variants[i], sums) : std::nullopt;
+        all.skipped += pings.value_or(0);
+        if (!pings) todo.push_back(&variants[i]);
+    }
+    SceneStore models;
+    require_places(todo, models);
+    std::optional<ShardLock> lock;
+    const auto enter = [&] {
+        lock.emplace(folder, options.shard, options.shards);
+        all.unlocked = !lock->works();
+        if (options.overwrite) remove_variants(folder, variants.front());
+        claim_variants(folder, json);
+    };
+    const RenderOptions one_by_one{
+        .threads = options.threads, .files = options.files, .checkpoint_s = options.checkpoint_s};
+    all.complete = options.files;
+    Stopwatch watch;
+    // While a variant is rendered, the next one is assembled.
+    const auto when = options.threads == 1 ? std::launch::deferred : std::launch::async;
+    std::future<Assembly> next;
+    const auto begin_assembly = [&](std::size_t k) {
+        next =
+            std::async(when, [&models, &variant = *todo[k]] { return assemble(variant, models); });
+    };
+    if (!todo.empty()) begin_assembly(0);
+    for (std::size_t k = 0; k < todo.size() && !all.stopped; ++k) {
+        const Mission& variant = *todo[k];
+        const Assembly assembly = next.get();
+        if (k + 1 < todo.size()) begin_assembly(k + 1);
+        if (begin) begin(variant, assembly);
+        if (options.files && !lock) enter();  // once the first scene has been read
+        const RenderSummary one = run_job(variant, assembly, one_by_one, nullptr, stop);
+        all += one;
+        all.complete = all.complete && one.complete;
+        all.stopped = one.stopped;
+        all.unlocked = all.unlocked || one.unlocked;
+        for (std::vector<Warning> found :
+             {one.warnings, image_warnings(variant, assembly, one.sensors)}) {
+            for (Warning& warning : found) {
+                warning.about.insert(0, variant_folder(variant.variant.index) + ": ");
+                all.warnings.push_back(std::move(warning));
+            }
+        }
+        if (progress) progress(k + 1, todo.size());
+    }
+    if (options.files) {
+        // A shard without a variant makes its folder, too: merge takes those of all shards.
+        if (!fs::exists(folder / variants_name)) enter();
+        remove_journal_parts(folder);  // runs were killed
+    }
+    for (const Mission& variant : variants)
+        all.complete = all.complete && is_complete(variant.output.folder);
+    all.seconds = watch.lap();
+    return all;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "run/job/run_job.h"
+
+// The variants of a mission lie below one folder:
+//
+//     OUT/variants.json         what was drawn for each of them
+//     OUT/variant_0000/         a dataset like any other
+//
+// A shard renders whole variants: those whose index i has i % shards == shard.
+
+namespace sonarsim {
+
+/// The variants.json of a mission.
+nlohmann::ordered_json describe_variants(const Mission& mission, std::span<const Mission> variants);
+
+/// The variants.json of a folder; nothing if there is none. InputError when it is not sonarsim's.
+std::optional<nlohmann::ordered_json> read_variants(const std::filesystem::path& folder);
+
+/// The folders of the variants that a variants.json names, in order.
+std::vector<std::filesystem::path> folders_of_variants(const std::filesystem::path& folder,
+                                                       const nlohmann::ordered_json& json);
+
+/// InputError unless a folder has this variants.json, which is that of `first`.
+void require_same_variants(const std::filesystem::path& folder, const nlohmann::ordered_json& json,
+                           const std::filesystem::path& first);
+
+/// InputError when the output folder holds other files, a link or, unless with `overwrite`, other
+/// variants than those of `json`.
+void inspect_variants(const std::filesystem::path& folder, const nlohmann::ordered_json& json,
+                      std::span<const Mission> variants, bool overwrite);
+
+/// Makes variants.json: of several runs one makes it. InputError when another one is there.
+void claim_variants(const std::filesystem::path& folder, const nlohmann::ordered_json& json);
+
+/// True if the folder holds a dataset that is complete.
+bool is_complete(const std::filesystem::path& dataset);
+
+/// Called before a variant is rendered, with its assembly.
+using VariantCallback = std::function<void(const Mission& variant, const Assembly& assembly)>;
+
+/// Renders the variants of a mission that are not finished, one after the other, each as run_job
+/// does. The summary holds the sums over all of them and the warnings about each, with its folder.
+RenderSummary run_variants(const Mission& mission, std::span<const Mission> variants,
+                           const RenderOptions& options, const VariantCallback& begin,
+                           const ProgressCallback& progress, const std::atomic<bool>& stop);
+
+}  // namespace sonarsim

@@ -1,0 +1,198 @@
+#include "run/preview/scene_views.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/units.h"
+#include "run/preview/drawing.h"
+#include "run/preview/object_boxes.h"
+#include "simulate/product/colour_map.h"
+#include "simulate/visibility/angles.h"
+
+namespace sonarsim {
+
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr Rgb path_colour{255, 255, 255};
+
+struct Box2 {
+    Vector2d low = Vector2d::Constant(1e300);
+    Vector2d high = Vector2d::Constant(-1e300);
+
+    void add(const Vector2d& at) {
+        low = low.cwiseMin(at);
+        high = high.cwiseMax(at);
+    }
+
+    /// Enlarges the area on all sides by a share of its longer side, at least by a metre.
+    Box2 padded(double share) const {
+        const double by = std::max(0.5, share * (high - low).maxCoeff());
+        return {low.array() - by, high.array() + by};
+    }
+};
+
+Vector2d flat(const Vector3d& p) {
+    return p.head<2>();
+}
+
+/// Draws faint lines from the sonar to the edge of its view, and the edge.
+void draw_beam(Picture& tile, const PlaneFrame& frame, const BeamOutline& beam) {
+    constexpr float ray_share = 0.12F;
+    const Vector2d from = frame.pixel(flat(beam.origin));
+    for (std::size_t k = 0; k < beam.ends.size(); ++k) {
+        const Vector2d here = frame.pixel(flat(beam.ends[k]));
+        const Vector2d next = frame.pixel(flat(beam.ends[(k + 1) % beam.ends.size()]));
+        draw_line(tile, from, here, beam.colour, ray_share);
+        draw_line(tile, here, next, beam.colour);
+    }
+}
+
+/// Draws the heights in dim colours with light from the north-west.
+void draw_heights(Picture& tile, const PlaneFrame& frame, const std::vector<float>& heights) {
+    std::vector<float> known;
+    std::ranges::copy_if(heights, std::back_inserter(known),
+                         [](float z) { return !std::isnan(z); });
+    if (known.empty()) return;
+    std::ranges::sort(known);
+    const float low = known[known.size() / 50];
+    const float high = std::max(known[known.size() - 1 - known.size() / 50], low + 1e-3F);
+    const auto width = static_cast<std::size_t>(frame.plot_width);
+    for (std::size_t k = 0; k < heights.size(); ++k) {
+        if (std::isnan(heights[k])) continue;
+        const auto neighbour = [&](std::size_t other) {
+            const bool usable = other < heights.size() && !std::isnan(heights[other]);
+            return usable ? heights[other] : heights[k];
+        };
+        const float rise = (heights[k] - neighbour(k % width > 0 ? k - 1 : k) + heights[k] -
+                            neighbour(k - width)) /
+                           static_cast<float>(frame.pixel_m);
+        const float light = std::clamp(0.55F + 0.25F * rise, 0.3F, 0.8F);
+        const Rgb full = blend(sea_colours, (heights[k] - low) / (high - low));
+        const Rgb ends[] = {backdrop, full};
+        tile.row(frame.top + static_cast<int>(k / width))[frame.left + k % width] =
+            blend(ends, light);
+    }
+}
+
+Vector2d heading_of(const Pose& T_world_vehicle) {
+    const Vector3d bow = T_world_vehicle.rotation * Vector3d::UnitX();
+    // A vehicle that points straight up or down has no heading; any axis will do.
+    return bow.head<2>().norm() < 1e-6 ? Vector2d(1.0, 0.0) : Vector2d(bow.head<2>().normalized());
+}
+
+/// The area that the plan shows.
+Box2 plan_box(const Moment& moment) {
+    Box2 box;
+    for (const TimedPose& pose : moment.assembly.trajectory)
+        box.add(flat(pose.T_world_vehicle.translation));
+    for (const BeamOutline& beam : moment.beams) {
+        for (const Vector3d& end : beam.ends)
+            box.add(flat(end));
+    }
+    box = box.padded(0.1);
+    // The plan shows all of the scene if it is not much larger.
+    const Scene& scene = moment.assembly.scene;
+    const Vector2d scene_low = flat(scene.bounds_min);
+    const Vector2d scene_high = flat(scene.bounds_max);
+    if ((scene_high - scene_low).maxCoeff() < 2.0 * (box.high - box.low).maxCoeff()) {
+        box.add(scene_low);
+        box.add(scene_high);
+    }
+    return box;
+}
+
+constexpr int edge_steps = 48;  // rays along each side, or around a cone
+
+Ray ray_along(const Eigen::Vector3d& direction) {
+    return {Eigen::Vector3f::Zero(), direction.cast<float>().normalized()};
+}
+
+std::vector<Ray> rays_around(const View& view) {
+    std::vector<Ray> rays;
+    const double azimuth = 0.5 * view.azimuth_rad;
+    const double elevation = 0.5 * view.elevation_rad;
+    if (view.shape == ViewShape::cone) {
+        for (int k = 0; k < edge_steps; ++k)
+            rays.push_back(ray_along(direction_off_boresight(azimuth, 2.0 * pi * k / edge_steps)));
+        return rays;
+    }
+    const auto at = [&](double across, double up) {
+        rays.push_back(ray_along(direction_of(azimuth * across, elevation * up)));
+    };
+    for (int side = 0; side < 4; ++side) {
+        for (int k = 0; k < edge_steps; ++k) {
+            const double along = 2.0 * k / edge_steps - 1.0;
+            if (side == 0) at(along, 1.0);
+            if (side == 1) at(1.0, -along);
+            if (side == 2) at(-along, -1.0);
+            if (side == 3) at(-1.0, along);
+        }
+    }
+    return rays;
+}
+
+}  // namespace
+
+BeamOutline beam_outline(const Sonar& sonar, const VisibilityEngine& engine,
+                         const Pose& T_world_sensor, Rgb colour) {
+    const View& view = sonar.settings.view;
+    const std::vector<Ray> rays = rays_around(view);
+    std::vector<Intersection> met(rays.size());
+    engine.intersect(T_world_sensor, rays, met);
+    BeamOutline outline{T_world_sensor.translation, {}, colour};
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+        const double range = std::min<double>(met[k].distance_m, view.range_max_m);
+        outline.ends.push_back(T_world_sensor.translation +
+                               T_world_sensor.rotation *
+                                   (range * rays[k].direction.cast<double>()));
+    }
+    return outline;
+}
+
+std::vector<float> heights_below(const VisibilityEngine& engine, const Vector3d& vehicle,
+                                 const PlaneFrame& frame) {
+    std::vector<Ray> rays;
+    for (int row = 0; row < frame.plot_height; ++row) {
+        for (int column = 0; column < frame.plot_width; ++column) {
+            const Vector2d at = frame.metres(column, row) - flat(vehicle);
+            rays.push_back(
+                {Vector3d(at.x(), at.y(), 0.0).cast<float>(), -Eigen::Vector3f::UnitZ()});
+        }
+    }
+    std::vector<Intersection> met(rays.size());
+    engine.intersect({Eigen::Quaterniond::Identity(), vehicle}, rays, met);
+    std::vector<float> heights;
+    for (const Intersection& one : met) {
+        heights.push_back(std::isfinite(one.distance_m)
+                              ? static_cast<float>(vehicle.z()) - one.distance_m
+                              : std::nanf(""));
+    }
+    return heights;
+}
+
+Picture draw_plan(const Moment& moment, int width, int height) {
+    const Trajectory& trajectory = moment.assembly.trajectory;
+    const Box2 box = plan_box(moment);
+    const PlaneFrame frame = plane_frame(width, height, box.low, box.high);
+    Picture tile(width, height, backdrop);
+    const Pose& now = trajectory[moment.pose].T_world_vehicle;
+    draw_heights(tile, frame, heights_below(moment.engine, now.translation, frame));
+    for (std::size_t k = 1; k < trajectory.size(); ++k) {
+        draw_line(tile, frame.pixel(flat(trajectory[k - 1].T_world_vehicle.translation)),
+                  frame.pixel(flat(trajectory[k].T_world_vehicle.translation)), path_colour, 0.7F);
+    }
+    for (const BeamOutline& beam : moment.beams)
+        draw_beam(tile, frame, beam);
+    const Vector2d here = frame.pixel(flat(now.translation));
+    const Vector2d ahead = heading_of(now);
+    draw_line(tile, here, here + 18.0 * Vector2d(ahead.x(), -ahead.y()), path_colour);
+    draw_dot(tile, here, 2, path_colour);
+    draw_objects(tile, frame, object_boxes(moment.assembly, moment.pose));
+    draw_axes(tile, frame);
+    return tile;
+}
+
+}  // namespace sonarsim

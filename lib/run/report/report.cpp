@@ -1,0 +1,220 @@
+#include "run/report/report.h"
+
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+
+#include "core/clock.h"
+#include "core/in_parallel.h"
+#include "input/scene/copies.h"
+#include "run/checks/measured_error.h"
+#include "simulate/reference/image_error.h"
+#include "simulate/visibility/local_pose.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// A sonar with a setting, and its times so far.
+struct Trial {
+    Sonar sonar;
+    std::shared_ptr<const VisibilityEngine> engine;
+    std::vector<PoseTimes> poses;
+    std::vector<double> pings_per_s;
+};
+
+/// The common inputs of all trials.
+struct Comparison {
+    PingSet pings;
+    const Caster& caster;
+    ReportOptions options;  ///< with the actual number of threads
+};
+
+/// Times Embree alone on rays over the view: once to warm the caches, then once per ping of a
+/// visit.
+void time_view_rays(const Comparison& comparison, std::span<const Eigen::Vector3f> in_sensor,
+                    const TracedPing& traced, double range_max_m, PoseTimes& times) {
+    constexpr int repeats = 3;
+    const LocalPose pose = local_pose(traced.T_world_sensor, comparison.pings.scene.origin);
+    std::vector<Eigen::Vector3f> directions(in_sensor.size());
+    std::vector<std::uint32_t> facets(in_sensor.size());
+    for (std::size_t i = 0; i < directions.size(); ++i)
+        directions[i] = pose.rotation * in_sensor[i];
+    const auto reach = static_cast<float>(range_max_m) * 1.01F;
+    for (int k = 0; k <= repeats; ++k) {
+        const double start = thread_seconds_now();
+        comparison.caster.cast(pose.position, directions, reach, facets);
+        if (k > 0) times.rays_thread_ms.push_back(1e3 * (thread_seconds_now() - start));
+    }
+}
+
+/// Pings per second with all threads, measured over about a quarter of a second.
+double rate(const Comparison& comparison, const Trial& trial) {
+    const PingSet& pings = comparison.pings;
+    const int threads = comparison.options.threads;
+    const double ms = trial.poses[0].ping_ms.back();
+    const int count = std::clamp(static_cast<int>(250.0 * threads / ms), 2 * threads, 2000);
+    const double start = seconds_now();
+    in_parallel(count, [&](std::size_t k) {
+        const std::size_t p = k % pings.poses.size();
+        render_ping(*pings.at_pose(trial.sonar, p), pings.scene, *trial.engine, pings.poses[p],
+                    pings.key(p));
+    });
+    return count / (seconds_now() - start);
+}
+
+template <class Figures>
+double mean_over(const std::vector<Figures>& poses, double Figures::*figure) {
+    std::vector<double> values;
+    values.reserve(poses.size());
+    for (const Figures& figures : poses)
+        values.push_back(figures.*figure);
+    return mean_of(values);
+}
+
+/// The reference at each pose. Adds how far they have settled to the report.
+std::vector<Reference> cast_references(const Comparison& comparison, const Sonar& sonar,
+                                       Report& report) {
+    const PingSet& pings = comparison.pings;
+    const ReferenceGoal goal{comparison.options.reference_moved, 64.0,
+                             comparison.options.reference_rays};
+    std::vector<Reference> references(pings.poses.size());
+    in_parallel(references.size(), [&](std::size_t p) {
+        const SonarAtPose then = pings.at_pose(sonar, p);
+        references[p] =
+            cast_reference(comparison.caster, pings.scene, *then,
+                           sensor_pose(*then, pings.poses[p], pings.indices[p]), goal);
+    });
+    const auto most = std::ranges::max_element(references, {}, &Reference::moved);
+    report.references.push_back({sonar.config.name, mean_over(references, &Reference::moved),
+                                 most->moved, mean_over(references, &Reference::rays_per_bin)});
+    return references;
+}
+
+void measure_errors(const PingSet& pings, const Trial& trial,
+                    const std::vector<Reference>& references, ReportRow& row) {
+    const std::size_t poses = references.size();
+    std::vector<ImageError> errors(poses);
+    std::vector<double> samples(poses);
+    in_parallel(poses, [&](std::size_t p) {
+        const SonarAtPose then = pings.at_pose(trial.sonar, p);
+        const Ping ping =
+            direct_image(*then, pings.scene, *trial.engine,
+                         sensor_pose(*then, pings.poses[p], pings.indices[p]));
+        errors[p] =
+            image_error(ping.intensity, references[p].intensity, references[p].scored);
+        samples[p] = static_cast<double>(ping.counts.samples);
+    });
+    row.relative_l1 = mean_over(errors, &ImageError::relative_l1);
+    row.worst_relative_l1 =
+        std::ranges::max_element(errors, {}, &ImageError::relative_l1)->relative_l1;
+    row.miss_rate = mean_over(errors, &ImageError::miss_rate);
+    row.samples_per_ping = mean_of(samples);
+}
+
+void summarise_times(const Trial& trial, ReportRow& row) {
+    row.ms_per_ping = over_poses(trial.poses, &PoseTimes::ping_ms);
+    row.ms_rays = over_poses(trial.poses, &PoseTimes::rays_thread_ms);
+    std::vector<double> times_rays;
+    for (const PoseTimes& pose : trial.poses) {
+        times_rays.push_back(median_of(pose.ping_thread_ms) / median_of(pose.rays_thread_ms));
+    }
+    row.times_rays = median_of(times_rays);
+    row.pings_per_s = median_of(trial.pings_per_s);
+}
+
+/// Marks the rows that no other row equals in both figures and beats in one.
+void mark_front(std::vector<ReportRow>& rows) {
+    for (ReportRow& row : rows) {
+        row.on_front = std::ranges::none_of(rows, [&](const ReportRow& other) {
+            return other.ms_per_ping <= row.ms_per_ping && other.relative_l1 <= row.relative_l1 &&
+                   (other.ms_per_ping < row.ms_per_ping || other.relative_l1 < row.relative_l1);
+        });
+    }
+}
+
+/// A trial for each setting. One tree serves rays of every error goal.
+std::vector<Trial> trials_of(const PingSet& pings, const Assembly& assembly, const Sonar& sonar,
+                             std::span<const Setting> settings) {
+    std::vector<Trial> trials;
+    std::shared_ptr<const VisibilityEngine> rays;
+    for (const Setting& setting : settings) {
+        Trial& trial = trials.emplace_back();
+        trial.sonar = sonar;
+        trial.sonar.settings.view.relative_l1 = setting.relative_l1;
+        trial.poses.resize(pings.poses.size());
+        const bool is_rays = setting.kind == EngineKind::rays;
+        trial.engine = is_rays && rays
+                           ? rays
+                           : make_engine(assembly.scene,
+                                         engine_settings(setting, pings.mission, assembly));
+        if (is_rays) rays = trial.engine;
+    }
+    return trials;
+}
+
+/// All settings on one sonar.
+void report_sonar(const Comparison& comparison, const Assembly& assembly, const Sonar& sonar,
+                  std::span<const Setting> settings, const ReportProgress& progress,
+                  Report& report) {
+    const PingSet& pings = comparison.pings;
+    const std::string& name = sonar.config.name;
+    progress(name + ": casting the reference");
+    const std::vector<Reference> references = cast_references(comparison, sonar, report);
+    std::vector<Trial> trials = trials_of(pings, assembly, sonar, settings);
+    std::vector<ReportRow> rows(settings.size());
+    for (std::size_t s = 0; s < rows.size(); ++s) {
+        progress(name + ": " + settings[s].engine + " " + settings[s].name + ", error");
+        rows[s].sensor = name;
+        rows[s].setting = settings[s];
+        measure_errors(pings, trials[s], references, rows[s]);
+    }
+    const std::vector<Eigen::Vector3f> over_view = view_rays(sonar.settings.view);
+    for (int round = 0; round < comparison.options.rounds; ++round) {
+        progress(name + ": timing, round " + std::to_string(round + 1));
+        for (std::size_t p = 0; p < pings.poses.size(); ++p) {
+            for (Trial& trial : trials) {
+                const TracedPing traced =
+                    visit_pose(pings, trial.sonar, *trial.engine, p, trial.poses[p]);
+                time_view_rays(comparison, over_view, traced, sonar.settings.view.range_max_m,
+                               trial.poses[p]);
+            }
+        }
+        for (Trial& trial : trials)
+            trial.pings_per_s.push_back(rate(comparison, trial));
+    }
+    for (std::size_t s = 0; s < rows.size(); ++s)
+        summarise_times(trials[s], rows[s]);
+    mark_front(rows);
+    report.rows.insert(report.rows.end(), rows.begin(), rows.end());
+}
+
+}  // namespace
+
+Report make_report(const Mission& mission, const Assembly& assembly,
+                   std::span<const Setting> settings, const ReportOptions& options,
+                   const ReportProgress& progress) {
+    const int threads = options.threads > 0 ? options.threads : tbb::info::default_concurrency();
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    tbb::task_arena arena(threads);
+    Report report;
+    report.mission = mission.name;
+    report.triangles = all_triangles(assembly.scene);
+    report.threads = threads;
+    ::getloadavg(&report.load, 1);
+    arena.execute([&] {
+        const Caster caster(assembly.scene);
+        Comparison comparison{PingSet(mission, assembly, options.poses), caster, options};
+        comparison.options.threads = threads;
+        report.poses = static_cast<int>(comparison.pings.poses.size());
+        for (const Sonar& sonar : assembly.sonars)
+            report_sonar(comparison, assembly, sonar, settings, progress, report);
+    });
+    return report;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,158 @@
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "run/report/report.h"
+
+namespace sonarsim {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const ReportRow& row) {
+    return {{"sensor", row.sensor},
+            {"engine", row.setting.engine},
+            {"setting", row.setting.name},
+            {"current", row.setting.current},
+            {"on_front", row.on_front},
+            {"ms_per_ping", row.ms_per_ping},
+            {"times_131k_rays", row.times_rays},
+            {"pings_per_s", row.pings_per_s},
+            {"relative_l1", row.relative_l1},
+            {"worst_relative_l1", row.worst_relative_l1},
+            {"goal", row.goal()},
+            {"miss_rate", row.miss_rate},
+            {"samples_per_ping", row.samples_per_ping},
+            {"ms_131k_rays", row.ms_rays}};
+}
+
+Json json_of(const MultipathRow& row) {
+    return {{"sensor", row.sensor},
+            {"method", row.setting.method == MultipathMethod::exact ? "exact" : "cluster"},
+            {"epsilon_bins", row.setting.epsilon_bins},
+            {"delta_deg", row.setting.delta_deg},
+            {"current", row.current},
+            {"relative_l1", row.relative_l1},
+            {"recall", row.recall},
+            {"precision", row.precision},
+            {"exact_bins", row.exact_bins},
+            {"ms_multipath", row.ms_multipath},
+            {"ms_per_ping", row.ms_per_ping},
+            {"times_without", row.times_without}};
+}
+
+Json json_of(const ReferenceQuality& reference) {
+    return {{"sensor", reference.sensor},
+            {"moved_mean", reference.moved},
+            {"moved_max", reference.max_moved},
+            {"rays_per_bin_mean", reference.rays_per_bin}};
+}
+
+template <class Row>
+Json list_of(const std::vector<Row>& rows) {
+    Json list = Json::array();
+    for (const Row& row : rows)
+        list.push_back(json_of(row));
+    return list;
+}
+
+Json json_of(const Report& report) {
+    Json json{{"mission", report.mission},
+              {"triangles", report.triangles},
+              {"poses", report.poses},
+              {"threads", report.threads},
+              {"load", report.load}};
+    json["rows"] = list_of(report.rows);
+    json["reference"] = list_of(report.references);
+    json["multipath_rows"] = list_of(report.multipath);
+    return json;
+}
+
+/// Three significant digits, without an exponent.
+std::string short_number(double x) {
+    if (!(x >= 5e-5)) return "0";
+    const int digits = 2 - static_cast<int>(std::floor(std::log10(x)));
+    return fmt::format("{:.{}f}", x, std::clamp(digits, 0, 4));
+}
+
+/// A column of a table: a key of the rows and its title. Titles that end in % are for shares.
+struct Column {
+    const char* key;
+    std::string title;
+};
+
+std::string cell_of(const Json& row, const Column& column) {
+    const Json& value = row[column.key];
+    if (value.is_string()) return value;
+    const bool share = column.title.ends_with('%');
+    const std::string number = short_number((share ? 100.0 : 1.0) * value.get<double>());
+    const bool best = row.value("on_front", false) &&
+                      (column.title == "ms per ping" || column.title == "relative L1, %");
+    return best ? "**" + number + "**" : number;
+}
+
+/// The rows of a sonar as a Markdown table; empty for no rows.
+std::string table(const Json& rows, const Json& sensor, const std::vector<Column>& columns) {
+    std::string head = "\n|";
+    std::string line = "|";
+    for (const Column& column : columns) {
+        head += " " + column.title + " |";
+        line += "---|";
+    }
+    std::string text;
+    for (const Json& row : rows) {
+        if (row["sensor"] != sensor) continue;
+        text += "|";
+        for (const Column& column : columns)
+            text += " " + cell_of(row, column) + " |";
+        text += row.value("current", false) ? " the mission's own\n" : "\n";
+    }
+    return text.empty() ? "" : head + "\n" + line + "\n" + text;
+}
+
+}  // namespace
+
+std::string report_json(const Report& report) {
+    return json_of(report).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string report_markdown(const Report& report) {
+    const Json json = json_of(report);
+    std::string text = fmt::format("{}: {} triangles, {} poses, {} threads\n", report.mission,
+                                   report.triangles, report.poses, report.threads);
+    if (report.load > 0.5)
+        text +=
+            fmt::format("The machine was busy (load {:.1f}): times are too long.\n", report.load);
+    for (const ReferenceQuality& reference : report.references) {
+        text += fmt::format("\n{}: the reference settled to {} %, at most {} %.\n",
+                            reference.sensor, short_number(100.0 * reference.moved),
+                            short_number(100.0 * reference.max_moved));
+        text += table(json["rows"], reference.sensor,
+                      {{"engine", "engine"},
+                       {"setting", "setting"},
+                       {"ms_per_ping", "ms per ping"},
+                       {"times_131k_rays", "x 131k rays"},
+                       {"pings_per_s", "pings/s"},
+                       {"relative_l1", "relative L1, %"},
+                       {"worst_relative_l1", "worst pose, %"},
+                       {"goal", "goal"},
+                       {"miss_rate", "missed bins, %"},
+                       {"samples_per_ping", "samples"}});
+        text += table(json["multipath_rows"], reference.sensor,
+                      {{"method", "multipath"},
+                       {"epsilon_bins", "epsilon"},
+                       {"delta_deg", "delta"},
+                       {"relative_l1", "its relative L1, %"},
+                       {"recall", "recall, %"},
+                       {"precision", "precision, %"},
+                       {"ms_multipath", "ms"},
+                       {"ms_per_ping", "ms per ping"},
+                       {"times_without", "times the ping without"}});
+    }
+    return text;
+}
+
+}  // namespace sonarsim

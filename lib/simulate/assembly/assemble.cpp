@@ -1,0 +1,321 @@
+#include "simulate/assembly/assemble.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/hash.h"
+#include "core/named_at.h"
+#include "core/sha256.h"
+#include "core/text.h"
+#include "input/mission/files.h"
+#include "input/scene/gltf/load.h"
+#include "input/scene/maps/ground_maps.h"
+#include "input/trajectory/files.h"
+#include "simulate/assembly/background.h"
+#include "simulate/assembly/brightness.h"
+#include "simulate/assembly/ground_maps.h"
+#include "simulate/assembly/heightmap_part.h"
+#include "simulate/assembly/particles.h"
+#include "simulate/assembly/ping_motions.h"
+#include "simulate/assembly/placed_files.h"
+#include "simulate/assembly/poses.h"
+#include "simulate/assembly/possible_objects.h"
+#include "simulate/assembly/scene_parts.h"
+#include "simulate/assembly/sound_profiles.h"
+#include "simulate/sonar/engine_settings.h"
+#include "simulate/sonar/sonar_at_pose.h"
+
+namespace sonarsim {
+
+namespace {
+
+std::vector<InputFile> inputs_of(const Mission& mission) {
+    std::vector<InputFile> inputs;
+    for (const std::filesystem::path& file : files_of(mission)) {
+        const bool known =
+            std::ranges::any_of(inputs, [&](const InputFile& input) { return input.path == file; });
+        if (!known) inputs.push_back({file, sha256_of_file(file)});
+    }
+    return inputs;
+}
+
+/// Sets the origin and the bounds of a scene in which all surface moves.
+void place_moving_scene(const Trajectory& vehicle, std::span<const Trajectory> motions,
+                        Scene& scene) {
+    if (scene.bodies.empty() || !scene.vertices.empty() || !scene.copies.empty()) return;
+    Eigen::AlignedBox3d bounds;
+    for (std::size_t k = 0; k < motions.size(); ++k) {
+        float radius_m = 0.0F;
+        for (const Eigen::Vector3f& vertex : scene.bodies[k].vertices)
+            radius_m = std::max(radius_m, vertex.norm());
+        for (const TimedPose& at : motions[k]) {
+            const Eigen::Array3d place = at.T_world_vehicle.translation.array();
+            bounds.extend(Eigen::AlignedBox3d(place - radius_m, place + radius_m));
+        }
+    }
+    scene.bounds_min = bounds.min();
+    scene.bounds_max = bounds.max();
+    scene.origin = vehicle.front().T_world_vehicle.translation.array().round();
+}
+
+/// The warning that the surface of the water has no effect on some or all pings; "": none.
+std::string surface_warning(const Mission& mission, const Assembly& assembly) {
+    const WaterSurfaceConfig& config = *mission.scene.water_surface;
+    std::size_t pings = 0;
+    std::size_t above = 0;
+    for (const Sonar& sonar : assembly.sonars) {
+        if (sonar.config.multipath.method == MultipathMethod::none) continue;
+        const auto every = static_cast<std::size_t>(sonar.config.every);
+        for (std::size_t i = 0; i < assembly.trajectory.size(); i += every) {
+            const auto pose = static_cast<std::uint32_t>(i);
+            const Pose at = sensor_pose(*SonarAtPose(mission, sonar, pose),
+                                        assembly.trajectory[i].T_world_vehicle, pose);
+            ++pings;
+            above += at.translation.z() >= config.height_m;
+        }
+    }
+    const std::string name = "scene.water_surface ";
+    if (pings == 0) {
+        // The surface has an effect: it bounds the water, and depths count from it.
+        if (some_water_scatters(mission) || mission.water.profile || config.scatters) return "";
+        return name +
+               "has no effect because no sensor has multipath: set sensors.NAME.multipath.method";
+    }
+    if (config.roughness == 1.0)
+        return name + "has no effect because a roughness of 1 reflects nothing: lower it";
+    if (config.height_m <= assembly.scene.bounds_min.z()) {
+        return name + fmt::format("at {:.4g} m lies below all of the scene: raise height_m",
+                                  config.height_m);
+    }
+    if (above == 0) return "";
+    return name + fmt::format(
+                      "at {:.4g} m lies below the sonar in {} of {} pings, which receive no echo "
+                      "of it: raise height_m or lower the trajectory",
+                      config.height_m, above, pings);
+}
+
+/// The boundary to air reflects nearly all of the sound; the scattered share is lost.
+void add_water_surface(const Mission& mission, Assembly& assembly) {
+    if (!mission.scene.water_surface) return;
+    constexpr double air_kg_m3 = 1.2;
+    constexpr double air_m_s = 343.0;
+    const WaterSurfaceConfig& config = *mission.scene.water_surface;
+    const Water water{mission.water.density_kg_m3, mission.water.sound_speed_m_s};
+    const double reflected = power_reflection(air_kg_m3, air_m_s, water) * (1.0 - config.roughness);
+    WaterSurface& surface = assembly.scene.water_surface.emplace();
+    surface.height_m = config.height_m;
+    surface.reflection = static_cast<float>(reflected);
+    if (config.scatters) {
+        surface.wind_m_s = mission.water.wind_m_s;
+        for (Sonar& sonar : assembly.sonars)
+            sonar.settings.sees_water_surface = true;
+    }
+    const std::string warning = surface_warning(mission, assembly);
+    if (!warning.empty()) assembly.scene.warnings.push_back(warning);
+}
+
+void warn_of_empty_scatter(const Mission& mission, Scene& scene) {
+    for (const ScatterConfig& scatter : mission.scene.scatter) {
+        if (scatter.count[1] > 0.0) continue;
+        scene.warnings.push_back("scene.scatter: of '" + printable(scatter.name) +
+                                 "' no object is placed because its count is 0");
+    }
+}
+
+MaterialTable materials_of(const SceneConfig& scene) {
+    try {
+        return read_materials(scene.materials);
+    } catch (const InputError& error) {
+        if (scene.place.file.empty()) throw;
+        throw named_at(error, scene.place);
+    }
+}
+
+/// Makes a sonar. Throws InputError if the mission's engine does not support it.
+Sonar checked_sonar(const Mission& mission, const SonarConfig& sensor,
+                    const EngineSettings& settings) {
+    Sonar sonar = make_sonar(sensor, mission.accuracy, mission.water);
+    const std::string refusal = unsupported(settings, sonar.settings.view);
+    if (!refusal.empty()) throw InputError("sensor '" + sensor.name + "': " + refusal);
+    return sonar;
+}
+
+/// Throws InputError for the files of the scene that cannot be read.
+void read_scene_files(const Mission& mission, SceneFiles& models) {
+    ErrorList errors;
+    const auto read = [&](const std::filesystem::path& file, const Location& place) {
+        if (file.empty()) return;
+        errors.attempt([&] { models.model({.file = file, .place = place}); });
+    };
+    read(mission.scene.file, mission.scene.place);
+    if (mission.scene.heightmap)
+        errors.attempt([&] { models.model(file_of(*mission.scene.heightmap)); });
+    for (const ObjectConfig& object : mission.scene.objects)
+        read(object.file, object.place);
+    for (const ScatterConfig& scatter : mission.scene.scatter) {
+        for (const std::filesystem::path& file : scatter.files)
+            read(file, scatter.place);
+    }
+    errors.raise();
+}
+
+/// The number of triangles beyond which load_scene() shares meshes. A million triangles take 170
+/// MB.
+std::size_t sharing_threshold(EngineKind engine) {
+    constexpr std::size_t many_triangles = 4'000'000;
+    const bool may_be_rays = engine == EngineKind::automatic || engine == EngineKind::rays;
+    return may_be_rays ? many_triangles : share_nothing;
+}
+
+template <class T>
+std::string hash_of(const std::vector<T>& values) {
+    return fnv1a_128({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
+}
+
+}  // namespace
+
+Assembly assemble(const Mission& mission) {
+    SceneStore models;
+    return assemble(mission, models);
+}
+
+namespace {
+
+/// The materials and the placed files of a scene.
+struct PlacedScene {
+    MaterialTable materials;
+    SceneParts parts;
+};
+
+/// Sets the trajectory and the sonars, and places the scene.
+PlacedScene place(const Mission& mission, const EngineSettings& settings, SceneStore& models,
+                  Assembly& assembly) {
+    ErrorList errors;
+    errors.attempt([&] { assembly.trajectory = vehicle_poses(mission); });
+    assembly.reported = navigation_poses(mission, assembly.trajectory);
+    for (const SonarConfig& sensor : mission.sensors)
+        errors.attempt(
+            [&] { assembly.sonars.push_back(checked_sonar(mission, sensor, settings)); });
+    MaterialTable materials;
+    errors.attempt([&] {
+        materials = materials_of(mission.scene);
+        if (!mission.scene.material_default.empty()) {
+            require_material(materials, mission.scene.material_default, mission.scene.place);
+        }
+    });
+    // Checks of motions need the trajectory, and checks of surfaces need the materials. Without
+    // these only the files themselves are checked.
+    if (errors.count() > 0) errors.attempt([&] { read_scene_files(mission, models); });
+    errors.raise();
+    add_ping_motions(mission, assembly.trajectory, assembly.sonars);
+    return {std::move(materials),
+            place_scene(mission, assembly.trajectory, assembly.sonars, models)};
+}
+
+}  // namespace
+
+void check_places(const Mission& mission, SceneStore& models) {
+    Assembly assembly;
+    place(mission, engine_settings(mission), models, assembly);
+}
+
+Assembly assemble(const Mission& mission, SceneStore& models) {
+    Assembly assembly;
+    assembly.fans = models.fans;
+    const EngineSettings settings = engine_settings(mission);
+    auto [materials, parts] = place(mission, settings, models, assembly);
+    assembly.scene = load_scene(parts.files, models, materials, mission.scene.material_default,
+                                {mission.water.density_kg_m3, mission.water.sound_speed_m_s},
+                                sharing_threshold(settings.type));
+    place_moving_scene(assembly.trajectory, parts.motions, assembly.scene);
+    apply_ground_maps(mission.scene, materials,
+                      {mission.water.density_kg_m3, mission.water.sound_speed_m_s}, assembly.scene);
+    for (std::string& warning : parts.orientation_warnings)
+        assembly.scene.warnings.push_back(std::move(warning));
+    assembly.motions = std::move(parts.motions);
+    assembly.bottom = std::move(parts.bottom);
+    assembly.seabed = std::move(parts.seabed);
+    add_water_surface(mission, assembly);
+    add_particles(mission, assembly.trajectory, assembly.scene, assembly.sonars);
+    add_sound_profiles(mission, assembly.scene, assembly.sonars);
+    warn_of_empty_scatter(mission, assembly.scene);
+    if (!mission.output.labels.empty() || !mission.classes.empty()) {
+        std::vector<ClassRule> rules;
+        for (const ClassConfig& rule : mission.classes)
+            rules.push_back({rule.nodes, rule.name, rule.instance, rule.place});
+        assembly.objects =
+            group_objects(assembly.scene, rules, possible_objects(mission, assembly.scene));
+        assembly.objects.background = background_classes(mission, assembly.scene, assembly.objects);
+    }
+    const std::string refusal = unsupported(settings, assembly.scene);
+    if (!refusal.empty()) throw InputError(refusal);
+    for (Sonar& sonar : assembly.sonars) {
+        if (auto prepared = sonar.settings.model->prepared(assembly.scene))
+            sonar.settings.model = std::move(prepared);
+    }
+    if (!assembly.scene.sound_profile) find_targets(assembly.sonars, assembly.scene);
+    assembly.inputs = inputs_of(mission);
+    Brightness brightness = find_full_scales(mission, assembly.scene, assembly.trajectory,
+                                             assembly.motions, assembly.sonars);
+    assembly.full_scales = std::move(brightness.full_scales);
+    // The octree makes a caster of its own.
+    if (settings.type != EngineKind::octree) assembly.caster = std::move(brightness.caster);
+    return assembly;
+}
+
+std::vector<Pose> body_poses(const Assembly& assembly, double t_s) {
+    return poses_at(assembly.motions, t_s);
+}
+
+std::string inputs_hash(const Assembly& assembly) {
+    const Scene& scene = assembly.scene;
+    std::string text = hash_of(scene.vertices) + hash_of(scene.triangles) +
+                       hash_of(scene.triangle_material) + hash_of(scene.triangle_instance);
+    for (const double x : {scene.origin.x(), scene.origin.y(), scene.origin.z()}) {
+        text += " " + number_text(x);
+    }
+    for (const Material& material : scene.materials) {
+        text += "\n" + material.name + "\n" + number_text(material.density_kg_m3) + " " +
+                number_text(material.sound_speed_m_s) + " " + number_text(material.lambert_db) +
+                " " + number_text(material.slope_rms_deg);
+        for (const auto& [name, value] :
+             {std::pair{"grain_phi", material.grain_phi},
+              std::pair{"loss_parameter", material.loss_parameter},
+              std::pair{"spectral_strength_cm4", material.spectral_strength_cm4},
+              std::pair{"spectral_exponent", material.spectral_exponent},
+              std::pair{"volume_parameter", material.volume_parameter}}) {
+            if (value) text += std::string(" ") + name + " " + number_text(*value);
+        }
+    }
+    for (const std::string& instance : scene.instances)
+        text += "\n" + instance;
+    for (std::size_t i = 0; i < scene.instance_classes.size(); ++i) {
+        if (scene.instance_classes[i].empty()) continue;
+        text += "\nclass " + std::to_string(i) + " " + scene.instance_classes[i];
+    }
+    for (const Body& body : scene.bodies) {
+        text += "\nbody " + std::to_string(body.instance) + hash_of(body.vertices) +
+                hash_of(body.triangles) + hash_of(body.triangle_material);
+    }
+    for (const SharedMesh& mesh : scene.shared_meshes) {
+        text += "\nmesh " + hash_of(mesh.vertices) + hash_of(mesh.triangles) +
+                hash_of(mesh.triangle_material);
+    }
+    for (const MeshCopy& copy : scene.copies) {
+        text += "\ncopy " + std::to_string(copy.mesh) + " " + std::to_string(copy.instance);
+        for (const double x : copy.T_world_mesh.matrix().topRows<3>().reshaped())
+            text += " " + number_text(x);
+    }
+    if (scene.maps) text += scene.maps->identity();
+    for (const Sonar& sonar : assembly.sonars) {
+        if (const auto& profile = sonar.sound_profile)
+            text += "\nprofile " + hash_of(profile->height_m) + hash_of(profile->speed_m_s);
+    }
+    for (const Trajectory& motion : assembly.motions)
+        text += "\n" + write_tum(motion);
+    return fnv1a_128(text + "\n" + write_tum(assembly.trajectory));
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "input/mission/mission.h"
+#include "input/scene/objects.h"
+#include "input/scene/placing/bottom.h"
+#include "input/scene/scene.h"
+#include "input/trajectory/trajectory.h"
+#include "simulate/assembly/scene_store.h"
+#include "simulate/sonar/sonar.h"
+#include "simulate/visibility/caster.h"
+
+namespace sonarsim {
+
+/// A file that a mission names, and its sum when it was read.
+struct InputFile {
+    std::filesystem::path path;
+    std::string sha256;
+};
+
+/// Everything that a mission names, read, checked and ready to render.
+struct Assembly {
+    Scene scene;
+    SceneObjects objects;  ///< objects of the scene for labels
+    Trajectory trajectory;
+    Trajectory reported;  ///< the poses that the navigation reports; empty: the true ones
+    std::vector<Trajectory> motions;       ///< motions of Scene::bodies, over all of `trajectory`
+    std::shared_ptr<const Bottom> bottom;  ///< reference of the label `height`; null: none
+    std::shared_ptr<const Seabed> seabed;  ///< the part of scene.seabed that was made; null: none
+    std::vector<Sonar> sonars;             ///< in the order of Mission::sensors
+    std::vector<InputFile> inputs;         ///< the files that the mission names, each once
+    std::vector<double> full_scales;       ///< intensity that becomes white in pictures, by sonar
+    std::shared_ptr<const Caster> caster;  ///< over `scene`, for engines that use rays; null: none
+    std::shared_ptr<FanStore> fans = std::make_shared<FanStore>();
+};
+
+/// Reads the files of a mission and computes its poses. Writes nothing. Throws InputError for
+/// errors in them, and when the mission's engine does not support the view of a sensor.
+Assembly assemble(const Mission& mission);
+
+/// The same; `models` may hold files that were read for another mission.
+Assembly assemble(const Mission& mission, SceneStore& models);
+
+/// Finds the place of every object, as assemble() does first. InputError where that fails, as for
+/// objects that find no room.
+void check_places(const Mission& mission, SceneStore& models);
+
+/// The poses of the scene's bodies at a time of the trajectory, world.
+std::vector<Pose> body_poses(const Assembly& assembly, double t_s);
+
+/// 32 hexadecimal digits that differ when the scene, its materials or the poses differ: a hash of
+/// the contents of the files that a mission names.
+std::string inputs_hash(const Assembly& assembly);
+
+}  // namespace sonarsim

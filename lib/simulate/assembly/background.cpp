@@ -1,0 +1,80 @@
+#include "simulate/assembly/background.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/text.h"
+#include "simulate/assembly/heightmap_part.h"
+
+namespace sonarsim {
+
+namespace {
+
+double area_of(const std::vector<Eigen::Vector3f>& vertices,
+               const std::array<std::uint32_t, 3>& triangle) {
+    const Eigen::Vector3f& corner = vertices[triangle[0]];
+    return 0.5 * (vertices[triangle[1]] - corner)
+                     .cast<double>()
+                     .cross((vertices[triangle[2]] - corner).cast<double>())
+                     .norm();
+}
+
+/// The surface of each object, m2, without the parts that move.
+std::vector<double> surfaces_of(const Scene& scene, const SceneObjects& objects) {
+    std::vector<double> areas(objects.objects.size(), 0.0);
+    for (std::size_t k = 0; k < scene.triangles.size(); ++k)
+        areas[objects.object_of(scene.triangle_instance[k])] +=
+            area_of(scene.vertices, scene.triangles[k]);
+    std::vector<double> of_mesh;
+    for (const SharedMesh& mesh : scene.shared_meshes) {
+        double area = 0.0;
+        for (const auto& triangle : mesh.triangles)
+            area += area_of(mesh.vertices, triangle);
+        of_mesh.push_back(area);
+    }
+    for (const MeshCopy& copy : scene.copies) {
+        const double scale = copy.T_world_mesh.linear().col(0).norm();
+        areas[objects.object_of(copy.instance)] += scale * scale * of_mesh[copy.mesh];
+    }
+    return areas;
+}
+
+void add_automatic(const Mission& mission, const Scene& scene, const SceneObjects& objects,
+                   std::vector<std::uint8_t>& background) {
+    const std::vector<std::string> bottom = bottom_patterns(mission.scene);
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+        for (const std::string& pattern : bottom) {
+            if (fits_pattern(pattern, scene.instances[i]))
+                background[objects.class_of(objects.object_of(i))] = 1;
+        }
+    }
+    const std::vector<double> areas = surfaces_of(scene, objects);
+    const auto largest = std::ranges::max_element(areas);
+    if (objects.classes.size() < 2 || !(*largest > 0.0)) return;
+    background[objects.class_of(static_cast<std::uint32_t>(largest - areas.begin()))] = 1;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> background_classes(const Mission& mission, const Scene& scene,
+                                             const SceneObjects& objects) {
+    std::vector<std::uint8_t> background(objects.classes.size(), 0);
+    for (const std::string& name : mission.labels.background) {
+        const auto found = std::ranges::find(objects.classes, name);
+        if (found != objects.classes.end()) {
+            background[static_cast<std::size_t>(found - objects.classes.begin())] = 1;
+        } else if (name == "auto") {
+            add_automatic(mission, scene, objects, background);
+        } else if (name != "none") {
+            std::string all;
+            for (const std::string& one : objects.classes)
+                all += (all.empty() ? "" : ", ") + printable(one);
+            throw InputError(mission.labels.place,
+                             "labels.background: there is no class '" + printable(name) + "'" +
+                                 did_you_mean(name, objects.classes) + "; there are: " + all);
+        }
+    }
+    return background;
+}
+
+}  // namespace sonarsim

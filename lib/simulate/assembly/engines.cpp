@@ -1,0 +1,47 @@
+#include "simulate/assembly/engines.h"
+
+#include "core/units.h"
+#include "simulate/ping/sonar.h"
+#include "simulate/sonar/engine_settings.h"
+#include "simulate/trace/visible_surface.h"
+
+namespace sonarsim {
+
+namespace {
+
+// Slices meet at the sonar's z axis, so all of them hold the surface near it.
+constexpr double widest_slices_rad = 0.5 * pi;
+
+/// True if rays trace a sonar. Where energies add, patches of the slices that overlap would add the
+/// amplitude of a scatterer twice. Multipath continues from the middle of each sample, and a sample
+/// of the slices may be as long as a beam is high.
+bool is_by_rays(const Sonar& sonar) {
+    const View& view = sonar.settings.view;
+    return view.energies_add || sonar.config.multipath.method != MultipathMethod::none ||
+           view.elevation_rad > widest_slices_rad;
+}
+
+}  // namespace
+
+EngineSettings engine_settings(const Mission& mission, const Assembly& assembly) {
+    EngineSettings settings = engine_settings(mission);
+    if (settings.type != EngineKind::automatic) return settings;
+    bool all_by_rays = true;
+    for (const Sonar& sonar : assembly.sonars) {
+        const bool by_rays = is_by_rays(sonar);
+        all_by_rays = all_by_rays && by_rays;
+        if (!by_rays) continue;
+        for (const Sight& sight : sights(sonar.settings.view, sonar.settings.guard_beams, {}))
+            settings.by_rays.push_back(sight.view);
+    }
+    if (all_by_rays) settings.type = EngineKind::rays;
+    return settings;
+}
+
+std::unique_ptr<VisibilityEngine> make_engine(const Mission& mission, const Assembly& assembly) {
+    EngineSettings settings = engine_settings(mission, assembly);
+    settings.caster = assembly.caster;
+    return make_engine(assembly.scene, settings);
+}
+
+}  // namespace sonarsim

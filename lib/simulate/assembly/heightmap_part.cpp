@@ -1,0 +1,73 @@
+#include "simulate/assembly/heightmap_part.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "simulate/assembly/placed_files.h"
+#include "simulate/sonar/sonar_at_pose.h"
+
+namespace sonarsim {
+
+Eigen::AlignedBox2d ground_in_range(const Mission& mission, std::span<const Sonar> sonars,
+                                    const Trajectory& vehicle, double faster) {
+    Eigen::AlignedBox2d seen;
+    for (const Sonar& sonar : sonars) {
+        const double reach_m = faster * sonar.settings.view.range_max_m;
+        const auto extend = [&](const Pose& at) {
+            const Eigen::Vector2d place = at.translation.head<2>();
+            seen.extend(Eigen::AlignedBox2d(place.array() - reach_m, place.array() + reach_m));
+        };
+        const int later_groups = sonar.config.shutter.groups - 1;
+        for (std::size_t i = 0; i < vehicle.size(); ++i) {
+            const auto pose = static_cast<std::uint32_t>(i);
+            const SonarAtPose then(mission, sonar, pose);
+            const Pose at = sensor_pose(*then, vehicle[i].T_world_vehicle, pose);
+            extend(at);
+            if (!sonar.motions || later_groups == 0) continue;
+            const PingMotion& motion = (*sonar.motions)[i];
+            if (motion.is_still()) continue;
+            const double last_s = later_groups * group_period_s(sonar, motion.sound_speed_m_s);
+            extend(pose_after(motion, at, last_s));
+        }
+    }
+    return seen;
+}
+
+std::vector<std::string> bottom_patterns(const SceneConfig& scene) {
+    if (!scene.bottom.empty()) return scene.bottom;
+    if (scene.heightmap) return {heightmap_instance};
+    if (scene.seabed) return {seabed_instance};
+    return {};
+}
+
+Eigen::AlignedBox2d needed_ground(const SceneConfig& scene, const Eigen::AlignedBox2d& seen,
+                                  Shapes& shapes) {
+    Eigen::AlignedBox2d needed = seen;
+    for (const ObjectConfig& object : scene.objects) {
+        if (object.trajectory) continue;
+        double reach_m = 0.0;
+        for (const Eigen::Vector3d& vertex : shapes.of(file_of(object), object.mesh).vertices)
+            reach_m = std::max(reach_m, object.scale * vertex.norm());
+        const Eigen::Vector2d at(object.position_m.data());
+        needed.extend(Eigen::AlignedBox2d(at.array() - reach_m, at.array() + reach_m));
+    }
+    for (const ScatterConfig& scatter : scene.scatter) {
+        needed.extend(Eigen::Vector2d(scatter.area_min_m.data()));
+        needed.extend(Eigen::Vector2d(scatter.area_max_m.data()));
+    }
+    return needed;
+}
+
+std::optional<PlacedFile> heightmap_of(const SceneConfig& scene, const Eigen::AlignedBox2d& seen,
+                                       Shapes& shapes) {
+    if (!scene.heightmap) return std::nullopt;
+    const Eigen::AlignedBox2d needed = needed_ground(scene, seen, shapes);
+    PlacedFile map = file_of(*scene.heightmap);
+    const Eigen::Vector2d origin(scene.heightmap->origin_m.data());
+    const Eigen::Vector2d low = needed.min() + origin;
+    const Eigen::Vector2d high = needed.max() + origin;
+    map.heightmap->window = {low.x(), low.y(), high.x(), high.y()};
+    return map;
+}
+
+}  // namespace sonarsim

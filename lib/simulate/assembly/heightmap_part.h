@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "input/mission/mission.h"
+#include "input/scene/placed_file.h"
+#include "input/trajectory/trajectory.h"
+#include "simulate/assembly/shapes.h"
+#include "simulate/sonar/sonar.h"
+
+namespace sonarsim {
+
+/// A box around the ground within the range of any ping and of its later groups of beams, world x
+/// and y. Ground outside returns no echo and hides no surface that does. The sonars have their
+/// motions. `faster`: the greatest speed of sound over that by which sonars measure ranges, or 1.
+Eigen::AlignedBox2d ground_in_range(const Mission& mission, std::span<const Sonar> sonars,
+                                    const Trajectory& vehicle, double faster);
+
+/// Patterns of the instances that are the bottom: scene.bottom, else the heightmap or the seabed.
+std::vector<std::string> bottom_patterns(const SceneConfig& scene);
+
+/// A box around `seen` and the ground that objects at rest may stand on; world x and y.
+Eigen::AlignedBox2d needed_ground(const SceneConfig& scene, const Eigen::AlignedBox2d& seen,
+                                  Shapes& shapes);
+
+/// The placed heightmap of a scene, if it has one: only `seen` and the ground that objects at rest
+/// may stand on.
+std::optional<PlacedFile> heightmap_of(const SceneConfig& scene, const Eigen::AlignedBox2d& seen,
+                                       Shapes& shapes);
+
+}  // namespace sonarsim

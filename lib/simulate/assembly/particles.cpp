@@ -1,0 +1,183 @@
+#include "simulate/assembly/particles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/elementary.h"
+#include "core/error.h"
+#include "core/random.h"
+#include "core/text.h"
+#include "simulate/calibrated/decibel.h"
+#include "simulate/calibrated/target_strength.h"
+#include "simulate/trace/particles.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// The quantity that is drawn for a target, as the second word of the counter; the first is the
+/// target.
+enum class ParticleDraw : std::uint32_t { size, x, y, z, count };
+
+/// The draws of one group, in [0, 1).
+class GroupDraws {
+  public:
+    GroupDraws(std::uint64_t seed, std::uint32_t group)
+        : key_(stream_key(seed, group, 0, stream_named("particles"))) {}
+
+    double unit(std::uint32_t target, ParticleDraw what) const {
+        const PhiloxBlock block = philox({target, static_cast<std::uint32_t>(what), 0, 0}, key_);
+        return unit_double(block.x0, block.x1);
+    }
+    double in(const std::array<double, 2>& limits, std::uint32_t target, ParticleDraw what) const {
+        return limits[0] + (limits[1] - limits[0]) * unit(target, what);
+    }
+
+  private:
+    PhiloxKey key_;
+};
+
+std::uint32_t count_of(const ParticlesConfig& config, const GroupDraws& draws) {
+    const double choices = config.count[1] - config.count[0] + 1.0;
+    const double more = std::floor(choices * draws.unit(0, ParticleDraw::count));
+    return static_cast<std::uint32_t>(config.count[0] + more);
+}
+
+/// A place in the region, evenly distributed, from its middle in halves of its size. In a ball the
+/// cosine of the angle to z and the cube of the radius are even.
+Eigen::Vector3d place_in(ParticleRegion region, const GroupDraws& draws, std::uint32_t target) {
+    const double x = draws.unit(target, ParticleDraw::x);
+    const double y = draws.unit(target, ParticleDraw::y);
+    const double z = draws.unit(target, ParticleDraw::z);
+    if (region == ParticleRegion::box) return {2.0 * x - 1.0, 2.0 * y - 1.0, 2.0 * z - 1.0};
+    const double up = 2.0 * z - 1.0;
+    const double around = std::sqrt(1.0 - up * up);
+    const auto [sine, cosine] = sincos(2.0 * pi * y);
+    const double radius = x > 0.0 ? power(x, 1.0 / 3.0) : 0.0;
+    return radius * Eigen::Vector3d(around * cosine, around * sine, up);
+}
+
+/// A target of a group, before a frequency is known.
+struct DrawnParticle {
+    Particle particle;
+    double size;  ///< length, radius or target strength, by the kind
+};
+
+struct ParticleGroup {
+    const ParticlesConfig* config;
+    std::vector<DrawnParticle> targets;
+};
+
+std::vector<DrawnParticle> draw_group(const ParticlesConfig& config, const GroupDraws& draws) {
+    const Eigen::Vector3d middle(config.position_m.data());
+    const Eigen::Vector3d half = 0.5 * Eigen::Vector3d(config.size_m.data());
+    const Eigen::Vector3d velocity =
+        Eigen::Vector3d(config.drift_m_s.data()) + config.rise_m_s * Eigen::Vector3d::UnitZ();
+    const std::array<double, 2>& sizes = config.kind == ParticleKind::fish ? config.length_m
+                                         : config.kind == ParticleKind::bubbles
+                                             ? config.radius_m
+                                             : config.target_strength_db;
+    std::vector<DrawnParticle> out(count_of(config, draws));
+    for (std::uint32_t k = 0; k < out.size(); ++k) {
+        Particle& particle = out[k].particle;
+        particle.start_m = middle + half.cwiseProduct(place_in(config.region, draws, k));
+        particle.velocity_m_s = velocity;
+        if (config.rise_m_s > 0.0) {
+            particle.bottom_m = middle.z() - half.z();
+            particle.top_m = middle.z() + half.z();
+        }
+        out[k].size = draws.in(sizes, k, ParticleDraw::size);
+    }
+    return out;
+}
+
+/// The number of a material that stands for the targets of a kind in labels; it has no surface.
+std::uint32_t material_of(ParticleKind kind, Scene& scene) {
+    const char* const name = kind == ParticleKind::fish      ? "fish"
+                             : kind == ParticleKind::bubbles ? "bubbles"
+                                                             : "points";
+    const auto known = std::ranges::find(scene.materials, name, &Material::name);
+    if (known != scene.materials.end())
+        return static_cast<std::uint32_t>(known - scene.materials.begin());
+    Material material;
+    material.name = name;
+    scene.materials.push_back(material);
+    return static_cast<std::uint32_t>(scene.materials.size() - 1);
+}
+
+std::uint32_t add_instance(const ParticlesConfig& config, const std::string& name, Scene& scene) {
+    scene.instance_classes.resize(scene.instances.size());
+    scene.instances.push_back(name);
+    scene.instance_classes.push_back(config.class_name.empty() ? config.name : config.class_name);
+    return static_cast<std::uint32_t>(scene.instances.size() - 1);
+}
+
+/// Refuses a name that the scene already has: labels could not distinguish the two.
+void require_new_name(const ParticlesConfig& config, const Scene& scene) {
+    const auto is_it = [&](const std::string& name) {
+        return name == config.name || name.starts_with(config.name + "_");
+    };
+    if (std::ranges::none_of(scene.instances, is_it)) return;
+    throw InputError(config.place, "'" + printable(config.name) +
+                                       "': the scene has an object of that name, or one "
+                                       "that begins with it and _; choose another name");
+}
+
+void add_group(ParticleGroup& group, Scene& scene) {
+    const ParticlesConfig& config = *group.config;
+    require_new_name(config, scene);
+    const bool is_single = static_cast<double>(group.targets.size()) < max_single_particles;
+    const std::uint32_t material = material_of(config.kind, scene);
+    std::uint32_t instance = 0;
+    if (!is_single) instance = add_instance(config, config.name, scene);
+    for (std::size_t k = 0; k < group.targets.size(); ++k) {
+        if (is_single)
+            instance = add_instance(config, config.name + "_" + std::to_string(k + 1), scene);
+        group.targets[k].particle.material = material;
+        group.targets[k].particle.instance = instance;
+    }
+}
+
+double section_of(const ParticlesConfig& config, const DrawnParticle& drawn, const Mission& mission,
+                  double frequency_hz) {
+    if (config.kind == ParticleKind::points) return power_of_db(drawn.size);
+    if (config.kind == ParticleKind::fish) return fish_section_m2(drawn.size, frequency_hz);
+    const auto& surface = mission.scene.water_surface;
+    const double depth_m = (surface ? surface->height_m : 0.0) - drawn.particle.start_m.z();
+    return bubble_section_m2(drawn.size, depth_m, mission.water.density_kg_m3,
+                             mission.water.sound_speed_m_s, frequency_hz);
+}
+
+}  // namespace
+
+void add_particles(const Mission& mission, const Trajectory& trajectory, Scene& scene,
+                   std::span<Sonar> sonars) {
+    if (mission.scene.particles.empty()) return;
+    std::vector<ParticleGroup> groups;
+    for (const ParticlesConfig& config : mission.scene.particles) {
+        const GroupDraws draws(mission.seed, static_cast<std::uint32_t>(groups.size()));
+        groups.push_back({&config, draw_group(config, draws)});
+        add_group(groups.back(), scene);
+    }
+    std::vector<double> time_s;
+    for (const TimedPose& pose : trajectory)
+        time_s.push_back(pose.t_s - trajectory.front().t_s);
+    for (Sonar& sonar : sonars) {
+        Particles particles;
+        particles.time_s = time_s;
+        for (const ParticleGroup& group : groups) {
+            for (const DrawnParticle& drawn : group.targets) {
+                Particle& particle = particles.all.emplace_back(drawn.particle);
+                particle.section_m2 = static_cast<float>(section_of(
+                    *group.config, drawn, mission, sonar.config.instrument.frequency_hz));
+            }
+        }
+        sonar.settings.particles = std::make_shared<const Particles>(std::move(particles));
+    }
+}
+
+}  // namespace sonarsim

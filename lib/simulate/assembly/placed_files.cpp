@@ -1,0 +1,69 @@
+#include "simulate/assembly/placed_files.h"
+
+#include <algorithm>
+
+#include "core/text.h"
+
+namespace sonarsim {
+
+double metres(LengthUnit unit) {
+    switch (unit) {
+        case LengthUnit::mm:
+            return 1e-3;
+        case LengthUnit::cm:
+            return 1e-2;
+        case LengthUnit::km:
+            return 1e3;
+        case LengthUnit::inch:
+            return 0.0254;
+        case LengthUnit::foot:
+            return 0.3048;
+        case LengthUnit::m:
+            break;
+    }
+    return 1.0;
+}
+
+PlacedFile file_of(const std::filesystem::path& path, const MeshConfig& mesh,
+                   const Location& place) {
+    return {.file = path,
+            .unit_m = metres(mesh.units),
+            .z_up = mesh.up == UpAxis::z,
+            .material = mesh.material,
+            .place = place};
+}
+
+PlacedFile file_of(const ObjectConfig& object) {
+    PlacedFile file = file_of(object.file, object.mesh, object.place);
+    file.name = object.name;
+    file.class_name = object.class_name;
+    file.moves = object.trajectory.has_value();
+    return file;
+}
+
+PlacedFile file_of(const HeightmapConfig& map) {
+    PlacedFile file{.file = map.file,
+                    .z_up = true,
+                    .material = map.material,
+                    .class_name = map.class_name,
+                    .place = map.place};
+    file.heightmap = HeightmapRule{map.pixel_m};
+    file.T_world_file.linear() = Eigen::Vector3d(1.0, 1.0, map.height_scale).asDiagonal();
+    file.T_world_file.translation() =
+        Eigen::Vector3d(-map.origin_m[0], -map.origin_m[1], map.height_offset_m);
+    return file;
+}
+
+std::string title_of(const ObjectConfig& object) {
+    return "'" + printable(object.name.empty() ? object.file.filename().string() : object.name) +
+           "'";
+}
+
+double farthest_range_m(const Mission& mission) {
+    double range = 0.0;
+    for (const SonarConfig& sensor : mission.sensors)
+        range = std::max(range, sensor.range_max_m);
+    return range;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "input/mission/mission.h"
+#include "input/scene/placed_file.h"
+
+namespace sonarsim {
+
+/// The length of a unit, m.
+double metres(LengthUnit unit);
+
+/// A file with the mission's options for reading it, not placed yet.
+PlacedFile file_of(const std::filesystem::path& path, const MeshConfig& mesh,
+                   const Location& place);
+PlacedFile file_of(const ObjectConfig& object);
+/// A heightmap, placed.
+PlacedFile file_of(const HeightmapConfig& map);
+
+/// "'tyre'", or "'tyre.stl'" for an object without a name.
+std::string title_of(const ObjectConfig& object);
+
+/// The greatest range of the mission's sonars, m.
+double farthest_range_m(const Mission& mission);
+
+}  // namespace sonarsim

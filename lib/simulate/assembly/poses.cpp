@@ -1,0 +1,121 @@
+#include "simulate/assembly/poses.h"
+
+#include <cmath>
+#include <variant>
+
+#include "core/error.h"
+#include "core/input_limits.h"
+#include "core/random.h"
+#include "core/text.h"
+#include "core/units.h"
+#include "input/mission/ping_draws.h"
+#include "input/trajectory/files.h"
+#include "input/trajectory/interpolate.h"
+#include "input/trajectory/navigation.h"
+#include "input/trajectory/patterns.h"
+#include "input/trajectory/wave_motion.h"
+
+namespace sonarsim {
+
+namespace {
+
+Trajectory form_of(const FileTrajectoryConfig& config) {
+    Trajectory poses = read_trajectory(config.file);
+    return config.rate_hz > 0.0 ? resample(poses, config.rate_hz) : poses;
+}
+
+Trajectory form_of(const WaypointTrajectoryConfig& config) {
+    std::vector<Waypoint> waypoints;
+    for (const WaypointConfig& waypoint : config.waypoints) {
+        const auto& [roll, pitch, yaw] = waypoint.rpy_deg;
+        waypoints.push_back({Eigen::Vector3d(waypoint.position_m.data()),
+                             rotation_from_rpy(radians(roll), radians(pitch), radians(yaw))});
+    }
+    return follow_waypoints(waypoints, config.speed_m_s, config.rate_hz);
+}
+
+Trajectory form_of(const LawnmowerTrajectoryConfig& config) {
+    return lawnmower({Eigen::Vector2d(config.area_min_m.data()),
+                      Eigen::Vector2d(config.area_max_m.data()), config.z_m, config.heading_deg,
+                      config.line_spacing_m, config.speed_m_s, config.rate_hz});
+}
+
+WaveMotion wave_motion(const MotionConfig& config) {
+    WaveMotion motion{.position_m = config.position_m, .period_s = config.period_s};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        motion.turn_rad[axis] = radians(config.turn_deg[axis]);
+    return motion;
+}
+
+PhiloxKey vehicle_key(const Mission& mission, const char* name) {
+    return stream_key(mission.seed, 0, 0, stream_named(name));
+}
+
+/// A dataset has its poses in trajectory.tum, whose reader accepts only values within these limits.
+void require_readable(const Trajectory& poses) {
+    for (const TimedPose& pose : poses) {
+        if (!(std::fabs(pose.t_s) <= furthest_s)) {
+            throw InputError("trajectory: a pose at " + number_text(pose.t_s) + " s lies beyond " +
+                             number_text(furthest_s) +
+                             " s; let the vehicle be faster (speed_m_s), or begin at 0");
+        }
+        if (!(pose.T_world_vehicle.translation.cwiseAbs().maxCoeff() <= furthest_m)) {
+            throw InputError("trajectory: with vehicle.offset_m or vehicle.motion a pose at " +
+                             number_text(pose.t_s) + " s lies beyond " + number_text(furthest_m) +
+                             " m; move the scene and the trajectory towards the origin");
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<Pose> poses_at(std::span<const Trajectory> motions, double t_s) {
+    std::vector<Pose> poses;
+    poses.reserve(motions.size());
+    for (const Trajectory& motion : motions)
+        poses.push_back(interpolate(motion, t_s).T_world_vehicle);
+    return poses;
+}
+
+Trajectory poses_of(const TrajectoryConfig& config) {
+    return std::visit([](const auto& form) { return form_of(form); }, config);
+}
+
+Trajectory vehicle_poses(const Mission& mission) {
+    Trajectory poses;
+    try {
+        poses = poses_of(mission.trajectory);
+    } catch (const InputError& error) {
+        const Location mission_file{mission.scene.place.file};
+        const bool has_file = std::holds_alternative<FileTrajectoryConfig>(mission.trajectory);
+        if (has_file || mission_file.file.empty()) throw;
+        throw InputError(mission_file, std::string("trajectory: ") + error.what());
+    }
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        const VehicleConfig off = vehicle_at(mission, static_cast<std::uint32_t>(i));
+        if (off.offset_m == VehicleConfig{}.offset_m && off.turn_deg == VehicleConfig{}.turn_deg)
+            continue;
+        const auto& [roll, pitch, yaw] = off.turn_deg;
+        Pose& pose = poses[i].T_world_vehicle;
+        pose.translation += Eigen::Vector3d(off.offset_m.data());
+        pose.rotation =
+            (pose.rotation * rotation_from_rpy(radians(roll), radians(pitch), radians(yaw)))
+                .normalized();
+    }
+    add_wave_motion(wave_motion(mission.vehicle.motion), vehicle_key(mission, "wave motion"),
+                    poses);
+    require_readable(poses);
+    return poses;
+}
+
+Trajectory navigation_poses(const Mission& mission, const Trajectory& truth) {
+    const NavigationConfig& config = mission.vehicle.navigation;
+    const NavigationErrors errors{.position_m = config.position_m,
+                                  .depth_m = config.depth_m,
+                                  .tilt_rad = radians(config.tilt_deg),
+                                  .heading_rad = radians(config.heading_deg)};
+    if (!errors.is_on()) return {};
+    return reported_poses(truth, errors, vehicle_key(mission, "navigation"));
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "input/mission/mission.h"
+#include "input/trajectory/trajectory.h"
+
+namespace sonarsim {
+
+/// The poses of moving bodies at a time of their trajectories.
+std::vector<Pose> poses_at(std::span<const Trajectory> motions, double t_s);
+
+/// The poses of a trajectory. Throws InputError for errors in its file or numbers.
+Trajectory poses_of(const TrajectoryConfig& config);
+
+/// The poses of a mission's vehicle: its trajectory with the offset `vehicle`, whose numbers may be
+/// drawn for every ping, and with the movements of `vehicle.motion`.
+Trajectory vehicle_poses(const Mission& mission);
+
+/// The poses that the vehicle's navigation reports; empty if it reports the true ones.
+Trajectory navigation_poses(const Mission& mission, const Trajectory& truth);
+
+}  // namespace sonarsim

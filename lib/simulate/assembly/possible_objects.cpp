@@ -1,0 +1,132 @@
+#include "simulate/assembly/possible_objects.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "input/mission/variants.h"
+#include "input/scene/gltf/load.h"
+#include "input/scene/seabed/seabed.h"
+#include "simulate/assembly/placed_files.h"
+#include "simulate/sonar/kinds.h"
+
+namespace sonarsim {
+
+namespace {
+
+template <class Config>
+std::string class_of(const Config& config) {
+    return config.class_name.empty() ? config.name : config.class_name;
+}
+
+std::vector<NamedInstance> drawn_instances(const SceneConfig& scene) {
+    std::vector<NamedInstance> drawn;
+    for (const ScatterConfig& scatter : scene.scatter) {
+        const auto most = static_cast<std::size_t>(std::max(1.0, scatter.count[1]));
+        for (std::size_t k = 1; k <= most; ++k)
+            drawn.push_back({scatter.name + "_" + std::to_string(k), class_of(scatter)});
+    }
+    for (const ParticlesConfig& particles : scene.particles) {
+        drawn.push_back({particles.name + "_1", class_of(particles)});
+        drawn.push_back({particles.name, class_of(particles)});
+    }
+    return drawn;
+}
+
+/// True if the instance is one of a group of particles, which may be larger than another variant's.
+bool is_particle(const SceneConfig& scene, const std::string& name) {
+    return std::ranges::any_of(scene.particles, [&](const ParticlesConfig& particles) {
+        return name == particles.name || name.starts_with(particles.name + "_");
+    });
+}
+
+/// The instances of the files of a mission, and their classes. Nothing is placed.
+Scene named_instances(const Mission& mission, SceneFiles& models) {
+    Scene named;
+    const auto add = [&](const std::string& name, const std::string& class_name) {
+        named.instances.push_back(name);
+        named.instance_classes.push_back(class_name);
+    };
+    const auto read = [&](const PlacedFile& file) {
+        const Scene own = load_scene_geometry(file, models);
+        for (std::size_t i = 0; i < own.instances.size(); ++i)
+            add(own.instances[i], own.instance_classes[i]);
+    };
+    const SceneConfig& scene = mission.scene;
+    if (!scene.file.empty()) read(file_of(scene.file, scene.mesh, scene.place));
+    if (scene.heightmap) add(heightmap_instance, scene.heightmap->class_name);
+    if (scene.seabed) add(seabed_instance, scene.seabed->class_name);
+    for (const ObjectConfig& object : scene.objects) {
+        if (object.name.empty() || object.class_name.empty())
+            read(file_of(object));
+        else
+            add(object.name, object.class_name);
+    }
+    return named;
+}
+
+/// Appends the values that are not in `all`.
+template <class T>
+void add_new(const std::vector<T>& values, std::vector<T>& all) {
+    std::set<T> known(all.begin(), all.end());
+    for (const T& value : values) {
+        if (known.insert(value).second) all.push_back(value);
+    }
+}
+
+/// The classes that the rules, of which any may apply to nothing, give to the possible instances.
+std::vector<std::string> classes_of(const PossibleObjects& possible,
+                                    const std::vector<ClassConfig>& rules) {
+    std::vector<std::string> classes;
+    for (const auto& [name, own] : possible.instances) {
+        const auto rule = std::ranges::find_if(rules, [&, &node = name](const ClassConfig& one) {
+            return fits_pattern(one.nodes, node);
+        });
+        classes.push_back(rule != rules.end() ? rule->name : (own.empty() ? name : own));
+    }
+    return classes;
+}
+
+}  // namespace
+
+PossibleObjects possible_objects(const Mission& mission, const Scene& scene) {
+    PossibleObjects possible{mission.variant.classes, {}};
+    for (const auto& [name, class_name] : mission.variant.instances)
+        possible.instances.push_back({name, class_name});
+    const std::vector<NamedInstance> drawn = drawn_instances(mission.scene);
+    std::set<std::string> drawn_names;
+    for (const NamedInstance& one : drawn)
+        drawn_names.insert(one.name);
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const std::string& name = scene.instances[i];
+        if (is_particle(mission.scene, name) || drawn_names.contains(name)) continue;
+        possible.instances.push_back({name, scene.instance_classes[i]});
+        if (name != seabed_instance || !mission.scene.seabed) continue;
+        const SeabedConfig& seabed = *mission.scene.seabed;
+        if (seabed.rocks) possible.instances.push_back({rock_name(0), rock_class});
+    }
+    possible.instances.insert(possible.instances.end(), drawn.begin(), drawn.end());
+    return possible;
+}
+
+std::vector<Mission> variants_of(const Mission& mission, const MissionSource& source) {
+    std::vector<Mission> variants = draw_variants(mission, source, sonar_keys());
+    SceneFiles models;
+    Variant all;
+    for (const Mission& extreme : extreme_variants(mission, source, sonar_keys())) {
+        const Scene named = named_instances(extreme, models);
+        const PossibleObjects possible = possible_objects(extreme, named);
+        std::vector<std::pair<std::string, std::string>> instances;
+        for (const NamedInstance& one : possible.instances)
+            instances.emplace_back(one.name, one.class_name);
+        add_new(instances, all.instances);
+        add_new(classes_of(possible, extreme.classes), all.classes);
+    }
+    for (Mission& variant : variants) {
+        variant.variant.classes = all.classes;
+        variant.variant.instances = all.instances;
+    }
+    return variants;
+}
+
+}  // namespace sonarsim

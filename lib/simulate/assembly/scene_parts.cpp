@@ -1,0 +1,322 @@
+#include "simulate/assembly/scene_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <variant>
+
+#include "core/error.h"
+#include "core/named_at.h"
+#include "core/text.h"
+#include "core/units.h"
+#include "input/scene/gltf/surface_of.h"
+#include "input/scene/placing/rest.h"
+#include "input/scene/placing/scatter.h"
+#include "input/scene/placing/standing.h"
+#include "input/scene/unit_question.h"
+#include "simulate/assembly/heightmap_part.h"
+#include "simulate/assembly/placed_files.h"
+#include "simulate/assembly/poses.h"
+#include "simulate/assembly/seabed_part.h"
+#include "simulate/assembly/shapes.h"
+#include "simulate/assembly/sound_profiles.h"
+#include "simulate/water/sound_profile.h"
+
+namespace sonarsim {
+
+namespace {
+
+Eigen::Quaterniond attitude_of(const std::array<double, 3>& rpy_deg) {
+    return rotation_from_rpy(radians(rpy_deg[0]), radians(rpy_deg[1]), radians(rpy_deg[2]));
+}
+
+/// The bottom that objects rest on, made at its first use.
+class LazyBottom {
+  public:
+    /// `ground` is the placed heightmap or seabed, if the scene has one.
+    LazyBottom(const SceneConfig& scene, const std::optional<PlacedFile>& ground,
+               SceneStore& models)
+        : scene_(scene), ground_(ground), models_(models) {}
+
+    /// True if this object is the bottom.
+    bool is(const ObjectConfig& object) const {
+        return !is_of_files() && &object == &scene_.objects.front();
+    }
+
+    const Bottom& get() { return *share(); }
+
+    std::shared_ptr<const Bottom> share() {
+        if (!bottom_) bottom_ = models_.bottom(file(), nodes());
+        return bottom_;
+    }
+
+    /// True if there is a bottom that does not move.
+    bool exists() const { return is_of_files() || stands_still(scene_.objects.front()); }
+
+    /// Notes in its file that its nodes are the bottom. `files` are those of SceneParts.
+    void mark(std::vector<PlacedFile>& files) const {
+        files[is_ground() && !scene_.file.empty() ? 1 : 0].bottom = nodes();
+    }
+
+    /// "; 'tyre' is 650 m long: millimetres? units: mm" where an object or the bottom may be in
+    /// another unit; "" elsewhere. An object longer than the bottom cannot rest on it.
+    std::string unit_questions(const std::string& object, double length_m, const MeshConfig& of,
+                               double range_m) {
+        const double bottom_m = get().area().sizes().maxCoeff();
+        const MeshConfig& mesh = is_of_files() ? scene_.mesh : scene_.objects.front().mesh;
+        std::string out;
+        const auto add = [&](const std::string& title, const std::string& question) {
+            if (!question.empty()) out += "; " + title + " is " + question;
+        };
+        add(object, unit_question(length_m, metres(of.units),
+                                  std::min(range_m, bottom_m / long_object), long_object));
+        if (!ground_)
+            add("the bottom", unit_question(bottom_m, metres(mesh.units), range_m, long_place));
+        return out;
+    }
+
+    /// " from (x, y) to (x, y)", for messages.
+    std::string reach() {
+        const auto text = [](const Eigen::Vector2d& p) {
+            const auto rounded = [](double x) { return number_text(std::round(1e3 * x) / 1e3); };
+            return "(" + rounded(p.x()) + ", " + rounded(p.y()) + ")";
+        };
+        return " from " + text(get().area().min()) + " to " + text(get().area().max());
+    }
+
+  private:
+    static bool stands_still(const ObjectConfig& object) {
+        return object.place_on != ObjectPlace::on_bottom && !object.trajectory;
+    }
+
+    /// True unless objects alone make the scene.
+    bool is_of_files() const { return !scene_.file.empty() || ground_; }
+
+    bool is_ground() const { return ground_ && (scene_.bottom.empty() || scene_.file.empty()); }
+
+    /// Patterns of its nodes; empty: all.
+    std::vector<std::string> nodes() const {
+        const bool is_bed = is_ground() && ground_->seabed && scene_.bottom.empty();
+        return is_bed ? std::vector<std::string>{seabed_instance} : scene_.bottom;
+    }
+
+    PlacedFile file() const {
+        if (is_ground()) return *ground_;
+        if (!scene_.file.empty()) return file_of(scene_.file, scene_.mesh, scene_.place);
+        const ObjectConfig& first = scene_.objects.front();
+        if (!stands_still(first)) {
+            throw InputError(first.place,
+                             "without scene.file the first object is the bottom that others rest "
+                             "on: it must neither move nor rest on the bottom itself");
+        }
+        PlacedFile file = file_of(first);
+        file.T_world_file.translation() = Eigen::Vector3d(first.position_m.data());
+        file.T_world_file.linear() = first.scale * attitude_of(first.rpy_deg).toRotationMatrix();
+        return file;
+    }
+
+    const SceneConfig& scene_;
+    const std::optional<PlacedFile>& ground_;
+    SceneStore& models_;
+    std::shared_ptr<const Bottom> bottom_;
+};
+
+/// The transform of an object of the mission.
+Eigen::Affine3d transform_of(const ObjectConfig& object, const Surface& shape, LazyBottom& bottom,
+                             double range_m) {
+    const Eigen::Vector3d position(object.position_m.data());
+    const Eigen::Quaterniond attitude = attitude_of(object.rpy_deg);
+    if (object.place_on == ObjectPlace::on_bottom) {
+        const auto T_world_file =
+            put_on_bottom(bottom.get(), shape, position.head<2>(),
+                          {attitude, object.scale, object.align, object.bury_m});
+        if (T_world_file) return *T_world_file;
+        throw InputError(object.place,
+                         title_of(object) + " reaches beyond the bottom, which lies" +
+                             bottom.reach() + "; move it by position_m, or place: free" +
+                             bottom.unit_questions(title_of(object),
+                                                   object.scale * box_of(shape).sizes().maxCoeff(),
+                                                   object.mesh, range_m));
+    }
+    Eigen::Affine3d T_world_file = Eigen::Affine3d::Identity();
+    T_world_file.translation() = position;
+    T_world_file.linear() = object.scale * attitude.toRotationMatrix();
+    return T_world_file;
+}
+
+/// A trajectory of waypoints or lines begins with the first ping; a file has its own times.
+Trajectory motion_of(const ObjectConfig& object, const Trajectory& vehicle) {
+    Trajectory motion;
+    try {
+        motion = poses_of(*object.trajectory);
+    } catch (const InputError& error) {
+        throw named_at(error, object.place);
+    }
+    const double start_s = vehicle.front().t_s;
+    const double end_s = vehicle.back().t_s;
+    if (!std::holds_alternative<FileTrajectoryConfig>(*object.trajectory)) {
+        for (TimedPose& pose : motion)
+            pose.t_s += start_s;
+    }
+    if (motion.front().t_s <= start_s && motion.back().t_s >= end_s) return motion;
+    throw InputError(object.place,
+                     title_of(object) + " moves from " + number_text(motion.front().t_s) +
+                         " s to " + number_text(motion.back().t_s) +
+                         " s and the sonars ping from " + number_text(start_s) + " s to " +
+                         number_text(end_s) + " s; let its trajectory last as long");
+}
+
+ScatterRule rule_of(const ScatterConfig& config) {
+    const auto in_rad = [](const std::array<double, 2>& deg) {
+        return std::array{radians(deg[0]), radians(deg[1])};
+    };
+    return {.name = printable(config.name),
+            .shapes = {},
+            .count = config.count,
+            .area = {Eigen::Vector2d(config.area_min_m.data()),
+                     Eigen::Vector2d(config.area_max_m.data())},
+            .rpy_rad = {in_rad(config.roll_deg), in_rad(config.pitch_deg), in_rad(config.yaw_deg)},
+            .scale = config.scale,
+            .bury_m = config.bury_m,
+            .spacing_m = config.spacing_m,
+            .align = config.align,
+            .tries = 1000,
+            .place = config.place};
+}
+
+/// An object that is turned by more than this is not expected to stand upright in its file.
+constexpr double max_tilt_deg = 45.0;
+
+void add_orientation_warning(const std::string& question, SceneParts& parts) {
+    if (question.empty() ||
+        std::ranges::find(parts.orientation_warnings, question) != parts.orientation_warnings.end())
+        return;
+    parts.orientation_warnings.push_back(question);
+}
+
+bool is_upright(const ObjectConfig& object) {
+    return std::max(std::abs(object.rpy_deg[0]), std::abs(object.rpy_deg[1])) < max_tilt_deg;
+}
+
+/// Scatters objects. The error of objects without room says where the bottom lies, and asks for
+/// the units.
+std::vector<ScatteredObject> scattered(const ScatterConfig& config, const ScatterRule& rule,
+                                       std::uint32_t index, std::uint64_t seed, LazyBottom& bottom,
+                                       double range_m, std::vector<Hull>& taken) {
+    const Bottom& ground = bottom.get();
+    try {
+        return scatter(rule, index, seed, ground, taken);
+    } catch (const InputError& error) {
+        double length_m = 0.0;
+        for (const Surface* shape : rule.shapes)
+            length_m = std::max(length_m, config.scale[1] * box_of(*shape).sizes().maxCoeff());
+        throw InputError(
+            error.what() + ("; the bottom lies" + bottom.reach()) +
+            bottom.unit_questions("'" + rule.name + "'", length_m, config.mesh, range_m));
+    }
+}
+
+/// Scatters the objects of one rule and appends their files.
+void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64_t seed,
+                   double range_m, SceneFiles& models, LazyBottom& bottom, std::vector<Hull>& taken,
+                   SceneParts& parts) {
+    std::vector<PlacedFile> kinds;
+    std::vector<Surface> shapes;
+    for (const std::filesystem::path& path : config.files) {
+        kinds.push_back(file_of(path, config.mesh, config.place));
+        kinds.back().class_name = config.class_name.empty() ? config.name : config.class_name;
+        shapes.push_back(surface_of(kinds.back(), models));
+        if (!shapes.back().triangles.empty()) continue;
+        throw InputError(config.place, path.string() + " has no surface to scatter");
+    }
+    ScatterRule rule = rule_of(config);
+    for (const Surface& shape : shapes)
+        rule.shapes.push_back(&shape);
+    const bool upright =
+        std::max({std::abs(config.roll_deg[0]), std::abs(config.roll_deg[1]),
+                  std::abs(config.pitch_deg[0]), std::abs(config.pitch_deg[1])}) < max_tilt_deg;
+    for (std::size_t i = 0; upright && i < kinds.size(); ++i)
+        add_orientation_warning(up_question(kinds[i], shapes[i]), parts);
+    std::vector<PlacedFile>& files = parts.files;
+    std::size_t number = 0;
+    for (const ScatteredObject& object :
+         scattered(config, rule, index, seed, bottom, range_m, taken)) {
+        PlacedFile& file = files.emplace_back(kinds[object.shape]);
+        file.name = config.name + "_" + std::to_string(++number);
+        file.T_world_file = object.T_world_shape;
+        if (config.bury_m[1] > 0.0 &&
+            lies_below(bottom.get(), moved(shapes[object.shape], file.T_world_file))) {
+            throw InputError(config.place, "'" + printable(file.name) +
+                                               "' lies wholly below the bottom; lower bury_m");
+        }
+    }
+}
+
+/// The greatest speed of sound over that by which sonars measure ranges, or 1 if that is more.
+double faster_sound(const Mission& mission) {
+    if (!mission.water.profile) return 1.0;
+    const SoundProfile profile = sound_profile(mission);
+    return std::max(std::ranges::max(profile.speed_m_s) / profile.range_speed_m_s, 1.0);
+}
+
+}  // namespace
+
+SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
+                       std::span<const Sonar> sonars, SceneStore& models) {
+    const SceneConfig& scene = mission.scene;
+    const Eigen::AlignedBox2d seen =
+        ground_in_range(mission, sonars, vehicle, faster_sound(mission));
+    SceneParts parts;
+    if (!scene.file.empty()) parts.files.push_back(file_of(scene.file, scene.mesh, scene.place));
+    Shapes shapes(models);
+    std::optional<PlacedFile> ground = heightmap_of(scene, seen, shapes);
+    if (scene.seabed) {
+        ground = seabed_of(*scene.seabed, mission.seed, needed_ground(scene, seen, shapes));
+        parts.seabed = ground->seabed;
+    }
+    if (ground) parts.files.push_back(*ground);
+    LazyBottom bottom(scene, ground, models);
+    std::vector<Hull> taken;
+    const double range_m = farthest_range_m(mission);
+    for (const ObjectConfig& object : scene.objects) {
+        PlacedFile& file = parts.files.emplace_back(file_of(object));
+        const Surface& shape = shapes.of(file, object.mesh);
+        if (shape.triangles.empty()) {
+            throw InputError(object.place, title_of(object) + ": there is no surface in " +
+                                               object.file.string() + "; name another file");
+        }
+        if (is_upright(object)) add_orientation_warning(up_question(file, shape), parts);
+        file.T_world_file = transform_of(object, shape, bottom, range_m);
+        if (object.trajectory) {
+            parts.motions.push_back(motion_of(object, vehicle));
+            continue;
+        }
+        if (bottom.is(object)) continue;
+        const Surface placed = moved(shape, file.T_world_file);
+        if (bottom.exists() && lies_below(bottom.get(), placed)) {
+            throw InputError(object.place,
+                             title_of(object) + " lies wholly below the bottom; " +
+                                 (object.place_on == ObjectPlace::free
+                                      ? "raise it by position_m, or let it rest there with place: "
+                                        "on_bottom"
+                                      : "lower bury_m"));
+        }
+        if (!scene.scatter.empty()) taken.push_back(hull_of(placed.vertices));
+    }
+    for (std::size_t i = 0; i < scene.scatter.size(); ++i) {
+        scatter_files(scene.scatter[i], static_cast<std::uint32_t>(i), mission.seed, range_m,
+                      models, bottom, taken, parts);
+    }
+    // Reports a pattern of `bottom` that matches no node, even if no object rests on it.
+    if (!scene.bottom.empty()) bottom.get();
+    const bool heights =
+        std::ranges::find(mission.output.labels, Label::height) != mission.output.labels.end();
+    if (heights && bottom.exists()) {
+        parts.bottom = bottom.share();
+        bottom.mark(parts.files);
+    }
+    return parts;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,26 @@
+#include "simulate/assembly/scene_store.h"
+
+#include "input/scene/gltf/surface_of.h"
+
+namespace sonarsim {
+
+namespace {
+
+bool have_same_surface(const PlacedFile& a, const PlacedFile& b) {
+    return a.file == b.file && a.heightmap == b.heightmap && a.seabed == b.seabed &&
+           a.unit_m == b.unit_m && a.z_up == b.z_up &&
+           a.T_world_file.matrix() == b.T_world_file.matrix();
+}
+
+}  // namespace
+
+std::shared_ptr<const Bottom> SceneStore::bottom(const PlacedFile& placed,
+                                                 const std::vector<std::string>& nodes) {
+    if (bottom_ && nodes_ == nodes && have_same_surface(placed_, placed)) return bottom_;
+    bottom_ = std::make_shared<const Bottom>(surface_of(placed, *this, nodes));
+    placed_ = placed;
+    nodes_ = nodes;
+    return bottom_;
+}
+
+}  // namespace sonarsim

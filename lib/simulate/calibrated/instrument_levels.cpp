@@ -1,0 +1,100 @@
+#include "simulate/calibrated/instrument_levels.h"
+
+#include <algorithm>
+
+#include "simulate/calibrated/ambient_noise.h"
+#include "simulate/calibrated/decibel.h"
+#include "simulate/calibrated/directivity.h"
+#include "simulate/calibrated/example_bottoms.h"
+#include "simulate/calibrated/expected_echo.h"
+#include "simulate/calibrated/pulse_band.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// The pressure at 1 m of a watt of sound that spreads evenly, 10 log(rho c / (4 pi)) re 1 uPa.
+constexpr double watt_db = 170.8;
+
+// Shares of the largest value of raw/.
+constexpr double recorded_share_of_sand = 1.0 / 3.0;
+constexpr double max_share_of_noise = 2.0 / 3.0;
+
+/// The decibels from a share of the largest value of raw/ to that value.
+double headroom_db(const ReceiverConfig& receiver, double share) {
+    switch (receiver.companding) {
+        case Companding::log:
+            return (1.0 - share) * receiver.dynamic_range_db;
+        case Companding::linear:
+            return -2.0 * db_of_power(share);
+        default:
+            return -2.0 * db_of_power(share) / receiver.gamma;
+    }
+}
+
+/// The decibels from the mean power of sand to the largest value of raw/. Values by `gamma` are
+/// made to be seen: sand fills them. Records of decibels and of amplitudes keep a reserve.
+double headroom_of_sand_db(const ReceiverConfig& receiver) {
+    return receiver.companding == Companding::gamma ? db_of_power(speckle_p99)
+                                                    : headroom_db(receiver, recorded_share_of_sand);
+}
+
+/// Sets the levels after TVG.
+void set_received_levels(const InstrumentConfig& instrument, const WaterConfig& water,
+                         const View& view, InstrumentLevels& levels) {
+    const ReceiverConfig& receiver = instrument.receiver;
+    const ExpectedEcho echo = expected_echo(instrument, water, view);
+    const auto gain_db = [&](double range_m) {
+        return tvg_db(receiver, echo.absorption_db_per_m, range_m);
+    };
+    const double half_m = 0.5 * view.range_max_m;
+    levels.sand_db = levels.source_level_db +
+                     bottom_echo_db(echo, bottom_strength_db(echo, example_sand()), half_m) +
+                     gain_db(half_m);
+    const double noise_db = levels.noise_db + gain_db(view.range_max_m);
+    levels.full_scale_db = receiver.full_scale_db.value_or(
+        std::max(levels.sand_db + headroom_of_sand_db(receiver),
+                 noise_db + headroom_db(receiver, max_share_of_noise)));
+}
+
+}  // namespace
+
+double tvg_db(const ReceiverConfig& receiver, double absorption_db_per_m, double range_m) {
+    const double range = std::max(range_m, receiver.tvg_from_m);
+    return receiver.tvg_log / 10.0 * db_of_power(range) +
+           (receiver.tvg_absorption ? 2.0 * absorption_db_per_m * range : 0.0);
+}
+
+InstrumentLevels instrument_levels(const InstrumentConfig& instrument, const WaterConfig& water,
+                                   const View& view) {
+    const ReceiverConfig& receiver = instrument.receiver;
+    InstrumentLevels out;
+    out.noise_hz =
+        pulse_band(instrument.pulse, sample_m(view, receiver), water.sound_speed_m_s).noise_hz;
+    out.receiving_directivity_db = db_of_power(receiving_directivity(instrument.beam));
+    out.transmitting_directivity_db = db_of_power(transmitting_directivity(instrument.beam, view));
+    out.thermal_noise_db = thermal_noise_db(instrument.frequency_hz);
+    out.wind_noise_db = wind_noise_db(instrument.frequency_hz, water.wind_m_s);
+
+    // Rules of thumb for the levels that are auto.
+    constexpr double power_w = 100.0;        // electric power of the transmitter
+    constexpr double efficiency = 0.5;       // acoustic by electric power of the transducer
+    constexpr double noise_figure_db = 6.0;  // electronics
+    const double efficiency_db = db_of_power(efficiency);
+    const double source_db =
+        watt_db + db_of_power(power_w) + efficiency_db + out.transmitting_directivity_db;
+    const double sea_db =
+        db_of_power(power_of_db(out.thermal_noise_db + noise_figure_db - efficiency_db) +
+                    power_of_db(out.wind_noise_db));
+    const double noise_db = sea_db + db_of_power(out.noise_hz) - out.receiving_directivity_db;
+
+    out.source_level_db =
+        instrument.source_level_db.value_or(has_relative_level(receiver) ? 0.0 : source_db);
+    out.relative = is_relative_source(out.source_level_db);
+    const double offset_db = out.relative ? out.source_level_db - source_db : 0.0;
+    out.noise_db = receiver.noise_db.value_or(noise_db + offset_db);
+    set_received_levels(instrument, water, view, out);
+    return out;
+}
+
+}  // namespace sonarsim

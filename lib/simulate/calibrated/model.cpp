@@ -1,0 +1,202 @@
+#include "simulate/calibrated/model.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <variant>
+
+#include "core/elementary.h"
+#include "core/units.h"
+#include "simulate/calibrated/beamformer.h"
+#include "simulate/calibrated/decibel.h"
+#include "simulate/calibrated/expected_echo.h"
+#include "simulate/calibrated/levels.h"
+#include "simulate/calibrated/volume_strengths.h"
+#include "simulate/calibrated/water.h"
+
+namespace sonarsim {
+
+namespace {
+
+// On the tank the expected image is within 0.7 % of that of much smaller patches.
+constexpr float max_depth_by_bin = 0.5F;
+// One or two beams of the view are often a few per cent wider than one or two steps.
+constexpr float max_sine_by_step = 1.1F;
+// As a share of the half-power width, within which the pattern bends.
+constexpr double max_by_width = 0.1;
+
+constexpr double no_level_db = -300.0;  // docs/mission.md
+
+// In the order in which they enter an image.
+constexpr std::array<std::string_view, 2> calibrated_terms{"speckle", "receiver_noise"};
+
+/// The number of beams that may be traced as one: two if the array does not resolve them. More than
+/// two save hardly any time.
+int joinable_beams(double resolved_beams, int beams) {
+    return resolved_beams >= 1.5 && beams % 2 == 0 ? 2 : 1;
+}
+
+/// The guard beams of a line array: from the view to the borders of `view_azimuth_deg`. They are as
+/// wide as the view's beams or, if that is at least twice as wide, as a step of the array's sine
+/// grid, which the array does not resolve.
+GuardBeams guard_beams_of(const BeamConfig& beam, const View& view) {
+    const double side_rad = 0.5 * (radians(beam.view_azimuth_deg) - view.azimuth_rad);
+    const double bin_rad = view.azimuth_rad / view.beams;
+    const LineArray array = line_array(radians(beam.width_deg), beam.side_lobe_db);
+    const double array_step_rad = arcsin(sine_grid(array, {0.0}).step);
+    const int joined = joinable_beams(radians(beam.width_deg) / bin_rad, view.beams);
+    if (array_step_rad < 2.0 * bin_rad) {
+        // Whole joined beams; rounding of degrees to radians must not cost one.
+        const double count = std::floor(side_rad / (joined * bin_rad) + 1e-6);
+        return {.count = joined * static_cast<int>(std::max(0.0, count)), .joined = joined};
+    }
+    if (side_rad <= 0.0) return {.joined = joined};
+    const double count = std::max(1.0, std::floor(side_rad / array_step_rad));
+    return {.count = static_cast<int>(count), .beam_rad = side_rad / count, .joined = joined};
+}
+
+/// The size of patches that are points to the beams and to the bins.
+PointLimits point_limits(const BeamConfig& beam, const View& view,
+                         const std::variant<TransducerBeams, ArrayBeams>& beams) {
+    PointLimits limits{.depth_m = max_depth_by_bin * static_cast<float>(view.bin_m())};
+    const double width = radians(beam.width_deg);
+    if (const auto* const fan = std::get_if<ArrayBeams>(&beams)) {
+        limits.sine = max_sine_by_step * static_cast<float>(fan->amplitudes.grid().step);
+        limits.elevation_sine =
+            static_cast<float>(max_by_width * radians(beam.elevation_width_deg));
+    } else if (beam.aperture == Aperture::head) {
+        limits.sine = static_cast<float>(max_by_width * width);
+        limits.elevation_sine =
+            static_cast<float>(max_by_width * radians(beam.elevation_width_deg));
+    } else if (beam.aperture == Aperture::port_starboard) {
+        limits.sine = static_cast<float>(max_by_width * radians(beam.across_width_deg));
+        limits.elevation_sine = static_cast<float>(max_by_width * width);
+    } else {
+        limits.sine = static_cast<float>(max_by_width * width);
+        limits.elevation_sine = limits.sine;
+    }
+    return limits;
+}
+
+/// A resolution cell, or less where the pattern of a transducer bends within it.
+PointLimits target_cell(const BeamConfig& beam, double resolution_m) {
+    const auto part = [](double width_deg) {
+        return 0.25F * static_cast<float>(radians(width_deg));
+    };
+    const auto depth = static_cast<float>(resolution_m);
+    const auto width = static_cast<float>(radians(beam.width_deg));
+    if (beam.aperture == Aperture::port_starboard)
+        return {depth, part(beam.across_width_deg), width};
+    if (beam.aperture == Aperture::piston)
+        return {depth, part(beam.width_deg), part(beam.width_deg)};
+    return {depth, width, part(beam.elevation_width_deg)};
+}
+
+/// The view with a range bin for each sample of the receiver.
+View sampled_view(View view, int samples) {
+    view.range_bins *= samples;
+    return view;
+}
+
+/// The mean value of noise in each range bin of the image.
+std::vector<float> noise_values(const std::vector<float>& row_gain, double noise, int samples) {
+    std::vector<float> out;
+    out.reserve(row_gain.size() / samples);
+    for (std::size_t row = 0; row < row_gain.size(); row += samples)
+        out.push_back(std::min(row_gain[row] * static_cast<float>(noise), max_value));
+    return out;
+}
+
+/// The value that is white in pictures of a fan: the 99 % quantile of the speckle of sand at half
+/// of the range, but at most full scale. Other sonars show what no such rule covers: a bottom from
+/// above, fish, plankton.
+double white_of_fan(const InstrumentLevels& levels) {
+    return std::min(1.0, speckle_p99 * power_of_db(levels.sand_db - levels.full_scale_db));
+}
+
+/// Sets the properties of the model but for its guard beams.
+void set_info(CalibratedModel& model, const View& view) {
+    const ReceiverConfig& receiver = model.instrument.receiver;
+    EchoModelInfo& info = model.info;
+    info.random_terms = calibrated_terms;
+    info.needs_scattered_paths = true;
+    info.energies_add = true;
+    info.is_slow = true;
+    const int columns =
+        std::visit([](const auto& of_model) { return columns_of(of_model); }, model.beams);
+    const double of_grid = 2.0 * columns * model.equation.rows * sizeof(float);
+    // Multipath has a grid of its own, sediment has two. Several samples or looks are images.
+    const bool several = receiver.samples > 1 || receiver.looks > 1;
+    info.working_bytes =
+        (1.0 + (model.instrument.below_bottom ? 2.0 : 0.0) + (several ? 1.0 : 0.0)) * of_grid;
+    info.multipath_bytes = of_grid;
+    if (model.levels.noise_db > no_level_db || receiver.common_mode_db > no_level_db)
+        info.mean_noise = model.noise_values;
+    info.raw_bits = receiver.bits;
+    const bool is_fan = model.instrument.beam.aperture == Aperture::line && !is_profile(view);
+    if (is_fan) info.white = white_of_fan(model.levels);
+}
+
+}  // namespace
+
+CalibratedModel calibrated_model(const InstrumentConfig& instrument, const WaterConfig& water,
+                                 const View& view_of_image, const BeamSines& sines) {
+    const View view = sampled_view(view_of_image, instrument.receiver.samples);
+    const double bin_m = view.bin_m();
+    const double resolution_m =
+        instrument.pulse.resolution_m > 0.0 ? instrument.pulse.resolution_m : bin_m;
+    const double resolution_bins = resolution_m / bin_m;
+    const double side_lobe_db = instrument.pulse.side_lobe_db;
+    const BeamConfig& beam = instrument.beam;
+    const ReceiverConfig& receiver = instrument.receiver;
+    CalibratedModel model;
+    model.instrument = instrument;
+    model.clutter = gamma_clutter(instrument.speckle.clutter_shape, instrument.speckle.clutter_m);
+    model.amplitude_taps = range_taps(resolution_bins, side_lobe_db, false);
+    model.power_taps = range_taps(resolution_bins, side_lobe_db, true);
+    const std::vector<float> of_noise = noise_taps(resolution_bins, side_lobe_db);
+    model.speckle = instrument.speckle.mode;
+    model.sound_speed_m_s = water.sound_speed_m_s;
+    model.water_density_kg_m3 = water.density_kg_m3;
+    model.wavelength_m = water.sound_speed_m_s / instrument.frequency_hz;
+    model.absorption_db_per_m = absorption_db_per_m(
+        instrument.frequency_hz, {water.temperature_c, water.salinity_psu, water.depth_m});
+
+    model.levels = instrument_levels(instrument, water, view_of_image);
+    const double noise_db = model.levels.noise_db - model.levels.source_level_db;
+    const bool has_common_mode = receiver.common_mode_db > no_level_db;
+    const double common_mode_db =
+        has_common_mode ? receiver.common_mode_db - model.levels.source_level_db : noise_db;
+    const double raised_db = float_headroom_db(noise_db, common_mode_db);
+    const double noise = power_of_db(noise_db + raised_db);
+    const double common_mode = has_common_mode ? power_of_db(common_mode_db + raised_db) : 0.0;
+    if (beam.aperture == Aperture::line) {
+        model.beams = array_beams(beam, sines.middles, noise, common_mode, of_noise);
+        model.cones = ConeBeams(sines.edges);
+        model.info.guard_beams = guard_beams_of(beam, view);
+    } else {
+        model.beams =
+            transducer_beams(beam, view, model.wavelength_m, noise + common_mode, of_noise);
+    }
+    model.limits = point_limits(beam, view, model.beams);
+    model.equation = {.range_min_m = static_cast<float>(view.range_min_m),
+                      .bin_m = static_cast<float>(bin_m),
+                      .rows = view.range_bins,
+                      .loss_per_m = static_cast<float>(0.2 * ln_10 * model.absorption_db_per_m),
+                      .ln_headroom = static_cast<float>(0.1 * ln_10 * raised_db),
+                      .elevation = elevation_pattern(radians(beam.elevation_width_deg),
+                                                     beam.elevation_side_lobe_db, beam.elements)};
+    model.water =
+        water_column(water_of(water, instrument), instrument.frequency_hz, view,
+                     model.info.guard_beams, model.beams, model.equation);
+    model.cells = scatterer_cells(std::max(resolution_m, 0.5 * bin_m), radians(beam.width_deg),
+                                  view.range_min_m, model.wavelength_m);
+    model.target_cell = target_cell(beam, std::max(resolution_m, 0.5 * bin_m));
+    model.row_gain = row_gains(receiver, model.levels, view, model.absorption_db_per_m, raised_db);
+    model.noise_values = noise_values(model.row_gain, noise + common_mode, receiver.samples);
+    set_info(model, view);
+    return model;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "core/pose.h"
+#include "input/mission/mission.h"
+#include "input/scene/scene.h"
+#include "simulate/calibrated/array_beams.h"
+#include "simulate/calibrated/instrument_levels.h"
+#include "simulate/calibrated/scatterers.h"
+#include "simulate/calibrated/sediment.h"
+#include "simulate/calibrated/sonar_equation.h"
+#include "simulate/calibrated/specular_path.h"
+#include "simulate/calibrated/transducer_beams.h"
+#include "simulate/calibrated/water_column.h"
+#include "simulate/trace/echo_model.h"
+#include "simulate/visibility/engine.h"
+
+namespace sonarsim {
+
+/// The calibrated echo model, docs/calibrated.md: an instrument, ready to turn traced surface into
+/// the echo levels that it measures.
+struct CalibratedModel final : EchoModel {
+    InstrumentConfig instrument;
+    InstrumentLevels levels;
+    SonarEquation equation;
+    PointLimits limits;  ///< for pieces that are not scatterers of the scene
+    ScattererCells cells;
+    PointLimits target_cell;  ///< the pieces of a target within it are one scatterer
+    Clutter clutter;
+    RangeTaps amplitude_taps, power_taps;
+    std::variant<TransducerBeams, ArrayBeams> beams;
+    /// [samples in range] The factor from the power of an echo to the value of the image.
+    std::vector<float> row_gain;
+    /// [range bins of the image] The value of the receiver's mean noise.
+    std::vector<float> noise_values;
+    std::optional<WaterColumn> water;  ///< its volume scattering; nothing: none
+    ConeBeams cones;                   ///< the beams of a line array
+    SpeckleMode speckle = SpeckleMode::scene;
+    double sound_speed_m_s = 0.0;
+    double absorption_db_per_m = 0.0;
+    double wavelength_m = 0.0;
+    double water_density_kg_m3 = 0.0;
+    std::vector<Material> prepared_materials;  ///< materials of the scene of prepared()
+    std::optional<double> prepared_wind_m_s;   ///< the wind over its water, if its surface scatters
+    Scattering scattering;  ///< these materials, then the water's surface if it scatters
+    /// The parts of the scattering on and below sea beds; nothing: the whole echo comes from their
+    /// surface.
+    std::optional<SedimentScattering> sediment;
+
+    /// True if the model has the data that depend on this scene.
+    bool is_prepared_for(const Scene& scene) const;
+    std::shared_ptr<const CalibratedModel> prepared_for(const Scene& scene) const;
+
+    std::shared_ptr<const EchoModel> prepared(const Scene& scene) const override;
+    void form(const TracedPing& traced, const FormContext& context, Ping& ping) const override;
+    SurfaceEchoes surface_echoes(const TracedPing& traced, const View& view, const Scene& scene,
+                                 bool patches, const UseEchoes& use) const override;
+    SignalAndNoise signal_and_noise(float clean, float noisy, int range_bin,
+                                    int beam) const override;
+    void describe(nlohmann::ordered_json& sensor) const override;
+    std::vector<std::uint16_t> raw(const Ping& ping) const override;
+};
+
+/// The sines of the azimuths of a fan's beams, and of the edges between them.
+struct BeamSines {
+    std::vector<double> middles, edges;  ///< the edges are one more
+};
+
+/// Sets up the instrument of a sonar with this view; only a line array needs `sines`.
+CalibratedModel calibrated_model(const InstrumentConfig& instrument, const WaterConfig& water,
+                                 const View& view, const BeamSines& sines);
+
+}  // namespace sonarsim

@@ -1,0 +1,139 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+#include "simulate/trace/arrivals.h"
+#include "simulate/trace/taper.h"
+#include "simulate/visibility/engine.h"
+
+namespace sonarsim {
+
+/// A block of pieces of surface, each small enough to be a point. Arrays, so that loops vectorise.
+struct PatchBlock {
+    static constexpr int most = 256;
+    static constexpr int spare = 8;  ///< whole vectors are written
+    template <class T>
+    using Array = std::array<T, most + spare>;
+
+    int count = 0;
+    Array<float> x{}, y{}, z{};  ///< m, sensor frame
+    Array<float> area_m2{};      ///< times the strength of the sample, since energies add
+    Array<float> height_m{};     ///< the sonar's height above the piece's plane
+    Array<float> half_range_m{}, half_sine{};  ///< half extents, of pieces of samples
+    Array<std::uint32_t> material{};
+    Array<std::uint32_t> sample{};  ///< index into the samples that are cut, if they are
+};
+
+/// The greatest size of a piece. The least of these limits applies in every direction.
+struct PointLimits {
+    float depth_m = 0.0F;         ///< in range; 0: any
+    float sine = 0.0F;            ///< across the beams, y / range; 0: any
+    float elevation_sine = 0.0F;  ///< in elevation, z / range; 0: any
+};
+
+/// The number of pieces along a half edge with these extents.
+inline int patches_along(const EdgeExtents& half_edge, float range_m, const PointLimits& limits) {
+    constexpr float most = 256.0F;
+    const auto [depth, y, z] = half_edge;
+    float wanted = 1.0F;
+    const float per_range = 2.0F / range_m;
+    if (limits.depth_m > 0.0F) wanted = std::max(wanted, 2.0F * std::fabs(depth) / limits.depth_m);
+    if (limits.sine > 0.0F) wanted = std::max(wanted, std::fabs(y) * per_range / limits.sine);
+    if (limits.elevation_sine > 0.0F)
+        wanted = std::max(wanted, std::fabs(z) * per_range / limits.elevation_sine);
+    return static_cast<int>(std::ceil(std::min(wanted, most)));
+}
+
+/// Half the extents of a piece in range, and across the beams.
+struct HalfExtents {
+    float range_m, sine;
+};
+
+/// Half the extents of a piece of a footprint with the half edges `u` and `v` that is cut into rows
+/// and columns.
+inline HalfExtents half_extents(const EdgeExtents& u, const EdgeExtents& v, float range_m,
+                                int rows = 1, int columns = 1) {
+    const auto by_u = static_cast<float>(rows);
+    const auto by_v = static_cast<float>(columns);
+    return {std::fabs(u.depth) / by_u + std::fabs(v.depth) / by_v,
+            std::fabs(u.y) / range_m / by_u + std::fabs(v.y) / range_m / by_v};
+}
+
+/// Calls use(s, t) for the middles of the pieces of a footprint that is cut into rows along one
+/// half edge and columns along the other: places in half edges from its centre.
+template <class Use>
+void for_each_middle(int rows, int columns, Use use) {
+    const auto place = [](int at, int of) {
+        return (2.0F * static_cast<float>(at) + 1.0F) / static_cast<float>(of) - 1.0F;
+    };
+    for (int i = 0; i < rows; ++i) {
+        for (int j = 0; j < columns; ++j)
+            use(place(i, rows), place(j, columns));
+    }
+}
+
+/// Cuts samples into pieces and hands these to `use`, a block at a time. With the shape of the
+/// view, pieces have shares of the area by the widths of the footprint.
+template <class Use>
+void subdivide(std::span<const Sample> samples, std::optional<ViewShape> shape,
+               const PointLimits& limits, PatchBlock& pieces, Use use) {
+    pieces.count = 0;
+    for (std::uint32_t number = 0; number < samples.size(); ++number) {
+        const Sample& sample = samples[number];
+        const auto [range, direction] = arrival_of(sample.position);
+        if (!(range > 0.0F)) continue;
+        const EdgeExtents u = extents_of(sample.edge_u, direction);
+        const EdgeExtents v = extents_of(sample.edge_v, direction);
+        const int by_u = patches_along(u, range, limits);
+        const int by_v = patches_along(v, range, limits);
+        const HalfExtents half = half_extents(u, v, range, by_u, by_v);
+        // Rows are long, since they are written in whole vectors.
+        const int rows = std::min(by_u, by_v);
+        const int columns = std::max(by_u, by_v);
+        const Eigen::Vector3f& across = by_u > by_v ? sample.edge_v : sample.edge_u;
+        const Eigen::Vector3f& along = by_u > by_v ? sample.edge_u : sample.edge_v;
+        const float area = sample.area_m2 * sample.strength / static_cast<float>(rows * columns);
+        const Taper taper = taper_of(sample, shape);
+        const float taper_across = by_u > by_v ? taper.v : taper.u;
+        const float taper_along = by_u > by_v ? taper.u : taper.v;
+        const float area_step = area * taper_along * 2.0F / static_cast<float>(columns);
+        const Eigen::Vector3f step_u = 2.0F / static_cast<float>(rows) * across;
+        const Eigen::Vector3f step_v = 2.0F / static_cast<float>(columns) * along;
+        for (int i = 0; i < rows; ++i) {
+            const Eigen::Vector3f row =
+                sample.position + (static_cast<float>(i) + 0.5F) * step_u - across - along;
+            const float share = (2.0F * static_cast<float>(i) + 1.0F) / static_cast<float>(rows);
+            const float area_of_row = area * (1.0F + taper_across * (share - 1.0F) - taper_along);
+            for (int first = 0; first < columns; first += PatchBlock::spare) {
+                if (pieces.count > PatchBlock::most - PatchBlock::spare) {
+                    use(pieces);
+                    pieces.count = 0;
+                }
+                const int at = pieces.count;
+                const auto along_row = [&](PatchBlock::Array<float>& to, float start, float step) {
+                    for (int lane = 0; lane < PatchBlock::spare; ++lane) {
+                        const float t = static_cast<float>(first + lane) + 0.5F;
+                        to[at + lane] = std::fma(t, step, start);
+                    }
+                };
+                along_row(pieces.x, row.x(), step_v.x());
+                along_row(pieces.y, row.y(), step_v.y());
+                along_row(pieces.z, row.z(), step_v.z());
+                along_row(pieces.area_m2, area_of_row, area_step);
+                std::fill_n(pieces.height_m.data() + at, PatchBlock::spare, sample.height_m);
+                std::fill_n(pieces.half_range_m.data() + at, PatchBlock::spare, half.range_m);
+                std::fill_n(pieces.half_sine.data() + at, PatchBlock::spare, half.sine);
+                std::fill_n(pieces.material.data() + at, PatchBlock::spare, sample.material);
+                std::fill_n(pieces.sample.data() + at, PatchBlock::spare, number);
+                pieces.count += std::min(columns - first, PatchBlock::spare);
+            }
+        }
+    }
+    if (pieces.count > 0) use(pieces);
+}
+
+}  // namespace sonarsim

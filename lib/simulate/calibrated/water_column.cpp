@@ -1,0 +1,116 @@
+#include "simulate/calibrated/water_column.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/lanes.h"
+#include "core/units.h"
+#include "simulate/calibrated/decibel.h"
+#include "simulate/calibrated/levels.h"
+#include "simulate/calibrated/volume_strengths.h"
+
+namespace sonarsim {
+
+namespace {
+
+// Columns of a line array's grid are joined to channels of about this sine, one degree.
+constexpr double channel_sine = 0.018;
+
+// Directions in a cone lie on rings, those of other views in rows of elevation.
+constexpr int rings = 128;
+constexpr int ring_turns = 8;
+constexpr double row_rad = radians(1.0);
+constexpr int min_steps = 16;
+// The pattern of a side-scan sonar along the track is in row_power.
+constexpr int rows_of_sides = 4;
+
+int steps_over(double extent, double step) {
+    return std::max(static_cast<int>(std::ceil(extent / step)), min_steps);
+}
+
+/// The share of a side-scan sonar's pattern along the track that its view receives, by range; 1 for
+/// other sonars, whose directions are weighted by the whole pattern.
+double mean_along_track(const std::variant<TransducerBeams, ArrayBeams>& beams, const View& view,
+                        double range_m) {
+    const auto* const sides = std::get_if<TransducerBeams>(&beams);
+    if (sides == nullptr || sides->sides.empty()) return 1.0;
+    const double up = sincos(std::min(0.5 * view.elevation_rad, 0.5 * pi)).sin;
+    constexpr int steps = 512;
+    double sum = 0.0;
+    for (int k = 0; k < steps; ++k) {
+        const double sine = up * ((2.0 * k + 1.0) / steps - 1.0);
+        sum += std::norm(sides->along.at(static_cast<float>(sine), static_cast<float>(range_m)));
+    }
+    return sum / steps;
+}
+
+}  // namespace
+
+EqualDirections traced_directions(const View& view, const GuardBeams& guard_beams,
+                                  double step_rad) {
+    // Equal steps of the sine to the plane across an axis, and of the turn about that axis, have
+    // equal solid angles. The axis is x in a cone, else z.
+    const bool cone = view.shape == ViewShape::cone;
+    const View wide = widened_view(view, guard_beams);
+    const SinCos half = sincos(std::min(0.5 * wide.elevation_rad, 0.5 * pi));
+    const double first = cone ? half.cos : -half.sin;
+    const double last = cone ? 1.0 : half.sin;
+    const double turn = cone ? 2.0 * pi : std::min(wide.azimuth_rad, 2.0 * pi);
+    int rows = steps_over(wide.elevation_rad, row_rad);
+    if (cone) rows = rings;
+    if (view.shape == ViewShape::port_starboard) rows = rows_of_sides;
+    const int columns = cone ? ring_turns : steps_over(turn, step_rad);
+    const GuardedField field(view, guard_beams);
+    EqualDirections out{.all = {},
+                        .each_sr = static_cast<float>((last - first) * turn / rows / columns)};
+    for (int i = 0; i < rows; ++i) {
+        const double sine = first + (last - first) * (i + 0.5) / rows;
+        const double across = std::sqrt(1.0 - sine * sine);
+        for (int j = 0; j < columns; ++j) {
+            const SinCos at = sincos(turn * ((j + 0.5) / columns - 0.5));
+            const Eigen::Vector3d direction =
+                cone ? Eigen::Vector3d(sine, across * at.cos, across * at.sin)
+                     : Eigen::Vector3d(across * at.cos, across * at.sin, sine);
+            if (field.contains(direction.cast<float>())) out.all.push_back(direction.cast<float>());
+        }
+    }
+    return out;
+}
+
+std::optional<WaterColumn> water_column(const WaterConfig& water, double frequency_hz,
+                                        const View& view, const GuardBeams& guard_beams,
+                                        const std::variant<TransducerBeams, ArrayBeams>& beams,
+                                        const SonarEquation& equation) {
+    const double strength = volume_strength(water, frequency_hz);
+    if (strength == 0.0 && water.layers.empty()) return std::nullopt;
+    WaterColumn out;
+    if (strength > 0.0)
+        out.layers.push_back(
+            {0.0F, std::numeric_limits<float>::infinity(), static_cast<float>(strength)});
+    for (const WaterLayerConfig& layer : water.layers) {
+        out.layers.push_back(
+            {.top_m = static_cast<float>(layer.depth_m[0]),
+             .bottom_m = static_cast<float>(layer.depth_m[1]),
+             .strength = static_cast<float>(power_of_db(layer.scattering_db_per_m3))});
+    }
+    double step_rad = 0.5 * row_rad;
+    if (const auto* const fan = std::get_if<ArrayBeams>(&beams)) {
+        const double sine = fan->amplitudes.grid().step;
+        out.joined_columns = std::max(static_cast<int>(channel_sine / sine), 1);
+        step_rad = 0.5 * out.joined_columns * sine;
+    }
+    out.directions = traced_directions(view, guard_beams, step_rad);
+    const int padded = (equation.rows + lanes - 1) / lanes * lanes;
+    out.row_power.resize(padded);
+    for (int row = 0; row < equation.rows; ++row) {
+        const double range_m = equation.range_min_m + (row + 0.5) * equation.bin_m;
+        const double loss = equation.loss_per_m * range_m - equation.ln_headroom;
+        const double power = equation.bin_m / (range_m * range_m) * exponential(-loss) *
+                             mean_along_track(beams, view, range_m);
+        out.row_power[row] = static_cast<float>(std::min<double>(power, max_echo));
+    }
+    return out;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,189 @@
+#include "simulate/labels/hidden_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "simulate/labels/sight_lines.h"
+#include "simulate/trace/arrivals.h"
+
+namespace sonarsim {
+
+namespace {
+
+// A sight line ends after this many surfaces: four closed bodies one behind the other.
+constexpr int max_surfaces_behind = 8;
+
+// Gap behind a surface at which a sight line continues, as a share of its range.
+constexpr float step_behind = 1e-5F;
+
+/// An object that a sight line has met, and the node before it. The first node of a way refers to
+/// itself.
+struct Occluder {
+    std::uint32_t object, before;
+};
+
+/// True if the way that ends in a node has met an object.
+bool has_met(const std::vector<Occluder>& nodes, std::uint32_t node, std::uint32_t object) {
+    while (nodes[node].object != object && nodes[node].before != node)
+        node = nodes[node].before;
+    return nodes[node].object == object;
+}
+
+/// The solid angle of an object that sight lines meet, sr.
+struct SolidAngles {
+    double visible = 0.0, hidden = 0.0;
+};
+
+/// The ray that continues behind the end of a sight line, from the pose of transmission.
+Ray ray_behind(const SightLine& line, const PingMotion& motion, ViewShape shape) {
+    if (motion.is_still())
+        return {line.direction * (line.range_m * (1.0F + step_behind)), line.direction};
+    const Eigen::Vector3d measured = (line.range_m * line.direction).cast<double>();
+    const Eigen::Vector3f place = unmoved_place(motion, shape, measured).cast<float>();
+    return {place * (1.0F + step_behind), place.normalized()};
+}
+
+/// Follows the sight lines of a ping.
+class LineTracer {
+  public:
+    LineTracer(const View& view, const SceneObjects& objects, const ObjectDirections& directions,
+               HiddenSurface::By by)
+        : objects_(objects),
+          directions_(directions),
+          all_(by == HiddenSurface::By::all),
+          range_max_m_(static_cast<float>(view.range_max_m)),
+          solid_angles_(objects.objects.size()) {}
+
+    /// Counts a line as visible. True if wanted surface may lie behind it.
+    bool see(const SightLine& line) {
+        solid_angles_[owner_of(line)].visible += line.solid_angle;
+        return is_wanted(line);
+    }
+
+    /// True if wanted surface may lie behind a line.
+    bool is_wanted(const SightLine& line) const {
+        return (is_shadow(line) || directions_.may_lie_behind(line.direction, line.range_m)) &&
+               !directions_.is_empty_behind(line.direction, line.range_m);
+    }
+
+    void begin(std::vector<SightLine>& lines) {
+        nodes_.reserve(2 * lines.size());
+        for (SightLine& line : lines) {
+            line.last_node = static_cast<std::uint32_t>(nodes_.size());
+            nodes_.push_back({owner_of(line), line.last_node});
+        }
+        pieces_.reserve(2 * lines.size());
+    }
+
+    /// Records the surface that a line has met. True if the line continues.
+    bool take(SightLine& line, const Intersection& met) {
+        line.range_m = line.range_m * (1.0F + step_behind) + met.distance_m;
+        if (!(line.range_m < range_max_m_)) return false;
+        if (is_shadow(line)) {
+            pieces_.push_back({line.beam, owner_of(line), line.range_m,
+                               half_extent(line, line.range_m, met.normal), line.solid_angle});
+        }
+        const std::uint32_t object = objects_.object_of(met.instance);
+        if (!has_met(nodes_, line.last_node, object)) {
+            solid_angles_[object].hidden += line.solid_angle;
+            nodes_.push_back({object, line.last_node});
+            line.last_node = static_cast<std::uint32_t>(nodes_.size() - 1);
+        }
+        return is_wanted(line);
+    }
+
+    HiddenSurface finish() {
+        HiddenSurface out{std::move(pieces_), {}};
+        for (const SolidAngles& of : solid_angles_)
+            out.visible_shares.push_back(static_cast<float>(of.visible / (of.visible + of.hidden)));
+        return out;
+    }
+
+  private:
+    std::uint32_t owner_of(const SightLine& line) const {
+        return objects_.object_of(line.sample->instance);
+    }
+    bool is_shadow(const SightLine& line) const {
+        return all_ || !objects_.is_background(owner_of(line));
+    }
+
+    const SceneObjects& objects_;
+    const ObjectDirections& directions_;
+    bool all_;  ///< background hides surface, too
+    float range_max_m_;
+    std::vector<Occluder> nodes_;
+    std::vector<SolidAngles> solid_angles_;  ///< indexed by object
+    std::vector<HiddenPiece> pieces_;
+};
+
+}  // namespace
+
+HiddenSurface find_hidden_surface(const TracedPing& traced, const SurfaceEchoes& echoes,
+                                  const View& view, const SceneObjects& objects,
+                                  const VisibilityEngine& engine,
+                                  const ObjectDirections& directions, HiddenSurface::By by) {
+    std::vector<Ray> rays;
+    std::vector<Intersection> met;
+    const auto cast = [&](std::span<const SightLine> lines) {
+        met.resize(lines.size());
+        rays.clear();
+        for (const SightLine& line : lines)
+            rays.push_back(ray_behind(line, traced.motion, view.shape));
+        engine.intersect_behind(traced.T_world_sensor, rays, static_cast<float>(view.range_max_m),
+                                met);
+    };
+    LineTracer tracer(view, objects, directions, by);
+    std::vector<SightLine> lines = sight_lines(
+        traced, echoes, view.beams, [&](const SightLine& line) { return tracer.see(line); });
+    if (echoes.cones.exist()) {
+        // Nothing lies behind most floors and walls, so one line finds out before many are cast.
+        cast(lines);
+        std::vector<SightLine> with_surface;
+        for (std::size_t k = 0; k < lines.size(); ++k) {
+            if (std::isfinite(met[k].distance_m)) with_surface.push_back(lines[k]);
+        }
+        lines = divided(with_surface, echoes.cones,
+                        [&](const SightLine& line) { return tracer.is_wanted(line); });
+    }
+    tracer.begin(lines);
+    for (int layer = 0; layer < max_surfaces_behind && !lines.empty(); ++layer) {
+        cast(lines);
+        std::size_t going_on = 0;
+        for (std::size_t k = 0; k < lines.size(); ++k) {
+            if (tracer.take(lines[k], met[k])) lines[going_on++] = lines[k];
+        }
+        lines.resize(going_on);
+    }
+    return tracer.finish();
+}
+
+std::vector<HiddenPiece> hidden_by_objects(const std::vector<HiddenPiece>& pieces,
+                                           const SceneObjects& objects) {
+    std::vector<HiddenPiece> out;
+    out.reserve(pieces.size());
+    std::ranges::copy_if(pieces, std::back_inserter(out), [&](const HiddenPiece& hidden) {
+        return !objects.is_background(hidden.object);
+    });
+    return out;
+}
+
+std::vector<std::uint8_t> hidden_bins(const std::vector<HiddenPiece>& pieces, const RangeBins& bins,
+                                      int beams) {
+    std::vector<std::uint8_t> covered(static_cast<std::size_t>(beams) * bins.count);
+    const auto bin_at = [&](float range_m) {
+        const float bin = std::floor((range_m - bins.min_m) / bins.bin_m);
+        return static_cast<int>(std::clamp(bin, -1.0F, static_cast<float>(bins.count)));
+    };
+    for (const HiddenPiece& hidden : pieces) {
+        std::uint8_t* const own = &covered[static_cast<std::size_t>(hidden.beam) * bins.count];
+        const int first = std::max(bin_at(hidden.range_m - hidden.half_m), 0);
+        const int last = std::min(bin_at(hidden.range_m + hidden.half_m), bins.count - 1);
+        for (int i = first; i <= last; ++i)
+            own[i] = 1;
+    }
+    return covered;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "input/scene/objects.h"
+#include "input/scene/placing/bottom.h"
+#include "simulate/labels/object_directions.h"
+#include "simulate/ping/form_image.h"
+#include "simulate/visibility/triangle_runs.h"
+
+namespace sonarsim {
+
+/// The labels to find for the bins of a ping.
+struct LabelRequest {
+    bool objects = false;
+    bool shares = false;  ///< needs objects: share, second, second_share and multipath
+    bool classes = false;
+    bool materials = false;
+    bool elevation = false;
+    bool shadow = false;
+    bool height = false;
+    /// Needs objects: the data of annotations, for objects that are no background.
+    bool annotations = false;
+    std::span<const ObjectSphere> annotated = {};  ///< spheres around the annotated objects
+    /// A box around all surface, world; null: not known, which only slows shadows down.
+    const Eigen::AlignedBox3d* surface = nullptr;
+    /// The triangles of the scene, for shadows; null: they are sorted in each ping.
+    const TriangleRuns* triangles = nullptr;
+    const Bottom* bottom = nullptr;  ///< reference of heights; null: nothing has a height
+};
+
+/// The labels of the bins of one ping, [beams, range_bins], beam after beam. Ids are 1 + the index
+/// into SceneObjects::objects, its classes or Scene::materials; 0 is none. Labels that were not
+/// requested are empty.
+struct PingLabels {
+    int range_bins = 0;
+    int beams = 0;
+    std::vector<std::uint16_t> object;  ///< the object that gives most of the bin's echo
+    std::vector<float> share;           ///< its share of that echo; 0 without an echo
+    std::vector<std::uint16_t> second;  ///< the object that gives most of the rest
+    std::vector<float> second_share;
+    std::vector<std::uint16_t> class_id;      ///< the class that gives most of the echo
+    std::vector<std::uint16_t> material;      ///< the material that gives most of it
+    std::vector<float> multipath;             ///< share of the echo that came over a second surface
+    std::vector<float> elevation_rad;         ///< mean of the visible surface; NaN without any
+    std::vector<float> elevation_spread_rad;  ///< its standard deviation within the bin
+    std::vector<float> height_m;              ///< above the bottom; NaN where there is none
+    std::vector<std::uint16_t> shadow;        ///< the object that hides the bin's surface
+    /// For annotations: as `shadow`, but only objects that are no background hide.
+    std::vector<std::uint16_t> object_shadow;
+    /// With the shadow or for annotations, by object: the visible share of its solid angle; NaN for
+    /// an object out of view and, without the shadow, for background.
+    std::vector<float> visible_share;
+
+    std::size_t size() const { return static_cast<std::size_t>(range_bins) * beams; }
+};
+
+/// Finds the origin of the echo of every bin of a traced ping, without noise: the echoes are those
+/// of EchoModel::surface_echoes(). A multipath echo counts for the specular surface. A pure
+/// function of its arguments; one ping on one thread.
+PingLabels label_ping(const TracedPing& traced, const PingSettings& settings, const Scene& scene,
+                      const SceneObjects& objects, const VisibilityEngine& engine,
+                      const LabelRequest& request);
+
+}  // namespace sonarsim

@@ -1,0 +1,27 @@
+#include "simulate/labels/range_path.h"
+
+#include "simulate/trace/arrivals.h"
+#include "simulate/visibility/range_extent.h"
+
+namespace sonarsim {
+
+RangePath range_path(const EchoPatch& patch) {
+    const auto [range, d] = arrival_of(patch.position);
+    const float u = d.dot(patch.edge_u);
+    const float v = d.dot(patch.edge_v);
+    const RangeExtent along_u = extent_of(patch.edge_u.squaredNorm(), std::fabs(u), range);
+    const RangeExtent along_v = extent_of(patch.edge_v.squaredNorm(), std::fabs(v), range);
+    const double depth_2 = static_cast<double>(u) * u + static_cast<double>(v) * v;
+    Eigen::Vector3f path = Eigen::Vector3f::Zero();
+    if (depth_2 > 0.0) {
+        path = (u * patch.edge_u + v * patch.edge_v) / static_cast<float>(depth_2);
+    }
+    return {.range_m = range,
+            .before_m = along_u.before + along_v.before,
+            .after_m = along_u.after + along_v.after,
+            .depth_m = std::fabs(u) + std::fabs(v),
+            .bend = path.squaredNorm(),
+            .per_range = path};
+}
+
+}  // namespace sonarsim

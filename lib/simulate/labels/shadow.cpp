@@ -1,0 +1,115 @@
+#include "simulate/labels/shadow.h"
+
+#include <algorithm>
+#include <array>
+
+namespace sonarsim {
+
+namespace {
+
+/// Replaces each 0 by the nearest other value; at equal distance by the lower one. False: all are
+/// 0.
+bool fill_gaps(std::span<std::uint16_t> ids) {
+    const auto count = static_cast<int>(ids.size());
+    int before = -1;
+    for (int i = 0; i <= count; ++i) {
+        if (i < count && ids[i] == 0) continue;
+        if (i == count && before < 0) return false;
+        for (int k = before + 1; k < i; ++k) {
+            const bool lower = before >= 0 && (i == count || k - before <= i - k);
+            ids[k] = ids[lower ? before : i];
+        }
+        before = i;
+    }
+    return true;
+}
+
+bool has_dark_bins(std::span<const std::uint8_t> covered, std::span<const std::uint8_t> occupied) {
+    std::uint8_t dark = 0;  // no bool, so that the loop vectorises
+    for (std::size_t i = 0; i < covered.size(); ++i)
+        dark |= covered[i] > occupied[i] ? std::uint8_t{1} : std::uint8_t{0};
+    return dark != 0;
+}
+
+/// Gives the bins in shadow their owners. False: some have none. No branches, so that the loop
+/// vectorises.
+bool name_dark_bins(std::span<const std::uint8_t> covered, std::span<const std::uint8_t> occupied,
+                    std::span<const std::uint16_t> owners, std::span<std::uint16_t> shadow) {
+    std::uint16_t without = 0;
+    std::uint16_t* const __restrict out = shadow.data();
+    for (std::size_t i = 0; i < covered.size(); ++i) {
+        const std::uint16_t dark = covered[i] > occupied[i] ? 0xFFFF : 0;
+        out[i] = owners[i] & dark;
+        without |= owners[i] == 0 ? dark : std::uint16_t{0};
+    }
+    return without == 0;
+}
+
+EchoSums sums_of(std::span<const HiddenPiece> pieces, const View& view) {
+    EchoSums sums(range_bins(view), view.beams);
+    EchoBlock block;
+    block.intensity.fill(1.0F);
+    std::array<std::uint32_t, EchoBlock::most> objects;
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+        const int at = block.count++;
+        const HiddenPiece& hidden = pieces[k];
+        block.range_m[at] = hidden.range_m;
+        block.half_m[at] = hidden.half_m;
+        block.weight[at] = hidden.solid_angle;
+        block.beam[at] = hidden.beam;
+        objects[at] = hidden.object;
+        if (block.count < EchoBlock::most && k + 1 < pieces.size()) continue;
+        sums.add(block, objects);
+        block.count = 0;
+    }
+    return sums;
+}
+
+/// All sources, each with its number for a key.
+std::vector<KeyedSource> sources_of(const EchoSums& sums) {
+    std::vector<KeyedSource> sources;
+    for (std::uint32_t k = 0; k < sums.sources(); ++k)
+        sources.push_back({k, k});
+    return sources;
+}
+
+}  // namespace
+
+ShadowFinder::ShadowFinder(std::span<const HiddenPiece> pieces, const View& view)
+    : full_turn_(is_full_turn(view)),
+      range_bins_(static_cast<std::size_t>(view.range_bins)),
+      sums_(sums_of(pieces, view)),
+      finder_(sources_of(sums_)),
+      owners_(view.beams) {}
+
+std::vector<std::uint16_t>& ShadowFinder::owners(int j) {
+    std::vector<std::uint16_t>& owners = owners_[j];
+    if (owners.empty()) {
+        owners.resize(range_bins_);
+        finder_.find(sums_, j, {owners, {}});
+    }
+    return owners;
+}
+
+std::span<const std::uint16_t> ShadowFinder::nearest_owners(int j) {
+    const auto beams = static_cast<int>(owners_.size());
+    for (int away = 0; away < beams; ++away) {
+        for (int beam : {j - away, j + away}) {
+            if (full_turn_) beam = (beam + beams) % beams;
+            if (beam < 0 || beam >= beams) continue;
+            if (fill_gaps(owners(beam))) return owners(beam);
+        }
+    }
+    return owners(j);
+}
+
+void ShadowFinder::find(int j, std::span<const std::uint8_t> covered,
+                        std::span<const std::uint8_t> occupied, std::span<std::uint16_t> shadow) {
+    std::ranges::fill(shadow, 0);
+    if (sums_.sources() == 0 || !has_dark_bins(covered, occupied)) return;
+    // The nearest owners are needed only where no line ends in a dark bin.
+    if (!name_dark_bins(covered, occupied, owners(j), shadow))
+        name_dark_bins(covered, occupied, nearest_owners(j), shadow);
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,117 @@
+#include "simulate/labels/sight_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "simulate/trace/arrivals.h"
+
+namespace sonarsim {
+
+namespace {
+
+// Surface that is seen edge-on covers all ranges; its extent is limited to this share of its range.
+constexpr float longest_half = 0.1F;
+
+/// The sight line behind a place of a sample.
+SightLine line_behind(const Sample& sample, const Arrival& place, float share_u, float share_v,
+                      int beam) {
+    const auto& [range, direction] = place;
+    return {.direction = direction,
+            .before_m = range,
+            .range_m = range,
+            .solid_angle =
+                share_u * share_v * sample.area_m2 * sample.height_m / (range * range * range),
+            .sample = &sample,
+            .share_u = share_u,
+            .share_v = share_v,
+            .beam = static_cast<std::uint32_t>(beam)};
+}
+
+/// The number of parts, at least 1, of an edge across the line of sight: each spans one beam of the
+/// array, and two of their widths along the beam. With one width, 182 instead of 339 of 17,700 bins
+/// of shadow are too many (three pings of tank_layers), for 1.57 instead of 1.24 times the time.
+/// Chosen there.
+int parts_of(const Eigen::Vector3f& half_edge, const SightLine& line, const ConeBeams& cones) {
+    constexpr float along_beam = 2.0F;
+    constexpr float most = 64.0F;
+    const Eigen::Vector3f across = half_edge - line.direction * line.direction.dot(half_edge);
+    const float width = 0.5F * line.before_m * cones.mean_width();
+    const float parts = std::max(std::fabs(across.y()), across.norm() / along_beam) / width;
+    return static_cast<int>(std::ceil(std::clamp(parts, 1.0F, most)));
+}
+
+/// The change of a plane's range along the half edge of the footprint in front of it.
+float range_along(const Eigen::Vector3f& edge, const Eigen::Vector3f& direction, float before_m,
+                  const Eigen::Vector3f& normal, float range_m) {
+    const Eigen::Vector3f turn = (edge - direction * direction.dot(edge)) / before_m;
+    return std::fabs(range_m * normal.dot(turn) / normal.dot(direction));
+}
+
+}  // namespace
+
+std::vector<SightLine> sight_lines(const TracedPing& traced, const SurfaceEchoes& echoes, int beams,
+                                   const KeepLine& keep) {
+    const Samples& samples = traced.samples;
+    std::vector<SightLine> lines;
+    const auto add = [&](const Sample& sample, const Arrival& place, int beam) {
+        const SightLine line = line_behind(sample, place, 1.0F, 1.0F, beam);
+        if (keep(line)) lines.push_back(line);
+    };
+    if (echoes.cones.exist()) {
+        for (const std::vector<Sample>* const all : {&samples.items, &traced.outside_sector}) {
+            for (const Sample& sample : *all) {
+                const Arrival place = arrival_of(sample.position);
+                if (const int beam = echoes.cones.beam(place.direction.y()); beam >= 0)
+                    add(sample, place, beam);
+            }
+        }
+        return lines;
+    }
+    for (int j = 0; j < beams; ++j) {
+        for (const Sample& sample : samples.beam(j)) {
+            const std::ptrdiff_t k = &sample - samples.items.data();
+            if (echoes.received.empty() || echoes.received[static_cast<std::size_t>(k)] != 0)
+                add(sample, arrival_of(sample.position), j);
+        }
+    }
+    return lines;
+}
+
+std::vector<SightLine> divided(std::span<const SightLine> lines, const ConeBeams& cones,
+                               const KeepLine& keep) {
+    std::vector<SightLine> out;
+    for (const SightLine& line : lines) {
+        const Sample& sample = *line.sample;
+        const int rows = parts_of(sample.edge_u, line, cones);
+        const int columns = parts_of(sample.edge_v, line, cones);
+        const float share_u = 1.0F / static_cast<float>(rows);
+        const float share_v = 1.0F / static_cast<float>(columns);
+        for (int i = 0; i < rows; ++i) {
+            const float u = static_cast<float>(2 * i + 1) * share_u - 1.0F;
+            for (int j = 0; j < columns; ++j) {
+                const float v = static_cast<float>(2 * j + 1) * share_v - 1.0F;
+                const Arrival place =
+                    arrival_of(sample.position + u * sample.edge_u + v * sample.edge_v);
+                const int beam = cones.beam(place.direction.y());
+                if (beam < 0) continue;
+                const SightLine part = line_behind(sample, place, share_u, share_v, beam);
+                if (keep(part)) out.push_back(part);
+            }
+        }
+    }
+    return out;
+}
+
+float half_extent(const SightLine& line, float range_m, const Eigen::Vector3f& normal) {
+    const Sample& sample = *line.sample;
+    const auto along = [&](const Eigen::Vector3f& edge) {
+        return range_along(edge, line.direction, line.before_m, normal, range_m);
+    };
+    const float half = line.share_u * along(sample.edge_u) + line.share_v * along(sample.edge_v);
+    const float most = longest_half * range_m;
+    // The quotient may be NaN for a plane that is seen edge-on.
+    return half < most ? half : most;
+}
+
+}  // namespace sonarsim

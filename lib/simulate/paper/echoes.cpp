@@ -1,0 +1,126 @@
+#include "simulate/paper/echoes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "simulate/paper/footprint.h"
+#include "simulate/trace/arrivals.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr int lanes = 8;
+
+constexpr std::array<float, lanes> lane_numbers = {0, 1, 2, 3, 4, 5, 6, 7};
+
+/// The destination of the echoes of a footprint.
+struct EchoSlots {
+    float* range_m;
+    float* half_m;
+    float* weight;
+    float* intensity;
+    std::uint32_t* cell_low;  ///< null without scatterer cells
+    std::uint32_t* cell_high;
+};
+
+EchoSlots slots_at(Echoes& echoes, std::size_t at, bool cells) {
+    return {.range_m = echoes.range_m.data() + at,
+            .half_m = echoes.half_m.data() + at,
+            .weight = echoes.weight.data() + at,
+            .intensity = echoes.intensity.data() + at,
+            .cell_low = cells ? echoes.cell_low.data() + at : nullptr,
+            .cell_high = cells ? echoes.cell_high.data() + at : nullptr};
+}
+
+std::int32_t whole(float x) {
+    return static_cast<std::int32_t>(std::floor(x));
+}
+
+/// c + s u + t v of footprint k, along one axis.
+float along(const Footprints::Vectors& c, const Footprints::Vectors& u,
+            const Footprints::Vectors& v, int axis, std::size_t k, float s, float t) {
+    return std::fma(s, u[axis][k], std::fma(t, v[axis][k], c[axis][k]));
+}
+
+/// Writes the echoes of footprint k, of `count` pieces, and up to seven lanes more.
+void write_pieces(const Footprints& f, std::size_t k, int count, const EchoSlots& to) {
+    const float row_length = f.v[k];
+    const float per_row = 1.0F / row_length;
+    const float u_step = 2.0F / f.u[k];
+    const float v_step = 2.0F / row_length;
+    const float shift = f.shift_m[k];
+    const float height = f.height_m[k];
+    const float reflection = f.reflection[k];
+    for (int first = 0; first < count; first += lanes) {
+        std::array<float, lanes> s, t;
+        const auto start = static_cast<float>(first);
+        for (int lane = 0; lane < lanes; ++lane) {
+            const float piece = start + lane_numbers[lane];
+            const float row = std::floor((piece + 0.5F) * per_row);
+            s[lane] = (row + 0.5F) * u_step - 1.0F;
+            t[lane] = (piece - row * row_length + 0.5F) * v_step - 1.0F;
+        }
+        float* const __restrict range_m = to.range_m + first;
+        float* const __restrict intensity = to.intensity + first;
+        for (int lane = 0; lane < lanes; ++lane) {
+            const float x = along(f.position, f.edge_u, f.edge_v, 0, k, s[lane], t[lane]);
+            const float y = along(f.position, f.edge_u, f.edge_v, 1, k, s[lane], t[lane]);
+            const float z = along(f.position, f.edge_u, f.edge_v, 2, k, s[lane], t[lane]);
+            const float r = piece_range(x, y, z);
+            range_m[lane] = r + shift;
+            intensity[lane] = reflection * std::min(height / r, 1.0F);
+        }
+        std::fill_n(to.half_m + first, lanes, f.half_m[k]);
+        std::fill_n(to.weight + first, lanes, f.weight[k]);
+        if (!to.cell_low) continue;
+        std::uint32_t* const __restrict low = to.cell_low + first;
+        std::uint32_t* const __restrict high = to.cell_high + first;
+        for (int lane = 0; lane < lanes; ++lane) {
+            const CellName name =
+                cell_name(whole(along(f.cell, f.cell_u, f.cell_v, 0, k, s[lane], t[lane])),
+                          whole(along(f.cell, f.cell_u, f.cell_v, 1, k, s[lane], t[lane])),
+                          whole(along(f.cell, f.cell_u, f.cell_v, 2, k, s[lane], t[lane])));
+            low[lane] = name.low;
+            high[lane] = name.high;
+        }
+    }
+}
+
+}  // namespace
+
+void Echoes::resize(std::size_t count, bool cells) {
+    RangeBoxes::resize(count);
+    if (cells) {
+        cell_low.resize(count);
+        cell_high.resize(count);
+    }
+}
+
+void direct_echoes(std::span<const Sample> samples, std::span<const Material> materials,
+                   float bin_m, const ScattererLattice& lattice, Echoes& echoes,
+                   std::vector<std::uint32_t>* ends) {
+    if (ends) ends->clear();
+    const bool named = lattice.exists();
+    std::size_t end = 0;
+    Footprints footprints;
+    for (std::size_t begin = 0; begin < samples.size(); begin += Footprints::most) {
+        const auto block =
+            samples.subspan(begin, std::min<std::size_t>(Footprints::most, samples.size() - begin));
+        cut_footprints(block, materials, bin_m, lattice, footprints);
+        for (std::size_t k = 0; k < block.size(); ++k) {
+            const int count = static_cast<int>(footprints.u[k] * footprints.v[k]);
+            // write_pieces() writes whole vectors: the next sample overwrites the surplus lanes.
+            if (end + count + lanes > echoes.size()) {
+                echoes.resize(2 * (end + count + lanes), named);
+            }
+            write_pieces(footprints, k, count, slots_at(echoes, end, named));
+            end += count;
+            if (ends) ends->push_back(static_cast<std::uint32_t>(end));
+        }
+    }
+    echoes.resize(end, named);
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,115 @@
+#include "simulate/paper/pixel_noise.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/elementary.h"
+#include "core/normal_pair.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr std::size_t pixels_per_block = 128;
+constexpr std::size_t half_block = pixels_per_block / 2;
+
+using Lane = std::array<float, pixels_per_block>;
+
+// The second word of a Philox counter is the purpose of the draw, the first its number.
+constexpr std::uint32_t additive = 0;
+constexpr std::uint32_t multiplicative = 1;
+
+/// `count` pairs of random words from counter number `first` on.
+template <std::size_t count>
+void draw_words(std::uint32_t first, std::uint32_t purpose, PhiloxKey key,
+                std::array<std::uint32_t, count>& a, std::array<std::uint32_t, count>& b) {
+    for (std::size_t k = 0; k < count; ++k)
+        a[k] = first + static_cast<std::uint32_t>(k);
+    b.fill(purpose);
+    philox_pairs(a.data(), b.data(), count, key);
+}
+
+/// A draw of Rayleigh(1) for each pixel of a block, by inversion: sqrt(-2 ln u). One counter serves
+/// two pixels.
+void draw_rayleigh(std::uint32_t block, PhiloxKey key, Lane& out) {
+    std::array<std::uint32_t, half_block> a, b;
+    draw_words(block * half_block, additive, key, a, b);
+    for (std::size_t k = 0; k < half_block; ++k) {
+        out[k] = std::sqrt(-2.0F * natural_log(unit_float(a[k])));
+        out[half_block + k] = std::sqrt(-2.0F * natural_log(unit_float(b[k])));
+    }
+}
+
+/// The draws of normal_pair() for each word.
+template <std::size_t count>
+void draw_pairs(const std::array<std::uint32_t, count>& words, float* __restrict first,
+                float* __restrict second) {
+    for (std::size_t k = 0; k < count; ++k) {
+        const NormalPair pair = normal_pair(words[k]);
+        first[k] = pair.first;
+        second[k] = pair.second;
+    }
+}
+
+/// A draw of normal(0, 1) for each pixel of a block. One counter serves four pixels.
+void draw_normal(std::uint32_t block, PhiloxKey key, Lane& out) {
+    constexpr std::size_t quarter = pixels_per_block / 4;
+    std::array<std::uint32_t, quarter> a, b;
+    draw_words(block * quarter, multiplicative, key, a, b);
+    draw_pairs(a, out.data(), out.data() + quarter);
+    draw_pairs(b, out.data() + 2 * quarter, out.data() + 3 * quarter);
+}
+
+bool any_signal(std::span<const float> pixels) {
+    // No early return: the whole block in vectors is faster.
+    int occupied = 0;
+    for (const float pixel : pixels)
+        occupied |= pixel != 0.0F ? 1 : 0;
+    return occupied != 0;
+}
+
+/// s sigma_a of the pixels from number `first` on.
+void add_scales(const PixelNoise& noise, std::size_t first, std::size_t count, Lane& out) {
+    const std::size_t columns = noise.lobe_scale.size();
+    std::size_t row = first / columns;
+    std::size_t column = first % columns;
+    for (std::size_t k = 0; k < count; ++row, column = 0) {
+        const std::size_t end = std::min(k + columns - column, count);
+        for (; k < end; ++k, ++column)
+            out[k] = noise.range_scale[row] * noise.lobe_scale[column] * noise.add_sigma;
+    }
+}
+
+int apply(std::span<float> pixels, const PixelNoise& noise, const Lane& scale, const Lane& normal,
+          const Lane& rayleigh) {
+    int negative = 0;
+    for (std::size_t k = 0; k < pixels.size(); ++k) {
+        const float gain = std::fma(noise.mult_sigma, normal[k], noise.gain);
+        const float value = std::fma(pixels[k], gain, scale[k] * rayleigh[k]);
+        negative += value < 0.0F ? 1 : 0;
+        pixels[k] = value < 0.0F ? 0.0F : value;
+    }
+    return negative;
+}
+
+}  // namespace
+
+std::uint64_t add_pixel_noise(std::span<float> image, const PixelNoise& noise, PhiloxKey key) {
+    std::uint64_t negative = 0;
+    Lane scale{};
+    Lane normal{};
+    Lane rayleigh{};
+    for (std::size_t begin = 0; begin < image.size(); begin += pixels_per_block) {
+        const auto block = static_cast<std::uint32_t>(begin / pixels_per_block);
+        const auto pixels = image.subspan(begin, std::min(pixels_per_block, image.size() - begin));
+        add_scales(noise, begin, pixels.size(), scale);
+        draw_rayleigh(block, key, rayleigh);
+        // The normal draws multiply the signal; a block without signal does not need new ones.
+        if (any_signal(pixels)) draw_normal(block, key, normal);
+        negative += apply(pixels, noise, scale, normal, rayleigh);
+    }
+    return negative;
+}
+
+}  // namespace sonarsim

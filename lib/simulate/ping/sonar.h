@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/pose.h"
+#include "input/mission/mission.h"
+#include "simulate/ping/form_image.h"
+#include "simulate/water/sound_profile.h"
+
+namespace sonarsim {
+
+/// A sonar ready to ping: its configuration and everything that is derived from it.
+struct Sonar {
+    SonarConfig config;
+    Pose T_vehicle_sensor;  ///< with a turning head at angle 0
+    PingSettings settings;
+    std::vector<double> range_edges_m;      ///< range_bins + 1
+    std::vector<double> azimuth_edges_rad;  ///< fan only: beams + 1, from starboard (-) to port (+)
+    std::vector<double> beam_azimuths_rad;  ///< fan only: azimuths of the beams' axes
+    bool equal_azimuth = true;              ///< the beams of a fan are equal in azimuth
+    /// The angles of a head that turns from ping to ping about the sensor's z axis, positive to
+    /// port; they repeat. Empty for a fixed sonar.
+    std::vector<double> head_angles_rad;
+    /// The profile of the water, for soundings; null: sound goes straight.
+    std::shared_ptr<const SoundProfile> sound_profile;
+    /// Its motion during a ping, by pose of the trajectory; null: it stands still.
+    std::shared_ptr<const std::vector<PingMotion>> motions;
+};
+
+/// The angle of the head at the pose with this index on the trajectory; 0 for a fixed sonar.
+double head_angle_rad(const Sonar& sonar, std::uint32_t pose);
+
+/// Finds the column of the image, from 0 to the number of columns, in which an azimuth of the fan
+/// lies. The sonar must outlive it.
+class ColumnFinder {
+  public:
+    explicit ColumnFinder(const Sonar& sonar);
+    double operator()(double azimuth_rad) const;
+
+  private:
+    const Sonar& sonar_;
+    std::vector<double> sines_;  ///< sines of the beams' edges
+};
+
+/// T_world_sensor at that pose.
+Pose sensor_pose(const Sonar& sonar, const Pose& T_world_vehicle, std::uint32_t pose);
+
+}  // namespace sonarsim

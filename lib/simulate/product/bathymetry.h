@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "simulate/product/picture.h"
+
+namespace sonarsim {
+
+/// The least quality of a sounding in a map.
+inline constexpr double map_quality = 0.5;
+
+/// The largest number of cells of a map.
+inline constexpr double max_map_cells = 1 << 24;
+
+/// The ground that the soundings of a map cover.
+struct SoundingBounds {
+    Eigen::Vector2d min = Eigen::Vector2d::Zero();  ///< world x, y, m
+    Eigen::Vector2d max = Eigen::Vector2d::Zero();
+    std::uint64_t count = 0;
+
+    void add(const Eigen::Vector3d& position);
+};
+
+/// Mean height of the soundings in each cell of a north-up grid: row 0 has the greatest y, column 0
+/// the least x. Cells begin at multiples of their size, so that grids of one size fit together.
+struct Bathymetry {
+    double cell_m = 0.0;
+    double west_m = 0.0;        ///< world x of the left edge
+    double north_m = 0.0;       ///< world y of the upper edge
+    double first_column = 0.0;  ///< number of the left column; a cell k covers [k, k + 1) cell_m
+    double first_row = 0.0;     ///< number of the upper row along y
+    int columns = 0;
+    int rows = 0;
+    std::vector<double> sum;           ///< [rows, columns], sums of world z
+    std::vector<std::uint32_t> count;  ///< [rows, columns]
+
+    void add(const Eigen::Vector3d& position);
+    /// The mean heights [rows, columns], m; NaN in cells without soundings.
+    std::vector<float> mean_z() const;
+};
+
+/// An empty grid over the bounds. With `cell_m` 0 the cell size is 1, 2 or 5
+/// times a power of ten, chosen so that a cell has four evenly spread soundings on average. Cells
+/// are larger than the key says if the grid would exceed 2^24 cells.
+Bathymetry make_bathymetry(const SoundingBounds& bounds, double cell_m);
+
+/// Draws the map: colours by depth, exaggerated relief shaded by light from the north-west, a scale
+/// bar and a legend. Cells without soundings are dark. At most 4,096 pixels a side.
+Picture draw_bathymetry(const Bathymetry& bathymetry);
+
+}  // namespace sonarsim

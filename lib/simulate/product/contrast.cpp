@@ -1,0 +1,124 @@
+#include "simulate/product/contrast.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "core/elementary.h"
+#include "core/units.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// The marked bins of one range, and their surroundings.
+struct RangeLevels {
+    int first = 0, last = -1;  ///< lines
+    int count = 0, count_around = 0;
+    double level = 0.0, level_around = 0.0;
+
+    int width() const { return std::max(last - first + 1, 2); }
+};
+
+/// The index of the first bin of a box on a line.
+std::size_t first_bin_of(const LevelMap& map, int line, const BinBox& box) {
+    return static_cast<std::size_t>(map.line_at(line)) * map.bins + box.first_bin;
+}
+
+/// The marked bins of a box, range by range.
+std::vector<RangeLevels> marked_levels(const LevelMap& map, std::span<const std::uint16_t> marks,
+                                       std::uint16_t id, const BinBox& box) {
+    std::vector<RangeLevels> ranges(static_cast<std::size_t>(box.last_bin - box.first_bin) + 1);
+    for (int line = box.first_line; line <= box.last_line; ++line) {
+        const std::size_t begin = first_bin_of(map, line, box);
+        for (std::size_t k = 0; k < ranges.size(); ++k) {
+            if (marks[begin + k] != id) continue;
+            RangeLevels& range = ranges[k];
+            if (range.count++ == 0) range.first = line;
+            range.last = line;
+            range.level += map.level[begin + k];
+        }
+    }
+    return ranges;
+}
+
+/// Adds the bins around those that are marked.
+void add_surroundings(const LevelMap& map, const BinBox& box,
+                      std::span<const std::uint8_t> is_background,
+                      std::vector<RangeLevels>& ranges) {
+    int widest = 0;
+    for (const RangeLevels& range : ranges)
+        widest = std::max(widest, range.width());
+    int first = box.first_line - widest;
+    if (!map.full_turn) first = std::max(first, 0);
+    const int end = map.full_turn ? first + map.lines : map.lines;
+    for (int line = first; line < std::min(box.last_line + widest + 1, end); ++line) {
+        const std::size_t begin = first_bin_of(map, line, box);
+        for (std::size_t k = 0; k < ranges.size(); ++k) {
+            RangeLevels& range = ranges[k];
+            const int width = range.width();
+            if (range.count == 0 || line < range.first - width || line > range.last + width)
+                continue;
+            const std::uint16_t object = map.object[begin + k];
+            const bool is_bare = object == 0 || is_background[object] != 0;
+            if (!is_bare || (!map.shadow.empty() && map.shadow[begin + k] != 0)) continue;
+            range.level_around += map.level[begin + k];
+            ++range.count_around;
+        }
+    }
+}
+
+double decibel_of(double ratio) {
+    constexpr double limit_db = 100.0;
+    constexpr double least = 1e-10;
+    if (!(ratio > least)) return -limit_db;
+    if (!(ratio < 1.0 / least)) return limit_db;
+    return db_of_e * natural_log(static_cast<float>(ratio));
+}
+
+}  // namespace
+
+void BinBox::extend(int line, int bin) {
+    if (is_empty()) *this = {line, line, bin, bin};
+    first_line = std::min(first_line, line);
+    last_line = std::max(last_line, line);
+    first_bin = std::min(first_bin, bin);
+    last_bin = std::max(last_bin, bin);
+}
+
+BinBox over_seam(const LevelMap& map, std::span<const std::uint16_t> marks, std::uint16_t id,
+                 BinBox box) {
+    if (!map.full_turn || box.first_line > 0 || box.last_line + 1 < map.lines) return box;
+    // The widest gap between two marked lines is not the object's.
+    int before = 0;
+    int widest = 0;
+    for (int line = 1; line < map.lines; ++line) {
+        const auto bins = marks.subspan(static_cast<std::size_t>(line) * map.bins, map.bins);
+        if (std::ranges::find(bins, id) == bins.end()) continue;
+        if (line - before > widest) {
+            widest = line - before;
+            box.first_line = line - map.lines;
+            box.last_line = before;
+        }
+        before = line;
+    }
+    return box;
+}
+
+std::optional<double> contrast_db(const LevelMap& map, std::span<const std::uint16_t> marks,
+                                  std::uint16_t id, const BinBox& marked,
+                                  std::span<const std::uint8_t> is_background) {
+    const BinBox box = over_seam(map, marks, id, marked);
+    std::vector<RangeLevels> ranges = marked_levels(map, marks, id, box);
+    add_surroundings(map, box, is_background, ranges);
+    double own = 0.0;
+    double around = 0.0;
+    for (const RangeLevels& range : ranges) {
+        if (range.count == 0 || range.count_around == 0) continue;
+        own += range.level;
+        around += range.level_around / range.count_around * range.count;
+    }
+    if (own > 0.0 || around > 0.0) return decibel_of(own / around);
+    return std::nullopt;
+}
+
+}  // namespace sonarsim

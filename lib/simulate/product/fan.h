@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "simulate/ping/sonar.h"
+#include "simulate/product/even_kernel.h"
+#include "simulate/trace/ping.h"
+
+namespace sonarsim {
+
+/// The frame of a sonar's fan: boresight up, port on the left, the apex in the middle column and
+/// `range_max / pixel_m` pixels below the upper edge, which is the lower edge unless the sector is
+/// wider than 180 degrees.
+struct FanFrame {
+    int width = 0;   ///< px
+    int height = 0;  ///< px, at most twice the width
+    double pixel_m = 0.0;
+};
+
+/// The frame of an image exactly `width_px` wide; a narrow sector is centred in it. 0 means one
+/// pixel per range bin, at most 1024.
+FanFrame fan_frame(const Sonar& sonar, int width_px = 0);
+
+/// The place of a pixel's centre in the fan.
+struct FanPlace {
+    double x_m;  ///< ahead
+    double y_m;  ///< to port
+    double range_m;
+    double azimuth_rad;
+};
+FanPlace fan_place(const FanFrame& frame, double range_max_m, double column, double row);
+bool is_inside_sector(const View& view, const FanPlace& place);
+
+/// The mapping from a sonar's bins to the pixels of its fan, made once per sonar. A pixel is the
+/// weighted mean of the bins around it, with the kernel of even_kernel.h in range and in azimuth; a
+/// pixel that is larger than the bins takes the mean of the bins that it covers. The area outside
+/// the sector is black, and edges are smooth: 64 points sample the covered share of a pixel on the
+/// edge.
+struct FanMap {
+    /// It is small, since every ping reads all pixels through the caches.
+    struct Pixel {
+        std::int32_t first_bin;    ///< index of the first taps in the padded image
+        std::uint8_t range_phase;  ///< phase in the range kernel
+        std::uint8_t beam_phase;   ///< phase in the beam kernel
+    };
+    /// A pixel of which a part lies outside the sector.
+    struct Edge {
+        std::uint32_t pixel;  ///< index among the pixels of its ring
+        float covered;        ///< the share inside
+    };
+    /// A run of pixels in a row.
+    struct Run {
+        std::int32_t index;  ///< first pixel in the picture, row by row
+        std::int32_t count;
+    };
+    /// Pixels that share a beam kernel. Near the apex a pixel covers more beams.
+    struct Ring {
+        KernelTable beam_kernel;
+        std::vector<Pixel> pixels;
+        std::vector<Edge> edges;  ///< in the order of the pixels
+        std::vector<Run> runs;    ///< places of the pixels in the picture, in order
+    };
+
+    FanFrame frame;
+    KernelTable range_kernel;
+    std::vector<Ring> rings;
+    int range_padding = 0;   ///< rows before the first and after the last bin, so that kernels
+    int beam_padding = 0;    ///< at the edges need no special case; the same for columns
+    bool full_turn = false;  ///< the last beam is next to the first
+};
+
+/// `width_px` as for fan_frame().
+FanMap make_fan_map(const Sonar& sonar, int width_px = 0);
+
+/// Renders the fan as grey values [height, width], row by row from the top. Intensity is power, and
+/// an operator's display shows amplitude: grey = 255 sqrt(intensity / full_scale), white above
+/// `full_scale`.
+std::vector<std::uint8_t> render_fan(const FanMap& map, const Ping& ping, double full_scale);
+
+}  // namespace sonarsim

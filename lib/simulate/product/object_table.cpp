@@ -1,0 +1,241 @@
+#include "simulate/product/object_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/units.h"
+#include "simulate/product/object_masks.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// A running sum over the bins of an object.
+struct BinTotals {
+    double level = 0.0;
+    double range_m = 0.0;
+    double azimuth_rad = 0.0;
+};
+
+/// Adds the bins [from, to) of beam j.
+void add_bins(ObjectInPing& seen, int from, int to, int j) {
+    if (seen.bins == 0) {
+        seen.range_first = from;
+        seen.beam_first = j;
+    }
+    seen.range_first = std::min(seen.range_first, from);
+    seen.range_last = std::max(seen.range_last, to - 1);
+    seen.beam_last = j;
+    seen.bins += static_cast<std::uint64_t>(to - from);
+}
+
+/// Adds the bins one by one, since the order decides the last digits. The three sums are
+/// independent, so that they take the time of one.
+void add_to_totals(std::span<const float> levels, std::span<const double> ranges_m,
+                   double azimuth_rad, BinTotals& totals) {
+    BinTotals sum = totals;
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+        sum.level += levels[k];
+        sum.range_m += ranges_m[k];
+        sum.azimuth_rad += azimuth_rad;
+    }
+    totals = sum;
+}
+
+/// Calls visit(id, from, to) for the runs of bins [from, to) of a beam that have an id.
+template <class Visit>
+void for_each_run(std::span<const std::uint16_t> ids, Visit visit) {
+    for (std::size_t from = 0, to = 0; from < ids.size(); from = to) {
+        to = end_of_run(ids, from);
+        if (ids[from] != 0) visit(ids[from], static_cast<int>(from), static_cast<int>(to));
+    }
+}
+
+/// The levels of a ping in the order of its labels, [beams, range bins].
+std::vector<float> levels_by_beam(const Ping& ping) {
+    constexpr int tile = 16;
+    std::vector<float> levels(ping.intensity.size());
+    for (int i0 = 0; i0 < ping.range_bins; i0 += tile) {
+        for (int j = 0; j < ping.beams; ++j) {
+            float* const beam = levels.data() + static_cast<std::size_t>(j) * ping.range_bins;
+            for (int i = i0; i < std::min(i0 + tile, ping.range_bins); ++i)
+                beam[i] = ping.at(i, j);
+        }
+    }
+    return levels;
+}
+
+BinBox bins_of(const ObjectInPing& seen) {
+    return {seen.beam_first, seen.beam_last, seen.range_first, seen.range_last};
+}
+
+/// The mean level around an object; nothing if all bins there are its own.
+std::optional<double> level_around(const ObjectInPing& seen, const LevelMap& map) {
+    const auto id = static_cast<std::uint16_t>(seen.id);
+    const BinBox box = over_seam(map, map.object, id, bins_of(seen));
+    const auto margin_of = [](int first, int last) { return std::max(2, (last - first + 1) / 2); };
+    const int rows = margin_of(box.first_bin, box.last_bin);
+    const int columns = margin_of(box.first_line, box.last_line);
+    double sum = 0.0;
+    std::uint64_t bins = 0;
+    const int last_row = std::min(box.last_bin + rows, map.bins - 1);
+    int first_column = box.first_line - columns;
+    if (!map.full_turn) first_column = std::max(first_column, 0);
+    const int end = map.full_turn ? first_column + map.lines : map.lines;
+    for (int j = first_column; j < std::min(box.last_line + columns + 1, end); ++j) {
+        const std::size_t begin = static_cast<std::size_t>(map.line_at(j)) * map.bins;
+        for (int i = std::max(box.first_bin - rows, 0); i <= last_row; ++i) {
+            if (map.object[begin + i] == id) continue;
+            sum += map.level[begin + i];
+            ++bins;
+        }
+    }
+    if (bins == 0) return std::nullopt;
+    return sum / static_cast<double>(bins);
+}
+
+/// The bounding box of each object's visible footprints, in the sensor's frame at the ping's time.
+std::vector<Eigen::AlignedBox3f> visible_boxes(const SceneObjects& objects,
+                                               const TracedPing& traced) {
+    std::vector<Eigen::AlignedBox3f> boxes(objects.objects.size());
+    const auto extend = [&](const Sample& sample) {
+        const Eigen::Vector3f reach = sample.edge_u.cwiseAbs() + sample.edge_v.cwiseAbs();
+        Eigen::AlignedBox3f& box = boxes[objects.object_of(sample.instance)];
+        box.extend(sample.position - reach);
+        box.extend(sample.position + reach);
+    };
+    if (traced.later_groups.empty()) {
+        std::ranges::for_each(traced.samples.items, extend);
+        std::ranges::for_each(traced.outside_sector, extend);
+        return boxes;
+    }
+    const auto extend_by_group = [&](const TracedPing& group, int number) {
+        const Eigen::Quaterniond to_first = traced.T_world_sensor.rotation.conjugate();
+        const Eigen::Matrix3f turn =
+            (to_first * group.T_world_sensor.rotation).toRotationMatrix().cast<float>();
+        const Eigen::Vector3f shift =
+            (to_first * (group.T_world_sensor.translation - traced.T_world_sensor.translation))
+                .cast<float>();
+        for (std::size_t j = 0; j < traced.group_of_beam.size(); ++j) {
+            if (traced.group_of_beam[j] != number) continue;
+            for (Sample sample : group.samples.beam(static_cast<int>(j))) {
+                sample.position = turn * sample.position + shift;
+                sample.edge_u = turn * sample.edge_u;
+                sample.edge_v = turn * sample.edge_v;
+                extend(sample);
+            }
+        }
+    };
+    extend_by_group(traced, 0);
+    for (std::size_t k = 0; k < traced.later_groups.size(); ++k)
+        extend_by_group(traced.later_groups[k], static_cast<int>(k) + 1);
+    return boxes;
+}
+
+/// Finds the shadows of the objects; `all` is indexed by object.
+void add_shadows(const PingLabels& labels, std::span<const PixelBox> fan_boxes,
+                 std::vector<ObjectInPing>& all) {
+    if (labels.object_shadow.empty()) return;
+    for (int j = 0; j < labels.beams; ++j) {
+        const std::size_t begin = static_cast<std::size_t>(j) * labels.range_bins;
+        const auto own = std::span(labels.object_shadow).subspan(begin, labels.range_bins);
+        for_each_run(own, [&](std::uint16_t id, int from, int to) {
+            ObjectInPing& object = all[id - 1];
+            object.shadow.extend(j, from);
+            object.shadow.extend(j, to - 1);
+            object.shadow_bins += static_cast<std::uint64_t>(to - from);
+            if (fan_boxes.empty()) return;
+            PixelBox in_fan = object.shadow_in_fan;
+            for (int i = from; i < to; ++i)
+                in_fan = joined(in_fan, fan_boxes[begin + i]);
+            object.shadow_in_fan = in_fan;
+        });
+    }
+}
+
+/// Compares objects and their shadows with their surroundings.
+class Contrasts {
+  public:
+    Contrasts(const SceneObjects& objects, const LevelMap& map)
+        : map_(map), is_background_(background_ids(objects)) {}
+
+    void add_to(ObjectInPing& seen) const {
+        if (is_background_[seen.id] != 0) return;
+        const auto id = static_cast<std::uint16_t>(seen.id);
+        seen.contrast_db = contrast_db(map_, map_.object, id, bins_of(seen), is_background_);
+        if (!seen.shadow.is_empty()) {
+            seen.shadow_contrast_db =
+                contrast_db(map_, map_.shadow, id, seen.shadow, is_background_);
+        }
+    }
+
+  private:
+    LevelMap map_;
+    std::vector<std::uint8_t> is_background_;  ///< indexed by id
+};
+
+}  // namespace
+
+std::vector<std::uint8_t> background_ids(const SceneObjects& objects) {
+    std::vector<std::uint8_t> is_background(std::size_t{1} << 16, 1);
+    for (std::uint32_t k = 0; k < objects.objects.size(); ++k)
+        is_background[k + 1] = objects.is_background(k) ? 1 : 0;
+    return is_background;
+}
+
+std::vector<ObjectInPing> visible_objects(const Sonar& sonar, const SceneObjects& objects,
+                                          const TracedPing& traced, const PingLabels& labels,
+                                          const Ping& ping, std::span<const PixelBox> fan_boxes) {
+    std::vector<ObjectInPing> all(objects.objects.size());
+    std::vector<BinTotals> totals(all.size());
+    const std::vector<float> levels = levels_by_beam(ping);
+    const bool fan = std::ssize(sonar.azimuth_edges_rad) == labels.beams + 1;
+    const bool full_turn = fan && is_full_turn(sonar.settings.view);
+    const auto middle = [](const std::vector<double>& edges, int k) {
+        return 0.5 * (edges[k] + edges[k + 1]);
+    };
+    std::vector<double> ranges_m(labels.range_bins);
+    for (int i = 0; i < labels.range_bins; ++i)
+        ranges_m[i] = middle(sonar.range_edges_m, i);
+    for (int j = 0; j < labels.beams; ++j) {
+        const std::size_t begin = static_cast<std::size_t>(j) * labels.range_bins;
+        const double azimuth_rad = fan ? middle(sonar.azimuth_edges_rad, j) : 0.0;
+        // In a full turn, the azimuth nearest to that of the object's first beam.
+        const auto near_first = [&](int first) {
+            if (!full_turn) return azimuth_rad;
+            const double turn = 2.0 * pi;
+            const double from = middle(sonar.azimuth_edges_rad, first);
+            return azimuth_rad + turn * std::round((from - azimuth_rad) / turn);
+        };
+        const auto own = std::span(labels.object).subspan(begin, labels.range_bins);
+        for_each_run(own, [&](std::uint16_t id, int from, int to) {
+            add_bins(all[id - 1], from, to, j);
+            add_to_totals(std::span(levels).subspan(begin + from, to - from),
+                          std::span(ranges_m).subspan(from), near_first(all[id - 1].beam_first),
+                          totals[id - 1]);
+        });
+    }
+    add_shadows(labels, fan_boxes, all);
+    const LevelMap map{labels.beams, labels.range_bins, labels.object, labels.object_shadow,
+                       levels,       full_turn};
+    const Contrasts contrasts(objects, map);
+    const std::vector<Eigen::AlignedBox3f> boxes = visible_boxes(objects, traced);
+    std::vector<ObjectInPing> seen;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        ObjectInPing& object = all[k];
+        if (object.bins == 0) continue;
+        const auto bins = static_cast<double>(object.bins);
+        object.id = static_cast<std::uint32_t>(k + 1);
+        object.level = totals[k].level / bins;
+        object.range_m = totals[k].range_m / bins;
+        if (fan) object.azimuth_rad = totals[k].azimuth_rad / bins;
+        if (full_turn) object.azimuth_rad = std::remainder(*object.azimuth_rad, 2.0 * pi);
+        object.surrounding_level = level_around(object, map);
+        object.box_sensor_m = boxes[k];
+        contrasts.add_to(object);
+        seen.push_back(object);
+    }
+    return seen;
+}
+
+}  // namespace sonarsim

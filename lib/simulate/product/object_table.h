@@ -1,0 +1,48 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "simulate/labels/labels.h"
+#include "simulate/ping/sonar.h"
+#include "simulate/product/annotation.h"
+#include "simulate/product/contrast.h"
+#include "simulate/trace/ping.h"
+
+namespace sonarsim {
+
+/// One object in one ping. Its bins are those in which its echo is the largest.
+struct ObjectInPing {
+    std::uint32_t id = 0;                 ///< as in PingLabels
+    int range_first = 0, range_last = 0;  ///< inclusive bounds of its bins
+    int beam_first = 0, beam_last = 0;
+    std::uint64_t bins = 0;
+    double level = 0.0;                       ///< mean intensity of its bins
+    std::optional<double> surrounding_level;  ///< mean intensity of the other bins around them
+    double range_m = 0.0;                     ///< mean of its bins
+    std::optional<double> azimuth_rad;        ///< mean of its bins, for a fan
+    Eigen::AlignedBox3f box_sensor_m;         ///< box around its visible surface, sensor frame
+
+    // For an object that is not background:
+    std::optional<double> contrast_db;         ///< level over its surroundings, contrast_db()
+    BinBox shadow;                             ///< box of its bins of PingLabels::object_shadow
+    std::uint64_t shadow_bins = 0;             ///< number of these bins
+    std::optional<double> shadow_contrast_db;  ///< the same for its shadow
+    PixelBox shadow_in_fan;                    ///< empty: no fan, or no pixel in it
+};
+
+/// 1 for the ids of background, and for those that no object has; indexed by all ids of 16 bits.
+std::vector<std::uint8_t> background_ids(const SceneObjects& objects);
+
+/// The objects in a ping, sorted by id. `labels` gives the object of each bin, `ping` the levels.
+/// `fan_boxes` are FanBins::boxes; empty: no fan.
+/// The surroundings of an object are the box of its bins, enlarged on each side by half its size
+/// and at least by two bins.
+std::vector<ObjectInPing> visible_objects(const Sonar& sonar, const SceneObjects& objects,
+                                          const TracedPing& traced, const PingLabels& labels,
+                                          const Ping& ping, std::span<const PixelBox> fan_boxes);
+
+}  // namespace sonarsim

@@ -1,0 +1,167 @@
+#include <immintrin.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <span>
+
+#include "simulate/product/fan.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// The number of pixels that are worked out at a time.
+constexpr std::size_t fan_block = 256;
+
+/// An image with a margin of bins on all sides.
+struct PaddedImage {
+    std::ptrdiff_t width;
+    std::unique_ptr<float[]> values;
+};
+
+/// Pads the image by repeating its edges, or by wrapping the beams of a full turn.
+PaddedImage padded(const FanMap& map, const Ping& ping) {
+    const int beams = ping.beams;
+    const int width = beams + 2 * map.beam_padding;
+    const int height = ping.range_bins + 2 * map.range_padding;
+    const std::size_t size = static_cast<std::size_t>(width) * height;
+    PaddedImage out{width, std::make_unique_for_overwrite<float[]>(size)};
+    for (int i = 0; i < height; ++i) {
+        const int bin = std::clamp(i - map.range_padding, 0, ping.range_bins - 1);
+        const float* const from = ping.intensity.data() + static_cast<std::size_t>(bin) * beams;
+        float* const to = out.values.get() + static_cast<std::size_t>(i) * width + map.beam_padding;
+        // Infinity times a weight of 0 would be NaN.
+        for (int j = 0; j < beams; ++j)
+            to[j] = std::min(from[j], std::numeric_limits<float>::max());
+        for (int j = 0; j < map.beam_padding; ++j) {
+            to[-1 - j] = map.full_turn ? to[beams - 1 - j % beams] : to[0];
+            to[beams + j] = map.full_turn ? to[j % beams] : to[beams - 1];
+        }
+    }
+    return out;
+}
+
+/// Writes the values of a ring's pixels, given in order, to their places in the picture.
+class RunWriter {
+  public:
+    RunWriter(const FanMap::Ring& ring, std::vector<std::uint8_t>& picture)
+        : run_(ring.runs.begin()), picture_(picture) {}
+
+    void put(std::span<const std::uint8_t> values) {
+        while (!values.empty()) {
+            const std::size_t count =
+                std::min(values.size(), static_cast<std::size_t>(run_->count) - done_);
+            std::copy_n(values.begin(), count, picture_.begin() + run_->index + done_);
+            values = values.subspan(count);
+            done_ += count;
+            if (done_ < static_cast<std::size_t>(run_->count)) continue;
+            done_ = 0;
+            ++run_;
+        }
+    }
+
+  private:
+    std::vector<FanMap::Run>::const_iterator run_;
+    std::size_t done_ = 0;  ///< pixels of the run that are written
+    std::vector<std::uint8_t>& picture_;
+};
+
+/// The sums of the lanes of four vectors, each as (0 + 2) + (1 + 3).
+__m128 lane_sums(__m128 a, __m128 b, __m128 c, __m128 d) {
+    const auto halves = [](__m128 left, __m128 right) {
+        return _mm_add_ps(_mm_movelh_ps(left, right), _mm_movehl_ps(right, left));
+    };
+    return _mm_hadd_ps(halves(a, b), halves(c, d));
+}
+
+/// Calls weighted(pixel), which gives the weighted bins of a pixel in four lanes, and adds the
+/// lanes.
+template <class Weighted>
+void add_lanes(std::span<const FanMap::Pixel> pixels, Weighted weighted, float* sums) {
+    std::size_t p = 0;
+    for (; p + 4 <= pixels.size(); p += 4) {
+        _mm_storeu_ps(sums + p, lane_sums(weighted(pixels[p]), weighted(pixels[p + 1]),
+                                          weighted(pixels[p + 2]), weighted(pixels[p + 3])));
+    }
+    for (; p < pixels.size(); ++p) {
+        const __m128 lanes = weighted(pixels[p]);
+        sums[p] = _mm_cvtss_f32(lane_sums(lanes, lanes, lanes, lanes));
+    }
+}
+
+/// Weighs the bins of at most `fan_block` pixels. The number of beam taps is a multiple of 4.
+/// Nearly all pixels of a fan have three bins in range and four beams: as constants they save time.
+template <int fixed_range_taps, int fixed_beam_taps>
+void weigh_bins(const FanMap& map, const KernelTable& beam_kernel,
+                std::span<const FanMap::Pixel> pixels, const PaddedImage& bins, float* sums) {
+    const int range_taps = fixed_range_taps > 0 ? fixed_range_taps : map.range_kernel.taps;
+    const int beam_taps = fixed_beam_taps > 0 ? fixed_beam_taps : beam_kernel.taps;
+    add_lanes(
+        pixels,
+        [&](const FanMap::Pixel& pixel) {
+            const float* const range =
+                map.range_kernel.weights.data() + std::ptrdiff_t{pixel.range_phase} * range_taps;
+            const float* const beam =
+                beam_kernel.weights.data() + std::ptrdiff_t{pixel.beam_phase} * beam_taps;
+            __m128 sum = _mm_setzero_ps();
+            for (int b = 0; b < beam_taps; b += 4) {
+                const float* const first = bins.values.get() + pixel.first_bin + b;
+                __m128 over_range = _mm_mul_ps(_mm_set1_ps(range[0]), _mm_loadu_ps(first));
+                for (int k = 1; k < range_taps; ++k) {
+                    over_range = _mm_add_ps(
+                        over_range,
+                        _mm_mul_ps(_mm_set1_ps(range[k]), _mm_loadu_ps(first + k * bins.width)));
+                }
+                sum = _mm_add_ps(sum, _mm_mul_ps(over_range, _mm_loadu_ps(beam + b)));
+            }
+            return sum;
+        },
+        sums);
+}
+
+/// The grey value of a pixel: 255 sqrt(scale * sum), rounded.
+std::uint8_t grey_of(float sum, float scale) {
+    // In this order of arguments NaN becomes 0.
+    const float share = std::min(std::max(0.0F, scale * sum), 1.0F);
+    return static_cast<std::uint8_t>(static_cast<int>(255.0F * std::sqrt(share) + 0.5F));
+}
+
+/// Draws the pixels of a ring.
+void draw_ring(const FanMap& map, const FanMap::Ring& ring, const PaddedImage& bins, float scale,
+               std::vector<std::uint8_t>& picture) {
+    const bool three_by_four = map.range_kernel.taps == 3 && ring.beam_kernel.taps == 4;
+    std::array<float, fan_block> sums{};
+    std::array<std::uint8_t, fan_block> grey;
+    RunWriter out(ring, picture);
+    auto edge = ring.edges.begin();
+    for (std::size_t begin = 0; begin < ring.pixels.size(); begin += fan_block) {
+        const auto pixels =
+            std::span(ring.pixels).subspan(begin, std::min(fan_block, ring.pixels.size() - begin));
+        if (three_by_four)
+            weigh_bins<3, 4>(map, ring.beam_kernel, pixels, bins, sums.data());
+        else
+            weigh_bins<0, 0>(map, ring.beam_kernel, pixels, bins, sums.data());
+        for (; edge != ring.edges.end() && edge->pixel < begin + pixels.size(); ++edge)
+            sums[edge->pixel - begin] *= edge->covered;
+        for (std::size_t p = 0; p < pixels.size(); ++p)
+            grey[p] = grey_of(sums[p], scale);
+        out.put(std::span(grey).first(pixels.size()));
+    }
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> render_fan(const FanMap& map, const Ping& ping, double full_scale) {
+    const auto scale = static_cast<float>(1.0 / full_scale);
+    const PaddedImage bins = padded(map, ping);
+    std::vector<std::uint8_t> picture(static_cast<std::size_t>(map.frame.width) * map.frame.height,
+                                      0);
+    for (const FanMap::Ring& ring : map.rings)
+        draw_ring(map, ring, bins, scale, picture);
+    return picture;
+}
+
+}  // namespace sonarsim

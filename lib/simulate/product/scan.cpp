@@ -1,0 +1,81 @@
+#include "simulate/product/scan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/units.h"
+
+namespace sonarsim {
+
+namespace {
+
+bool goes_round(const SonarConfig& config) {
+    return config.sector_deg >= 360.0;
+}
+
+}  // namespace
+
+int scan_steps(const SonarConfig& config) {
+    return std::max(1, static_cast<int>(std::floor(config.sector_deg / config.step_deg + 0.5)));
+}
+
+std::size_t scan_sweeps(const SonarConfig& config, std::size_t pings) {
+    const auto steps = static_cast<std::size_t>(scan_steps(config));
+    return (pings + steps - 1) / steps;
+}
+
+std::string scan_file_name(const std::string& stem, std::size_t sweep,
+                           const std::string& extension) {
+    constexpr std::size_t digits = 4;
+    const std::string number = std::to_string(sweep);
+    const std::string zeros(digits - std::min(digits, number.size()), '0');
+    return stem + "_" + zeros + number + extension;
+}
+
+int scan_step(const SonarConfig& config, std::size_t ping) {
+    const auto steps = static_cast<std::size_t>(scan_steps(config));
+    const bool back = !goes_round(config) && (ping / steps) % 2 == 1;
+    const auto step = static_cast<int>(ping % steps);
+    return back ? static_cast<int>(steps) - 1 - step : step;
+}
+
+std::vector<double> scan_edges_rad(const SonarConfig& config) {
+    const int steps = scan_steps(config);
+    std::vector<double> edges(steps + 1);
+    for (int i = 0; i <= steps; ++i)
+        edges[i] = radians(config.sector_deg) * (static_cast<double>(i) / steps - 0.5);
+    return edges;
+}
+
+std::vector<double> scan_angles_rad(const SonarConfig& config) {
+    const std::vector<double> edges = scan_edges_rad(config);
+    const std::size_t sweeps = goes_round(config) ? 1 : 2;
+    std::vector<double> angles(sweeps * scan_steps(config));
+    for (std::size_t ping = 0; ping < angles.size(); ++ping) {
+        const int step = scan_step(config, ping);
+        angles[ping] = 0.5 * (edges[step] + edges[step + 1]);
+    }
+    return angles;
+}
+
+Sonar whole_scan(const Sonar& sonar) {
+    Sonar whole = sonar;
+    whole.settings.view.azimuth_rad = radians(sonar.config.sector_deg);
+    whole.settings.view.beams = scan_steps(sonar.config);
+    whole.azimuth_edges_rad = scan_edges_rad(sonar.config);
+    return whole;
+}
+
+ScanDisplay::ScanDisplay(const Sonar& sonar) : config_(sonar.config) {
+    image_.range_bins = config_.range_bins;
+    image_.beams = scan_steps(config_);
+    image_.intensity.resize(static_cast<std::size_t>(image_.range_bins) * image_.beams);
+}
+
+void ScanDisplay::show(std::size_t ping, std::span<const float> bins) {
+    const auto step = static_cast<std::size_t>(scan_step(config_, ping));
+    for (std::size_t i = 0; i < bins.size(); ++i)
+        image_.intensity[i * image_.beams + step] = bins[i];
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "simulate/ping/sonar.h"
+
+namespace sonarsim {
+
+// A scan is one sweep of a scanning sonar's head: a full turn, or once over its sector. The sector
+// is divided into equal steps with a ping in the middle of each.
+
+/// The number of steps, and so of pings, in one sweep: the sector divided by the step, rounded.
+int scan_steps(const SonarConfig& config);
+
+/// The number of sweeps in this many pings, with the unfinished one at the end.
+std::size_t scan_sweeps(const SonarConfig& config, std::size_t pings);
+
+/// STEM_NNNN.EXTENSION, the name of a file that belongs to a sweep; `extension` has its dot.
+std::string scan_file_name(const std::string& stem, std::size_t sweep,
+                           const std::string& extension);
+
+/// The angles of the head, radians, positive to port, from the first ping until they repeat. In a
+/// full turn the head keeps turning, from astern over starboard; it sweeps a sector back and forth.
+std::vector<double> scan_angles_rad(const SonarConfig& config);
+
+/// The edges of the steps, from starboard (-) to port (+): scan_steps() + 1.
+std::vector<double> scan_edges_rad(const SonarConfig& config);
+
+/// The step of the sonar's n-th ping, counted from starboard to port.
+int scan_step(const SonarConfig& config, std::size_t ping);
+
+/// A sonar whose beams are the steps of a scan, for drawing a scan as a fan.
+Sonar whole_scan(const Sonar& sonar);
+
+/// A display in which each step shows its last ping.
+class ScanDisplay {
+  public:
+    explicit ScanDisplay(const Sonar& sonar);
+
+    /// Shows the n-th ping of the sonar, its range bins from near to far.
+    void show(std::size_t ping, std::span<const float> bins);
+    /// The display [range, step]; 0 in steps without a ping.
+    const Ping& image() const { return image_; }
+
+  private:
+    SonarConfig config_;
+    Ping image_;
+};
+
+/// Calls show(ping, step) for each ping of a sonar, and finish(sweep, end) after the last ping of
+/// each sweep, the unfinished one too; `end` is the number of pings so far.
+template <class Show, class Finish>
+void for_each_sweep(const SonarConfig& config, std::size_t pings, const Show& show,
+                    const Finish& finish) {
+    const auto steps = static_cast<std::size_t>(scan_steps(config));
+    for (std::size_t ping = 0; ping < pings; ++ping) {
+        show(ping, scan_step(config, ping));
+        const std::size_t end = ping + 1;
+        if (end % steps == 0 || end == pings) finish(ping / steps, end);
+    }
+}
+
+}  // namespace sonarsim

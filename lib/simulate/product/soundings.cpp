@@ -1,0 +1,93 @@
+#include "simulate/product/soundings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "core/elementary.h"
+#include "simulate/product/detect_return.h"
+#include "simulate/trace/true_place.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// Range and quality of one beam.
+Sounding sounding_of_beam(const Sonar& sonar, std::span<const double> beam) {
+    if (std::ranges::none_of(beam, [](double value) { return value > 0.0; })) return {};
+    DetectedReturn run = detect_return(beam);
+    if (run.begin == run.end) run = {0, static_cast<int>(beam.size()), 1.0, 1.0};  // all alike
+    Sounding sounding;
+    sounding.range_m = 0.5 * (sonar.range_edges_m[run.begin] + sonar.range_edges_m[run.end]);
+    const double rival = run.rival / run.contrast;
+    sounding.quality = std::max(0.0, 1.0 - rival * rival);
+    return sounding;
+}
+
+/// Divides a beam by its background. This is the mean noise of the receiver, which the TVG raises
+/// with range, plus what the median bin has above it, such as water or side lobes. Undivided, noise
+/// at long range may be stronger than the bottom. Divided by the noise alone, water near the sonar
+/// may be.
+void divide_by_background(std::span<double> beam, std::span<const float> noise) {
+    constexpr double median_share = 0.693;  // ln 2: median / mean of an exponential number
+    constexpr double least = 1e-30;
+    std::vector<double> excess(beam.size());
+    for (std::size_t i = 0; i < beam.size(); ++i)
+        excess[i] = beam[i] - median_share * noise[i];
+    const auto middle = excess.begin() + static_cast<std::ptrdiff_t>(excess.size() / 2);
+    std::nth_element(excess.begin(), middle, excess.end());
+    const double constant = std::max(*middle, least);
+    for (std::size_t i = 0; i < beam.size(); ++i)
+        beam[i] /= constant + noise[i];
+}
+
+/// The place that a beam measures at a range, in the frame at reception. The fan transmits at
+/// elevation 0 in the frame at transmission, which a fan that moves has left since.
+Eigen::Vector3d on_axis(const PingMotion& motion, ViewShape shape, double azimuth_rad,
+                        double range_m) {
+    const SinCos azimuth = sincos(azimuth_rad);
+    Eigen::Vector3d place = range_m * Eigen::Vector3d(azimuth.cos, azimuth.sin, 0.0);
+    if (motion.is_still()) return place;
+    double elevation_rad = 0.0;
+    for (int k = 0; k < 3; ++k) {  // each step reduces the error about a hundredfold
+        elevation_rad -= unmoved_place(motion, shape, place).z() / range_m;
+        const SinCos elevation = sincos(elevation_rad);
+        place = range_m * Eigen::Vector3d(elevation.cos * azimuth.cos, elevation.cos * azimuth.sin,
+                                          elevation.sin);
+    }
+    return place;
+}
+
+}  // namespace
+
+int beams_with_sounding(const Ping& ping) {
+    std::vector<char> occupied(ping.beams);
+    for (int i = 0; i < ping.range_bins; ++i) {
+        for (int j = 0; j < ping.beams; ++j)
+            occupied[j] |= ping.at(i, j) > 0.0F ? 1 : 0;
+    }
+    return static_cast<int>(std::ranges::count(occupied, 1));
+}
+
+std::vector<Sounding> find_soundings(const Sonar& sonar, const Pose& T_world_vehicle,
+                                     const Ping& ping, const PingMotion& motion) {
+    const Pose T_world_sensor = T_world_vehicle * sonar.T_vehicle_sensor;
+    const ViewShape shape = sonar.settings.view.shape;
+    const TruePlaces places{T_world_sensor, sonar.sound_profile.get(), motion, shape};
+    const std::span<const float> growth = sonar.settings.model->info.noise_growth;
+    const std::span<const float> noise = sonar.settings.model->info.mean_noise;
+    std::vector<Sounding> soundings(ping.beams);
+    std::vector<double> beam(ping.range_bins);
+    for (int j = 0; j < ping.beams; ++j) {
+        for (int i = 0; i < ping.range_bins; ++i)
+            beam[i] = static_cast<double>(ping.at(i, j)) / (growth.empty() ? 1.0F : growth[i]);
+        if (!noise.empty()) divide_by_background(beam, noise);
+        soundings[j] = sounding_of_beam(sonar, beam);
+        if (std::isnan(soundings[j].range_m)) continue;
+        const double azimuth = sonar.beam_azimuths_rad[j];
+        soundings[j].position = places.of(on_axis(motion, shape, azimuth, soundings[j].range_m));
+    }
+    return soundings;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <vector>
+
+#include "core/pose.h"
+#include "simulate/ping/sonar.h"
+#include "simulate/trace/ping.h"
+#include "simulate/trace/ping_motion.h"
+
+namespace sonarsim {
+
+/// The return of the bottom in one beam of a profiling sonar.
+struct Sounding {
+    double range_m = std::numeric_limits<double>::quiet_NaN();      ///< NaN: the beam is dark
+    Eigen::Vector3d position = Eigen::Vector3d::Constant(range_m);  ///< world, m
+    /// 1 - (c / C)^2, where C is the contrast of the return and c the greatest contrast elsewhere
+    /// in the beam. 1 for one surface without noise; below 0.5 noise alone may have made the
+    /// return.
+    double quality = 0.0;
+};
+
+/// The number of beams with an echo, which is the number of soundings of find_soundings().
+int beams_with_sounding(const Ping& ping);
+
+/// Makes one sounding per beam, in the order of the beams.
+///
+/// A beam is divided by the growth of the echo model's noise with range, so that the noise is
+/// uniform. The range is the middle of its detect_return(). The position lies on the beam's axis,
+/// at elevation 0, by the water's profile of sound speed. If the sonar moves in the ping, the axis
+/// is that at the pose of reception. `T_world_vehicle` is the pose of transmission.
+std::vector<Sounding> find_soundings(const Sonar& sonar, const Pose& T_world_vehicle,
+                                     const Ping& ping, const PingMotion& motion = {});
+
+}  // namespace sonarsim

@@ -1,0 +1,163 @@
+#include "simulate/reference/energy_reference.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <stdexcept>
+
+#include "simulate/reference/reference_cast.h"
+#include "simulate/trace/apply_maps.h"
+#include "simulate/trace/target_surface.h"
+#include "simulate/trace/visible_surface.h"
+#include "simulate/visibility/intersect.h"
+#include "simulate/visibility/local_pose.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// Casts rays for targets, and nothing else.
+class TargetRays final : public VisibilityEngine {
+  public:
+    TargetRays(const Caster& caster, const Eigen::Vector3d& origin)
+        : caster_(caster), origin_(origin) {}
+
+    Samples visible_surface(const View& /*view*/, const Pose& /*T_world_sensor*/) const override {
+        throw std::logic_error("the reference samples no surface by an engine");
+    }
+    void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
+                   std::span<Intersection> intersections) const override {
+        intersect_rays(caster_, origin_, T_world_sensor, rays, intersections);
+    }
+
+  private:
+    const Caster& caster_;
+    const Eigen::Vector3d& origin_;
+};
+
+/// Images of points, added in parts: the expected powers of the parts sum to the image of all.
+class EnergyImage {
+  public:
+    EnergyImage(const Scene& scene, const PingSettings& settings, const Pose& T_world_sensor,
+                const TargetSurface& targets)
+        : scene_(scene),
+          settings_(settings),
+          targets_(targets),
+          pose_(local_pose(T_world_sensor, scene.origin)),
+          R_sensor_local_(pose_.rotation.transpose()),
+          sum_(static_cast<std::size_t>(settings.view.range_bins) * settings.view.beams),
+          area_m2_(sum_.size()) {
+        traced_.T_world_sensor = T_world_sensor;
+        traced_.samples.items = targets.pieces;
+        assign_to_first_beam();
+        if (scene.maps) {
+            apply_maps(*scene.maps, settings.view, T_world_sensor, traced_.samples,
+                       traced_.outside_sector);
+        }
+    }
+
+    void add(const SurfacePoint& point) {
+        const auto range = static_cast<float>(point.range_m);
+        const Eigen::Vector3f position = range * (R_sensor_local_ * point.direction);
+        add_area(position, point);
+        if (targets_.has(point.facet.instance)) return;
+        if (settings_.guard_beams.count > 0 && !in_array_cones(settings_.view, position)) return;
+        Sample& sample = traced_.samples.items.emplace_back();
+        sample.position = position;
+        sample.edge_u.setZero();
+        sample.edge_v.setZero();
+        const float side = point.facet.normal.dot(point.direction) > 0.0F ? -1.0F : 1.0F;
+        sample.normal = side * (R_sensor_local_ * point.facet.normal);
+        sample.height_m = static_cast<float>(point.range_m * point.cosine);
+        sample.area_m2 = static_cast<float>(point.area_m2);
+        const MappedPoint surface = surface_at(point, scene_, pose_);
+        sample.material = surface.material;
+        sample.strength = surface.strength;
+        sample.instance = point.facet.instance;
+        ++hits_;
+        if (traced_.samples.items.size() >= at_once) form();
+    }
+
+    std::vector<double> take() {
+        form();
+        return std::move(sum_);
+    }
+
+    std::uint64_t hits() const { return hits_; }
+    /// The visible surface in the bins where it lies, whatever beams receive it.
+    const std::vector<double>& area_m2() const { return area_m2_; }
+
+  private:
+    static constexpr std::size_t at_once = 1U << 20U;
+
+    void add_area(const Eigen::Vector3f& position, const SurfacePoint& point) {
+        const View& view = settings_.view;
+        const int beam = beam_of(view, position);
+        const double bin = std::floor((point.range_m - view.range_min_m) / view.bin_m());
+        if (beam < 0 || !(bin >= 0.0 && bin < view.range_bins)) return;
+        area_m2_[static_cast<std::size_t>(bin) * view.beams + beam] += point.area_m2;
+    }
+
+    /// The calibrated model assigns samples to beams itself.
+    void assign_to_first_beam() {
+        traced_.samples.beam_begin.assign(static_cast<std::size_t>(settings_.view.beams) + 1,
+                                          static_cast<std::uint32_t>(traced_.samples.items.size()));
+        traced_.samples.beam_begin.front() = 0;
+    }
+
+    void form() {
+        if (traced_.samples.items.empty()) return;
+        assign_to_first_beam();
+        const Ping ping = form_image(traced_, settings_, scene_, {}, direct_echoes_alone);
+        for (std::size_t k = 0; k < sum_.size(); ++k)
+            sum_[k] += static_cast<double>(ping.intensity[k]);
+        traced_.samples.items.clear();
+    }
+
+    const Scene& scene_;
+    const PingSettings& settings_;
+    const TargetSurface& targets_;
+    LocalPose pose_;
+    Eigen::Matrix3f R_sensor_local_;
+    TracedPing traced_;
+    std::vector<double> sum_;
+    std::vector<double> area_m2_;
+    std::uint64_t hits_ = 0;
+};
+
+}  // namespace
+
+Reference cast_energy_reference(const Caster& caster, const Scene& scene,
+                                const PingSettings& settings, const Pose& T_world_sensor,
+                                const ReferenceGoal& goal) {
+    const View view = widened_view(settings.view, settings.guard_beams);
+    const LocalPose pose = local_pose(T_world_sensor, scene.origin);
+    const std::vector<SurfaceShare> shares = surface_shares(scene, view, pose);
+    TargetSurface targets;
+    if (settings.targets) {
+        targets = target_surface(*settings.targets, settings.view, settings.guard_beams, scene,
+                                 TargetRays(caster, scene.origin), T_world_sensor);
+    }
+    const ReferenceView looking{caster, scene, view, pose, shares};
+    return settled(settings.view, goal, [&](int per_beam, int count) {
+        CastResult cast;
+        std::vector<double> mean;
+        for (const std::uint32_t start : {0U, 1U}) {
+            EnergyImage image(scene, settings, T_world_sensor, targets);
+            cast.rays += cast_over_surface(looking, {per_beam, count, start},
+                                           [&](const SurfacePoint& point) { image.add(point); });
+            const std::vector<double> sum = image.take();
+            cast.hits += image.hits();
+            (start == 0 ? cast.lattice : cast.scattered).assign(sum.begin(), sum.end());
+            mean.resize(sum.size());
+            cast.area_m2.resize(sum.size());
+            for (std::size_t k = 0; k < sum.size(); ++k) {
+                mean[k] += 0.5 * sum[k];
+                cast.area_m2[k] += 0.5 * image.area_m2()[k];
+            }
+        }
+        cast.both.assign(mean.begin(), mean.end());
+        return cast;
+    });
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,40 @@
+#include "simulate/product/soundings.h"
+#include "simulate/sonar/kinds.h"
+#include "simulate/sonar/setup.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// The number of beams with a sounding.
+void measure_soundings(const PingView& view, nlohmann::ordered_json& json) {
+    json["soundings"] = beams_with_sounding(view.ping);
+}
+
+}  // namespace
+
+/// A multibeam profiling sonar (section V): an imaging sonar with one narrow bin of elevation.
+/// Looks down.
+KindOfSonar profiling_kind() {
+    SonarConfig defaults;
+    defaults.kind = SonarKind::profiling;
+    defaults.elevation_deg = 1.0;
+    defaults.range_min_m = 0.5;
+    defaults.range_max_m = 75.0;
+    defaults.range_bins = 750;
+    defaults.azimuth_bins = 480;
+    return {.keys = {.kind = SonarKind::profiling,
+                     .name = "profiling",
+                     .defaults = defaults,
+                     .azimuth_bins = true},
+            .shape = ViewShape::fan,
+            .looks_down = true,
+            .gain = 0.5,
+            .range_noise_fades = true,
+            .has_images = true,
+            .record = {.name = "soundings"},
+            .finish = add_azimuth,
+            .measure = measure_soundings};
+}
+
+}  // namespace sonarsim

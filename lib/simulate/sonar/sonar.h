@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/pose.h"
+#include "input/mission/mission.h"
+#include "simulate/ping/sonar.h"
+#include "simulate/sonar/kinds.h"
+
+namespace sonarsim {
+
+/// A sonar of the kind that its configuration names, see simulate/sonar/kinds.h.
+/// `water` is for the calibrated model.
+Sonar make_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
+                 const WaterConfig& water = {});
+
+/// The same for a kind that need not be in the table of simulate/sonar/kinds.h.
+Sonar make_sonar(const KindOfSonar& kind, const SonarConfig& config, const AccuracyConfig& accuracy,
+                 const WaterConfig& water = {});
+
+/// Sets the objects of the scene that may be targets in the sonars whose echo model adds energies.
+/// Without them only the engine samples small and shiny objects.
+void find_targets(std::span<Sonar> sonars, const Scene& scene);
+
+/// The sonar at a pose, with the numbers that the mission's `vary` draws for every ping; nothing if
+/// `vary` names no key of this sonar.
+std::optional<Sonar> drawn_sonar(const Mission& mission, const Sonar& sonar, std::uint32_t pose);
+
+/// The time from one group of beams to the next, s.
+double group_period_s(const Sonar& sonar, double sound_speed_m_s);
+
+/// The group in which each beam of a fan transmits.
+std::vector<int> groups_of_beams(const ShutterConfig& shutter, int beams);
+
+/// Traces a ping from a pose of the vehicle, and its later groups of beams from the vehicle's later
+/// poses. `pose` is the index of the pose on the trajectory; the angle of a turning head depends on
+/// it.
+TracedPing trace(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
+                 const Pose& T_world_vehicle, std::uint32_t pose, const Terms& terms = {});
+
+/// Traces a ping and forms its image.
+Ping render_ping(const Sonar& sonar, const Scene& scene, const VisibilityEngine& engine,
+                 const Pose& T_world_vehicle, const PingKey& key, const Terms& terms = {});
+
+/// The stages of the sonar's echo model, see terms_at_stage().
+std::size_t stage_count(const Sonar& sonar);
+
+/// The images of a traced ping at the stages of the sonar's echo model. The last is the ping
+/// itself. A term that the sonar does not use changes nothing.
+std::vector<Ping> form_stages(const TracedPing& traced, const Sonar& sonar, const Scene& scene,
+                              const PingKey& key);
+
+}  // namespace sonarsim

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "core/pose.h"
+#include "input/scene/maps/ground_maps.h"
+#include "simulate/visibility/engine.h"
+#include "simulate/water/sound_profile.h"
+
+namespace sonarsim {
+
+/// Gives the samples of a ping the materials and strengths of the maps that lie on them. A sample
+/// on which the maps change is cut until its pieces are half a range bin deep and as wide as a
+/// beam; a piece with several materials becomes strips with the area of each. So the strips tile
+/// the surface as the samples did, and a bin's echo is the mean over the area that it sees.
+/// `profile` bends the sound, if not null.
+void apply_maps(const GroundMaps& maps, const View& view, const Pose& T_world_sensor,
+                Samples& samples, std::vector<Sample>& outside_sector,
+                const SoundProfile* profile = nullptr);
+
+/// The material and strength of a point in the sensor frame.
+MappedPoint mapped_point(const GroundMaps& maps, const Pose& T_world_sensor,
+                         const Eigen::Vector3f& point, std::uint32_t instance,
+                         std::uint32_t material);
+
+}  // namespace sonarsim

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <immintrin.h>
+
+#include <Eigen/Core>
+#include <cmath>
+
+// Arrivals: the range and the direction that a sonar measures of sound from a point. All code after
+// the trace takes ranges and directions from here; no other code derives them from positions.
+// Positions are apparent places (simulate/visibility/engine.h): half of the two-way time at one speed, in
+// the direction of arrival. So paths are straight here, and the same out and back, even where a
+// profile bends the sound; simulate/trace/true_place.h gives the place in the world.
+
+namespace sonarsim {
+
+/// The arrival of the sound that a point sends back.
+struct Arrival {
+    float range_m;              ///< one-way equivalent slant range, m: half of the two-way path
+    Eigen::Vector3f direction;  ///< unit, sensor frame: of departure and of return
+};
+
+/// The range of a point in the sensor frame, m.
+inline float arrival_range(const Eigen::Vector3f& point) {
+    return point.norm();
+}
+
+inline Arrival arrival_of(const Eigen::Vector3f& point) {
+    const float range = arrival_range(point);
+    return {range, point / range};
+}
+
+/// The extents of an edge: in range, and across it along y and z, m. All have signs.
+struct EdgeExtents {
+    float depth, y, z;
+};
+inline EdgeExtents extents_of(const Eigen::Vector3f& edge, const Eigen::Vector3f& direction) {
+    const float depth = edge.dot(direction);
+    return {depth, edge.y() - depth * direction.y(), edge.z() - depth * direction.z()};
+}
+
+/// The range of a two-way path of out_m + back_m, m.
+inline float arrival_range(float out_m, float back_m) {
+    return 0.5F * (out_m + back_m);
+}
+
+/// An arrival in a loop over arrays: the same numbers as arrival_of().
+struct ArrivalLane {
+    float range_m, x, y, z;
+};
+inline ArrivalLane arrival_at(float x, float y, float z) {
+    const float range = std::sqrt(x * x + (y * y + z * z));
+    return {range, x / range, y / range, z / range};
+}
+
+// Ranges of the pieces that footprints are cut into, in fused arithmetic: they agree with
+// arrival_range() to the last bit or two.
+inline float piece_range(float x, float y, float z) {
+    return std::sqrt(std::fma(x, x, std::fma(y, y, z * z)));
+}
+inline double piece_range(double x, double y, double z) {
+    return std::sqrt(std::fma(x, x, std::fma(y, y, z * z)));
+}
+inline __m256 piece_range(__m256 x, __m256 y, __m256 z) {
+    return _mm256_sqrt_ps(_mm256_fmadd_ps(x, x, _mm256_fmadd_ps(y, y, _mm256_mul_ps(z, z))));
+}
+
+/// The sine of the angle between the direction of a piece and the plane across an axis of the
+/// sensor, from the piece's coordinate on that axis.
+inline float piece_sine(float coordinate_m, float range_m) {
+    return coordinate_m * (1.0F / range_m);
+}
+
+}  // namespace sonarsim

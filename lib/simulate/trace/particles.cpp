@@ -1,0 +1,70 @@
+#include "simulate/trace/particles.h"
+
+#include <cmath>
+
+namespace sonarsim {
+
+Eigen::Vector3d place_at(const Particle& particle, double time_s) {
+    Eigen::Vector3d place = particle.start_m + time_s * particle.velocity_m_s;
+    const double height = particle.top_m - particle.bottom_m;
+    if (height > 0.0) {
+        const double turns = (place.z() - particle.bottom_m) / height;
+        place.z() = particle.bottom_m + (turns - std::floor(turns)) * height;
+    }
+    return place;
+}
+
+namespace {
+
+/// Moves a point to where the sonar measures it.
+void move_point(const PingMotion& motion, ViewShape shape, Sample& sample) {
+    sample.position = measured_place(motion, shape, sample.position.cast<double>()).cast<float>();
+    sample.height_m = sample.position.norm();
+    sample.normal = -sample.position / sample.height_m;
+}
+
+}  // namespace
+
+SeenParticles visible_particles(const Particles& particles, double time_s, const View& view,
+                                const GuardBeams& guard_beams, const VisibilityEngine& engine,
+                                const Pose& T_world_sensor, const PingMotion& motion) {
+    const GuardedField field(view, guard_beams);
+    const Eigen::Quaterniond to_sensor = T_world_sensor.rotation.conjugate();
+    SeenParticles found;
+    std::vector<Ray> rays;
+    for (std::uint32_t k = 0; k < particles.all.size(); ++k) {
+        const Particle& particle = particles.all[k];
+        const Eigen::Vector3f place =
+            (to_sensor * (place_at(particle, time_s) - T_world_sensor.translation)).cast<float>();
+        const float range = place.norm();
+        if (!(range > 0.0F && range < static_cast<float>(view.range_max_m)) ||
+            !field.contains(place))
+            continue;
+        rays.push_back({Eigen::Vector3f::Zero(), place / range});
+        found.numbers.push_back(k);
+        found.samples.push_back({.position = place,
+                                 .edge_u = Eigen::Vector3f::Zero(),
+                                 .edge_v = Eigen::Vector3f::Zero(),
+                                 .normal = -place / range,
+                                 .height_m = range,
+                                 .area_m2 = particle.section_m2,
+                                 .material = particle.material,
+                                 .instance = particle.instance});
+    }
+    std::vector<Intersection> hits(rays.size());
+    engine.intersect(T_world_sensor, rays, hits);
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+        Sample& sample = found.samples[k];
+        if (hits[k].distance_m < sample.height_m) continue;
+        if (!motion.is_still()) move_point(motion, view.shape, sample);
+        found.samples[kept] = sample;
+        found.numbers[kept] = found.numbers[k];
+        ++kept;
+    }
+    found.samples.resize(kept);
+    found.numbers.resize(kept);
+    return found;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,132 @@
+#include "simulate/trace/ping_motion.h"
+
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "core/elementary.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// The moment whose frame measures directions, as a share of the two-way time.
+double reception_share(const PingMotion& motion, ViewShape shape) {
+    return shape == ViewShape::fan && motion.measures_direction ? 1.0 : 0.5;
+}
+
+/// The time of sound to a place and back to the moving sonar: the greater root of |p - v t| = c t -
+/// |p|, which is t = 2 (c |p| - v . p) / (c^2 - v^2).
+double two_way_time(const PingMotion& motion, const Eigen::Vector3d& place) {
+    const double c = motion.sound_speed_m_s;
+    const Eigen::Vector3d& v = motion.velocity_m_s;
+    return 2.0 * (c * place.norm() - v.dot(place)) / (c * c - v.squaredNorm());
+}
+
+/// A sample as the moving sonar measures it. Its edges are only turned: its parts differ in two-way
+/// time by 2 / c for each metre; in this time a sonar moves by thousandths of a metre and turns by
+/// less than 1e-3.
+Sample moved(const PingMotion& motion, ViewShape shape, const Sample& sample) {
+    const Eigen::Vector3d place = sample.position.cast<double>();
+    const double time = two_way_time(motion, place);
+    const double moving = reception_share(motion, shape) * time;
+    const Eigen::Matrix3d to_there =
+        rotation_by(moving * motion.turn_rad_s).conjugate().toRotationMatrix();
+    const Eigen::Vector3d from_there = to_there * (place - moving * motion.velocity_m_s);
+    const double range = 0.5 * motion.sound_speed_m_s * time;
+    const Eigen::Matrix3f turn = to_there.cast<float>();
+    Sample out = sample;
+    out.position = (range / from_there.norm() * from_there).cast<float>();
+    out.edge_u = turn * sample.edge_u;
+    out.edge_v = turn * sample.edge_v;
+    out.normal = turn * sample.normal;
+    out.height_m *= static_cast<float>(range / place.norm());
+    return out;
+}
+
+/// The beam of a fan by azimuth alone; -1 outside.
+int beam_by_azimuth(const View& view, const Eigen::Vector3f& p) {
+    const double azimuth = arctan2(static_cast<double>(p.y()), static_cast<double>(p.x()));
+    const double beam = std::floor((azimuth / view.azimuth_rad + 0.5) * view.beams);
+    return beam >= 0.0 && beam < view.beams ? static_cast<int>(beam) : -1;
+}
+
+/// Sorts the samples of a fan and those of `outside_sector` into the beams of their azimuths.
+/// Samples outside the sector end in `outside_sector`.
+void sort_into_beams(const View& view, Samples& samples, std::vector<Sample>& outside_sector) {
+    if (view.shape != ViewShape::fan) return;
+    std::vector<std::vector<Sample>> of_beam(view.beams);
+    std::vector<Sample> outside;
+    for (const std::vector<Sample>* all : {&samples.items, &outside_sector}) {
+        for (const Sample& sample : *all) {
+            const int beam = beam_by_azimuth(view, sample.position);
+            (beam < 0 ? outside : of_beam[beam]).push_back(sample);
+        }
+    }
+    samples.items.clear();
+    for (int j = 0; j < view.beams; ++j) {
+        samples.items.insert(samples.items.end(), of_beam[j].begin(), of_beam[j].end());
+        samples.beam_begin[j + 1] = static_cast<std::uint32_t>(samples.items.size());
+    }
+    outside_sector = std::move(outside);
+}
+
+}  // namespace
+
+Eigen::Quaterniond rotation_by(const Eigen::Vector3d& turn_rad) {
+    const double angle = turn_rad.norm();
+    if (!(angle > 0.0)) return Eigen::Quaterniond::Identity();
+    const SinCos half = sincos(0.5 * angle);
+    const Eigen::Vector3d axis = half.sin / angle * turn_rad;
+    return {half.cos, axis.x(), axis.y(), axis.z()};
+}
+
+PingMotion motion_after(const PingMotion& motion, double later_s) {
+    PingMotion out = motion;
+    out.velocity_m_s = rotation_by(later_s * motion.turn_rad_s).conjugate() * motion.velocity_m_s;
+    return out;
+}
+
+Pose pose_after(const PingMotion& motion, const Pose& T_world_sensor, double later_s) {
+    if (motion.is_still()) return T_world_sensor;
+    return T_world_sensor *
+           Pose{rotation_by(later_s * motion.turn_rad_s), later_s * motion.velocity_m_s};
+}
+
+Eigen::Vector3d measured_place(const PingMotion& motion, ViewShape shape,
+                               const Eigen::Vector3d& place) {
+    const double time = two_way_time(motion, place);
+    const double moving = reception_share(motion, shape) * time;
+    const Eigen::Vector3d from_there = rotation_by(moving * motion.turn_rad_s).conjugate() *
+                                       (place - moving * motion.velocity_m_s);
+    const double range = 0.5 * motion.sound_speed_m_s * time;
+    return range * from_there.normalized();
+}
+
+Eigen::Vector3d unmoved_place(const PingMotion& motion, ViewShape shape,
+                              const Eigen::Vector3d& measured) {
+    // The place is s + l d, with s the sonar's motion meanwhile and d the direction in the frame at
+    // transmission. Its two-way time must be that of the measured range. Newton's steps in l use
+    // the derivative 2 / c of a sonar at rest. Its relative error is the ratio of the speeds of
+    // sonar and sound, so each step reduces the error of l about a thousandfold.
+    double length = measured.norm();
+    const double time = 2.0 * length / motion.sound_speed_m_s;
+    const double moving = reception_share(motion, shape) * time;
+    const Eigen::Vector3d d = rotation_by(moving * motion.turn_rad_s) * measured.normalized();
+    const Eigen::Vector3d s = moving * motion.velocity_m_s;
+    for (int k = 0; k < 4; ++k)
+        length += 0.5 * motion.sound_speed_m_s * (time - two_way_time(motion, s + length * d));
+    return s + length * d;
+}
+
+void move_in_ping(const PingMotion& motion, const View& view, Samples& samples,
+                  std::vector<Sample>& outside_sector) {
+    if (motion.is_still()) return;
+    for (Sample& sample : samples.items)
+        sample = moved(motion, view.shape, sample);
+    for (Sample& sample : outside_sector)
+        sample = moved(motion, view.shape, sample);
+    sort_into_beams(view, samples, outside_sector);
+}
+
+}  // namespace sonarsim

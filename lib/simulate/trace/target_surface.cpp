@@ -1,0 +1,307 @@
+#include "simulate/trace/target_surface.h"
+
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "core/groups.h"
+#include "input/scene/maps/ground_maps.h"
+#include "input/scene/materials.h"
+#include "simulate/trace/arrivals.h"
+#include "simulate/visibility/view_volume.h"
+
+namespace sonarsim {
+
+namespace {
+
+// Resolution cells below which an object or its highlight is a target: an engine is right to 1 dB.
+constexpr float max_cells = 4.0F;
+// Parts of the view of one or two beams: each is half a beamwidth or less in the presets.
+constexpr double min_parts = 32.0;
+// The sonar is outside of the ball around a target.
+constexpr float min_distance_by_radius = 1.05F;
+// Vertices are moved by up to this share of a target's radius when they are joined.
+constexpr float weld_slack = 2e-5F;
+// The greatest size of a piece, as a share of a target's diameter: within 0.5 dB.
+constexpr float part_by_diameter = 1.0F / 8.0F;
+// Size of a part of a highlight that one ray decides on, relative to the highlight's own, curvature
+// radius times slope; no smaller than a share of a resolution cell.
+constexpr float glint_by_highlight = 1.5F;
+constexpr float min_glint_by_cell = 0.25F;
+// A part of a triangle is halved at most this many times, to a thousandth of its sides and less.
+constexpr int max_halvings = 22;
+
+/// The width in which a view resolves directions, or an engine samples them, rad.
+double resolved_width(const View& view) {
+    if (view.shape != ViewShape::fan) return view.elevation_rad / min_parts;
+    return view.azimuth_rad / std::max<double>(min_parts, view.beams);
+}
+
+/// A corner of a piece of a triangle, in the sensor frame.
+struct Corner {
+    Eigen::Vector3f place;
+    Eigen::Vector3f normal;  ///< interpolated between those of the triangle, facing the sonar
+    Eigen::Vector3f off;     ///< difference between the normal and the direction to the sonar
+
+    Corner(const Eigen::Vector3f& at, const Eigen::Vector3f& n) : place(at), normal(n) {
+        // Nearly of unit length: normals are at least 0.9 long.
+        const float to_unit = 1.5F - 0.5F * n.squaredNorm();
+        off = to_unit * n + at / arrival_range(at);
+    }
+};
+using Corners = std::array<Corner, 3>;
+
+/// A lower bound of the length of `off` on a triangle. A highlight lies where it is shorter than a
+/// few slopes of the material.
+float least_off(const Corners& corners) {
+    const Eigen::Vector3f middle = (corners[0].off + corners[1].off + corners[2].off) / 3.0F;
+    float spread2 = 0.0F;
+    for (const Corner& corner : corners)
+        spread2 = std::max(spread2, (corner.off - middle).squaredNorm());
+    return middle.norm() - std::sqrt(spread2);
+}
+
+/// A ray, and the piece that it should reach.
+struct Aim {
+    Ray ray;
+    float range_m;
+    float cosine;   ///< cosine of the angle between the ray and the normal
+    float slack_m;  ///< greatest distance of the piece from the surface
+
+    bool arrives(const Intersection& hit) const {
+        // The ray hit nothing: it passed the outline of the target, where vertices were moved to
+        // join them.
+        if (!std::isfinite(hit.distance_m)) return true;
+        return hit.distance_m + (hit.rounding_m + slack_m) / std::max(cosine, 1e-3F) >= range_m;
+    }
+};
+
+/// Cuts the objects of a ping into pieces.
+class TargetSampler {
+  public:
+    TargetSampler(const View& view, const GuardBeams& guard_beams, const Scene& scene)
+        : view_(view),
+          field_(view, guard_beams),
+          volume_(widened_view(view, guard_beams), Pose{}),
+          maps_(scene.maps.get()) {
+        for (const Material& material : scene.materials)
+            slopes_.push_back(static_cast<float>(facet_slope(material)));
+    }
+
+    /// Cuts an object. False if it lies outside or is large enough for an engine's samples.
+    bool add(const PlacedTarget& placed, const TargetShape& shape,
+             const Eigen::Affine3f& T_sensor_shape) {
+        const float scale = T_sensor_shape.linear().col(0).norm();
+        const Eigen::Vector3f centre = T_sensor_shape * shape.centre;
+        const float radius = scale * shape.radius_m;
+        const float range = arrival_range(centre);
+        if (range < min_distance_by_radius * radius ||
+            volume_.of_sensor_frame(centre, radius + volume_.rounding_m()) == Containment::outside)
+            return false;
+        const float cell = std::max(static_cast<float>(resolved_width(view_)) * range,
+                                    static_cast<float>(view_.bin_m()));
+        const float highlight =
+            shape.curvature_m > 0.0F ? scale * shape.curvature_m * placed.min_slope : radius;
+        // On a coarse mesh an engine sees facets where the surface is curved.
+        const bool is_smooth = shape.turn <= placed.min_slope;
+        if (highlight > max_cells * cell && is_smooth) return false;
+        part_m_ = part_by_diameter * 2.0F * radius;
+        min_glint_m_ = std::min(min_glint_by_cell * cell, part_m_);
+        weld_m_ = weld_slack * radius;
+        cut(placed, shape, T_sensor_shape, scale);
+        return true;
+    }
+
+    /// The pieces that are seen.
+    std::vector<Sample> take_seen(const VisibilityEngine& engine, const Pose& T_world_sensor) {
+        std::vector<Ray> rays;
+        std::ranges::transform(aims_, std::back_inserter(rays), &Aim::ray);
+        std::vector<Intersection> hits(rays.size());
+        engine.intersect(T_world_sensor, rays, hits);
+        std::size_t kept = 0;
+        for (std::size_t k = 0; k < pieces_.size(); ++k) {
+            const std::uint32_t ray = ray_of_[k];
+            if (aims_[ray].arrives(hits[ray])) pieces_[kept++] = pieces_[k];
+        }
+        pieces_.resize(kept);
+        return std::move(pieces_);
+    }
+
+  private:
+    void cut(const PlacedTarget& placed, const TargetShape& shape,
+             const Eigen::Affine3f& T_sensor_shape, float scale) {
+        const Eigen::Matrix3f R = T_sensor_shape.linear() / scale;
+        const bool is_mapped = maps_ && maps_->lie_on(placed.instance);
+        last_point_.reset();
+        piece_.instance = placed.instance;
+        for (const TargetTriangle& triangle : shape.triangles) {
+            const auto place = [&](int k) -> Eigen::Vector3f {
+                return T_sensor_shape * shape.vertices[triangle.corners[k]];
+            };
+            flat_normal_ = R * triangle.normal;
+            const float height = -flat_normal_.dot(place(0));
+            if (shape.closed && !(height > 0.0F)) continue;
+            const float side = height < 0.0F ? -1.0F : 1.0F;
+            flat_normal_ *= side;
+            curvature_m_ = side * scale * triangle.curvature_m;
+            slope_ = is_mapped ? placed.min_slope : slopes_[triangle.material];
+            piece_.material = triangle.material;
+            piece_.region = triangle.region + 1;
+            const auto corner = [&](int k) {
+                return Corner(place(k), side * (R * triangle.normals[k]));
+            };
+            halve({corner(0), corner(1), corner(2)}, max_halvings, slope_ > 0.0F);
+        }
+    }
+
+    /// Halves a part of the triangle until it is a piece: small and, where a highlight may lie,
+    /// with a normal that turns by about a slope. `may_glint`: a highlight may lie on the whole
+    /// that it is a part of.
+    void halve(const Corners& corners, int halvings, bool may_glint) {
+        const bool glints = may_glint && least_off(corners) <= highlight_slopes * slope_;
+        const float per_part = 1.0F / part_m_;
+        const float per_turn = glints ? 1.0F / slope_ : 0.0F;
+        int longest = -1;
+        float size = 1.0F;
+        for (int k = 0; k < 3; ++k) {
+            const Corner& from = corners[k];
+            const Corner& to = corners[(k + 1) % 3];
+            const float of_side = std::max(per_part * (to.place - from.place).norm(),
+                                           per_turn * (to.off - from.off).norm());
+            if (!(of_side > size)) continue;
+            size = of_side;
+            longest = k;
+        }
+        if (longest < 0 || halvings == 0) return add_piece(corners, glints);
+        const Corner& a = corners[longest];
+        const Corner& b = corners[(longest + 1) % 3];
+        const Corner& c = corners[(longest + 2) % 3];
+        const Corner middle(0.5F * (a.place + b.place), 0.5F * (a.normal + b.normal));
+        halve({a, middle, c}, halvings - 1, glints);
+        halve({middle, b, c}, halvings - 1, glints);
+    }
+
+    void add_piece(const Corners& corners, bool glints) {
+        // From b to c is the shortest side, so that the edges of the footprint are far from
+        // parallel.
+        const auto length2 = [&](int k) {
+            return (corners[(k + 1) % 3].place - corners[k].place).squaredNorm();
+        };
+        const int shortest = std::ranges::min({0, 1, 2}, {}, length2);
+        const Corner& a = corners[(shortest + 2) % 3];
+        const Corner& b = corners[shortest];
+        const Corner& c = corners[(shortest + 1) % 3];
+        const Eigen::Vector3f middle = (a.place + b.place + c.place) / 3.0F;
+        if (!field_.contains(middle)) return;
+        aim_at(middle, glints);
+        const Eigen::Vector3f n = (a.normal + b.normal + c.normal) / 3.0F;
+        const float length = n.norm();
+        const float flat_m2 = 0.5F * (b.place - a.place).cross(c.place - a.place).norm();
+        piece_.normal = n / length;
+        piece_.position = middle + curvature_m_ * (1.0F - length) * piece_.normal;
+        // The edges are those of a parallelogram with the area of the triangle.
+        piece_.edge_u = 0.25F * (b.place + c.place - 2.0F * a.place);
+        piece_.edge_v = 0.25F * (c.place - b.place);
+        piece_.height_m = std::max(-piece_.position.dot(piece_.normal), 0.0F);
+        piece_.area_m2 =
+            flat_m2 * std::max(flat_normal_.dot(piece_.normal), 0.0F) / (length * length);
+        pieces_.push_back(piece_);
+        ray_of_.push_back(static_cast<std::uint32_t>(aims_.size() - 1));
+    }
+
+    /// Aims a ray at a piece, unless the last one arrives on the same part of its surface.
+    void aim_at(const Eigen::Vector3f& middle, bool glints) {
+        const float glint_m = glint_by_highlight * std::fabs(curvature_m_) * slope_;
+        const float part_m = glints ? std::clamp(glint_m, min_glint_m_, part_m_) : part_m_;
+        if (last_point_ && (middle - *last_point_).norm() < 0.5F * part_m &&
+            flat_normal_.dot(last_normal_) > 0.9F)
+            return;
+        const auto [range, direction] = arrival_of(middle);
+        aims_.push_back({{Eigen::Vector3f::Zero(), direction},
+                         range,
+                         std::fabs(flat_normal_.dot(direction)),
+                         weld_m_});
+        last_point_ = middle;
+        last_normal_ = flat_normal_;
+    }
+
+    const View& view_;
+    GuardedField field_;
+    ViewVolume volume_;
+    const GroundMaps* maps_;     ///< null: none
+    std::vector<float> slopes_;  ///< RMS slopes of the materials' facets
+    // The target that is cut:
+    float part_m_ = 0.0F;       ///< the greatest size of a piece
+    float min_glint_m_ = 0.0F;  ///< the least size of a part of a highlight that one ray decides on
+    float weld_m_ = 0.0F;       ///< the way by which its vertices were moved at most
+    // The triangle that is cut:
+    Eigen::Vector3f flat_normal_ = Eigen::Vector3f::Zero();  ///< facing the sonar
+    float curvature_m_ = 0.0F;  ///< as in TargetTriangle, negative if hollow
+    float slope_ = 0.0F;        ///< RMS slope of its facets; 0: none
+    Sample piece_{};
+
+    std::vector<Sample> pieces_;
+    std::vector<std::uint32_t> ray_of_;
+    std::vector<Aim> aims_;
+    std::optional<Eigen::Vector3f> last_point_;
+    Eigen::Vector3f last_normal_ = Eigen::Vector3f::Zero();
+};
+
+Eigen::Affine3f in_sensor_frame(const PlacedTarget& placed, const Scene& scene,
+                                std::span<const Pose> T_world_body, const Pose& T_world_sensor) {
+    const auto affine = [](const Pose& pose) {
+        return Eigen::Affine3d(Eigen::Translation3d(pose.translation) * pose.rotation);
+    };
+    const Eigen::Affine3d T_world_shape =
+        placed.body ? affine(T_world_body[*placed.body])
+                    : Eigen::Translation3d(scene.origin) * placed.T_local_shape.cast<double>();
+    return (affine(T_world_sensor).inverse(Eigen::Isometry) * T_world_shape).cast<float>();
+}
+
+}  // namespace
+
+TargetSurface target_surface(const TargetShapes& shapes, const View& view,
+                             const GuardBeams& guard_beams, const Scene& scene,
+                             const VisibilityEngine& engine, const Pose& T_world_sensor) {
+    TargetSurface out;
+    TargetSampler sampler(view, guard_beams, scene);
+    const std::span<const Pose> bodies = engine.body_poses();
+    for (const PlacedTarget& placed : shapes.placed) {
+        if (placed.body && bodies.empty()) continue;  // without a pose it is invisible
+        if (sampler.add(placed, shapes.shapes[placed.shape],
+                        in_sensor_frame(placed, scene, bodies, T_world_sensor)))
+            out.instances.push_back(placed.instance);
+    }
+    std::ranges::sort(out.instances);
+    if (!out.instances.empty()) out.pieces = sampler.take_seen(engine, T_world_sensor);
+    return out;
+}
+
+void replace_samples(const TargetSurface& targets, const View& view, VisibleSurface& surface) {
+    if (targets.instances.empty()) return;
+    const auto is_replaced = [&](const Sample& sample) { return targets.has(sample.instance); };
+    std::erase_if(surface.outside_sector, is_replaced);
+    const BeamLocator field(view);
+    std::vector<std::uint32_t> beam_of_piece;
+    for (const Sample& piece : targets.pieces) {
+        const float beam = field.beam(piece.position, arrival_range(piece.position));
+        if (beam < 0.0F) surface.outside_sector.push_back(piece);
+        beam_of_piece.push_back(beam < 0.0F ? no_group : static_cast<std::uint32_t>(beam));
+    }
+    const Groups by_beam = sort_into_groups(beam_of_piece, view.beams);
+    Samples merged{.items = {}, .beam_begin = {0}, .dropped = surface.samples.dropped};
+    merged.items.reserve(surface.samples.items.size() + targets.pieces.size());
+    for (int j = 0; j < view.beams; ++j) {
+        std::ranges::remove_copy_if(surface.samples.beam(j), std::back_inserter(merged.items),
+                                    is_replaced);
+        for (std::uint32_t k = by_beam.begin[j]; k < by_beam.begin[j + 1]; ++k)
+            merged.items.push_back(targets.pieces[by_beam.items[k]]);
+        merged.beam_begin.push_back(static_cast<std::uint32_t>(merged.items.size()));
+    }
+    surface.samples = std::move(merged);
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/pose.h"
+#include "input/scene/scene.h"
+#include "simulate/trace/counters.h"
+#include "simulate/trace/multipath.h"
+#include "simulate/trace/particles.h"
+#include "simulate/trace/ping_motion.h"
+#include "simulate/trace/target_shapes.h"
+#include "simulate/trace/terms.h"
+#include "simulate/trace/visible_surface.h"
+#include "simulate/visibility/engine.h"
+
+namespace sonarsim {
+
+/// The settings of the trace of a ping.
+struct TraceSettings {
+    View view;
+    GuardBeams guard_beams;
+    Multipath multipath;
+    /// Objects that the trace samples itself where an engine's samples cannot; null: none.
+    std::shared_ptr<const TargetShapes> targets;
+    std::shared_ptr<const Particles> particles;  ///< point targets in the water; null: none
+    bool sees_water_surface = false;             ///< if the surface scatters
+};
+
+/// The surface that a sonar insonified from one pose. It holds no noise: any number of images may
+/// be formed from it.
+struct TracedPing {
+    Pose T_world_sensor;  ///< at transmission
+    PingMotion motion;
+    Samples samples;                     ///< the visible surface
+    std::vector<Sample> outside_sector;  ///< the visible surface in the guard beams
+    SeenParticles particles;
+    std::vector<Sample> water_surface;  ///< if it scatters
+    std::vector<BouncePath> bounces;    ///< multipath paths from `samples`
+    /// The group in which each beam transmits, and the traces of all groups after the first, whose
+    /// trace is this one. Empty: all beams transmit at once.
+    std::vector<int> group_of_beam;
+    std::vector<TracedPing> later_groups;
+    PingCounts counts;
+    PingSeconds seconds;
+};
+
+/// Finds the surface that a sonar sees and, if its settings and the terms have it, the multipath:
+/// steps 1 and 2 of docs/model.md.
+TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
+                      const VisibilityEngine& engine, const Pose& T_world_sensor,
+                      const Terms& terms = {}, const PingMotion& motion = {});
+
+/// Finds the multipath of a traced ping again, with these settings.
+void trace_multipath(const TraceSettings& settings, const Scene& scene,
+                     const VisibilityEngine& engine, TracedPing& traced);
+
+}  // namespace sonarsim

@@ -1,0 +1,152 @@
+#include "simulate/trace/visible_water_surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "core/elementary.h"
+#include "core/units.h"
+#include "simulate/trace/water_mirror.h"
+
+namespace sonarsim {
+
+namespace {
+
+// The directions of the view are cut into cells of this size or this many; a cell that spans too
+// much range is cut in four. These numbers are chosen. With them the area in a bin is right to 1 %
+// (water_surface_test.cpp).
+constexpr double first_cell_rad = radians(2.0);
+constexpr double min_cells = 16.0;
+constexpr float max_range_share = 1.0F / 8.0F;
+constexpr float max_bins = 64.0F;
+constexpr int max_cuts = 7;
+
+constexpr std::uint32_t no_instance = 0xFFFFFFFFU;
+
+/// A rectangle of azimuth and elevation.
+struct Cell {
+    double azimuth, elevation;  ///< angles of the middle
+    double half_azimuth, half_elevation;
+};
+
+Eigen::Vector3f direction(double azimuth, double elevation) {
+    const SinCos a = sincos(azimuth);
+    const SinCos e = sincos(elevation);
+    return {static_cast<float>(e.cos * a.cos), static_cast<float>(e.cos * a.sin),
+            static_cast<float>(e.sin)};
+}
+
+class SurfaceCutter {
+  public:
+    SurfaceCutter(const WaterMirror& surface, const View& view, const GuardBeams& guard_beams,
+                  std::uint32_t material)
+        : surface_(surface),
+          all_around_(view.shape == ViewShape::port_starboard),
+          field_(view, guard_beams),
+          reach_m_(static_cast<float>(view.range_max_m)),
+          depth_m_(max_bins * static_cast<float>(view.bin_m())),
+          material_(material) {
+        const View wide = widened_view(view, guard_beams);
+        const double azimuth = all_around_ ? 2.0 * pi : wide.azimuth_rad;
+        const int columns = cells_over(azimuth);
+        const int rows = cells_over(wide.elevation_rad);
+        const double half_azimuth = 0.5 * azimuth / columns;
+        const double half_elevation = 0.5 * wide.elevation_rad / rows;
+        for (int j = 0; j < columns; ++j) {
+            for (int i = 0; i < rows; ++i) {
+                add({(2 * j + 1 - columns) * half_azimuth, (2 * i + 1 - rows) * half_elevation,
+                     half_azimuth, half_elevation},
+                    max_cuts);
+            }
+        }
+    }
+
+    std::vector<Sample> samples;
+
+  private:
+    static int cells_over(double angle_rad) {
+        return static_cast<int>(std::ceil(std::max(min_cells, angle_rad / first_cell_rad)));
+    }
+
+    void add(const Cell& cell, int cuts) {
+        const auto towards = [&](double a, double e) {
+            return direction(cell.azimuth + a * cell.half_azimuth,
+                             cell.elevation + e * cell.half_elevation);
+        };
+        // Infinite below the horizon.
+        const auto range = [&](const Eigen::Vector3f& to) {
+            return surface_.distance({Eigen::Vector3f::Zero(), to});
+        };
+        const std::array ranges{range(towards(0.0, 0.0)), range(towards(-1.0, -1.0)),
+                                range(towards(-1.0, 1.0)), range(towards(1.0, -1.0)),
+                                range(towards(1.0, 1.0))};
+        const auto [nearest, farthest] = std::ranges::minmax(ranges);
+        if (!(nearest < reach_m_)) return;
+        if (farthest - nearest > std::min(max_range_share * nearest, depth_m_)) {
+            if (cuts > 0) {
+                for (const double a : {-0.5, 0.5}) {
+                    for (const double e : {-0.5, 0.5}) {
+                        add({cell.azimuth + a * cell.half_azimuth,
+                             cell.elevation + e * cell.half_elevation, 0.5 * cell.half_azimuth,
+                             0.5 * cell.half_elevation},
+                            cuts - 1);
+                    }
+                }
+                return;
+            }
+            // A cell that reaches to twice its nearest range, or beyond, is at the horizon. Chosen.
+            if (!(farthest < 2.0F * nearest)) return;
+        }
+        const auto place = [&](double a, double e) -> Eigen::Vector3f {
+            const Eigen::Vector3f to = towards(a, e);
+            return range(to) * to;
+        };
+        const Eigen::Vector3f middle = place(0.0, 0.0);
+        if (!all_around_ && !field_.contains(middle)) return;
+        const Eigen::Vector3f edge_u = 0.5F * (place(1.0, 0.0) - place(-1.0, 0.0));
+        const Eigen::Vector3f edge_v = 0.5F * (place(0.0, 1.0) - place(0.0, -1.0));
+        samples.push_back({.position = middle,
+                           .edge_u = edge_u,
+                           .edge_v = edge_v,
+                           .normal = -surface_.up,
+                           .height_m = surface_.height_m,
+                           .area_m2 = 4.0F * edge_u.cross(edge_v).norm(),
+                           .material = material_,
+                           .instance = no_instance});
+    }
+
+    const WaterMirror& surface_;
+    bool all_around_;
+    GuardedField field_;
+    float reach_m_, depth_m_;
+    std::uint32_t material_;
+};
+
+}  // namespace
+
+std::vector<Sample> visible_water_surface(const View& view, const GuardBeams& guard_beams,
+                                          const Scene& scene, const VisibilityEngine& engine,
+                                          const Pose& T_world_sensor, const PingMotion& motion) {
+    const std::optional<WaterMirror> surface = mirror_of(scene.water_surface, T_world_sensor);
+    if (!surface || !scene.water_surface->wind_m_s) return {};
+    const auto material = static_cast<std::uint32_t>(scene.materials.size());
+    std::vector<Sample> samples = SurfaceCutter(*surface, view, guard_beams, material).samples;
+    std::vector<Ray> rays;
+    rays.reserve(samples.size());
+    for (const Sample& sample : samples)
+        rays.push_back({Eigen::Vector3f::Zero(), sample.position.normalized()});
+    std::vector<Intersection> hits(rays.size());
+    engine.intersect(T_world_sensor, rays, hits);
+    std::vector<Sample> seen;
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+        if (hits[k].distance_m < samples[k].position.norm()) continue;
+        seen.push_back(samples[k]);
+        if (motion.is_still()) continue;
+        Eigen::Vector3f& place = seen.back().position;
+        place = measured_place(motion, view.shape, place.cast<double>()).cast<float>();
+    }
+    return seen;
+}
+
+}  // namespace sonarsim

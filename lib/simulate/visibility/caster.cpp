@@ -1,0 +1,258 @@
+#include "simulate/visibility/caster.h"
+
+#include <tbb/task_arena.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "core/error.h"
+#include "input/scene/mesh_topology.h"
+#include "simulate/visibility/embree_build.h"
+#include "simulate/visibility/embree_trace.h"
+
+namespace sonarsim {
+
+namespace {
+
+static_assert(Caster::nothing == RTC_INVALID_GEOMETRY_ID);
+
+// Facets of all placed trees have numbers of 32 bits, and `nothing` is none of them.
+constexpr std::size_t max_facets = 0xFFFF0000U;
+
+template <class Mesh>
+Facet make_facet(const Mesh& mesh, std::size_t triangle, std::uint32_t instance) {
+    const auto& corners = mesh.triangles[triangle];
+    return {mesh.vertices[corners[0]], mesh.triangle_material[triangle],
+            cross_of(mesh.vertices, corners).normalized().template cast<float>(), instance};
+}
+
+}  // namespace
+
+/// The constant parts: a tree of the scene's own triangles, and one of each body and of each shared
+/// mesh in its own frame.
+struct Caster::Trees {
+    /// A placed copy of a shared mesh, scene-local.
+    struct PlacedCopy {
+        std::uint32_t tree;
+        std::uint32_t instance;
+        Eigen::Matrix<float, 3, 4> T_local_mesh;
+    };
+
+    RTCDevice device = nullptr;
+    std::vector<EmbreeTree> trees;
+    std::vector<Facet> facets;
+    std::vector<std::uint32_t> first_of_tree;  ///< index into `facets`, with one entry for the end
+    std::size_t bodies = 0;
+    std::vector<PlacedCopy> copies;
+
+    ~Trees() {
+        trees.clear();
+        if (device) rtcReleaseDevice(device);
+    }
+
+    std::uint32_t size(std::size_t tree) const {
+        return first_of_tree[tree + 1] - first_of_tree[tree];
+    }
+
+    template <class Mesh, class InstanceOf>
+    void add(const Mesh& mesh, const InstanceOf& instance_of) {
+        for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+            facets.push_back(make_facet(mesh, i, instance_of(i)));
+        first_of_tree.push_back(static_cast<std::uint32_t>(facets.size()));
+        trees.push_back(make_tree(device, mesh.vertices, mesh.triangles));
+    }
+};
+
+/// One tree of placed objects: the scene's own triangles, or bodies, or both, followed by copies.
+/// Their facet numbers start at `begin`.
+struct Caster::PlacedTree {
+    EmbreeTree tree;
+    std::uint32_t begin = 0;
+    std::uint32_t end = 0;
+    std::vector<std::uint32_t> first_facet;  ///< number of each object's first facet
+    std::vector<std::uint32_t> tree_of;      ///< index into Trees::trees
+    std::vector<Eigen::Matrix<float, 3, 4>> transforms;
+    std::size_t first_copy = 0;  ///< index of the first copy
+
+    PlacedTree(const Trees& trees, std::uint32_t first)
+        : tree(trees.device), begin(first), end(first) {}
+
+    void add(const Trees& trees, std::uint32_t placed, const Eigen::Matrix<float, 3, 4>& T) {
+        add_instance(trees.device, tree, static_cast<unsigned int>(first_facet.size()),
+                     trees.trees[placed], T);
+        first_facet.push_back(end);
+        tree_of.push_back(placed);
+        transforms.push_back(T);
+        end += trees.size(placed);
+    }
+
+    void add_own(const Trees& trees) {
+        add(trees, 0, Eigen::Matrix<float, 3, 4>::Identity());
+        first_copy = first_facet.size();
+    }
+
+    void add_bodies(const Trees& trees, std::span<const Pose> T_local_body) {
+        for (std::size_t k = 0; k < T_local_body.size(); ++k) {
+            Eigen::Matrix<float, 3, 4> transform;
+            transform << T_local_body[k].rotation.toRotationMatrix().cast<float>(),
+                T_local_body[k].translation.cast<float>();
+            add(trees, static_cast<std::uint32_t>(1 + k), transform);
+        }
+        first_copy = first_facet.size();
+    }
+
+    void add_copies(const Trees& trees) {
+        for (const Trees::PlacedCopy& copy : trees.copies)
+            add(trees, copy.tree, copy.T_local_mesh);
+    }
+
+    void finish(const Trees& trees) {
+        // Isolated, so that a thread that waits for Embree does not begin another ping.
+        tbb::this_task_arena::isolate([&] { rtcCommitScene(tree.get()); });
+        check_embree(trees.device, "placing bodies and copies");
+    }
+};
+
+Caster::Caster(std::shared_ptr<const Trees> trees,
+               std::vector<std::shared_ptr<const PlacedTree>> placed_trees)
+    : trees_(std::move(trees)),
+      placed_trees_(std::move(placed_trees)),
+      facets_(trees_->facets.data()),
+      still_(trees_->size(0)) {
+    if (placed_trees_.empty() && !trees_->copies.empty()) {
+        auto still = std::make_shared<PlacedTree>(*trees_, 0);
+        still->add_own(*trees_);
+        still->add_copies(*trees_);
+        still->finish(*trees_);
+        placed_trees_.push_back(std::move(still));
+    }
+    find_box();
+}
+
+void Caster::find_box() {
+    constexpr float infinite = std::numeric_limits<float>::infinity();
+    low_ = infinite;
+    high_ = -infinite;
+    const auto include = [&](const EmbreeTree& tree) {
+        RTCBounds box;
+        rtcGetSceneBounds(tree.get(), &box);
+        low_ = low_.min(Eigen::Array3f(box.lower_x, box.lower_y, box.lower_z));
+        high_ = high_.max(Eigen::Array3f(box.upper_x, box.upper_y, box.upper_z));
+    };
+    if (placed_trees_.empty()) include(trees_->trees[0]);
+    for (const auto& placed_tree : placed_trees_)
+        include(placed_tree->tree);
+    if ((low_ > high_).any()) return;
+    // Widened, since rounding may let a ray meet a surface slightly outside.
+    const float rounding = 0x1p-20F * low_.abs().max(high_.abs()).maxCoeff();
+    low_ -= rounding;
+    high_ += rounding;
+}
+
+Caster::Caster(const Scene& scene) : Caster(make_trees(scene), {}) {}
+Caster::Caster(Caster&&) noexcept = default;
+Caster::Caster(const Caster&) = default;
+Caster::~Caster() = default;
+
+std::shared_ptr<const Caster::Trees> Caster::make_trees(const Scene& scene) {
+    auto made = std::make_shared<Trees>();
+    // Pinned to AVX2, since another instruction set may order equal distances differently.
+    made->device = rtcNewDevice("isa=avx2,max_isa=avx2");
+    check_embree(made->device, "starting");
+    std::size_t facets = scene.triangles.size();
+    for (const Body& body : scene.bodies)
+        facets += body.triangles.size();
+    for (const SharedMesh& mesh : scene.shared_meshes)
+        facets += mesh.triangles.size();
+    std::size_t placed = facets;
+    for (const MeshCopy& copy : scene.copies)
+        placed += scene.shared_meshes[copy.mesh].triangles.size();
+    if (placed > max_facets) {
+        throw InputError("the scene has " + std::to_string(placed) + " triangles; at most " +
+                         std::to_string(max_facets) + " are supported");
+    }
+    made->facets.reserve(facets);
+    made->first_of_tree.push_back(0);
+    made->add(scene, [&](std::size_t i) { return scene.triangle_instance[i]; });
+    for (const Body& body : scene.bodies)
+        made->add(body, [&](std::size_t) { return body.instance; });
+    made->bodies = scene.bodies.size();
+    for (const SharedMesh& mesh : scene.shared_meshes)
+        made->add(mesh, [](std::size_t) { return 0U; });
+    for (const MeshCopy& copy : scene.copies) {
+        Eigen::Affine3d T_local_mesh = copy.T_world_mesh;
+        T_local_mesh.translation() -= scene.origin;
+        made->copies.push_back({static_cast<std::uint32_t>(1 + made->bodies + copy.mesh),
+                                copy.instance, T_local_mesh.matrix().topRows<3>().cast<float>()});
+    }
+    return made;
+}
+
+Caster Caster::moved(std::span<const Pose> T_local_body) const {
+    // Copies are many and at rest, so the first tree holds them and is kept; bodies get their own
+    // tree. Without copies one tree holds everything, which is faster to trace.
+    const bool has_copies = !trees_->copies.empty();
+    auto placed_tree =
+        std::make_shared<PlacedTree>(*trees_, has_copies ? placed_trees_.front()->end : 0);
+    if (!has_copies) placed_tree->add_own(*trees_);
+    placed_tree->add_bodies(*trees_, T_local_body);
+    placed_tree->finish(*trees_);
+    std::vector<std::shared_ptr<const PlacedTree>> placed_trees;
+    if (has_copies) placed_trees.push_back(placed_trees_.front());
+    placed_trees.push_back(std::move(placed_tree));
+    return {trees_, std::move(placed_trees)};
+}
+
+Facet Caster::placed_facet(std::uint32_t index) const {
+    const PlacedTree& placed_tree =
+        index < placed_trees_.back()->begin ? *placed_trees_.front() : *placed_trees_.back();
+    const auto& first = placed_tree.first_facet;
+    const auto next = std::upper_bound(first.begin(), first.end(), index);
+    const auto placed = static_cast<std::size_t>(next - first.begin()) - 1;
+    const auto stored = trees_->first_of_tree[placed_tree.tree_of[placed]];
+    Facet facet = facets_[stored + (index - first[placed])];
+    const Eigen::Matrix<float, 3, 4>& T = placed_tree.transforms[placed];
+    facet.vertex = T.leftCols<3>() * facet.vertex + T.col(3);
+    facet.normal = T.leftCols<3>() * facet.normal;
+    if (placed < placed_tree.first_copy) return facet;
+    facet.normal.normalize();  // a copy may be scaled
+    facet.instance = trees_->copies[placed - placed_tree.first_copy].instance;
+    return facet;
+}
+
+void Caster::cast_from(const RayOrigins& origins, std::span<const Eigen::Vector3f> directions,
+                       float reach_m, RaySpread spread, std::span<std::uint32_t> facets) const {
+    if (placed_trees_.empty()) {
+        const TracedLayer own{trees_->trees[0].get()};
+        trace_packets({&own, 1}, origins, directions, reach_m, spread, facets);
+        return;
+    }
+    std::array<TracedLayer, 2> layers;
+    for (std::size_t k = 0; k < placed_trees_.size(); ++k)
+        layers[k] = {placed_trees_[k]->tree.get(), placed_trees_[k]->first_facet};
+    trace_packets(std::span(layers).first(placed_trees_.size()), origins, directions, reach_m,
+                  spread, facets);
+}
+
+void Caster::cast(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f> directions,
+                  float reach_m, std::span<std::uint32_t> facets, RaySpread spread) const {
+    cast_from({&origin, 0}, directions, reach_m, spread, facets);
+}
+
+void Caster::cast(std::span<const Eigen::Vector3f> origins,
+                  std::span<const Eigen::Vector3f> directions,
+                  std::span<std::uint32_t> facets) const {
+    cast(origins, directions, std::numeric_limits<float>::infinity(), facets);
+}
+
+void Caster::cast(std::span<const Eigen::Vector3f> origins,
+                  std::span<const Eigen::Vector3f> directions, float reach_m,
+                  std::span<std::uint32_t> facets) const {
+    cast_from({origins.data(), 1}, directions, reach_m, RaySpread::close, facets);
+}
+
+}  // namespace sonarsim

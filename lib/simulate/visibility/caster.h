@@ -1,0 +1,98 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/pose.h"
+#include "input/scene/scene.h"
+#include "simulate/visibility/ray_spread.h"
+
+namespace sonarsim {
+
+struct RayOrigins;
+
+/// The data of a triangle that a ray has met; 32 bytes, half a cache line.
+struct Facet {
+    Eigen::Vector3f vertex;  ///< one of its corners, scene-local, m
+    std::uint32_t material;
+    Eigen::Vector3f normal;  ///< unit
+    std::uint32_t instance;
+};
+
+/// Wraps Embree: finds the first triangle that a ray meets. Distances come from the facet's plane,
+/// since Embree's reciprocals differ between makers of processors.
+class Caster {
+  public:
+    static constexpr std::uint32_t nothing = 0xFFFFFFFFU;
+
+    /// Builds the tree over `scene`, and one over each of its bodies and shared meshes. Rays meet
+    /// bodies only after moved() has placed them.
+    explicit Caster(const Scene& scene);
+    ~Caster();
+    Caster(Caster&&) noexcept;
+    Caster(const Caster&);  ///< the copy shares the trees, which never change
+    Caster& operator=(const Caster&) = delete;
+
+    /// The same trees with the bodies at these poses. The time grows with the number of bodies, but
+    /// not with their triangles or with copies of shared meshes. Scene-local frame.
+    Caster moved(std::span<const Pose> T_local_body) const;
+
+    /// Rays from one point: `facets[i]` is the facet that direction i meets within `reach_m`, or
+    /// `nothing`. Neighbours in the list should be neighbours in space, or else `spread` wide.
+    /// Scene-local frame.
+    void cast(const Eigen::Vector3f& origin, std::span<const Eigen::Vector3f> directions,
+              float reach_m, std::span<std::uint32_t> facets,
+              RaySpread spread = RaySpread::close) const;
+
+    /// Rays from many points. Neighbours in the list should be neighbours in space here, too, as
+    /// specular reflections of neighbouring rays are.
+    void cast(std::span<const Eigen::Vector3f> origins, std::span<const Eigen::Vector3f> directions,
+              std::span<std::uint32_t> facets) const;
+    /// The same within `reach_m`.
+    void cast(std::span<const Eigen::Vector3f> origins, std::span<const Eigen::Vector3f> directions,
+              float reach_m, std::span<std::uint32_t> facets) const;
+
+    /// False if a ray surely meets nothing: it starts outside of the box around the whole scene and
+    /// leads away from it.
+    bool may_meet(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) const {
+        const auto beyond = origin.array() > high_ && direction.array() >= 0.0F;
+        const auto below = origin.array() < low_ && direction.array() <= 0.0F;
+        return !(beyond || below).any();
+    }
+
+    /// The facet at its present pose, scene-local. Copies of a mesh have facet numbers of their
+    /// own.
+    Facet facet(std::uint32_t index) const {
+        return index < still_ ? facets_[index] : placed_facet(index);
+    }
+
+    /// Prefetches a facet that is needed soon; `nothing` is allowed.
+    void prefetch(std::uint32_t index) const {
+        if (index < still_) __builtin_prefetch(&facets_[index]);
+    }
+
+  private:
+    struct Trees;
+    struct PlacedTree;
+    Caster(std::shared_ptr<const Trees> trees,
+           std::vector<std::shared_ptr<const PlacedTree>> placed_trees);
+    static std::shared_ptr<const Trees> make_trees(const Scene& scene);
+    void cast_from(const RayOrigins& origins, std::span<const Eigen::Vector3f> directions,
+                   float reach_m, RaySpread spread, std::span<std::uint32_t> facets) const;
+    Facet placed_facet(std::uint32_t index) const;
+    void find_box();
+
+    std::shared_ptr<const Trees> trees_;
+    /// Trees of placed objects. Empty: the scene has only its own triangles; one: everything; two:
+    /// objects at rest with the copies, then the bodies.
+    std::vector<std::shared_ptr<const PlacedTree>> placed_trees_;
+    /// Facets of the scene's own triangles, then of each other tree.
+    const Facet* facets_ = nullptr;
+    std::uint32_t still_ = 0;    ///< number of the scene's own triangles
+    Eigen::Array3f low_, high_;  ///< box around the whole scene, scene-local, m
+};
+
+}  // namespace sonarsim

@@ -1,0 +1,54 @@
+#include "simulate/visibility/embree_build.h"
+
+#include <algorithm>
+#include <new>
+#include <stdexcept>
+#include <string>
+
+namespace sonarsim {
+
+void check_embree(RTCDevice device, const char* doing) {
+    const RTCError error = rtcGetDeviceError(device);
+    if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+    if (error != RTC_ERROR_NONE) {
+        throw std::runtime_error(std::string("Embree failed while ") + doing + ", error " +
+                                 std::to_string(static_cast<int>(error)));
+    }
+}
+
+EmbreeTree make_tree(RTCDevice device, std::span<const Eigen::Vector3f> vertices,
+                     std::span<const std::array<std::uint32_t, 3>> triangles) {
+    EmbreeTree tree(device);
+    if (!triangles.empty()) {
+        RTCGeometry mesh = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        void* points = rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                               sizeof(Eigen::Vector3f), vertices.size());
+        void* corners = rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                sizeof(triangles[0]), triangles.size());
+        if (points && corners) {
+            std::copy(vertices.begin(), vertices.end(), static_cast<Eigen::Vector3f*>(points));
+            std::copy(triangles.begin(), triangles.end(),
+                      static_cast<std::array<std::uint32_t, 3>*>(corners));
+            rtcCommitGeometry(mesh);
+            rtcAttachGeometryByID(tree.get(), mesh, 0);
+        }
+        rtcReleaseGeometry(mesh);
+        check_embree(device, "copying the scene");
+    }
+    rtcCommitScene(tree.get());
+    check_embree(device, "building its tree");
+    return tree;
+}
+
+void add_instance(RTCDevice device, const EmbreeTree& into, unsigned int index,
+                  const EmbreeTree& tree, Eigen::Matrix<float, 3, 4> transform) {
+    transform.leftCols<3>() = transform.leftCols<3>().unaryExpr(&flush_to_zero).eval();
+    RTCGeometry instance = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(instance, tree.get());
+    rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, transform.data());
+    rtcCommitGeometry(instance);
+    rtcAttachGeometryByID(into.get(), instance, index);
+    rtcReleaseGeometry(instance);
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "core/pose.h"
+#include "simulate/visibility/view.h"
+
+namespace sonarsim {
+
+/// A patch of visible surface: a flat parallelogram that represents `area_m2` of the scene.
+/// Positions and edges are those that a sonar measures: where sound bends (Scene::sound_profile),
+/// the range by the time and the direction of arrival give an apparent place, not the true one.
+struct Sample {
+    Eigen::Vector3f position;  ///< centre, sensor frame, m
+    Eigen::Vector3f edge_u;    ///< half an edge of the footprint, sensor frame, m
+    Eigen::Vector3f edge_v;    ///< half the other edge
+    Eigen::Vector3f normal;    ///< unit, facing the sonar; its angle to `position` is the true one
+    float height_m;  ///< distance of the sonar from the patch's plane: v . n = height_m / range
+    float area_m2;
+    std::uint32_t material;  ///< index into Scene::materials
+    std::uint32_t instance;  ///< index into Scene::instances
+    /// Factor on the power that the material sends back, from a map of the scene
+    /// (simulate/trace/apply_maps.h) and from bent sound that converges or spreads.
+    float strength = 1.0F;
+    /// Number of the smooth surface of its instance that a piece of a target belongs to
+    /// (simulate/trace/target_surface.h), from 1 on; 0: no piece of a target.
+    std::uint32_t region = 0;
+};
+
+/// The insonified surface of a ping, sorted by beam. A footprint extends into a neighbouring beam
+/// by at most a tenth of a beam.
+struct Samples {
+    std::vector<Sample> items;
+    std::vector<std::uint32_t> beam_begin;  ///< beams + 1 offsets into `items`
+    /// Number of patches in view that were dropped. Rays: patches that are edge-on to within
+    /// rounding, or at zero distance.
+    std::uint64_t dropped = 0;
+
+    std::span<const Sample> beam(int j) const {
+        return {items.data() + beam_begin[j], items.data() + beam_begin[j + 1]};
+    }
+};
+
+struct Ray {
+    Eigen::Vector3f origin;     ///< sensor frame, m
+    Eigen::Vector3f direction;  ///< unit
+};
+
+/// The point where a ray meets the scene.
+struct Intersection {
+    float distance_m;        ///< along the ray; infinite if the ray meets nothing
+    float rounding_m;        ///< largest distance of that point from its surface
+    Eigen::Vector3f normal;  ///< unit, facing the ray's origin
+    std::uint32_t material;  ///< index into Scene::materials
+    std::uint32_t instance;  ///< index into Scene::instances
+};
+
+/// A view from a pose.
+struct Sight {
+    View view;
+    Pose T_world_sensor;
+};
+
+/// Finds the surface of a scene that a sonar insonifies. Engines are immutable to their callers:
+/// any number of threads may call them at once, and a result depends only on the arguments.
+class VisibilityEngine {
+  public:
+    virtual ~VisibilityEngine() = default;
+
+    /// The surface in `view` that is visible from `T_world_sensor` within the greatest range.
+    /// Surface nearer than the least range hides the surface behind it; it may be among the
+    /// samples.
+    virtual Samples visible_surface(const View& view, const Pose& T_world_sensor) const = 0;
+
+    /// The first surface that each ray meets. `intersections` has as many elements as `rays`.
+    virtual void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
+                           std::span<Intersection> intersections) const = 0;
+
+    /// The same along the paths of sound from the sonar, which may bend: a ray starts at an
+    /// apparent place, leads away from the sonar, and ends at another apparent place within
+    /// `reach_m` of the sonar.
+    virtual void intersect_behind(const Pose& T_world_sensor, std::span<const Ray> rays,
+                                  float /*reach_m*/, std::span<Intersection> intersections) const {
+        intersect(T_world_sensor, rays, intersections);
+    }
+
+    /// The engine with Scene::bodies at these poses. It shares everything else with this engine,
+    /// and must not outlive it. Without this call bodies are invisible. Call it only for scenes
+    /// with bodies; `unsupported` names the engines that cannot trace bodies.
+    virtual std::unique_ptr<VisibilityEngine> at(std::span<const Pose> /*T_world_body*/) const {
+        throw std::logic_error("this engine does not know of bodies that move");
+    }
+
+    /// The poses of Scene::bodies that at() was given; empty without them. World.
+    virtual std::span<const Pose> body_poses() const { return {}; }
+};
+
+}  // namespace sonarsim

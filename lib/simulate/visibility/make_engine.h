@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/engine_kind.h"
+#include "input/scene/scene.h"
+#include "simulate/visibility/caster.h"
+#include "simulate/visibility/engine.h"
+#include "simulate/visibility/octree/octree_engine.h"
+
+namespace sonarsim {
+
+/// With more triangles than this rays are dense where a bin holds a mean.
+constexpr std::size_t many_triangles = std::size_t{1} << 21;
+
+struct EngineSettings {
+    EngineKind type = EngineKind::rays;
+    OctreeOptions octree;  ///< for the octree only
+    /// For `automatic` only: the views that rays trace. Slices trace the others, or rays in scenes
+    /// with bodies, copies or many triangles.
+    std::vector<View> by_rays = {};
+    /// A caster over the scene, whose trees the rays and the slices then use; null: they make one.
+    std::shared_ptr<const Caster> caster = {};
+};
+
+/// Makes the engine over a scene, which must outlive it. Throws InputError when octree.leaf_m is
+/// too small for the scene, and std::runtime_error when memory does not suffice.
+std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSettings& settings);
+
+/// Error message, beginning with the mission's key, if the engine does not support this scene;
+/// empty otherwise.
+std::string unsupported(const EngineSettings& settings, const Scene& scene);
+
+/// Error message with the mission's keys if the engine does not support this view; empty otherwise.
+std::string unsupported(const EngineSettings& settings, const View& view);
+
+/// Warning text, with the mission's keys, if slices do not suit a sonar; empty otherwise.
+/// `energies_add`: a bin holds the sum of its echoes (calibrated model), not their mean.
+std::string slices_warning(const EngineSettings& settings, bool multipath, bool energies_add);
+
+}  // namespace sonarsim

@@ -1,0 +1,165 @@
+#include "simulate/visibility/octree/tree.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+#include "core/error.h"
+#include "core/text.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr std::size_t triangles_per_tile = 48;
+constexpr double leaves_per_tile_edge = 32.0;
+constexpr int max_levels = 30;  // a CubeIndex has 31 bits
+
+/// Memory of the leaves, above which tiles out of view are dropped.
+constexpr std::size_t max_bytes = std::size_t{512} << 20U;
+
+// Planes of a scene often have round coordinates. If faces of cubes coincided with them, rounding
+// would decide which cube holds the surface; these offsets, in units of a leaf, prevent that.
+const Eigen::Vector3d lattice_offset(0.381966011, 0.618033989, 0.272019650);
+
+}  // namespace
+
+std::string too_small_leaves(double length_m, double leaf_m) {
+    if (length_m + 2.0 * leaf_m <= std::ldexp(leaf_m, max_levels)) return "";
+    return "octree.leaf_m of " + number_text(leaf_m) + " is too small for a scene " +
+           number_text(std::ceil(length_m)) + " m long; use engine: auto or larger leaves";
+}
+
+Octree::Octree(const Scene& scene, const Caster& caster, double leaf_m)
+    : scene_(scene), caster_(caster), leaf_m_(leaf_m) {
+    Eigen::Vector3d low = Eigen::Vector3d::Zero();
+    Eigen::Vector3d high = Eigen::Vector3d::Zero();
+    if (!scene.vertices.empty()) low = high = scene.vertices[0].cast<double>();
+    for (const Eigen::Vector3f& vertex : scene.vertices) {
+        low = low.cwiseMin(vertex.cast<double>());
+        high = high.cwiseMax(vertex.cast<double>());
+    }
+    const double length = (high - low).maxCoeff();
+    if (const std::string refusal = too_small_leaves(length, leaf_m); !refusal.empty())
+        throw InputError(refusal);
+    while (std::ldexp(leaf_m, leaf_level_) < length + 2.0 * leaf_m)
+        ++leaf_level_;
+    edge_m_ = std::ldexp(leaf_m, leaf_level_);
+    for (int axis = 0; axis < 3; ++axis)
+        min_[axis] = low[axis] - lattice_offset[axis] * leaf_m;
+    std::vector<std::uint32_t> all(scene.triangles.size());
+    for (std::uint32_t i = 0; i < all.size(); ++i)
+        all[i] = i;
+    add_node({}, std::move(all));
+}
+
+Cube Octree::cube(const CubeIndex& index) const {
+    const double edge = std::ldexp(edge_m_, -index.level);
+    return {min_ + edge * Eigen::Vector3d(index.x, index.y, index.z), edge};
+}
+
+std::vector<std::uint32_t> Octree::inside(const std::vector<std::uint32_t>& triangles,
+                                          const Cube& cube) const {
+    std::vector<std::uint32_t> found;
+    for (const std::uint32_t index : triangles) {
+        const Triangle triangle = triangle_of(scene_, index);
+        if (overlaps(triangle, cube) && clip(triangle, cube).corners > 0) found.push_back(index);
+    }
+    found.shrink_to_fit();
+    return found;
+}
+
+void Octree::add_node(const CubeIndex& index, std::vector<std::uint32_t> triangles) {
+    Node& node = nodes_.emplace_back();
+    node.index = index;
+    const double edge_leaves = cube(index).edge / leaf_m_;
+    const bool few = triangles.size() <= triangles_per_tile;
+    // If triangles are tiny, a tile holds many of them, so that the upper part does not grow
+    // forever.
+    node.is_tile = (edge_leaves <= leaves_per_tile_edge && few) || edge_leaves <= 2.0;
+    node.triangles = std::move(triangles);
+}
+
+void Octree::split(Node& node) {
+    const std::vector<std::uint32_t> triangles = std::exchange(node.triangles, {});
+    node.children = static_cast<std::uint32_t>(nodes_.size());
+    for (int octant = 0; octant < 8; ++octant) {
+        const CubeIndex child = node.index.child(octant);
+        std::vector<std::uint32_t> own = inside(triangles, cube(child));
+        if (own.empty()) continue;
+        node.octants |= static_cast<std::uint8_t>(1 << octant);
+        add_node(child, std::move(own));
+    }
+}
+
+void Octree::add_leaves(const CubeIndex& tile, const CubeIndex& at,
+                        const std::vector<std::uint32_t>& triangles,
+                        std::vector<TileLeaf>& leaves) const {
+    if (triangles.empty()) return;
+    const int depth = leaf_level_ - tile.level;
+    if (at.level == leaf_level_) {
+        const auto leaf = leaf_of(cube(at), triangles, scene_, caster_);
+        if (!leaf) return;
+        leaves.push_back({*leaf, static_cast<std::uint16_t>(at.x - (tile.x << depth)),
+                          static_cast<std::uint16_t>(at.y - (tile.y << depth)),
+                          static_cast<std::uint16_t>(at.z - (tile.z << depth))});
+        return;
+    }
+    for (int octant = 0; octant < 8; ++octant) {
+        const CubeIndex child = at.child(octant);
+        add_leaves(tile, child, inside(triangles, cube(child)), leaves);
+    }
+}
+
+void Octree::find_tiles(Node& node, Containment containment, const ViewVolume& volume,
+                        std::vector<TileInView>& tiles) {
+    const Cube own = cube(node.index);
+    const Eigen::Vector3d middle = own.min.array() + 0.5 * own.edge;
+    const Eigen::Vector3f centre = (middle - volume.position()).cast<float>();
+    const auto edge = static_cast<float>(own.edge);
+    if (containment != Containment::inside) containment = volume.of_cube(centre, edge);
+    if (containment == Containment::outside) return;
+    if (node.is_tile) {
+        node.last_use = pings_;
+        if (!node.leaves) {
+            std::vector<TileLeaf> leaves;
+            add_leaves(node.index, node.index, node.triangles, leaves);
+            leaves.shrink_to_fit();
+            bytes_ += leaves.size() * sizeof(TileLeaf);
+            node.leaves = std::make_shared<const std::vector<TileLeaf>>(std::move(leaves));
+        }
+        tiles.push_back({centre.array() - 0.5F * edge, containment, node.leaves});
+        return;
+    }
+    if (node.children == 0) split(node);
+    const int near = (centre.x() < 0.0F) | (centre.y() < 0.0F) << 1 | (centre.z() < 0.0F) << 2;
+    for (int i = 0; i < 8; ++i) {
+        const unsigned octant = i ^ near;
+        if (!(node.octants >> octant & 1U)) continue;
+        const int before = std::popcount(node.octants & ((1U << octant) - 1U));
+        find_tiles(nodes_[node.children + static_cast<std::uint32_t>(before)], containment, volume,
+                   tiles);
+    }
+}
+
+void Octree::drop_old_tiles() {
+    if (bytes_ <= max_bytes) return;
+    for (Node& node : nodes_) {
+        if (!node.leaves || node.last_use == pings_) continue;
+        bytes_ -= node.leaves->size() * sizeof(TileLeaf);
+        node.leaves.reset();
+    }
+}
+
+std::vector<TileInView> Octree::tiles_in_view(const ViewVolume& volume) {
+    const std::scoped_lock alone(growing_);
+    ++pings_;
+    std::vector<TileInView> tiles;
+    find_tiles(nodes_[0], Containment::partly, volume, tiles);
+    drop_old_tiles();
+    return tiles;
+}
+
+}  // namespace sonarsim

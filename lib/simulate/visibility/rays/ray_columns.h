@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "simulate/visibility/angles.h"
+#include "simulate/visibility/caster.h"
+#include "simulate/visibility/local_pose.h"
+#include "simulate/visibility/rays/bent_rays.h"
+#include "simulate/visibility/rays/cast_ray.h"
+#include "simulate/visibility/rays/fine_surface.h"
+#include "simulate/visibility/rays/sampling.h"
+#include "simulate/visibility/view.h"
+
+namespace sonarsim {
+
+/// Rays that sweep one column of the view, or an edge strip over a part of one.
+struct RayColumn {
+    int beam;
+    float half_width;    ///< across, rad
+    SinCosFloat across;  ///< the angle across that its rays share
+    float along_min;
+    float along_max;
+    float step;  ///< spacing of its rays before gaps are split, rad
+    int first;   ///< index of its first ray
+    bool whole;  ///< a whole column of the view, not an edge strip
+};
+
+/// All rays that were cast for a view. The first `whole_columns` columns are those of the view, in
+/// order, each with `Sampling::rays` consecutive rays; edge strips follow, sorted by beam.
+struct RayColumns {
+    std::vector<CastRay> rays;
+    std::vector<RayTube> tubes;  ///< one for each ray where sound bends, else empty
+    std::vector<RayColumn> columns;
+    /// [whole_columns, Sampling::rays]: nonzero if edge strips leave the column only its middle
+    /// strip.
+    std::vector<std::uint8_t> narrowed;
+    std::size_t whole_columns = 0;
+    std::uint64_t dropped = 0;  ///< as in Samples
+};
+
+/// Beams [begin, end) of a view.
+struct BeamRange {
+    int begin;
+    int end;
+};
+
+/// The spacing of the rays of a view, before gaps are split.
+RaySpacing spacing_of(const View& view, const Sampling& sampling);
+
+/// Casts rays along every column of these beams. Adds edge strips where neighbouring columns
+/// disagree, and splits the gap between two neighbouring rays while its estimate is too uncertain.
+/// `fine` marks rays that met fine surface; null: none.
+RayColumns cast_ray_columns(const Caster& caster, const View& view, const LocalPose& pose,
+                            const Sampling& sampling, BeamRange beams, const BentWater& water = {},
+                            const FineSurface* fine = nullptr, const RaySpacing& spacing = {});
+
+}  // namespace sonarsim

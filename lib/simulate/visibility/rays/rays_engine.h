@@ -1,0 +1,21 @@
+#pragma once
+
+#include <memory>
+
+#include "input/scene/scene.h"
+#include "simulate/visibility/caster.h"
+#include "simulate/visibility/engine.h"
+
+namespace sonarsim {
+
+/// The ray tracing engine, based on Embree. `scene` must outlive it. Throws std::runtime_error when
+/// Embree cannot build its tree (out of memory).
+std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene);
+
+/// The same with a caster over the scene, whose trees engines may share. `density` n: a goal that
+/// is n times as fine, and n times as many columns. The rays of a goal sample lines within a beam;
+/// over ground that is rough within the width of a beam, the lines do not represent the beam.
+std::unique_ptr<VisibilityEngine> make_rays_engine(const Scene& scene, const Caster& caster,
+                                                   int density = 1);
+
+}  // namespace sonarsim

@@ -1,0 +1,154 @@
+#include "simulate/visibility/slices/clusters.h"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "input/scene/mesh_topology.h"
+
+namespace sonarsim {
+
+namespace {
+
+/// The 21 low bits of x with two zeros after each bit.
+std::uint64_t spread_bits(std::uint64_t x) {
+    x &= 0x1fffff;
+    x = (x | x << 32U) & 0x1f00000000ffff;
+    x = (x | x << 16U) & 0x1f0000ff0000ff;
+    x = (x | x << 8U) & 0x100f00f00f00f00f;
+    x = (x | x << 4U) & 0x10c30c30c30c30c3;
+    x = (x | x << 2U) & 0x1249249249249249;
+    return x;
+}
+
+Eigen::Vector3f centre_of(const Scene& scene, const std::array<std::uint32_t, 3>& triangle) {
+    return (scene.vertices[triangle[0]] + scene.vertices[triangle[1]] +
+            scene.vertices[triangle[2]]) /
+           3.0F;
+}
+
+/// Indices of the triangles along the Morton curve; triangles with equal codes keep the scene's
+/// order.
+std::vector<std::uint32_t> along_morton_curve(const Scene& scene) {
+    Eigen::AlignedBox3f box;
+    for (const auto& triangle : scene.triangles)
+        box.extend(centre_of(scene, triangle));
+    const float length = scene.triangles.empty() ? 0.0F : box.sizes().maxCoeff();
+    const float cells = length > 0.0F ? static_cast<float>(0x1fffff) / length : 0.0F;
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> keys(scene.triangles.size());
+    for (std::uint32_t i = 0; i < keys.size(); ++i) {
+        const Eigen::Vector3f at = (centre_of(scene, scene.triangles[i]) - box.min()) * cells;
+        keys[i] = {spread_bits(static_cast<std::uint64_t>(at.x())) |
+                       spread_bits(static_cast<std::uint64_t>(at.y())) << 1U |
+                       spread_bits(static_cast<std::uint64_t>(at.z())) << 2U,
+                   i};
+    }
+    std::ranges::sort(keys);
+    std::vector<std::uint32_t> order(keys.size());
+    std::ranges::transform(keys, order.begin(), [](const auto& key) { return key.second; });
+    return order;
+}
+
+/// ClusterMesh::beyond, in the order of the scene's triangles. `welded` are the triangles with one
+/// vertex at each place.
+std::vector<TriangleCorners> across_edges(const Scene& scene,
+                                          std::span<const TriangleCorners> welded) {
+    constexpr std::uint32_t nothing = ClusterMesh::nothing;
+    std::vector<TriangleCorners> out(welded.size(), {nothing, nothing, nothing});
+    const std::vector<MeshSide> sides = sides_by_edge(welded, scene.vertices.size());
+    for (std::size_t i = 1; i < sides.size(); ++i) {
+        const MeshSide& a = sides[i - 1];
+        const MeshSide& b = sides[i];
+        if (a.low != b.low || a.high != b.high ||
+            scene.triangle_material[a.triangle] != scene.triangle_material[b.triangle] ||
+            scene.triangle_instance[a.triangle] != scene.triangle_instance[b.triangle])
+            continue;
+        out[a.triangle][a.side] = scene.triangles[b.triangle][(b.side + 2) % 3];
+        out[b.triangle][b.side] = scene.triangles[a.triangle][(a.side + 2) % 3];
+    }
+    return out;
+}
+
+/// Appends a cluster of the given triangles.
+void add_cluster(const Scene& scene, std::span<const std::uint32_t> triangles, ClusterMesh& mesh) {
+    std::vector<std::uint32_t> used;
+    for (const std::uint32_t triangle : triangles) {
+        const TriangleCorners& corners = scene.triangles[triangle];
+        used.insert(used.end(), corners.begin(), corners.end());
+    }
+    std::ranges::sort(used);
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+
+    TriangleCluster cluster{};
+    cluster.first_vertex = static_cast<std::uint32_t>(mesh.vertices.size());
+    cluster.vertices = static_cast<std::uint32_t>(used.size());
+    cluster.first_triangle = static_cast<std::uint32_t>(mesh.corners.size());
+    cluster.triangles = static_cast<std::uint32_t>(triangles.size());
+    Eigen::AlignedBox3f box;
+    for (const std::uint32_t vertex : used) {
+        box.extend(scene.vertices[vertex]);
+        mesh.vertices.push_back(scene.vertices[vertex]);
+    }
+    cluster.centre = box.center();
+    for (const std::uint32_t vertex : used) {
+        cluster.radius_m =
+            std::max(cluster.radius_m, (scene.vertices[vertex] - cluster.centre).norm());
+    }
+    for (const std::uint32_t triangle : triangles) {
+        const TriangleCorners& corners = scene.triangles[triangle];
+        std::array<std::uint8_t, 3> local{};
+        for (int k = 0; k < 3; ++k) {
+            const auto at = std::ranges::lower_bound(used, corners[k]);
+            local[k] = static_cast<std::uint8_t>(at - used.begin());
+        }
+        mesh.corners.push_back(local);
+        mesh.facets.push_back({cross_of(scene.vertices, corners).normalized().cast<float>(),
+                               scene.triangle_material[triangle], scene.triangle_instance[triangle],
+                               0});
+    }
+    mesh.clusters.push_back(cluster);
+}
+
+/// Numbers the connected components of the triangles. `order` are the triangles of the facets.
+void find_components(std::span<const TriangleCorners> welded, std::size_t vertices,
+                     std::span<const std::uint32_t> order, ClusterMesh& mesh) {
+    JoinedSets sets(vertices);
+    for (const TriangleCorners& triangle : welded) {
+        sets.join(triangle[0], triangle[1]);
+        sets.join(triangle[0], triangle[2]);
+    }
+    std::vector<std::uint32_t> number(vertices, ClusterMesh::nothing);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        std::uint32_t& own = number[sets.of(welded[order[i]][0])];
+        if (own == ClusterMesh::nothing) own = mesh.components++;
+        mesh.facets[i].component = own;
+    }
+}
+
+}  // namespace
+
+ClusterMesh make_clusters(const Scene& scene) {
+    ClusterMesh mesh;
+    const std::vector<std::uint32_t> order = along_morton_curve(scene);
+    mesh.corners.reserve(order.size());
+    mesh.facets.reserve(order.size());
+    for (std::size_t first = 0; first < order.size(); first += ClusterMesh::max_triangles) {
+        const std::size_t count =
+            std::min<std::size_t>(ClusterMesh::max_triangles, order.size() - first);
+        add_cluster(scene, std::span(order).subspan(first, count), mesh);
+    }
+    const std::vector<std::uint32_t> first = first_at_place(scene.vertices);
+    std::vector<TriangleCorners> welded = scene.triangles;
+    for (TriangleCorners& triangle : welded) {
+        for (std::uint32_t& corner : triangle)
+            corner = first[corner];
+    }
+    find_components(welded, first.size(), order, mesh);
+    const std::vector<TriangleCorners> beyond = across_edges(scene, welded);
+    mesh.beyond.reserve(order.size());
+    for (const std::uint32_t triangle : order)
+        mesh.beyond.push_back(beyond[triangle]);
+    return mesh;
+}
+
+}  // namespace sonarsim

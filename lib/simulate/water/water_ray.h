@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+
+#include "simulate/water/sound_profile.h"
+
+namespace sonarsim {
+
+/// The state of a ray of sound at one point of its path, in its vertical plane. Between two nodes
+/// of a profile the path is an arc of the radius c / (g cos(elevation)).
+struct WaterRay {
+    double along_m = 0.0;        ///< horizontal distance
+    double height_m = 0.0;       ///< world
+    double elevation_rad = 0.0;  ///< above the horizontal
+    double time_s = 0.0;
+    /// Distance across the ray to a neighbouring ray, over their difference in elevation at the
+    /// start. With one speed of sound it equals the length of the ray. Its sign changes at a
+    /// caustic.
+    double tube_m = 0.0;
+    double tube_per_m_s = 0.0;  ///< its growth with the integral of the speed along the ray
+    std::size_t layer = 0;
+};
+
+/// A ray at its start.
+WaterRay water_ray(const SoundProfile& profile, double height_m, double elevation_rad);
+
+/// The ray `length_m` further on the arc of its layer.
+WaterRay on_arc(const SoundProfile& profile, const WaterRay& ray, double length_m);
+
+/// The length of an arc whose chord is `sag_m` off at most.
+double length_with_sag(const SoundProfile& profile, const WaterRay& ray, double sag_m);
+
+/// Moves a ray on to the end of its layer, but by `longest_m` at most, and by less where the speed
+/// changes much. Returns the length.
+double advance(const SoundProfile& profile, double longest_m, WaterRay& ray);
+
+/// The true place of an echo that an instrument at `source` receives from the unit direction
+/// `direction` at the measured range `range_m`. World.
+Eigen::Vector3d place_of(const SoundProfile& profile, const Eigen::Vector3d& source,
+                         const Eigen::Vector3d& direction, double range_m);
+
+}  // namespace sonarsim

@@ -1,0 +1,230 @@
+#include "simulate/reference/reference.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/random.h"
+#include "core/units.h"
+#include "simulate/reference/image_error.h"
+#include "simulate/reference/reference_cast.h"
+#include "support/approx.h"
+#include "support/scenes.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+View small_view() {
+    return {radians(40.0), radians(20.0), 0.5, 8.0, 100, 20, 0.03};
+}
+
+/// The visible area nearer and farther than 5 m, and the sum of cos(incidence) dA / r^2.
+struct SurfaceSums {
+    double near_m2 = 0.0;
+    double far_m2 = 0.0;
+    double solid_angle = 0.0;
+};
+
+SurfaceSums sums_over(const Scene& scene, int rays, std::uint32_t start) {
+    const Caster caster(scene);
+    const View view{radians(60.0), radians(60.0), 0.5, 8.0, 15, 16, 0.03};
+    const LocalPose pose = local_pose(Pose{}, scene.origin);
+    const std::vector<SurfaceShare> shares = surface_shares(scene, view, pose);
+    SurfaceSums sums;
+    cast_over_surface(
+        {caster, scene, view, pose, shares}, {rays, 256, start}, [&](const SurfacePoint& point) {
+            (point.range_m < 5.0 ? sums.near_m2 : sums.far_m2) += point.area_m2;
+            sums.solid_angle += point.area_m2 * point.cosine / (point.range_m * point.range_m);
+        });
+    return sums;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("validation");
+
+TEST_CASE("the reference of a floor is its closed form, R H / r_mid") {
+    // Derivation in tests/sonar/imaging_test.cpp.
+    constexpr float R = 0.7F;
+    constexpr double H = 1.5;
+    Scene scene = empty_scene();
+    add_floor(scene, 100.0F, 0.0F, add_material(scene, R));
+    const Caster caster(scene);
+    const View view = small_view();
+    const Pose pose{rotation_from_rpy(0.0, radians(30.0), 0.0), {0.0, 0.0, H}};
+    const Reference reference = cast_reference(caster, scene, view, pose, {0.0005, 64.0});
+    CHECK(reference.moved < 0.0005);
+    CHECK(reference.rays_per_bin >= 64.0);
+    const int first = static_cast<int>((H / std::sin(radians(40.0)) - 0.5) / view.bin_m()) + 2;
+    const int last = static_cast<int>((H / std::sin(radians(20.0)) - 0.5) / view.bin_m()) - 2;
+    for (int i = first; i <= last; ++i) {
+        const double r = view.range_min_m + (i + 0.5) * view.bin_m();
+        CHECK(reference.intensity[i * 20 + 10] == test::approx(R * H / r).epsilon(2e-3));
+    }
+}
+
+TEST_CASE("where two surfaces share a bin the reference weighs them by area") {
+    // Two walls at one distance, R = 0.2 below the sonar, 0.8 above: the mean is 0.5 D / r.
+    Scene scene = empty_scene();
+    add_quad(scene, {4, -9, -9}, {4, 9, -9}, {4, 9, 0}, {4, -9, 0}, add_material(scene, 0.2F));
+    add_quad(scene, {4, -9, 0}, {4, 9, 0}, {4, 9, 9}, {4, -9, 9}, add_material(scene, 0.8F));
+    const Caster caster(scene);
+    View view = small_view();
+    view.range_bins = 200;
+    const Reference reference = cast_reference(caster, scene, view, Pose{}, {0.004, 64.0});
+    for (int j = 0; j < view.beams; ++j) {
+        const int i = static_cast<int>((4.0 / std::cos(radians(-20.0 + 2.0 * (j + 0.5))) - 0.5) /
+                                       view.bin_m()) +
+                      1;
+        const double r = view.range_min_m + (i + 0.5) * view.bin_m();
+        CHECK(reference.intensity[i * 20 + j] == test::approx(0.5 * 4.0 / r).epsilon(5e-3));
+    }
+}
+
+TEST_CASE("the reference sees a ball of 2 cm at 8 m and a wire of 4 mm at 5 m") {
+    // Each lies in one bin. The mean of v . n by area is 1/2 for a distant ball, and 2 / pi for a
+    // wire times cos(elevation), whose mean over |z| <= D t is asinh(t) / t.
+    constexpr float R = 0.7F;
+    Scene scene = empty_scene();
+    const std::uint32_t material = add_material(scene, R);
+    add_sphere(scene, {8.0F, 0.05F, 0.1F}, 0.01F, material, 64);
+    constexpr float height = 0.6F;
+    const double t = 0.5 * height / std::hypot(5.0, 0.3);
+    add_pole(scene, {5.0F, -0.3F, -0.5F * height}, 0.002F, height, material);
+    const Caster caster(scene);
+    const double wire = R * 2.0 / pi * std::asinh(t) / t;
+    View view{radians(60.0), radians(12.0), 0.96, 9.96, 150, 256, 0.03};
+    SUBCASE("imaging") {}
+    SUBCASE("a beam") {
+        view.beams = 1;
+    }
+    SUBCASE("echosounder") {
+        view.elevation_rad = view.azimuth_rad = radians(20.0);
+        view.shape = ViewShape::cone;
+        view.beams = 1;
+    }
+    SUBCASE("side-scan") {
+        view.shape = ViewShape::port_starboard;
+        view.beams = 2;
+    }
+    // 64 rays per bin of a whole image are the minimum.
+    const Reference reference = cast_reference(caster, scene, view, Pose{}, {0.01, 64.0});
+    std::vector<float> occupied = reference.intensity;
+    std::erase(occupied, 0.0F);
+    REQUIRE(occupied.size() == 2);
+    CHECK(occupied[0] / wire == test::approx(1.0).epsilon(0.01));
+    CHECK(occupied[1] / (0.5 * R) == test::approx(1.0).epsilon(0.01));
+    CHECK(reference.moved < 0.01);
+}
+
+TEST_CASE("rays and points of the surface together add up to its area") {
+    // Two plates that face the sonar, one behind the other. The near one hides 1.5 times its size
+    // in the farther one.
+    Scene plates = empty_scene();
+    const std::uint32_t material = add_material(plates, 0.5F);
+    add_quad(plates, {4, -0.3F, -0.3F}, {4, 0.1F, -0.3F}, {4, 0.1F, 0.2F}, {4, -0.3F, 0.2F},
+             material, 3);
+    add_quad(plates, {6, -0.6F, -0.6F}, {6, 0.6F, -0.6F}, {6, 0.6F, 0.6F}, {6, -0.6F, 0.6F},
+             material, 50);
+    // A sphere at 4 m. The visible cap ends where sight lines touch it: its area is
+    // 2 pi R^2 (1 - R / D), its solid angle 2 pi (1 - sqrt(1 - R^2 / D^2)).
+    constexpr double R = 0.5;
+    constexpr double D = 4.0;
+    Scene sphere = empty_scene();
+    add_sphere(sphere, {static_cast<float>(D), 0, 0}, static_cast<float>(R),
+               add_material(sphere, 0.5F), 200);
+    for (const std::uint32_t start : {0U, 1U}) {
+        CAPTURE(start);
+        const SurfaceSums of_plates = sums_over(plates, 64, start);
+        CHECK(of_plates.near_m2 / (0.4 * 0.5) == test::approx(1.0).epsilon(5e-3));
+        CHECK(of_plates.far_m2 / (1.2 * 1.2 - 0.6 * 0.75) == test::approx(1.0).epsilon(5e-3));
+        const SurfaceSums of_sphere = sums_over(sphere, 16, start);
+        CHECK(of_sphere.near_m2 / (2.0 * pi * R * R * (1.0 - R / D)) ==
+              test::approx(1.0).epsilon(5e-3));
+        CHECK(of_sphere.solid_angle / (2.0 * pi * (1.0 - std::sqrt(1.0 - R * R / (D * D)))) ==
+              test::approx(1.0).epsilon(5e-3));
+    }
+}
+
+TEST_CASE("a rope of 4 mm that is drawn at random converges with few rays, from either start") {
+    // Beams are 0.3 m apart there: view rays alone would meet the rope in few of its bins.
+    for (const std::uint32_t seed : {1U, 2U, 3U}) {
+        Scene scene = empty_scene();
+        const std::uint32_t material = add_material(scene, 0.7F);
+        for (int i = 0; i < 12; ++i) {
+            const PhiloxBlock draw = philox({static_cast<std::uint32_t>(i), 0, 0, 0}, {seed, 0});
+            add_pole(scene,
+                     {3.0F + 5.0F * unit_float(draw.x0), 3.0F * unit_float(draw.x1) - 1.5F, -0.5F},
+                     0.002F, 1.0F, material);
+        }
+        const View view{radians(60.0), radians(20.0), 0.5, 9.5, 100, 32, 0.03};
+        const Reference truth = cast_reference(Caster(scene), scene, view, Pose{},
+                                               {.moved = 0.0, .rays_max = 1'000'000});
+        CAPTURE(seed);
+        CAPTURE(truth.apart);
+        CHECK(truth.apart < 0.02);
+        CHECK(std::ranges::count(truth.scored, 1) > 12);
+    }
+}
+
+TEST_CASE("a reference sees copies of a mesh as it sees their triangles") {
+    // A plate of the scene's own, two copies of a sphere in front of it, the second twice as large,
+    // and a third one behind the sonar.
+    Scene shared = empty_scene(Eigen::Vector3d(1e4, -2e4, 5.0));
+    const std::uint32_t stone = add_material(shared, 0.5F);
+    const std::uint32_t steel = add_material(shared, 0.9F);
+    add_quad(shared, {6, -3, -3}, {6, 3, -3}, {6, 3, 3}, {6, -3, 3}, stone, 4);
+    Scene copied = shared;
+    Scene shape = empty_scene();
+    add_sphere(shape, {0, 0, 0}, 0.4F, 0, 24);
+    shared.shared_meshes.push_back({shape.vertices, shape.triangles,
+                                    std::vector<std::uint32_t>(shape.triangles.size(), steel)});
+    for (const auto& [place, scale] : {std::pair{Eigen::Vector3d(3.5, -0.8, 0.1), 1.0},
+                                       {Eigen::Vector3d(4.2, 1.0, -0.2), 2.0},
+                                       {Eigen::Vector3d(-4.0, 0.0, 0.0), 1.0}}) {
+        Eigen::Affine3d T_world_mesh = Eigen::Affine3d::Identity();
+        T_world_mesh.translation() = shared.origin + place;
+        T_world_mesh.linear() = scale * rotation_from_rpy(0.3, 0.2, 0.1).toRotationMatrix();
+        shared.copies.push_back({0, 0, T_world_mesh});
+        const std::size_t first = copied.vertices.size();
+        add_sphere(copied, {0, 0, 0}, 0.4F, steel, 24);
+        for (std::size_t v = first; v < copied.vertices.size(); ++v) {
+            copied.vertices[v] =
+                (T_world_mesh * copied.vertices[v].cast<double>() - shared.origin).cast<float>();
+        }
+    }
+    const View view{radians(60.0), radians(40.0), 0.5, 8.0, 75, 32, 0.03};
+    const Pose pose{Eigen::Quaterniond::Identity(), shared.origin};
+    const ReferenceGoal goal{0.01, 64.0, 2'000'000};
+    const Reference a = cast_reference(Caster(shared), shared, view, pose, goal);
+    const Reference b = cast_reference(Caster(copied), copied, view, pose, goal);
+    // The same rays to the same points; the corners differ by the rounding of a transform.
+    CHECK(a.rays_per_bin / b.rays_per_bin == test::approx(1.0).epsilon(1e-3));
+    CHECK(image_error(a.intensity, b.intensity).relative_l1 < 1e-3);
+    CHECK(a.moved < 0.01);
+    // Points on the copies' triangles find them, not only rays over directions.
+    const LocalPose local = local_pose(pose, shared.origin);
+    const std::vector<SurfaceShare> shares = surface_shares(shared, view, local);
+    CHECK(std::ranges::count(shares, SurfaceShare::no_copy, &SurfaceShare::copy) == 32);
+    CHECK(shares.size() == 32 + 2 * shape.triangles.size());
+    CHECK(shares.size() == surface_shares(copied, view, local).size());
+}
+
+TEST_CASE("image errors by hand") {
+    const std::vector<float> truth{1.0F, 1.0F, 0.0F, 0.0F};
+    const std::vector<float> image{1.0F, 0.0F, 1.0F, 0.0F};
+    CHECK(image_error(image, truth).relative_l1 == test::approx(1.0));
+    CHECK(image_error(image, truth).miss_rate == test::approx(0.5));
+    // The third bin, which the image alone fills, is not scored.
+    const std::vector<std::uint8_t> scored{1, 1, 0, 1};
+    CHECK(image_error(image, truth, scored).relative_l1 == test::approx(0.5));
+    CHECK(image_error(image, truth, scored).miss_rate == test::approx(0.5));
+    const std::vector<float> dark(4, 0.0F);
+    CHECK(image_error(dark, dark).relative_l1 == 0.0);
+    CHECK(image_error(image, dark).relative_l1 == 1.0);
+}
+
+TEST_SUITE_END();

@@ -1,0 +1,170 @@
+#include "run/report/report.h"
+
+#include <doctest/doctest.h>
+
+#include "core/units.h"
+#include "support/approx.h"
+#include "support/small_mission.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+/// A report on the first sonar of a mission, whose poses are those of small_assembly().
+Report report_of(const Mission& mission, const std::vector<Setting>& settings) {
+    ReportOptions options;
+    options.poses = 3;
+    options.rounds = 1;
+    options.threads = 2;
+    options.reference_moved = 0.005;
+    options.reference_rays = 4'000'000;
+    return make_report(mission, small_assembly(mission, 4), settings, options,
+                       [](const std::string&) {});
+}
+
+/// The error of rays with a fine goal.
+double error_of_rays(const Mission& mission) {
+    return report_of(mission, {{"rays", "relative_l1=0.01", EngineKind::rays, {}, 0.01, true}})
+        .rows[0]
+        .worst_relative_l1;
+}
+
+}  // namespace
+
+TEST_SUITE_BEGIN("benchmark");
+
+TEST_CASE("a report has a sane row per setting") {
+    Mission mission = small_mission("unused");
+    mission.sensors.resize(1);
+    const Report report =
+        report_of(mission, {{"rays", "relative_l1=0.3", EngineKind::rays, {}, 0.3, false},
+                            {"rays", "relative_l1=0.01", EngineKind::rays, {}, 0.01, true},
+                            {"octree", "leaf_m=0.04", EngineKind::octree, {0.04}, 0.03, false}});
+    REQUIRE(report.rows.size() == 3);
+    CHECK(report.poses == 3);
+    for (const ReportRow& row : report.rows) {
+        CAPTURE(row.setting.engine);
+        CHECK(row.sensor == "front");
+        CHECK(row.ms_per_ping > 0.0);
+        CHECK(row.pings_per_s > 0.0);
+        // The octree alone misses bins.
+        CHECK(row.worst_relative_l1 < (row.setting.engine == "octree" ? 0.3 : 0.1));
+        CHECK(row.miss_rate < 0.1);
+        CHECK(row.ms_rays > 0.0);
+        CHECK(row.times_rays > 0.0);
+    }
+    // A finer goal takes more samples. Both errors are below the finer goal: with few beams the
+    // objects of the tank are fine surface.
+    CHECK(report.rows[1].samples_per_ping > report.rows[0].samples_per_ping);
+    CHECK(report.rows[0].relative_l1 < 0.01);
+    CHECK(report.rows[1].relative_l1 < 0.01);
+    REQUIRE(report.references.size() == 1);
+    CHECK(report.references[0].max_moved < 0.05);
+}
+
+TEST_CASE("a report pings as the mission does: with the draws of each ping, and a turning head") {
+    Mission mission = small_mission("unused");
+    mission.sensors.resize(1);
+    SUBCASE("draws") {
+        const double still = error_of_rays(mission);
+        VaryConfig rule;
+        rule.key = "sensors.front.mount.rpy_deg.2";
+        rule.per = VaryPer::ping;
+        rule.uniform = {20.0, 70.0};
+        mission.vary.push_back(rule);
+        const double drawn = error_of_rays(mission);
+        // If it looked in another direction than its reference, nearly every bin would be wrong.
+        CHECK(drawn < 0.05);
+        CHECK(drawn != still);
+    }
+    SUBCASE("head") {
+        mission.sensors[0].kind = SonarKind::scanning;
+        mission.sensors[0].azimuth_bins = 1;
+        mission.sensors[0].azimuth_deg = 2.0;
+        mission.sensors[0].sector_deg = 180.0;
+        mission.sensors[0].step_deg = 30.0;
+        CHECK(error_of_rays(mission) < 0.02);
+    }
+    SUBCASE("the calibrated model") {
+        // Compared with the paper's reference, its levels would be far off.
+        mission.sensors[0].model = ModelKind::calibrated;
+        mission.sensors[0].instrument.frequency_hz = 9e5;
+        CHECK(error_of_rays(mission) < 0.1);
+    }
+}
+
+TEST_CASE("the settings hold the mission's own setting once, marked, and no needless leaves") {
+    Mission mission = small_mission("unused");
+    const auto marked = [](const std::vector<Setting>& settings) {
+        std::vector<std::string> out;
+        for (const Setting& setting : settings) {
+            if (setting.current) out.push_back(setting.engine + " " + setting.name);
+        }
+        return out;
+    };
+    CHECK(marked(make_settings(mission, false)) ==
+          std::vector<std::string>{"auto relative_l1=0.03"});
+    mission.accuracy.relative_l1 = 0.05;
+    CHECK(marked(make_settings(mission, true)) ==
+          std::vector<std::string>{"auto relative_l1=0.05"});
+    mission.engine = EngineKind::octree;
+    mission.octree.leaf_m = 0.03;
+    CHECK(marked(make_settings(mission, true)) == std::vector<std::string>{"octree leaf_m=0.03"});
+    // Bins of 9.9 m / 48 = 20.6 cm: leaves below 5.2 cm are left out.
+    for (const Setting& setting : make_settings(mission, false)) {
+        CHECK(setting.name != "leaf_m=0.04");
+        CHECK(setting.name != "leaf_m=0.01");
+    }
+    // Only rays can trace shared copies, which `auto` then takes.
+    Assembly assembly = small_assembly(mission, 1);
+    assembly.scene.shared_meshes.push_back({});
+    assembly.scene.copies.push_back({0, 0, Eigen::Affine3d::Identity()});
+    for (const Setting& setting : make_settings(mission, false)) {
+        CHECK(unsupported(setting, assembly).empty() ==
+              (setting.kind == EngineKind::rays || setting.kind == EngineKind::automatic));
+    }
+}
+
+TEST_CASE("a goal is met at the worst pose, or missed") {
+    ReportRow row;
+    row.setting.relative_l1 = 0.03;
+    row.worst_relative_l1 = 0.02;
+    CHECK(std::string(row.goal()) == "met");
+    row.worst_relative_l1 = 0.031;
+    CHECK(std::string(row.goal()) == "missed");
+    row.setting.kind = EngineKind::slices;
+    CHECK(std::string(row.goal()) == "missed");
+    row.setting.kind = EngineKind::octree;
+    CHECK(std::string(row.goal()) == "-");
+}
+
+TEST_CASE("the yardstick rays are spread evenly over the view") {
+    View view{radians(60.0), radians(12.0), 0.5, 10.0, 100, 1, 0.03};
+    SUBCASE("fan") {}
+    SUBCASE("sides") {
+        view.shape = ViewShape::port_starboard;
+        view.beams = 2;
+    }
+    SUBCASE("cone") {
+        view.shape = ViewShape::cone;
+        view.elevation_rad = view.azimuth_rad;
+    }
+    const std::vector<Eigen::Vector3f> rays = view_rays(view);
+    CHECK(rays.size() == view_rays_count);
+    CHECK(std::ranges::all_of(rays, [&](const Eigen::Vector3f& d) {
+        return std::fabs(d.norm() - 1.0F) < 1e-6F && beam_of(view, d) >= 0;
+    }));
+    CHECK(std::ranges::count_if(rays, [](const Eigen::Vector3f& d) { return d.y() > 0.0F; }) ==
+          view_rays_count / 2);
+}
+
+TEST_CASE("poses are spread from end to end; summaries by hand") {
+    CHECK(sample_poses(10, 4) == std::vector<std::size_t>{0, 3, 6, 9});
+    CHECK(sample_poses(2, 8) == std::vector<std::size_t>{0, 1});
+    CHECK(sample_poses(5, 1) == std::vector<std::size_t>{0});
+    CHECK(median_of({4.0, 1.0, 2.0, 3.0}) == 2.5);
+    CHECK(mean_of({1.0, 2.0, 6.0}) == test::approx(3.0));
+}
+
+TEST_SUITE_END();
