@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "calibrated/preset_fixtures.h"
 #include "simulate/calibrated/decibel.h"
 #include "simulate/calibrated/example_bottoms.h"
-#include "simulate/calibrated/preset_fixtures.h"
 #include "support/scenes.h"
 
 using namespace sonarsim;

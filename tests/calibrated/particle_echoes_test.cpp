@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "calibrated/water_fixtures.h"
 #include "simulate/calibrated/piston.h"
-#include "simulate/calibrated/water_fixtures.h"
 #include "support/approx.h"
 #include "support/labelled.h"
 #include "support/patches.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "calibrated/preset_fixtures.h"
 #include "simulate/calibrated/decibel.h"
-#include "simulate/calibrated/preset_fixtures.h"
 #include "support/scenes.h"
 #include "support/statistics.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "calibrated/preset_fixtures.h"
 #include "simulate/calibrated/decibel.h"
-#include "simulate/calibrated/preset_fixtures.h"
 #include "simulate/product/scan.h"
 
 using namespace sonarsim;

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "simulate/calibrated/preset_fixtures.h"
+#include "calibrated/preset_fixtures.h"
 #include "support/statistics.h"
 
 using namespace sonarsim;

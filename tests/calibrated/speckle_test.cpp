@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "calibrated/preset_fixtures.h"
 #include "core/elementary.h"
-#include "simulate/calibrated/preset_fixtures.h"
 #include "support/statistics.h"
 
 using namespace sonarsim;

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "simulate/calibrated/target_fixtures.h"
+#include "calibrated/target_fixtures.h"
 #include "simulate/trace/target_shapes.h"
 #include "support/approx.h"
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "simulate/calibrated/target_fixtures.h"
+#include "calibrated/target_fixtures.h"
 #include "support/draws.h"
 #include "support/maps.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "simulate/calibrated/target_fixtures.h"
+#include "calibrated/target_fixtures.h"
 #include "support/approx.h"
 
 using namespace sonarsim;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "calibrated/water_fixtures.h"
 #include "simulate/calibrated/piston.h"
-#include "simulate/calibrated/water_fixtures.h"
 #include "support/approx.h"
 
 using namespace sonarsim;

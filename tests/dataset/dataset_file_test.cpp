@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/error.h"
+#include "job/small_job.h"
 #include "output/dataset/metadata.h"
 #include "run/job/merge.h"
-#include "run/job/small_job.h"
 #include "run/job/status.h"
 #include "run/job/verify.h"
 

@@ -1,4 +1,4 @@
-#include "target.h"
+#include ""
 
 // Any bytes as a .gltf or .glb.
 

@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "run/job/small_job.h"
+#include "job/small_job.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -5,9 +5,9 @@
 #include <set>
 
 #include "core/file.h"
+#include "job/small_job.h"
 #include "output/dataset/encode_ping.h"
 #include "output/dataset/layout.h"
-#include "run/job/small_job.h"
 #include "simulate/assembly/engines.h"
 
 using namespace sonarsim;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "run/job/small_job.h"
+#include "job/small_job.h"
 #include "support/npy_data.h"
 
 using namespace sonarsim;

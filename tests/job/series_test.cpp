@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "core/file.h"
+#include "job/small_job.h"
 #include "output/dataset/averaged_rows.h"
 #include "output/dataset/writer.h"
-#include "run/job/small_job.h"
 #include "simulate/assembly/engines.h"
 #include "simulate/product/soundings.h"
 #include "simulate/sonar/kinds.h"

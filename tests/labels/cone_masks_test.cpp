@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <numeric>
 
-#include "simulate/labels/cone_fan.h"
+#include "labels/cone_fan.h"
 #include "support/sanitized.h"
 
 using namespace sonarsim;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "simulate/labels/cone_fan.h"
+#include "labels/cone_fan.h"
 #include "support/approx.h"
 #include "support/sanitized.h"
 

@@ -1,6 +1,6 @@
 #include "input/mission/document.h"
 
-#include "input/mission/fixtures.h"
+#include "mission/fixtures.h"
 
 namespace sonarsim {
 

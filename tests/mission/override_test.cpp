@@ -1,6 +1,6 @@
 #include "input/mission/override.h"
 
-#include "input/mission/fixtures.h"
+#include "mission/fixtures.h"
 
 namespace sonarsim {
 

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "input/mission/fixtures.h"
 #include "input/mission/preset.h"
+#include "mission/fixtures.h"
 #include "simulate/sonar/kinds.h"
 #include "support/approx.h"
 #include "support/temporary_folder.h"

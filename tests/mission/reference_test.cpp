@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "input/mission/fixtures.h"
 #include "input/mission/resolved.h"
+#include "mission/fixtures.h"
 #include "simulate/sonar/kinds.h"
 
 namespace sonarsim {

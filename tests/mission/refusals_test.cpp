@@ -1,6 +1,6 @@
 #include <string>
 
-#include "input/mission/fixtures.h"
+#include "mission/fixtures.h"
 
 namespace sonarsim {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "input/mission/differences.h"
-#include "input/mission/fixtures.h"
+#include "mission/fixtures.h"
 #include "simulate/sonar/kinds.h"
 
 namespace sonarsim {

@@ -1,6 +1,6 @@
 #include "input/mission/files.h"
-#include "input/mission/fixtures.h"
 #include "input/mission/resolved.h"
+#include "mission/fixtures.h"
 
 namespace sonarsim {
 

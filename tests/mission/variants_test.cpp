@@ -6,7 +6,7 @@
 #include "core/file.h"
 #include "core/text.h"
 #include "input/mission/draw_value.h"
-#include "input/mission/fixtures.h"
+#include "mission/fixtures.h"
 #include "support/temporary_folder.h"
 
 namespace sonarsim {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "input/scene/waves.h"
+#include "scene/waves.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

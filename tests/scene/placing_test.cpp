@@ -7,7 +7,7 @@
 #include "core/pose.h"
 #include "input/scene/placing/rest.h"
 #include "input/scene/placing/scatter.h"
-#include "input/scene/waves.h"
+#include "scene/waves.h"
 #include "support/sanitized.h"
 
 using namespace sonarsim;

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "input/scene/gltf/builder.h"
+#include "scene/gltf/builder.h"
 
 using namespace sonarsim;
 

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "input/scene/gltf/builder.h"
+#include "scene/gltf/builder.h"
 
 using namespace sonarsim;
 

@@ -18,7 +18,7 @@ namespace sonarsim {
 
 namespace {
 
-constexpr std::size_t max_pings = 3;
+constexpr std::size_t max_measured_pings = 3;
 
 // Rays of the last cast, which with those before are half a second of one core.
 constexpr std::uint64_t mean_rays_max = 1'000'000;
@@ -132,7 +132,7 @@ std::vector<std::optional<MeasuredError>> measure_errors(const Mission& mission,
     std::vector<Task> tasks;
     for (std::size_t i = 0; i < sonars.size(); ++i) {
         for (const std::uint32_t pose :
-             sample_pings(assembly.trajectory.size(), sonars[i].config.every, max_pings))
+             sample_pings(assembly.trajectory.size(), sonars[i].config.every, max_measured_pings))
             tasks.push_back({i, pose});
     }
     const Caster caster = assembly.caster ? *assembly.caster : Caster(assembly.scene);

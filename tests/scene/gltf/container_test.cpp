@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "input/scene/gltf/builder.h"
 #include "input/scene/gltf/primitives.h"
+#include "scene/gltf/builder.h"
 
 using namespace sonarsim;
 using nlohmann::json;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "input/scene/gltf/builder.h"
+#include "scene/gltf/builder.h"
 
 using namespace sonarsim;
 using nlohmann::json;

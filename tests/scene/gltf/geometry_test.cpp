@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <limits>
 
-#include "input/scene/gltf/builder.h"
 #include "input/scene/gltf/load.h"
+#include "scene/gltf/builder.h"
 #include "support/approx.h"
 
 using namespace sonarsim;

@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "input/scene/copies.h"
-#include "input/scene/gltf/builder.h"
 #include "input/scene/gltf/load.h"
+#include "scene/gltf/builder.h"
 
 using namespace sonarsim;
 using nlohmann::json;

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "input/scene/gltf/builder.h"
 #include "input/scene/gltf/load.h"
+#include "scene/gltf/builder.h"
 
 using namespace sonarsim;
 

@@ -5,10 +5,10 @@
 
 #include "core/elementary.h"
 #include "core/units.h"
-#include "simulate/visibility/slices/fixtures.h"
 #include "support/approx.h"
 #include "support/draws.h"
 #include "support/shapes.h"
+#include "visibility/slices/fixtures.h"
 
 using namespace sonarsim;
 using test::area_of;

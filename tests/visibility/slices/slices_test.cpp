@@ -6,9 +6,9 @@
 #include <random>
 
 #include "core/units.h"
-#include "simulate/visibility/slices/fixtures.h"
 #include "support/approx.h"
 #include "support/scenes.h"
+#include "visibility/slices/fixtures.h"
 
 using namespace sonarsim;
 using test::area_of;

@@ -5,11 +5,11 @@
 #include <random>
 
 #include "core/units.h"
-#include "simulate/visibility/slices/fixtures.h"
 #include "simulate/visibility/slices/slices_engine.h"
 #include "support/approx.h"
 #include "support/mean_echoes.h"
 #include "support/scenes.h"
+#include "visibility/slices/fixtures.h"
 
 using namespace sonarsim;
 using test::area_of;
