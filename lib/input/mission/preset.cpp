@@ -32,17 +32,17 @@ void fill_in(YamlNode& section, const YamlNode& preset) {
 }
 
 /// The folders with files that come with the program: share/ of an installation, or the checkout
-/// that holds the build folder. The module of Python lies three folders below a checkout, or four
-/// below the prefix of an installation.
+/// that holds the build folder. The module of Python lies beside share/ in a wheel, three folders
+/// below a checkout, or four below the prefix of an installation.
 std::vector<std::filesystem::path> shipped_folders() {
     std::vector<std::filesystem::path> out;
     const auto add = [&](const std::filesystem::path& above) {
         out.insert(out.end(), {above / "share/sonarsim/configs", above / "configs"});
     };
     std::filesystem::path above = module_of_python().parent_path();
-    for (int level = 0; !above.empty() && level < 4; ++level) {
-        above = above.parent_path();
+    for (int level = 0; !above.empty() && level < 5; ++level) {
         add(above);
+        above = above.parent_path();
     }
     std::error_code unknown;
     const auto program = std::filesystem::read_symlink("/proc/self/exe", unknown);

@@ -1,5 +1,6 @@
 #include "simulate/trace/target_surface.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
@@ -190,7 +191,8 @@ class TargetSampler {
         const auto length2 = [&](int k) {
             return (corners[(k + 1) % 3].place - corners[k].place).squaredNorm();
         };
-        const int shortest = std::ranges::min({0, 1, 2}, {}, length2);
+        const int shortest =
+            std::min({0, 1, 2}, [&](int i, int j) { return length2(i) < length2(j); });
         const Corner& a = corners[(shortest + 2) % 3];
         const Corner& b = corners[shortest];
         const Corner& c = corners[(shortest + 1) % 3];
