@@ -1,4 +1,4 @@
-#include ""
+#include "target.h"
 
 // Any bytes as a .gltf or .glb.
 

@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include ""
 #include "input/scene/images/read_image.h"
+#include "target.h"
 
 // Any bytes as an image and as the world file next to it, read with the limits of a mission: as
 // many values as the image states and a grid of finite numbers.

@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include ""
 #include "input/scene/materials.h"
+#include "target.h"
 
 // Any bytes as a material CSV: materials with positive finite densities and speeds and with finite
 // numbers else.

@@ -1,4 +1,4 @@
-#include ""
+#include "target.h"
 
 // Any bytes as an .obj, .stl or .ply, as the first of them says.
 

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <vector>
 
-#include ""
 #include "input/mission/parse.h"
 #include "input/mission/resolved.h"
 #include "simulate/sonar/kinds.h"
+#include "target.h"
 
 // The input is a mission, followed by lines "--set ..." after the first zero byte, if any. Whatever
 // is accepted must survive the way through the resolved mission.

@@ -1,8 +1,8 @@
 #include <cmath>
 
-#include ""
 #include "input/trajectory/files.h"
 #include "input/trajectory/interpolate.h"
+#include "target.h"
 
 // The first byte chooses the reader: 't' for TUM, anything else for CSV. What a reader accepts must
 // keep the promises of Trajectory and survive writing, reading and resampling.
