@@ -39,6 +39,7 @@ def fill(folder):
     # An RPATH, unlike a RUNPATH, also holds for the libraries of libraries.
     link = "-Wl,--disable-new-dtags"
     run("cmake", "--preset", preset, "-B", build, "-DSONARSIM_TESTS=OFF", "-DSONARSIM_PYTHON=ON",
+        "-DSONARSIM_JOINED=ON",
         "-DCMAKE_INSTALL_RPATH=$ORIGIN/lib:$ORIGIN/../lib:$ORIGIN/..", f"-DCMAKE_EXE_LINKER_FLAGS={link}",
         f"-DCMAKE_MODULE_LINKER_FLAGS={link}", cwd=ROOT)
     run("cmake", "--build", build)
@@ -64,18 +65,34 @@ def metadata_of(project, version):
     return "\n".join([*lines, "Description-Content-Type: text/markdown", "", (ROOT / project["readme"]).read_text()])
 
 
-def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
-    """The name of the wheel, in this folder."""
+def described():
+    """The name of the distribution with its version, the tag of its wheel, and the files of its metadata."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     version = re.search(r"project\(sonarsim VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
     python = "cp" + sysconfig.get_config_var("py_version_nodot")
     tag = f"{python}-{python}-{sysconfig.get_platform().replace('-', '_').replace('.', '_')}"
-    info, name = f"sonarsim-{version}.dist-info", f"sonarsim-{version}-{tag}.whl"
     script, target = next(iter(project["scripts"].items()))
-    texts = {"METADATA": metadata_of(project, version),
-             "WHEEL": f"Wheel-Version: 1.0\nGenerator: sonarsim\nRoot-Is-Purelib: false\nTag: {tag}\n",
-             "entry_points.txt": f"[console_scripts]\n{script} = {target}\n",
-             "LICENSE": (ROOT / "LICENSE").read_text()}
+    return f"sonarsim-{version}", tag, {
+        "METADATA": metadata_of(project, version),
+        "WHEEL": f"Wheel-Version: 1.0\nGenerator: sonarsim\nRoot-Is-Purelib: false\nTag: {tag}\n",
+        "entry_points.txt": f"[console_scripts]\n{script} = {target}\n",
+        "LICENSE": (ROOT / "LICENSE").read_text()}
+
+
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    """The name of the folder of metadata. Without this hook, pip builds the wheel twice."""
+    name, _, texts = described()
+    folder = pathlib.Path(metadata_directory, f"{name}.dist-info")
+    folder.mkdir()
+    for file, text in texts.items():
+        (folder / file).write_text(text)
+    return folder.name
+
+
+def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+    """The name of the wheel, in this folder."""
+    name, tag, texts = described()
+    info, name = f"{name}.dist-info", f"{name}-{tag}.whl"
     records = []
     with (tempfile.TemporaryDirectory() as folder,
           zipfile.ZipFile(pathlib.Path(wheel_directory, name), "w", zipfile.ZIP_DEFLATED) as wheel):

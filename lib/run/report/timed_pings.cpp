@@ -53,8 +53,8 @@ std::vector<Eigen::Vector3f> view_rays(const View& view) {
     return out;
 }
 
-PingSet::PingSet(const Mission& mission, const Assembly& assembly, int count)
-    : mission(mission), scene(assembly.scene) {
+PingSet::PingSet(const Mission& measured, const Assembly& assembly, int count)
+    : mission(measured), scene(assembly.scene) {
     for (const std::size_t pose : sample_poses(assembly.trajectory.size(), count)) {
         poses.push_back(assembly.trajectory[pose].T_world_vehicle);
         indices.push_back(static_cast<std::uint32_t>(pose));
