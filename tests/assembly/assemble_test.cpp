@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <span>
 #include <string>
 #include <vector>
@@ -68,6 +69,49 @@ TEST_SUITE("assembly") {
         // Two lines of 10 m and the way between them of 5 m: 25 s.
         CHECK(survey.size() == 26);
         CHECK(survey.front().T_world_vehicle.translation.z() == test::approx(3.0));
+    }
+
+    TEST_CASE(
+        "assemble: look_at has an object at the distance, bearing and height that were given") {
+        // Two copies of the wall at a hundredth of its size are the objects.
+        const MissionOnDisk disk;
+        const std::vector<std::string> settings{
+            "scene.objects=[{file: wall.gltf, scale: 0.01, position_m: [5, 6, 0], name: near, "
+            "class: box},"
+            " {file: wall.gltf, scale: 0.01, position_m: [40, -6, 2], name: far, class: post}]",
+            "labels.background=[wall]", "seed=7"};
+        const auto poses = [&](const std::string& of) {
+            return assemble(disk.load("{look_at: " + of +
+                                          ", count: 200, range_m: [2, 9], "
+                                          "bearing_deg: [-30, 10], height_m: [1, 3]}",
+                                      settings))
+                .trajectory;
+        };
+        // The middles and the lowest points of the two objects, scaled by 0.01.
+        const Eigen::Vector3d near(5.05, 6, -0.1), far(40.05, -6, 1.9);
+        int of_far = 0;
+        for (const TimedPose& pose : poses("objects")) {
+            const Eigen::Vector3d at = pose.T_world_vehicle.translation;
+            const bool is_far = (at - far).head<2>().norm() < (at - near).head<2>().norm();
+            of_far += is_far;
+            const Eigen::Vector3d to = (is_far ? far : near) - at;
+            const Eigen::Vector3d seen = pose.T_world_vehicle.rotation.conjugate() * to;
+            const double bearing_deg = std::atan2(seen.y(), seen.x()) * 180.0 / 3.141592653589793;
+            CHECK(std::abs(to.head<2>().norm() - 5.5) < 3.501);
+            CHECK(std::abs(bearing_deg + 10.0) < 20.001);
+            CHECK(std::abs(-to.z() - 2.0) < 1.001);
+            CHECK(std::abs(at.y()) <= 10.0);  // within the bounds of the scene
+        }
+        // 200 fair draws have 60 to 140 of one kind but for one in 10^8; bounds favour the nearer.
+        CHECK(of_far > 40);
+        CHECK(of_far < 160);
+        for (const TimedPose& pose : poses("post"))
+            CHECK((pose.T_world_vehicle.translation - far).head<2>().norm() < 9.01);
+        CHECK_THROWS_WITH_AS(
+            poses("posts"),
+            "trajectory.look_at: the scene has no object at rest of 'posts' that is "
+            "no background; did you mean 'post'?; there are: objects, box, post",
+            InputError);
     }
 
     TEST_CASE("assemble: calibrated sonars know the scene's materials before the first ping") {

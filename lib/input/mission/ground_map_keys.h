@@ -36,8 +36,8 @@ void describe_image_place(Visitor& v, Config& c) {
     v.number("pixel_m", c.pixel_m, above(0),
              "size of a pixel; `auto` takes the GeoTIFF tags or the world file", or_auto);
     v.array("origin_m", c.origin_m, any_position_m,
-            "the point of the map, in its own coordinates, that becomes x = 0, y = 0 of the "
-            "mission. With pixel_m they begin at the map's south-west corner");
+            "coordinates of the map that become x = 0, y = 0; with pixel_m from its south-west "
+            "corner");
 }
 
 template <class Visitor>

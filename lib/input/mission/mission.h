@@ -122,8 +122,7 @@ void describe(Visitor& v, Mission& c) {
     v.number("seed", c.seed, any_unsigned, "seed of all random draws; 0 is a seed like any other");
     v.section("water", c.water, "the water");
     v.section("scene", c.scene, "what the sonars look at", required);
-    v.section("trajectory", c.trajectory, "path of the vehicle; exactly one of the three forms",
-              required);
+    v.section("trajectory", c.trajectory, "path of the vehicle; one of the four forms", required);
     v.section("vehicle", c.vehicle,
               "offset of the vehicle from its trajectory, its movements and its navigation");
     v.require(c.water.layers.empty() || c.scene.water_surface, {"water", "scene"},
@@ -147,11 +146,8 @@ void describe(Visitor& v, Mission& c) {
         "scene.particles and scene.water_surface.scatters need straight paths of sound: leave "
         "out water.profile or these keys");
     v.section("accuracy", c.accuracy, "error goal of the images");
-    v.choice(
-        "engine", c.engine, engine_names,
-        "method that finds the visible surface. `auto` takes the rays for the calibrated model and "
-        "for a sonar with multipath or more than 90 degrees of elevation, where objects move or "
-        "sound bends, and over more than 2^19 triangles; else the slices");
+    v.choice("engine", c.engine, engine_names,
+             "method that finds the visible surface; sensors.md has what `auto` takes");
     v.section("octree", c.octree, "settings of the octree");
     v.list_of("classes", c.classes, 0,
               "rules that give nodes of the scene a class, for labels; the first rule that fits a "

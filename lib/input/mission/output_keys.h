@@ -72,9 +72,8 @@ void describe(Visitor& v, OutputConfig& c) {
            "write a fan for each stage of the echo model side by side: direct echoes, then with "
            "multipath, then with one random term after the other");
     v.number("full_scale", c.full_scale, above(0),
-             "intensity that becomes white in pictures; `auto` finds it for each sonar: in fans of "
-             "the calibrated model from the speckle of sand at half of the range, else from a few "
-             "pings",
+             "intensity that becomes white in pictures; `auto` finds it for each sonar, from the "
+             "speckle of sand or from a few pings",
              or_auto);
     v.subset("labels", c.labels, label_names,
              "labels to write for every bin: `true` for all, or a list of them");

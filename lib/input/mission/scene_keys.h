@@ -147,8 +147,7 @@ void describe(Visitor& v, ObjectConfig& c) {
              "bottom");
     v.flag("align", c.align, "an object on the bottom stands upright on the slope below it");
     v.section("trajectory", c.trajectory,
-              "trajectory of a moving object, written like the vehicle's. Waypoints and a "
-              "lawnmower begin with the first ping; a file has its own times");
+              "trajectory of a moving object, written like the vehicle's");
     v.require(c.place_on == ObjectPlace::on_bottom || (c.bury_m == 0.0 && !c.align),
               {"place", "bury_m", "align"}, "bury_m and align need place: on_bottom");
     v.require(!c.trajectory || c.place_on == ObjectPlace::free, {"place", "trajectory"},

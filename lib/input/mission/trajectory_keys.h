@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -40,6 +41,16 @@ struct LawnmowerTrajectoryConfig {
     double rate_hz = 10.0;
 };
 
+/// Poses that each have a drawn object in view.
+struct LookAtTrajectoryConfig {
+    std::string look_at;  ///< a class, or all_objects
+    int count = 100;
+    std::array<double, 2> range_m{};  ///< to the middle of the object, seen from above
+    std::array<double, 2> bearing_deg{-20.0, 20.0};
+    std::array<double, 2> height_m{1.0, 3.0};  ///< above the lowest point of the object
+};
+inline constexpr const char* all_objects = "objects";
+
 /// Standard deviations of the movements that waves add to a trajectory.
 struct MotionConfig {
     std::array<double, 3> position_m{};  ///< surge, sway, heave
@@ -65,8 +76,8 @@ struct VehicleConfig {
     NavigationConfig navigation = {};
 };
 
-using TrajectoryConfig =
-    std::variant<FileTrajectoryConfig, WaypointTrajectoryConfig, LawnmowerTrajectoryConfig>;
+using TrajectoryConfig = std::variant<FileTrajectoryConfig, WaypointTrajectoryConfig,
+                                      LawnmowerTrajectoryConfig, LookAtTrajectoryConfig>;
 
 template <class Visitor>
 void describe(Visitor& v, FileTrajectoryConfig& c) {
@@ -107,8 +118,19 @@ void describe(Visitor& v, LawnmowerTrajectoryConfig& c) {
 }
 
 template <class Visitor>
+void describe(Visitor& v, LookAtTrajectoryConfig& c) {
+    v.text("look_at", c.look_at, "each pose has one of the `objects`, or of a class, in view",
+           required);
+    v.number("count", c.count, between(1, 1e6), "number of poses, one second apart");
+    v.number("range_m", c.range_m, above(0), "distance to its middle, seen from above", required);
+    v.number("bearing_deg", c.bearing_deg, between(-180, 180),
+             "its direction from the bow, positive to port");
+    v.number("height_m", c.height_m, any_position_m, "height above its lowest point");
+}
+
+template <class Visitor>
 void describe(Visitor& v, TrajectoryConfig& c) {
-    v.one_of(c, {"file", "waypoints", "lawnmower"});
+    v.one_of(c, {"file", "waypoints", "lawnmower", "look_at"});
     if (auto* lawnmower = std::get_if<LawnmowerTrajectoryConfig>(&c)) {
         v.section("lawnmower", *lawnmower,
                   "parallel lines over a rectangle, to and fro at constant height", required);

@@ -17,6 +17,7 @@
 #include "simulate/assembly/brightness.h"
 #include "simulate/assembly/ground_maps.h"
 #include "simulate/assembly/heightmap_part.h"
+#include "simulate/assembly/look_at.h"
 #include "simulate/assembly/particles.h"
 #include "simulate/assembly/ping_motions.h"
 #include "simulate/assembly/placed_files.h"
@@ -216,6 +217,29 @@ PlacedScene place(const Mission& mission, const EngineSettings& settings, SceneS
 
 }  // namespace
 
+namespace {
+
+SceneObjects objects_of(const Mission& mission, const Scene& scene) {
+    std::vector<ClassRule> rules;
+    for (const ClassConfig& rule : mission.classes)
+        rules.push_back({rule.nodes, rule.name, rule.instance, rule.place});
+    SceneObjects objects = group_objects(scene, rules, possible_objects(mission, scene));
+    objects.background = background_classes(mission, scene, objects);
+    return objects;
+}
+
+/// Draws the poses of `trajectory.look_at`, before targets are scattered in the water around them.
+void look_at_objects(const Mission& mission, Assembly& assembly) {
+    const auto* const look_at = std::get_if<LookAtTrajectoryConfig>(&mission.trajectory);
+    if (!look_at) return;
+    const Scene& scene = assembly.scene;
+    assembly.trajectory = moved_vehicle(
+        mission, look_at_poses(*look_at, scene, objects_of(mission, scene), mission.seed));
+    assembly.reported = navigation_poses(mission, assembly.trajectory);
+}
+
+}  // namespace
+
 void check_places(const Mission& mission, SceneStore& models) {
     Assembly assembly;
     place(mission, engine_settings(mission), models, assembly);
@@ -230,6 +254,7 @@ Assembly assemble(const Mission& mission, SceneStore& models) {
                                 {mission.water.density_kg_m3, mission.water.sound_speed_m_s},
                                 sharing_threshold(settings.type));
     place_moving_scene(assembly.trajectory, parts.motions, assembly.scene);
+    look_at_objects(mission, assembly);
     apply_ground_maps(mission.scene, materials,
                       {mission.water.density_kg_m3, mission.water.sound_speed_m_s}, assembly.scene);
     for (std::string& warning : parts.orientation_warnings)
@@ -241,14 +266,8 @@ Assembly assemble(const Mission& mission, SceneStore& models) {
     add_particles(mission, assembly.trajectory, assembly.scene, assembly.sonars);
     add_sound_profiles(mission, assembly.scene, assembly.sonars);
     warn_of_empty_scatter(mission, assembly.scene);
-    if (!mission.output.labels.empty() || !mission.classes.empty()) {
-        std::vector<ClassRule> rules;
-        for (const ClassConfig& rule : mission.classes)
-            rules.push_back({rule.nodes, rule.name, rule.instance, rule.place});
-        assembly.objects =
-            group_objects(assembly.scene, rules, possible_objects(mission, assembly.scene));
-        assembly.objects.background = background_classes(mission, assembly.scene, assembly.objects);
-    }
+    if (!mission.output.labels.empty() || !mission.classes.empty())
+        assembly.objects = objects_of(mission, assembly.scene);
     const std::string refusal = unsupported(settings, assembly.scene);
     if (!refusal.empty()) throw InputError(refusal);
     for (Sonar& sonar : assembly.sonars) {

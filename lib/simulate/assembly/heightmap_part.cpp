@@ -40,30 +40,26 @@ std::vector<std::string> bottom_patterns(const SceneConfig& scene) {
     return {};
 }
 
-Eigen::AlignedBox2d needed_ground(const SceneConfig& scene, const Eigen::AlignedBox2d& seen,
-                                  Shapes& shapes) {
-    Eigen::AlignedBox2d needed = seen;
+Eigen::AlignedBox2d ground_of_objects(const SceneConfig& scene, Shapes& shapes) {
+    Eigen::AlignedBox2d ground;
     for (const ObjectConfig& object : scene.objects) {
         if (object.trajectory) continue;
         double reach_m = 0.0;
         for (const Eigen::Vector3d& vertex : shapes.of(file_of(object), object.mesh).vertices)
             reach_m = std::max(reach_m, object.scale * vertex.norm());
         const Eigen::Vector2d at(object.position_m.data());
-        needed.extend(Eigen::AlignedBox2d(at.array() - reach_m, at.array() + reach_m));
+        ground.extend(Eigen::AlignedBox2d(at.array() - reach_m, at.array() + reach_m));
     }
     for (const ScatterConfig& scatter : scene.scatter) {
-        needed.extend(Eigen::Vector2d(scatter.area_min_m.data()));
-        needed.extend(Eigen::Vector2d(scatter.area_max_m.data()));
+        ground.extend(Eigen::Vector2d(scatter.area_min_m.data()));
+        ground.extend(Eigen::Vector2d(scatter.area_max_m.data()));
     }
-    return needed;
+    return ground;
 }
 
-std::optional<PlacedFile> heightmap_of(const SceneConfig& scene, const Eigen::AlignedBox2d& seen,
-                                       Shapes& shapes) {
-    if (!scene.heightmap) return std::nullopt;
-    const Eigen::AlignedBox2d needed = needed_ground(scene, seen, shapes);
-    PlacedFile map = file_of(*scene.heightmap);
-    const Eigen::Vector2d origin(scene.heightmap->origin_m.data());
+PlacedFile heightmap_of(const HeightmapConfig& heightmap, const Eigen::AlignedBox2d& needed) {
+    PlacedFile map = file_of(heightmap);
+    const Eigen::Vector2d origin(heightmap.origin_m.data());
     const Eigen::Vector2d low = needed.min() + origin;
     const Eigen::Vector2d high = needed.max() + origin;
     map.heightmap->window = {low.x(), low.y(), high.x(), high.y()};

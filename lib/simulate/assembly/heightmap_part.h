@@ -23,13 +23,10 @@ Eigen::AlignedBox2d ground_in_range(const Mission& mission, std::span<const Sona
 /// Patterns of the instances that are the bottom: scene.bottom, else the heightmap or the seabed.
 std::vector<std::string> bottom_patterns(const SceneConfig& scene);
 
-/// A box around `seen` and the ground that objects at rest may stand on; world x and y.
-Eigen::AlignedBox2d needed_ground(const SceneConfig& scene, const Eigen::AlignedBox2d& seen,
-                                  Shapes& shapes);
+/// A box around the ground that objects at rest may stand on; world x and y. Empty: there are none.
+Eigen::AlignedBox2d ground_of_objects(const SceneConfig& scene, Shapes& shapes);
 
-/// The placed heightmap of a scene, if it has one: only `seen` and the ground that objects at rest
-/// may stand on.
-std::optional<PlacedFile> heightmap_of(const SceneConfig& scene, const Eigen::AlignedBox2d& seen,
-                                       Shapes& shapes);
+/// The part of a heightmap over a box of the world.
+PlacedFile heightmap_of(const HeightmapConfig& heightmap, const Eigen::AlignedBox2d& needed);
 
 }  // namespace sonarsim

@@ -55,6 +55,11 @@ void add_ping_motions(const Mission& mission, const Trajectory& trajectory,
                              "': multipath supports only a sonar at rest during a ping; leave out "
                              "multipath or moves_in_ping");
         }
+        if (std::holds_alternative<LookAtTrajectoryConfig>(mission.trajectory)) {
+            throw InputError("sensor '" + sonar.config.name +
+                             "': moves_in_ping takes speeds from successive poses, and those of "
+                             "trajectory.look_at do not follow each other; leave out one");
+        }
         if (vehicle_varies_by_ping(mission)) {
             throw InputError(
                 "sensor '" + sonar.config.name +

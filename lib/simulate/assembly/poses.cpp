@@ -40,6 +40,14 @@ Trajectory form_of(const LawnmowerTrajectoryConfig& config) {
                       config.line_spacing_m, config.speed_m_s, config.rate_hz});
 }
 
+/// The times alone: the poses are drawn when the scene is placed.
+Trajectory form_of(const LookAtTrajectoryConfig& config) {
+    Trajectory poses(static_cast<std::size_t>(config.count));
+    for (std::size_t i = 0; i < poses.size(); ++i)
+        poses[i].t_s = static_cast<double>(i);
+    return poses;
+}
+
 WaveMotion wave_motion(const MotionConfig& config) {
     WaveMotion motion{.position_m = config.position_m, .period_s = config.period_s};
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -82,15 +90,17 @@ Trajectory poses_of(const TrajectoryConfig& config) {
 }
 
 Trajectory vehicle_poses(const Mission& mission) {
-    Trajectory poses;
     try {
-        poses = poses_of(mission.trajectory);
+        return moved_vehicle(mission, poses_of(mission.trajectory));
     } catch (const InputError& error) {
         const Location mission_file{mission.scene.place.file};
         const bool has_file = std::holds_alternative<FileTrajectoryConfig>(mission.trajectory);
         if (has_file || mission_file.file.empty()) throw;
         throw InputError(mission_file, std::string("trajectory: ") + error.what());
     }
+}
+
+Trajectory moved_vehicle(const Mission& mission, Trajectory poses) {
     for (std::size_t i = 0; i < poses.size(); ++i) {
         const VehicleConfig off = vehicle_at(mission, static_cast<std::uint32_t>(i));
         if (off.offset_m == VehicleConfig{}.offset_m && off.turn_deg == VehicleConfig{}.turn_deg)

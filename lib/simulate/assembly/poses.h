@@ -15,8 +15,10 @@ std::vector<Pose> poses_at(std::span<const Trajectory> motions, double t_s);
 Trajectory poses_of(const TrajectoryConfig& config);
 
 /// The poses of a mission's vehicle: its trajectory with the offset `vehicle`, whose numbers may be
-/// drawn for every ping, and with the movements of `vehicle.motion`.
+/// drawn for every ping, and with the movements of `vehicle.motion`. With `look_at` only their
+/// times and their number are right, until look_at_poses() gives `poses` for moved_vehicle().
 Trajectory vehicle_poses(const Mission& mission);
+Trajectory moved_vehicle(const Mission& mission, Trajectory poses);
 
 /// The poses that the vehicle's navigation reports; empty if it reports the true ones.
 Trajectory navigation_poses(const Mission& mission, const Trajectory& truth);

@@ -147,6 +147,10 @@ Eigen::Affine3d transform_of(const ObjectConfig& object, const Surface& shape, L
 
 /// A trajectory of waypoints or lines begins with the first ping; a file has its own times.
 Trajectory motion_of(const ObjectConfig& object, const Trajectory& vehicle) {
+    if (std::holds_alternative<LookAtTrajectoryConfig>(*object.trajectory)) {
+        throw InputError(object.place,
+                         title_of(object) + " cannot look at objects: name a file or waypoints");
+    }
     Trajectory motion;
     try {
         motion = poses_of(*object.trajectory);
@@ -260,19 +264,37 @@ double faster_sound(const Mission& mission) {
     return std::max(std::ranges::max(profile.speed_m_s) / profile.range_speed_m_s, 1.0);
 }
 
+/// A box around the ground that a ping may receive or an object may stand on; world x and y.
+Eigen::AlignedBox2d needed_ground(const Mission& mission, const Trajectory& vehicle,
+                                  std::span<const Sonar> sonars, Shapes& shapes) {
+    Eigen::AlignedBox2d ground = ground_of_objects(mission.scene, shapes);
+    if (const auto* look_at = std::get_if<LookAtTrajectoryConfig>(&mission.trajectory)) {
+        if (ground.isEmpty()) {
+            throw InputError(mission.scene.place,
+                             "trajectory.look_at: a heightmap or a made sea bed has no objects; "
+                             "add scene.objects or scene.scatter");
+        }
+        const double reach_m =
+            look_at->range_m[1] + faster_sound(mission) * farthest_range_m(mission);
+        return {ground.min().array() - reach_m, ground.max().array() + reach_m};
+    }
+    ground.extend(ground_in_range(mission, sonars, vehicle, faster_sound(mission)));
+    return ground;
+}
+
 }  // namespace
 
 SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
                        std::span<const Sonar> sonars, SceneStore& models) {
     const SceneConfig& scene = mission.scene;
-    const Eigen::AlignedBox2d seen =
-        ground_in_range(mission, sonars, vehicle, faster_sound(mission));
     SceneParts parts;
     if (!scene.file.empty()) parts.files.push_back(file_of(scene.file, scene.mesh, scene.place));
     Shapes shapes(models);
-    std::optional<PlacedFile> ground = heightmap_of(scene, seen, shapes);
-    if (scene.seabed) {
-        ground = seabed_of(*scene.seabed, mission.seed, needed_ground(scene, seen, shapes));
+    std::optional<PlacedFile> ground;
+    if (scene.heightmap || scene.seabed) {
+        const Eigen::AlignedBox2d needed = needed_ground(mission, vehicle, sonars, shapes);
+        ground = scene.heightmap ? heightmap_of(*scene.heightmap, needed)
+                                 : seabed_of(*scene.seabed, mission.seed, needed);
         parts.seabed = ground->seabed;
     }
     if (ground) parts.files.push_back(*ground);

@@ -67,15 +67,15 @@ void append_little_endian(std::string& bytes, std::size_t number) {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
 }
 
-std::string glb_of(std::string json, std::string_view binary) {
+std::string glb_of(std::string header, std::string_view binary) {
     constexpr std::size_t heads = 20;  // the file's and the first chunk's
-    json.resize((json.size() + 3) / 4 * 4, ' ');
+    header.resize((header.size() + 3) / 4 * 4, ' ');
     std::string bytes = "glTF";
     append_little_endian(bytes, 2);
-    append_little_endian(bytes, heads + json.size() + binary.size());
-    append_little_endian(bytes, json.size());
+    append_little_endian(bytes, heads + header.size() + binary.size());
+    append_little_endian(bytes, header.size());
     append_little_endian(bytes, json_type);
-    return bytes.append(json).append(binary);
+    return bytes.append(header).append(binary);
 }
 
 /// The JSON without the parts that are not read: tinygltf would load textures, and it recurses as
