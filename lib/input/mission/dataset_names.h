@@ -4,8 +4,8 @@
 #include <array>
 #include <string_view>
 
-// The files and folders of a dataset besides the folders of its sensors (output/dataset/layout.h). The
-// names stand here because no sensor may have one of them.
+// The files and folders of a dataset besides the folders of its sensors (output/dataset/layout.h).
+// The names stand here because no sensor may have one of them.
 
 namespace sonarsim {
 

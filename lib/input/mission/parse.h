@@ -23,11 +23,11 @@ struct MissionSource {
 
 /// Reads and checks a mission, at most 1 MiB of strict YAML. Paths become absolute and normalised;
 /// relative ones start at the base folder. A mission without a name gets the name of its file, one
-/// without an output folder gets out/<name> below the current directory.
-/// `overrides` are settings "a.b.c=value" that replace or add keys; the last one wins. `sonars` are
-/// the kinds of sonar that a mission may name: sonar_keys() of simulate/sonar/kinds.h. Throws InputError
-/// with file:line:column, or with the override, for anything wrong; also for the mission of a
-/// dataset if `base_folder` is the folder of the dataset and the files of the scene are not there.
+/// without an output folder gets out/<name> below the current directory. `overrides` are settings
+/// "a.b.c=value" that replace or add keys; the last one wins. `sonars` are the kinds of sonar that
+/// a mission may name: sonar_keys() of simulate/sonar/kinds.h. Throws InputError with
+/// file:line:column, or with the override, for anything wrong; also for the mission of a dataset if
+/// `base_folder` is the folder of the dataset and the files of the scene are not there.
 Mission load_mission(const MissionSource& source, SonarKeyTable sonars);
 
 /// The same for a mission in memory. `file_name` is for messages and for the default name.

@@ -36,8 +36,8 @@ struct SectionReference {
     std::vector<std::string> checks;  ///< conditions on several keys
 };
 
-/// All keys of a mission, as input/mission/mission.h describes them. All trajectories have the keys of
-/// the vehicle's.
+/// All keys of a mission, as input/mission/mission.h describes them. All trajectories have the keys
+/// of the vehicle's.
 std::vector<SectionReference> mission_reference(SonarKeyTable sonars);
 
 /// Makes a Markdown table per section: key, type and unit, default, range, meaning.

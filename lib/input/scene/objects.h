@@ -44,8 +44,8 @@ struct NamedInstance {
     std::string class_name;  ///< "": none
 };
 
-/// The objects that variants of a mission may have. Numbers of classes follow it, not the scene, so that
-/// they are the same in all variants.
+/// The objects that variants of a mission may have. Numbers of classes follow it, not the scene, so
+/// that they are the same in all variants.
 struct PossibleObjects {
     std::vector<std::string> classes;      ///< they are numbered first
     std::vector<NamedInstance> instances;  ///< their classes follow, by the rules

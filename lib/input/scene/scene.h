@@ -27,8 +27,8 @@ struct Material {
     // The rest is for the calibrated model (docs/calibrated.md). Lambert's rule and facets:
     double lambert_db = -27.0;    ///< 10 log mu of Lambert's rule
     double slope_rms_deg = 10.0;  ///< RMS slope of the facets; 0: no facets
-    // The model of sea beds (simulate/calibrated/seafloor_scattering.h), if there is a grain size or a loss
-    // parameter. A value that is empty follows from the grain size.
+    // The model of sea beds (simulate/calibrated/seafloor_scattering.h), if there is a grain size
+    // or a loss parameter. A value that is empty follows from the grain size.
     std::optional<double> grain_phi = {};       ///< mean grain size, -log2 of millimetres
     std::optional<double> loss_parameter = {};  ///< imaginary part / real part of the wave number
     std::optional<double> spectral_strength_cm4 = {};  ///< w2 of the roughness spectrum

@@ -45,8 +45,8 @@ Ping direct_image(const Sonar& sonar, const Scene& scene, const VisibilityEngine
 
 /// Measures the error of each sonar of a mission with its engine, by sonar, at up to three pings
 /// with a bounded number of rays: about half a second each. It depends on the mission alone, not on
-/// threads or on the part that is rendered. Nothing where sound bends, which the reference's rays do
-/// not. Uses all threads of the arena.
+/// threads or on the part that is rendered. Nothing where sound bends, which the reference's rays
+/// do not. Uses all threads of the arena.
 std::vector<std::optional<MeasuredError>> measure_errors(const Mission& mission,
                                                          const Assembly& assembly,
                                                          const VisibilityEngine& engine);

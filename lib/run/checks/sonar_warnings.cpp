@@ -37,8 +37,8 @@ void judge_blindness(const Sonar& sonar, const SonarSurvey& found, std::vector<W
         depths);
 }
 
-/// Warns of images that are too bright or too dark for the scale of the pictures. With `auto` glints
-/// are white on purpose, and a scale that was found from pings is never too dark.
+/// Warns of images that are too bright or too dark for the scale of the pictures. With `auto`
+/// glints are white on purpose, and a scale that was found from pings is never too dark.
 void judge_brightness(const OutputConfig& output, const Sonar& sonar, double full_scale,
                       double white_share, float brightest, std::vector<Warning>& out) {
     if (output.full_scale == 0.0 && sonar.settings.model->info.white == 0.0) return;

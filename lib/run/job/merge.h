@@ -19,9 +19,9 @@ struct MergeSummary {
 };
 
 /// Copies the pings of shards of one mission, or its variants, into one folder, which holds nothing
-/// or an unfinished merge of them. sonarsim render then renders there what is missing, and completes
-/// the dataset. The files that the mission reads are not needed; parts are only read. `progress`
-/// counts the datasets.
+/// or an unfinished merge of them. sonarsim render then renders there what is missing, and
+/// completes the dataset. The files that the mission reads are not needed; parts are only read.
+/// `progress` counts the datasets.
 ///
 /// InputError when a part is not a dataset or not of the same mission, inputs, version and build as
 /// the first, and when `out` holds something else or another run writes there; std::system_error

@@ -55,8 +55,8 @@ Reference settled(const View& view, const ReferenceGoal& goal,
 /// the surface, and doubles the rays until the goal is met. The image is that of both together. A
 /// lattice alone may settle on a wrong image if the scene repeats at the step of the lattice, or if
 /// objects are thinner than the step. The random start disagrees in the first case, and points of
-/// the surface find thin objects (simulate/reference/reference_cast.h). Every ray counts only in the bin
-/// where it ends.
+/// the surface find thin objects (simulate/reference/reference_cast.h). Every ray counts only in
+/// the bin where it ends.
 Reference cast_reference(const Caster& caster, const Scene& scene, const View& view,
                          const Pose& T_world_sensor, const ReferenceGoal& goal);
 

@@ -42,14 +42,15 @@ struct EchoModelInfo {
     /// The mean value of the receiver's noise, by range bin; empty: it has none, or noise_growth
     /// tells how it grows.
     std::vector<float> mean_noise = {};
-    /// The value that is white in pictures if `output.full_scale` is auto; 0: it follows from pings.
+    /// The value that is white in pictures if `output.full_scale` is auto; 0: it follows from
+    /// pings.
     double white = 0.0;
     int raw_bits = 0;  ///< number of bits of a value in raw/ and raw.npy; 0: no raw values
 };
 
-/// An echo model: PaperModel (simulate/paper/paper_model.h) or CalibratedModel (simulate/calibrated/model.h). It
-/// turns the trace of a ping into an image. Models are immutable; any number of threads may form
-/// images at once.
+/// An echo model: PaperModel (simulate/paper/paper_model.h) or CalibratedModel
+/// (simulate/calibrated/model.h). It turns the trace of a ping into an image. Models are immutable;
+/// any number of threads may form images at once.
 class EchoModel {
   public:
     virtual ~EchoModel() = default;
