@@ -187,8 +187,18 @@ class RecordingTest(tool.ToolTest):
         records[0, :, 0], records[0, :, 4] = (1.4, 3.4), 0.9
         own = self.dataset("profiling", {**polar, "s/soundings.npy": records}, **files, records={
             "name": "soundings", "file": "s/soundings.npy", "axes": ["ping", "beam", "value"]})
-        np.testing.assert_allclose(own.soundings.intensity, [[0, 5], [np.nan, np.nan]])
+        np.testing.assert_allclose(own.soundings.intensity, [[0, (5 / 4) ** 2], [np.nan, np.nan]])
         np.testing.assert_allclose(own.soundings.angle_rad[0], [0.1, -0.1])
+        # A beam of 0.2 rad, 0.8 rad off the vertical, covers 20 x 0.2 tan(0.8) = 4.1 m of range: 41 bins of 0.1 m. The
+        # power of the only bin with an echo is shared by them.
+        spike = np.zeros((100, 2))
+        spike[60] = 4.0
+        records[0, :, 0] = 20.0
+        own = self.dataset("profiling", {**{name: spike for name in polar}, "s/soundings.npy": records}, **files,
+                           range_edges_m=[15 + 0.1 * k for k in range(101)], azimuth_edges_rad=[-0.9, -0.7, -0.5],
+                           records={"name": "soundings", "file": "s/soundings.npy", "axes": ["ping", "beam", "value"]})
+        bins = 20 * 0.2 * np.tan([0.8, 0.6]) / 0.1
+        np.testing.assert_allclose(own.soundings.intensity[0], 1 / bins, rtol=0.05)
         for more, what in (({"pings": 1 << 31}, "take fewer pings"), ({"pings": 3}, "000002.npy"),
                            ({"range_edges_m": [1, 2]}, "another shape"), ({"files": {}}, "set output.polar: true"),
                            ({"files": {"polar": "../%06d.npy"}}, "not a name that"), ({"kind": "sidescan"}, "no records")):

@@ -78,16 +78,24 @@ def read_records(folder, sensor, kind, pings):
 
 
 def soundings_of(folder, sensor, recording):
-    """The bottom that a profiling sonar detected, with the values of its images there."""
+    """The bottom that a profiling sonar detected. Intensities are mean powers over the footprint of a beam, as
+    echosounders deliver them: on a level bottom, r width tan(angle) of range."""
     records = sensor.records("soundings")       # range, x, y, z, quality, and x, y, z where sound bends
     pings, ranges, beams = recording.values.shape
     require(folder, sensor, records.ndim == 3 and records.shape[:2] == (len(sensor), beams) and records.shape[2] in (5, 8))
     range_m, quality = records[:pings, :, 0], records[:pings, :, 4]
     bins = (range_m - recording.first_range_m) / recording.range_step_m + 0.5
     found = (quality >= LEAST_QUALITY) & (bins >= 0.0) & (bins < ranges)
-    bins = np.where(found, bins, 0.0).astype(int)
-    intensity = np.take_along_axis(recording.values, bins[:, None, :], axis=1)[:, 0]
     angle = np.broadcast_to(-recording.bearing_rad, range_m.shape)
+    width_rad = np.abs(np.diff(sensor.azimuth_edges_rad))
+    half = 0.5 * np.where(found, range_m * width_rad * np.tan(np.abs(angle)), 0.0) / recording.range_step_m
+    bins = np.where(found, bins, 0.0)
+    first = np.clip(bins - half, 0, ranges - 1).astype(int)
+    last = np.clip(bins + half, first, ranges - 1).astype(int)
+    sums = np.pad(np.cumsum(recording.powers(), axis=1, dtype=float), ((0, 0), (1, 0), (0, 0)))
+    upper, lower = (np.take_along_axis(sums, at[:, None, :], axis=1)[:, 0] for at in (last + 1, first))
+    recording.law = Law("power", full_value=1.0)
+    intensity = (upper - lower) / (last + 1 - first)
     return Soundings(*(np.where(found, array, np.nan).astype(np.float32) for array in (range_m, angle, intensity)))
 
 
