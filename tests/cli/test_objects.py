@@ -97,6 +97,29 @@ class Objects(Sandbox):
         sounder = self.json("out/sounder/objects.json")
         self.assertEqual((sounder["picture"], sounder["width"], sounder["height"]), ("echogram.png", 6, 40))
 
+    def masks_of(self, kind):
+        """The masks of the pillars in the pings of fls and in the waterfall, for a kind of mask."""
+        self.edit("mission.yaml", "labels: {", f"labels: {{mask: {kind}, ") if kind else None
+        self.assert_renders("--overwrite")
+        found = {("fls", ping, one["name"]): one for ping in (0, 2, 4) for one in self.objects_of(ping, "fls")}
+        found |= {("sss", one["side"], one["name"]): one for one in self.json("out/sss/objects.json")["objects"]}
+        return {key: mask_of(one["mask"], *((48, 70) if key[0] == "fls" else (92, 6))) for key, one in found.items()
+                if "pillar" in one["name"]}
+
+    def test_silhouettes_lie_in_the_echo_and_have_shadows(self):
+        self.edit("mission.yaml", "background: [none]", "background: [auto]")
+        echo = self.masks_of("")
+        drawn = self.masks_of("silhouette")
+        self.assertTrue(drawn)
+        self.assertLessEqual(set(drawn), set(echo))
+        for key, mask in drawn.items():
+            self.assertGreater((mask & echo[key]).sum(), 0.8 * mask.sum(), key)
+        self.edit("mission.yaml", "mask: silhouette", "mask: silhouette+shadow")
+        whole = self.masks_of("")
+        self.assertEqual(set(whole), set(drawn))
+        self.assertFalse(any((drawn[key] & ~mask).any() for key, mask in whole.items()))
+        self.assertTrue(any(mask.sum() > drawn[key].sum() for key, mask in whole.items() if key[0] == "fls"))
+
     def test_what_is_refused(self):
         labels = "labels: {background: [none]}\n"
         for old, new, *fragments in (

@@ -42,8 +42,11 @@ struct ClassConfig {
 };
 
 /// The classes that are background: they have neither contrast, shadow nor visible share.
+enum class MaskKind { echo, silhouette, silhouette_and_shadow };
+
 struct LabelConfig {
     std::vector<std::string> background{"auto"};  ///< classes that are not objects
+    MaskKind mask = MaskKind::echo;               ///< the masks of `objects`
     Location place = {};
 };
 
@@ -103,6 +106,11 @@ void describe(Visitor& v, ClassConfig& c) {
               "a rule for classes needs the keys 'nodes' and 'class'");
 }
 
+inline constexpr Choice<MaskKind> mask_kinds[]{
+    {"echo", MaskKind::echo},
+    {"silhouette", MaskKind::silhouette},
+    {"silhouette+shadow", MaskKind::silhouette_and_shadow}};
+
 template <class Visitor>
 void describe(Visitor& v, LabelConfig& c) {
     v.text("background", c.background,
@@ -112,6 +120,9 @@ void describe(Visitor& v, LabelConfig& c) {
            "surface; `none` for no class");
     v.require(!c.background.empty(), {"background"},
               "'background' names classes, auto or none; with [none] all classes are objects");
+    v.choice("mask", c.mask, mask_kinds,
+             "mask of an object in `objects`: `echo` is where its echo is the largest, `silhouette` "
+             "where its direct echo stands out of all else, as a person draws it");
 }
 
 template <class Visitor>
@@ -152,7 +163,7 @@ void describe(Visitor& v, Mission& c) {
     v.list_of("classes", c.classes, 0,
               "rules that give nodes of the scene a class, for labels; the first rule that fits a "
               "node applies");
-    v.section("labels", c.labels, "which classes are background");
+    v.section("labels", c.labels, "background classes and masks of objects");
     v.section("output", c.output, "files to write, and their folder");
     v.number("variants", c.variants, between(0, 1e6),
              "number of variants of the mission, each a dataset with a seed of its own; 0: none");

@@ -4,9 +4,56 @@
 #include <span>
 #include <utility>
 
+#include "simulate/labels/silhouette.h"
 #include "simulate/sonar/kinds.h"
 
 namespace sonarsim {
+
+namespace {
+
+using Ids = std::vector<std::uint16_t>;
+
+/// The bins of a ping. An image in the unit of echoes has all but the receiver's noise: also the
+/// water and side lobes.
+ExpectedBins expected_bins(const Sonar& sonar, const Scene& scene, const TracedPing& traced,
+                           PingLabels& labels) {
+    const EchoModelInfo& info = sonar.settings.model->info;
+    if (!info.echo_gain.empty()) {
+        const Ping clean = form_image(traced, sonar.settings, scene, {}, without_random_terms);
+        for (std::size_t k = 0; k < labels.size(); ++k) {
+            const auto i = static_cast<int>(k % labels.range_bins);
+            const float noise = info.mean_noise.empty() ? 0.0F : info.mean_noise[i];
+            const auto beam = static_cast<int>(k / labels.range_bins);
+            labels.whole_echo[k] = (clean.at(i, beam) + noise) / info.echo_gain[i];
+        }
+    }
+    return {{labels.beams, labels.range_bins, info.cell},
+            labels.direct_object,
+            labels.direct_echo,
+            labels.whole_echo};
+}
+
+/// Ids of objects; background has the other bins in which its echo is the largest.
+Ids on_background(Ids ids, const SceneObjects& objects, const PingLabels& labels) {
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+        const std::uint16_t id = labels.object[k];
+        if (ids[k] == 0 && id != 0 && objects.is_background(id - 1U)) ids[k] = id;
+    }
+    return ids;
+}
+
+/// Finds the silhouettes and returns the masks.
+Ids draw_masks(const LabelPlan& plan, const ExpectedBins& expected, const SceneObjects& objects,
+               PingLabels& labels) {
+    const Standouts found = find_standouts(expected);
+    // Records are tidied in their pictures.
+    Ids ids = plan.objects ? tidied(expected.frame, found.object, found.ratio) : found.object;
+    labels.silhouette = on_background(ids, objects, labels);
+    if (!plan.objects || plan.mask != MaskKind::silhouette_and_shadow) return labels.silhouette;
+    return on_background(with_shadows(expected.frame, ids, labels.object_shadow), objects, labels);
+}
+
+}  // namespace
 
 bool is_listed(const Mission& mission, Label label) {
     return std::ranges::find(mission.output.labels, label) != mission.output.labels.end();
@@ -27,8 +74,10 @@ LabelPlan plan_labels(const Mission& mission, const Assembly& assembly, const So
                     .elevation = listed(Label::elevation),
                     .shadow = listed(Label::shadow),
                     .height = listed(Label::height),
+                    .direct_echoes = objects && mission.labels.mask != MaskKind::echo,
                     .annotations = objects,
                     .bottom = assembly.bottom.get()};
+    plan.mask = mission.labels.mask;
     plan.objects = has_images && objects;
     plan.fan_objects = plan.objects && output.fan;
     if (plan.fan_objects || (has_images && listed(Label::fan)))
@@ -51,11 +100,16 @@ LabelledPing label_for_writers(const LabelPlan& plan, const Assembly& assembly, 
     out.bins =
         label_ping(traced, sonar.settings, assembly.scene, assembly.objects, engine, request);
     out.fan_bins = plan.fan.get();
+    const Ids mask =
+        request.direct_echoes
+            ? draw_masks(plan, expected_bins(sonar, assembly.scene, traced, out.bins),
+                         assembly.objects, out.bins)
+            : out.bins.object;
     if (!plan.objects) return out;
-    out.polar = object_masks(out.bins.object, out.bins.range_bins);
+    out.polar = object_masks(mask, out.bins.range_bins);
     std::span<const PixelBox> fan_boxes;
     if (plan.fan_objects) {
-        out.fan = object_masks(fan_values(plan.fan->by_column, out.bins.object, std::uint16_t{0}),
+        out.fan = object_masks(fan_values(plan.fan->by_column, mask, std::uint16_t{0}),
                                plan.fan->frame.height);
         fan_boxes = plan.fan->boxes;
     }

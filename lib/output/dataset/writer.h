@@ -86,9 +86,11 @@ struct PingRecord {  // NOLINT(bugprone-exception-escape): moving JSON throws no
 };
 
 // Labels of records that only objects need: the shadow of the objects that are not background,
-// and the visible share of the object of a bin, where 65535 means all of the object.
+// the visible share of the object of a bin, where 65535 means all of the object, and the objects
+// that stand out in a bin, unless `labels.mask` is echo.
 inline constexpr const char* object_shadow_record = "object_shadow";
 inline constexpr const char* visible_share_record = "visible_share";
+inline constexpr const char* silhouette_record = "silhouette";
 /// The objects in the picture of all pings of a sensor.
 inline constexpr const char* record_objects_name = "objects.json";
 

@@ -133,6 +133,11 @@ void set_info(CalibratedModel& model, const View& view) {
     info.multipath_bytes = of_grid;
     if (model.levels.noise_db > no_level_db || receiver.common_mode_db > no_level_db)
         info.mean_noise = model.noise_values;
+    for (std::size_t row = 0; row < model.row_gain.size(); row += receiver.samples)
+        info.echo_gain.push_back(model.row_gain[row]);
+    info.cell.range_bins = model.target_cell.depth_m / (receiver.samples * view.bin_m());
+    if (model.cones.exist())
+        info.cell.beams = radians(model.instrument.beam.width_deg) / model.cones.mean_width();
     info.raw_bits = receiver.bits;
     const bool is_fan = model.instrument.beam.aperture == Aperture::line && !is_profile(view);
     if (is_fan) info.white = white_of_fan(model.levels);

@@ -57,6 +57,16 @@ class SurfaceSums {
         return TopTwoFinder(std::move(sources));
     }
 
+    /// A finder of the objects that are no background, by their direct echoes.
+    TopTwoFinder finder_of_direct() const {
+        std::vector<KeyedSource> sources;
+        for (const auto& [surface, source] : source_of_) {
+            if (!surface.multipath && !objects_.is_background(surface.object))
+                sources.push_back({surface.object, source});
+        }
+        return TopTwoFinder(std::move(sources));
+    }
+
   private:
     void find_source(const Surface& surface) {
         if (!source_of_.empty() && surface == surface_) return;
@@ -112,11 +122,18 @@ void label_surfaces(const SurfaceSums& surfaces, const SceneObjects& objects,
     TopTwoFinder by_class =
         surfaces.finder_by([&](const Surface& of) { return objects.class_of(of.object); });
     TopTwoFinder by_material = surfaces.finder_by([](const Surface& of) { return of.material; });
+    TopTwoFinder direct = surfaces.finder_of_direct();
     for (int j = 0; j < out.beams; ++j) {
         if (request.objects) {
             by_object.find(surfaces.sums(), j,
                            {own(out.object, out, j), own(out.second, out, j),
                             own(out.share, out, j), own(out.second_share, out, j)});
+        }
+        if (request.direct_echoes) {
+            direct.find(surfaces.sums(), j,
+                        {own(out.direct_object, out, j), {}, own(out.direct_echo, out, j)});
+            for (std::uint32_t source = 0; source < surfaces.sums().sources(); ++source)
+                surfaces.sums().add_to(source, j, own(out.whole_echo, out, j));
         }
         if (request.classes) by_class.find(surfaces.sums(), j, {own(out.class_id, out, j), {}});
         if (request.materials)
@@ -131,6 +148,11 @@ PingLabels blank_labels(const View& view, const LabelRequest& request) {
     labels.beams = view.beams;
     const std::size_t n = labels.size();
     if (request.objects) labels.object.resize(n);
+    if (request.direct_echoes) {
+        labels.direct_object.resize(n);
+        labels.direct_echo.resize(n);
+        labels.whole_echo.resize(n);
+    }
     if (request.shares) {
         labels.share.resize(n);
         labels.second.resize(n);
@@ -208,11 +230,11 @@ void copy_beam(const PingLabels& from, int beam, PingLabels& to) {
                     (to.*member).begin() + static_cast<std::ptrdiff_t>(first));
     };
     for (const auto member :
-         {&PingLabels::object, &PingLabels::second, &PingLabels::class_id, &PingLabels::material,
+         {&PingLabels::object, &PingLabels::direct_object, &PingLabels::second, &PingLabels::class_id, &PingLabels::material,
           &PingLabels::shadow, &PingLabels::object_shadow})
         copy(member);
     for (const auto member :
-         {&PingLabels::share, &PingLabels::second_share, &PingLabels::multipath,
+         {&PingLabels::direct_echo, &PingLabels::whole_echo, &PingLabels::share, &PingLabels::second_share, &PingLabels::multipath,
           &PingLabels::elevation_rad, &PingLabels::elevation_spread_rad, &PingLabels::height_m})
         copy(member);
 }

@@ -21,6 +21,7 @@ struct LabelRequest {
     bool elevation = false;
     bool shadow = false;
     bool height = false;
+    bool direct_echoes = false;  ///< needs objects: direct_object, direct_echo and whole_echo
     /// Needs objects: the data of annotations, for objects that are no background.
     bool annotations = false;
     std::span<const ObjectSphere> annotated = {};  ///< spheres around the annotated objects
@@ -38,6 +39,10 @@ struct PingLabels {
     int range_bins = 0;
     int beams = 0;
     std::vector<std::uint16_t> object;  ///< the object that gives most of the bin's echo
+    /// The largest direct echo of an object that is no background, that object, and all echoes.
+    std::vector<std::uint16_t> direct_object;
+    std::vector<float> direct_echo, whole_echo;
+    std::vector<std::uint16_t> silhouette;  ///< and background; label_ping() leaves it empty
     std::vector<float> share;           ///< its share of that echo; 0 without an echo
     std::vector<std::uint16_t> second;  ///< the object that gives most of the rest
     std::vector<float> second_share;
@@ -54,6 +59,10 @@ struct PingLabels {
     /// an object out of view and, without the shadow, for background.
     std::vector<float> visible_share;
 
+    /// The objects of the bins for their facts: silhouettes if they are known.
+    const std::vector<std::uint16_t>& facts() const {
+        return silhouette.empty() ? object : silhouette;
+    }
     std::size_t size() const { return static_cast<std::size_t>(range_bins) * beams; }
 };
 

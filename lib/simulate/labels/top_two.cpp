@@ -43,7 +43,11 @@ TopTwoFinder::TopTwoFinder(std::vector<KeyedSource> sources) : sources_(std::mov
 
 void TopTwoFinder::find(const EchoSums& sums, int beam, const TopTwo& out) {
     const std::size_t bins = out.first.size();
-    if (out.second.empty()) first_echo_.assign(bins, 0.0F);
+    std::span<float> first_echo = out.first_echo;
+    if (first_echo.empty()) {
+        first_echo_.assign(bins, 0.0F);
+        first_echo = first_echo_;
+    }
     echo_.assign(bins, 0.0F);
     bool has_echo = false;
     for (std::size_t k = 0; k < sources_.size(); ++k) {
@@ -52,7 +56,7 @@ void TopTwoFinder::find(const EchoSums& sums, int beam, const TopTwo& out) {
         if (!has_echo || (k + 1 < sources_.size() && sources_[k + 1].key == key)) continue;
         const auto id = static_cast<std::uint16_t>(key + 1);
         if (out.second.empty())
-            take_largest(echo_, id, out.first.data(), first_echo_.data());
+            take_largest(echo_, id, out.first.data(), first_echo.data());
         else
             keep_top_two(echo_, id, out);
         std::ranges::fill(echo_, 0.0F);

@@ -16,7 +16,7 @@ struct KeyedSource {
 /// The keys with the two largest echoes in the bins of a beam; all is 0 before.
 struct TopTwo {
     std::span<std::uint16_t> first, second;  ///< 1 + key; 0: none. `second`: empty unless requested
-    std::span<float> first_echo = {}, second_echo = {};  ///< both or none
+    std::span<float> first_echo = {}, second_echo = {};  ///< second_echo: only with `second`
 };
 
 /// Finds the keys with the largest echoes in every bin. Sources of one key are summed first. The

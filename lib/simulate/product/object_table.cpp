@@ -207,7 +207,7 @@ std::vector<ObjectInPing> visible_objects(const Sonar& sonar, const SceneObjects
             const double from = middle(sonar.azimuth_edges_rad, first);
             return azimuth_rad + turn * std::round((from - azimuth_rad) / turn);
         };
-        const auto own = std::span(labels.object).subspan(begin, labels.range_bins);
+        const auto own = std::span(labels.facts()).subspan(begin, labels.range_bins);
         for_each_run(own, [&](std::uint16_t id, int from, int to) {
             add_bins(all[id - 1], from, to, j);
             add_to_totals(std::span(levels).subspan(begin + from, to - from),
@@ -216,7 +216,7 @@ std::vector<ObjectInPing> visible_objects(const Sonar& sonar, const SceneObjects
         });
     }
     add_shadows(labels, fan_boxes, all);
-    const LevelMap map{labels.beams, labels.range_bins, labels.object, labels.object_shadow,
+    const LevelMap map{labels.beams, labels.range_bins, labels.facts(), labels.object_shadow,
                        levels,       full_turn};
     const Contrasts contrasts(objects, map);
     const std::vector<Eigen::AlignedBox3f> boxes = visible_boxes(objects, traced);

@@ -23,6 +23,11 @@ struct FormContext {
     Terms terms;
 };
 
+/// The width of the echo of a point in bins, by the pulse and the beam.
+struct ResolutionCell {
+    double range_bins = 1.0, beams = 1.0;
+};
+
 /// The properties of an echo model that are the same for all of its images.
 struct EchoModelInfo {
     /// The names of the random terms, in the order in which they enter an image.
@@ -42,6 +47,10 @@ struct EchoModelInfo {
     /// The mean value of the receiver's noise, by range bin; empty: it has none, or noise_growth
     /// tells how it grows.
     std::vector<float> mean_noise = {};
+    ResolutionCell cell = {};
+    /// The factor from the direct echoes of surface_echoes() within a cell to their value in the
+    /// image, by range bin; empty: the image has no such unit.
+    std::vector<float> echo_gain = {};
     /// The value that is white in pictures if `output.full_scale` is auto; 0: it follows from
     /// pings.
     double white = 0.0;

@@ -71,8 +71,8 @@ Ids shares(const PingLabels& labels) {
 /// The visible share of the object of each bin; 65535 is all of it, and 0 means that it is not
 /// known.
 Ids visible_shares(const PingLabels& labels) {
-    Ids rounded(labels.object.size());
-    std::ranges::transform(labels.object, rounded.begin(), [&](std::uint16_t id) {
+    Ids rounded(labels.facts().size());
+    std::ranges::transform(labels.facts(), rounded.begin(), [&](std::uint16_t id) {
         const float share = id == 0 ? std::nanf("") : labels.visible_share[id - 1U];
         if (std::isnan(share)) return std::uint16_t{0};
         return static_cast<std::uint16_t>(std::max(65535.0F * share + 0.5F, 1.0F));
@@ -123,10 +123,11 @@ constexpr LabelFile label_files[] = {
 };
 
 /// Records of sonars without images. Their files of objects are made of these and of the records of
-/// instances.
+/// instances or silhouettes.
 constexpr LabelFile annotation_records[] = {
     {Label::objects, object_shadow_record, ids<&PingLabels::object_shadow>, {}, {}, "instances"},
     {Label::objects, visible_share_record, visible_shares},
+    {Label::objects, silhouette_record, ids<&PingLabels::silhouette>, {}, {}, "instances"},
 };
 
 /// The numbers of a ping [range bins, beams] as the rows and columns of the sonar's image, or as
@@ -193,7 +194,8 @@ std::vector<Writer> make_label_writers(const WriterContext& context) {
         if (has_fan && file.ids_of) writers.push_back(fan_label_writer(context, file));
     }
     for (const LabelFile& file : annotation_records) {
-        if (record_objects) writers.push_back(label_writer(context, file));
+        const bool wanted = mission.labels.mask != MaskKind::echo || file.name != silhouette_record;
+        if (record_objects && wanted) writers.push_back(label_writer(context, file));
     }
     if (has_images && is_listed(mission, Label::objects))
         writers.push_back(objects_writer(context));

@@ -9,6 +9,7 @@
 
 #include "output/dataset/json.h"
 #include "output/dataset/writer.h"
+#include "simulate/labels/silhouette.h"
 #include "simulate/product/contrast.h"
 #include "simulate/product/object_masks.h"
 #include "simulate/product/object_table.h"
@@ -55,6 +56,23 @@ struct SeenObject {
     }
 };
 
+/// The ids of a picture with the objects as tidied(), and `shadow` if it is not null. Background
+/// keeps its other bins.
+template <class IsBackground>
+std::vector<std::uint16_t> drawn_ids(const MaskFrame& frame, const std::vector<std::uint16_t>& ids,
+                                     IsBackground is_background,
+                                     const std::vector<std::uint16_t>* shadow = nullptr) {
+    std::vector<std::uint16_t> out = ids;
+    for (std::uint16_t& id : out)
+        id = is_background(id) ? 0 : id;
+    out = tidied(frame, out);
+    if (shadow) out = with_shadows(frame, out, *shadow);
+    for (std::size_t k = 0; k < out.size(); ++k) {
+        if (out[k] == 0 && is_background(ids[k])) out[k] = ids[k];
+    }
+    return out;
+}
+
 inline nlohmann::ordered_json rounded(const std::optional<double>& value, double per_unit) {
     if (!value) return nullptr;
     return std::round(*value * per_unit) / per_unit;
@@ -65,7 +83,7 @@ class ObjectRecords {
   public:
     ObjectRecords(const WriterContext& context, const std::filesystem::path& folder)
         : context_(context),
-          object_(open(folder, "instance", "<u2")),
+          object_(open(folder, is_drawn() ? silhouette_record : "instance", "<u2")),
           shadow_(open(folder, object_shadow_record, "<u2")),
           visible_share_(open(folder, visible_share_record, "<u2")),
           level_(open(folder, context.kind().record.name, "<f4")),
@@ -76,6 +94,12 @@ class ObjectRecords {
     }
 
     bool is_background(std::uint32_t id) const { return is_background_[id] != 0; }
+    /// True if masks are silhouettes, whose records drawn_ids() has to tidy.
+    bool is_drawn() const { return context_.mission.labels.mask != MaskKind::echo; }
+    const ResolutionCell& cell() const { return context_.sonar().settings.model->info.cell; }
+    bool has_shadows() const {
+        return context_.mission.labels.mask == MaskKind::silhouette_and_shadow;
+    }
 
     /// Reads `count` pings from `first` on into the lines from `line` on.
     void read(std::size_t first, std::size_t count, std::size_t line, RecordValues& values) const {

@@ -59,13 +59,13 @@ class PingObjects {
                       std::span<const Pose> T_world_body) const {
         const SceneObjects& objects = context_.assembly.objects;
         const SceneObjects::Object& object = objects.objects[seen.id - 1];
+        const ObjectMask& mask = *mask_of(finished.labels->polar, seen.id);
         Json json = {{"id", seen.id},
                      {"name", object.name},
                      {"class", objects.classes[object.class_index]},
                      {"box_bins",
-                      {{"range", {seen.range_first, seen.range_last + 1}},
-                       {"beam", {seen.beam_first, seen.beam_last + 1}}}},
-                     {"area_bins", seen.bins},
+                      {{"range", {mask.top, mask.bottom}}, {"beam", {mask.left, mask.right}}}},
+                     {"area_bins", mask.area},
                      {"level", seen.level},
                      {"level_around", number_or_null(seen.surrounding_level)},
                      {"range_m", seen.range_m},
@@ -83,9 +83,8 @@ class PingObjects {
             json["visible_share"] = finished.labels->bins.visible_share[seen.id - 1];
         json["contrast_db"] = number_or_null(seen.contrast_db);
         if (!seen.shadow.is_empty()) json["shadow"] = shadow_json(seen);
-        json["clipped"] = is_clipped(seen);
-        const ObjectMask* const polar = mask_of(finished.labels->polar, seen.id);
-        if (polar) json["mask"] = coco_counts(polar->runs);
+        json["clipped"] = is_clipped(mask);
+        json["mask"] = coco_counts(mask.runs);
         if (finished.labels->fan_bins) {
             json["fan"] = fan_json(seen, mask_of(finished.labels->fan, seen.id));
         }
@@ -93,9 +92,9 @@ class PingObjects {
     }
 
     /// True if its bins touch the first or last range bin or an edge beam: the view cuts it off.
-    bool is_clipped(const ObjectInPing& seen) const {
-        const bool at_side = seen.beam_first == 0 || seen.beam_last + 1 == view_.beams;
-        return seen.range_first == 0 || seen.range_last + 1 == view_.range_bins ||
+    bool is_clipped(const ObjectMask& mask) const {
+        const bool at_side = mask.left == 0 || mask.right == view_.beams;
+        return mask.top == 0 || mask.bottom == view_.range_bins ||
                (at_side && !is_full_turn(view_));
     }
 

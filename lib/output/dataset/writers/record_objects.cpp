@@ -46,6 +46,15 @@ class Strip {
         find_passes();
         const std::size_t across = shape_.upright ? rows_ : static_cast<std::size_t>(bins_);
         const std::size_t down = shape_.upright ? static_cast<std::size_t>(bins_) : rows_;
+        if (source_.is_drawn()) {
+            const double range_bins = source_.cell().range_bins;
+            const ResolutionCell cell =
+                shape_.upright ? ResolutionCell{range_bins, 1.0} : ResolutionCell{1.0, range_bins};
+            const MaskFrame frame{static_cast<int>(across), static_cast<int>(down), cell};
+            pass_of_pixel_ = drawn_ids(frame, pass_of_pixel_, [&](std::uint16_t pass) {
+                return source_.is_background(passes_[pass].id);
+            });
+        }
         std::vector<Json> objects;
         for (const ObjectMask& mask : object_masks(pass_of_pixel_, static_cast<int>(down))) {
             complete(passes_[mask.id]);
@@ -88,19 +97,24 @@ class Strip {
                 if (id == 0) continue;
                 Present& one = present[is_port(bin) ? 1 : 0][id];
                 see(id, ping, bin, values.visible_share[bin], one);
-                const std::size_t at = shape_.upright
-                                           ? ping / each_ * bins_ + bin
-                                           : static_cast<std::size_t>(bin) * rows_ + ping / each_;
-                if (pass_of_pixel_[at] == 0) pass_of_pixel_[at] = one.pass;
+                draw(ping, bin, one.pass);
             }
             for (int bin = 0; bin < bins_; ++bin) {
                 const std::uint16_t id = values.shadow[bin];
                 Present& one = present[is_port(bin) ? 1 : 0][id];
                 if (id == 0 || one.pass == 0) continue;
+                if (source_.has_shadows() && one.last == ping) draw(ping, bin, one.pass);
                 BinBox& box = one.last == ping ? passes_[one.pass].shadow : one.shadow;
                 box.extend(static_cast<int>(ping), bin);
             }
         }
+    }
+
+    void draw(std::size_t ping, int bin, std::uint16_t pass) {
+        const std::size_t at = shape_.upright
+                                   ? ping / each_ * bins_ + bin
+                                   : static_cast<std::size_t>(bin) * rows_ + ping / each_;
+        if (pass_of_pixel_[at] == 0) pass_of_pixel_[at] = pass;
     }
 
     void see(std::uint16_t id, std::size_t ping, int bin, std::uint16_t share, Present& one) {
@@ -213,10 +227,19 @@ void write_sweeps(const WriterContext& context, const std::filesystem::path& fol
     const auto write_sweep = [&](std::size_t sweep, std::size_t end) {
         const std::size_t begin = sweep * static_cast<std::size_t>(display.lines);
         const std::vector<ObjectMask> shadows = masks(display.shadow);
+        RecordValues drawn = display;
+        Ids mask_ids = display.object;
+        if (source.is_drawn()) {
+            const MaskFrame frame{display.lines, display.bins, source.cell()};
+            const auto is_background = [&](std::uint16_t id) { return source.is_background(id); };
+            drawn.object = drawn_ids(frame, display.object, is_background);
+            mask_ids = drawn_ids(frame, display.object, is_background,
+                                 source.has_shadows() ? &display.shadow : nullptr);
+        }
         std::vector<Json> objects;
-        for (const ObjectMask& mask : masks(display.object)) {
+        for (const ObjectMask& mask : masks(mask_ids)) {
             SeenObject seen =
-                visible_in_sweep(source, display, static_cast<std::uint16_t>(mask.id), whole);
+                visible_in_sweep(source, drawn, static_cast<std::uint16_t>(mask.id), whole);
             seen.pings = {begin, end};
             const auto shadow = std::ranges::find(shadows, mask.id, &ObjectMask::id);
             if (shadow != shadows.end() && !source.is_background(mask.id))

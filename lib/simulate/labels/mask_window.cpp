@@ -1,0 +1,64 @@
+#include "simulate/labels/mask_window.h"
+
+#include <iterator>
+#include <utility>
+
+namespace sonarsim {
+
+void MaskWindow::sum_within(const CellReach& reach) {
+    const auto along = [&](int count, int stride, int most) {
+        const std::vector<float> from = values;
+        for (int k = 0; most > 0 && k < std::ssize(from); ++k) {
+            const int at = k / stride % count;
+            const int last = std::min(most, count - 1 - at);
+            float sum = 0.0F;
+            for (int d = std::max(-most, -at); d <= last; ++d)
+                sum += from[k + d * stride];
+            values[k] = sum;
+        }
+    };
+    along(bins, 1, reach.bins);
+    along(lines, bins, reach.lines);
+}
+
+std::vector<int> MaskWindow::flood(int k, float value, bool diagonal) {
+    const float old = std::exchange(values[k], value);
+    std::vector<int> found{k};
+    for (std::size_t next = 0; next < found.size(); ++next) {
+        const int j0 = found[next] / bins;
+        const int i0 = found[next] % bins;
+        for (int j = std::max(j0 - 1, 0); j < std::min(j0 + 2, lines); ++j) {
+            for (int i = std::max(i0 - 1, 0); i < std::min(i0 + 2, bins); ++i) {
+                const int at = j * bins + i;
+                if (values[at] != old || (!diagonal && j != j0 && i != i0)) continue;
+                values[at] = value;
+                found.push_back(at);
+            }
+        }
+    }
+    return found;
+}
+
+std::map<std::uint16_t, MaskWindow> windows_of(const MaskFrame& frame, const CellReach& reach,
+                                               std::span<const std::uint16_t> ids) {
+    std::map<std::uint16_t, MaskWindow> out;
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+        if (ids[k] == 0) continue;
+        const auto line = static_cast<int>(k / frame.bins);
+        const auto bin = static_cast<int>(k % frame.bins);
+        MaskWindow& box = out.try_emplace(ids[k], MaskWindow{line, bin}).first->second;
+        box.bins = std::max(box.bin + box.bins, bin + 1) - std::min(box.bin, bin);
+        box.bin = std::min(box.bin, bin);
+        box.lines = line + 1 - box.line;
+    }
+    for (auto& [id, box] : out) {
+        const int more_lines = 2 * reach.lines + 1;
+        const int more_bins = 2 * reach.bins + 1;
+        box = {box.line - more_lines, box.bin - more_bins, box.lines + 2 * more_lines,
+               box.bins + 2 * more_bins};
+        box.values.resize(static_cast<std::size_t>(box.lines) * box.bins);
+    }
+    return out;
+}
+
+}  // namespace sonarsim

@@ -1,0 +1,127 @@
+#include "simulate/labels/silhouette.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+namespace sonarsim {
+
+namespace {
+
+// A piece has four cells at the least ratio of a standout, 1, or one cell at this ratio or more.
+constexpr float greatest_ratio = 4.0F;
+
+using Ids = std::vector<std::uint16_t>;
+
+/// The reach of gaps that are closed.
+CellReach closing_reach(const ResolutionCell& cell) {
+    return CellReach({std::max(cell.range_bins, 2.0), std::max(cell.beams, 2.0)});
+}
+
+/// Replaces each value by 1 if the sum of those within reach is at least `least`, else by 0.
+void sum_and_compare(MaskWindow& window, const CellReach& reach, float least) {
+    window.sum_within(reach);
+    for (float& value : window.values)
+        value = value >= least ? 1.0F : 0.0F;
+}
+
+/// Closes the gaps of a shape of ones, fills its holes and keeps the pieces for which keep(bins) is
+/// true. The margin of the window must be empty.
+template <class Keep>
+void tidy(MaskWindow& shape, const CellReach& reach, Keep keep) {
+    sum_and_compare(shape, reach, 1.0F);
+    sum_and_compare(shape, reach, reach.count());
+    constexpr float outside = 2.0F;
+    constexpr float kept = 3.0F;
+    shape.flood(0, outside, false);
+    for (float& value : shape.values)
+        value = value == outside ? 0.0F : 1.0F;
+    for (int k = 0; k < std::ssize(shape.values); ++k) {
+        if (shape.values[k] != 1.0F) continue;
+        const std::vector<int> piece = shape.flood(k, kept, true);
+        if (keep(piece)) continue;
+        for (const int at : piece)
+            shape.values[at] = 0.0F;
+    }
+}
+
+}  // namespace
+
+Standouts find_standouts(const ExpectedBins& ping) {
+    const ResolutionCell& cell = ping.frame.cell;
+    const CellReach reach(cell);
+    const auto scale = static_cast<float>(cell.range_bins * cell.beams) / reach.count();
+    Standouts out{Ids(ping.object.size()), std::vector<float>(ping.object.size())};
+    std::vector<float> strongest(ping.object.size());
+    for (auto& [id, window] : windows_of(ping.frame, reach, ping.object)) {
+        const std::uint16_t object = id;
+        window.for_each(ping.frame, [&](float& echo, std::size_t k) {
+            if (ping.object[k] == object) echo = scale * ping.echo[k];
+        });
+        window.sum_within(reach);
+        window.for_each(ping.frame, [&](float& echo, std::size_t k) {
+            const float rest = std::max(ping.whole[k] - echo, echo / greatest_ratio);
+            if (echo < rest || !(echo > strongest[k])) return;
+            strongest[k] = echo;
+            out.object[k] = object;
+            out.ratio[k] = echo / rest;
+        });
+    }
+    return out;
+}
+
+Ids tidied(const MaskFrame& frame, const Ids& ids, std::span<const float> weights) {
+    const CellReach reach = closing_reach(frame.cell);
+    const float least = greatest_ratio * CellReach(frame.cell).count();
+    Ids out(ids.size());
+    for (auto& [id, shape] : windows_of(frame, reach, ids)) {
+        const std::uint16_t object = id;
+        MaskWindow weight = shape;
+        weight.for_each(frame, [&](float& value, std::size_t k) {
+            if (ids[k] == object) value = weights.empty() ? 1.0F : weights[k];
+        });
+        shape.for_each(frame, [&](float& value, std::size_t k) {
+            value = ids[k] == object ? 1.0F : 0.0F;
+        });
+        tidy(shape, reach, [&](const std::vector<int>& piece) {
+            float sum = 0.0F;
+            for (const int at : piece)
+                sum += weight.values[at];
+            return sum >= least;
+        });
+        shape.for_each(frame, [&](float value, std::size_t k) {
+            if (value != 0.0F && (ids[k] == 0 || ids[k] == object)) out[k] = object;
+        });
+    }
+    return out;
+}
+
+Ids with_shadows(const MaskFrame& frame, const Ids& ids, const Ids& shadow) {
+    const CellReach reach = closing_reach(frame.cell);
+    const float least = CellReach(frame.cell).count();
+    Ids both = ids;
+    for (std::size_t k = 0; k < both.size(); ++k) {
+        if (both[k] == 0) both[k] = shadow[k];
+    }
+    Ids out = ids;
+    for (auto& [id, shape] : windows_of(frame, reach, both)) {
+        const std::uint16_t object = id;
+        const MaskWindow& window = shape;
+        std::vector<char> has_object(shape.lines);
+        shape.for_each(frame, [&](float& value, std::size_t k) {
+            value = both[k] == object ? 1.0F : 0.0F;
+            if (ids[k] == object) has_object[k / frame.bins - window.line] = 1;
+        });
+        tidy(shape, reach, [&](const std::vector<int>& piece) {
+            return static_cast<float>(piece.size()) >= least &&
+                   std::ranges::any_of(piece,
+                                       [&](int k) { return has_object[k / window.bins] != 0; });
+        });
+        shape.for_each(frame, [&](float value, std::size_t k) {
+            if (value != 0.0F && out[k] == 0) out[k] = object;
+        });
+    }
+    return out;
+}
+
+}  // namespace sonarsim

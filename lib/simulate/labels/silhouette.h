@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "simulate/labels/mask_window.h"
+
+namespace sonarsim {
+
+/// The expected content of the bins of a ping, [beams, range bins].
+struct ExpectedBins {
+    MaskFrame frame;
+    std::span<const std::uint16_t> object;  ///< 1 + the object with the largest direct echo; 0: none
+    std::span<const float> echo;            ///< this echo
+    std::span<const float> whole;           ///< all that the bin holds, in the unit of echoes
+};
+
+/// The objects that stand out: 1 + the object of each bin, or 0.
+struct Standouts {
+    std::vector<std::uint16_t> object;
+    std::vector<float> ratio;  ///< its echo over all else, at most 4
+};
+
+/// The objects whose direct echo within a resolution cell is at least as strong as all else that
+/// the bin holds, and the strongest there. Such a bin is 3 dB above what it is without the object,
+/// the contrast by which widths of beams and pulses are measured.
+Standouts find_standouts(const ExpectedBins& ping);
+
+/// Ids of bins, 0 for none, as a person would draw the objects: gaps up to a resolution cell, or
+/// two bins, are closed and holes filled, but for bins of other ids. A piece is dropped if its
+/// weights come to less than those of four cells of weight 1: speckle makes such pieces, too.
+/// Without `weights` all are 1.
+std::vector<std::uint16_t> tidied(const MaskFrame& frame, const std::vector<std::uint16_t>& ids,
+                                  std::span<const float> weights = {});
+
+/// Ids with the bins of `shadow` of the same id: the pieces of it, not smaller than a resolution
+/// cell, that have a line in common with the id.
+std::vector<std::uint16_t> with_shadows(const MaskFrame& frame,
+                                        const std::vector<std::uint16_t>& ids,
+                                        const std::vector<std::uint16_t>& shadow);
+
+}  // namespace sonarsim
