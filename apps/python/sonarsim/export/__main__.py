@@ -48,6 +48,8 @@ def parse(arguments):
     add("--box", choices=("object", "shadow", "both"), default="object", help="what boxes are drawn around")
     add("--polygons", action="store_true", help="outlines instead of boxes (yolo) or runs (coco)")
     add("--bins", action="store_true", help="of imaging and profiling sonars the picture of the bins, not the fan")
+    add("--image", choices=("shown", "raw"), default="shown", help="of these sonars pictures for people, or the "
+        "instrument's values")
     add("--sensor", action="append", default=[], metavar="NAME", help="only this sensor; may be repeated")
     add("--without", action="append", default=[], metavar="CLASS", help="a class that is not an object; may be repeated")
     add("--min-pixels", type=int, default=16, metavar="N", help="fewer make an object faint")

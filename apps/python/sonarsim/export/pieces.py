@@ -140,7 +140,9 @@ def pixels_of(picture, is_whole):
                 if is_whole and image.mode in ("L", "P", "RGB") and image.size == (picture.width, picture.height):
                     return None
                 pixels = np.asarray(image if is_grey else image.convert("RGB"))
-            pixels = pixels if pixels.dtype == np.uint8 else GREYS[pixels.astype(np.uint16)]
+            if pixels.dtype != np.uint8:
+                wide = pixels.astype(np.uint16)
+                pixels = (wide >> 8).astype(np.uint8) if picture.path.parent.name == "raw" else GREYS[wide]
     except (ValueError, SyntaxError, OSError) as fault:
         if isinstance(fault, OSError) and fault.errno:
             raise

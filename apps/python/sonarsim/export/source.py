@@ -112,11 +112,15 @@ def pictures_of(sensor, parts, options):
     if sensor.picture("sensor") or sensor.picture("sweep"):
         yield from records_of(sensor, of_ping)
     elif sensor.kind in ("imaging", "profiling"):
-        yield from pings_of(sensor, of_ping, options.bins)
+        yield from pings_of(sensor, of_ping, options.bins, options.image == "raw")
 
 
-def pings_of(sensor, of_ping, is_bins):
-    names = [name for name in (("image", "polar") if is_bins else ("fan",)) if name in sensor.keys]
+def pings_of(sensor, of_ping, is_bins, is_raw):
+    wanted = (("raw" if is_bins else "fan_raw"),) if is_raw else ("image", "polar") if is_bins else ("fan",)
+    names = [name for name in wanted if name in sensor.keys]
+    if not names and is_raw:
+        raise data.DataError(f"{sensor.folder}: sensor {sensor.name!r} has no {wanted[0]}; leave out --image, or set "
+                             "output.raw and output.fan: true with the calibrated model and render it again")
     if not names:
         advice = ("neither images nor arrays of its bins; set output.image: true and render it again, or leave out "
                   "--bins" if is_bins else "no fans; set output.fan: true and render it again, or take the "
