@@ -15,11 +15,11 @@ namespace {
 using Ids = std::vector<std::uint16_t>;
 
 /// A picture as text, a line of it for each line; '.' is no id.
-struct Picture {
+struct DrawnIds {
     MaskFrame frame;
     Ids ids;
 
-    Picture(const std::vector<std::string>& lines, const ResolutionCell& cell = {})
+    DrawnIds(const std::vector<std::string>& lines, const ResolutionCell& cell = {})
         : frame{static_cast<int>(lines.size()), static_cast<int>(lines[0].size()), cell} {
         for (const std::string& line : lines) {
             for (const char c : line)
@@ -64,8 +64,12 @@ TEST_CASE("silhouette: the echo of a surface is that of the area of a resolution
     const Ids object(400, 7);
     const std::vector<float> echo(400, 1.0F);
     const float cell = 2.0F * 4.4F;
-    CHECK(find_standouts({frame, object, echo, std::vector<float>(400, 1.99F * cell)}).object[210] == 7);
-    CHECK(find_standouts({frame, object, echo, std::vector<float>(400, 2.01F * cell)}).object[210] == 0);
+    CHECK(
+        find_standouts({frame, object, echo, std::vector<float>(400, 1.99F * cell)}).object[210] ==
+        7);
+    CHECK(
+        find_standouts({frame, object, echo, std::vector<float>(400, 2.01F * cell)}).object[210] ==
+        0);
 }
 
 TEST_CASE("silhouette: of two objects a bin has the one with the stronger echo") {
@@ -77,37 +81,38 @@ TEST_CASE("silhouette: of two objects a bin has the one with the stronger echo")
 }
 
 TEST_CASE("silhouette: gaps and holes are closed, specks are dropped") {
-    const Picture drawn({"............", ".11..11...3.", ".11..11...3.", "............",
-                         ".22222......", ".2...2......", ".2...2......", ".2...2...22.",
-                         ".22222....2.", "............"});
-CHECK(drawn.text(tidied(drawn.frame, drawn.ids)) ==
-          Lines{"............", ".111111.....", ".111111.....", "............",
-                ".22222......", ".22222......", ".22222......", ".22222......",
-                ".22222......", "............"});
+    const DrawnIds drawn({"............", ".11..11...3.", ".11..11...3.", "............",
+                          ".22222......", ".2...2......", ".2...2......", ".2...2...22.",
+                          ".22222....2.", "............"});
+    CHECK(drawn.text(tidied(drawn.frame, drawn.ids)) ==
+          Lines{"............", ".111111.....", ".111111.....", "............", ".22222......",
+                ".22222......", ".22222......", ".22222......", ".22222......", "............"});
 }
 
 TEST_CASE("silhouette: a piece needs four cells, or weights that come to as much") {
-    const Picture drawn({"111..........1", "..............", "..............", "..............", "1111.........."});
+    const DrawnIds drawn(
+        {"111..........1", "..............", "..............", "..............", "1111.........."});
     std::vector<float> weights(drawn.ids.size(), 1.0F);
     weights[13] = 4.0F;
     CHECK(drawn.text(tidied(drawn.frame, drawn.ids, weights)) ==
-          Lines{".............1", "..............", "..............", "..............", "1111.........."});
+          Lines{".............1", "..............", "..............", "..............",
+                "1111.........."});
 }
 
 TEST_CASE("silhouette: gaps up to a resolution cell are closed, but for other objects") {
-    const Picture drawn({"111....111.....111", "111..2.111.....111", "111....111.....111"},
-                        {.range_bins = 5.0, .beams = 1.0});
+    const DrawnIds drawn({"111....111.....111", "111..2.111.....111", "111....111.....111"},
+                         {.range_bins = 5.0, .beams = 1.0});
     CHECK(drawn.text(tidied(drawn.frame, drawn.ids, std::vector<float>(54, 20.0F))) ==
           Lines{"1111111111.....111", "1111121111.....111", "1111111111.....111"});
 }
 
 TEST_CASE("silhouette: an object has the shadow behind it") {
-    const Picture drawn({".......", ".11....", ".11....", "......."});
-    const Picture shadow({".......", "...111.", "....112", "....11."});
+    const DrawnIds drawn({".......", ".11....", ".11....", "......."});
+    const DrawnIds shadow({".......", "...111.", "....112", "....11."});
     CHECK(drawn.text(with_shadows(drawn.frame, drawn.ids, shadow.ids)) ==
           Lines{".......", ".11111.", ".11111.", "....11."});
-    const Picture far({".......", ".......", ".......", ".......", "....111"});
-    const Picture object({".11....", ".......", ".......", ".......", "......."});
+    const DrawnIds far({".......", ".......", ".......", ".......", "....111"});
+    const DrawnIds object({".11....", ".......", ".......", ".......", "......."});
     CHECK(object.text(with_shadows(object.frame, object.ids, far.ids)) == object.text(object.ids));
 }
 

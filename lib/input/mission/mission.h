@@ -120,9 +120,10 @@ void describe(Visitor& v, LabelConfig& c) {
            "surface; `none` for no class");
     v.require(!c.background.empty(), {"background"},
               "'background' names classes, auto or none; with [none] all classes are objects");
-    v.choice("mask", c.mask, mask_kinds,
-             "mask of an object in `objects`: `echo` is where its echo is the largest, `silhouette` "
-             "where its direct echo stands out of all else, as a person draws it");
+    v.choice(
+        "mask", c.mask, mask_kinds,
+        "mask of an object in `objects`: `echo` is where its echo is the largest, `silhouette` "
+        "where its direct echo stands out of all else, as a person draws it");
 }
 
 template <class Visitor>

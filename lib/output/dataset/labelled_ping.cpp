@@ -100,11 +100,10 @@ LabelledPing label_for_writers(const LabelPlan& plan, const Assembly& assembly, 
     out.bins =
         label_ping(traced, sonar.settings, assembly.scene, assembly.objects, engine, request);
     out.fan_bins = plan.fan.get();
-    const Ids mask =
-        request.direct_echoes
-            ? draw_masks(plan, expected_bins(sonar, assembly.scene, traced, out.bins),
-                         assembly.objects, out.bins)
-            : out.bins.object;
+    const Ids mask = request.direct_echoes
+                         ? draw_masks(plan, expected_bins(sonar, assembly.scene, traced, out.bins),
+                                      assembly.objects, out.bins)
+                         : out.bins.object;
     if (!plan.objects) return out;
     out.polar = object_masks(mask, out.bins.range_bins);
     std::span<const PixelBox> fan_boxes;

@@ -24,7 +24,7 @@ struct LabelPlan {
     bool objects = false;                ///< a writer needs the masks and the table of objects
     std::shared_ptr<const FanBins> fan;  ///< null if no label is in the fan
     MaskKind mask = MaskKind::echo;
-    bool fan_objects = false;            ///< objects have masks and boxes in the fan, too
+    bool fan_objects = false;  ///< objects have masks and boxes in the fan, too
     /// For shadows; null without.
     std::shared_ptr<const TriangleRuns> triangles;
     AnnotatedObjects annotated;  ///< empty without annotations and shadows

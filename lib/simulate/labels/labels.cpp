@@ -229,13 +229,14 @@ void copy_beam(const PingLabels& from, int beam, PingLabels& to) {
         std::copy_n((from.*member).begin() + static_cast<std::ptrdiff_t>(first), from.range_bins,
                     (to.*member).begin() + static_cast<std::ptrdiff_t>(first));
     };
-    for (const auto member :
-         {&PingLabels::object, &PingLabels::direct_object, &PingLabels::second, &PingLabels::class_id, &PingLabels::material,
-          &PingLabels::shadow, &PingLabels::object_shadow})
+    for (const auto member : {&PingLabels::object, &PingLabels::direct_object, &PingLabels::second,
+                              &PingLabels::class_id, &PingLabels::material, &PingLabels::shadow,
+                              &PingLabels::object_shadow})
         copy(member);
     for (const auto member :
-         {&PingLabels::direct_echo, &PingLabels::whole_echo, &PingLabels::share, &PingLabels::second_share, &PingLabels::multipath,
-          &PingLabels::elevation_rad, &PingLabels::elevation_spread_rad, &PingLabels::height_m})
+         {&PingLabels::direct_echo, &PingLabels::whole_echo, &PingLabels::share,
+          &PingLabels::second_share, &PingLabels::multipath, &PingLabels::elevation_rad,
+          &PingLabels::elevation_spread_rad, &PingLabels::height_m})
         copy(member);
 }
 

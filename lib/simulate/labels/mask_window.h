@@ -23,7 +23,8 @@ struct CellReach {
     int lines, bins;
 
     explicit CellReach(const ResolutionCell& cell)
-        : lines(static_cast<int>(0.5 * cell.beams)), bins(static_cast<int>(0.5 * cell.range_bins)) {}
+        : lines(static_cast<int>(0.5 * cell.beams)),
+          bins(static_cast<int>(0.5 * cell.range_bins)) {}
     float count() const { return static_cast<float>((2 * lines + 1) * (2 * bins + 1)); }
 };
 

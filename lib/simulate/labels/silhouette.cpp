@@ -80,9 +80,8 @@ Ids tidied(const MaskFrame& frame, const Ids& ids, std::span<const float> weight
         weight.for_each(frame, [&](float& value, std::size_t k) {
             if (ids[k] == object) value = weights.empty() ? 1.0F : weights[k];
         });
-        shape.for_each(frame, [&](float& value, std::size_t k) {
-            value = ids[k] == object ? 1.0F : 0.0F;
-        });
+        shape.for_each(
+            frame, [&](float& value, std::size_t k) { value = ids[k] == object ? 1.0F : 0.0F; });
         tidy(shape, reach, [&](const std::vector<int>& piece) {
             float sum = 0.0F;
             for (const int at : piece)

@@ -11,9 +11,10 @@ namespace sonarsim {
 /// The expected content of the bins of a ping, [beams, range bins].
 struct ExpectedBins {
     MaskFrame frame;
-    std::span<const std::uint16_t> object;  ///< 1 + the object with the largest direct echo; 0: none
-    std::span<const float> echo;            ///< this echo
-    std::span<const float> whole;           ///< all that the bin holds, in the unit of echoes
+    std::span<const std::uint16_t>
+        object;                    ///< 1 + the object with the largest direct echo; 0: none
+    std::span<const float> echo;   ///< this echo
+    std::span<const float> whole;  ///< all that the bin holds, in the unit of echoes
 };
 
 /// The objects that stand out: 1 + the object of each bin, or 0.

@@ -60,16 +60,16 @@ class PingObjects {
         const SceneObjects& objects = context_.assembly.objects;
         const SceneObjects::Object& object = objects.objects[seen.id - 1];
         const ObjectMask& mask = *mask_of(finished.labels->polar, seen.id);
-        Json json = {{"id", seen.id},
-                     {"name", object.name},
-                     {"class", objects.classes[object.class_index]},
-                     {"box_bins",
-                      {{"range", {mask.top, mask.bottom}}, {"beam", {mask.left, mask.right}}}},
-                     {"area_bins", mask.area},
-                     {"level", seen.level},
-                     {"level_around", number_or_null(seen.surrounding_level)},
-                     {"range_m", seen.range_m},
-                     {"azimuth_rad", number_or_null(seen.azimuth_rad)}};
+        Json json = {
+            {"id", seen.id},
+            {"name", object.name},
+            {"class", objects.classes[object.class_index]},
+            {"box_bins", {{"range", {mask.top, mask.bottom}}, {"beam", {mask.left, mask.right}}}},
+            {"area_bins", mask.area},
+            {"level", seen.level},
+            {"level_around", number_or_null(seen.surrounding_level)},
+            {"range_m", seen.range_m},
+            {"azimuth_rad", number_or_null(seen.azimuth_rad)}};
         json["seen_box_sensor_m"] = describe_box(seen.box_sensor_m);
         const Pose& T_world_sensor = finished.traced.T_world_sensor;
         if (const std::optional<MovingObject>& moving = moving_[seen.id - 1]) {

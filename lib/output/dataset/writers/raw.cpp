@@ -89,8 +89,8 @@ std::optional<Writer> make_raw_writer(const WriterContext& context) {
         });
 }
 
-/// fan_raw/NNNNNN.png: grey, 8 bits, the values of raw/ by the map of fan/. They are amplitudes there,
-/// as the fan's: a pixel has the root of the mean square of its bins.
+/// fan_raw/NNNNNN.png: grey, 8 bits, the values of raw/ by the map of fan/. They are amplitudes
+/// there, as the fan's: a pixel has the root of the mean square of its bins.
 std::optional<Writer> make_raw_fan_writer(const WriterContext& context) {
     if (raw_bytes(context) == 0 || !context.kind().has_images || !context.mission.output.fan)
         return std::nullopt;
