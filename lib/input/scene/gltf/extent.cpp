@@ -24,27 +24,22 @@ SurfaceExtent find_extent(const OpenFile& file, ReadingLimit& limit) {
     SurfaceExtent extent;
     for_each_primitive(file, limit, [&extent](const PlacedPrimitive& primitive) {
         Eigen::Vector3d farthest = Eigen::Vector3d::Zero();  // in the mesh's own axes
-        for (std::size_t i = 0; i < primitive.source.count; ++i) {
-            const auto vertices = triangle(primitive.source, i, primitive.where);
-            std::array<Eigen::Vector3d, 3> points;
-            Eigen::Vector3d reach = Eigen::Vector3d::Zero();
-            for (int k = 0; k < 3; ++k) {
-                points[k] = position(primitive.source.positions, vertices[k]);
-                reach = reach.cwiseMax(points[k].cwiseAbs());
-                points[k] = primitive.mesh.T_world_mesh * points[k];
-            }
+        std::vector<Eigen::Vector3d> placed = primitive.positions;
+        for (Eigen::Vector3d& point : placed)
+            point = primitive.mesh.T_world_mesh * point;
+        for (const auto& [a, b, c] : primitive.triangles) {
+            const std::array points{placed[a], placed[b], placed[c]};
             if (!is_finite(points) || !has_area(points)) continue;
-            farthest = farthest.cwiseMax(reach);
-            for (const Eigen::Vector3d& point : points) {
-                if (point.cwiseAbs().maxCoeff() > furthest_m) {
+            for (const std::uint32_t vertex : {a, b, c}) {
+                farthest = farthest.cwiseMax(primitive.positions[vertex].cwiseAbs());
+                if (placed[vertex].cwiseAbs().maxCoeff() > furthest_m) {
                     throw InputError(primitive.where +
                                      ": a vertex lies more than 1e8 m from the origin");
                 }
-                extent.box.extend(point);
+                extent.box.extend(placed[vertex]);
             }
         }
-        // Integer coordinates are exact.
-        if (primitive.source.positions.component_type != TINYGLTF_COMPONENT_TYPE_FLOAT) return;
+        if (!primitive.has_floats) return;  // integers are exact
         const Eigen::Vector3d off =
             primitive.mesh.T_world_mesh.linear().cwiseAbs() * farthest.unaryExpr(&half_unit);
         extent.vertex_rounding_m = std::max(extent.vertex_rounding_m, off.maxCoeff());

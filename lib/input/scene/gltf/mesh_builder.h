@@ -29,16 +29,16 @@ struct MeshBuilder {
     template <class Note>
     void add(const PlacedPrimitive& primitive, const Note& note) {
         const std::size_t first = mesh.vertices.size();
-        slots.resize(std::max(slots.size(), primitive.source.positions.count), 0);
-        for (std::size_t i = 0; i < primitive.source.count; ++i) {
-            std::array<std::uint32_t, 3> vertices = triangle(primitive.source, i, primitive.where);
-            std::array<Vertex, 3> local;
+        slots.resize(std::max(slots.size(), primitive.positions.size()), 0);
+        std::vector<Vertex> local;
+        local.reserve(primitive.positions.size());
+        for (const Eigen::Vector3d& position : primitive.positions)
+            local.push_back((primitive.mesh.T_world_mesh * position - origin)
+                                .template cast<typename Vertex::Scalar>());
+        for (std::array<std::uint32_t, 3> vertices : primitive.triangles) {
             std::array<Eigen::Vector3d, 3> rounded;
-            for (std::size_t k = 0; k < 3; ++k) {
-                local[k] = (corner(primitive, vertices[k]) - origin)
-                               .template cast<typename Vertex::Scalar>();
-                rounded[k] = local[k].template cast<double>();
-            }
+            for (std::size_t k = 0; k < 3; ++k)
+                rounded[k] = local[vertices[k]].template cast<double>();
             if (!is_finite(rounded)) {
                 ++rejects.non_finite_triangles;
                 continue;
@@ -50,7 +50,7 @@ struct MeshBuilder {
             for (std::size_t k = 0; k < 3; ++k) {
                 std::uint32_t& slot = slots[vertices[k]];
                 if (slot <= first) {
-                    mesh.vertices.push_back(local[k]);
+                    mesh.vertices.push_back(local[vertices[k]]);
                     slot = static_cast<std::uint32_t>(mesh.vertices.size());
                 }
                 vertices[k] = slot - 1;

@@ -26,14 +26,12 @@ struct PlacedPrimitive {
     const OpenFile& file;
     const PlacedMesh& mesh;
     std::uint32_t instance;
-    const TriangleSource& source;
+    bool has_floats;                         ///< its positions are no integers
+    std::vector<Eigen::Vector3d> positions;  ///< of its vertices, in the mesh's own axes
+    std::vector<std::array<std::uint32_t, 3>> triangles;
     int material;       ///< index into the glTF's materials; -1: none
     std::string where;  ///< location for error messages
 };
-
-inline Eigen::Vector3d corner(const PlacedPrimitive& primitive, std::uint32_t vertex) {
-    return primitive.mesh.T_world_mesh * position(primitive.source.positions, vertex);
-}
 
 /// Limits the work of reading a scene, since a small file can place a large mesh, or many small
 /// ones, many times. InputError with `file` beyond the limit.
@@ -63,7 +61,10 @@ std::uint64_t for_each_primitive(const OpenFile& file, ReadingLimit& limit, cons
                 ++skipped;
                 continue;
             }
-            visit(PlacedPrimitive{file, file.meshes[i], file.instance_of_mesh[i], *source,
+            const bool has_floats =
+                source->positions.component_type == TINYGLTF_COMPONENT_TYPE_FLOAT;
+            visit(PlacedPrimitive{file, file.meshes[i], file.instance_of_mesh[i], has_floats,
+                                  read_positions(*source), read_triangles(*source, where),
                                   mesh.primitives[k].material, where});
         }
     }

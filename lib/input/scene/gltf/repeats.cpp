@@ -24,7 +24,7 @@ std::size_t triangles_of(const OpenFile& file) {
     std::size_t triangles = 0;
     ReadingLimit limit;
     for_each_primitive(file, limit, [&](const PlacedPrimitive& primitive) {
-        triangles += primitive.source.count;
+        triangles += primitive.triangles.size();
     });
     return triangles;
 }

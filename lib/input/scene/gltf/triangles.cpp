@@ -172,8 +172,6 @@ std::uint32_t vertex_index(const Accessor& accessor, std::size_t i) {
     return bytes ? static_cast<std::uint32_t>(number(bytes, accessor.component_type, false)) : 0;
 }
 
-}  // namespace
-
 Eigen::Vector3d position(const Accessor& accessor, std::size_t i) {
     const unsigned char* const bytes = element(accessor, i);
     if (!bytes) return Eigen::Vector3d::Zero();
@@ -182,6 +180,16 @@ Eigen::Vector3d position(const Accessor& accessor, std::size_t i) {
                       accessor.is_normalized);
     };
     return {component(0), component(1), component(2)};
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3d> read_positions(const TriangleSource& source) {
+    std::vector<Eigen::Vector3d> positions;
+    positions.reserve(source.positions.count);
+    for (std::size_t i = 0; i < source.positions.count; ++i)
+        positions.push_back(position(source.positions, i));
+    return positions;
 }
 
 std::optional<TriangleSource> open_triangles(const tinygltf::Model& model,
@@ -211,23 +219,24 @@ std::optional<TriangleSource> open_triangles(const tinygltf::Model& model,
     return source;
 }
 
-std::array<std::uint32_t, 3> triangle(const TriangleSource& source, std::size_t i,
-                                      const std::string& where) {
-    std::array<std::size_t, 3> corners{i, i + 1, i + 2};
-    if (source.mode == TINYGLTF_MODE_TRIANGLES) corners = {3 * i, 3 * i + 1, 3 * i + 2};
-    if (source.mode == TINYGLTF_MODE_TRIANGLE_FAN) corners[0] = 0;
-
-    std::array<std::uint32_t, 3> vertices{};
-    for (std::size_t k = 0; k < 3; ++k) {
-        vertices[k] = source.indices ? vertex_index(*source.indices, corners[k])
-                                     : static_cast<std::uint32_t>(corners[k]);
-        if (vertices[k] >= source.positions.count) {
-            throw InputError(where + ": index " + std::to_string(vertices[k]) +
+std::vector<std::array<std::uint32_t, 3>> read_triangles(const TriangleSource& source,
+                                                         const std::string& where) {
+    std::vector<std::array<std::uint32_t, 3>> triangles(source.count);
+    for (std::size_t i = 0; i < source.count; ++i) {
+        std::array<std::size_t, 3> corners{i, i + 1, i + 2};
+        if (source.mode == TINYGLTF_MODE_TRIANGLES) corners = {3 * i, 3 * i + 1, 3 * i + 2};
+        if (source.mode == TINYGLTF_MODE_TRIANGLE_FAN) corners[0] = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t vertex = source.indices ? vertex_index(*source.indices, corners[k])
+                                                        : static_cast<std::uint32_t>(corners[k]);
+            triangles[i][k] = vertex;
+            if (vertex < source.positions.count) continue;
+            throw InputError(where + ": index " + std::to_string(vertex) +
                              " is out of range; there are " +
                              std::to_string(source.positions.count) + " vertices");
         }
     }
-    return vertices;
+    return triangles;
 }
 
 }  // namespace sonarsim

@@ -20,7 +20,7 @@ struct Elements {
     const unsigned char* at(std::size_t i) const { return data + i * stride; }
 };
 
-/// Elements of a glTF accessor, read one by one from the model's buffers: strided, sparse or both.
+/// Elements of a glTF accessor, read from the model's buffers: strided, sparse or both.
 /// The functions that open an accessor check that all its bytes exist.
 struct Accessor {
     Elements elements;  ///< without data: elements that are not sparse are 0
@@ -31,9 +31,6 @@ struct Accessor {
     std::vector<std::uint32_t> sparse_at;  ///< indices of the replaced elements, ascending
     Elements sparse;                       ///< their values
 };
-
-/// Element `i` < count. Normalised integers become numbers in [-1, 1].
-Eigen::Vector3d position(const Accessor& accessor, std::size_t i);
 
 inline bool has_area(const std::array<Eigen::Vector3d, 3>& p) {
     return (p[1] - p[0]).cross(p[2] - p[0]).squaredNorm() > 0.0;
@@ -57,9 +54,11 @@ std::optional<TriangleSource> open_triangles(const tinygltf::Model& model,
                                              const tinygltf::Primitive& primitive,
                                              const std::string& where);
 
-/// The vertices of triangle `i` < count, all below positions.count. InputError starting with
-/// `where` if an index is not.
-std::array<std::uint32_t, 3> triangle(const TriangleSource& source, std::size_t i,
-                                      const std::string& where);
+/// The positions of all vertices. Normalised integers become numbers in [-1, 1].
+std::vector<Eigen::Vector3d> read_positions(const TriangleSource& source);
+
+/// The vertices of all triangles. InputError starting with `where` if there is no such vertex.
+std::vector<std::array<std::uint32_t, 3>> read_triangles(const TriangleSource& source,
+                                                         const std::string& where);
 
 }  // namespace sonarsim
