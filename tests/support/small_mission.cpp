@@ -73,7 +73,7 @@ Assembly small_assembly(const Mission& mission, int poses) {
     }
     assembly.objects = group_objects(assembly.scene, {});
     assembly.full_scales = find_full_scales(mission, assembly.scene, assembly.trajectory,
-                                            assembly.motions, assembly.sonars)
+                                            assembly.motions, assembly.sonars, *assembly.trees)
                                .full_scales;
     return assembly;
 }

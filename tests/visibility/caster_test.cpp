@@ -29,4 +29,34 @@ TEST_SUITE("visibility") {
                 CHECK(facet != Caster::nothing);
         }
     }
+
+    TEST_CASE("caster: scenes with the same first file share its tree and have their own hits") {
+        const auto scene_with = [](float x) {
+            Scene scene = empty_scene();
+            const std::uint32_t material = add_material(scene, 1.0F);
+            add_sphere(scene, {0, 0, -8}, 1.0F, material, 256);
+            scene.first_file_triangles = scene.triangles.size();
+            scene.first_file_vertices = scene.vertices.size();
+            add_sphere(scene, {x, 0, -7}, 0.5F, material, 64);
+            return scene;
+        };
+        std::vector<Eigen::Vector3f> directions;
+        for (int k = -100; k <= 100; ++k)
+            directions.push_back(Eigen::Vector3f(0.003F * static_cast<float>(k), 0.01F, -1));
+        const auto hits = [&](const Caster& caster) {
+            std::vector<std::uint32_t> facets(directions.size());
+            caster.cast(Eigen::Vector3f::Zero(), directions, 100.0F, facets);
+            std::vector<float> heights;
+            for (const std::uint32_t facet : facets)
+                heights.push_back(facet == Caster::nothing ? 0.0F : caster.facet(facet).vertex.z());
+            return heights;
+        };
+        SharedTrees shared;
+        for (const float x : {0.5F, 1.0F, -1.0F, 0.5F}) {
+            Scene scene = scene_with(x);
+            const std::vector<float> by_shared = hits(shared.caster(scene));
+            scene.first_file_triangles = 0;  // one tree of all
+            CHECK(by_shared == hits(Caster(scene)));
+        }
+    }
 }

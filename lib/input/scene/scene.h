@@ -90,6 +90,8 @@ struct Scene {
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `vertices`
     std::vector<std::uint32_t> triangle_material;         ///< index into `materials`
     std::vector<std::uint32_t> triangle_instance;         ///< index into `instances`
+    /// So many of the first triangles and vertices are those of the first file; 0 if it moves.
+    std::size_t first_file_triangles = 0, first_file_vertices = 0;
     std::vector<Body> bodies;  ///< movable parts; their triangles are not in `triangles`
     std::vector<SharedMesh> shared_meshes;      ///< meshes of the copies
     std::vector<MeshCopy> copies;               ///< their triangles are not in `triangles` either

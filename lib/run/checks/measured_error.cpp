@@ -135,7 +135,7 @@ std::vector<std::optional<MeasuredError>> measure_errors(const Mission& mission,
              sample_pings(assembly.trajectory.size(), sonars[i].config.every, max_measured_pings))
             tasks.push_back({i, pose});
     }
-    const Caster caster = assembly.caster ? *assembly.caster : Caster(assembly.scene);
+    const Caster caster = assembly.make_caster();
     std::vector<PingError> found(tasks.size());
     in_parallel(tasks.size(), [&](std::size_t k) {
         found[k] =

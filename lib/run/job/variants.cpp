@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <future>
-#include <map>
 #include <stdexcept>
 
 #include "core/build_info.h"
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/file.h"
-#include "core/sha256.h"
 #include "input/mission/files.h"
 #include "input/mission/resolved.h"
 #include "input/mission/variants.h"
@@ -66,13 +64,10 @@ void require_places(std::span<const Mission* const> variants, SceneStore& models
     }
 }
 
-/// SHA-256 of input files by path.
-using InputSums = std::map<fs::path, std::string>;
-
 /// The number of pings of the dataset in the variant's folder, found without its scene; nothing
 /// unless it is complete, has all its files, and was made of this mission and these input files by
 /// a build with the same bytes.
-std::optional<std::uint64_t> finished_pings(const Mission& variant, InputSums& sums) try {
+std::optional<std::uint64_t> finished_pings(const Mission& variant, SceneStore& models) try {
     const fs::path& folder = variant.output.folder;
     const DatasetFile found = require_dataset(folder);
     const Json expected = {{"format_version", dataset_format_version},
@@ -83,9 +78,7 @@ std::optional<std::uint64_t> finished_pings(const Mission& variant, InputSums& s
     if (!found.complete || !difference_between(found.json, expected).empty()) return std::nullopt;
     for (const Json& input : found.json.at("inputs")) {
         const fs::path file = home_of(variant) / input.at("file").get<std::string>();
-        const auto [sum, is_new] = sums.try_emplace(file);
-        if (is_new) sum->second = sha256_of_file(file);
-        if (sum->second != input.at("sha256").get<std::string>()) return std::nullopt;
+        if (models.sum_of(file) != input.at("sha256").get<std::string>()) return std::nullopt;
     }
     if (!has_files(folder, found)) return std::nullopt;
     return count_pings(found);
@@ -181,16 +174,15 @@ RenderSummary run_variants(const Mission& mission, std::span<const Mission> vari
     const Json json = describe_variants(mission, variants);
     if (options.files) inspect_variants(folder, json, variants, options.overwrite);
     RenderSummary all;
-    InputSums sums;
+    SceneStore models;
     std::vector<const Mission*> todo;
     for (auto i = static_cast<std::size_t>(options.shard); i < variants.size();
          i += options.shards) {
-        const auto pings =
-            options.files && !options.overwrite ? finished_pings(variants[i], sums) : std::nullopt;
+        const auto pings = options.files && !options.overwrite ? finished_pings(variants[i], models)
+                                                               : std::nullopt;
         all.skipped += pings.value_or(0);
         if (!pings) todo.push_back(&variants[i]);
     }
-    SceneStore models;
     require_places(todo, models);
     std::optional<ShardLock> lock;
     const auto enter = [&] {

@@ -32,12 +32,12 @@ namespace sonarsim {
 
 namespace {
 
-std::vector<InputFile> inputs_of(const Mission& mission) {
+std::vector<InputFile> inputs_of(const Mission& mission, SceneStore& models) {
     std::vector<InputFile> inputs;
     for (const std::filesystem::path& file : files_of(mission)) {
         const bool known =
             std::ranges::any_of(inputs, [&](const InputFile& input) { return input.path == file; });
-        if (!known) inputs.push_back({file, sha256_of_file(file)});
+        if (!known) inputs.push_back({file, models.sum_of(file)});
     }
     return inputs;
 }
@@ -172,7 +172,7 @@ std::size_t sharing_threshold(EngineKind engine) {
 
 template <class T>
 std::string hash_of(const std::vector<T>& values) {
-    return fnv1a_128({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
+    return sha256({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
 }
 
 }  // namespace
@@ -247,6 +247,7 @@ void check_places(const Mission& mission, SceneStore& models) {
 
 Assembly assemble(const Mission& mission, SceneStore& models) {
     Assembly assembly;
+    assembly.trees = models.trees;
     assembly.fans = models.fans;
     const EngineSettings settings = engine_settings(mission);
     auto [materials, parts] = place(mission, settings, models, assembly);
@@ -275,12 +276,11 @@ Assembly assemble(const Mission& mission, SceneStore& models) {
             sonar.settings.model = std::move(prepared);
     }
     if (!assembly.scene.sound_profile) find_targets(assembly.sonars, assembly.scene);
-    assembly.inputs = inputs_of(mission);
+    assembly.inputs = inputs_of(mission, models);
     Brightness brightness = find_full_scales(mission, assembly.scene, assembly.trajectory,
-                                             assembly.motions, assembly.sonars);
+                                             assembly.motions, assembly.sonars, *models.trees);
     assembly.full_scales = std::move(brightness.full_scales);
-    // The octree makes a caster of its own.
-    if (settings.type != EngineKind::octree) assembly.caster = std::move(brightness.caster);
+    assembly.caster = std::move(brightness.caster);
     return assembly;
 }
 

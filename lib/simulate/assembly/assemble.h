@@ -34,8 +34,12 @@ struct Assembly {
     std::vector<Sonar> sonars;             ///< in the order of Mission::sensors
     std::vector<InputFile> inputs;         ///< the files that the mission names, each once
     std::vector<double> full_scales;       ///< intensity that becomes white in pictures, by sonar
-    std::shared_ptr<const Caster> caster;  ///< over `scene`, for engines that use rays; null: none
+    std::shared_ptr<const Caster> caster;  ///< over `scene`, if one was needed; null: none
+    std::shared_ptr<SharedTrees> trees = std::make_shared<SharedTrees>();
     std::shared_ptr<FanStore> fans = std::make_shared<FanStore>();
+
+    /// A caster over `scene`.
+    Caster make_caster() const { return caster ? *caster : trees->caster(scene); }
 };
 
 /// Reads the files of a mission and computes its poses. Writes nothing. Throws InputError for

@@ -111,7 +111,7 @@ double find_full_scale(const Mission& mission, const Scene& scene, const Traject
 
 Brightness find_full_scales(const Mission& mission, const Scene& scene,
                             const Trajectory& trajectory, std::span<const Trajectory> motions,
-                            std::span<const Sonar> sonars) {
+                            std::span<const Sonar> sonars, SharedTrees& trees) {
     Brightness out;
     for (const Sonar& sonar : sonars) {
         const double by_rule = sonar.settings.model->info.white;
@@ -123,7 +123,7 @@ Brightness find_full_scales(const Mission& mission, const Scene& scene,
     // A separate arena throws if there is no memory for more threads; Embree would end the program.
     tbb::task_arena arena;
     arena.execute([&] {
-        out.caster = std::make_shared<const Caster>(scene);
+        out.caster = std::make_shared<const Caster>(trees.caster(scene));
         const std::unique_ptr<VisibilityEngine> engine = make_rays_engine(scene, *out.caster);
         for (std::size_t k = 0; k < sonars.size(); ++k) {
             if (!is_unknown(out.full_scales[k])) continue;

@@ -25,6 +25,6 @@ struct Brightness {
 /// the scene's bodies.
 Brightness find_full_scales(const Mission& mission, const Scene& scene,
                             const Trajectory& trajectory, std::span<const Trajectory> motions,
-                            std::span<const Sonar> sonars);
+                            std::span<const Sonar> sonars, SharedTrees& trees);
 
 }  // namespace sonarsim

@@ -40,7 +40,8 @@ EngineSettings engine_settings(const Mission& mission, const Assembly& assembly)
 
 std::unique_ptr<VisibilityEngine> make_engine(const Mission& mission, const Assembly& assembly) {
     EngineSettings settings = engine_settings(mission, assembly);
-    settings.caster = assembly.caster;
+    if (settings.type != EngineKind::octree)
+        settings.caster = std::make_shared<const Caster>(assembly.make_caster());
     return make_engine(assembly.scene, settings);
 }
 

@@ -1,5 +1,6 @@
 #include "simulate/assembly/scene_store.h"
 
+#include "core/sha256.h"
 #include "input/scene/gltf/surface_of.h"
 
 namespace sonarsim {
@@ -21,6 +22,12 @@ std::shared_ptr<const Bottom> SceneStore::bottom(const PlacedFile& placed,
     placed_ = placed;
     nodes_ = nodes;
     return bottom_;
+}
+
+const std::string& SceneStore::sum_of(const std::filesystem::path& file) {
+    std::string& sum = sums_[file];
+    if (sum.empty()) sum = sha256_of_file(file);
+    return sum;
 }
 
 }  // namespace sonarsim

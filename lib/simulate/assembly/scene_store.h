@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -8,13 +10,16 @@
 #include "input/scene/placed_file.h"
 #include "input/scene/placing/bottom.h"
 #include "simulate/product/fan_store.h"
+#include "simulate/visibility/caster.h"
 
 namespace sonarsim {
 
-/// The variants of a mission often share the files of scenes, the last bottom made of them,
-/// and the fans of pictures. Not thread-safe, except for the fans.
+/// The variants of a mission often share the files of scenes, the last bottom made of them, the
+/// tree of rays of the first file and the fans of pictures. Not thread-safe, except for the last
+/// two.
 class SceneStore : public SceneFiles {
   public:
+    const std::shared_ptr<SharedTrees> trees = std::make_shared<SharedTrees>();
     const std::shared_ptr<FanStore> fans = std::make_shared<FanStore>();
 
     /// The bottom that the nodes of a placed file form; no patterns: all nodes. InputError as
@@ -22,7 +27,11 @@ class SceneStore : public SceneFiles {
     std::shared_ptr<const Bottom> bottom(const PlacedFile& placed,
                                          const std::vector<std::string>& nodes);
 
+    /// The SHA-256 of an input file when it was first asked for.
+    const std::string& sum_of(const std::filesystem::path& file);
+
   private:
+    std::map<std::filesystem::path, std::string> sums_;
     PlacedFile placed_;
     std::vector<std::string> nodes_;
     std::shared_ptr<const Bottom> bottom_;

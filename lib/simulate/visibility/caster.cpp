@@ -30,6 +30,21 @@ Facet make_facet(const Mesh& mesh, std::size_t triangle, std::uint32_t instance)
             cross_of(mesh.vertices, corners).normalized().template cast<float>(), instance};
 }
 
+std::span<const Eigen::Vector3f> first_vertices(const Scene& scene) {
+    return std::span(scene.vertices).first(scene.first_file_vertices);
+}
+
+std::span<const TriangleCorners> first_triangles(const Scene& scene) {
+    return std::span(scene.triangles).first(scene.first_file_triangles);
+}
+
+/// True if the first file has a tree of its own. Bodies and copies have instances of one tree of
+/// all surface at rest beside them.
+bool has_parts(const Scene& scene) {
+    return scene.first_file_triangles > 0 && scene.first_file_triangles < scene.triangles.size() &&
+           scene.bodies.empty() && scene.copies.empty();
+}
+
 }  // namespace
 
 /// The constant parts: a tree of the scene's own triangles, and one of each body and of each shared
@@ -48,6 +63,9 @@ struct Caster::Trees {
     std::vector<std::uint32_t> first_of_tree;  ///< index into `facets`, with one entry for the end
     std::size_t bodies = 0;
     std::vector<PlacedCopy> copies;
+    /// The first facets of the two parts of the scene's own tree: of its first file and of the
+    /// others. No others: 0.
+    std::array<std::uint32_t, 2> first_of_part{};
 
     ~Trees() {
         trees.clear();
@@ -64,6 +82,44 @@ struct Caster::Trees {
             facets.push_back(make_facet(mesh, i, instance_of(i)));
         first_of_tree.push_back(static_cast<std::uint32_t>(facets.size()));
         trees.push_back(make_tree(device, mesh.vertices, mesh.triangles));
+    }
+
+    /// Adds the scene's own triangles from `first_of_part[1]` on.
+    void put_others(const Scene& scene) {
+        const std::uint32_t first = first_of_part[1];
+        if (facets.size() > first) rtcDetachGeometry(trees[0].get(), 1);
+        facets.resize(first);
+        for (std::size_t i = first; i < scene.triangles.size(); ++i)
+            facets.push_back(make_facet(scene, i, scene.triangle_instance[i]));
+        put_mesh(device, trees[0], 1, scene.vertices, std::span(scene.triangles).subspan(first));
+        commit(device, trees[0]);
+        first_of_tree = {0, static_cast<std::uint32_t>(facets.size())};
+    }
+
+    /// Adds the scene's own triangles in two parts. With these settings Embree builds a tree of
+    /// each part and joins them, and builds none again of a part that stays.
+    void add_parts(const Scene& scene) {
+        RTCScene joined = trees.emplace_back(device).get();
+        rtcSetSceneFlags(
+            joined, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC));
+        rtcSetSceneBuildQuality(joined, RTC_BUILD_QUALITY_LOW);
+        first_of_part[1] = static_cast<std::uint32_t>(scene.first_file_triangles);
+        for (std::size_t i = 0; i < scene.first_file_triangles; ++i)
+            facets.push_back(make_facet(scene, i, scene.triangle_instance[i]));
+        put_mesh(device, trees[0], 0, first_vertices(scene), first_triangles(scene));
+        put_others(scene);
+    }
+
+    /// True if the first part has these triangles.
+    bool has_first_file(const Scene& scene) const {
+        const std::size_t count = first_of_part[1];
+        if (!has_parts(scene) || scene.first_file_triangles != count) return false;
+        for (std::size_t i = 0; i < count; ++i) {
+            if (facets[i].material != scene.triangle_material[i] ||
+                facets[i].instance != scene.triangle_instance[i])
+                return false;
+        }
+        return has_first_mesh(trees[0], first_vertices(scene), first_triangles(scene));
     }
 };
 
@@ -158,7 +214,18 @@ Caster::Caster(Caster&&) noexcept = default;
 Caster::Caster(const Caster&) = default;
 Caster::~Caster() = default;
 
-std::shared_ptr<const Caster::Trees> Caster::make_trees(const Scene& scene) {
+Caster SharedTrees::caster(const Scene& scene) {
+    const std::lock_guard lock(mutex_);
+    if (last_ && last_.use_count() == 1 && last_->has_first_file(scene)) {
+        last_->put_others(scene);
+    } else {
+        last_.reset();  // before another takes memory
+        last_ = Caster::make_trees(scene);
+    }
+    return {last_, {}};
+}
+
+std::shared_ptr<Caster::Trees> Caster::make_trees(const Scene& scene) {
     auto made = std::make_shared<Trees>();
     // Pinned to AVX2, since another instruction set may order equal distances differently.
     made->device = rtcNewDevice("isa=avx2,max_isa=avx2");
@@ -177,7 +244,10 @@ std::shared_ptr<const Caster::Trees> Caster::make_trees(const Scene& scene) {
     }
     made->facets.reserve(facets);
     made->first_of_tree.push_back(0);
-    made->add(scene, [&](std::size_t i) { return scene.triangle_instance[i]; });
+    if (has_parts(scene))
+        made->add_parts(scene);
+    else
+        made->add(scene, [&](std::size_t i) { return scene.triangle_instance[i]; });
     for (const Body& body : scene.bodies)
         made->add(body, [&](std::size_t) { return body.instance; });
     made->bodies = scene.bodies.size();
@@ -227,7 +297,7 @@ Facet Caster::placed_facet(std::uint32_t index) const {
 void Caster::cast_from(const RayOrigins& origins, std::span<const Eigen::Vector3f> directions,
                        float reach_m, RaySpread spread, std::span<std::uint32_t> facets) const {
     if (placed_trees_.empty()) {
-        const TracedLayer own{trees_->trees[0].get()};
+        const TracedLayer own{trees_->trees[0].get(), trees_->first_of_part};
         trace_packets({&own, 1}, origins, directions, reach_m, spread, facets);
         return;
     }

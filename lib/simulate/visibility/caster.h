@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -28,8 +29,9 @@ class Caster {
   public:
     static constexpr std::uint32_t nothing = 0xFFFFFFFFU;
 
-    /// Builds the tree over `scene`, and one over each of its bodies and shared meshes. Rays meet
-    /// bodies only after moved() has placed them.
+    /// Builds the tree over `scene`, joined of one of its first file and one of the others, and one
+    /// over each of its bodies and shared meshes. Rays meet bodies only after moved() has placed
+    /// them.
     explicit Caster(const Scene& scene);
     ~Caster();
     Caster(Caster&&) noexcept;
@@ -75,11 +77,12 @@ class Caster {
     }
 
   private:
+    friend class SharedTrees;
     struct Trees;
     struct PlacedTree;
     Caster(std::shared_ptr<const Trees> trees,
            std::vector<std::shared_ptr<const PlacedTree>> placed_trees);
-    static std::shared_ptr<const Trees> make_trees(const Scene& scene);
+    static std::shared_ptr<Trees> make_trees(const Scene& scene);
     void cast_from(const RayOrigins& origins, std::span<const Eigen::Vector3f> directions,
                    float reach_m, RaySpread spread, std::span<std::uint32_t> facets) const;
     Facet placed_facet(std::uint32_t index) const;
@@ -93,6 +96,18 @@ class Caster {
     const Facet* facets_ = nullptr;
     std::uint32_t still_ = 0;    ///< number of the scene's own triangles
     Eigen::Array3f low_, high_;  ///< box around the whole scene, scene-local, m
+};
+
+/// Makes casters over scenes whose first file is often the same, as that of a mission's variants
+/// is. Its tree is kept. Thread-safe.
+class SharedTrees {
+  public:
+    /// As Caster(scene), and faster once the last caster and its copies are gone.
+    Caster caster(const Scene& scene);
+
+  private:
+    std::mutex mutex_;
+    std::shared_ptr<Caster::Trees> last_;
 };
 
 }  // namespace sonarsim

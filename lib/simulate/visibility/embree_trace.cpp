@@ -17,8 +17,8 @@ void take_hits(RTCRayHit8& rays, int count, const TracedLayer& layer,
     for (int k = 0; k < count; ++k) {
         const std::uint32_t met = rays.hit.primID[k];
         if (met == no_hit) continue;
-        facets[k] =
-            layer.first_facet.empty() ? met : met + layer.first_facet[rays.hit.instID[0][k]];
+        const unsigned int instance = rays.hit.instID[0][k];
+        facets[k] = met + layer.first_facet[instance == no_hit ? rays.hit.geomID[k] : instance];
     }
     for (int k = 0; k < packet; ++k) {
         rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;

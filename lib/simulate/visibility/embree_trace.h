@@ -10,8 +10,8 @@
 
 namespace sonarsim {
 
-/// A tree that rays are traced through. If it has instances, the facet numbers of instance k start
-/// at `first_facet[k]`.
+/// A tree that rays are traced through. The facet numbers of its k-th instance or mesh start at
+/// `first_facet[k]`.
 struct TracedLayer {
     RTCScene tree = nullptr;
     std::span<const std::uint32_t> first_facet = {};

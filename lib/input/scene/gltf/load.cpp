@@ -115,6 +115,10 @@ Scene compose(std::span<const PlacedFile> files, SceneFiles& models, const Mater
                     scene.triangle_instance.push_back(primitive.instance);
                 });
             });
+        if (i == 0) {
+            scene.first_file_triangles = scene.triangles.size();
+            scene.first_file_vertices = scene.vertices.size();
+        }
         if (!file.placed->moves) continue;
         body.instance = file.instance_of_mesh.front();
         scene.bodies.push_back(std::move(body));
