@@ -27,7 +27,7 @@ struct PlacedPrimitive {
     const PlacedMesh& mesh;
     std::uint32_t instance;
     bool has_floats;                         ///< its positions are no integers
-    std::vector<Eigen::Vector3d> positions;  ///< of its vertices, in the mesh's own axes
+    std::vector<Eigen::Vector3d> positions;  ///< the vertices in the mesh's own axes
     std::vector<std::array<std::uint32_t, 3>> triangles;
     int material;       ///< index into the glTF's materials; -1: none
     std::string where;  ///< location for error messages
