@@ -88,7 +88,7 @@ def number(value):
 
 
 def set_shape(start, recording, settings):
-    """Gives the start the shape of the pings, and the levels that the program computes for it."""
+    """Gives the start the shape of the pings, and their levels."""
     bins, step = recording.values.shape[1], recording.range_step_m
     start.shape = {"range_min_m": max(recording.first_range_m - 0.5 * step, 0.0),
                    "range_max_m": recording.first_range_m + (bins - 0.5) * step, "range_bins": bins}
@@ -100,8 +100,12 @@ def set_shape(start, recording, settings):
         extent = 2.0 * np.arcsin(min(0.5 * extent, 1.0)) if is_sine else extent
         start.shape.update({"azimuth_deg": float(np.degrees(extent)), "azimuth_bins": beams,
                             "instrument.beam.spread": "sine" if is_sine else "angle"})
-    settings = [*(f"sensors.sonar.{key}={value}" for key, value in start.shape.items()), *settings,
-                f"water.sound_speed_m_s={recording.sound_speed_m_s}"]
+    set_levels(start, [*settings, f"water.sound_speed_m_s={recording.sound_speed_m_s}"])
+
+
+def set_levels(start, settings):
+    """Gives the start the levels that the program computes for its shape."""
+    settings = [*(f"sensors.sonar.{key}={value}" for key, value in start.shape.items()), *settings]
     command = [PROGRAM, "preset", str(start.file), "--json", *(f"--set={setting}" for setting in settings)]
     try:
         run = subprocess.run(command, capture_output=True, text=True, check=False)

@@ -1,0 +1,188 @@
+"""Fits a preset to fans. They are smoothed, resampled and clipped, so no closed form holds: the echoes of a scene get
+noise, gain, grey law and the pixels of the fans, with numbers that give both the same greys and the same grain."""
+import copy
+
+import numpy as np
+from scipy import ndimage, optimize
+
+from ..data import middles
+from .correlations import beam_correlation, predicted_correlations, taper
+from .image import Fit
+from .judge import Figure
+from .patches import Patches
+from .statistics import Bounded, LogStatistics, bootstrap
+
+RINGS, FULL = 8, 255.0
+QUANTILES = 0.1, 0.5, 0.9
+# Of the grey in all ranges; in rings, where the scene is theirs and where it is not; of the logarithm of the grain; of
+# its skewness. Chosen.
+GREY_ERROR, RING_ERROR, RING_ERROR_USUAL, GRAIN_ERROR, SKEWNESS_ERROR = 6.0, 6.0, 45.0, 0.04, 0.05
+# How far from the start a number is looked for: a standard deviation, and limits.
+NUMBERS = {"gamma": (0.25, 0.1, 2.0), "dynamic_range_db": (20.0, 10.0, 200.0), "full_scale_db": (20.0, -300.0, 300.0),
+           "noise_db": (8.0, -300.0, 300.0), "tvg_log": (5.0, 0.0, 60.0), "smoothing_px": (1.0, 0.0, 3.0)}
+LAWS, SMOOTHING_PX = {"gamma": "gamma", "log": "dynamic_range_db"}, 0.4
+BLOCK, LEAST_BLOCKS, LEAST_GREY = 12, 30, 8.0
+
+
+class Display:
+    """Fans of the echoes of a scene. `numbers`: those of NUMBERS, the first for the law "gamma" or "log"."""
+
+    def __init__(self, fans, echoes, start, seed):
+        self.fans, self.echoes = fans, echoes
+        self.receiver, self.absorption = start.instrument["receiver"], start.absorption_db_per_m
+        normal = np.random.default_rng(seed).standard_normal((2, *echoes.amplitude.shape)).astype(np.float32)
+        # Beams are formed of the same elements, so they share noise.
+        beam, sines = start.instrument["beam"], np.sin(middles(echoes.sensor.azimuth_edges_rad))
+        pedestal, half_power = taper(beam["side_lobe_db"])
+        apart = np.abs(np.subtract.outer(sines, sines)) * half_power / np.sin(0.5 * np.radians(beam["width_deg"]))
+        values, vectors = np.linalg.eigh(np.sqrt(beam_correlation(pedestal, apart)))
+        root = (vectors * np.sqrt(np.maximum(values, 0.0))).astype(np.float32).T
+        self.noise = np.sqrt(0.5) * (normal[0] @ root + 1j * (normal[1] @ root))
+        shape = echoes.amplitude.shape[1:]
+        self.index = echoes.sensor.to_fan(np.arange(shape[0] * shape[1]).reshape(shape), fans.pixels.shape[2], -1)
+
+    def pixels(self, law, numbers):
+        """Fans [ping, row, column]."""
+        scale, full_scale_db, noise_db, tvg_log, smoothing_px = numbers
+        r = self.echoes.range_m
+        gain_db = tvg_log * np.log10(r) + 2.0 * self.absorption * r * self.receiver["tvg_absorption"] - full_scale_db
+        amplitude = np.abs(self.echoes.amplitude + 10.0 ** (0.05 * noise_db) * self.noise) * 10.0 ** (0.05 * gain_db)
+        share = amplitude**scale if law == "gamma" else 1.0 + 20.0 * np.log10(np.maximum(amplitude, 1e-15)) / scale
+        values = np.floor(FULL * np.clip(np.minimum(share, 1.0) - self.receiver["offset"], 0.0, 1.0) + 0.5)
+        fan = values.astype(np.float32).reshape(len(values), -1)[:, np.maximum(self.index, 0)] * (self.index >= 0)
+        return np.round(ndimage.gaussian_filter(fan, (0.0, smoothing_px, smoothing_px), truncate=3.0))
+
+    def greys(self, law, numbers):
+        """[ping, range, beam] at the bins of the fans."""
+        return self.fans.polar(self.pixels(law, numbers))
+
+
+def features(greys):
+    """What is matched: quantiles, mean and deviation of the grey in all ranges and in rings; the grain, which is the
+    deviation over the mean in blocks of low, middle and high grey; and the skewness of the logarithm of the grey in even
+    blocks, which no gain and no gamma change: only smoothing does."""
+    rings = np.array([[*np.quantile(ring, QUANTILES), ring.mean(), ring.std()]
+                      for ring in (greys, *np.array_split(greys, RINGS, axis=1))])
+    pings, rows, columns = greys.shape[0], greys.shape[1] // BLOCK, greys.shape[2] // BLOCK
+    blocks = greys[:, :rows * BLOCK, :columns * BLOCK].reshape(pings, rows, BLOCK, columns, BLOCK).swapaxes(2, 3)
+    blocks = blocks.reshape(-1, BLOCK, BLOCK)
+    mean = blocks.mean(axis=(1, 2))
+    usable = (mean > LEAST_GREY) & ((blocks >= FULL).mean(axis=(1, 2)) < 0.02) & ((blocks <= 0.0).mean(axis=(1, 2)) < 0.05)
+    if usable.sum() < LEAST_BLOCKS:
+        return rings, np.full(3, np.nan), np.nan
+    blocks, mean = blocks[usable], mean[usable]
+
+    grain = np.sqrt(np.maximum(variance_of(blocks), 1e-6)) / mean
+    # Edges and texture of a scene make blocks coarser: a low quantile is that of speckle.
+    third = np.searchsorted(np.quantile(mean, (1 / 3, 2 / 3)), mean)
+    grains = [np.log(np.quantile(grain[third == k], 0.3)) if (third == k).any() else np.nan for k in range(3)]
+    even = np.log(np.maximum(blocks[grain <= np.median(grain)], 0.5))
+    even -= even.mean(axis=(1, 2), keepdims=True)
+    return rings, np.array(grains), (even**3).mean() / (even**2).mean() ** 1.5
+
+
+def variance_of(blocks):
+    """Half the mean square difference of values half a block apart along range, without that of a trend."""
+    off = blocks[:, BLOCK // 2:] - blocks[:, :BLOCK // 2]
+    return 0.5 * (off**2).mean(axis=(1, 2)) - 0.5 * off.mean(axis=(1, 2)) ** 2
+
+
+def fit_numbers(display, law, measured, first, ring_error):
+    """(cost, law, numbers, their standard errors) of the display that has the measured features."""
+    scale, low, high = np.array([NUMBERS[name] for name in (LAWS[law], *list(NUMBERS)[2:])]).T
+    grey_errors = np.array([[GREY_ERROR]] + RINGS * [[ring_error]])
+
+    def residuals(z):
+        # Offset by 10, since the steps of least_squares are shares of z.
+        z = z - 10.0
+        found = features(display.greys(law, np.clip(first + z * scale, low, high)))
+        rings, grains, skewness = (a - b for a, b in zip(found, measured))
+        return np.nan_to_num(np.concatenate([(rings / grey_errors).ravel(), grains / GRAIN_ERROR,
+                                             [skewness / SKEWNESS_ERROR], z]))
+    # The gain may be far off, where all is black or white and no step helps.
+    shifts = np.arange(-2.0, 2.01, 0.3)
+    costs = [np.sum(residuals(10.0 + np.array([0.0, shift, 0.0, 0.0, 0.0])) ** 2) for shift in shifts]
+    begin = 10.0 + np.array([0.0, shifts[np.argmin(costs)], 0.0, 0.0, 0.0])
+    found = optimize.least_squares(residuals, begin, diff_step=[0.005, 0.0025, 0.006, 0.01, 0.01], max_nfev=8)
+    errors = scale * np.sqrt(np.diag(np.linalg.inv(found.jac.T @ found.jac)) * max(2.0 * found.cost / len(found.fun), 1.0))
+    return found.cost, law, np.clip(first + (found.x - 10.0) * scale, low, high), errors
+
+
+def beam_width(start, sensor, measured, simulated):
+    """The width whose correlations across the beams differ from those of the start as fans' do from simulated ones, in
+    degrees; None without even patches. In the farther half a beam of the sensor has pixels of its own."""
+    beam, found, rows, columns = start.instrument["beam"], [], *measured.shape[1:]
+    index = sensor.from_fan(np.arange(rows * columns).reshape(rows, columns))
+    for pixels in (measured, simulated):
+        patches = Patches(pixels.reshape(len(pixels), -1)[:, index[len(index) // 2:]], FULL,
+                          lambda ping: np.log(np.maximum(ping, 0.5)))
+        even = patches.even()
+        if len(even) < LEAST_BLOCKS:
+            return None
+        found.append(patches.correlations(even))
+
+    sines = np.sin(middles(sensor.azimuth_edges_rad))
+
+    def predicted(width):
+        return predicted_correlations({**beam, "width_deg": width}, sines, LogStatistics())
+    widths = beam["width_deg"] * np.geomspace(0.4, 2.5, 93)
+    table = np.array([predicted(width) for width in widths]) - predicted(beam["width_deg"])
+    of_start = found[1](np.ones((1, patches.places)))[0, 1]
+    return bootstrap(patches.places, lambda weights: widths[[np.nansum((table - row) ** 2, axis=1).argmin() for row in
+                                                             found[0](weights)[:, 1] - of_start]])[0]
+
+
+def grey_figures(display, fans, law, numbers):
+    """The figures that a display predicts of the greys of fans, [fan, range, beam]."""
+    def columns(greys):
+        thirds = [part.mean(axis=(1, 2)) for part in np.array_split(greys, 3, axis=1)]
+        return np.stack([greys.mean(axis=(1, 2)), (greys**2).mean(axis=(1, 2)), *thirds,
+                         *np.quantile(greys, (0.5, 0.9, 0.99), axis=(1, 2))], axis=1)
+
+    def estimate(weights, of):
+        mean, square, *others = (weights @ of / weights.sum(axis=1)[:, None]).T
+        return np.stack([mean, np.sqrt(np.maximum(square - mean**2, 0.0)), *others], axis=1)
+    of_fans, of_scene = columns(fans), columns(display.greys(law, numbers))
+    measured = bootstrap(len(of_fans), lambda weights: estimate(weights, of_fans))
+    names = "mean", "standard deviation", "mean, near", "mean, middle", "mean, far", "50 %", "90 %", "99 %"
+    return [Figure(f"grey: {name}", 0.1, float(value), of) for name, value, of in zip(
+        names, estimate(np.ones((1, len(of_scene))), of_scene)[0], measured)]
+
+
+def fit_fans(parts, fans, echoes, start, ring_error):
+    """(Fit, figures) of the fitted and the judged pictures, both [fan, row, column]."""
+    fit, receiver = Fit(copy.deepcopy(start.instrument), 0.0), start.instrument["receiver"]
+    displays, greys = [Display(fans, echoes, start, seed) for seed in (1, 2)], [fans.polar(part) for part in parts]
+    measured, begin = features(greys[0]), {law: np.array([
+        receiver[key], start.full_scale_db, start.noise_db, receiver["tvg_log"], SMOOTHING_PX]) for law, key in LAWS.items()}
+    _, law, numbers, errors = min(fit_numbers(displays[0], law, measured, first, ring_error)
+                                  for law, first in begin.items())
+    fit.set("receiver.companding", law)
+    for name, value, error in zip((LAWS[law], "full_scale_db", "noise_db", "tvg_log"), numbers, errors):
+        if error > 0.9 * NUMBERS[name][0]:
+            fit.notes.append(f"{name}: the fans hardly show it; that of the start is kept")
+        else:
+            fit.set(f"receiver.{name}", Bounded(value, value - 1.96 * error, value + 1.96 * error))
+    width = beam_width(start, echoes.sensor, parts[0], displays[0].pixels(law, numbers))
+    if width is None:
+        fit.notes.append("beam.width_deg: too few even patches; that of the start is kept")
+    else:
+        fit.set("beam.width_deg", width)
+    if numbers[-1] > 0.6:
+        fit.notes.append(f"the fans are smoothed, as by a Gaussian of {numbers[-1]:.1f} pixels, which no key does")
+    of_start = "log" if receiver["companding"] == "log" else "gamma"
+    chosen = (displays[1], greys[1], of_start, begin[of_start]), *((*of, law, numbers) for of in zip(displays, greys))
+    return fit, list(zip(*(grey_figures(*one) for one in chosen)))
+
+
+def vary_block(fit):
+    """The lines that vary the fitted numbers in a mission: the law by its interval, gain and noise by 2 dB."""
+    lines = ["vary:  # for a mission with this preset; NAME is that of its sonar"]
+    for key, value in fit.estimates.items():
+        name = key.removeprefix("receiver.")
+        if name in ("full_scale_db", "noise_db"):
+            value = Bounded(value.value, value.value - 2.0, value.value + 2.0)
+        elif name not in ("gamma", "dynamic_range_db"):
+            continue
+        lines.append(f"  - {{key: sensors.NAME.instrument.{key}, uniform: [{value.low:.4g}, {value.high:.4g}]}}")
+    return lines

@@ -1,0 +1,93 @@
+"""sonarsim.calibrate of fans: drawn grey laws, gains, noise and beams of a tank are found, and what is refused."""
+import json
+import unittest
+
+import numpy as np
+from PIL import Image
+from tool import ROOT, ToolTest
+from sonarsim.data import open_dataset  # noqa: E402
+
+START = """\
+kind: imaging
+model: calibrated
+azimuth_deg: 60
+elevation_deg: 60
+range_max_m: 10
+range_bins: 256
+azimuth_bins: 128
+instrument:
+  frequency_hz: 1.2e6
+  beam: {elevation_width_deg: 12}
+  receiver:
+    tvg_log: 30
+"""
+MISSION = f"""\
+seed: SEED
+scene: {{file: {ROOT}/scenes/tank.glb, materials: {ROOT}/scenes/materials.csv}}
+trajectory: {{file: {ROOT}/trajectories/tank_loop.csv}}
+output: {{fan: false, polar: false}}
+sensors:
+  sonar: {{preset: PRESET, range_min_m: 0.5, range_max_m: 10, every: 5}}
+"""
+
+
+class Fans(ToolTest):
+    def levels(self, *settings):
+        return json.loads(self.sonarsim("preset", "start.yaml", "--json", *(
+            f"--set=sensors.sonar.instrument.receiver.{one}" for one in settings)).stdout)
+
+    def render(self, preset, seed):
+        """Fans of raw/, [ping, row, column]."""
+        (self.folder / "made.yaml").write_text(MISSION.replace("PRESET", preset).replace("SEED", str(seed)))
+        self.sonarsim("render", "made.yaml", "--out", f"out{seed}", "-q")
+        sonar = open_dataset(self.folder / f"out{seed}")["sonar"]
+        return np.array([sonar.to_fan(sonar[k]["raw"], 300) for k in range(len(sonar))])
+
+    def calibrate(self, fans, *options):
+        (self.folder / "fans").mkdir(exist_ok=True)
+        for k, fan in enumerate(fans):
+            Image.fromarray(fan).save(self.folder / f"fans/{k:02d}.png")
+        return ("calibrate", str(self.folder / "fans"), "--preset", str(self.folder / "start.yaml"), "--out",
+                str(self.folder / "mine.yaml"), "--range-m", "0.5", "10", *options)
+
+    def setUp(self):
+        super().setUp()
+        (self.folder / "start.yaml").write_text(START.replace(" {elevation", "\n    elevation").replace("}", ""))
+
+    def test_drawn_displays_are_found(self):
+        draws = np.random.default_rng(57)
+        for seed, law in enumerate(("gamma", "dynamic_range_db")):
+            with self.subTest(law=law):
+                scale = draws.uniform(0.35, 0.7) if law == "gamma" else draws.uniform(55.0, 70.0)
+                of_law = [f"{law}={scale}", f"companding={'gamma' if law == 'gamma' else 'log'}"]
+                found = self.levels(*of_law)
+                keys = {"noise_db": found["noise_db"] + draws.uniform(0.0, 6.0),
+                        "full_scale_db": found["full_scale_db"] + draws.uniform(-6.0, 6.0),
+                        "tvg_log": draws.uniform(22.0, 38.0), **dict(one.split("=") for one in of_law)}
+                (self.folder / "true.yaml").write_text(START.split("  receiver")[0] + "  receiver:\n" + "".join(
+                    f"    {key}: {value}\n" for key, value in keys.items()))
+                fans = self.render("true.yaml", 10 + seed)
+                mission = self.folder / "made.yaml"
+                self.succeeds(*self.calibrate(fans, "--azimuth-deg", "60", "--mission", str(mission), "--report",
+                                              str(self.folder / "mine.json")))
+                report = json.loads((self.folder / "mine.json").read_text())
+                self.assertLess(abs(report["estimates"][f"receiver.{law}"]["value"] / scale - 1.0), 0.1)
+                # Of fans that were not fitted, and of a render of the preset with another seed.
+                held_out, again = fans[1::2], self.render("mine.yaml", 20 + seed)
+                self.assertLess(abs(again.mean() / held_out.mean() - 1.0), 0.07)
+                self.assertLess(abs(again.std() / held_out.std() - 1.0), 0.07)
+                self.assertGreaterEqual(report["agree"]["held_out"], 6)
+                self.assertIn(f"#   - {{key: sensors.NAME.instrument.receiver.{law}, uniform: [",
+                              (self.folder / "mine.yaml").read_text())
+
+    def test_what_is_refused(self):
+        fans = np.random.default_rng(1).integers(0, 255, (3, 300, 300)).astype(np.uint8)
+        for why, *options in (("a fan of 90 degrees and 0.5 to 10 m is 300 x 213", "--azimuth-deg", "90"),
+                              ("not black outside of 60 degrees", "--azimuth-deg", "60"),
+                              ("both --azimuth-deg and --range-m",)):
+            words = self.calibrate(fans, *options)
+            self.assert_refused("calibrate", why, *words[1:])
+
+
+if __name__ == "__main__":
+    unittest.main()
