@@ -83,7 +83,7 @@ class Fans(ToolTest):
     def test_what_is_refused(self):
         fans = np.random.default_rng(1).integers(0, 255, (3, 300, 300)).astype(np.uint8)
         for why, *options in (("a fan of 90 degrees and 0.5 to 10 m is 300 x 213", "--azimuth-deg", "90"),
-                              ("not black outside of 60 degrees", "--azimuth-deg", "60"),
+                              ("not of one grey outside of 60 degrees", "--azimuth-deg", "60"),
                               ("both --azimuth-deg and --range-m",)):
             words = self.calibrate(fans, *options)
             self.assert_refused("calibrate", why, *words[1:])

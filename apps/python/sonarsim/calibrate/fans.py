@@ -6,7 +6,7 @@ from ..data import Sensor
 from .statistics import CalibrationError
 
 MOST_FANS, MOST_PIXELS = 64, 1 << 24
-# The heights of a picture may differ by this share; outside, a fan has less than this share of the grey inside.
+# The heights of a picture may differ by this share; outside, greys deviate by less than this share of those inside.
 HEIGHT_TOLERANCE, MOST_OUTSIDE = 0.015, 0.3
 
 
@@ -29,8 +29,8 @@ class Fans(Sensor):
         self.range_edges_m = np.linspace(low, high, int((high - low) / pixel_m) + 1)
         self.azimuth_edges_rad = np.linspace(-half, half, max(int(half * high / pixel_m), 1) + 1)
         inside = self.to_fan(np.ones((len(self.range_edges_m) - 1, len(self.azimuth_edges_rad) - 1), bool), width)
-        if self.pixels[:, ~inside].mean() > MOST_OUTSIDE * self.pixels[:, inside].mean():
-            raise CalibrationError(f"{name}: the fans are not black outside of {azimuth_deg:g} degrees and {low:g} to "
+        if self.pixels[:, ~inside].std() > MOST_OUTSIDE * self.pixels[:, inside].std():
+            raise CalibrationError(f"{name}: the fans are not of one grey outside of {azimuth_deg:g} degrees and {low:g} to "
                                    f"{high:g} m: give their opening and ranges")
         self.index = self.from_fan(np.arange(height * width).reshape(height, width))
 
