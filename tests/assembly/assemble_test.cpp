@@ -110,7 +110,7 @@ TEST_SUITE("assembly") {
         CHECK_THROWS_WITH_AS(
             poses("posts"),
             "trajectory.look_at: the scene has no object at rest of 'posts' that is "
-            "no background; did you mean 'post'?; there are: objects, box, post",
+            "no background (did you mean 'post'?); there are: objects, box, post",
             InputError);
     }
 

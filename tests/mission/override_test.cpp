@@ -56,7 +56,7 @@ TEST_CASE("an override is checked like the file and named in the message") {
              {"sensors.fls.range_max_m=0.05",
               "range_min_m must be below range_max_m (range_min_m is 0.1, range_max_m is 0.05)"},
              {"trajectory.lawnmower={}",
-              "'trajectory' takes one of the keys: file, waypoints, lawnmower; here are file, "
+              "'trajectory' takes one of the keys: file, waypoints, lawnmower, look_at; here are file, "
               "lawnmower"},
              {"water={density_kg_m3: 1, density_kg_m3: 2}", "duplicate key 'density_kg_m3'"},
              {"seed.x=5",

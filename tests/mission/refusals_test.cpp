@@ -153,12 +153,12 @@ TEST_CASE("a trajectory has one form, with keys and ranges of its own") {
     const std::string lines = "{lawnmower: {area_min_m: [0, 0], area_max_m: [9, 9]";
     check_refused(
         one_sensor + "trajectory: ",
-        {{"{}", "3:13: 'trajectory' needs one of the keys: file, waypoints, lawnmower"},
+        {{"{}", "3:13: 'trajectory' needs one of the keys: file, waypoints, lawnmower, look_at"},
          {"{waypoint: []}",
-          "3:13: 'trajectory' needs one of the keys: file, waypoints, lawnmower (did you mean "
+          "3:13: 'trajectory' needs one of the keys: file, waypoints, lawnmower, look_at (did you mean "
           "'waypoints'?)"},
          {"{file: a, lawnmower: {}}",
-          "3:23: 'trajectory' takes one of the keys: file, waypoints, lawnmower; here are file, "
+          "3:23: 'trajectory' takes one of the keys: file, waypoints, lawnmower, look_at; here are file, "
           "lawnmower"},
          {"{file: a, speed_m_s: 1}", "3:23: unknown key 'speed_m_s'; known here: file, rate_hz"},
          {"{file: a, rate_hz: -1}", "3:32: 'rate_hz' must be at least 0, not '-1'"},
