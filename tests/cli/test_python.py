@@ -35,7 +35,7 @@ KINDS = ALL_FILES.replace("output: {folder: out, image: true}", """\
 output: {folder: out, labels: true}""")
 POSES = 5
 # The files of a ping that are pictures for people, or products of several pings.
-PICTURES = {"image", "fan", "fan_raw", "stages", "meta", "soundings"}
+PICTURES = {"image", "fan", "stages", "meta", "soundings"}
 IMAGES = {"polar", "waterfall", "echogram", "scan"}
 VARIED = """\
 variants: 3

@@ -7,6 +7,7 @@ import unittest
 import numpy as np
 import tool
 from PIL import Image
+from sonarsim.data import open_dataset
 from tool import counts_of, disc, mask_of
 
 WIDTH, HEIGHT, PINGS = 40, 30, 10
@@ -138,6 +139,30 @@ class Export(tool.ToolTest):
                 np.testing.assert_allclose(values, [(left + width / 2, top + height / 2), (width, height)], atol=1e-3)
             self.assertEqual((dest / "data.yaml").read_text(), "train: images/train\nval: images/train  # there is no "
                              'such part\nnames:\n  0: "mine"\n  1: "tyre"\n')
+
+    def test_raw_values_as_fans(self):
+        """A fan of raw/ has at each pixel the bin that the fan of its bins' numbers names."""
+        path = self.out / "dataset.json"
+        description = json.loads(path.read_text())
+        own = description["sensors"][0]
+        bins = np.arange(120 * 60).reshape(120, 60)
+        edges = {"range_edges_m": np.linspace(1, 13, 121).tolist(), "azimuth_edges_rad": np.linspace(-0.6, 0.6, 61).tolist()}
+        width, height = 2 * 13 * np.sin(0.6), 13
+        own.update(edges, fan={"width_px": 80, "height_px": int(np.ceil(height * 80 / width))},
+                   files={**own["files"], "raw": "fls/raw/%06d.png"})
+        path.write_text(json.dumps(description))
+        (self.out / "fls/raw").mkdir()
+        for ping in range(PINGS):
+            Image.fromarray((bins % 251).astype(np.uint8)).save(self.out / f"fls/raw/{ping:06}.png")
+            (self.out / f"fls/objects/{ping:06}.json").write_text(json.dumps({"objects": []}))
+        self.export(self.out, "--format", "yolo", "--sensor", "fls", "--image", "raw")
+        found = np.asarray(Image.open(next(self.dest.rglob("fls-000002.png"))))
+        of_bins = open_dataset(self.out)["fls"].to_fan(bins, 80, -1)
+        np.testing.assert_array_equal(found, np.where(of_bins < 0, 0, of_bins % 251))
+        self.assertLess((found == 0).mean(), 0.5)
+        own["files"].pop("raw")
+        path.write_text(json.dumps(description))
+        self.refused("has no raw; leave out --image", "--format", "yolo", "--image", "raw", "--sensor", "fls")
 
     def test_masks_and_webdataset(self):
         self.export(self.out, "--format", "masks", "--sensor", "fls")

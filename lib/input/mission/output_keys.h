@@ -63,8 +63,7 @@ void describe(Visitor& v, OutputConfig& c) {
            "write every ping of these sonars as a 16-bit PNG, which holds no more than `polar`");
     v.flag("raw", c.raw,
            "with the calibrated model, write every ping as the instrument delivers it: a PNG for "
-           "imaging and profiling sonars, with `fan` another as a fan; a record of raw.npy for "
-           "others");
+           "imaging and profiling sonars, a record of raw.npy for others");
     v.flag(
         "fan", c.fan,
         "write every ping of these sonars as an 8-bit fan in grey, as an operator sees it, in PNG "

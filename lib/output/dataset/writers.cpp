@@ -14,7 +14,6 @@ namespace sonarsim {
 std::optional<Writer> make_polar_writer(const WriterContext& context);
 std::optional<Writer> make_image_writer(const WriterContext& context);
 std::optional<Writer> make_raw_writer(const WriterContext& context);
-std::optional<Writer> make_raw_fan_writer(const WriterContext& context);
 std::optional<Writer> make_fan_writer(const WriterContext& context);
 std::optional<Writer> make_stages_writer(const WriterContext& context);
 std::optional<Writer> make_strip_writer(const WriterContext& context);
@@ -32,7 +31,6 @@ constexpr MakeWriter formats[] = {
     make_polar_writer,        //
     make_image_writer,        //
     make_raw_writer,          //
-    make_raw_fan_writer,      //
     make_fan_writer,          //
     make_stages_writer,       //
     make_strip_writer,        //

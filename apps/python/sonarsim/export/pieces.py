@@ -137,12 +137,15 @@ def pixels_of(picture, is_whole):
         else:
             with Image.open(picture.path, formats=["PNG"]) as image:
                 is_grey = image.mode in ("L", "I", "I;16")
-                if is_whole and image.mode in ("L", "P", "RGB") and image.size == (picture.width, picture.height):
+                if (is_whole and picture.bins is None and image.mode in ("L", "P", "RGB")
+                        and image.size == (picture.width, picture.height)):
                     return None
                 pixels = np.asarray(image if is_grey else image.convert("RGB"))
             if pixels.dtype != np.uint8:
                 wide = pixels.astype(np.uint16)
                 pixels = (wide >> 8).astype(np.uint8) if picture.path.parent.name == "raw" else GREYS[wide]
+            if picture.bins is not None:
+                pixels = np.where(picture.bins < 0, 0, pixels.ravel()[np.maximum(picture.bins, 0)])
     except (ValueError, SyntaxError, OSError) as fault:
         if isinstance(fault, OSError) and fault.errno:
             raise

@@ -4,6 +4,8 @@ import math
 import pathlib
 import re
 
+import numpy as np
+
 from .. import data
 from . import split
 
@@ -25,6 +27,7 @@ class Picture:
     full_scale: float           # the intensity that is white, for arrays of intensities
     parts: list                 # the part of each row or column of pings of a strip, else one part
     rows_are_pings: bool = True
+    bins: object = None         # the bin of each pixel, -1 for none, of a fan that is drawn from its bins
 
 
 class Source:
@@ -116,11 +119,11 @@ def pictures_of(sensor, parts, options):
 
 
 def pings_of(sensor, of_ping, is_bins, is_raw):
-    wanted = (("raw" if is_bins else "fan_raw"),) if is_raw else ("image", "polar") if is_bins else ("fan",)
+    wanted = ("raw",) if is_raw else ("image", "polar") if is_bins else ("fan",)
     names = [name for name in wanted if name in sensor.keys]
     if not names and is_raw:
-        raise data.DataError(f"{sensor.folder}: sensor {sensor.name!r} has no {wanted[0]}; leave out --image, or set "
-                             "output.raw and output.fan: true with the calibrated model and render it again")
+        raise data.DataError(f"{sensor.folder}: sensor {sensor.name!r} has no raw; leave out --image, or set output.raw: "
+                             "true with the calibrated model and render it again")
     if not names:
         advice = ("neither images nor arrays of its bins; set output.image: true and render it again, or leave out "
                   "--bins" if is_bins else "no fans; set output.fan: true and render it again, or take the "
@@ -129,11 +132,16 @@ def pings_of(sensor, of_ping, is_bins, is_raw):
     if "objects" not in sensor.keys:
         raise data.DataError(f"{sensor.folder}: sensor {sensor.name!r} has no objects; {ADVICE}")
     shape = len(sensor.azimuth_edges_rad) - 1, len(sensor.range_edges_m) - 1
+    bins = None
     if not is_bins:
+        if is_raw:
+            bins = sensor.to_fan(np.arange(shape[0] * shape[1]).reshape(shape[::-1]), sensor.description["fan"]["width_px"], -1)
         shape = sensor.description["fan"]["width_px"], sensor.description["fan"]["height_px"]
     for k, part in enumerate(of_ping):
-        yield picture(sensor, sensor.file(k, names[0]), sensor.file(k, "objects"), "bins" if is_bins else "fan", shape,
+        one = picture(sensor, sensor.file(k, names[0]), sensor.file(k, "objects"), "bins" if is_bins else "fan", shape,
                       [part])
+        one.bins = bins
+        yield one
 
 
 def records_of(sensor, of_ping):

@@ -3,7 +3,6 @@
 
 #include "output/dataset/averaged_rows.h"
 #include "output/dataset/writer.h"
-#include "simulate/product/fan.h"
 #include "simulate/product/scan.h"
 
 namespace sonarsim {
@@ -87,26 +86,6 @@ std::optional<Writer> make_raw_writer(const WriterContext& context) {
                 model.raw(finished.ping), bytes,
                 {static_cast<std::size_t>(view.range_bins), static_cast<std::size_t>(view.beams)});
         });
-}
-
-/// fan_raw/NNNNNN.png: grey, 8 bits, the values of raw/ by the map of fan/. They are amplitudes
-/// there, as the fan's: a pixel has the root of the mean square of its bins.
-std::optional<Writer> make_raw_fan_writer(const WriterContext& context) {
-    if (raw_bytes(context) == 0 || !context.kind().has_images || !context.mission.output.fan)
-        return std::nullopt;
-    const auto map = context.assembly.fans->map(context.sonar());
-    const EchoModel& model = *context.sonar().settings.model;
-    const auto greatest = static_cast<float>((1 << model.info.raw_bits) - 1);
-    return Writer{.per_ping = PingFile{"fan_raw", ".png", PingArray::fan, {}, "raw fan"},
-                  .encode = [=, &model](const FinishedPing& finished) {
-                      const std::vector<std::uint16_t> raw = model.raw(finished.ping);
-                      Ping squares = finished.ping;
-                      std::ranges::transform(raw, squares.intensity.begin(), [=](float value) {
-                          return value * value / (greatest * greatest);
-                      });
-                      return png_bytes(render_fan(*map, squares, 1.0), map->frame.width,
-                                       map->frame.height);
-                  }};
 }
 
 /// raw.npy: 8 or 16 bits, the output of the calibrated model's instrument, in the shape of the
