@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <limits>
 #include <string>
 #include <utility>
@@ -216,7 +217,10 @@ Caster::~Caster() = default;
 
 Caster SharedTrees::caster(const Scene& scene) {
     const std::lock_guard lock(mutex_);
-    if (last_ && last_.use_count() == 1 && last_->has_first_file(scene)) {
+    const bool is_free = last_ && last_.use_count() == 1;
+    // The count alone does not order the last use on another thread before the change.
+    std::atomic_thread_fence(std::memory_order_acquire);
+    if (is_free && last_->has_first_file(scene)) {
         last_->put_others(scene);
     } else {
         last_.reset();  // before another takes memory
