@@ -41,9 +41,11 @@ struct ClassConfig {
     Location place = {};
 };
 
-/// The classes that are background: they have neither contrast, shadow nor visible share.
+/// The bins that the mask of an object has.
 enum class MaskKind { echo, silhouette, silhouette_and_shadow };
 
+/// The classes that are background, which have neither contrast, shadow nor visible share, and the
+/// masks of the others.
 struct LabelConfig {
     std::vector<std::string> background{"auto"};  ///< classes that are not objects
     MaskKind mask = MaskKind::echo;               ///< the masks of `objects`

@@ -27,7 +27,7 @@ class SceneStore : public SceneFiles {
     std::shared_ptr<const Bottom> bottom(const PlacedFile& placed,
                                          const std::vector<std::string>& nodes);
 
-    /// The SHA-256 of an input file when it was first asked for.
+    /// The SHA-256 of an input file when it was first queried.
     const std::string& sum_of(const std::filesystem::path& file);
 
   private:

@@ -39,13 +39,13 @@ struct PingLabels {
     int range_bins = 0;
     int beams = 0;
     std::vector<std::uint16_t> object;  ///< the object that gives most of the bin's echo
+    std::vector<float> share;           ///< its share of that echo; 0 without an echo
+    std::vector<std::uint16_t> second;  ///< the object that gives most of the rest
+    std::vector<float> second_share;
     /// The largest direct echo of an object that is no background, that object, and all echoes.
     std::vector<std::uint16_t> direct_object;
     std::vector<float> direct_echo, whole_echo;
-    std::vector<std::uint16_t> silhouette;  ///< and background; label_ping() leaves it empty
-    std::vector<float> share;               ///< its share of that echo; 0 without an echo
-    std::vector<std::uint16_t> second;      ///< the object that gives most of the rest
-    std::vector<float> second_share;
+    std::vector<std::uint16_t> silhouette;    ///< and background; label_ping() leaves it empty
     std::vector<std::uint16_t> class_id;      ///< the class that gives most of the echo
     std::vector<std::uint16_t> material;      ///< the material that gives most of it
     std::vector<float> multipath;             ///< share of the echo that came over a second surface
