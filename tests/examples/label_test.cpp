@@ -63,7 +63,7 @@ TEST_CASE("example of a label: the incidence on a level floor") {
 
     const View& view = sonar.settings.view;
     IncidenceFinder finder(range_bins(view), view.beams);
-    sonar.settings.model->surface_echoes(traced, view, scene, false,
+    sonar.settings.model->surface_echoes(traced, view, scene, {},
                                          [&](const EchoBlock& echoes) { finder.add(echoes); });
     std::vector<float> cosine(view.range_bins);
     finder.find(view.beams / 2, cosine);

@@ -86,7 +86,7 @@ std::vector<double> energies_of_labels(const TracedPing& traced, const Sonar& so
     const std::array<std::uint32_t, EchoBlock::most> one_source{};
     EchoSums sums(range_bins(view), view.beams);
     sonar.settings.model->surface_echoes(
-        traced, view, scene, false, [&](const EchoBlock& echoes) { sums.add(echoes, one_source); });
+        traced, view, scene, {}, [&](const EchoBlock& echoes) { sums.add(echoes, one_source); });
     std::vector<double> energies(static_cast<std::size_t>(view.range_bins) * view.beams);
     for (int j = 0; j < view.beams; ++j) {
         std::vector<float> of_beam(view.range_bins);

@@ -21,7 +21,7 @@ struct Sums {
 Sums sums_of_labels(const TracedPing& traced, const Sonar& sonar, const Scene& scene) {
     Sums sums{};
     sonar.settings.model->surface_echoes(
-        traced, sonar.settings.view, scene, false, [&](const EchoBlock& echoes) {
+        traced, sonar.settings.view, scene, {}, [&](const EchoBlock& echoes) {
             double& sum = echoes.multipath ? sums.multipath : sums.direct;
             for (int k = 0; k < echoes.count; ++k)
                 sum += static_cast<double>(echoes.weight[k]) * echoes.intensity[k];
@@ -160,6 +160,45 @@ TEST_CASE("cone labels: the shadow of a box lies where rays of its beams are hid
         CHECK(expected > 300);
         MESSAGE("shadow ", expected, " ", found, " ", both);
         CHECK(both > 0.95 * std::max(expected, found));
+    }
+}
+
+TEST_CASE("cone labels: objects alone have the bins and shadows that they have beside background") {
+    Uniform draw(58);
+    for (int n = 0; n < (test::sanitized ? 2 : 12); ++n) {
+        CAPTURE(n);
+        Scene scene = empty_scene();
+        const std::uint32_t m = add_material(scene, 0.4F);
+        add_floor(scene, 20.0F, -2.0F, m);
+        for (int k = 0; k < 3; ++k) {
+            const Eigen::Vector3f low(static_cast<float>(draw.between(1.0, 7.0)),
+                                      static_cast<float>(draw.between(-4.0, 4.0)), -2.0F);
+            const auto size = static_cast<float>(draw.between(0.05, 0.8));
+            add_box(scene, low, low + Eigen::Vector3f(size, 2.0F * size, size), m);
+        }
+        const Sonar sonar = wide_fan(spacings[n % std::size(spacings)]);
+        const Pose pose{rotation_from_rpy(0.0, radians(draw.between(10.0, 40.0)), 0.0), {}};
+        SceneObjects objects = group_objects(scene, {});
+        objects.background.assign(objects.classes.size(), 0);
+        objects.background[0] = 1;
+        const auto engine = make_engine(scene, {});
+        const TracedPing traced = trace(sonar, scene, *engine, pose, 0);
+        LabelRequest request{.objects = true, .annotations = true};
+        const std::vector<ObjectSphere> anywhere(1, {Eigen::Vector3d::Zero(), 30.0});
+        request.annotated = anywhere;
+        const auto labels = [&](bool alone) {
+            request.only_objects = alone;
+            return label_ping(traced, sonar.settings, scene, objects, *engine, request);
+        };
+        const PingLabels all = labels(false);
+        const PingLabels alone = labels(true);
+        CHECK(alone.object_shadow == all.object_shadow);
+        int without = 0;
+        for (std::size_t k = 0; k < all.size(); ++k) {
+            if (all.object[k] > 1 || alone.object[k] > 1) CHECK(alone.object[k] == all.object[k]);
+            without += alone.object[k] == 0 && all.object[k] == 1;
+        }
+        CHECK(without > 0);  // else nothing was left out
     }
 }
 

@@ -33,24 +33,22 @@ ExpectedBins expected_bins(const Sonar& sonar, const Scene& scene, const TracedP
             labels.whole_echo};
 }
 
-/// Ids of objects; background has the other bins in which its echo is the largest.
-Ids on_background(Ids ids, const SceneObjects& objects, const PingLabels& labels) {
-    for (std::size_t k = 0; k < ids.size(); ++k) {
-        const std::uint16_t id = labels.object[k];
-        if (ids[k] == 0 && id != 0 && objects.is_background(id - 1U)) ids[k] = id;
+/// The ids without those of background.
+Ids without_background(Ids ids, const SceneObjects& objects) {
+    for (std::uint16_t& id : ids) {
+        if (id != 0 && objects.is_background(id - 1U)) id = 0;
     }
     return ids;
 }
 
 /// Finds the silhouettes and returns the masks.
-Ids draw_masks(const LabelPlan& plan, const ExpectedBins& expected, const SceneObjects& objects,
-               PingLabels& labels) {
+Ids draw_masks(const LabelPlan& plan, const ExpectedBins& expected, PingLabels& labels) {
     const Standouts found = find_standouts(expected);
     // Records are tidied in their pictures.
-    Ids ids = plan.objects ? tidied(expected.frame, found.object, found.ratio) : found.object;
-    labels.silhouette = on_background(ids, objects, labels);
+    labels.silhouette =
+        plan.objects ? tidied(expected.frame, found.object, found.ratio) : found.object;
     if (!plan.objects || plan.mask != MaskKind::silhouette_and_shadow) return labels.silhouette;
-    return on_background(with_shadows(expected.frame, ids, labels.object_shadow), objects, labels);
+    return with_shadows(expected.frame, labels.silhouette, labels.object_shadow);
 }
 
 }  // namespace
@@ -65,16 +63,19 @@ LabelPlan plan_labels(const Mission& mission, const Assembly& assembly, const So
     const bool objects = listed(Label::objects);
     const bool shares = listed(Label::share) || listed(Label::second) || listed(Label::multipath);
     const OutputConfig& output = mission.output;
+    const bool draws = objects && mission.labels.mask != MaskKind::echo;
+    const bool only_objects = has_images && !draws && output.labels == std::vector{Label::objects};
     LabelPlan plan;
     plan.on = !output.labels.empty();
     plan.request = {.objects = objects || listed(Label::instance) || shares,
+                    .only_objects = only_objects,
                     .shares = shares,
                     .classes = listed(Label::class_name),
                     .materials = listed(Label::material),
                     .elevation = listed(Label::elevation),
                     .shadow = listed(Label::shadow),
                     .height = listed(Label::height),
-                    .direct_echoes = objects && mission.labels.mask != MaskKind::echo,
+                    .direct_echoes = draws,
                     .annotations = objects,
                     .bottom = assembly.bottom.get()};
     plan.mask = mission.labels.mask;
@@ -100,10 +101,10 @@ LabelledPing label_for_writers(const LabelPlan& plan, const Assembly& assembly, 
     out.bins =
         label_ping(traced, sonar.settings, assembly.scene, assembly.objects, engine, request);
     out.fan_bins = plan.fan.get();
-    const Ids mask = request.direct_echoes
-                         ? draw_masks(plan, expected_bins(sonar, assembly.scene, traced, out.bins),
-                                      assembly.objects, out.bins)
-                         : out.bins.object;
+    const Ids mask =
+        request.direct_echoes
+            ? draw_masks(plan, expected_bins(sonar, assembly.scene, traced, out.bins), out.bins)
+            : without_background(out.bins.object, assembly.objects);
     if (!plan.objects) return out;
     out.polar = object_masks(mask, out.bins.range_bins);
     std::span<const PixelBox> fan_boxes;

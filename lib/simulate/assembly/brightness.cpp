@@ -63,7 +63,7 @@ std::vector<std::uint8_t> bins_with_surface(const TracedPing& traced, const Ping
     const auto mark = [&](const TracedPing& group, int number) {
         EchoSums sums(bins, settings.view.beams);
         settings.model->surface_echoes(
-            group, settings.view, scene, false,
+            group, settings.view, scene, {},
             [&](const EchoBlock& echoes) { sums.add(echoes, one_source); });
         for (std::size_t j = 0; j < beams; ++j) {
             if (!traced.group_of_beam.empty() && traced.group_of_beam[j] != number) continue;

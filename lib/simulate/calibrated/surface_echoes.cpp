@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "simulate/calibrated/model.h"
+#include "simulate/calibrated/near_objects.h"
 #include "simulate/calibrated/particle_echoes.h"
 #include "simulate/calibrated/patches.h"
 #include "simulate/calibrated/specular_echoes.h"
@@ -210,17 +211,29 @@ class SurfaceEchoFinder {
 }  // namespace
 
 SurfaceEchoes CalibratedModel::surface_echoes(const TracedPing& traced, const View& view,
-                                              const Scene& scene, bool patches,
+                                              const Scene& scene, const EchoRequest& request,
                                               const UseEchoes& use) const {
     if (!is_prepared_for(scene))
-        return prepared_for(scene)->surface_echoes(traced, view, scene, patches, use);
+        return prepared_for(scene)->surface_echoes(traced, view, scene, request, use);
     return std::visit(
         [&]<class Beams>(const Beams& of_model) {
-            SurfaceEchoFinder<Beams> finder(*this, of_model, traced, view.shape, patches, use);
-            finder.add_surface(traced.samples.items);
-            finder.add_surface(traced.outside_sector);
+            const std::vector<SpecularPath> paths = specular_paths(traced, scene);
+            SurfaceEchoFinder<Beams> finder(*this, of_model, traced, view.shape, request.patches,
+                                            use);
+            const bool is_local = request.objects && traced.particles.samples.empty() &&
+                                  paths.empty() && std::is_same_v<Beams, ArrayBeams>;
+            std::vector<Sample> inside, outside;
+            if (is_local) {
+                NearObjects near(*request.objects);
+                near.add(traced.samples.items);
+                near.add(traced.outside_sector);
+                inside = near.among(traced.samples.items);
+                outside = near.among(traced.outside_sector);
+            }
+            finder.add_surface(is_local ? inside : traced.samples.items);
+            finder.add_surface(is_local ? outside : traced.outside_sector);
             finder.add_particles(traced.particles);
-            finder.add_multipath(specular_paths(traced, scene));
+            finder.add_multipath(paths);
             return finder.take();
         },
         beams);

@@ -200,7 +200,9 @@ PingLabels label_group(const TracedPing& traced, const PingSettings& settings, c
     PingLabels labels = blank_labels(view, request);
     SurfaceSums surfaces(view, objects);
     const SurfaceEchoes echoes =
-        settings.model->surface_echoes(traced, view, scene, request.elevation || request.height,
+        settings.model->surface_echoes(traced, view, scene,
+                                       {.patches = request.elevation || request.height,
+                                        .objects = request.only_objects ? &objects : nullptr},
                                        [&](const EchoBlock& block) { surfaces.add(block); });
     label_surfaces(surfaces, objects, request, labels);
     std::optional<PingShadows> shadows =

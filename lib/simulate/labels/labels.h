@@ -15,6 +15,8 @@ namespace sonarsim {
 /// The labels to find for the bins of a ping.
 struct LabelRequest {
     bool objects = false;
+    /// Needs objects: bins without an object or its shadow may have none, not even background.
+    bool only_objects = false;
     bool shares = false;  ///< needs objects: share, second, second_share and multipath
     bool classes = false;
     bool materials = false;

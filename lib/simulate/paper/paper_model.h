@@ -18,7 +18,7 @@ struct PaperModel final : EchoModel {
 
     void form(const TracedPing& traced, const FormContext& context, Ping& ping) const override;
     SurfaceEchoes surface_echoes(const TracedPing& traced, const View& view, const Scene& scene,
-                                 bool patches, const UseEchoes& use) const override;
+                                 const EchoRequest& request, const UseEchoes& use) const override;
     SignalAndNoise signal_and_noise(float clean, float noisy, int range_bin,
                                     int beam) const override;
 };

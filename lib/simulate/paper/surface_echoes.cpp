@@ -55,7 +55,7 @@ void add_direct(const Samples& samples, const View& view, const Scene& scene, Ec
 }  // namespace
 
 SurfaceEchoes PaperModel::surface_echoes(const TracedPing& traced, const View& view,
-                                         const Scene& scene, bool patches,
+                                         const Scene& scene, const EchoRequest& request,
                                          const UseEchoes& use) const {
     const Samples& samples = traced.samples;
     SurfaceEchoes out;
@@ -68,7 +68,7 @@ SurfaceEchoes PaperModel::surface_echoes(const TracedPing& traced, const View& v
         bounced.echoes, bounced.beam_begin,
         [&](std::uint32_t k) { return &samples.items[bounced.sample[k]]; }, blocks);
     blocks.flush();
-    if (!patches) return out;
+    if (!request.patches) return out;
     out.patch_begin = samples.beam_begin;
     out.patches.reserve(samples.items.size());
     out.patch_echoes.reserve(samples.items.size());

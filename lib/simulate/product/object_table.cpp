@@ -156,11 +156,10 @@ void add_shadows(const PingLabels& labels, std::span<const PixelBox> fan_boxes,
 /// Compares objects and their shadows with their surroundings.
 class Contrasts {
   public:
-    Contrasts(const SceneObjects& objects, const LevelMap& map)
-        : map_(map), is_background_(background_ids(objects)) {}
+    Contrasts(const LevelMap& map, std::span<const std::uint8_t> is_background)
+        : map_(map), is_background_(is_background) {}
 
     void add_to(ObjectInPing& seen) const {
-        if (is_background_[seen.id] != 0) return;
         const auto id = static_cast<std::uint16_t>(seen.id);
         seen.contrast_db = contrast_db(map_, map_.object, id, bins_of(seen), is_background_);
         if (!seen.shadow.is_empty()) {
@@ -171,7 +170,7 @@ class Contrasts {
 
   private:
     LevelMap map_;
-    std::vector<std::uint8_t> is_background_;  ///< indexed by id
+    std::span<const std::uint8_t> is_background_;  ///< indexed by id
 };
 
 }  // namespace
@@ -188,6 +187,7 @@ std::vector<ObjectInPing> visible_objects(const Sonar& sonar, const SceneObjects
                                           const Ping& ping, std::span<const PixelBox> fan_boxes) {
     std::vector<ObjectInPing> all(objects.objects.size());
     std::vector<BinTotals> totals(all.size());
+    const std::vector<std::uint8_t> is_background = background_ids(objects);
     const std::vector<float> levels = levels_by_beam(ping);
     const bool fan = std::ssize(sonar.azimuth_edges_rad) == labels.beams + 1;
     const bool full_turn = fan && is_full_turn(sonar.settings.view);
@@ -209,6 +209,7 @@ std::vector<ObjectInPing> visible_objects(const Sonar& sonar, const SceneObjects
         };
         const auto own = std::span(labels.facts()).subspan(begin, labels.range_bins);
         for_each_run(own, [&](std::uint16_t id, int from, int to) {
+            if (is_background[id] != 0) return;
             add_bins(all[id - 1], from, to, j);
             add_to_totals(std::span(levels).subspan(begin + from, to - from),
                           std::span(ranges_m).subspan(from), near_first(all[id - 1].beam_first),
@@ -218,7 +219,7 @@ std::vector<ObjectInPing> visible_objects(const Sonar& sonar, const SceneObjects
     add_shadows(labels, fan_boxes, all);
     const LevelMap map{labels.beams, labels.range_bins, labels.facts(), labels.object_shadow,
                        levels,       full_turn};
-    const Contrasts contrasts(objects, map);
+    const Contrasts contrasts(map, is_background);
     const std::vector<Eigen::AlignedBox3f> boxes = visible_boxes(objects, traced);
     std::vector<ObjectInPing> seen;
     for (std::size_t k = 0; k < all.size(); ++k) {

@@ -14,19 +14,17 @@
 
 namespace sonarsim {
 
-/// One object in one ping. Its bins are those in which its echo is the largest.
+/// An object in a ping that is no background. Its bins are those in which its echo is the largest.
 struct ObjectInPing {
     std::uint32_t id = 0;                 ///< as in PingLabels
     int range_first = 0, range_last = 0;  ///< inclusive bounds of its bins
     int beam_first = 0, beam_last = 0;
     std::uint64_t bins = 0;
-    double level = 0.0;                       ///< mean intensity of its bins
-    std::optional<double> surrounding_level;  ///< mean intensity of the other bins around them
-    double range_m = 0.0;                     ///< mean of its bins
-    std::optional<double> azimuth_rad;        ///< mean of its bins, for a fan
-    Eigen::AlignedBox3f box_sensor_m;         ///< box around its visible surface, sensor frame
-
-    // For an object that is not background:
+    double level = 0.0;                        ///< mean intensity of its bins
+    std::optional<double> surrounding_level;   ///< mean intensity of the other bins around them
+    double range_m = 0.0;                      ///< mean of its bins
+    std::optional<double> azimuth_rad;         ///< mean of its bins, for a fan
+    Eigen::AlignedBox3f box_sensor_m;          ///< box around its visible surface, sensor frame
     std::optional<double> contrast_db;         ///< level over its surroundings, contrast_db()
     BinBox shadow;                             ///< box of its bins of PingLabels::object_shadow
     std::uint64_t shadow_bins = 0;             ///< number of these bins

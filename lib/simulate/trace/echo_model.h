@@ -71,9 +71,8 @@ class EchoModel {
     virtual void form(const TracedPing& traced, const FormContext& context, Ping& ping) const = 0;
     /// Hands the echoes of a traced ping to `use`, direct ones first, for labels: before beam
     /// pattern and pulse spread them and without random terms. Echoes of one bin have one unit.
-    /// With `patches` the result has the visible surface, too.
     virtual SurfaceEchoes surface_echoes(const TracedPing& traced, const View& view,
-                                         const Scene& scene, bool patches,
+                                         const Scene& scene, const EchoRequest& request,
                                          const UseEchoes& use) const = 0;
     /// This model with the data that depend on the scene alone, found once for all pings; nullptr
     /// if it needs none. A model that was not prepared forms the same images, slower.

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "input/scene/objects.h"
 #include "simulate/trace/cone_beams.h"
 #include "simulate/trace/range_boxes.h"
 #include "simulate/visibility/engine.h"
@@ -57,6 +58,14 @@ struct EchoPatch {
     Eigen::Vector3f position, edge_u, edge_v;    ///< as in Sample
     std::uint32_t echo_begin = 0, echo_end = 0;  ///< its echoes in `patch_echoes`
     const Sample* sample;
+};
+
+/// The echoes and surface that labels need.
+struct EchoRequest {
+    bool patches = false;  ///< the visible surface, too
+    /// Not null: the bins that none of these objects, but for background, reaches or hides surface
+    /// in may lack echoes.
+    const SceneObjects* objects = nullptr;
 };
 
 /// The surface that labels need besides the echoes. Samples are those of the traced ping, which

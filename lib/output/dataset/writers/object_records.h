@@ -56,23 +56,6 @@ struct SeenObject {
     }
 };
 
-/// The ids of a picture with the objects as tidied(), and `shadow` if it is not null. Background
-/// keeps its other bins.
-template <class IsBackground>
-std::vector<std::uint16_t> drawn_ids(const MaskFrame& frame, const std::vector<std::uint16_t>& ids,
-                                     IsBackground is_background,
-                                     const std::vector<std::uint16_t>* shadow = nullptr) {
-    std::vector<std::uint16_t> out = ids;
-    for (std::uint16_t& id : out)
-        id = is_background(id) ? 0 : id;
-    out = tidied(frame, out);
-    if (shadow) out = with_shadows(frame, out, *shadow);
-    for (std::size_t k = 0; k < out.size(); ++k) {
-        if (out[k] == 0 && is_background(ids[k])) out[k] = ids[k];
-    }
-    return out;
-}
-
 inline nlohmann::ordered_json rounded(const std::optional<double>& value, double per_unit) {
     if (!value) return nullptr;
     return std::round(*value * per_unit) / per_unit;
@@ -93,15 +76,14 @@ class ObjectRecords {
             range_m.push_back(0.5 * (edges[k] + edges[k + 1]));
     }
 
-    bool is_background(std::uint32_t id) const { return is_background_[id] != 0; }
-    /// True if masks are silhouettes, whose records drawn_ids() has to tidy.
+    /// True if masks are silhouettes, whose records have to be tidied.
     bool is_drawn() const { return context_.mission.labels.mask != MaskKind::echo; }
     const ResolutionCell& cell() const { return context_.sonar().settings.model->info.cell; }
     bool has_shadows() const {
         return context_.mission.labels.mask == MaskKind::silhouette_and_shadow;
     }
 
-    /// Reads `count` pings from `first` on into the lines from `line` on.
+    /// Reads `count` pings from `first` on into the lines from `line` on, without background.
     void read(std::size_t first, std::size_t count, std::size_t line, RecordValues& values) const {
         const auto read_one = [&](const RecordFile& file, auto& all) {
             const auto bins = static_cast<std::size_t>(values.bins);
@@ -109,6 +91,8 @@ class ObjectRecords {
                       std::as_writable_bytes(std::span(all).subspan(line * bins, count * bins)));
         };
         read_one(object_, values.object);
+        for (std::uint16_t& id : values.object)
+            id = is_background_[id] != 0 ? 0 : id;
         read_one(shadow_, values.shadow);
         read_one(visible_share_, values.visible_share);
         read_one(level_, values.level);
@@ -133,7 +117,7 @@ class ObjectRecords {
 
     nlohmann::ordered_json json(const SeenObject& seen, const ObjectMask& mask) const {
         const auto mean = [&](double sum, int count) -> std::optional<double> {
-            if (count == 0 || is_background(seen.id)) return std::nullopt;
+            if (count == 0) return std::nullopt;
             return sum / count;
         };
         constexpr double whole = 65535.0;

@@ -51,9 +51,7 @@ class Strip {
             const ResolutionCell cell =
                 shape_.upright ? ResolutionCell{range_bins, 1.0} : ResolutionCell{1.0, range_bins};
             const MaskFrame frame{static_cast<int>(across), static_cast<int>(down), cell};
-            pass_of_pixel_ = drawn_ids(frame, pass_of_pixel_, [&](std::uint16_t pass) {
-                return source_.is_background(passes_[pass].id);
-            });
+            pass_of_pixel_ = tidied(frame, pass_of_pixel_);
         }
         std::vector<Json> objects;
         for (const ObjectMask& mask : object_masks(pass_of_pixel_, static_cast<int>(down))) {
@@ -141,7 +139,6 @@ class Strip {
         pass.clipped = is_edge(box.first_bin) || is_edge(box.last_bin) || box.first_line == 0 ||
                        pass.pings.second == pings_;
         if (shape_.two_sides) pass.side = port ? "port" : "starboard";
-        if (source_.is_background(pass.id)) return;
         if (shape_.two_sides) pass.bearing_deg = port ? -90.0 : 90.0;
         add_contrasts_of(pass);
         const BinBox& shadow = pass.shadow;
@@ -207,7 +204,6 @@ SeenObject visible_in_sweep(const ObjectRecords& source, const RecordValues& dis
     const bool at_side =
         !display.full_turn && (box.first_line == 0 || box.last_line + 1 == display.lines);
     seen.clipped = at_side || box.first_bin == 0 || box.last_bin + 1 == display.bins;
-    if (source.is_background(id)) return seen;
     seen.bearing_deg = -degrees(arctan2(to_port, ahead));
     source.add_contrasts(display, box, {0, display.lines - 1, 0, display.bins - 1}, seen);
     return seen;
@@ -231,10 +227,8 @@ void write_sweeps(const WriterContext& context, const std::filesystem::path& fol
         Ids mask_ids = display.object;
         if (source.is_drawn()) {
             const MaskFrame frame{display.lines, display.bins, source.cell()};
-            const auto is_background = [&](std::uint16_t id) { return source.is_background(id); };
-            drawn.object = drawn_ids(frame, display.object, is_background);
-            mask_ids = drawn_ids(frame, display.object, is_background,
-                                 source.has_shadows() ? &display.shadow : nullptr);
+            mask_ids = drawn.object = tidied(frame, display.object);
+            if (source.has_shadows()) mask_ids = with_shadows(frame, mask_ids, display.shadow);
         }
         std::vector<Json> objects;
         for (const ObjectMask& mask : masks(mask_ids)) {
@@ -242,7 +236,7 @@ void write_sweeps(const WriterContext& context, const std::filesystem::path& fol
                 visible_in_sweep(source, drawn, static_cast<std::uint16_t>(mask.id), whole);
             seen.pings = {begin, end};
             const auto shadow = std::ranges::find(shadows, mask.id, &ObjectMask::id);
-            if (shadow != shadows.end() && !source.is_background(mask.id))
+            if (shadow != shadows.end())
                 seen.shadow_px = {shadow->left, shadow->right, shadow->top, shadow->bottom};
             objects.push_back(source.json(seen, mask));
         }

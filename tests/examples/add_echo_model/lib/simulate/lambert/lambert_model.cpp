@@ -34,7 +34,7 @@ void LambertModel::form(const TracedPing& traced, const FormContext& context, Pi
 }
 
 SurfaceEchoes LambertModel::surface_echoes(const TracedPing& traced, const View& view,
-                                           const Scene& scene, bool patches,
+                                           const Scene& scene, const EchoRequest& request,
                                            const UseEchoes& use) const {
     SurfaceEchoes out;
     EchoBlocks blocks(use);
@@ -43,7 +43,7 @@ SurfaceEchoes LambertModel::surface_echoes(const TracedPing& traced, const View&
             const float echo = echo_of(sample, scene);
             blocks.add(static_cast<std::uint32_t>(beam), arrival_range(sample.position), 0.0F, echo,
                        1.0F, &sample);
-            if (!patches) continue;
+            if (!request.patches) continue;
             const auto at = static_cast<std::uint32_t>(out.patch_echoes.size());
             out.patch_echoes.push_back({static_cast<std::uint32_t>(beam), echo});
             out.patches.push_back(
