@@ -20,11 +20,12 @@ constexpr int bar_width = 20;
 
 /// A stage in the words of users.
 std::string_view title_of(std::string_view stage) {
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 6> titles{
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 7> titles{
         {{"trace", "visible surface"},
          {"multipath", "multipath"},
          {"accumulate", "echoes"},
          {"noise", "noise and beams"},
+         {"label", "labels"},
          {"encode", "making files"},
          {"write", "writing files"}}};
     const auto found =

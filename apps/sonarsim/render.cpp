@@ -59,9 +59,10 @@ double pings_per_s(const RenderSummary& summary) {
 
 std::vector<StageSeconds> stage_seconds(const RenderSummary& summary) {
     std::vector<StageSeconds> stages;
-    stages.reserve(ping_timers.size() + 2);
+    stages.reserve(ping_timers.size() + 3);
     for (const auto& timer : ping_timers)
         stages.emplace_back(timer.name, summary.stages.*timer.member);
+    stages.emplace_back("label", summary.label_seconds);
     stages.emplace_back("encode", summary.encode_seconds);
     stages.emplace_back("write", summary.write_seconds);
     return stages;

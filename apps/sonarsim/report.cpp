@@ -61,7 +61,8 @@ std::vector<Setting> settings_of(const ReportArguments& arguments, const Mission
 
 int report(const ReportArguments& arguments) {
     start_logging(arguments.log);
-    const Mission mission = without_water_echoes(load(arguments.mission));
+    const Mission whole = load(arguments.mission);
+    const Mission mission = without_water_echoes(whole);
     if (mission.variants > 0) {
         throw InputError({arguments.mission.file.string()},
                          "the report measures one scene, and this mission has variants; give it "
@@ -91,6 +92,8 @@ int report(const ReportArguments& arguments) {
     const std::vector<Setting> settings = settings_of(arguments, mission, assembly);
     Report result = make_report(mission, assembly, settings, options, progress);
     result.multipath = measure_multipath(mission, assembly, options, progress);
+    progress("the job with labels and files");
+    result.job = measure_job(whole, result.rows.front().ms_rays, options);
     if (!arguments.mission.out.empty()) write_files(result, mission.output.folder);
     if (!arguments.json_file.empty()) write_file(arguments.json_file, report_json(result));
     if (!arguments.log.quiet) fmt::print("{}", report_markdown(result));

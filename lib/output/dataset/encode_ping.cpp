@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "core/clock.h"
 #include "simulate/assembly/engine_at.h"
 #include "simulate/ping/sonar.h"
 #include "simulate/sonar/measured.h"
@@ -77,7 +78,9 @@ void finish_ping(const Assembly& assembly, const LabelPlan& plan, const Rendered
 WrittenPing encode_ping(const Assembly& assembly, const Writers& writers, const LabelPlan& plan,
                         const RenderedPing& rendered) {
     WrittenPing out;
+    Stopwatch watch;
     finish_ping(assembly, plan, rendered, [&](const FinishedPing& finished) {
+        out.label_seconds = watch.lap();
         out.clipped_pixels = finished.clipped_pixels;
         for (const Writer& writer : writers)
             out.parts.push_back(writer.encode(finished));

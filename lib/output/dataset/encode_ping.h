@@ -37,6 +37,7 @@ void finish_ping(const Assembly& assembly, const LabelPlan& plan, const Rendered
 struct WrittenPing {
     std::vector<std::string> parts;    ///< for each writer the bytes of a file or a record
     std::uint64_t clipped_pixels = 0;  ///< intensities above the white of pictures
+    double label_seconds = 0.0;        ///< before the writers
 };
 
 /// Hands a ping to the writers of its sensor. `plan` is that of the sensor.

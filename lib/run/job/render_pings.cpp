@@ -32,7 +32,8 @@ PingReport run_ping(const RenderRun& run, const VisibilityEngine& engine, const 
     if (to || plan.on) {
         written =
             encode_ping(run.assembly, to ? to->writers[id.sensor] : Writers(), plan, rendered);
-        summary.encode_seconds = watch.lap();
+        summary.label_seconds = written.label_seconds;
+        summary.encode_seconds = watch.lap() - written.label_seconds;
     }
     summary.counts = ping.counts;
     summary.clipped_pixels = to ? written.clipped_pixels : 0;

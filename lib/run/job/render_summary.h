@@ -19,6 +19,7 @@ struct RenderSummary {
     bool unlocked = false;      ///< the disk has no locks that would refuse a second run
     double seconds = 0.0;       ///< wall clock from the first ping to the last
     PingSeconds stages;         ///< summed over the pings, and so over threads
+    double label_seconds = 0.0;
     double encode_seconds = 0.0;
     double write_seconds = 0.0;
     PingCounts counts;                   ///< summed over the pings
@@ -31,6 +32,7 @@ struct RenderSummary {
         pings += more.pings;
         skipped += more.skipped;
         stages += more.stages;
+        label_seconds += more.label_seconds;
         encode_seconds += more.encode_seconds;
         write_seconds += more.write_seconds;
         counts += more.counts;

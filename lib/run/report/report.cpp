@@ -85,9 +85,8 @@ std::vector<Reference> cast_references(const Comparison& comparison, const Sonar
     std::vector<Reference> references(pings.poses.size());
     in_parallel(references.size(), [&](std::size_t p) {
         const SonarAtPose then = pings.at_pose(sonar, p);
-        references[p] =
-            cast_reference(comparison.caster, pings.scene, *then,
-                           sensor_pose(*then, pings.poses[p], pings.indices[p]), goal);
+        references[p] = cast_reference(comparison.caster, pings.scene, *then,
+                                       sensor_pose(*then, pings.poses[p], pings.indices[p]), goal);
     });
     const auto most = std::ranges::max_element(references, {}, &Reference::moved);
     report.references.push_back({sonar.config.name, mean_over(references, &Reference::moved),
@@ -102,11 +101,9 @@ void measure_errors(const PingSet& pings, const Trial& trial,
     std::vector<double> samples(poses);
     in_parallel(poses, [&](std::size_t p) {
         const SonarAtPose then = pings.at_pose(trial.sonar, p);
-        const Ping ping =
-            direct_image(*then, pings.scene, *trial.engine,
-                         sensor_pose(*then, pings.poses[p], pings.indices[p]));
-        errors[p] =
-            image_error(ping.intensity, references[p].intensity, references[p].scored);
+        const Ping ping = direct_image(*then, pings.scene, *trial.engine,
+                                       sensor_pose(*then, pings.poses[p], pings.indices[p]));
+        errors[p] = image_error(ping.intensity, references[p].intensity, references[p].scored);
         samples[p] = static_cast<double>(ping.counts.samples);
     });
     row.relative_l1 = mean_over(errors, &ImageError::relative_l1);
@@ -148,10 +145,10 @@ std::vector<Trial> trials_of(const PingSet& pings, const Assembly& assembly, con
         trial.sonar.settings.view.relative_l1 = setting.relative_l1;
         trial.poses.resize(pings.poses.size());
         const bool is_rays = setting.kind == EngineKind::rays;
-        trial.engine = is_rays && rays
-                           ? rays
-                           : make_engine(assembly.scene,
-                                         engine_settings(setting, pings.mission, assembly));
+        trial.engine =
+            is_rays && rays
+                ? rays
+                : make_engine(assembly.scene, engine_settings(setting, pings.mission, assembly));
         if (is_rays) rays = trial.engine;
     }
     return trials;

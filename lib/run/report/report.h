@@ -63,6 +63,15 @@ struct ReferenceQuality {
     double rays_per_bin = 0.0;  ///< rays that echoed, per occupied bin
 };
 
+/// The images that a mission makes, with labels and files.
+struct JobRow {
+    std::uint64_t images = 0;   ///< measured
+    double images_per_s = 0.0;  ///< all threads, without the set-up
+    /// One thread: the scene and its engine, once; and the stages of an image.
+    double ms_set_up = 0.0, ms_trace = 0.0, ms_form = 0.0, ms_facts = 0.0, ms_files = 0.0;
+    double times_rays = 0.0;  ///< an image as a multiple of ReportRow::ms_rays
+};
+
 struct ReportOptions {
     int poses = 8;
     int rounds = 5;
@@ -80,6 +89,7 @@ struct Report {
     std::vector<ReportRow> rows;
     std::vector<ReferenceQuality> references;  ///< one per sonar
     std::vector<MultipathRow> multipath;       ///< only for sonars that have it
+    JobRow job;
 };
 
 /// Reports progress.
@@ -101,6 +111,10 @@ std::vector<MultipathConfig> multipath_settings(const MultipathConfig& own);
 std::vector<MultipathRow> measure_multipath(const Mission& mission, const Assembly& assembly,
                                             const ReportOptions& options,
                                             const ReportProgress& progress);
+
+/// Renders some pings of a mission into a temporary folder. `ms_rays` is the time of the rays that
+/// an image is compared with.
+JobRow measure_job(const Mission& mission, double ms_rays, const ReportOptions& options);
 
 /// The report as JSON, and as Markdown tables.
 std::string report_json(const Report& report);

@@ -44,6 +44,13 @@ Json json_of(const MultipathRow& row) {
             {"times_without", row.times_without}};
 }
 
+Json json_of(const JobRow& row) {
+    return {{"images", row.images},       {"images_per_s", row.images_per_s},
+            {"ms_set_up", row.ms_set_up}, {"ms_trace", row.ms_trace},
+            {"ms_form", row.ms_form},     {"ms_facts", row.ms_facts},
+            {"ms_files", row.ms_files},   {"times_131k_rays", row.times_rays}};
+}
+
 Json json_of(const ReferenceQuality& reference) {
     return {{"sensor", reference.sensor},
             {"moved_mean", reference.moved},
@@ -68,6 +75,7 @@ Json json_of(const Report& report) {
     json["rows"] = list_of(report.rows);
     json["reference"] = list_of(report.references);
     json["multipath_rows"] = list_of(report.multipath);
+    json["job"] = json_of(report.job);
     return json;
 }
 
@@ -152,6 +160,16 @@ std::string report_markdown(const Report& report) {
                        {"ms_per_ping", "ms per ping"},
                        {"times_without", "times the ping without"}});
     }
+    const JobRow& job = report.job;
+    text += fmt::format(
+        "\nThe job makes {} images/s on {} threads, {} of them with files and labels. An image "
+        "takes, "
+        "on one thread: trace {} ms, form {} ms, facts {} ms, files {} ms; {} x 131k rays. Set-up: "
+        "{} "
+        "ms.\n",
+        short_number(job.images_per_s), report.threads, job.images, short_number(job.ms_trace),
+        short_number(job.ms_form), short_number(job.ms_facts), short_number(job.ms_files),
+        short_number(job.times_rays), short_number(job.ms_set_up));
     return text;
 }
 

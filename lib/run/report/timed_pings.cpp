@@ -47,8 +47,8 @@ std::vector<Eigen::Vector3f> view_rays(const View& view) {
         const double step = (column.along_max - column.along_min) / count;
         const SinCosFloat across = sincos_float(column.across);
         for (int i = 0; i < count; ++i)
-            out.push_back(direction(view.shape, across,
-                                    sincos_float(column.along_min + (i + 0.5) * step)));
+            out.push_back(
+                direction(view.shape, across, sincos_float(column.along_min + (i + 0.5) * step)));
     }
     return out;
 }
