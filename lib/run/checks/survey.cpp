@@ -182,8 +182,7 @@ void add_bins(const Sonar& sonar, double full_scale, const Ping& clean, const Pi
         sums.noise += noise;
     }
     sums.bins += ping.intensity.size();
-    // Pulses and side lobes also fill bins beyond the image.
-    sums.occupied += std::min<std::size_t>(ping.counts.occupied_bins, ping.intensity.size());
+    sums.occupied += ping.counts.occupied_bins;
 }
 
 void finish(const BinSums& sums, SonarSurvey& out) {

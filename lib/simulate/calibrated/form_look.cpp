@@ -1,6 +1,8 @@
 #include "simulate/calibrated/form_look.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <utility>
 #include <vector>
@@ -75,7 +77,12 @@ class ImageFormer {
         // 3. Pulse.
         const std::size_t echo_bins =
             grid.convolve_pulse(expected_power ? model_.power_taps : model_.amplitude_taps);
-        ping_.counts.occupied_bins = has_water ? visible_bins : echo_bins;
+        // The grid has samples of the receiver and guard beams, the image bins.
+        const View& view = context_.view;
+        const double bins_per_cell =
+            static_cast<double>(view.range_bins) / grid.rows() * view.beams / grid.columns();
+        ping_.counts.occupied_bins = static_cast<std::uint64_t>(
+            std::ceil(bins_per_cell * static_cast<double>(has_water ? visible_bins : echo_bins)));
         // 3, 4. Beams, the receiver's noise and its gain.
         beamform(beams_, grid, expected_power, context_.terms.random > 1,
                  context_.draws.of(Stream::receiver_noise), model_.row_gain, ping_.intensity);
