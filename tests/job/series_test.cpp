@@ -75,6 +75,7 @@ TEST_SUITE("job") {
                 CHECK(f[4] == found[j].quality);
             }
         }
+        CHECK(read_npy(out / "front/polar/000003.npy").values == ping(0, 3).intensity);
         for (std::uint32_t k = 0; k < 4; ++k) {
             const std::vector<float> column = ping(3, 2 * k).intensity;
             CHECK(std::equal(column.begin(), column.end(), echogram.begin() + k * 60));
