@@ -33,31 +33,4 @@ TEST_CASE("a row becomes a streak when its share at normal incidence reaches the
     CHECK(reduced[5] == 2.0F);
 }
 
-TEST_CASE("streaks come from walls seen face on") {
-    SonarConfig config;
-    config.name = "fls";
-    config.azimuth_deg = 60.0;
-    config.elevation_deg = 12.0;
-    config.range_bins = 100;
-    config.azimuth_bins = 64;
-    config.streaks.mode = StreakMode::add;
-    const auto rows = [&](float tilt) {
-        // x = 5 + tilt y: incidence is arctan(tilt) off the normal on the boresight.
-        Scene scene = empty_scene();
-        const std::uint32_t m = add_material(scene, 0.5F);
-        add_quad(scene, {5 - 9 * tilt, -9, -9}, {5 + 9 * tilt, 9, -9}, {5 + 9 * tilt, 9, 9},
-                 {5 - 9 * tilt, -9, 9}, m);
-        return render_ping(make_sonar(config, {}), scene, *make_rays_engine(scene), Pose{}, {})
-            .counts.streak_rows;
-    };
-    // Face on, the normal is in view. At a wall in the distance D, ranges below D / cos 8 degrees
-    // are within 8 degrees of it: 5 to 5.049 m, less than a bin of 0.099 m: one row, or two.
-    CHECK(rows(0.0F) >= 1);
-    CHECK(rows(0.0F) <= 2);
-    // At 45 degrees the nearest to normal that is seen is 45 - 30 degrees.
-    CHECK(rows(1.0F) == 0);
-    config.streaks.mode = StreakMode::none;
-    CHECK(rows(0.0F) == 0);
-}
-
 TEST_SUITE_END();

@@ -99,29 +99,4 @@ TEST_CASE("the narrowest lobe that a mission can ask for leaves finite scales") 
     }
 }
 
-TEST_CASE("range noise drops what it pushes beyond the range") {
-    // A wall just inside range_max and a noise of many bins: without the drop the last bin would
-    // be occupied in almost every ping.
-    Scene scene = empty_scene();
-    const std::uint32_t m = add_material(scene, 1.0F);
-    add_quad(scene, {2.45F, -1, -1}, {2.45F, 1, -1}, {2.45F, 1, 1}, {2.45F, -1, 1}, m);
-    SonarConfig config = small_imaging();
-    config.azimuth_deg = config.elevation_deg = 1.0;
-    config.range_max_m = 2.5;
-    config.range_bins = 100;
-    config.azimuth_bins = 1;
-    config.noise.range_lambda_m = 1.0;
-    config.noise.scatterer_m = 1000.0;
-    const Sonar sonar = make_sonar(config, {});
-    const auto engine = make_rays_engine(scene);
-    int occupied = 0;
-    for (std::uint64_t seed = 0; seed < 1000; ++seed) {
-        const Ping ping = render_ping(sonar, scene, *engine, Pose{}, {seed, 0});
-        occupied += ping.at(99, 0) > 0.0F;
-        if (ping.counts.out_of_range > 0) CHECK(ping.at(99, 0) == 0.0F);
-    }
-    // P(w within the last bin's 0.02 m) is about 0.02.
-    CHECK(occupied < 50);
-}
-
 TEST_SUITE_END();

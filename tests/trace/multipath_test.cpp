@@ -140,50 +140,6 @@ TEST_CASE("every sample is counted once") {
     }
 }
 
-TEST_CASE("the exact method is the paper's equations, sample by sample") {
-    const Scene scene = tank();
-    const View view = fan(60.0, 12.0);
-    const Found found = find(scene, view, clusters_of(0), tank_poses()[1]);
-    const auto engine = make_rays_engine(scene);
-    std::vector<const BouncePath*> bounce_of(found.samples.items.size(), nullptr);
-    for (const BouncePath& b : found.bounces)
-        bounce_of[b.sample] = &b;
-    int differ = 0;
-    for (std::size_t i = 0; i < bounce_of.size(); ++i) {
-        const Sample& sample = found.samples.items[i];
-        const Eigen::Vector3f v = -sample.position.normalized();
-        const Eigen::Vector3f r = -v + 2.0F * sample.normal.dot(v) * sample.normal;  // Eq. 1
-        const std::array<Ray, 1> ray{Ray{sample.position + 2e-3F * sample.normal, r}};
-        std::array<Intersection, 1> hit;
-        engine->intersect(tank_poses()[1], ray, hit);
-        bool comes_back = std::isfinite(hit[0].distance_m);
-        if (comes_back) {
-            const Eigen::Vector3f p = ray[0].origin + hit[0].distance_m * r;
-            const Eigen::Vector3f n = hit[0].normal;
-            const Eigen::Vector3f q = r - 2.0F * n.dot(r) * n;
-            const float d =
-                0.5F * (sample.position.norm() + (p - sample.position).norm() + p.norm());
-            const float cosine = -q.dot(p) / p.norm();
-            const std::array<Ray, 1> look{Ray{Eigen::Vector3f::Zero(), p.normalized()}};
-            std::array<Intersection, 1> seen;
-            engine->intersect(tank_poses()[1], look, seen);
-            comes_back = beam_of(view, p) >= 0 && d < view.range_max_m && cosine > 0.0F &&
-                         n.dot(p) < 0.0F && seen[0].distance_m > 0.999F * p.norm() - 1e-3F;
-            if (comes_back && bounce_of[i]) {
-                const float reflections = scene.materials[sample.material].reflection *
-                                          scene.materials[hit[0].material].reflection;
-                // Both start a little off the surface, at different heights.
-                CHECK(std::fabs(bounce_of[i]->range_m - d) < 5e-3);
-                CHECK(std::fabs(bounce_of[i]->intensity - reflections * cosine) < 5e-3);
-            }
-        }
-        differ += comes_back != (bounce_of[i] != nullptr);
-    }
-    CHECK(found.bounces.size() > 200);
-    // If the second point is within millimetres of an edge, the two may see different sides.
-    CHECK(differ < 0.02 * static_cast<double>(found.bounces.size()));
-}
-
 TEST_CASE("multipath off is without cost and without trace") {
     const Scene scene = tank();
     SonarConfig config;
