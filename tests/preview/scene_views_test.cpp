@@ -70,28 +70,6 @@ bool is_about(double pixels, double expected) {
 }  // namespace
 
 TEST_SUITE("preview") {
-    TEST_CASE(
-        "plane frame: one scale for both axes, x to the right, y up, the wanted in the middle") {
-        const PlaneFrame frame = plane_frame(400, 300, {-20.0, 5.0}, {20.0, 25.0});
-        // 343 pixels for 40 m, 280 for 20 m: the width decides.
-        REQUIRE(frame.plot_width == 400 - frame.left - 1);
-        REQUIRE(frame.plot_height == 280);
-        CHECK(frame.pixel_m == test::approx(40.0 / frame.plot_width));
-        const Vector2d middle = frame.pixel({0.0, 15.0});
-        CHECK(middle.x() == test::approx(frame.left + 0.5 * frame.plot_width));
-        CHECK(middle.y() == test::approx(frame.top + 0.5 * frame.plot_height));
-        // Three metres along x and two along y.
-        const Vector2d moved = frame.pixel({3.0, 17.0}) - middle;
-        CHECK(moved.x() == test::approx(3.0 / frame.pixel_m));
-        CHECK(moved.y() == test::approx(-2.0 / frame.pixel_m));
-        const Vector2d back = frame.pixel(frame.metres(50, 77));
-        CHECK(back.x() == test::approx(frame.left + 50.5));
-        CHECK(back.y() == test::approx(frame.top + 77.5));
-        // Its ends are those of the plot.
-        CHECK(frame.pixel({-20.0, 15.0}).x() == test::approx(frame.left));
-        CHECK(frame.pixel({20.0, 15.0}).x() == test::approx(frame.left + frame.plot_width));
-    }
-
     TEST_CASE("lines and dots: what lies outside is cut off, however far away it ends") {
         for (const double far : {100.0, 1e6, 1e12}) {
             Picture picture(10, 6, backdrop);

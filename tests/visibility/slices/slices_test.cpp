@@ -27,15 +27,6 @@ View cone_view() {
     return view;
 }
 
-View sides_view() {
-    View view = fan_view();
-    view.azimuth_rad = radians(160.0);
-    view.elevation_rad = radians(1.0);
-    view.beams = 2;
-    view.shape = ViewShape::port_starboard;
-    return view;
-}
-
 /// The solid angle that the samples fill.
 double filled(const Samples& samples) {
     double sum = 0.0;
@@ -121,17 +112,6 @@ TEST_CASE("slices: a cone sees a disc, however narrow it is and whatever it is c
                   test::approx(pi * radius * radius).epsilon(error));
         }
     }
-}
-
-TEST_CASE("slices: the two sides see a strip of the floor") {
-    // Elevations +-e on the wall x = d: 2 e r_ground dy = 2 tan(e) sqrt(d^2 + y^2) dy.
-    View view = sides_view();
-    view.range_max_m = 30.0;
-    const Samples samples = seen(wall(3.0F, 3), view, {});
-    CHECK(area_of(samples) / area_of_wall(3.0, view) == test::approx(1.0).epsilon(0.003));
-    for (const Sample& sample : samples.beam(0))
-        CHECK(sample.position.y() < 1e-3);
-    CHECK(area_of(samples.beam(0)) == test::approx(0.5 * area_of(samples)).epsilon(0.001));
 }
 
 TEST_CASE("slices: a full turn and steep views see all of a sphere around the sonar") {
