@@ -34,7 +34,9 @@ TEST_CASE("an override reaches into lists and replaces whole sections") {
         parse(smallest_mission,
               {"trajectory={waypoints: [{position_m: [0, 0, 0]}, {position_m: [1, 0, 0]}]}",
                "trajectory.waypoints.1.position_m.2=-4", "trajectory.speed_m_s=2",
-               "sensors.aft={kind: imaging, every: 3}", "water={density_kg_m3: 1025}"});
+               "sensors.aft={kind: imaging, every: 3}", "water={density_kg_m3: 1025}",
+               "scene.sediment_map={file: m.png, materials: {1: mud, 3: mud}}",
+               "scene.sediment_map.materials.3=sand"});
     const auto& waypoints = std::get<WaypointTrajectoryConfig>(mission.trajectory);
     CHECK(waypoints.waypoints.at(1).position_m == std::array{1.0, 0.0, -4.0});
     CHECK(waypoints.speed_m_s == 2.0);
@@ -42,6 +44,7 @@ TEST_CASE("an override reaches into lists and replaces whole sections") {
     CHECK(mission.sensors[1].name == "aft");
     CHECK(mission.sensors[1].every == 3);
     CHECK(mission.water.density_kg_m3 == 1025.0);
+    CHECK(mission.scene.sediment_map->materials == Renaming{{"1", "mud"}, {"3", "sand"}});
 }
 
 TEST_CASE("an override is checked like the file and named in the message") {

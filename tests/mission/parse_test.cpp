@@ -50,20 +50,6 @@ TEST_CASE("names and paths of a mission") {
           here / "a.glb");
 }
 
-TEST_CASE("waypoints") {
-    const std::string rest =
-        "scene: {file: a, materials: b}\nsensors: {s: {kind: imaging}}\ntrajectory:\n";
-    const Mission mission = parse(rest +
-                                  "  waypoints:\n"
-                                  "    - position_m: [0, 0, 1]\n"
-                                  "    - {position_m: [4, 0, 1], rpy_deg: [0, 0, 90]}\n"
-                                  "  speed_m_s: 2\n");
-    Mission expected = mission;
-    expected.trajectory =
-        WaypointTrajectoryConfig{{{{0, 0, 1}, {0, 0, 0}}, {{4, 0, 1}, {0, 0, 90}}}, 2, 10};
-    CHECK(yaml_of(mission) == yaml_of(expected));
-}
-
 TEST_CASE("numbers are decimal and booleans are true and false") {
     CHECK(parse(smallest_mission + "seed: 010\n").seed == 10);
     CHECK(parse(smallest_mission + "    every: 0010\n").sensors[0].every == 10);

@@ -8,42 +8,7 @@
 
 namespace sonarsim {
 
-namespace {
-
-const KeyReference& key_of(const std::vector<SectionReference>& sections, const std::string& path,
-                           const std::string& name, const std::string& form = "") {
-    for (const SectionReference& section : sections) {
-        if (section.path != path || section.form != form) continue;
-        const auto key = std::ranges::find(section.keys, name, &KeyReference::name);
-        REQUIRE(key != section.keys.end());
-        return *key;
-    }
-    FAIL("no section " << path);
-    throw;  // FAIL does not return
-}
-
-using Defaults = std::vector<std::pair<std::string, std::string>>;
-
-}  // namespace
-
 TEST_SUITE_BEGIN("mission");
-
-TEST_CASE("the reference knows limits, units and defaults by the kind of sonar") {
-    const std::vector<SectionReference> sections = mission_reference(sonar_keys());
-    const KeyReference& azimuth = key_of(sections, "sensors.NAME", "azimuth_deg");
-    CHECK(azimuth.unit == "deg");
-    REQUIRE(azimuth.limits);
-    CHECK(azimuth.limits->high == 360.0);
-    CHECK(key_of(sections, "sensors.NAME", "opening_deg").defaults ==
-          Defaults{{"echosounder", "30"}});
-    CHECK(key_of(sections, "sensors.NAME", "kind").required);
-    CHECK(key_of(sections, "octree", "leaf_m").defaults == Defaults{{"", "0.02"}});
-    // One section, three forms.
-    CHECK(key_of(sections, "trajectory", "rate_hz", "file").defaults == Defaults{{"", "0"}});
-    CHECK(key_of(sections, "trajectory", "rate_hz", "waypoints").defaults == Defaults{{"", "10"}});
-    CHECK(key_of(sections, "trajectory.lawnmower", "z_m").required);
-    CHECK(key_of(sections, "trajectory.waypoints.0", "position_m").required);
-}
 
 TEST_CASE("every key has a meaning, and a default unless it is required or free text") {
     for (const SectionReference& section : mission_reference(sonar_keys())) {
