@@ -254,43 +254,5 @@ class Seabed(Composed):
             self.succeeds("validate", "mission.yaml", "--set", "sensors.fls.range_max_m=4")
 
 
-class Vary(Composed):
-    """Keys of grounds can be drawn: each variant is what the same values with --set make."""
-    GROUNDS = (("""\
-  seabed:
-    cell_m: 0.2
-    z_m: -2.5
-    size_m: [40, 40]
-    sediments: [{material: Concrete, share: 2}, {material: steel, share: 1}]
-    rocks: {density_per_m2: 0.1, diameter_m: [0.3, 1.5], buried: [0.2, 0.6]}
-    roughness: {spectral_strength_cm4: 0.003}
-""", {"seabed.cell_m": "uniform: [0.2, 0.35]", "seabed.roughness.spectral_exponent": "uniform: [2.5, 3.5]",
-      "seabed.rocks.diameter_m.1": "uniform: [1.3, 1.5]", "seabed.sediments.0.material": "choice: [Concrete, steel]",
-      "seabed.class": "choice: [ground, floor]"}), ("""\
-  heightmap: {file: a.png, SIZE, height_offset_m: -5, material: Concrete}
-  sediment_map: {file: a.png, SIZE, materials: {0: Concrete, 1: steel, 2: steel, 3: steel}}
-  backscatter_map: {file: b.png, SIZE}
-""".replace("SIZE", "pixel_m: 1, origin_m: [-20, -20]"), {
-        "heightmap.file": "choice: [a.png, b.png]", "heightmap.origin_m.0": "uniform: [-22, -18]",
-        "sediment_map.materials.3": "choice: [Concrete, steel]", "backscatter_map.pixel_m": "uniform: [0.9, 1.1]"}))
-
-    def test_a_bed_and_maps(self):
-        for name, step in (("a.png", 5), ("b.png", 7)):
-            self.write(name, png([[step * (r + c * c) % 4 for c in range(40)] for r in range(40)]))
-        for ground, rules in self.GROUNDS:
-            mission = "seed: 5\nscene:\n  materials: materials.csv\n" + ground + BED[BED.index("trajectory:"):]
-            mission = mission.replace("labels: true", "labels: [material]")
-            self.write("one.yaml", mission)
-            rules_yaml = "".join(f"  - {{key: scene.{key}, {rule}}}\n" for key, rule in rules.items())
-            self.write("mission.yaml", f"{mission}variants: 2\nvary:\n{rules_yaml}")
-            self.assert_renders("--overwrite")
-            for one in self.variants():
-                self.assertEqual(list(one["drawn"]), [f"scene.{key}" for key in rules])
-                sets = [word for key, value in one["drawn"].items() for word in ("--set", f"{key}={value}")]
-                self.succeeds("render", "one.yaml", "--overwrite", "--out", "one", "--set", f"seed={one['seed']}", *sets)
-                for what in ("polar", "material"):   # the metadata name the variant
-                    self.assertEqual(digest(self.folder / "one/fls" / what), digest(self.out / one["folder"] / "fls" / what))
-
-
 if __name__ == "__main__":
     unittest.main()

@@ -125,10 +125,7 @@ class Objects(Sandbox):
         for old, new, *fragments in (
                 (labels, "labels: {background: [wals]}\n", "there is no class 'wals' (did you mean 'walls'?)"),
                 (labels, "labels: {background: []}\n", "'background' names classes, auto or none"),
-                ("labels: true", "labels: [coco]", "'coco' is no longer there", "labels: [objects]"),
-                ("labels: true", "labels: [boxes]", "unknown labels 'boxes'"),
-                ("labels: true", "fan: false\n  labels: [fan]", "'fan'", "output.fan: true"),
-                ('"pillar*"', '"pilar*"', "no node of the scene fits 'pilar*'", "sonarsim inspect")):
+                ("labels: true", "fan: false\n  labels: [fan]", "'fan'", "output.fan: true")):
             self.write("mission.yaml", MISSION)
             self.edit("mission.yaml", old, new)
             self.refused("mission.yaml:", *fragments)

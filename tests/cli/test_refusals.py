@@ -113,7 +113,6 @@ REFUSED = (
     ({"mission.yaml": GLB}, "is a .glb mesh, not YAML"),
     (edited("sensors:\n", "noise: {add_sigma: 0.01}\nsensors:\n"),
      "unknown key 'noise'; it belongs to a sensor: sensors.NAME.noise"),
-    (edited("kind: imaging", "kind: sidescan"), "unknown key 'azimuth_bins'; this kind of sonar has none, leave it out"),
     (edited("kind: imaging", "preset: gemini_720"),
      "mission.yaml:10:13", "did you mean 'gemini_720is'?", "micron", "sensors/NAME.yaml"),
     (edited("kind: imaging", "preset: oculus_m750d_750khz"), "did you mean 'sensors/oculus_m750d_750khz.yaml'?"),
