@@ -197,6 +197,11 @@ class Sandbox(unittest.TestCase):
         return subprocess.run([SONARSIM, *map(str, arguments)], cwd=self.folder, text=True, capture_output=True, timeout=120,
                               check=False, **options)
 
+    def start(self, *arguments, **options):
+        """A run that goes on meanwhile; what it prints is thrown away."""
+        return subprocess.Popen([SONARSIM, *map(str, arguments)], cwd=self.folder, text=True, stdout=subprocess.DEVNULL,
+                                stderr=subprocess.PIPE, **options)
+
     def succeeds(self, *arguments, **options):
         result = self.run_sonarsim(*arguments, **options)
         self.assertEqual(result.returncode, 0, result.stderr)

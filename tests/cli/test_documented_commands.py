@@ -27,7 +27,7 @@ NOT_RUN = {
     "yolo detect train model=yolo11n.pt data=anchors/data.yaml": "the same",
     "./scripts/package.sh && sudo apt install ./build-package/sonarsim_*.deb": "CI runs it: builds the program anew",
     "scripts/slurm/render.sh 64 mission.yaml out/big --time=60 --cpus-per-task=4":
-        "needs Slurm; test_clusters.py runs it with a stand-in",
+        "needs Slurm; test_scripts.py runs it with a stand-in",
     "parallel sonarsim render mission.yaml --threads 1 --shard {}/4 --out part{} ::: $(seq 4)":
         "needs GNU parallel",
 }

@@ -126,10 +126,6 @@ class FaultyDisk(Faults):
 
 
 class RandomSignals(Faults):
-    def start(self, *arguments):
-        return subprocess.Popen([SONARSIM, "render", "mission.yaml", *arguments], cwd=self.folder, text=True,
-                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-
     def test_signals_at_random_moments(self):
         self.write("path.csv", path_csv(120))
         start = time.monotonic()
@@ -143,7 +139,7 @@ class RandomSignals(Faults):
             wait = draw.uniform(0.0, longest)
             before = digest(self.out) if self.out.exists() else {}
             with self.subTest(signal=number, wait=wait):
-                with self.start() as process:
+                with self.start("render", "mission.yaml") as process:
                     time.sleep(wait)
                     process.send_signal(number)
                     _, stderr = process.communicate(timeout=60)
@@ -169,7 +165,7 @@ class RandomSignals(Faults):
         lost = 0
         for k in range(3 if SANITIZED else 10):
             begun = len(self.durable_pings())
-            with self.start("-j2", "--checkpoint", "0.01") as process:
+            with self.start("render", "mission.yaml", "-j2", "--checkpoint", "0.01") as process:
                 while process.poll() is None and len(self.durable_pings()) == begun:
                     time.sleep(0.001)
                 process.kill()
@@ -201,7 +197,7 @@ class RandomSignals(Faults):
 
     def test_a_second_signal_ends_at_once(self):
         self.write("path.csv", path_csv(2400))
-        with self.start() as process:
+        with self.start("render", "mission.yaml") as process:
             while not list(self.out.glob("fls/meta/*.json")):
                 self.assertIsNone(process.poll())
                 time.sleep(0.01)

@@ -2,11 +2,10 @@
 `sonarsim status` says of a job."""
 import json
 import shutil
-import subprocess
 import time
 import unittest
 
-from sandbox import ALL_FILES, SONARSIM, Sandbox, digest, path_csv
+from sandbox import ALL_FILES, Sandbox, digest, path_csv
 
 
 class Merge(Sandbox):
@@ -118,9 +117,8 @@ class Status(Sandbox):
 
     def test_while_it_runs(self):
         self.write("path.csv", path_csv(200_000))
-        with subprocess.Popen([SONARSIM, "render", "mission.yaml", "-q", "--checkpoint", "0.05", "--set",
-                               "output.fan=false", "--set", "output.image=false", "-j1"],
-                              cwd=self.folder, stdout=subprocess.DEVNULL) as process:
+        with self.start("render", "mission.yaml", "-q", "--checkpoint", "0.05", "--set", "output.fan=false", "--set",
+                        "output.image=false", "-j1") as process:
             try:
                 reported = {}
                 while process.poll() is None and not reported.get("pings", {}).get("done"):

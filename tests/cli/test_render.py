@@ -148,10 +148,6 @@ class Signals(Sandbox):
             time.sleep(0.02)
         self.fail("never came to the phase")
 
-    def start(self, *arguments, **options):
-        return subprocess.Popen([SONARSIM, "render", "mission.yaml", *arguments], cwd=self.folder, text=True,
-                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, **options)
-
     def assert_ends_at_once(self, process, number=signal.SIGTERM):
         """The phase goes on for long, so that only the end at once can print these words."""
         process.send_signal(number)
@@ -165,7 +161,7 @@ class Signals(Sandbox):
         points, indices, material = sheet_mesh(10.0, 70)
         nodes = [{"mesh": 0, "translation": [0, -k, 0]} for k in range(1000 if SANITIZED else 10000)]
         self.write("box.gltf", gltf(nodes, [([(x, 0, 0) for x, _, _ in points], indices, material)]))
-        with self.start() as process:
+        with self.start("render", "mission.yaml") as process:
             self.wait_for(lambda: catches_sigterm(process.pid), process)
             self.assert_ends_at_once(process, signal.SIGINT)
             self.assertFalse(self.out.exists())
@@ -175,7 +171,7 @@ class Signals(Sandbox):
         settings = ("sensors.fls.azimuth_bins=3072", "sensors.fls.azimuth_deg=360", "sensors.fls.elevation_deg=160",
                     "water.profile={named: summer}", "scene.water_surface={height_m: 5}", "accuracy.relative_l1=1e-4",
                     "output.fan=false", "output.full_scale=1")
-        with self.start("-j1", *(w for s in settings for w in ("--set", s))) as process:
+        with self.start("render", "mission.yaml", "-j1", *(w for s in settings for w in ("--set", s))) as process:
             self.wait_for(lambda: (self.out / "dataset.json").exists(), process)
             begun = busy_s(process.pid)
             self.wait_for(lambda: busy_s(process.pid) > begun + 0.5, process)
@@ -191,7 +187,7 @@ class Signals(Sandbox):
                       if call.split()[0] in ("fwrite", "write", "fopen") and "bathymetry.tif" in call)
         shutil.rmtree(self.out)
         log.unlink()
-        with self.start("-j1", env=with_disk(self, "stall", number)) as process:
+        with self.start("render", "mission.yaml", "-j1", env=with_disk(self, "stall", number)) as process:
             self.wait_for(lambda: log.exists() and log.read_text().count("\n") >= number, process)
             self.assert_ends_at_once(process)
         self.assertFalse(self.dataset()["complete"])

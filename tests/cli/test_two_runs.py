@@ -4,11 +4,10 @@ import os
 import random
 import shutil
 import signal
-import subprocess
 import time
 import unittest
 
-from sandbox import SONARSIM, Sandbox, digest, path_csv, with_disk
+from sandbox import Sandbox, digest, path_csv, with_disk
 
 VARY = """
 variants: 3
@@ -34,10 +33,6 @@ class Folder(Sandbox):
         self.write("path.csv", path_csv(self.POSES))
         self.write("variants.yaml", (self.folder / "mission.yaml").read_text() + VARY)
         self.draw = random.Random(25)
-
-    def start(self, *arguments):
-        return subprocess.Popen([SONARSIM, *map(str, arguments)], cwd=self.folder, text=True,
-                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
 
     def end(self, process):
         _, stderr = process.communicate(timeout=120)
