@@ -1,20 +1,9 @@
 #include "simulate/assembly/assemble.h"
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <span>
-#include <string>
-#include <vector>
-
-#include "core/error.h"
-#include "core/file.h"
 #include "input/mission/parse.h"
 #include "simulate/calibrated/model.h"
 #include "simulate/sonar/kinds.h"
-#include "support/approx.h"
 #include "support/small_mission.h"
-#include "support/temporary_folder.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

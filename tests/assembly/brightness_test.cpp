@@ -1,13 +1,7 @@
 #include "simulate/assembly/brightness.h"
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "simulate/assembly/engines.h"
 #include "simulate/assembly/sample_pings.h"
-#include "support/approx.h"
 #include "support/calibrated.h"
 #include "support/small_mission.h"
 

@@ -1,15 +1,8 @@
 #include "simulate/assembly/particles.h"
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <vector>
-
-#include "core/error.h"
 #include "simulate/calibrated/decibel.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar.h"
-#include "support/shapes.h"
 #include "support/statistics.h"
 
 using namespace sonarsim;

@@ -1,18 +1,11 @@
 #include "simulate/assembly/ping_motions.h"
 
-#include <doctest/doctest.h>
-
-#include <array>
-#include <cmath>
-
-#include "core/error.h"
-#include "core/units.h"
 #include "simulate/assembly/heightmap_part.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar.h"
 #include "simulate/sonar/sonar_at_pose.h"
 #include "simulate/trace/ping_motion.h"
-#include "support/approx.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

@@ -1,13 +1,6 @@
 #include "simulate/assembly/sound_profiles.h"
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-
-#include "core/error.h"
-#include "core/file.h"
-#include "support/approx.h"
-#include "support/temporary_folder.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

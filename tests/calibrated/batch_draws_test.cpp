@@ -1,16 +1,10 @@
-#include <doctest/doctest.h>
-
-#include <array>
-#include <cmath>
-#include <random>
-#include <vector>
-
 #include "core/lanes.h"
 #include "core/normal_pair.h"
 #include "core/random.h"
 #include "simulate/calibrated/echo_grid.h"
 #include "simulate/calibrated/normals.h"
 #include "simulate/calibrated/speckle.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

@@ -1,11 +1,6 @@
 #include "simulate/calibrated/bottom.h"
 
-#include <doctest/doctest.h>
-
-#include <Eigen/Core>
-#include <cmath>
-
-#include "core/units.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

@@ -1,15 +1,7 @@
 #include "simulate/calibrated/element_errors.h"
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include "core/units.h"
 #include "simulate/calibrated/directivity.h"
 #include "simulate/calibrated/sonar_equation.h"
-#include "support/approx.h"
 #include "support/calibrated.h"
 #include "support/patches.h"
 

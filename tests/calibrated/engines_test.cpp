@@ -1,14 +1,8 @@
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <random>
-
 #include "simulate/reference/energy_reference.h"
 #include "simulate/reference/image_error.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/calibrated.h"
 #include "support/lattices.h"
-#include "support/scenes.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

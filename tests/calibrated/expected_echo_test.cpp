@@ -1,17 +1,8 @@
 #include "simulate/calibrated/expected_echo.h"
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <string>
-#include <vector>
-
 #include "calibrated/preset_fixtures.h"
 #include "simulate/calibrated/decibel.h"
 #include "simulate/calibrated/example_bottoms.h"
-#include "support/scenes.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -1,14 +1,7 @@
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-
-#include "core/units.h"
 #include "simulate/reference/image_error.h"
 #include "simulate/trace/visible_surface.h"
 #include "simulate/visibility/angles.h"
 #include "support/calibrated.h"
-#include "support/scenes.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

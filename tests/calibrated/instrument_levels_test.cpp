@@ -1,12 +1,5 @@
 #include "simulate/calibrated/instrument_levels.h"
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include "core/units.h"
 #include "simulate/calibrated/ambient_noise.h"
 #include "simulate/calibrated/decibel.h"
 #include "simulate/calibrated/directivity.h"
@@ -16,7 +9,6 @@
 #include "simulate/calibrated/pulse_band.h"
 #include "simulate/calibrated/range_response.h"
 #include "support/calibrated.h"
-#include "support/shapes.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

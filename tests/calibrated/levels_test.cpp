@@ -1,12 +1,5 @@
 #include "simulate/calibrated/levels.h"
 
-#include <doctest/doctest.h>
-
-#include <array>
-#include <cmath>
-#include <random>
-#include <vector>
-
 #include "simulate/calibrated/decibel.h"
 #include "simulate/calibrated/model.h"
 #include "support/calibrated.h"

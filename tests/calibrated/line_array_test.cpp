@@ -1,14 +1,8 @@
 #include "simulate/calibrated/line_array.h"
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <complex>
-
-#include "core/units.h"
 #include "simulate/calibrated/decibel.h"
 #include "simulate/calibrated/range_response.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

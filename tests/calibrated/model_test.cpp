@@ -1,15 +1,7 @@
 #include "simulate/calibrated/model.h"
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "core/elementary.h"
-#include "core/units.h"
 #include "simulate/calibrated/decibel.h"
-#include "support/approx.h"
 #include "support/calibrated.h"
 #include "support/patches.h"
 #include "support/statistics.h"

@@ -1,10 +1,3 @@
-#include <doctest/doctest.h>
-
-#include <array>
-#include <cmath>
-#include <vector>
-
-#include "core/units.h"
 #include "simulate/calibrated/decibel.h"
 #include "simulate/calibrated/filtered_noise.h"
 #include "simulate/calibrated/range_response.h"

@@ -1,14 +1,7 @@
 #include "simulate/calibrated/particle_echoes.h"
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "calibrated/water_fixtures.h"
 #include "simulate/calibrated/piston.h"
-#include "support/approx.h"
 #include "support/labelled.h"
 #include "support/patches.h"
 

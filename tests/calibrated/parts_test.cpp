@@ -1,13 +1,7 @@
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <complex>
-#include <vector>
-
-#include "core/units.h"
 #include "simulate/calibrated/beamformer.h"
 #include "simulate/calibrated/companding.h"
 #include "simulate/calibrated/scatterers.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

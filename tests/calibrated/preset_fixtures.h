@@ -1,10 +1,5 @@
 #pragma once
 
-#include <filesystem>
-#include <string>
-#include <vector>
-
-#include "core/units.h"
 #include "input/mission/parse.h"
 #include "simulate/calibrated/model.h"
 #include "simulate/sonar/kinds.h"

@@ -1,13 +1,5 @@
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
-
 #include "calibrated/preset_fixtures.h"
 #include "simulate/calibrated/decibel.h"
-#include "support/scenes.h"
 #include "support/statistics.h"
 
 using namespace sonarsim;

@@ -1,14 +1,6 @@
 #include "simulate/calibrated/receiver_chain.h"
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <functional>
-#include <vector>
-
-#include "core/units.h"
 #include "simulate/calibrated/decibel.h"
-#include "support/approx.h"
 #include "support/calibrated.h"
 #include "support/statistics.h"
 

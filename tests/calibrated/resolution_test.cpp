@@ -1,11 +1,3 @@
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <string>
-#include <vector>
-
 #include "calibrated/preset_fixtures.h"
 #include "simulate/calibrated/decibel.h"
 #include "simulate/product/scan.h"

@@ -1,9 +1,3 @@
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <vector>
-
-#include "core/units.h"
 #include "simulate/calibrated/decibel.h"
 #include "simulate/calibrated/model.h"
 #include "support/calibrated.h"

@@ -1,16 +1,8 @@
 #include "simulate/calibrated/seafloor_scattering.h"
 
-#include <doctest/doctest.h>
-
-#include <array>
-#include <cmath>
-#include <random>
-#include <string>
-#include <vector>
-
-#include "core/units.h"
 #include "simulate/calibrated/bottom.h"
 #include "simulate/calibrated/decibel.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

@@ -1,12 +1,5 @@
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-
-#include "core/units.h"
 #include "simulate/calibrated/decibel.h"
 #include "support/calibrated.h"
-#include "support/scenes.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -1,8 +1,3 @@
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <vector>
-
 #include "calibrated/preset_fixtures.h"
 #include "support/statistics.h"
 

@@ -1,16 +1,8 @@
 #include "simulate/calibrated/sediment.h"
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <vector>
-
-#include "core/units.h"
 #include "simulate/calibrated/decibel.h"
 #include "simulate/calibrated/seafloor_scattering.h"
-#include "support/approx.h"
 #include "support/calibrated.h"
-#include "support/scenes.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

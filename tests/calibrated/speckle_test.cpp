@@ -1,13 +1,3 @@
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <numeric>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "calibrated/preset_fixtures.h"
 #include "core/elementary.h"
 #include "support/statistics.h"

@@ -1,11 +1,5 @@
 #include "simulate/calibrated/specular_echoes.h"
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-
-#include "core/units.h"
 #include "simulate/calibrated/decibel.h"
 #include "simulate/calibrated/model.h"
 #include "simulate/sonar/setup.h"
@@ -13,7 +7,6 @@
 #include "support/bounces.h"
 #include "support/calibrated.h"
 #include "support/patches.h"
-#include "support/scenes.h"
 #include "support/sonars.h"
 
 using namespace sonarsim;

@@ -1,15 +1,6 @@
 #include "simulate/trace/taper.h"
 
-#include <doctest/doctest.h>
-
-#include <array>
-#include <cmath>
-#include <map>
-#include <vector>
-
-#include "core/units.h"
 #include "simulate/calibrated/scatterer_search.h"
-#include "support/approx.h"
 #include "support/calibrated.h"
 #include "support/patches.h"
 

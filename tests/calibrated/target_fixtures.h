@@ -1,14 +1,9 @@
 #pragma once
 
-#include <cmath>
-#include <vector>
-
-#include "core/units.h"
 #include "simulate/calibrated/decibel.h"
 #include "simulate/ping/form_image.h"
 #include "support/calibrated.h"
 #include "support/patches.h"
-#include "support/scenes.h"
 
 namespace sonarsim::test {
 

@@ -1,11 +1,5 @@
-#include <doctest/doctest.h>
-
-#include <array>
-#include <vector>
-
 #include "calibrated/target_fixtures.h"
 #include "simulate/trace/target_shapes.h"
-#include "support/approx.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -1,10 +1,3 @@
-#include <doctest/doctest.h>
-
-#include <array>
-#include <cmath>
-#include <memory>
-#include <vector>
-
 #include "calibrated/target_fixtures.h"
 #include "support/draws.h"
 #include "support/maps.h"

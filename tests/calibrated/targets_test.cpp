@@ -1,10 +1,4 @@
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <random>
-
 #include "calibrated/target_fixtures.h"
-#include "support/approx.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -1,14 +1,6 @@
 #include "simulate/calibrated/transducer_beams.h"
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <complex>
-#include <vector>
-
 #include "core/elementary.h"
-#include "core/units.h"
 #include "simulate/calibrated/model.h"
 #include "simulate/calibrated/near_field.h"
 #include "simulate/calibrated/piston.h"

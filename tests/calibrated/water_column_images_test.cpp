@@ -1,11 +1,5 @@
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <vector>
-
 #include "calibrated/water_fixtures.h"
 #include "simulate/calibrated/piston.h"
-#include "support/approx.h"
 #include "support/statistics.h"
 
 using namespace sonarsim;

@@ -1,13 +1,7 @@
 #include "simulate/calibrated/water_column.h"
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <vector>
-
 #include "calibrated/water_fixtures.h"
 #include "simulate/calibrated/piston.h"
-#include "support/approx.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

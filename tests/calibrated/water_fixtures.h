@@ -1,13 +1,9 @@
 #pragma once
 
-#include <vector>
-
-#include "core/units.h"
 #include "simulate/calibrated/decibel.h"
 #include "simulate/calibrated/directivity.h"
 #include "simulate/calibrated/model.h"
 #include "support/calibrated.h"
-#include "support/scenes.h"
 
 namespace sonarsim::test {
 

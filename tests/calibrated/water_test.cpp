@@ -1,15 +1,10 @@
 #include "simulate/calibrated/water.h"
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-
-#include "core/units.h"
 #include "input/mission/mission.h"
 #include "simulate/calibrated/decibel.h"
 #include "simulate/calibrated/target_strength.h"
 #include "simulate/calibrated/volume_strengths.h"
-#include "support/approx.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

@@ -1,14 +1,7 @@
 #include "simulate/calibrated/wind_surface.h"
 
-#include <doctest/doctest.h>
-
-#include <array>
-#include <cmath>
-#include <vector>
-
 #include "calibrated/water_fixtures.h"
 #include "simulate/calibrated/piston.h"
-#include "support/approx.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

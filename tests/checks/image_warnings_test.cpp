@@ -1,7 +1,3 @@
-#include <doctest/doctest.h>
-
-#include <algorithm>
-
 #include "run/checks/find_warnings.h"
 #include "run/job/run_job.h"
 #include "simulate/sonar/kinds.h"

@@ -1,12 +1,6 @@
 #include "core/csv.h"
 
-#include <doctest/doctest.h>
-
-#include <string>
-#include <utility>
-#include <vector>
-
-#include "core/error.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

@@ -1,12 +1,6 @@
 #include "core/elementary.h"
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
-#include "support/approx.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

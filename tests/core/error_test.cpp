@@ -1,9 +1,6 @@
 #include "core/error.h"
 
-#include <doctest/doctest.h>
-
-#include <stdexcept>
-#include <string>
+#include "support/test.h"
 
 using namespace sonarsim;
 

@@ -1,14 +1,10 @@
 #include "core/file.h"
 
-#include <doctest/doctest.h>
 #include <sys/stat.h>
 
-#include <string>
-
-#include "core/error.h"
 #include "core/hash.h"
 #include "core/sha256.h"
-#include "support/temporary_folder.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 namespace fs = std::filesystem;

@@ -1,11 +1,6 @@
 #include "core/machine_memory.h"
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <fstream>
-
-#include "support/temporary_folder.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

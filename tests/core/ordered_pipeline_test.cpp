@@ -1,12 +1,8 @@
 #include "core/ordered_pipeline.h"
 
-#include <doctest/doctest.h>
 #include <tbb/global_control.h>
 
-#include <atomic>
-#include <stdexcept>
-#include <string>
-#include <vector>
+#include "support/test.h"
 
 using namespace sonarsim;
 

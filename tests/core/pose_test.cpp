@@ -1,10 +1,6 @@
 #include "core/pose.h"
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-
-#include "core/units.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 using Eigen::Vector3d;

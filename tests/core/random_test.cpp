@@ -1,10 +1,8 @@
 #include "core/random.h"
 
 #include <Random123/philox.h>
-#include <doctest/doctest.h>
 
-#include <array>
-#include <set>
+#include "support/test.h"
 
 using namespace sonarsim;
 

@@ -1,10 +1,6 @@
 #include "core/sorted_table.h"
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <random>
-#include <vector>
+#include "support/test.h"
 
 using namespace sonarsim;
 

@@ -1,11 +1,6 @@
 #include "core/text.h"
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
+#include "support/test.h"
 
 using namespace sonarsim;
 

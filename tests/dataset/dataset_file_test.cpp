@@ -1,13 +1,7 @@
 #include "output/dataset/dataset_file.h"
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <random>
 #include <tuple>
-#include <vector>
 
-#include "core/error.h"
 #include "job/small_job.h"
 #include "output/dataset/metadata.h"
 #include "run/job/merge.h"

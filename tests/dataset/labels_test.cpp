@@ -1,7 +1,4 @@
 #include <OpenImageIO/imageio.h>
-#include <doctest/doctest.h>
-
-#include <cmath>
 
 #include "output/dataset/labelled_ping.h"
 #include "run/job/run_job.h"
@@ -10,7 +7,6 @@
 #include "support/npy_data.h"
 #include "support/small_mission.h"
 #include "support/sonars.h"
-#include "support/temporary_folder.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

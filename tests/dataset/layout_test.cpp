@@ -1,20 +1,10 @@
 #include "output/dataset/layout.h"
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-
-#include "core/error.h"
-#include "core/units.h"
 #include "output/dataset/encode_ping.h"
 #include "output/dataset/metadata.h"
 #include "run/job/run_job.h"
-#include "support/approx.h"
 #include "support/small_mission.h"
 #include "support/sonars.h"
-#include "support/temporary_folder.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

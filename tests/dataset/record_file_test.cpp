@@ -1,15 +1,8 @@
 #include "output/dataset/record_file.h"
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <stdexcept>
 #include <thread>
-#include <vector>
 
-#include "core/file.h"
 #include "support/npy_data.h"
-#include "support/temporary_folder.h"
 
 using namespace sonarsim;
 using sonarsim::test::TemporaryFolder;

@@ -1,17 +1,9 @@
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-
-#include "core/units.h"
 #include "simulate/lambert/lambert_model.h"
 #include "simulate/paper/dropouts.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar.h"
 #include "simulate/visibility/rays/rays_engine.h"
-#include "support/approx.h"
-#include "support/scenes.h"
+#include "support/test.h"
 
 // Runs the files that the examples of docs/development.md add. check_examples.py compiles them together
 // with the lines that the examples change in lib.

@@ -1,17 +1,9 @@
 // The example of docs/development.md, "Add a file format".
-#include <doctest/doctest.h>
 #include <spdlog/fmt/fmt.h>
-
-#include <algorithm>
-#include <cmath>
-#include <optional>
-#include <string>
 
 #include "output/dataset/writer.h"
 #include "simulate/visibility/make_engine.h"
-#include "support/scenes.h"
 #include "support/small_mission.h"
-#include "support/temporary_folder.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -1,13 +1,6 @@
 // The example of docs/development.md, "Add a label".
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "simulate/visibility/make_engine.h"
-#include "support/approx.h"
-#include "support/scenes.h"
 #include "support/sonars.h"
 
 using namespace sonarsim;

@@ -1,13 +1,8 @@
 #include "output/format/geotiff.h"
 
 #include <OpenImageIO/imageio.h>
-#include <doctest/doctest.h>
 
-#include <cmath>
-#include <limits>
-#include <vector>
-
-#include "support/temporary_folder.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -1,9 +1,6 @@
 #include "output/format/npy.h"
 
-#include <doctest/doctest.h>
-
-#include <string>
-#include <vector>
+#include "support/test.h"
 
 using namespace sonarsim;
 

@@ -1,17 +1,9 @@
 #include "output/format/png.h"
 
 #include <OpenImageIO/imageio.h>
-#include <doctest/doctest.h>
 
-#include <algorithm>
-#include <random>
-#include <stdexcept>
-#include <utility>
-#include <vector>
-
-#include "core/file.h"
 #include "core/sha256.h"
-#include "support/temporary_folder.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 using sonarsim::test::TemporaryFolder;

@@ -1,14 +1,11 @@
 #pragma once
 
-#include <functional>
-#include <string>
-#include <vector>
-
 #include "core/pose.h"
 #include "input/mission/mission.h"
 #include "input/scene/scene.h"
 #include "simulate/sonar/sonar.h"
 #include "simulate/trace/ping.h"
+#include "support/test.h"
 
 namespace sonarsim {
 

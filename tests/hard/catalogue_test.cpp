@@ -1,14 +1,7 @@
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "hard/cases.h"
 #include "input/mission/instrument.h"
 #include "simulate/sonar/engine_settings.h"
 #include "simulate/sonar/kinds.h"
-#include "support/shapes.h"
 
 using namespace sonarsim;
 

@@ -1,10 +1,5 @@
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <vector>
-
 #include "simulate/paper/accumulate.h"
-#include "support/approx.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

@@ -1,10 +1,6 @@
-#include <algorithm>
-#include <array>
 #include <iterator>
-#include <utility>
 
 #include "hard/cases.h"
-#include "support/shapes.h"
 
 namespace sonarsim {
 

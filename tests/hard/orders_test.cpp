@@ -1,14 +1,7 @@
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <memory>
-
-#include "core/units.h"
 #include "hard/cases.h"
 #include "simulate/reference/image_error.h"
 #include "simulate/reference/reference.h"
 #include "simulate/visibility/make_engine.h"
-#include "support/scenes.h"
 
 using namespace sonarsim;
 

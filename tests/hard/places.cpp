@@ -1,8 +1,4 @@
-#include <algorithm>
-
-#include "core/units.h"
 #include "hard/cases.h"
-#include "support/shapes.h"
 
 namespace sonarsim {
 

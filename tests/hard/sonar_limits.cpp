@@ -1,5 +1,4 @@
 #include "hard/cases.h"
-#include "support/shapes.h"
 
 namespace sonarsim {
 

@@ -1,11 +1,7 @@
-#include <memory>
-
-#include "core/units.h"
 #include "hard/cases.h"
 #include "simulate/reference/reference.h"
 #include "simulate/sonar/engine_settings.h"
 #include "simulate/sonar/kinds.h"
-#include "support/shapes.h"
 #include "support/sonars.h"
 
 namespace sonarsim {

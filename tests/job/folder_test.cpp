@@ -1,15 +1,8 @@
 #include "run/job/folder.h"
 
-#include <doctest/doctest.h>
-
-#include <atomic>
-
-#include "core/error.h"
-#include "core/file.h"
 #include "output/format/png.h"
 #include "run/job/run_job.h"
 #include "support/small_mission.h"
-#include "support/temporary_folder.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -1,7 +1,3 @@
-#include <doctest/doctest.h>
-
-#include "core/error.h"
-#include "core/file.h"
 #include "job/small_job.h"
 
 using namespace sonarsim;

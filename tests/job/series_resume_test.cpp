@@ -1,7 +1,3 @@
-#include <doctest/doctest.h>
-
-#include <algorithm>
-
 #include "job/small_job.h"
 #include "support/npy_data.h"
 

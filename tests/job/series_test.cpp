@@ -1,18 +1,11 @@
 #include <OpenImageIO/imageio.h>
-#include <doctest/doctest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <nlohmann/json.hpp>
-
-#include "core/file.h"
 #include "job/small_job.h"
 #include "output/dataset/averaged_rows.h"
 #include "output/dataset/writer.h"
 #include "simulate/assembly/engines.h"
 #include "simulate/product/soundings.h"
 #include "simulate/sonar/kinds.h"
-#include "support/approx.h"
 #include "support/npy_data.h"
 #include "support/sonars.h"
 

@@ -1,13 +1,7 @@
 #pragma once
 
-#include <atomic>
-#include <filesystem>
-#include <nlohmann/json.hpp>
-
-#include "core/file.h"
 #include "run/job/run_job.h"
 #include "support/small_mission.h"
-#include "support/temporary_folder.h"
 
 namespace sonarsim::test {
 

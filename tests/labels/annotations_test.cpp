@@ -1,16 +1,6 @@
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <vector>
-
-#include "core/units.h"
 #include "simulate/product/object_table.h"
-#include "support/approx.h"
 #include "support/draws.h"
 #include "support/labelled.h"
-#include "support/scenes.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

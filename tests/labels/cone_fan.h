@@ -1,17 +1,9 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <vector>
-
-#include "core/units.h"
 #include "simulate/visibility/angles.h"
 #include "support/calibrated.h"
 #include "support/draws.h"
 #include "support/labelled.h"
-#include "support/scenes.h"
 
 namespace sonarsim::test {
 

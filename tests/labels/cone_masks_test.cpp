@@ -1,12 +1,7 @@
 // The masks of objects in the calibrated model: they lie where its beams, which are cones, receive
 // the echo.
-#include <doctest/doctest.h>
-
-#include <Eigen/Geometry>
-#include <numeric>
 
 #include "labels/cone_fan.h"
-#include "support/sanitized.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -1,12 +1,6 @@
 // Labels of the calibrated model: where its beams, which are cones, receive the echo.
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <numeric>
 
 #include "labels/cone_fan.h"
-#include "support/approx.h"
-#include "support/sanitized.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -1,15 +1,6 @@
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <utility>
-#include <vector>
-
-#include "core/units.h"
 #include "simulate/labels/labels.h"
 #include "simulate/visibility/make_engine.h"
 #include "support/labelled.h"
-#include "support/scenes.h"
 #include "support/sonars.h"
 
 using namespace sonarsim;

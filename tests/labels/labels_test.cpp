@@ -1,17 +1,8 @@
 #include "simulate/labels/labels.h"
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-
 #include "simulate/visibility/make_engine.h"
-#include "support/approx.h"
 #include "support/bounces.h"
 #include "support/labelled.h"
-#include "support/sanitized.h"
-#include "support/scenes.h"
 #include "support/sonars.h"
 
 using namespace sonarsim;

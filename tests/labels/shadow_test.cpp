@@ -1,20 +1,11 @@
 #include "simulate/labels/shadow.h"
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include "core/units.h"
 #include "simulate/labels/hidden_surface.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/visibility/angles.h"
 #include "support/calibrated.h"
 #include "support/draws.h"
 #include "support/labelled.h"
-#include "support/sanitized.h"
-#include "support/scenes.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

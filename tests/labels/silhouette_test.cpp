@@ -1,12 +1,6 @@
 #include "simulate/labels/silhouette.h"
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <string>
-#include <vector>
-
-#include "support/approx.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

@@ -1,14 +1,9 @@
 #pragma once
 
-#include <doctest/doctest.h>
-
-#include <string>
-#include <vector>
-
-#include "core/error.h"
 #include "input/mission/parse.h"
 #include "input/mission/resolved.h"
 #include "simulate/sonar/kinds.h"
+#include "support/test.h"
 
 namespace sonarsim {
 

@@ -1,13 +1,8 @@
 #include "input/mission/parse.h"
 
-#include <filesystem>
-#include <fstream>
-
 #include "input/mission/preset.h"
 #include "mission/fixtures.h"
 #include "simulate/sonar/kinds.h"
-#include "support/approx.h"
-#include "support/temporary_folder.h"
 
 namespace sonarsim {
 

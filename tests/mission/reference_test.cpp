@@ -1,7 +1,5 @@
 #include "input/mission/reference.h"
 
-#include <algorithm>
-
 #include "input/mission/resolved.h"
 #include "mission/fixtures.h"
 #include "simulate/sonar/kinds.h"

@@ -1,5 +1,3 @@
-#include <string>
-
 #include "mission/fixtures.h"
 
 namespace sonarsim {

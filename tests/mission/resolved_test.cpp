@@ -1,9 +1,5 @@
 #include "input/mission/resolved.h"
 
-#include <doctest/doctest.h>
-
-#include <string>
-
 #include "input/mission/differences.h"
 #include "mission/fixtures.h"
 #include "simulate/sonar/kinds.h"

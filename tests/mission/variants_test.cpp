@@ -1,13 +1,8 @@
 #include "input/mission/variants.h"
 
-#include <cmath>
-#include <map>
-
-#include "core/file.h"
 #include "core/text.h"
 #include "input/mission/draw_value.h"
 #include "mission/fixtures.h"
-#include "support/temporary_folder.h"
 
 namespace sonarsim {
 

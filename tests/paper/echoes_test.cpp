@@ -1,10 +1,5 @@
 #include "simulate/paper/echoes.h"
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-
-#include "support/approx.h"
 #include "support/patches.h"
 
 using namespace sonarsim;

@@ -1,13 +1,5 @@
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <set>
-#include <utility>
-
 #include "simulate/paper/pixel_noise.h"
 #include "simulate/paper/range_noise.h"
-#include "support/approx.h"
 #include "support/statistics.h"
 
 using namespace sonarsim;

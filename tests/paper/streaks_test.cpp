@@ -1,12 +1,8 @@
 #include "simulate/paper/streaks.h"
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-
 #include "simulate/sonar/sonar.h"
 #include "simulate/visibility/rays/rays_engine.h"
-#include "support/scenes.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -1,14 +1,5 @@
-#include <doctest/doctest.h>
-
-#include <array>
-#include <cmath>
-#include <map>
-#include <random>
-
-#include "core/units.h"
 #include "simulate/sonar/sonar.h"
 #include "simulate/visibility/rays/rays_engine.h"
-#include "support/scenes.h"
 #include "support/statistics.h"
 
 using namespace sonarsim;

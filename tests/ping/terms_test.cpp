@@ -1,10 +1,7 @@
 #include "simulate/trace/terms.h"
 
-#include <doctest/doctest.h>
-
 #include "simulate/sonar/sonar.h"
 #include "simulate/visibility/rays/rays_engine.h"
-#include "support/scenes.h"
 #include "support/sonars.h"
 
 using namespace sonarsim;

@@ -1,18 +1,8 @@
 #include "run/preview/scene_views.h"
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <limits>
-#include <random>
-#include <utility>
-#include <vector>
-
-#include "core/units.h"
 #include "run/preview/object_boxes.h"
 #include "simulate/visibility/make_engine.h"
-#include "support/approx.h"
-#include "support/scenes.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 using Eigen::Vector2d;

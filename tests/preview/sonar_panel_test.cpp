@@ -1,15 +1,9 @@
 #include "run/preview/sonar_panel.h"
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <set>
-
-#include "core/units.h"
 #include "simulate/product/fan.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar.h"
-#include "support/approx.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

@@ -1,15 +1,8 @@
 #include "simulate/product/annotation.h"
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cstdint>
-#include <random>
-#include <vector>
-
 #include "simulate/product/contrast.h"
 #include "simulate/product/object_masks.h"
-#include "support/approx.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

@@ -1,13 +1,7 @@
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <memory>
-
-#include "core/units.h"
 #include "simulate/product/soundings.h"
 #include "simulate/sonar/sonar.h"
 #include "simulate/visibility/make_engine.h"
-#include "support/scenes.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

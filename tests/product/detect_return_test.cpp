@@ -1,13 +1,6 @@
 #include "simulate/product/detect_return.h"
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <numeric>
-#include <random>
-#include <vector>
-
-#include "support/approx.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

@@ -1,15 +1,8 @@
 #include "simulate/product/fan_bins.h"
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
-#include "core/units.h"
 #include "simulate/product/even_kernel.h"
 #include "simulate/sonar/sonar.h"
-#include "support/approx.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

@@ -1,16 +1,7 @@
 #include "simulate/product/fan.h"
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <random>
-
-#include "core/units.h"
 #include "simulate/sonar/sonar.h"
-#include "support/approx.h"
-#include "support/sanitized.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

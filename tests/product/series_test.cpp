@@ -1,13 +1,7 @@
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-
 #include "simulate/product/bottom.h"
 #include "simulate/product/gain.h"
 #include "simulate/product/picture.h"
-#include "support/approx.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

@@ -1,19 +1,9 @@
 #include "simulate/product/soundings.h"
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <numeric>
-#include <random>
-#include <span>
-
-#include "core/units.h"
 #include "simulate/product/bathymetry.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar.h"
-#include "support/approx.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

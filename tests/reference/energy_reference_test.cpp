@@ -1,14 +1,8 @@
 #include "simulate/reference/energy_reference.h"
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-
-#include "core/units.h"
 #include "simulate/reference/image_error.h"
 #include "simulate/visibility/make_engine.h"
 #include "support/calibrated.h"
-#include "support/scenes.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -1,13 +1,8 @@
 #include "run/checks/measured_error.h"
 
-#include <doctest/doctest.h>
 #include <tbb/task_arena.h>
 
-#include <algorithm>
-#include <cstdint>
-
 #include "simulate/assembly/engines.h"
-#include "support/approx.h"
 #include "support/small_mission.h"
 
 using namespace sonarsim;

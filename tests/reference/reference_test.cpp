@@ -1,16 +1,9 @@
 #include "simulate/reference/reference.h"
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "core/random.h"
-#include "core/units.h"
 #include "simulate/reference/image_error.h"
 #include "simulate/reference/reference_cast.h"
-#include "support/approx.h"
-#include "support/scenes.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -1,9 +1,4 @@
-#include <doctest/doctest.h>
-
-#include <algorithm>
-
 #include "run/report/report.h"
-#include "support/scenes.h"
 #include "support/small_mission.h"
 
 using namespace sonarsim;

@@ -1,9 +1,5 @@
 #include "run/report/report.h"
 
-#include <doctest/doctest.h>
-
-#include "core/units.h"
-#include "support/approx.h"
 #include "support/small_mission.h"
 
 using namespace sonarsim;

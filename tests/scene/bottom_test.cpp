@@ -1,11 +1,5 @@
 #include "input/scene/placing/bottom.h"
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <optional>
-#include <utility>
-
 #include "scene/waves.h"
 
 using namespace sonarsim;

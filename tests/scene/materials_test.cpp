@@ -1,12 +1,6 @@
 #include "input/scene/materials.h"
 
-#include <doctest/doctest.h>
-
-#include <string>
-#include <utility>
-
-#include "core/error.h"
-#include "support/approx.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

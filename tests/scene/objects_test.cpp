@@ -1,10 +1,6 @@
 #include "input/scene/objects.h"
 
-#include <doctest/doctest.h>
-
-#include <string>
-#include <utility>
-#include <vector>
+#include "support/test.h"
 
 using namespace sonarsim;
 

@@ -1,14 +1,7 @@
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "core/pose.h"
 #include "input/scene/placing/rest.h"
 #include "input/scene/placing/scatter.h"
 #include "scene/waves.h"
-#include "support/sanitized.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

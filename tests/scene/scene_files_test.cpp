@@ -1,8 +1,3 @@
-#include <doctest/doctest.h>
-
-#include <cstdlib>
-#include <string>
-
 #include "scene/gltf/builder.h"
 
 using namespace sonarsim;

@@ -1,14 +1,7 @@
 #include "input/scene/placing/standing.h"
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <string>
-
-#include "core/units.h"
 #include "input/scene/unit_question.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

@@ -1,7 +1,5 @@
 #include "input/scene/summary.h"
 
-#include <doctest/doctest.h>
-
 #include "scene/gltf/builder.h"
 
 using namespace sonarsim;

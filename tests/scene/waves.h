@@ -1,10 +1,7 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-
 #include "input/scene/surface.h"
+#include "support/test.h"
 
 namespace sonarsim::test {
 

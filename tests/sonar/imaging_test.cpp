@@ -1,13 +1,6 @@
-#include <doctest/doctest.h>
-
-#include <cmath>
-
-#include "core/units.h"
 #include "simulate/reference/image_error.h"
 #include "simulate/sonar/sonar.h"
 #include "simulate/visibility/rays/rays_engine.h"
-#include "support/approx.h"
-#include "support/scenes.h"
 #include "support/sonars.h"
 
 using namespace sonarsim;

@@ -1,8 +1,3 @@
-#include <doctest/doctest.h>
-
-#include <cmath>
-
-#include "core/units.h"
 #include "simulate/product/bathymetry.h"
 #include "simulate/product/soundings.h"
 #include "simulate/reference/image_error.h"
@@ -10,9 +5,6 @@
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar.h"
 #include "simulate/visibility/rays/rays_engine.h"
-#include "support/approx.h"
-#include "support/sanitized.h"
-#include "support/scenes.h"
 #include "support/sonars.h"
 
 using namespace sonarsim;

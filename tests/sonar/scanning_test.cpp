@@ -1,15 +1,9 @@
-#include <doctest/doctest.h>
-
-#include <cmath>
-
-#include "core/units.h"
 #include "simulate/product/scan.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/measured.h"
 #include "simulate/sonar/sonar.h"
 #include "simulate/visibility/rays/rays_engine.h"
-#include "support/approx.h"
-#include "support/shapes.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

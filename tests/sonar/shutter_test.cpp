@@ -1,16 +1,9 @@
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <memory>
-
-#include "core/units.h"
 #include "simulate/labels/labels.h"
 #include "simulate/product/object_table.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/labelled.h"
-#include "support/scenes.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -1,14 +1,7 @@
-#include <doctest/doctest.h>
-
-#include <cmath>
-
-#include "core/units.h"
 #include "simulate/product/sidescan_row.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar.h"
 #include "simulate/visibility/rays/rays_engine.h"
-#include "support/approx.h"
-#include "support/scenes.h"
 #include "support/sonars.h"
 
 using namespace sonarsim;

@@ -1,12 +1,7 @@
 #pragma once
 
-#include <cmath>
-#include <complex>
-#include <cstddef>
-#include <vector>
-
-#include "core/units.h"
 #include "input/scene/seabed/seabed.h"
+#include "support/test.h"
 
 namespace sonarsim::test {
 

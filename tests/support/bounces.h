@@ -1,14 +1,10 @@
 #pragma once
 
-#include <array>
-#include <cmath>
-#include <vector>
-
 #include "core/pose.h"
-#include "core/units.h"
 #include "input/scene/scene.h"
 #include "simulate/trace/multipath.h"
 #include "simulate/visibility/rays/rays_engine.h"
+#include "support/test.h"
 
 namespace sonarsim::test {
 

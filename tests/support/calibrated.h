@@ -1,14 +1,10 @@
 #pragma once
 
-#include <numeric>
-#include <span>
-#include <vector>
-
-#include "core/units.h"
 #include "simulate/calibrated/model.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar.h"
 #include "simulate/visibility/make_engine.h"
+#include "support/test.h"
 
 namespace sonarsim::test {
 

@@ -1,11 +1,7 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <cmath>
-#include <cstdint>
-#include <random>
-
 #include "core/random.h"
+#include "support/test.h"
 
 namespace sonarsim::test {
 

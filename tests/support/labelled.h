@@ -1,8 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
-
 #include "simulate/labels/labels.h"
 #include "simulate/visibility/make_engine.h"
 #include "support/sonars.h"

@@ -1,16 +1,7 @@
 #include "support/lattices.h"
 
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <vector>
-
 #include "core/elementary.h"
-#include "core/units.h"
 #include "support/draws.h"
-#include "support/shapes.h"
 
 namespace sonarsim::test {
 

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <cstdint>
-#include <string>
-
 #include "input/scene/scene.h"
 #include "simulate/sonar/sonar.h"
+#include "support/test.h"
 
 namespace sonarsim::test {
 

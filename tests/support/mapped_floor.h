@@ -1,13 +1,8 @@
 #pragma once
 
-#include <cmath>
-#include <vector>
-
-#include "core/units.h"
 #include "support/calibrated.h"
 #include "support/labelled.h"
 #include "support/maps.h"
-#include "support/scenes.h"
 
 namespace sonarsim::test {
 

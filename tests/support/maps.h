@@ -1,12 +1,8 @@
 #pragma once
 
-#include <functional>
-#include <memory>
-#include <utility>
-#include <vector>
-
 #include "input/scene/maps/ground_maps.h"
 #include "input/scene/scene.h"
+#include "support/test.h"
 
 namespace sonarsim::test {
 

@@ -1,11 +1,8 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "input/scene/scene.h"
 #include "simulate/visibility/engine.h"
+#include "support/test.h"
 
 namespace sonarsim::test {
 

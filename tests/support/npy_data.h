@@ -1,15 +1,9 @@
 #pragma once
 
-#include <doctest/doctest.h>
-
 #include <cstdio>
-#include <cstring>
-#include <filesystem>
-#include <string>
-#include <vector>
 
-#include "core/file.h"
 #include "output/format/npy.h"
+#include "support/test.h"
 
 namespace sonarsim::test {
 

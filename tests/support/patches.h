@@ -1,8 +1,7 @@
 #pragma once
 
-#include <cmath>
-
 #include "simulate/visibility/engine.h"
+#include "support/test.h"
 
 namespace sonarsim::test {
 

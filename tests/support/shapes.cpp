@@ -1,10 +1,8 @@
 #include "support/shapes.h"
 
-#include <cmath>
-
 #include "core/elementary.h"
-#include "core/units.h"
 #include "simulate/visibility/angles.h"
+#include "support/test.h"
 
 namespace sonarsim::shapes {
 

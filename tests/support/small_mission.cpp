@@ -1,9 +1,7 @@
 #include "support/small_mission.h"
 
-#include "core/file.h"
 #include "simulate/assembly/brightness.h"
 #include "simulate/sonar/kinds.h"
-#include "support/scenes.h"
 
 namespace sonarsim::test {
 

@@ -1,11 +1,8 @@
 #pragma once
 
-#include <filesystem>
-#include <map>
-#include <string>
-
 #include "input/mission/mission.h"
 #include "simulate/assembly/assemble.h"
+#include "support/test.h"
 
 namespace sonarsim::test {
 

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <memory>
-#include <utility>
-
 #include "simulate/paper/paper_model.h"
 #include "simulate/sonar/sonar.h"
+#include "support/test.h"
 
 namespace sonarsim::test {
 

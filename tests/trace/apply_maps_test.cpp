@@ -1,11 +1,5 @@
 #include "simulate/trace/apply_maps.h"
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <vector>
-
-#include "support/approx.h"
 #include "support/draws.h"
 #include "support/mapped_floor.h"
 

@@ -1,11 +1,8 @@
 #include "simulate/trace/arrivals.h"
 
-#include <doctest/doctest.h>
-
-#include <array>
 #include <bit>
-#include <cstdint>
-#include <random>
+
+#include "support/test.h"
 
 using namespace sonarsim;
 

@@ -1,18 +1,10 @@
 #include "simulate/trace/clusters.h"
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <set>
-
-#include "core/units.h"
 #include "simulate/paper/accumulate.h"
 #include "simulate/paper/multipath_echoes.h"
 #include "simulate/sonar/sonar.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/bounces.h"
-#include "support/scenes.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -1,11 +1,6 @@
 #include "simulate/trace/counters.h"
 
-#include <doctest/doctest.h>
-
-#include <set>
-#include <string>
-
-#include "core/file.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

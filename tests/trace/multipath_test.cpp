@@ -1,19 +1,10 @@
 #include "simulate/trace/multipath.h"
 
-#include <doctest/doctest.h>
-
-#include <array>
-#include <cmath>
-#include <functional>
-
-#include "core/units.h"
 #include "simulate/paper/multipath_echoes.h"
 #include "simulate/sonar/sonar.h"
 #include "simulate/visibility/rays/rays_engine.h"
-#include "support/approx.h"
 #include "support/bounces.h"
 #include "support/patches.h"
-#include "support/scenes.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -1,10 +1,7 @@
 #include "simulate/trace/particles.h"
 
-#include <doctest/doctest.h>
-
-#include "core/units.h"
 #include "simulate/visibility/rays/rays_engine.h"
-#include "support/scenes.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

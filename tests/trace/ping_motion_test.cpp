@@ -1,12 +1,5 @@
 #include "simulate/trace/ping_motion.h"
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <random>
-
-#include "core/units.h"
-#include "support/approx.h"
 #include "support/patches.h"
 
 using namespace sonarsim;

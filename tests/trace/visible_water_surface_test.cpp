@@ -1,14 +1,7 @@
 #include "simulate/trace/visible_water_surface.h"
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-
-#include "core/units.h"
 #include "simulate/visibility/rays/rays_engine.h"
-#include "support/approx.h"
-#include "support/scenes.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -1,13 +1,6 @@
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-
-#include "core/units.h"
 #include "simulate/trace/multipath.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/bounces.h"
-#include "support/scenes.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -1,15 +1,6 @@
 #include "input/trajectory/files.h"
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <string>
-#include <utility>
-
-#include "core/error.h"
-#include "core/file.h"
-#include "core/units.h"
-#include "support/temporary_folder.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

@@ -1,12 +1,6 @@
 #include "input/trajectory/interpolate.h"
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <limits>
-
-#include "core/error.h"
-#include "core/units.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

@@ -1,13 +1,7 @@
 #include "input/trajectory/navigation.h"
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <functional>
-
 #include "core/pose.h"
-#include "support/approx.h"
+#include "support/test.h"
 
 namespace sonarsim {
 

@@ -1,15 +1,6 @@
 #include "input/trajectory/patterns.h"
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include "core/error.h"
-#include "core/units.h"
-#include "support/approx.h"
-#include "support/sanitized.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 using Eigen::Vector2d;

@@ -1,13 +1,7 @@
 #include "input/trajectory/wave_motion.h"
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <cstdint>
-
 #include "core/pose.h"
-#include "core/units.h"
-#include "support/approx.h"
+#include "support/test.h"
 
 namespace sonarsim {
 

@@ -1,17 +1,8 @@
-#include <doctest/doctest.h>
-
-#include <cstring>
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include "core/units.h"
 #include "simulate/visibility/make_engine.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "simulate/visibility/slices/slices_engine.h"
 #include "simulate/water/sound_profile.h"
-#include "support/scenes.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

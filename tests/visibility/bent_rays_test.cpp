@@ -1,15 +1,8 @@
 #include "simulate/visibility/rays/bent_rays.h"
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <memory>
-
-#include "core/units.h"
 #include "simulate/visibility/make_engine.h"
 #include "simulate/water/water_ray.h"
-#include "support/approx.h"
-#include "support/scenes.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

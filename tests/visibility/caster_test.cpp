@@ -1,10 +1,6 @@
 #include "simulate/visibility/caster.h"
 
-#include <doctest/doctest.h>
-
-#include <vector>
-
-#include "support/scenes.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -1,7 +1,5 @@
 #include "support/lattices.h"
 
-#include <doctest/doctest.h>
-
 #include "simulate/reference/image_error.h"
 #include "simulate/reference/reference.h"
 #include "simulate/trace/ping.h"

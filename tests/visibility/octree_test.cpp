@@ -1,13 +1,5 @@
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-
-#include "core/error.h"
-#include "core/units.h"
 #include "simulate/visibility/octree/octree_engine.h"
-#include "support/approx.h"
-#include "support/scenes.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

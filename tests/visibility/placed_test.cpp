@@ -1,10 +1,5 @@
-#include <doctest/doctest.h>
-
-#include <cmath>
-
-#include "core/units.h"
 #include "simulate/visibility/rays/rays_engine.h"
-#include "support/scenes.h"
+#include "support/test.h"
 
 // Copies of shared meshes, and bodies that move.
 

@@ -1,8 +1,5 @@
-#include <doctest/doctest.h>
-
-#include "core/units.h"
 #include "simulate/visibility/rays/rays_engine.h"
-#include "support/scenes.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

@@ -1,11 +1,5 @@
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <string>
-
-#include "core/units.h"
 #include "simulate/visibility/make_engine.h"
-#include "support/scenes.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

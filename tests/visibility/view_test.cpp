@@ -1,10 +1,6 @@
 #include "simulate/visibility/view.h"
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-
-#include "core/units.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

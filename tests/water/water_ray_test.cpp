@@ -1,14 +1,6 @@
 #include "simulate/water/water_ray.h"
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <utility>
-
-#include "core/units.h"
-#include "support/approx.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

@@ -1,19 +1,7 @@
 #pragma once
 
-#include <doctest/doctest.h>
-
-#include <array>
-#include <cstdint>
-#include <filesystem>
-#include <nlohmann/json.hpp>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include "core/error.h"
-#include "core/file.h"
 #include "input/scene/gltf/load.h"
-#include "support/temporary_folder.h"
+#include "support/test.h"
 
 namespace sonarsim {
 

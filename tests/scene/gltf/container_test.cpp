@@ -1,7 +1,3 @@
-#include <doctest/doctest.h>
-
-#include <string>
-
 #include "input/scene/gltf/primitives.h"
 #include "scene/gltf/builder.h"
 

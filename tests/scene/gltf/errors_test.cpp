@@ -1,9 +1,3 @@
-#include <doctest/doctest.h>
-
-#include <set>
-#include <string>
-#include <vector>
-
 #include "scene/gltf/builder.h"
 
 using namespace sonarsim;

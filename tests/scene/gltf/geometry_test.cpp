@@ -1,13 +1,5 @@
-#include <doctest/doctest.h>
-
-#include <Eigen/Geometry>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-
 #include "input/scene/gltf/load.h"
 #include "scene/gltf/builder.h"
-#include "support/approx.h"
 
 using namespace sonarsim;
 using nlohmann::json;

@@ -1,11 +1,5 @@
-#include <doctest/doctest.h>
-
-#include <filesystem>
-#include <map>
-#include <string>
-
-#include "core/error.h"
 #include "input/scene/gltf/load.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 namespace fs = std::filesystem;

@@ -1,8 +1,3 @@
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <cstdint>
-
 #include "input/scene/copies.h"
 #include "input/scene/gltf/load.h"
 #include "scene/gltf/builder.h"

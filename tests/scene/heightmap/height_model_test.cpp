@@ -1,23 +1,10 @@
 #include "input/scene/heightmap/height_model.h"
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include "core/error.h"
-#include "core/file.h"
 #include "input/scene/gltf/load.h"
 #include "input/scene/gltf/surface_of.h"
 #include "input/scene/placing/bottom.h"
 #include "output/format/geotiff.h"
-#include "support/approx.h"
-#include "support/temporary_folder.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 using sonarsim::test::TemporaryFolder;

@@ -1,18 +1,7 @@
 #include "input/scene/images/read_image.h"
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <cstdlib>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include "core/error.h"
-#include "core/file.h"
 #include "output/format/geotiff.h"
-#include "support/approx.h"
-#include "support/temporary_folder.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

@@ -1,15 +1,7 @@
 #include <OpenImageIO/imageio.h>
-#include <doctest/doctest.h>
 
-#include <cmath>
-#include <cstdint>
-#include <string>
-#include <vector>
-
-#include "core/error.h"
-#include "core/file.h"
 #include "input/scene/images/read_image.h"
-#include "support/temporary_folder.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 using sonarsim::test::TemporaryFolder;

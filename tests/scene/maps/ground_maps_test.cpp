@@ -1,9 +1,3 @@
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "support/draws.h"
 #include "support/maps.h"
 

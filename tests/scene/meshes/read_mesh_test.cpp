@@ -1,11 +1,3 @@
-#include <doctest/doctest.h>
-
-#include <array>
-#include <cstring>
-#include <limits>
-#include <string>
-#include <vector>
-
 #include "input/scene/gltf/load.h"
 #include "scene/gltf/builder.h"
 

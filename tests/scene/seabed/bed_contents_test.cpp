@@ -1,18 +1,7 @@
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <memory>
-#include <string>
-#include <vector>
-
 #include "input/scene/gltf/load.h"
 #include "input/scene/gltf/surface_of.h"
 #include "input/scene/placing/bottom.h"
 #include "input/scene/seabed/seabed.h"
-#include "support/approx.h"
 #include "support/statistics.h"
 
 using namespace sonarsim;

@@ -1,13 +1,5 @@
 #include "input/scene/seabed/seabed.h"
 
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <memory>
-
-#include "core/units.h"
 #include "input/scene/gltf/surface_of.h"
 #include "support/bed_spectrum.h"
 

@@ -1,12 +1,6 @@
 #include "input/scene/seabed/smooth_field.h"
 
-#include <doctest/doctest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <vector>
-
-#include "core/units.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 

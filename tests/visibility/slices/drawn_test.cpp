@@ -1,16 +1,8 @@
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include "core/units.h"
 #include "simulate/reference/reference.h"
 #include "simulate/visibility/slices/slices_engine.h"
 #include "support/draws.h"
 #include "support/lattices.h"
 #include "support/mean_echoes.h"
-#include "support/scenes.h"
 
 using namespace sonarsim;
 

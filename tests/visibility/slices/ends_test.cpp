@@ -1,13 +1,5 @@
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "core/elementary.h"
-#include "core/units.h"
-#include "support/approx.h"
 #include "support/draws.h"
-#include "support/shapes.h"
 #include "visibility/slices/fixtures.h"
 
 using namespace sonarsim;

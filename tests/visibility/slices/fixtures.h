@@ -1,9 +1,7 @@
 #pragma once
 
-#include <span>
-
-#include "core/units.h"
 #include "simulate/visibility/slices/slices_engine.h"
+#include "support/test.h"
 
 namespace sonarsim::test {
 

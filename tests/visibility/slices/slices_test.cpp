@@ -1,13 +1,3 @@
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <random>
-
-#include "core/units.h"
-#include "support/approx.h"
-#include "support/scenes.h"
 #include "visibility/slices/fixtures.h"
 
 using namespace sonarsim;

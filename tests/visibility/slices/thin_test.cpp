@@ -1,14 +1,5 @@
-#include <doctest/doctest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-
-#include "core/units.h"
 #include "simulate/visibility/slices/slices_engine.h"
-#include "support/approx.h"
 #include "support/mean_echoes.h"
-#include "support/scenes.h"
 #include "visibility/slices/fixtures.h"
 
 using namespace sonarsim;
