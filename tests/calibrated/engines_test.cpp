@@ -37,8 +37,7 @@ Scene bottom_with_stones(std::mt19937& random) {
 /// Ground of ripples of drawn height, length and direction.
 Scene ripples(std::mt19937& random) {
     std::uniform_real_distribution<float> unit(0.0F, 1.0F);
-    Scene scene = empty_scene();
-    add_floor(scene, 12.0F, 0.0F, add_material(scene, 0.4F), 240);
+    Scene scene = floor_scene(12.0F, 0.0F, 0.4F, 240);
     const float turn = 3.14F * unit(random);
     const float per_m = 6.28F / (0.4F + 0.6F * unit(random));
     const float height_m = 0.02F + 0.03F * unit(random);
@@ -110,8 +109,7 @@ TEST_SUITE("calibrated") {
     // Slices meet at the boresight of an echosounder: a piece as long as the bottom is wide weighs
     // the narrow middle of the beam as much as its edge, which makes a flat bottom 54 % too loud.
     TEST_CASE("rays and slices agree within twice the error goal") {
-        Scene flat = empty_scene();
-        add_floor(flat, 14.0F, -5.0F, add_material(flat, 0.4F), 4);
+        Scene flat = floor_scene(14.0F, -5.0F, 0.4F, 4);
         SonarConfig side = calibrated(default_sonar(SonarKind::sidescan), 4e5);
         side.range_max_m = 12.0;
         side.range_bins = 230;

@@ -28,8 +28,7 @@ Sonar sounder_to_surface() {
 }
 
 Scene calm_scene(double wind_m_s) {
-    Scene scene = empty_scene();
-    add_floor(scene, 40.0F, -15.0F, add_material(scene, 0.4F), 4);
+    Scene scene = floor_scene(40.0F, -15.0F, 0.4F, 4);
     scene.water_surface = WaterSurface{.height_m = 10.0, .reflection = 1.0F, .wind_m_s = wind_m_s};
     return scene;
 }

@@ -68,8 +68,7 @@ TEST_CASE("example of an echo model: the energy of a floor under a cone") {
     // half-angle a is R / H^2 times the integral of cos^3 dOmega, R / H^2 (pi / 2) (1 - cos^4 a).
     constexpr double H = 4.0;
     constexpr double R = 0.6;
-    Scene scene = empty_scene();
-    add_floor(scene, 100.0F, 0.0F, add_material(scene, static_cast<float>(R)));
+    Scene scene = floor_scene(100.0F, 0.0F, static_cast<float>(R));
     const auto engine = make_rays_engine(scene);
     SonarConfig config = default_sonar(SonarKind::echosounder);
     config.name = "sounder";

@@ -47,8 +47,7 @@ class IncidenceFinder {
 /// is H / r_mid up to ((s - r) / r_mid)^2 / 12.
 TEST_CASE("example of a label: the incidence on a level floor") {
     constexpr double depth_m = 2.0;
-    Scene scene = empty_scene();
-    add_floor(scene, 30.0F, -depth_m, add_material(scene, 0.3F));
+    Scene scene = floor_scene(30.0F, -depth_m, 0.3F);
     const Sonar sonar = make_sonar(small_imaging(), {.relative_l1 = 0.01});
     const auto engine = make_engine(scene, {});
     const Pose tilted{rotation_from_rpy(0.0, 0.5, 0.0), Eigen::Vector3d::Zero()};

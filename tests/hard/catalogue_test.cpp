@@ -1,11 +1,14 @@
 #include "hard/cases.h"
 #include "input/mission/instrument.h"
+#include "simulate/paper/accumulate.h"
+#include "simulate/reference/image_error.h"
+#include "simulate/reference/reference.h"
 #include "simulate/sonar/engine_settings.h"
 #include "simulate/sonar/kinds.h"
+#include "simulate/visibility/make_engine.h"
+#include "support/test.h"
 
 using namespace sonarsim;
-
-TEST_SUITE_BEGIN("hard");
 
 namespace {
 
@@ -87,6 +90,8 @@ std::uint64_t dropped_by(const VisibilityEngine& engine, const Scene& scene,
 
 }  // namespace
 
+TEST_SUITE_BEGIN("hard");
+
 TEST_CASE("hard cases: every case keeps its bound") {
     for (const std::vector<HardCase>& cases :
          {hard_places(), hard_geometry(), hard_sonar_limits(), hard_invariances()}) {
@@ -120,6 +125,66 @@ TEST_CASE("a sonar on a floor, turned together every way: no image is anything b
         }
     }
     CHECK(dropped > 0);
+}
+
+TEST_CASE("the error of rays falls with their goal") {
+    struct Subject {
+        const char* name;
+        Scene scene;
+        double pitch_deg;
+        Eigen::Vector3d position;
+    };
+    const Subject subjects[] = {{"smooth", test::rough_floor(), 35.0, {0.3, 0.2, 4.0}},
+                                {"edgy", test::tank(), 15.0, {-2.4, 0.4, 1.5}},
+                                {"grazing", test::rough_floor(), 5.0, {0.3, 0.2, 1.3}}};
+    Sonar sonar = in_tank(SonarKind::imaging).sonar;
+    for (const Subject& subject : subjects) {
+        CAPTURE(subject.name);
+        const Pose pose{rotation_from_rpy(0.0, radians(subject.pitch_deg), 0.1), subject.position};
+        const Reference truth =
+            cast_reference(Caster(subject.scene), subject.scene, sonar.settings.view, pose,
+                           {0.001, 256.0, 16'000'000});
+        const std::unique_ptr<VisibilityEngine> engine =
+            make_engine(subject.scene, {EngineKind::rays, {}});
+        double first = 0.0;
+        for (const double goal : {0.24, 0.12, 0.06, 0.03, 0.015}) {
+            CAPTURE(goal);
+            sonar.settings.view.relative_l1 = goal;
+            const Ping ping = render_ping(sonar, subject.scene, *engine, pose, {1, 0});
+            const double error = image_error(ping.intensity, truth.intensity).relative_l1;
+            if (first == 0.0) first = error;
+            CHECK(error < 1.2 * goal);  // a single pose may miss its goal
+            // Silhouettes and bin edges limit the order of convergence to one.
+            CHECK(error <= 1.1 * first * std::pow(goal / 0.24, 0.4));
+        }
+    }
+}
+
+TEST_CASE("an echo that is no number or out of range is dropped and counted, one across is cut") {
+    const auto echoes_at = [](const std::vector<float>& range_m, const std::vector<float>& half_m) {
+        Echoes echoes;
+        echoes.resize(range_m.size(), false);
+        for (std::size_t i = 0; i < range_m.size(); ++i) {
+            echoes.range_m[i] = range_m[i];
+            echoes.half_m[i] = half_m[i];
+            echoes.weight[i] = echoes.intensity[i] = 1.0F;
+        }
+        return echoes;
+    };
+    BinSums sums;
+    sums.clear(4);
+    const float nan = std::nanf("");
+    CHECK(accumulate(echoes_at({nan, INFINITY, -1.0F, 0.5F}, {0.1F, INFINITY, 0.1F, nan}),
+                     {0.0F, 0.5F, 4}, sums) == 4);
+    for (int i = 0; i < 4; ++i)
+        CHECK(sums.weight(i) == 0.0F);
+    // Bins from 2 to 3 m, 0.25 m each. Truncation towards zero would put 1.8 m into the first bin.
+    CHECK(accumulate(echoes_at({1.8F, 3.2F, 3.01F, 2.0F, 2.99F}, {0.1F, 0.1F, 0.0F, 0.1F, 0.1F}),
+                     {2.0F, 0.25F, 4}, sums) == 3);
+    CHECK(sums.weight(0) == test::approx(0.5));  // the half of 1.9 to 2.1 m that is in range
+    CHECK(sums.weight(1) == 0.0F);
+    CHECK(sums.weight(2) == 0.0F);
+    CHECK(sums.weight(3) == test::approx(0.55));  // the part of 2.89 to 3.09 m below 3
 }
 
 TEST_SUITE_END();

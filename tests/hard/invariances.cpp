@@ -106,7 +106,7 @@ std::vector<HardCase> hard_invariances() {
              .scene = rigidly_moved,
              .trial = rigidly_moved_trial,
              .truth = tank_image,
-             .bounds = {0.01},
+             .bounds = {2e-3, 0.01},
              .truth_of_any_model = true},
             {.name = "UTM, off the grid",
              .scene = in_utm,

@@ -15,9 +15,7 @@ Scene narrow_box() {
 
 /// All surface is behind the sonar.
 Scene ceiling() {
-    Scene scene = empty_scene();
-    add_floor(scene, 30.0F, 8.0F, add_material(scene, 0.5F));
-    return scene;
+    return floor_scene(30.0F, 8.0F, 0.5F);
 }
 
 Scene inside_sphere() {

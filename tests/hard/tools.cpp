@@ -54,9 +54,7 @@ HardTrial with_model(HardTrial trial, ModelKind model) {
 }
 
 Scene plain_floor() {
-    Scene scene = shapes::empty_scene();
-    shapes::add_floor(scene, 30.0F, 0.0F, shapes::add_material(scene, 0.5F));
-    return scene;
+    return shapes::floor_scene(30.0F, 0.0F, 0.5F);
 }
 
 std::vector<float> plane_law(const HardContext& context, double reflection, double height_m) {

@@ -33,8 +33,7 @@ TEST_SUITE_BEGIN("ping");
 TEST_CASE("labels: the elevation of a floor is that of its range") {
     // At height H over a plane, level, straight ahead: sin(theta) = -H / r. Over a bin of width b
     // theta spreads evenly over b d(theta)/dr, a standard deviation of that over sqrt(12).
-    Scene scene = empty_scene();
-    add_floor(scene, 100.0F, 0.0F, add_material(scene, 0.6F));
+    Scene scene = floor_scene(100.0F, 0.0F, 0.6F);
     const Sonar sonar = height_sonar();
     constexpr double H = 2.0;
     for (const EngineKind type : engine_types) {

@@ -1,6 +1,12 @@
+#include "simulate/paper/echoes.h"
 #include "simulate/paper/pixel_noise.h"
 #include "simulate/paper/range_noise.h"
+#include "simulate/paper/streaks.h"
+#include "simulate/sonar/sonar.h"
+#include "simulate/visibility/rays/rays_engine.h"
+#include "support/patches.h"
 #include "support/statistics.h"
+#include "support/test.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -36,6 +42,18 @@ std::vector<float> noisy(float value, int rows, int columns, float add, float mu
                            std::vector<float>(columns, 1.0F)};
     add_pixel_noise(image, noise, stream_key(5, 2, ping, Stream::pixel_noise));
     return image;
+}
+
+Echoes echoes_of(const Eigen::Vector3f& centre, const Eigen::Vector3f& edge_u,
+                 const Eigen::Vector3f& edge_v, float bin_m) {
+    Sample sample = patch_of(centre, -centre.normalized(), edge_u, edge_v);
+    sample.area_m2 = 0.5F;
+    Material material;
+    material.reflection = 0.25F;
+    Echoes echoes;
+    std::vector<std::uint32_t> ends;
+    direct_echoes({&sample, 1}, {&material, 1}, bin_m, {}, echoes, &ends);
+    return echoes;
 }
 
 }  // namespace
@@ -187,6 +205,52 @@ TEST_CASE("negative pixels become zero and are counted") {
     CHECK(static_cast<std::uint64_t>(std::ranges::count(image, 0.0F)) == negative);
     // P(0.5 + N(0, 1) < 0) = Phi(-0.5) = 0.3085, standard deviation 0.0046 over 10,000.
     CHECK(static_cast<double>(negative) / 3085.0 == test::approx(1.0).epsilon(0.07));
+}
+
+TEST_CASE("a row becomes a streak when its share at normal incidence reaches the threshold") {
+    RowAreas areas(4);
+    areas.all = {1.0F, 1.0F, 1.0F, 0.0F};
+    const std::vector<float> normal{0.5F, 0.25F, 0.125F, 0.0F};
+    for (std::size_t i = 0; i < normal.size(); ++i)
+        areas.normal.begins[i + 1].weight = normal[i];
+    const std::vector<float> image{0.5F, 1.5F, 0.2F, -0.5F, 0.3F, 2.0F, 0.4F, 0.4F};
+    std::vector<float> added = image;
+    CHECK(add_streaks(added, areas, {StreakMode::add, 0.25F, 0.99F}) == 2);
+    // 1 - (1 - I)^2 of I in [0, 1]: 0.75, 1 (1.5 clamped), 0.36, 0 (-0.5 clamped).
+    const std::vector<float> expected{0.75F, 1.0F, 0.36F, 0.0F, 0.3F, 2.0F, 0.4F, 0.4F};
+    for (std::size_t k = 0; k < image.size(); ++k)
+        CHECK(std::fabs(added[k] - expected[k]) < 1e-6);
+    std::vector<float> reduced = image;
+    CHECK(add_streaks(reduced, areas, {StreakMode::reduce, 0.25F, 0.99F}) == 2);
+    CHECK(reduced[0] == 0.25F);
+    CHECK(reduced[1] == 1.0F);
+    CHECK(reduced[5] == 2.0F);
+}
+
+TEST_CASE("echoes: a sample without edges is one echo without extent") {
+    // The paper's literal leaves are points.
+    const Echoes echoes = echoes_of({3, 0, 4}, {0, 0, 0}, {0, 0, 0}, 0.1F);
+    REQUIRE(echoes.size() == 1);
+    CHECK(echoes.range_m[0] == 5.0F);
+    CHECK(echoes.half_m[0] == 0.0F);
+    CHECK(echoes.weight[0] == 0.5F);
+    CHECK(echoes.intensity[0] == 0.25F);
+}
+
+TEST_CASE("echoes: a piece reaches from its nearest to its farthest corner") {
+    // Half edges along and across the line of sight, in bins so long that nothing is cut. Along,
+    // range is linear: 5 -+ 0.2. Across it is sqrt(25 + s^2), which reaches from 5 to 5 + 0.3^2
+    // / 10.
+    for (const float along : {0.0F, 0.2F}) {
+        for (const float across : {0.0F, 0.3F}) {
+            const Echoes echoes = echoes_of({5, 0, 0}, {along, 0, 0}, {0, across, 0}, 10.0F);
+            REQUIRE(echoes.size() == 1);
+            const float nearest = echoes.range_m[0] - echoes.half_m[0];
+            const float farthest = echoes.range_m[0] + echoes.half_m[0];
+            CHECK(nearest == test::approx(5.0 - along).epsilon(1e-6));
+            CHECK(farthest == test::approx(5.0 + along + 0.1 * across * across).epsilon(1e-6));
+        }
+    }
 }
 
 TEST_SUITE_END();

@@ -9,9 +9,7 @@ namespace {
 
 /// A flat bottom 40 m below the origin.
 Scene deep_bottom() {
-    Scene scene = test::empty_scene();
-    test::add_floor(scene, 200.0F, -40.0F, test::add_material(scene, 0.5F));
-    return scene;
+    return test::floor_scene(200.0F, -40.0F, 0.5F);
 }
 
 /// 1500 m/s + `gradient` z.

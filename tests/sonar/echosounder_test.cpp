@@ -23,8 +23,7 @@ TEST_SUITE_BEGIN("sonar");
 TEST_CASE("echosounder: a flat bottom echoes as R H / r over the cone, from its depth on") {
     // v . n = H / r at every point of the bottom; the cone of half-angle psi ends at H / cos psi.
     constexpr float R = 0.6F;
-    Scene scene = empty_scene();
-    add_floor(scene, 100.0F, 0.0F, add_material(scene, R));
+    Scene scene = floor_scene(100.0F, 0.0F, R);
     const auto engine = make_rays_engine(scene);
     const Sonar sonar = make_sonar(echosounder(), {});
     for (const double H : {2.003, 5.0, 9.017}) {
@@ -47,8 +46,7 @@ TEST_CASE("echosounder: a flat bottom echoes as R H / r over the cone, from its 
 TEST_CASE("echosounder: range noise does not fade") {
     // A bottom within one scatterer cell: each ping draws one w, and the echo keeps its strength
     // wherever it lands; an imaging sonar's would be weaker by exp(-w / lambda).
-    Scene scene = empty_scene();
-    add_floor(scene, 100.0F, 0.0F, add_material(scene, 0.8F));
+    Scene scene = floor_scene(100.0F, 0.0F, 0.8F);
     SonarConfig config = echosounder();
     config.opening_deg = 1.0;
     config.noise.range_lambda_m = 0.3;

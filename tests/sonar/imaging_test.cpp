@@ -2,6 +2,7 @@
 #include "simulate/sonar/sonar.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/sonars.h"
+#include "support/statistics.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -29,6 +30,12 @@ double relative_l1(const Ping& ping, Expected expected) {
     return difference / total;
 }
 
+/// The lobe of the noise over the beams of a sonar.
+std::vector<float> lobe_of(const SonarConfig& config) {
+    const Sonar sonar = make_sonar(config, {});
+    return dynamic_cast<const PaperModel&>(*sonar.settings.model).pixel_noise.lobe_scale;
+}
+
 }  // namespace
 
 TEST_SUITE_BEGIN("sonar");
@@ -40,8 +47,7 @@ TEST_CASE("a floor below the sonar: I = R H / r in every bin, from the right bin
     constexpr float R = 0.6F;
     constexpr double H = 2.0;
     constexpr double pitch_deg = 25.0;
-    Scene scene = empty_scene();
-    add_floor(scene, 100.0F, 0.0F, add_material(scene, R));
+    Scene scene = floor_scene(100.0F, 0.0F, R);
     const Sonar sonar = noise_free(small_imaging());
     const Pose pose{rotation_from_rpy(0.0, radians(pitch_deg), 0.0), {0.0, 0.0, H}};
     const Ping ping = look(scene, sonar, pose);
@@ -100,57 +106,78 @@ TEST_CASE("a sphere agrees with its closed form") {
     }
 }
 
-TEST_CASE("azimuth is positive to port, and beams run from starboard to port") {
-    Scene scene = empty_scene();
-    add_sphere(scene, {5, 1.5F, 0}, 0.2F, add_material(scene, 1.0F), 32);
-    const Sonar sonar = noise_free(small_imaging());
-    const Ping ping = look(scene, sonar, Pose{});
-    const double azimuth = std::atan2(1.5, 5.0);
-    int brightest = 0;
-    for (int j = 0; j < ping.beams; ++j) {
-        float sum = 0.0F;
-        for (int i = 0; i < ping.range_bins; ++i)
-            sum += ping.at(i, j);
-        const bool over =
-            std::fabs(0.5 * (sonar.azimuth_edges_rad[j] + sonar.azimuth_edges_rad[j + 1]) -
-                      azimuth) < 0.035;
-        if (over) CHECK(sum > 0.0F);
-        if (sum > 0.0F) brightest = j;
-        if (j < ping.beams / 2) CHECK(sum == 0.0F);
-    }
-    CHECK(brightest > ping.beams / 2);
+TEST_CASE("noise is a function of seed, sensor and ping; without it the seed does not matter") {
+    const Scene scene = tank();
+    const Pose pose{rotation_from_rpy(0.0, radians(12.0), 0.0), {-3.0, 0.0, 1.5}};
+    const auto engine = make_rays_engine(scene);
+    const auto look = [&](const Sonar& sonar, const PingKey& key) {
+        return render_ping(sonar, scene, *engine, pose, key).intensity;
+    };
+    const Sonar clean = noise_free(small_imaging());
+    CHECK(look(clean, {1, 5}) == look(clean, {2, 6}));
+
+    SonarConfig config = small_imaging();
+    config.noise = {0.05, 0.02, 0.1, 0.2, true, 0.0};
+    const Sonar noisy = make_sonar(config, {});
+    const std::vector<float> image = look(noisy, {0, 5});
+    CHECK(image == look(noisy, {0, 5}));
+    CHECK(image != look(noisy, {1, 5}));
+    CHECK(image != look(noisy, {0, 6}));
+    config.name = "another";
+    CHECK(image != look(make_sonar(config, {}), {0, 5}));
 }
 
-TEST_CASE("surfaces are two-sided and the impedance of water does not echo") {
+TEST_CASE("the mean over 1,000 seeds agrees with theory") {
+    // A wall within one scatterer cell: a ping has one w, and bins [a, b) hold the echo when D + w
+    // falls into them: E[I'] = I / 2 (exp(-2 (a - D) / lambda) - exp(-2 (b - D) / lambda)). Pixel
+    // noise adds s sigma sqrt(pi / 2) and halves the rest (m = 0.5).
+    constexpr double R = 0.8;
+    constexpr double D = 2.01;
+    constexpr double lambda = 0.1;
+    constexpr double sigma_a = 0.02;
     Scene scene = empty_scene();
-    const std::uint32_t none = add_material(scene, 0.0F);
-    const std::uint32_t some = add_material(scene, 0.5F);
-    add_quad(scene, {5, -9, -9}, {5, 0, -9}, {5, 0, 9}, {5, -9, 9}, none);
-    add_quad(scene, {5, 0, -9}, {5, 0, 9}, {5, 9, 9}, {5, 9, -9}, some);  // wound the other way
-    const Sonar sonar = noise_free(small_imaging());
-    const Ping ping = look(scene, sonar, Pose{});
-    for (int j = 0; j < ping.beams; ++j) {
-        float sum = 0.0F;
-        for (int i = 0; i < ping.range_bins; ++i)
-            sum += ping.at(i, j);
-        CHECK((sum > 0.0F) == (j >= ping.beams / 2));
+    const std::uint32_t m = add_material(scene, R);
+    add_quad(scene, {D, -1, -1}, {D, 1, -1}, {D, 1, 1}, {D, -1, 1}, m);
+    SonarConfig config = small_imaging();
+    config.azimuth_deg = config.elevation_deg = 1.0;
+    config.range_min_m = 1.9;
+    config.range_max_m = 2.5;
+    config.range_bins = 12;
+    config.azimuth_bins = 1;
+    config.noise = {lambda, 1000.0, sigma_a, 0.05, true, 0.0};
+    const Sonar sonar = make_sonar(config, {});
+    const auto engine = make_rays_engine(scene);
+    std::vector<std::vector<double>> bins(12);
+    for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+        const Ping ping = render_ping(sonar, scene, *engine, Pose{}, {seed, 0});
+        for (int i = 0; i < 12; ++i)
+            bins[i].push_back(ping.at(i, 0));
     }
-    CHECK(power_reflection(997.0, 1480.0, {997.0, 1480.0}) == 0.0);
-    // Steel in water: ((7850 * 5960 - 997 * 1480) / (their sum))^2 = 0.881.
-    CHECK(power_reflection(7850.0, 5960.0, {997.0, 1480.0}) == test::approx(0.881).epsilon(1e-3));
+    for (int i = 0; i < 12; ++i) {
+        const double a = std::max(sonar.range_edges_m[i] - D, 0.0);
+        const double b = std::max(sonar.range_edges_m[i + 1] - D, 0.0);
+        const double echo = 0.5 * R * (std::exp(-2.0 * a / lambda) - std::exp(-2.0 * b / lambda));
+        const double r =
+            0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]) / config.range_max_m;
+        // The lobe factor is 1.5 in the only beam, at azimuth 0.
+        const double additive = r * r * 1.5 * sigma_a * std::sqrt(std::acos(-1.0) / 2.0);
+        // 12 bins at 4 standard errors: a false alarm once in 1,300.
+        CHECK(std::fabs(mean(bins[i]) - (0.5 * echo + additive)) < 4.0 * standard_error(bins[i]));
+    }
 }
 
-TEST_CASE("a rigid motion of scene and sonar together changes nothing that can be seen") {
-    const Sonar sonar = noise_free(small_imaging());
-    Scene scene = tank();
-    const Pose pose{rotation_from_rpy(0.02, radians(12.0), 0.1), {-3.0, -0.4, 1.4}};
-    const Ping at_home = look(scene, sonar, pose);
-    const Pose motion{rotation_from_rpy(0.3, -0.2, 1.1), {20.0, -7.0, 3.0}};
-    for (Eigen::Vector3f& p : scene.vertices) {
-        p = (motion.rotation * p.cast<double>() + motion.translation).cast<float>();
+TEST_CASE("the narrowest lobe that a mission can ask for leaves finite scales") {
+    SonarConfig config;
+    for (const double sigma_deg : {0.5, 0.1, 1e-3, 1e-12, 1e-300, 5e-324}) {
+        config.noise.lobe_sigma_deg = sigma_deg;
+        config.azimuth_bins = 512;
+        for (const float scale : lobe_of(config)) {
+            CHECK(scale >= 1.0F);
+            CHECK(scale < 1.5F);
+        }
+        config.azimuth_bins = 1;  // along the boresight, where the lobe has its peak
+        CHECK(lobe_of(config)[0] == 1.5F);
     }
-    const Ping moved = look(scene, sonar, motion * pose);
-    CHECK(image_error(moved.intensity, at_home.intensity).relative_l1 < 2e-3);
 }
 
 TEST_SUITE_END();

@@ -54,8 +54,7 @@ TEST_SUITE_BEGIN("sonar");
 
 TEST_CASE("profiling: soundings lie on a flat bottom within a quarter of a range bin") {
     // The middle of a run of whole bins is off by 0.20 bins on average.
-    Scene scene = empty_scene();
-    add_floor(scene, 200.0F, 0.0F, add_material(scene, 0.5F));
+    Scene scene = floor_scene(200.0F, 0.0F, 0.5F);
     const auto engine = make_rays_engine(scene);
     const Sonar sonar = noise_free(profiling());
     const double bin_m = sonar.settings.view.bin_m();
@@ -87,8 +86,7 @@ TEST_CASE("profiling: soundings lie on a flat bottom within a quarter of a range
 TEST_CASE("profiling: soundings on a flat bottom under noise" * doctest::skip(test::sanitized)) {
     // Range noise delays an echo and dims it: exp(-w / lambda) twice gives a mean of half of
     // lambda, 2 cm. Under strong additive noise some are lost, of which few may pass for good.
-    Scene scene = empty_scene();
-    add_floor(scene, 200.0F, 0.0F, add_material(scene, 0.15F));
+    Scene scene = floor_scene(200.0F, 0.0F, 0.15F);
     const auto engine = make_rays_engine(scene);
     for (const double add_sigma : {0.01, 0.05}) {
         SonarConfig config = profiling();

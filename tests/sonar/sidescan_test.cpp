@@ -21,9 +21,7 @@ SonarConfig sidescan() {
 }
 
 Scene flat_bottom() {
-    Scene scene = empty_scene();
-    add_floor(scene, 100.0F, 0.0F, add_material(scene, R));
-    return scene;
+    return floor_scene(100.0F, 0.0F, R);
 }
 
 Ping look(const Scene& scene, const Sonar& sonar, double yaw = 0.0) {

@@ -56,6 +56,12 @@ void add_floor(Scene& scene, float half_size, float z, std::uint32_t material, i
     add_quad(scene, {-s, -s, z}, {s, -s, z}, {s, s, z}, {-s, s, z}, material, n);
 }
 
+Scene floor_scene(float half_size, float z, float reflection, int n) {
+    Scene scene = empty_scene();
+    add_floor(scene, half_size, z, add_material(scene, reflection), n);
+    return scene;
+}
+
 void add_box(Scene& scene, const Eigen::Vector3f& min, const Eigen::Vector3f& max,
              std::uint32_t material) {
     for (int axis = 0; axis < 3; ++axis) {

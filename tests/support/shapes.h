@@ -28,6 +28,9 @@ void add_quad(Scene& scene, const Eigen::Vector3f& a, const Eigen::Vector3f& b,
 /// The horizontal square |x|, |y| <= half_size at height z.
 void add_floor(Scene& scene, float half_size, float z, std::uint32_t material, int n = 1);
 
+/// A scene of such a floor alone, of one material.
+Scene floor_scene(float half_size, float z, float reflection, int n = 1);
+
 /// An axis-aligned box.
 void add_box(Scene& scene, const Eigen::Vector3f& min, const Eigen::Vector3f& max,
              std::uint32_t material);

@@ -1,6 +1,6 @@
 #pragma once
 
-// What most tests need. It is also the precompiled header of the tests.
+// Headers that most tests need; also their precompiled header.
 
 #include <doctest/doctest.h>
 

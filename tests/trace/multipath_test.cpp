@@ -131,25 +131,6 @@ TEST_CASE("every sample is counted once") {
     }
 }
 
-TEST_CASE("multipath off is without cost and without trace") {
-    const Scene scene = tank();
-    SonarConfig config;
-    config.name = "fls";
-    const auto engine = make_rays_engine(scene);
-    const Ping off = render_ping(make_sonar(config, {}), scene, *engine, tank_poses()[0], {});
-    CHECK(off.counts.multipath.rays == 0);
-    CHECK(off.counts.streak_rows == 0);
-    // In a scene without multipath, on and off are the same bytes.
-    Scene sphere = empty_scene();
-    add_sphere(sphere, {4, 0, 0}, 0.8F, add_material(sphere, 0.6F), 64);
-    const auto round = make_rays_engine(sphere);
-    config.noise.range_lambda_m = 0.05;
-    const Ping without = render_ping(make_sonar(config, {}), sphere, *round, Pose{}, {});
-    config.multipath.method = MultipathMethod::cluster;
-    CHECK(render_ping(make_sonar(config, {}), sphere, *round, Pose{}, {}).intensity ==
-          without.intensity);
-}
-
 TEST_CASE("a footprint wider than a beam lights all beams that it covers, over a seam as well") {
     for (const double azimuth_deg : {60.0, 360.0}) {
         const View view = fan(azimuth_deg, 12.0);

@@ -42,9 +42,7 @@ double area_between(Scene scene, const View& view, const Pose& pose, double from
 }
 
 Scene scene_below() {
-    Scene scene = empty_scene();
-    add_floor(scene, 100.0F, -50.0F, add_material(scene, 0.4F), 4);
-    return scene;
+    return floor_scene(100.0F, -50.0F, 0.4F, 4);
 }
 
 }  // namespace

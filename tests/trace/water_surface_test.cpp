@@ -13,8 +13,7 @@ TEST_SUITE("ping") {
         // ((3 h + 2 d) / cos a + sqrt(h^2 + x^2)) / 2.
         constexpr double h = 5.0;
         constexpr double d = 2.0;
-        Scene scene = empty_scene();
-        add_floor(scene, 50.0F, 0.0F, add_material(scene, 0.25F), 4);
+        Scene scene = floor_scene(50.0F, 0.0F, 0.25F, 4);
         scene.water_surface = {h + d, 0.9F};
         const View view{.azimuth_rad = radians(30.0),
                         .elevation_rad = radians(30.0),

@@ -46,8 +46,7 @@ TEST_CASE("auto takes slices, and rays for the views that need them") {
 }
 
 TEST_CASE("auto takes rays over many triangles, denser than the goal alone asks for") {
-    Scene scene = test::empty_scene();
-    test::add_floor(scene, 20.0F, 0.0F, test::add_material(scene, 0.3F), 1025);
+    Scene scene = test::floor_scene(20.0F, 0.0F, 0.3F, 1025);
     REQUIRE(scene.triangles.size() > many_triangles);
     const Caster caster(scene);
     View view = auto_view(0.12);

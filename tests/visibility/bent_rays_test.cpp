@@ -14,9 +14,7 @@ constexpr double bent_bottom_m = -40.0;
 
 /// A flat bottom under water of one gradient, 1500 m/s at z = 0.
 Scene floor_under(double gradient) {
-    Scene scene = test::empty_scene();
-    test::add_floor(scene, 400.0F, static_cast<float>(bent_bottom_m),
-                    test::add_material(scene, 0.5F), 16);
+    Scene scene = test::floor_scene(400.0F, static_cast<float>(bent_bottom_m), 0.5F, 16);
     scene.sound_profile = std::make_shared<const SoundProfile>(SoundProfile{
         {-100.0, 100.0}, {1500.0 - 100.0 * gradient, 1500.0 + 100.0 * gradient}, 1480.0});
     return scene;

@@ -49,8 +49,7 @@ TEST_CASE("octree: an empty scene has no leaves, and leaves may be too small for
     const Scene empty = test::empty_scene();
     const View view{radians(60.0), radians(12.0), 0.5, 10.0, 512, 256, 0.03};
     CHECK(make_octree_engine(empty, {})->visible_surface(view, Pose{}).items.empty());
-    Scene scene = test::empty_scene();
-    test::add_floor(scene, 1e6F, 0.0F, test::add_material(scene, 0.5F));
+    Scene scene = test::floor_scene(1e6F, 0.0F, 0.5F);
     CHECK_THROWS_AS(make_octree_engine(scene, {1e-3}), InputError);
 }
 
