@@ -132,18 +132,6 @@ TEST_SUITE("checks") {
         CHECK(warned() == 0);
     }
 
-    TEST_CASE("image warnings: a run counts blind pings") {
-        Mission mission = small_mission("out");
-        mission.sensors[1].range_min_m = 100.0;
-        mission.sensors[1].range_max_m = 101.0;
-        const Assembly assembly = small_assembly(mission, 4);  // "left" pings at poses 0 and 3
-        const RenderSummary summary = run_job(mission, assembly, {.files = false}, {}, {false});
-        REQUIRE(summary.sensors.size() == 2);
-        CHECK(summary.sensors[0].dark_pings == 0);
-        CHECK(summary.sensors[1].dark_pings == 2);
-        CHECK(image_warnings(mission, assembly, summary.sensors).size() == 1);
-    }
-
     TEST_CASE("memory: the key that would bring it down is what takes most") {
         SonarConfig config = line_array();
         CHECK(ping_memory(make_sonar(config, {})).key == "range_bins");

@@ -89,13 +89,6 @@ class TwoRuns(Folder):
                         self.succeeds("render", name, *(other if replaced else ()))
                     self.assert_whole(wholes[replaced])
 
-    def test_eight_shards_at_once(self):
-        whole = self.whole("render", "mission.yaml")
-        for shard in [self.start("render", "mission.yaml", "-j1", "--shard", f"{k}/8") for k in range(1, 9)]:
-            code, stderr = self.end(shard)
-            self.assertEqual(code, 0, stderr)
-        self.assert_whole(whole)
-
     def test_merges(self):
         render, merge = ("render", "mission.yaml"), ("merge", "part1", "part2", "out")
         whole = self.whole(*render)

@@ -2,7 +2,6 @@
 #include "simulate/visibility/slices/slices_engine.h"
 #include "support/draws.h"
 #include "support/lattices.h"
-#include "support/mean_echoes.h"
 #include "visibility/slices/fixtures.h"
 
 using namespace sonarsim;
@@ -11,6 +10,41 @@ using test::fan_view;
 using test::seen;
 
 namespace {
+
+/// The image of a view's samples, [beams, range_bins]: the mean over each bin (Eq. 9), with every
+/// sample a box in range.
+std::vector<double> mean_echoes(const Scene& scene, const View& view,
+                                       const Samples& samples) {
+    const auto count = static_cast<std::size_t>(view.range_bins);
+    std::vector<double> image;
+    image.reserve(view.beams * count);
+    for (int beam = 0; beam < view.beams; ++beam) {
+        std::vector<double> weight(count), echo(count);
+        for (const Sample& sample : samples.beam(beam)) {
+            const auto range = static_cast<double>(sample.position.norm());
+            const double half = static_cast<double>(std::fabs(sample.position.dot(sample.edge_u)) +
+                                                    std::fabs(sample.position.dot(sample.edge_v))) /
+                                range;
+            // All lengths in bins; the sample spreads over those that it overlaps.
+            const double from = (range - half - view.range_min_m) / view.bin_m();
+            const double to =
+                std::max((range + half - view.range_min_m) / view.bin_m(), from + 1e-6);
+            const double density = static_cast<double>(sample.area_m2) / (to - from);
+            const double intensity =
+                static_cast<double>(scene.materials[sample.material].reflection) *
+                static_cast<double>(sample.strength) * static_cast<double>(sample.height_m) / range;
+            for (int i = static_cast<int>(std::max(from, 0.0));
+                 i < std::min(to, 1.0 * view.range_bins); ++i) {
+                const double overlap = std::min(to, i + 1.0) - std::max(from, 1.0 * i);
+                weight[i] += density * overlap;
+                echo[i] += density * overlap * intensity;
+            }
+        }
+        for (std::size_t i = 0; i < count; ++i)
+            image.push_back(weight[i] > 0.0 ? echo[i] / weight[i] : 0.0);
+    }
+    return image;
+}
 
 /// A many-sided tapered stay that hangs upright in the picture and ends in view, so that slices run
 /// nearly along some of its faces. Appends the areas of the faces, m^2.
@@ -156,7 +190,7 @@ TEST_CASE("slices: a grazing tread with an oblique near edge has its area in the
                        {far, -0.5F, low + h}, rock);
         for (const int per_beam : {0, 1}) {
             const std::vector<double> image =
-                test::mean_echoes(scene, view, seen(scene, view, Pose{}, per_beam));
+                mean_echoes(scene, view, seen(scene, view, Pose{}, per_beam));
             for (const int beam : {31, 32}) {
                 const double intensity = image[beam * view.range_bins + last_bin];
                 const auto of_riser = static_cast<double>(0.5F * h / (h + d));
@@ -220,7 +254,7 @@ TEST_CASE("slices: no beam of a drawn lattice is far from brute force at any goa
             const Samples samples = engine->visible_surface(view, Pose{});
             CAPTURE(number);
             CAPTURE(goal);
-            CHECK(worst_beam(test::mean_echoes(lattice.scene, view, samples), truth.intensity,
+            CHECK(worst_beam(mean_echoes(lattice.scene, view, samples), truth.intensity,
                              view) < 0.5);
         }
     }
