@@ -10,16 +10,6 @@ using namespace sonarsim;
 namespace fs = std::filesystem;
 
 TEST_SUITE("core") {
-    TEST_CASE("file: written bytes are read back, zero bytes included") {
-        const test::TemporaryFolder folder;
-        const fs::path path = folder.path / "a.bin";
-        for (const std::string& bytes : {std::string("a\0b\r\n\xff", 6), std::string()}) {
-            write_file(path, bytes);
-            CHECK(read_file(path, 6) == bytes);
-        }
-        CHECK(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()) == 1);
-    }
-
     TEST_CASE("file: a temporary name is a hidden sibling, another one each time") {
         const fs::path one = temporary_name("out/a.png");
         CHECK(one.parent_path() == "out");

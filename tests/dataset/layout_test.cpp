@@ -38,20 +38,6 @@ TEST_SUITE("dataset") {
         CHECK(make_layout(mission, {}, 0).number(0) == "000000");
     }
 
-    TEST_CASE("layout: records are counted by the pings of their sensor") {
-        const Layout layout = layout_of(survey_mission("out"), 7);
-        REQUIRE(layout.sensors.size() == 4);
-        // The sounder pings at poses 0, 2, 4 and 6.
-        CHECK(layout.sensors[3].pings == 4);
-        CHECK(layout.record_of({6, 3}) == 3);
-    }
-
-    TEST_CASE("layout: a sensor with `every: 3` pings at poses 0, 3, 6, ...") {
-        const std::vector<PingId> expected{{0, 0}, {0, 1}, {1, 0}, {2, 0}, {3, 0}, {3, 1}};
-        CHECK(list_pings(small_mission("out"), 4) == expected);
-        CHECK(list_pings(small_mission("out"), 0).empty());
-    }
-
     // The goldens do not see whether the places are right.
     TEST_CASE("metadata: mounts, edges of bins and the apex of a fan, by hand") {
         const Mission mission = small_mission("out");

@@ -159,7 +159,6 @@ TEST_CASE("annotations: visible shares are those of all sight lines, and the sha
         }
     }
     CHECK(partly_hidden > 5);
-    MESSAGE("agreement of shadows: " << both / either);
     CHECK(both / either > 0.97);
 }
 

@@ -152,7 +152,6 @@ TEST_CASE("cone labels: the shadow of a box lies where rays of its beams are hid
             if (stated) CHECK(out.labels.shadow[k] >= 2);  // a side of the box
         }
         CHECK(expected > 300);
-        MESSAGE("shadow ", expected, " ", found, " ", both);
         CHECK(both > 0.95 * std::max(expected, found));
     }
 }
@@ -236,7 +235,6 @@ TEST_CASE("cone labels: the echoes of all kinds have the energies of the image")
         REQUIRE(labels.direct > 0.0);
         REQUIRE(labels.multipath > 0.0);
         const double factor = image.direct / labels.direct;
-        MESSAGE(factor, " ", image.multipath / labels.multipath);
         CHECK(image.multipath / labels.multipath == test::approx(factor).epsilon(0.02));
     }
 }

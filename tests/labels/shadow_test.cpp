@@ -84,8 +84,6 @@ void add_score(const Scene& scene, const Sonar& sonar, const Pose& pose, const R
 }
 
 void check(const Score& score) {
-    MESSAGE("precision " << score.precision() << ", recall " << score.recall() << ", shadow "
-                         << score.shadow);
     CHECK(score.shadow > 1000.0);
     CHECK(score.precision() > 0.98);
     CHECK(score.recall() > 0.98);
