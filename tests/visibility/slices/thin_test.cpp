@@ -13,8 +13,7 @@ namespace {
 
 /// The image of a view's samples, [beams, range_bins]: the mean over each bin (Eq. 9), with every
 /// sample a box in range.
-std::vector<double> mean_echoes(const Scene& scene, const View& view,
-                                       const Samples& samples) {
+std::vector<double> mean_echoes(const Scene& scene, const View& view, const Samples& samples) {
     const auto count = static_cast<std::size_t>(view.range_bins);
     std::vector<double> image;
     image.reserve(view.beams * count);
@@ -254,8 +253,8 @@ TEST_CASE("slices: no beam of a drawn lattice is far from brute force at any goa
             const Samples samples = engine->visible_surface(view, Pose{});
             CAPTURE(number);
             CAPTURE(goal);
-            CHECK(worst_beam(mean_echoes(lattice.scene, view, samples), truth.intensity,
-                             view) < 0.5);
+            CHECK(worst_beam(mean_echoes(lattice.scene, view, samples), truth.intensity, view) <
+                  0.5);
         }
     }
 }
