@@ -77,8 +77,7 @@ class GroundMaps {
     /// The material and strength at world x and y of an instance whose own material is `own`.
     MappedPoint at(std::uint32_t instance, std::uint32_t own, const Eigen::Vector2d& world) const;
 
-    /// The material and strength of a footprint, if a quick test finds one material, and one
-    /// strength or a footprint of at most half a texel.
+    /// The material and strength of a footprint, if a quick test finds them uniform.
     std::optional<MappedPoint> alike_over(std::uint32_t instance, std::uint32_t own,
                                           const GroundFootprint& footprint) const;
 
