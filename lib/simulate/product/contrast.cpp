@@ -35,7 +35,7 @@ std::vector<RangeLevels> marked_levels(const LevelMap& map, std::span<const std:
             RangeLevels& range = ranges[k];
             if (range.count++ == 0) range.first = line;
             range.last = line;
-            range.level += map.level[begin + k];
+            range.level += map.level_at(map.line_at(line), box.first_bin + static_cast<int>(k));
         }
     }
     return ranges;
@@ -61,7 +61,8 @@ void add_surroundings(const LevelMap& map, const BinBox& box,
             const std::uint16_t object = map.object[begin + k];
             const bool is_bare = object == 0 || is_background[object] != 0;
             if (!is_bare || (!map.shadow.empty() && map.shadow[begin + k] != 0)) continue;
-            range.level_around += map.level[begin + k];
+            range.level_around +=
+                map.level_at(map.line_at(line), box.first_bin + static_cast<int>(k));
             ++range.count_around;
         }
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -23,10 +24,17 @@ struct LevelMap {
     std::span<const std::uint16_t>
         shadow;  ///< the object whose shadow it is; 0: none. Empty: no shadows
     std::span<const float> level;
-    bool full_turn = false;  ///< the last line is next to the first
+    bool full_turn = false;      ///< the last line is next to the first
+    bool levels_by_bin = false;  ///< `level` is [bins, lines], as an image is
 
     /// The line that is counted as `line` on over the seam of a full turn.
     int line_at(int line) const { return ((line % lines) + lines) % lines; }
+    /// `line` is one of the map.
+    float level_at(int line, int bin) const {
+        const auto l = static_cast<std::size_t>(line);
+        const auto b = static_cast<std::size_t>(bin);
+        return level[levels_by_bin ? b * lines + l : l * bins + b];
+    }
 };
 
 /// The box of an id in `marks`. If it lies on both sides of the seam of a full turn, its lines are

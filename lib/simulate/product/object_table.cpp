@@ -29,14 +29,14 @@ void add_bins(ObjectInPing& seen, int from, int to, int j) {
     seen.bins += static_cast<std::uint64_t>(to - from);
 }
 
-/// Adds the bins one by one, since the order decides the last digits. The three sums are
-/// independent, so that they take the time of one.
-void add_to_totals(std::span<const float> levels, std::span<const double> ranges_m,
+/// Adds the bins [from, to) of a beam one by one, since the order decides the last digits. The
+/// three sums are independent, so that they take the time of one.
+void add_to_totals(const Ping& ping, int beam, int from, int to, std::span<const double> ranges_m,
                    double azimuth_rad, BinTotals& totals) {
     BinTotals sum = totals;
-    for (std::size_t k = 0; k < levels.size(); ++k) {
-        sum.level += levels[k];
-        sum.range_m += ranges_m[k];
+    for (int i = from; i < to; ++i) {
+        sum.level += ping.at(i, beam);
+        sum.range_m += ranges_m[i];
         sum.azimuth_rad += azimuth_rad;
     }
     totals = sum;
@@ -49,20 +49,6 @@ void for_each_run(std::span<const std::uint16_t> ids, Visit visit) {
         to = end_of_run(ids, from);
         if (ids[from] != 0) visit(ids[from], static_cast<int>(from), static_cast<int>(to));
     }
-}
-
-/// The levels of a ping in the order of its labels, [beams, range bins].
-std::vector<float> levels_by_beam(const Ping& ping) {
-    constexpr int tile = 16;
-    std::vector<float> levels(ping.intensity.size());
-    for (int i0 = 0; i0 < ping.range_bins; i0 += tile) {
-        for (int j = 0; j < ping.beams; ++j) {
-            float* const beam = levels.data() + static_cast<std::size_t>(j) * ping.range_bins;
-            for (int i = i0; i < std::min(i0 + tile, ping.range_bins); ++i)
-                beam[i] = ping.at(i, j);
-        }
-    }
-    return levels;
 }
 
 BinBox bins_of(const ObjectInPing& seen) {
@@ -86,7 +72,7 @@ std::optional<double> level_around(const ObjectInPing& seen, const LevelMap& map
         const std::size_t begin = static_cast<std::size_t>(map.line_at(j)) * map.bins;
         for (int i = std::max(box.first_bin - rows, 0); i <= last_row; ++i) {
             if (map.object[begin + i] == id) continue;
-            sum += map.level[begin + i];
+            sum += map.level_at(map.line_at(j), i);
             ++bins;
         }
     }
@@ -94,13 +80,16 @@ std::optional<double> level_around(const ObjectInPing& seen, const LevelMap& map
     return sum / static_cast<double>(bins);
 }
 
-/// The bounding box of each object's visible footprints, in the sensor's frame at the ping's time.
+/// The bounding box of the visible footprints of each object that is no background, in the sensor's
+/// frame at the ping's time.
 std::vector<Eigen::AlignedBox3f> visible_boxes(const SceneObjects& objects,
                                                const TracedPing& traced) {
     std::vector<Eigen::AlignedBox3f> boxes(objects.objects.size());
     const auto extend = [&](const Sample& sample) {
+        const std::uint32_t object = objects.object_of(sample.instance);
+        if (objects.is_background(object)) return;
         const Eigen::Vector3f reach = sample.edge_u.cwiseAbs() + sample.edge_v.cwiseAbs();
-        Eigen::AlignedBox3f& box = boxes[objects.object_of(sample.instance)];
+        Eigen::AlignedBox3f& box = boxes[object];
         box.extend(sample.position - reach);
         box.extend(sample.position + reach);
     };
@@ -188,7 +177,6 @@ std::vector<ObjectInPing> visible_objects(const Sonar& sonar, const SceneObjects
     std::vector<ObjectInPing> all(objects.objects.size());
     std::vector<BinTotals> totals(all.size());
     const std::vector<std::uint8_t> is_background = background_ids(objects);
-    const std::vector<float> levels = levels_by_beam(ping);
     const bool fan = std::ssize(sonar.azimuth_edges_rad) == labels.beams + 1;
     const bool full_turn = fan && is_full_turn(sonar.settings.view);
     const auto middle = [](const std::vector<double>& edges, int k) {
@@ -211,14 +199,18 @@ std::vector<ObjectInPing> visible_objects(const Sonar& sonar, const SceneObjects
         for_each_run(own, [&](std::uint16_t id, int from, int to) {
             if (is_background[id] != 0) return;
             add_bins(all[id - 1], from, to, j);
-            add_to_totals(std::span(levels).subspan(begin + from, to - from),
-                          std::span(ranges_m).subspan(from), near_first(all[id - 1].beam_first),
+            add_to_totals(ping, j, from, to, ranges_m, near_first(all[id - 1].beam_first),
                           totals[id - 1]);
         });
     }
     add_shadows(labels, fan_boxes, all);
-    const LevelMap map{labels.beams, labels.range_bins, labels.facts(), labels.object_shadow,
-                       levels,       full_turn};
+    const LevelMap map{.lines = labels.beams,
+                       .bins = labels.range_bins,
+                       .object = labels.facts(),
+                       .shadow = labels.object_shadow,
+                       .level = ping.intensity,
+                       .full_turn = full_turn,
+                       .levels_by_bin = true};
     const Contrasts contrasts(map, is_background);
     const std::vector<Eigen::AlignedBox3f> boxes = visible_boxes(objects, traced);
     std::vector<ObjectInPing> seen;
