@@ -63,8 +63,8 @@ struct EchoPatch {
 /// The echoes and surface that labels need.
 struct EchoRequest {
     bool patches = false;  ///< the visible surface, too
-    /// Not null: the bins that none of these objects, but for background, reaches or hides surface
-    /// in may lack echoes.
+    /// Not null: only bins are needed in which one of these objects, background excepted, may have
+    /// an echo or a shadow. The others may lack echoes.
     const SceneObjects* objects = nullptr;
 };
 
