@@ -13,7 +13,8 @@
 
 namespace sonarsim {
 
-/// Takes blocks of echoes. Their samples stay as long as those of SurfaceEchoes.
+/// Takes blocks of echoes. Their samples stay during the call, and with EchoRequest::patches as
+/// long as those of SurfaceEchoes.
 using UseEchoes = std::function<void(const EchoBlock&)>;
 
 /// Collects echoes into blocks and hands these on.
