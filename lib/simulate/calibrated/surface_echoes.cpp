@@ -220,8 +220,9 @@ SurfaceEchoes CalibratedModel::surface_echoes(const TracedPing& traced, const Vi
             const std::vector<SpecularPath> paths = specular_paths(traced, scene);
             SurfaceEchoFinder<Beams> finder(*this, of_model, traced, view.shape, request.patches,
                                             use);
-            const bool is_local = request.objects && traced.particles.samples.empty() &&
-                                  paths.empty() && std::is_same_v<Beams, ArrayBeams>;
+            const bool is_local = request.objects && !request.patches && paths.empty() &&
+                                  traced.particles.samples.empty() &&
+                                  std::is_same_v<Beams, ArrayBeams>;
             std::vector<Sample> inside, outside;
             if (is_local) {
                 NearObjects near(*request.objects);
