@@ -48,9 +48,8 @@ RenderSummary render(Mission mission, const Assembly& assembly, int threads) {
     const TemporaryFolder folder;
     mission.output.folder = folder.path() / "out";
     const std::uint64_t pings = list_pings(mission, assembly.trajectory.size()).size();
-    const RenderOptions options{
-        .threads = threads,
-        .shards = static_cast<int>(std::max<std::uint64_t>(1, pings / max_images))};
+    const RenderOptions options{.threads = threads,
+                                .shards = static_cast<int>((pings + max_images - 1) / max_images)};
     const std::atomic<bool> stop = false;
     return run_job(mission, assembly, options, {}, stop);
 }

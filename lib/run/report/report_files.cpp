@@ -162,11 +162,9 @@ std::string report_markdown(const Report& report) {
     }
     const JobRow& job = report.job;
     text += fmt::format(
-        "\nThe job makes {} images/s on {} threads, {} of them with files and labels. An image "
-        "takes, "
-        "on one thread: trace {} ms, form {} ms, facts {} ms, files {} ms; {} x 131k rays. Set-up: "
-        "{} "
-        "ms.\n",
+        "\nThe job makes {} images/s with labels and files on {} threads ({} images). On one "
+        "thread an image takes: trace {} ms, form {} ms, facts {} ms, files {} ms; {} x 131k rays "
+        "of the first sonar. Set-up: {} ms.\n",
         short_number(job.images_per_s), report.threads, job.images, short_number(job.ms_trace),
         short_number(job.ms_form), short_number(job.ms_facts), short_number(job.ms_files),
         short_number(job.times_rays), short_number(job.ms_set_up));

@@ -85,13 +85,13 @@ class ObjectRecords {
 
     /// Reads `count` pings from `first` on into the lines from `line` on, without background.
     void read(std::size_t first, std::size_t count, std::size_t line, RecordValues& values) const {
+        const auto bins = static_cast<std::size_t>(values.bins);
         const auto read_one = [&](const RecordFile& file, auto& all) {
-            const auto bins = static_cast<std::size_t>(values.bins);
             file.read(first,
                       std::as_writable_bytes(std::span(all).subspan(line * bins, count * bins)));
         };
         read_one(object_, values.object);
-        for (std::uint16_t& id : values.object)
+        for (std::uint16_t& id : std::span(values.object).subspan(line * bins, count * bins))
             id = is_background_[id] != 0 ? 0 : id;
         read_one(shadow_, values.shadow);
         read_one(visible_share_, values.visible_share);
