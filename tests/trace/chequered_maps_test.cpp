@@ -166,6 +166,44 @@ TEST_SUITE("lay maps") {
         }
     }
 
+    TEST_CASE("a chequered map of 6 dB makes scatterers 6 dB stronger") {
+        // Scatterers and their phases are those of the scene without the map, so the powers of a
+        // field change by the factor, except for what its neighbours send into its side lobes.
+        for (const bool side : {false, true}) {
+            SonarConfig config = side ? sidescan(ModelKind::calibrated).config
+                                      : imaging(ModelKind::calibrated).config;
+            config.instrument.speckle.mode = SpeckleMode::scene;
+            const Sonar sonar = make_sonar(config, {0.01});
+            const View& view = sonar.settings.view;
+            const Scene plain = wide_floor();
+            Scene scene = plain;
+            lay(scene, {}, chequered(2.8));
+            const Pose pose = above_floor(side ? 0.0 : 20.0);
+            const FactorsOfBins factors = factors_of_bins(sonar, scene, pose, side);
+            const auto image_of = [&](const Scene& of) {
+                const auto engine = make_engine(of, {.type = EngineKind::rays, .octree = {}});
+                return render_ping(sonar, of, *engine, pose, {.seed = 1, .ping = 0},
+                                   {.multipath = false, .random = 1})
+                    .intensity;
+            };
+            const std::vector<float> image = image_of(scene);
+            const std::vector<float> without = image_of(plain);
+            std::array<double, 2> sum{}, sum_without{};
+            for (int i = 0; i < view.range_bins; ++i) {
+                for (int j = 0; j < view.beams; ++j) {
+                    const double factor = factor_around(factors, view, i, j, 3, side ? 0 : 2);
+                    if (factor == 0.0) continue;
+                    const std::size_t k = static_cast<std::size_t>(i) * view.beams + j;
+                    sum[factor > 1.0 ? 1 : 0] += static_cast<double>(image[k]);
+                    sum_without[factor > 1.0 ? 1 : 0] += static_cast<double>(without[k]);
+                }
+            }
+            CAPTURE(side);
+            CHECK(std::fabs(db(sum[0] / sum_without[0])) < 0.2);
+            CHECK(std::fabs(db(sum[1] / sum_without[1] / six_db)) < 0.2);
+        }
+    }
+
     TEST_CASE("fields smaller than a bin count by their area") {
         // Fields of 2 cm in bins of 20 cm: the mean of 0 and 6 dB is 3.96 dB; that of two materials
         // with reflections of 0.1 and 0.3 is that of one of 0.2.

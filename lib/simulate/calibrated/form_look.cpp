@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "simulate/calibrated/particle_echoes.h"
+#include "simulate/calibrated/piece_strengths.h"
 #include "simulate/calibrated/scatterer_search.h"
 #include "simulate/calibrated/speckle.h"
 #include "simulate/calibrated/specular_echoes.h"
@@ -37,6 +38,7 @@ class ImageFormer {
                  traced.T_world_sensor.translation - context.scene.origin},
           speckle_(context.terms.random > 0 ? model.speckle : SpeckleMode::none),
           view_(widened_view(context.view, model.info.guard_beams)),
+          strengths_(traced, context.scene, view_.shape),
           speckle_gain_(model.amplitude_taps.scalloping_gain * scalloping_gain(beams)),
           ping_(ping) {}
 
@@ -102,11 +104,14 @@ class ImageFormer {
         ping_.counts.out_of_range += find_columns(beams_, patches, echoes_);
     }
 
-    /// The same for surface of the scene, with its clutter.
-    void find(const PatchBlock& patches) {
+    /// The same for pieces of surface of the scene, with its map and its clutter. `limits`: those
+    /// of PieceStrengths::apply().
+    void find(std::span<const Sample> surface, const PatchBlock& patches,
+              const PointLimits* limits) {
         find(patches, surface_scattering());
-        if (speckle_ != SpeckleMode::none)
-            add_clutter(patches, model_.clutter, sonar_, clutter_draws_, echoes_);
+        strengths_.apply(surface, patches, limits, echoes_.power);
+        if (speckle_ == SpeckleMode::none) return;
+        add_clutter(patches, model_.clutter, sonar_, clutter_draws_, echoes_);
     }
 
     /// Lets add(powers) add echoes whose amplitudes are drawn for each ping, even with `speckle:
@@ -150,6 +155,7 @@ class ImageFormer {
         subdivide(std::span<const Sample>(beds), view_.shape, model_.limits, block,
                   [&](const PatchBlock& patches) {
                       apply_sonar_equation(patches, sediment.volume, model_.equation, echoes_);
+                      strengths_.apply(beds, patches, &model_.limits, echoes_.power);
                       find_columns(beams_, patches, echoes_);
                       add_powers(beams_, patches, echoes_, energy);
                       weigh_by_lag(sediment, patches, model_.equation.bin_m, echoes_);
@@ -179,7 +185,7 @@ class ImageFormer {
             Amplitudes amplitudes;
             find_scatterers(surface, view_.shape, model_.cells, sonar_, scene_draws_, block,
                             [&](const Scatterers& found) {
-                                find(found.pieces);
+                                find(surface, found.pieces, nullptr);
                                 draw_amplitudes(found, echoes_, model_.cells, sonar_, scene_draws_,
                                                 amplitudes);
                                 add_amplitudes(beams_, found.pieces, echoes_, amplitudes, grid);
@@ -190,7 +196,7 @@ class ImageFormer {
         PointLimits limits = model_.limits;
         if (speckle_ == SpeckleMode::ping) limits.depth_m *= deeper_patches;
         subdivide(surface, view_.shape, limits, block, [&](const PatchBlock& patches) {
-            find(patches);
+            find(surface, patches, &limits);
             add_powers(beams_, patches, echoes_, grid);
         });
     }
@@ -218,7 +224,7 @@ class ImageFormer {
     /// depends on the shape of the reflector to a fraction of a wavelength, and no mesh is that
     /// exact.
     void add_multipath(const TracedPing& traced, EchoGrid& grid) {
-        const std::vector<SpecularPath> paths = specular_paths(traced, context_.scene);
+        const std::vector<SpecularPath> paths = specular_paths(traced, context_.scene, view_.shape);
         if (paths.empty()) return;
         ping_.counts.echoes += 2 * paths.size();
         add_drawn_by_ping(ping_draws_, grid, [&](EchoGrid& powers) {
@@ -239,7 +245,8 @@ class ImageFormer {
     PhiloxKey scene_draws_, clutter_draws_, ping_draws_;
     SonarInScene sonar_;
     SpeckleMode speckle_;
-    View view_;           ///< with the guard beams
+    View view_;  ///< with the guard beams
+    PieceStrengths strengths_;
     float speckle_gain_;  ///< restores the mean power where the grid's cells draw the speckle
     PointEchoes echoes_;
     Ping& ping_;

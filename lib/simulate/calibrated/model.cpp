@@ -122,6 +122,7 @@ void set_info(CalibratedModel& model, const View& view) {
     info.random_terms = calibrated_terms;
     info.needs_scattered_paths = true;
     info.energies_add = true;
+    info.map_strengths = MapStrengths::at_points;
     info.is_slow = true;
     const int columns =
         std::visit([](const auto& of_model) { return columns_of(of_model); }, model.beams);
@@ -192,9 +193,8 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
                       .ln_headroom = static_cast<float>(0.1 * ln_10 * raised_db),
                       .elevation = elevation_pattern(radians(beam.elevation_width_deg),
                                                      beam.elevation_side_lobe_db, beam.elements)};
-    model.water =
-        water_column(water_of(water, instrument), instrument.frequency_hz, view,
-                     model.info.guard_beams, model.beams, model.equation);
+    model.water = water_column(water_of(water, instrument), instrument.frequency_hz, view,
+                               model.info.guard_beams, model.beams, model.equation);
     model.cells = scatterer_cells(std::max(resolution_m, 0.5 * bin_m), radians(beam.width_deg),
                                   view.range_min_m, model.wavelength_m);
     model.target_cell = target_cell(beam, std::max(resolution_m, 0.5 * bin_m));

@@ -103,9 +103,11 @@ class Search {
         block_.pieces.count = 0;
     }
 
-    void add(std::span<const Sample> samples, ViewShape shape, const ScattererCells& cells,
-             const SonarInScene& sonar) {
+    /// `first`: the number of the first of these samples.
+    void add(std::span<const Sample> samples, std::size_t first, ViewShape shape,
+             const ScattererCells& cells, const SonarInScene& sonar) {
         samples_ = samples;
+        number_of_first_ = first;
         find_footprints(samples, shape, cells, sonar, footprints_);
         whole_.count = split_.count = 0;
         for (int k = 0; k < footprints_.count; ++k) {
@@ -161,6 +163,7 @@ class Search {
     Scatterers& block_;
     const std::function<void(const Scatterers&)>& use_;
     std::span<const Sample> samples_;
+    std::size_t number_of_first_ = 0;
     CellFootprints footprints_;
     CellList whole_, split_;  ///< larger cells
     // For each scatterer of the block: its position on the sample, in half edges; its cell's size
@@ -260,6 +263,8 @@ void Search::complete(const Run& run) {
         along(position.z(), u.z(), v.z()).store(pieces.z.data() + k);
         Floats8(sample.height_m).store(pieces.height_m.data() + k);
         Ints8(sample.material).store(reinterpret_cast<std::int32_t*>(pieces.material.data()) + k);
+        Ints8(static_cast<std::uint32_t>(number_of_first_ + of))
+            .store(reinterpret_cast<std::int32_t*>(pieces.sample.data()) + k);
         const Floats8 size = Floats8::load(size_.data() + k);
         const Floats8 edge = size * p.fine_m[of];
         edge.store(block_.edge_m.data() + k);
@@ -295,8 +300,8 @@ void find_scatterers(std::span<const Sample> samples, ViewShape shape, const Sca
     constexpr std::size_t batch = CellFootprints::most;
     Search search(key, block, use);
     for (std::size_t first = 0; first < samples.size(); first += batch)
-        search.add(samples.subspan(first, std::min(batch, samples.size() - first)), shape, cells,
-                   sonar);
+        search.add(samples.subspan(first, std::min(batch, samples.size() - first)), first, shape,
+                   cells, sonar);
     search.flush();
 }
 

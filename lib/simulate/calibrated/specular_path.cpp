@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "simulate/calibrated/piece_strengths.h"
 #include "simulate/trace/arrivals.h"
 #include "simulate/trace/water_mirror.h"
 
@@ -47,8 +48,10 @@ SpecularPath specular_path(const BouncePath& path, const Sample& sample, const W
 
 }  // namespace
 
-std::vector<SpecularPath> specular_paths(const TracedPing& traced, const Scene& scene) {
+std::vector<SpecularPath> specular_paths(const TracedPing& traced, const Scene& scene,
+                                         ViewShape shape) {
     const std::optional<WaterMirror> water = mirror_of(scene.water_surface, traced.T_world_sensor);
+    const PieceStrengths strengths(traced, scene, shape);
     std::vector<SpecularPath> paths;
     paths.reserve(traced.bounces.size());
     for (const BouncePath& path : traced.bounces) {
@@ -57,7 +60,7 @@ std::vector<SpecularPath> specular_paths(const TracedPing& traced, const Scene& 
         paths.push_back(specular_path(path, sample, path.by_water_surface ? &*water : nullptr));
         paths.back().sample = path.sample;
         paths.back().reflection = scene.materials[sample.material].reflection * sample.strength *
-                                  path.water_reflection * path.strength;
+                                  strengths.at(sample) * path.water_reflection * path.strength;
     }
     return paths;
 }

@@ -33,7 +33,8 @@ struct SpecularPath {
 /// The pieces of second surfaces that receive specular reflections of a ping's samples. With t the
 /// length of the path to p in units of |p_i|, the image of a piece lies at t p_i, and its area is
 /// A_i (v_i . n_i) t^2 / |r_i . n_h|: it receives all sound that meets the sample. The water's
-/// surface scatters nothing back.
-std::vector<SpecularPath> specular_paths(const TracedPing& traced, const Scene& scene);
+/// surface scatters nothing back. `shape`: that of the view.
+std::vector<SpecularPath> specular_paths(const TracedPing& traced, const Scene& scene,
+                                         ViewShape shape);
 
 }  // namespace sonarsim

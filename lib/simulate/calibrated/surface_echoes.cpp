@@ -11,6 +11,7 @@
 #include "simulate/calibrated/near_objects.h"
 #include "simulate/calibrated/particle_echoes.h"
 #include "simulate/calibrated/patches.h"
+#include "simulate/calibrated/piece_strengths.h"
 #include "simulate/calibrated/specular_echoes.h"
 #include "simulate/trace/arrivals.h"
 
@@ -36,11 +37,12 @@ template <class Beams>
 class SurfaceEchoFinder {
   public:
     SurfaceEchoFinder(const CalibratedModel& model, const Beams& beams, const TracedPing& traced,
-                      ViewShape shape, bool patches, const UseEchoes& use)
+                      const Scene& scene, ViewShape shape, bool patches, const UseEchoes& use)
         : model_(model),
           beams_(beams),
           samples_(traced.samples.items),
           shape_(shape),
+          strengths_(traced, scene, shape),
           limits_(label_limits(model)),
           patches_(patches),
           blocks_(use) {
@@ -51,6 +53,7 @@ class SurfaceEchoFinder {
         subdivide(surface, shape_, limits_, pieces_, [&](const PatchBlock& pieces) {
             last_piece_ = -1;
             apply_sonar_equation(pieces, model_.scattering, model_.equation, echoes_);
+            strengths_.apply(surface, pieces, &limits_, echoes_.power);
             const auto half_sine = [&](int k) { return pieces.half_sine[k]; };
             for_each_beam(pieces, echoes_, nullptr, half_sine, [&](int beam, int k, float power) {
                 const Sample& sample = surface[pieces.sample[k]];
@@ -196,6 +199,7 @@ class SurfaceEchoFinder {
     const Beams& beams_;
     const std::vector<Sample>& samples_;
     ViewShape shape_;
+    PieceStrengths strengths_;
     PointLimits limits_;  ///< for direct echoes
     bool patches_;
     EchoBlocks blocks_;
@@ -217,9 +221,9 @@ SurfaceEchoes CalibratedModel::surface_echoes(const TracedPing& traced, const Vi
         return prepared_for(scene)->surface_echoes(traced, view, scene, request, use);
     return std::visit(
         [&]<class Beams>(const Beams& of_model) {
-            const std::vector<SpecularPath> paths = specular_paths(traced, scene);
-            SurfaceEchoFinder<Beams> finder(*this, of_model, traced, view.shape, request.patches,
-                                            use);
+            const std::vector<SpecularPath> paths = specular_paths(traced, scene, view.shape);
+            SurfaceEchoFinder<Beams> finder(*this, of_model, traced, scene, view.shape,
+                                            request.patches, use);
             const bool is_local = request.objects && !request.patches && paths.empty() &&
                                   traced.particles.samples.empty() &&
                                   std::is_same_v<Beams, ArrayBeams>;

@@ -22,6 +22,7 @@ Sonar make_sonar(const KindOfSonar& kind, const SonarConfig& config, const Accur
     settings.model = make_echo_model(sonar, kind, water);
     settings.view.energies_add = settings.model->info.energies_add;
     settings.guard_beams = settings.model->info.guard_beams;
+    settings.map_strengths = settings.model->info.map_strengths;
     // Multipath starts at the samples, so it needs those of every beam.
     if (settings.multipath.on) settings.guard_beams.joined = 1;
     settings.multipath.scattered = settings.model->info.needs_scattered_paths;

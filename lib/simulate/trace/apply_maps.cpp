@@ -47,9 +47,10 @@ struct MapPiece {
 class GroundMapApplier {
   public:
     GroundMapApplier(const GroundMaps& maps, const View& view, const Pose& T_world_sensor,
-                     const SoundProfile* profile)
+                     const SoundProfile* profile, MapStrengths strengths)
         : maps_(maps),
           profile_(profile),
+          strengths_(strengths),
           pose_(T_world_sensor),
           R_(T_world_sensor.rotation.toRotationMatrix().topRows<2>()),
           sensor_(T_world_sensor.translation.head<2>()),
@@ -63,7 +64,8 @@ class GroundMapApplier {
 
     /// Appends the pieces of a sample.
     void apply(const Sample& sample, std::vector<Sample>& out) {
-        if (!maps_.lie_on(sample.instance)) {
+        with_strength_ = strengths_ == MapStrengths::in_samples || sample.region > 0;
+        if (!maps_.lie_on(sample.instance) || !(with_strength_ || maps_.have_materials())) {
             out.push_back(sample);
             return;
         }
@@ -100,7 +102,8 @@ class GroundMapApplier {
     }
 
     void cut(MapPiece piece, int halvings, std::vector<Sample>& out) {
-        const auto alike = maps_.alike_over(sample_->instance, sample_->material, piece.ground);
+        const auto alike =
+            maps_.alike_over(sample_->instance, sample_->material, piece.ground, with_strength_);
         if (alike) return add(piece, alike->material, alike->strength, out);
         const Arrival at = arrival_of(piece.position);
         const float size_u = size_of(piece.u, at);
@@ -145,7 +148,7 @@ class GroundMapApplier {
             done += share.area;
             const double high = 2.0 * done / whole - 1.0;
             add(shares_.size() == 1 ? piece : piece.between(low, high), share.material,
-                static_cast<float>(share.power / share.area), out);
+                with_strength_ ? static_cast<float>(share.power / share.area) : 1.0F, out);
         }
     }
 
@@ -162,6 +165,7 @@ class GroundMapApplier {
 
     const GroundMaps& maps_;
     const SoundProfile* profile_;
+    MapStrengths strengths_;
     const Pose& pose_;
     Eigen::Matrix<double, 2, 3> R_;  ///< from the sensor frame to the world's x and y
     Eigen::Vector2d sensor_;
@@ -169,15 +173,16 @@ class GroundMapApplier {
     float range_min_m_, bin_m_;
     float depth_m_, sine_y_, sine_z_;  ///< the greatest extents of a piece
     const Sample* sample_ = nullptr;
+    bool with_strength_ = true;  ///< its strength is that of the map
     std::vector<MaterialShare> shares_;
 };
 
 }  // namespace
 
 void apply_maps(const GroundMaps& maps, const View& view, const Pose& T_world_sensor,
-                Samples& samples, std::vector<Sample>& outside_sector,
-                const SoundProfile* profile) {
-    GroundMapApplier layer(maps, view, T_world_sensor, profile);
+                Samples& samples, std::vector<Sample>& outside_sector, const SoundProfile* profile,
+                MapStrengths strengths) {
+    GroundMapApplier layer(maps, view, T_world_sensor, profile, strengths);
     std::vector<Sample> items;
     items.reserve(2 * samples.items.size());
     std::uint32_t begin = 0;

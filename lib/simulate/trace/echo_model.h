@@ -37,6 +37,8 @@ struct EchoModelInfo {
     /// from the sonar. A rough surface scatters sound back along them.
     bool needs_scattered_paths = false;
     bool energies_add = false;  ///< a bin is the sum of the energies of its echoes, not a mean
+    /// MapStrengths::at_points: the model applies the strengths of maps itself.
+    MapStrengths map_strengths = MapStrengths::in_samples;
     /// True if an image takes so long that previews and checks of a mission form fewer of them.
     bool is_slow = false;
     /// The memory that the model needs to form an image, without the image itself, and that which

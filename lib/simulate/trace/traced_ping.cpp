@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "core/clock.h"
-#include "simulate/trace/apply_maps.h"
 #include "simulate/trace/target_surface.h"
 #include "simulate/trace/visible_water_surface.h"
 
@@ -15,6 +14,7 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
     TracedPing traced;
     traced.T_world_sensor = T_world_sensor;
     traced.motion = motion;
+    traced.map_strengths = settings.map_strengths;
     Stopwatch watch;
 
     // 1. The visible surface.
@@ -31,7 +31,7 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
     traced.counts.dropped_samples = traced.samples.dropped;
     if (scene.maps) {
         apply_maps(*scene.maps, settings.view, T_world_sensor, traced.samples,
-                   traced.outside_sector, scene.sound_profile.get());
+                   traced.outside_sector, scene.sound_profile.get(), settings.map_strengths);
     }
     move_in_ping(motion, settings.view, traced.samples, traced.outside_sector);
     if (settings.sees_water_surface) {

@@ -6,6 +6,7 @@
 
 #include "core/pose.h"
 #include "input/scene/scene.h"
+#include "simulate/trace/apply_maps.h"
 #include "simulate/trace/counters.h"
 #include "simulate/trace/multipath.h"
 #include "simulate/trace/particles.h"
@@ -26,6 +27,7 @@ struct TraceSettings {
     std::shared_ptr<const TargetShapes> targets;
     std::shared_ptr<const Particles> particles;  ///< point targets in the water; null: none
     bool sees_water_surface = false;             ///< if the surface scatters
+    MapStrengths map_strengths = MapStrengths::in_samples;
 };
 
 /// The surface that a sonar insonified from one pose. It holds no noise: any number of images may
@@ -33,6 +35,7 @@ struct TraceSettings {
 struct TracedPing {
     Pose T_world_sensor;  ///< at transmission
     PingMotion motion;
+    MapStrengths map_strengths = MapStrengths::in_samples;
     Samples samples;                     ///< the visible surface
     std::vector<Sample> outside_sector;  ///< the visible surface in the guard beams
     SeenParticles particles;

@@ -163,15 +163,17 @@ std::optional<std::uint32_t> GroundMaps::material_over(std::uint32_t instance, s
 }
 
 std::optional<MappedPoint> GroundMaps::alike_over(std::uint32_t instance, std::uint32_t own,
-                                                  const GroundFootprint& footprint) const {
-    if (has_strengths(instance)) {
+                                                  const GroundFootprint& footprint,
+                                                  bool with_strength) const {
+    if (with_strength && has_strengths(instance)) {
         const TexelFrame& frame = strengths_->frame;
         if (!is_within_texel(frame, box_around(frame, footprint.centre, reach_m(footprint))))
             return std::nullopt;
     }
     const auto material = material_over(instance, own, footprint);
     if (!material) return std::nullopt;
-    return MappedPoint{*material, at(instance, own, footprint.centre).strength};
+    return MappedPoint{*material,
+                       with_strength ? at(instance, own, footprint.centre).strength : 1.0F};
 }
 
 double GroundMaps::factor_over(const Eigen::Vector2d& world, const Eigen::Vector2d& half_m) const {

@@ -77,14 +77,24 @@ class GroundMaps {
     /// The material and strength at world x and y of an instance whose own material is `own`.
     MappedPoint at(std::uint32_t instance, std::uint32_t own, const Eigen::Vector2d& world) const;
 
-    /// The material and strength of a footprint, if a quick test finds them uniform.
+    /// The material and strength of a footprint, if a quick test finds them uniform. Without
+    /// `with_strength` the strength is 1.
     std::optional<MappedPoint> alike_over(std::uint32_t instance, std::uint32_t own,
-                                          const GroundFootprint& footprint) const;
+                                          const GroundFootprint& footprint,
+                                          bool with_strength = true) const;
 
     /// The materials of a footprint of an instance, each with its area and its power. The areas sum
     /// to 1.
     void shares_over(std::uint32_t instance, std::uint32_t own, const GroundFootprint& footprint,
                      std::vector<MaterialShare>& out) const;
+
+    /// The mean strength of a box around a point of an instance that reaches `half_m` to all sides.
+    float strength_over(std::uint32_t instance, const Eigen::Vector2d& world,
+                        const Eigen::Vector2d& half_m) const {
+        return has_strengths(instance) ? static_cast<float>(factor_over(world, half_m)) : 1.0F;
+    }
+    bool have_materials() const { return materials_.has_value(); }
+    bool have_strengths() const { return strengths_.has_value(); }
 
     /// Bytes that are different for different maps.
     std::string identity() const;
