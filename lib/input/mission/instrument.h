@@ -68,8 +68,9 @@ struct PulseConfig {
 
 struct SpeckleConfig {
     SpeckleMode mode = SpeckleMode::scene;
-    double clutter_shape = 0.0;  ///< nu of the K-distribution; 0: Rayleigh
-    double clutter_m = 0.1;      ///< edge of the cells that share one clutter strength
+    /// nu of the K-distribution; 0: Rayleigh; empty: Relief (simulate/calibrated/relief.h).
+    std::optional<double> clutter_shape;
+    double clutter_m = 0.1;  ///< edge of the cells that share one clutter strength
 };
 
 /// The rule by which several samples become the one that is delivered.
@@ -213,9 +214,10 @@ void describe(Visitor& v, SpeckleConfig& c) {
              "`scene`: scatterers stay in place in the scene; `ping`: scatterers are drawn "
              "for every ping, which is faster; `none`: no speckle, the mean power");
     v.number("clutter_shape", c.clutter_shape, between(0, 100),
-             "shape nu of K-distributed clutter; 0 means Rayleigh");
+             "shape nu of K-distributed clutter; 0 means Rayleigh; `auto`: the relief of sea beds "
+             "(docs/calibrated.md)");
     // At much smaller shapes nearly all cells draw a power of 0.
-    v.require(c.clutter_shape == 0.0 || c.clutter_shape >= 0.05, {"clutter_shape"},
+    v.require(c.clutter_shape.value_or(0.0) == 0.0 || *c.clutter_shape >= 0.05, {"clutter_shape"},
               "clutter_shape is 0, for Rayleigh, or at least 0.05");
     v.number("clutter_m", c.clutter_m, between(1e-3, 1e3),
              "edge of the cells of the scene that share one clutter strength");

@@ -112,6 +112,7 @@ class ImageFormer {
         strengths_.apply(surface, patches, limits, echoes_.power);
         if (speckle_ == SpeckleMode::none) return;
         add_clutter(patches, model_.clutter, sonar_, clutter_draws_, echoes_);
+        add_relief(patches, model_.relief, sonar_, clutter_draws_, echoes_);
     }
 
     /// Lets add(powers) add echoes whose amplitudes are drawn for each ping, even with `speckle:

@@ -12,6 +12,7 @@
 #include "input/scene/scene.h"
 #include "simulate/calibrated/array_beams.h"
 #include "simulate/calibrated/instrument_levels.h"
+#include "simulate/calibrated/relief.h"
 #include "simulate/calibrated/scatterers.h"
 #include "simulate/calibrated/sediment.h"
 #include "simulate/calibrated/sonar_equation.h"
@@ -52,6 +53,7 @@ struct CalibratedModel final : EchoModel {
     /// The parts of the scattering on and below sea beds; nothing: the whole echo comes from their
     /// surface.
     std::optional<SedimentScattering> sediment;
+    Relief relief;
 
     /// True if the model has the data that depend on this scene.
     bool is_prepared_for(const Scene& scene) const;

@@ -72,6 +72,8 @@ std::shared_ptr<const CalibratedModel> CalibratedModel::prepared_for(const Scene
     auto out = std::make_shared<CalibratedModel>(*this);
     out->prepared_materials = scene.materials;
     out->scattering = scattering_of(scene.materials, instrument.frequency_hz, seawater);
+    const bool has_relief = !instrument.speckle.clutter_shape && speckle != SpeckleMode::none;
+    out->relief = has_relief ? Relief(scene.materials, seawater) : Relief();
     out->sediment.reset();
     if (instrument.below_bottom) {
         out->sediment = sediment_scattering(scene.materials, instrument.frequency_hz, seawater,

@@ -31,28 +31,6 @@ std::uint32_t hash2(std::uint32_t a, std::uint32_t b) {
     return h ^ (h >> 16);
 }
 
-struct WorldPlaces {
-    Floats x, y, z;  ///< relative to Scene::origin, m
-};
-
-void find_places(const PatchBlock& pieces, int count, const SonarInScene& sonar, WorldPlaces& out) {
-    const Eigen::Matrix3f& R = sonar.R_world_sensor;
-    const Eigen::Vector3f s = sonar.sensor.cast<float>();
-    const auto place = [&](int axis, Floats& to) {
-        const float rx = R(axis, 0);
-        const float ry = R(axis, 1);
-        const float rz = R(axis, 2);
-        const float base = s[axis];
-        for (int k = 0; k < count; ++k) {
-            to[k] = std::fma(rx, pieces.x[k],
-                             std::fma(ry, pieces.y[k], std::fma(rz, pieces.z[k], base)));
-        }
-    };
-    place(0, out.x);
-    place(1, out.y);
-    place(2, out.z);
-}
-
 std::uint32_t word_of(std::int32_t x) {
     return static_cast<std::uint32_t>(x);
 }
@@ -116,6 +94,24 @@ ScattererCells scatterer_cells(double resolution_m, double width_rad, double ran
     out.width_rad = static_cast<float>(width_rad);
     out.turns_per_m = 2.0 / wavelength_m;
     return out;
+}
+
+void find_places(const PatchBlock& pieces, int count, const SonarInScene& sonar, WorldPlaces& out) {
+    const Eigen::Matrix3f& R = sonar.R_world_sensor;
+    const Eigen::Vector3f s = sonar.sensor.cast<float>();
+    const auto place = [&](int axis, Floats& to) {
+        const float rx = R(axis, 0);
+        const float ry = R(axis, 1);
+        const float rz = R(axis, 2);
+        const float base = s[axis];
+        for (int k = 0; k < count; ++k) {
+            to[k] = std::fma(rx, pieces.x[k],
+                             std::fma(ry, pieces.y[k], std::fma(rz, pieces.z[k], base)));
+        }
+    };
+    place(0, out.x);
+    place(1, out.y);
+    place(2, out.z);
 }
 
 void add_clutter(const PatchBlock& pieces, const Clutter& clutter, const SonarInScene& sonar,

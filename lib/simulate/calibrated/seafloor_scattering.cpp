@@ -34,8 +34,6 @@ double gamma_function(double x) {
     return exponential(log_gamma(x));
 }
 
-// The exponent of the spectra of all sediments in the report.
-constexpr double usual_exponent = 3.25;
 
 /// `w2_cm4` is that of W(K) = w2 / (h K)^exponent with h = 1 cm, as in the report.
 double spectral_strength_of(double w2_cm4, double exponent) {

@@ -21,6 +21,9 @@ struct SeaBed {
     double volume_parameter = 0.0;  ///< the volume's scattering over its absorption cross-section
 };
 
+/// The exponent of the roughness spectrum of all sea beds of the report.
+inline constexpr double usual_exponent = 3.25;
+
 /// The sea bed of a mean grain size in phi, -10 to 9, by the regressions of the report: from -1 on
 /// those of sediments. Between -1 (sandy gravel), -7 (cobble), and -9.99 (rock) values are
 /// interpolated; below -9.9999 it is rough rock.
