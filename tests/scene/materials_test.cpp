@@ -28,8 +28,8 @@ TEST_SUITE("scene") {
         CHECK(silt.spectral_strength_cm4 == 5e-4);
         const MaterialTable others = parse_materials(
             "material,density_kg_m3,sound_speed_m_s,roughness_m,grain_phi,slope_rms_deg,lambert_"
-            "db\n"
-            "sand,1900,1650,,1.5,,\nplate,7850,5890,1e-6,,0,-300\n",
+            "db,wall_mm\n"
+            "sand,1900,1650,,1.5,,,\nplate,7850,5890,1e-6,,0,-300,1.2\n",
             "m.csv");
         const Material& sand = others.materials[0];
         CHECK(sand.grain_phi == 1.5);
@@ -39,6 +39,8 @@ TEST_SUITE("scene") {
         CHECK(!plate.grain_phi);
         CHECK(plate.slope_rms_deg == 0.0);
         CHECK(plate.lambert_db == -300.0);
+        CHECK(plate.wall_mm == 1.2);
+        CHECK(!sand.wall_mm);
     }
 
     TEST_CASE("materials: errors name file and line") {
@@ -50,6 +52,10 @@ TEST_SUITE("scene") {
              "1: the column 'grain_phi' occurs twice; leave one out"},
             {optional + "grain_phi\nsand,1900,1650,11\n",
              "2: grain_phi is 11; expected a number from -10 to 9"},
+            {optional + "wall_mm\nglass,2300,5600,0\n",
+             "2: wall_mm is 0; expected a number from 0.001 to 100"},
+            {optional + "wall_mm,grain_phi\nsand,1900,1650,3,1.5\n",
+             "2: a sea bed has no wall_mm; leave it or the sea bed's columns empty"},
             {optional + "roughness_m\nsand,1900,1650,smooth\n",
              "2: roughness_m 'smooth' is not a number"},
             {optional + "loss_parameter\nsand,1900,1650,0.01\n",

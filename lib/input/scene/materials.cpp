@@ -25,9 +25,10 @@ struct OptionalColumn {
     void (*put)(Material&, double);
 };
 
-constexpr std::array<OptionalColumn, 8> optional_columns{
+constexpr std::array<OptionalColumn, 9> optional_columns{
     {{"lambert_db", -300.0, 20.0, [](Material& m, double value) { m.lambert_db = value; }},
      {"slope_rms_deg", 0.0, 45.0, [](Material& m, double value) { m.slope_rms_deg = value; }},
+     {"wall_mm", 0.001, 100.0, [](Material& m, double value) { m.wall_mm = value; }},
      {"grain_phi", -10.0, 9.0, [](Material& m, double value) { m.grain_phi = value; }},
      {"loss_parameter", 1e-6, 1.0, [](Material& m, double value) { m.loss_parameter = value; }},
      {"spectral_strength_cm4", 1e-9, 10.0,
@@ -85,8 +86,12 @@ double medium_number(const std::string& text, const char* quantity, const Locati
     return number_within(text, quantity, min_medium, largest_medium, where);
 }
 
-/// InputError if the columns of a sea bed have some numbers of the model and lack others.
+/// InputError if the columns of a sea bed have some numbers of the model and lack others, or a
+/// wall.
 void check_sea_bed(const Material& material, const Location& where) {
+    if (material.wall_mm && (material.grain_phi || material.loss_parameter))
+        throw InputError(where,
+                         "a sea bed has no wall_mm; leave it or the sea bed's columns empty");
     if (material.grain_phi) return;
     const std::array<std::pair<const char*, bool>, 3> needed{
         {{"loss_parameter", material.loss_parameter.has_value()},

@@ -25,8 +25,9 @@ struct Material {
     float reflection = 0.0F;  ///< power reflection coefficient at normal incidence, Eq. 4
 
     // The rest is for the calibrated model (docs/calibrated.md). Lambert's rule and facets:
-    double lambert_db = -27.0;    ///< 10 log mu of Lambert's rule
-    double slope_rms_deg = 10.0;  ///< RMS slope of the facets; 0: no facets
+    double lambert_db = -27.0;           ///< 10 log mu of Lambert's rule
+    double slope_rms_deg = 10.0;         ///< RMS slope of the facets; 0: no facets
+    std::optional<double> wall_mm = {};  ///< thickness of a wall with water behind; empty: solid
     // The model of sea beds (simulate/calibrated/seafloor_scattering.h), if there is a grain size
     // or a loss parameter. A value that is empty follows from the grain size.
     std::optional<double> grain_phi = {};       ///< mean grain size, -log2 of millimetres

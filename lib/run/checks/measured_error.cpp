@@ -47,8 +47,7 @@ std::vector<Sonar> measured_sonars(const Mission& mission, const Assembly& assem
             sonars.emplace_back(make_sonar(mission.sensors[i], mission.accuracy, mission.water));
         const PingSettings& own = assembly.sonars[i].settings;
         sonar.settings.targets = own.targets;
-        if (auto prepared = sonar.settings.model->prepared(assembly.scene))
-            sonar.settings.model = std::move(prepared);
+        prepare_for(assembly.scene, sonar);
     }
     return sonars;
 }

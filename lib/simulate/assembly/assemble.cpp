@@ -271,10 +271,8 @@ Assembly assemble(const Mission& mission, SceneStore& models) {
         assembly.objects = objects_of(mission, assembly.scene);
     const std::string refusal = unsupported(settings, assembly.scene);
     if (!refusal.empty()) throw InputError(refusal);
-    for (Sonar& sonar : assembly.sonars) {
-        if (auto prepared = sonar.settings.model->prepared(assembly.scene))
-            sonar.settings.model = std::move(prepared);
-    }
+    for (Sonar& sonar : assembly.sonars)
+        prepare_for(assembly.scene, sonar);
     if (!assembly.scene.sound_profile) find_targets(assembly.sonars, assembly.scene);
     assembly.inputs = inputs_of(mission, models);
     Brightness brightness = find_full_scales(mission, assembly.scene, assembly.trajectory,
@@ -300,7 +298,7 @@ std::string inputs_hash(const Assembly& assembly) {
                 number_text(material.sound_speed_m_s) + " " + number_text(material.lambert_db) +
                 " " + number_text(material.slope_rms_deg);
         for (const auto& [name, value] :
-             {std::pair{"grain_phi", material.grain_phi},
+             {std::pair{"wall_mm", material.wall_mm}, std::pair{"grain_phi", material.grain_phi},
               std::pair{"loss_parameter", material.loss_parameter},
               std::pair{"spectral_strength_cm4", material.spectral_strength_cm4},
               std::pair{"spectral_exponent", material.spectral_exponent},

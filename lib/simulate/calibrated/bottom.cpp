@@ -5,6 +5,7 @@
 #include "core/units.h"
 #include "input/scene/materials.h"
 #include "simulate/calibrated/decibel.h"
+#include "simulate/calibrated/wall_transmission.h"
 
 namespace sonarsim {
 
@@ -59,8 +60,11 @@ Scattering scattering_of(std::span<const Material> materials, double frequency_h
             out.materials.push_back(
                 backscatter(SeafloorScattering(sea_bed_of(material, water), wavenumber)));
         } else {
+            const double reflection = material.wall_mm
+                                          ? 1.0 - wall_transmission(material, frequency_hz, water)
+                                          : double{material.reflection};
             out.materials.push_back(
-                backscatter(material.lambert_db, material.reflection, facet_slope(material)));
+                backscatter(material.lambert_db, reflection, facet_slope(material)));
         }
     }
     if (std::ranges::any_of(materials, is_sea_bed)) out.sea_beds = tables_of(out.materials);

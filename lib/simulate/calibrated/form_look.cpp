@@ -48,10 +48,10 @@ class ImageFormer {
         const bool expected_power = speckle_ == SpeckleMode::none;
         std::vector<Sample> targets;
 
-        // 1. Sonar equation: surface in view, surface in the guard beams, multipath.
+        // 1. Sonar equation: surface in view, in the guard beams and behind walls, multipath.
         if (context_.terms.direct) {
-            add_surface(traced.samples.items, targets, grid);
-            add_surface(traced.outside_sector, targets, grid);
+            for (const std::span<const Sample> surface : traced.surfaces())
+                add_surface(surface, targets, grid);
             if (model_.sediment) add_sediment(traced, grid);
             add_water_surface(traced.water_surface, grid);
             if (expected_power)
@@ -147,8 +147,8 @@ class ImageFormer {
         const auto keep = [&](const Sample& sample) {
             if (sediment.has[sample.material]) beds.push_back(sample);
         };
-        std::ranges::for_each(traced.samples.items, keep);
-        std::ranges::for_each(traced.outside_sector, keep);
+        for (const std::span<const Sample> surface : traced.surfaces())
+            std::ranges::for_each(surface, keep);
         if (beds.empty()) return;
         EchoGrid energy(grid.rows(), grid.columns());
         EchoGrid lagged(grid.rows(), grid.columns());

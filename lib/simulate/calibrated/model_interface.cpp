@@ -10,6 +10,7 @@
 #include "simulate/calibrated/form_look.h"
 #include "simulate/calibrated/model.h"
 #include "simulate/calibrated/receiver_chain.h"
+#include "simulate/calibrated/wall_transmission.h"
 #include "simulate/calibrated/wind_surface.h"
 
 namespace sonarsim {
@@ -74,6 +75,8 @@ std::shared_ptr<const CalibratedModel> CalibratedModel::prepared_for(const Scene
     out->scattering = scattering_of(scene.materials, instrument.frequency_hz, seawater);
     const bool has_relief = !instrument.speckle.clutter_shape && speckle != SpeckleMode::none;
     out->relief = has_relief ? Relief(scene.materials, seawater) : Relief();
+    out->info.wall_transmissions =
+        two_way_transmissions(scene.materials, instrument.frequency_hz, seawater);
     out->sediment.reset();
     if (instrument.below_bottom) {
         out->sediment = sediment_scattering(scene.materials, instrument.frequency_hz, seawater,

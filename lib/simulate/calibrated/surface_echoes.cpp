@@ -78,6 +78,11 @@ class SurfaceEchoFinder {
                        });
     }
 
+    void add_behind_walls(std::span<const Sample> surface) {
+        blocks_.begin_behind_walls();
+        add_surface(surface);
+    }
+
     void add_multipath(const std::vector<SpecularPath>& paths) {
         blocks_.begin_multipath();
         const SonarEquation& equation = model_.equation;
@@ -227,17 +232,19 @@ SurfaceEchoes CalibratedModel::surface_echoes(const TracedPing& traced, const Vi
             const bool is_local = request.objects && !request.patches && paths.empty() &&
                                   traced.particles.samples.empty() &&
                                   std::is_same_v<Beams, ArrayBeams>;
-            std::vector<Sample> inside, outside;
+            std::array<std::span<const Sample>, 3> surfaces = traced.surfaces();
+            std::array<std::vector<Sample>, 3> near_objects;
             if (is_local) {
                 NearObjects near(*request.objects);
-                near.add(traced.samples.items);
-                near.add(traced.outside_sector);
-                inside = near.among(traced.samples.items);
-                outside = near.among(traced.outside_sector);
+                for (const std::span<const Sample> surface : surfaces)
+                    near.add(surface);
+                for (std::size_t k = 0; k < surfaces.size(); ++k)
+                    surfaces[k] = near_objects[k] = near.among(surfaces[k]);
             }
-            finder.add_surface(is_local ? inside : traced.samples.items);
-            finder.add_surface(is_local ? outside : traced.outside_sector);
+            finder.add_surface(surfaces[0]);
+            finder.add_surface(surfaces[1]);
             finder.add_particles(traced.particles);
+            finder.add_behind_walls(surfaces[2]);
             finder.add_multipath(paths);
             return finder.take();
         },

@@ -6,7 +6,9 @@
 
 #include "simulate/reference/reference_cast.h"
 #include "simulate/trace/apply_maps.h"
+#include "simulate/trace/arrivals.h"
 #include "simulate/trace/target_surface.h"
+#include "simulate/trace/through_walls.h"
 #include "simulate/trace/visible_surface.h"
 #include "simulate/visibility/intersect.h"
 #include "simulate/visibility/local_pose.h"
@@ -15,10 +17,10 @@ namespace sonarsim {
 
 namespace {
 
-/// Casts rays for targets, and nothing else.
-class TargetRays final : public VisibilityEngine {
+/// Casts rays for targets and behind walls, and nothing else.
+class SingleRays final : public VisibilityEngine {
   public:
-    TargetRays(const Caster& caster, const Eigen::Vector3d& origin)
+    SingleRays(const Caster& caster, const Eigen::Vector3d& origin)
         : caster_(caster), origin_(origin) {}
 
     Samples visible_surface(const View& /*view*/, const Pose& /*T_world_sensor*/) const override {
@@ -38,9 +40,10 @@ class TargetRays final : public VisibilityEngine {
 class EnergyImage {
   public:
     EnergyImage(const Scene& scene, const PingSettings& settings, const Pose& T_world_sensor,
-                const TargetSurface& targets)
+                const VisibilityEngine& rays, const TargetSurface& targets)
         : scene_(scene),
           settings_(settings),
+          rays_(rays),
           targets_(targets),
           pose_(local_pose(T_world_sensor, scene.origin)),
           R_sensor_local_(pose_.rotation.transpose()),
@@ -58,7 +61,7 @@ class EnergyImage {
     void add(const SurfacePoint& point) {
         const auto range = static_cast<float>(point.range_m);
         const Eigen::Vector3f position = range * (R_sensor_local_ * point.direction);
-        add_area(position, point);
+        add_area(position, point.range_m, point.area_m2);
         if (targets_.has(point.facet.instance)) return;
         if (settings_.guard_beams.count > 0 && !in_array_cones(settings_.view, position)) return;
         Sample& sample = traced_.samples.items.emplace_back();
@@ -89,12 +92,29 @@ class EnergyImage {
   private:
     static constexpr std::size_t at_once = 1U << 20U;
 
-    void add_area(const Eigen::Vector3f& position, const SurfacePoint& point) {
+    void add_area(const Eigen::Vector3f& position, double range_m, double area_m2) {
         const View& view = settings_.view;
         const int beam = beam_of(view, position);
-        const double bin = std::floor((point.range_m - view.range_min_m) / view.bin_m());
+        const double bin = std::floor((range_m - view.range_min_m) / view.bin_m());
         if (beam < 0 || !(bin >= 0.0 && bin < view.range_bins)) return;
-        area_m2_[static_cast<std::size_t>(bin) * view.beams + beam] += point.area_m2;
+        area_m2_[static_cast<std::size_t>(bin) * view.beams + beam] += area_m2;
+    }
+
+    /// Adds the points behind the walls among the collected ones.
+    void add_behind_walls() {
+        traced_.behind_walls = surface_behind_walls(
+            settings_.wall_transmissions, {settings_.view, scene_, rays_, traced_.T_world_sensor},
+            {traced_.samples.items});
+        for (Sample& sample : traced_.behind_walls) {
+            const float range = arrival_range(sample.position);
+            add_area(sample.position, static_cast<double>(range),
+                     static_cast<double>(sample.area_m2));
+            if (!scene_.maps) continue;
+            const MappedPoint at = mapped_point(*scene_.maps, traced_.T_world_sensor,
+                                                sample.position, sample.instance, sample.material);
+            sample.material = at.material;
+            sample.strength *= at.strength;
+        }
     }
 
     /// The calibrated model assigns samples to beams itself.
@@ -107,6 +127,7 @@ class EnergyImage {
     void form() {
         if (traced_.samples.items.empty()) return;
         assign_to_first_beam();
+        add_behind_walls();
         const Ping ping = form_image(traced_, settings_, scene_, {}, direct_echoes_alone);
         for (std::size_t k = 0; k < sum_.size(); ++k)
             sum_[k] += static_cast<double>(ping.intensity[k]);
@@ -115,6 +136,7 @@ class EnergyImage {
 
     const Scene& scene_;
     const PingSettings& settings_;
+    const VisibilityEngine& rays_;
     const TargetSurface& targets_;
     LocalPose pose_;
     Eigen::Matrix3f R_sensor_local_;
@@ -132,17 +154,18 @@ Reference cast_energy_reference(const Caster& caster, const Scene& scene,
     const View view = widened_view(settings.view, settings.guard_beams);
     const LocalPose pose = local_pose(T_world_sensor, scene.origin);
     const std::vector<SurfaceShare> shares = surface_shares(scene, view, pose);
+    const SingleRays rays(caster, scene.origin);
     TargetSurface targets;
     if (settings.targets) {
         targets = target_surface(*settings.targets, settings.view, settings.guard_beams, scene,
-                                 TargetRays(caster, scene.origin), T_world_sensor);
+                                 rays, T_world_sensor);
     }
     const ReferenceView looking{caster, scene, view, pose, shares};
     return settled(settings.view, goal, [&](int per_beam, int count) {
         CastResult cast;
         std::vector<double> mean;
         for (const std::uint32_t start : {0U, 1U}) {
-            EnergyImage image(scene, settings, T_world_sensor, targets);
+            EnergyImage image(scene, settings, T_world_sensor, rays, targets);
             cast.rays += cast_over_surface(looking, {per_beam, count, start},
                                            [&](const SurfacePoint& point) { image.add(point); });
             const std::vector<double> sum = image.take();

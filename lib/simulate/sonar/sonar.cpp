@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "input/mission/ping_draws.h"
 #include "simulate/sonar/kinds.h"
@@ -27,6 +28,12 @@ Sonar make_sonar(const KindOfSonar& kind, const SonarConfig& config, const Accur
     if (settings.multipath.on) settings.guard_beams.joined = 1;
     settings.multipath.scattered = settings.model->info.needs_scattered_paths;
     return sonar;
+}
+
+void prepare_for(const Scene& scene, Sonar& sonar) {
+    PingSettings& settings = sonar.settings;
+    if (auto prepared = settings.model->prepared(scene)) settings.model = std::move(prepared);
+    settings.wall_transmissions = settings.model->info.wall_transmissions;
 }
 
 void find_targets(std::span<Sonar> sonars, const Scene& scene) {

@@ -22,6 +22,10 @@ Sonar make_sonar(const SonarConfig& config, const AccuracyConfig& accuracy,
 Sonar make_sonar(const KindOfSonar& kind, const SonarConfig& config, const AccuracyConfig& accuracy,
                  const WaterConfig& water = {});
 
+/// Sets the data of the sonar that depend on the materials of the scene. An echo model that lacks
+/// them finds them for each image, and no sound goes through walls.
+void prepare_for(const Scene& scene, Sonar& sonar);
+
 /// Sets the objects of the scene that may be targets in the sonars whose echo model adds energies.
 /// Without them only the engine samples small and shiny objects.
 void find_targets(std::span<Sonar> sonars, const Scene& scene);

@@ -121,12 +121,15 @@ Eigen::Vector3d unmoved_place(const PingMotion& motion, ViewShape shape,
 
 void move_in_ping(const PingMotion& motion, const View& view, Samples& samples,
                   std::vector<Sample>& outside_sector) {
+    move_in_ping(motion, view.shape, samples.items);
+    move_in_ping(motion, view.shape, outside_sector);
+    if (!motion.is_still()) sort_into_beams(view, samples, outside_sector);
+}
+
+void move_in_ping(const PingMotion& motion, ViewShape shape, std::vector<Sample>& samples) {
     if (motion.is_still()) return;
-    for (Sample& sample : samples.items)
-        sample = moved(motion, view.shape, sample);
-    for (Sample& sample : outside_sector)
-        sample = moved(motion, view.shape, sample);
-    sort_into_beams(view, samples, outside_sector);
+    for (Sample& sample : samples)
+        sample = moved(motion, shape, sample);
 }
 
 }  // namespace sonarsim

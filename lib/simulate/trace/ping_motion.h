@@ -46,5 +46,7 @@ Eigen::Vector3d unmoved_place(const PingMotion& motion, ViewShape shape,
 /// of a fan are then sorted into beams again.
 void move_in_ping(const PingMotion& motion, const View& view, Samples& samples,
                   std::vector<Sample>& outside_sector);
+/// The same for samples in no beams.
+void move_in_ping(const PingMotion& motion, ViewShape shape, std::vector<Sample>& samples);
 
 }  // namespace sonarsim

@@ -155,7 +155,8 @@ EchoSums::EchoSums(const RangeBins& bins, int beams)
     : bins_(bins),
       beams_(static_cast<std::size_t>(beams)),
       stride_(static_cast<std::size_t>(bins.count) + 1),
-      occupied_(beams_ * stride_) {}
+      occupied_(beams_ * stride_),
+      unused_(stride_) {}
 
 void EchoSums::add(const EchoBlock& echoes, std::span<const std::uint32_t> sources) {
     Boxes boxes;
@@ -179,7 +180,8 @@ void EchoSums::add(const EchoBlock& echoes, std::span<const std::uint32_t> sourc
             Sum& sum = row[first];
             sum.echo += echo * boxes.share[k].first;
             sum.next += echo * boxes.share[k].second;
-            std::uint8_t* const occupied = &occupied_[beam * stride_ + first];
+            std::uint8_t* const occupied =
+                echoes.behind_walls ? &unused_[first] : &occupied_[beam * stride_ + first];
             occupied[0] = 1;
             // This is the first bin again if the box ends in it: a branch would often be
             // mispredicted.

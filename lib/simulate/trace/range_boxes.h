@@ -76,7 +76,8 @@ struct EchoBlock {
     static constexpr int most = 256;
 
     int count = 0;
-    bool multipath = false;  ///< all came over a second surface; samples reflect the sound
+    bool multipath = false;     ///< all came over a second surface; samples reflect the sound
+    bool behind_walls = false;  ///< all came through walls: their bins may lie in a shadow
     std::array<float, most> range_m, half_m, weight, intensity;
     std::array<std::uint32_t, most> beam;
     std::array<const Sample*, most> sample;
@@ -94,7 +95,7 @@ class EchoSums {
     std::uint32_t sources() const { return static_cast<std::uint32_t>(rows_.size()); }
     /// Adds the echo of a source to `total` [range bins]. False: the beam receives none of it.
     bool add_to(std::uint32_t source, int beam, std::span<float> total) const;
-    /// 1 for the bins with weight, else 0.
+    /// 1 for the bins with weight that came through no wall, else 0.
     std::span<const std::uint8_t> occupied(int beam) const {
         return std::span(occupied_).subspan(beam * stride_, stride_ - 1);
     }
@@ -110,6 +111,7 @@ class EchoSums {
     std::size_t beams_, stride_;
     std::vector<std::vector<Row>> rows_;  ///< [source][beam]; null: no echo
     std::vector<std::uint8_t> occupied_;  ///< [beams][stride]; the last one of a beam stays 0
+    std::vector<std::uint8_t> unused_;    ///< [stride] in its place for echoes through walls
 };
 
 }  // namespace sonarsim

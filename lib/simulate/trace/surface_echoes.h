@@ -37,9 +37,15 @@ class EchoBlocks {
         if (block_.count > 0) use_(block_);
         block_.count = 0;
     }
+    /// The echoes from here on come through walls.
+    void begin_behind_walls() {
+        flush();
+        block_.behind_walls = true;
+    }
     /// The echoes from here on are multipath.
     void begin_multipath() {
         flush();
+        block_.behind_walls = false;
         block_.multipath = true;
     }
 

@@ -20,8 +20,6 @@ namespace {
 
 // Resolution cells below which an object or its highlight is a target: an engine is right to 1 dB.
 constexpr float max_cells = 4.0F;
-// Parts of the view of one or two beams: each is half a beamwidth or less in the presets.
-constexpr double min_parts = 32.0;
 // The sonar is outside of the ball around a target.
 constexpr float min_distance_by_radius = 1.05F;
 // Vertices are moved by up to this share of a target's radius when they are joined.
@@ -34,12 +32,6 @@ constexpr float glint_by_highlight = 1.5F;
 constexpr float min_glint_by_cell = 0.25F;
 // A part of a triangle is halved at most this many times, to a thousandth of its sides and less.
 constexpr int max_halvings = 22;
-
-/// The width in which a view resolves directions, or an engine samples them, rad.
-double resolved_width(const View& view) {
-    if (view.shape != ViewShape::fan) return view.elevation_rad / min_parts;
-    return view.azimuth_rad / std::max<double>(min_parts, view.beams);
-}
 
 /// A corner of a piece of a triangle, in the sensor frame.
 struct Corner {
@@ -102,7 +94,7 @@ class TargetSampler {
         if (range < min_distance_by_radius * radius ||
             volume_.of_sensor_frame(centre, radius + volume_.rounding_m()) == Containment::outside)
             return false;
-        const float cell = std::max(static_cast<float>(resolved_width(view_)) * range,
+        const float cell = std::max(static_cast<float>(resolved_width_rad(view_)) * range,
                                     static_cast<float>(view_.bin_m()));
         const float highlight =
             shape.curvature_m > 0.0F ? scale * shape.curvature_m * placed.min_slope : radius;

@@ -4,6 +4,7 @@
 
 #include "core/clock.h"
 #include "simulate/trace/target_surface.h"
+#include "simulate/trace/through_walls.h"
 #include "simulate/trace/visible_water_surface.h"
 
 namespace sonarsim {
@@ -27,13 +28,21 @@ TracedPing trace_ping(const TraceSettings& settings, const Scene& scene,
     }
     traced.samples = std::move(surface.samples);
     traced.outside_sector = std::move(surface.outside_sector);
-    traced.counts.samples = traced.samples.items.size() + traced.outside_sector.size();
+    traced.behind_walls = surface_behind_walls(
+        settings.wall_transmissions, {settings.view, scene, engine, traced.T_world_sensor},
+        {traced.samples.items, traced.outside_sector});
+    for (const std::span<const Sample> of : traced.surfaces())
+        traced.counts.samples += of.size();
     traced.counts.dropped_samples = traced.samples.dropped;
     if (scene.maps) {
         apply_maps(*scene.maps, settings.view, T_world_sensor, traced.samples,
                    traced.outside_sector, scene.sound_profile.get(), settings.map_strengths);
+        Samples in_no_beams;
+        apply_maps(*scene.maps, settings.view, T_world_sensor, in_no_beams, traced.behind_walls,
+                   scene.sound_profile.get(), settings.map_strengths);
     }
     move_in_ping(motion, settings.view, traced.samples, traced.outside_sector);
+    move_in_ping(motion, settings.view.shape, traced.behind_walls);
     if (settings.sees_water_surface) {
         traced.water_surface = visible_water_surface(settings.view, settings.guard_beams, scene,
                                                      engine, T_world_sensor, motion);

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/pose.h"
@@ -28,6 +30,7 @@ struct TraceSettings {
     std::shared_ptr<const Particles> particles;  ///< point targets in the water; null: none
     bool sees_water_surface = false;             ///< if the surface scatters
     MapStrengths map_strengths = MapStrengths::in_samples;
+    std::vector<float> wall_transmissions;       ///< see surface_behind_walls(); empty: none
 };
 
 /// The surface that a sonar insonified from one pose. It holds no noise: any number of images may
@@ -38,6 +41,7 @@ struct TracedPing {
     MapStrengths map_strengths = MapStrengths::in_samples;
     Samples samples;                     ///< the visible surface
     std::vector<Sample> outside_sector;  ///< the visible surface in the guard beams
+    std::vector<Sample> behind_walls;    ///< surface that sound reaches through thin walls
     SeenParticles particles;
     std::vector<Sample> water_surface;  ///< if it scatters
     std::vector<BouncePath> bounces;    ///< multipath paths from `samples`
@@ -47,6 +51,11 @@ struct TracedPing {
     std::vector<TracedPing> later_groups;
     PingCounts counts;
     PingSeconds seconds;
+
+    /// All surface with direct echoes, but for the water's.
+    std::array<std::span<const Sample>, 3> surfaces() const {
+        return {samples.items, outside_sector, behind_walls};
+    }
 };
 
 /// Finds the surface that a sonar sees and, if its settings and the terms have it, the multipath:

@@ -1,5 +1,6 @@
 #include "simulate/visibility/view.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/elementary.h"
@@ -9,6 +10,13 @@ namespace sonarsim {
 
 bool is_full_turn(const View& view) {
     return view.shape == ViewShape::fan && view.azimuth_rad >= 2.0 * pi;
+}
+
+double resolved_width_rad(const View& view) {
+    // Parts of the view of one or two beams: each is half a beamwidth or less in the presets.
+    constexpr double min_parts = 32.0;
+    if (view.shape != ViewShape::fan) return view.elevation_rad / min_parts;
+    return view.azimuth_rad / std::max<double>(min_parts, view.beams);
 }
 
 int beam_of(const View& view, const Eigen::Vector3f& point) {

@@ -34,6 +34,9 @@ struct View {
 /// True for a fan of all azimuths, whose last beam is next to its first.
 bool is_full_turn(const View& view);
 
+/// The width in which a view resolves directions, or an engine samples them.
+double resolved_width_rad(const View& view);
+
 /// The place in [0, beams) of one that is whole turns away from it.
 inline float beam_in_turn(float beam, float beams) {
     const float in_turn = beam - beams * std::floor(beam / beams);

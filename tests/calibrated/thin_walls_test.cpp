@@ -1,0 +1,213 @@
+// Sound that goes through thin walls.
+
+#include "simulate/calibrated/wall_transmission.h"
+#include "simulate/reference/energy_reference.h"
+#include "simulate/reference/image_error.h"
+#include "support/calibrated.h"
+#include "support/draws.h"
+
+using namespace sonarsim;
+using namespace sonarsim::test;
+
+namespace {
+
+constexpr double frequency_hz = 4e5;
+const Water water;
+
+/// A wall of drawn material without an echo of its own.
+Material drawn_wall(Draws& draws) {
+    Material wall{.name = "wall", .lambert_db = -300.0, .slope_rms_deg = 0.0};
+    wall.density_kg_m3 = static_cast<double>(draws.between(1000.0F, 2000.0F));
+    wall.sound_speed_m_s = static_cast<double>(draws.between(1500.0F, 2500.0F));
+    wall.wall_mm = static_cast<double>(draws.scale(0.05F, 5.0F));
+    return wall;
+}
+
+double two_way(const Material& wall) {
+    const double once = wall_transmission(wall, frequency_hz, water);
+    return once * once;
+}
+
+Sonar wall_sonar(SonarKind kind) {
+    SonarConfig config = calibrated(default_sonar(kind), frequency_hz);
+    config.instrument = bare(config.instrument);
+    config.azimuth_deg = 60.0;
+    config.azimuth_bins = 64;
+    config.range_min_m = 0.5;
+    config.range_max_m = 12.0;
+    config.range_bins = 240;
+    return make_sonar(config, {});
+}
+
+/// A scene in the frame of a sonar.
+struct WallScene {
+    Scene scene = empty_scene();
+    Pose T_world_sensor;
+
+    explicit WallScene(const Sonar& sonar) : T_world_sensor(sensor_pose(sonar, {}, 0)) {
+        scene.materials.push_back({.name = "rear", .reflection = 0.4F, .slope_rms_deg = 0.0});
+    }
+
+    std::uint32_t add(const Material& material) {
+        scene.materials.push_back(material);
+        return static_cast<std::uint32_t>(scene.materials.size() - 1);
+    }
+
+    /// A plate across the whole view.
+    void add_plate(float distance_m, const Eigen::Vector3f& normal, std::uint32_t material) {
+        const Eigen::Vector3f n = normal.normalized();
+        const Eigen::Vector3f u = 30.0F * n.unitOrthogonal();
+        const Eigen::Vector3f v = n.cross(u);
+        const Eigen::Vector3f middle(distance_m, 0.0F, 0.0F);
+        const auto at = [&](float along, float up) -> Eigen::Vector3f {
+            return T_world_sensor.rotation.cast<float>() * (middle + along * u + up * v);
+        };
+        add_quad(scene, at(-1, -1), at(1, -1), at(1, 1), at(-1, 1), material, 2);
+    }
+
+    void add_ball(float distance_m, float radius_m, std::uint32_t material) {
+        add_sphere(scene,
+                   T_world_sensor.rotation.cast<float>() * Eigen::Vector3f(distance_m, 0.0F, 0.0F),
+                   radius_m, material, 48);
+    }
+
+    double energy(Sonar sonar, EngineKind type) const {
+        prepare_for(scene, sonar);
+        find_targets({&sonar, 1}, scene);
+        const auto engine = make_engine(scene, {.type = type, .octree = {}});
+        return total(render_ping(sonar, scene, *engine, {}, {}, direct_echoes_alone).intensity);
+    }
+};
+
+struct Setting {
+    SonarKind kind;
+    EngineKind engine;
+};
+constexpr Setting settings[] = {{SonarKind::imaging, EngineKind::rays},
+                                {SonarKind::imaging, EngineKind::slices},
+                                {SonarKind::echosounder, EngineKind::rays}};
+
+}  // namespace
+
+TEST_SUITE("calibrated") {
+    // Waves that go to and fro in the wall add up to (1 - r^2) / (1 - r^2 e^(2 i k d)) of the
+    // amplitude, with r = (z - z_w) / (z + z_w).
+    TEST_CASE("thin walls: transmission is that of the waves in the wall") {
+        Draws draws(1);
+        for (int n = 0; n < 100; ++n) {
+            const Material wall = drawn_wall(draws);
+            const double hz = static_cast<double>(draws.scale(1e4F, 3e6F));
+            const double z = wall.density_kg_m3 * wall.sound_speed_m_s;
+            const double z_w = water.density_kg_m3 * water.sound_speed_m_s;
+            const double r = (z - z_w) / (z + z_w);
+            const double kd = 2.0 * pi * hz / wall.sound_speed_m_s * 1e-3 * *wall.wall_mm;
+            const double expected =
+                std::norm((1.0 - r * r) / (1.0 - r * r * std::polar(1.0, 2.0 * kd)));
+            CHECK(wall_transmission(wall, hz, water) == test::approx(expected));
+
+            Material window = wall;
+            window.wall_mm = 1e3 * draws.whole(1, 5) * wall.sound_speed_m_s / (2.0 * hz);
+            CHECK(wall_transmission(window, hz, water) == test::approx(1.0));
+            window.wall_mm = 1e3 * (0.5 * draws.whole(1, 5) + 0.25) * wall.sound_speed_m_s / hz;
+            const double ratio = z / z_w;
+            CHECK(wall_transmission(window, hz, water) ==
+                  test::approx(4.0 / ((ratio + 1.0 / ratio) * (ratio + 1.0 / ratio))));
+        }
+        // The mass law of a thin heavy wall: the mass per area alone counts.
+        const Material steel{
+            .name = "steel", .density_kg_m3 = 7850.0, .sound_speed_m_s = 5890.0, .wall_mm = 0.05};
+        const double mass = 2.0 * pi * frequency_hz * 5e-5 * 7850.0 / (2.0 * 997.0 * 1480.0);
+        CHECK(wall_transmission(steel, frequency_hz, water) ==
+              test::approx(1.0 / (1.0 + mass * mass)).epsilon(0.01));
+        CHECK(wall_transmission({.name = "solid"}, frequency_hz, water) == 0.0);
+    }
+
+    TEST_CASE("thin walls: the echo of a plate falls by T^2 for each wall before it") {
+        for (const Setting& setting : settings) {
+            const Sonar sonar = wall_sonar(setting.kind);
+            for (std::uint32_t n = 0; n < 4; ++n) {
+                Draws draws(n);
+                const Eigen::Vector3f normal = -Eigen::Vector3f::UnitX() + 0.25F * draws.in_ball();
+                const float first_m = draws.between(1.5F, 3.0F);
+                const float rear_m = first_m + draws.between(1.0F, 3.0F);
+                const Material first = drawn_wall(draws);
+                const Material second = drawn_wall(draws);
+                WallScene walls(sonar);
+                walls.add_plate(rear_m, normal, 0);
+                const double alone = walls.energy(sonar, setting.engine);
+                walls.add_plate(first_m, normal, walls.add(first));
+                CAPTURE(name_of(setting.kind));
+                CAPTURE(static_cast<int>(setting.engine));
+                CAPTURE(n);
+                CHECK(walls.energy(sonar, setting.engine) / alone ==
+                      test::approx(two_way(first)).epsilon(0.01));
+                walls.add_plate(0.5F * (first_m + rear_m), normal, walls.add(second));
+                CHECK(walls.energy(sonar, setting.engine) / alone ==
+                      test::approx(two_way(first) * two_way(second)).epsilon(0.01));
+            }
+        }
+    }
+
+    // A closed body takes away a part of the echo behind it, and two walls give T^4 of it back. The
+    // bodies are targets or large enough for an engine.
+    TEST_CASE("thin walls: a shadow holds T^4 of the echo without the body") {
+        for (const Setting& setting : settings) {
+            const Sonar sonar = wall_sonar(setting.kind);
+            for (std::uint32_t n = 0; n < 4; ++n) {
+                Draws draws(10 + n);
+                const Material wall = drawn_wall(draws);
+                Material solid = wall;
+                solid.wall_mm.reset();
+                const float ball_m = draws.between(2.0F, 4.0F);
+                const float radius_m = draws.scale(0.15F, 0.6F);
+                WallScene open(sonar);
+                open.add_plate(ball_m + 2.0F, -Eigen::Vector3f::UnitX(), 0);
+                WallScene thin = open;
+                thin.add_ball(ball_m, radius_m, thin.add(wall));
+                WallScene opaque = open;
+                opaque.add_ball(ball_m, radius_m, opaque.add(solid));
+                const double whole = open.energy(sonar, setting.engine);
+                const double lit = opaque.energy(sonar, setting.engine);
+                const double back = thin.energy(sonar, setting.engine) - lit;
+                const double expected = two_way(wall) * two_way(wall) * (whole - lit);
+                CAPTURE(name_of(setting.kind));
+                CAPTURE(static_cast<int>(setting.engine));
+                CAPTURE(n);
+                CHECK(std::fabs(back - expected) < 0.03 * (whole - lit));
+            }
+        }
+    }
+
+    // Without the sound through walls the error is a multiple of this.
+    TEST_CASE("thin walls: images agree with the reference's points") {
+        for (const Setting& setting : settings) {
+            Sonar sonar = wall_sonar(setting.kind);
+            Draws draws(20);
+            Material wall = drawn_wall(draws);
+            wall.lambert_db = -20.0;
+            WallScene bottle(sonar);
+            bottle.add_plate(5.0F, {-1.0F, 0.2F, 0.4F}, 0);
+            bottle.add_plate(3.0F, {-1.0F, -0.1F, 0.1F}, bottle.add(wall));
+            bottle.add_ball(2.0F, 0.3F, 1);
+            prepare_for(bottle.scene, sonar);
+            find_targets({&sonar, 1}, bottle.scene);
+            const auto engine = make_engine(bottle.scene, {.type = setting.engine, .octree = {}});
+            const Reference reference =
+                cast_energy_reference(Caster(bottle.scene), bottle.scene, sonar.settings,
+                                      bottle.T_world_sensor, {0.02, 16.0, 4'000'000});
+            const auto error = [&] {
+                const Ping ping =
+                    render_ping(sonar, bottle.scene, *engine, {}, {}, direct_echoes_alone);
+                return image_error(ping.intensity, reference.intensity, reference.scored)
+                    .relative_l1;
+            };
+            CAPTURE(name_of(setting.kind));
+            CAPTURE(static_cast<int>(setting.engine));
+            CAPTURE(reference.moved);
+            const double through = error();
+            CHECK(through < 0.03 + reference.apart);
+            sonar.settings.wall_transmissions.clear();
+            CHECK(error() > 4.0 * through);
+        }
+    }
+}
