@@ -30,15 +30,16 @@ TEST_SUITE("labels") {
             const Labelled thin = labelled();
             CHECK(thin.labels.shadow == opaque.labels.shadow);
             CHECK(thin.labels.visible_share == opaque.labels.visible_share);
-            int seen = 0;
+            std::map<int, int> before, now;  // the objects of the bins in the wall's shadow
             for (std::size_t k = 0; k < thin.labels.size(); ++k) {
                 if (thin.labels.shadow[k] != 2) continue;
-                CHECK(opaque.labels.object[k] == 0);
-                if (thin.labels.object[k] == 0) continue;
-                CHECK(thin.labels.object[k] == 1);
-                ++seen;
+                ++before[opaque.labels.object[k]];
+                ++now[thin.labels.object[k]];
             }
-            CHECK(seen > 200);
+            CHECK(before.size() == 1);
+            CHECK(before[0] > 200);
+            CHECK(now[1] > 0.9 * before[0]);
+            CHECK(now[2] == 0);
         }
     }
 }
