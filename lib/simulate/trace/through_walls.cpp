@@ -31,15 +31,15 @@ struct Pencil {
 /// Adds the pencils of a sample's parts. Each spans about a resolution cell, as pieces of targets
 /// do, since what lies behind may end within a sample.
 void add_pencils(const Sample& sample, const View& view, std::vector<Pencil>& pencils) {
-    const auto [range, direction] = arrival_of(sample.position);
+    const Arrival middle = arrival_of(sample.position);
     const auto across = [](const Eigen::Vector3f& edge,
                            const Eigen::Vector3f& along) -> Eigen::Vector3f {
         return edge - along * along.dot(edge);
     };
-    const float cell_m = std::max(static_cast<float>(resolved_width_rad(view)) * range,
+    const float cell_m = std::max(static_cast<float>(resolved_width_rad(view)) * middle.range_m,
                                   static_cast<float>(view.bin_m()));
     const auto parts_of = [&](const Eigen::Vector3f& half_edge) {
-        const float parts = 2.0F * across(half_edge, direction).norm() / cell_m;
+        const float parts = 2.0F * across(half_edge, middle.direction).norm() / cell_m;
         return static_cast<int>(std::ceil(std::clamp(parts, 1.0F, max_parts)));
     };
     const int rows = parts_of(sample.edge_u);
