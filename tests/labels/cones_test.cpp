@@ -170,7 +170,8 @@ TEST_CASE("cone labels: objects alone have the bins and shadows that they have b
             add_box(scene, low, low + Eigen::Vector3f(size, 2.0F * size, size), m);
         }
         const Sonar sonar = wide_fan(spacings[n % std::size(spacings)]);
-        const Pose pose{rotation_from_rpy(0.0, radians(draw.between(10.0, 40.0)), 0.0), {}};
+        const Pose pose{rotation_from_rpy(0.0, radians(draw.between(10.0, 40.0)), 0.0),
+                        Eigen::Vector3d::Zero()};
         SceneObjects objects = group_objects(scene, {});
         objects.background.assign(objects.classes.size(), 0);
         objects.background[0] = 1;
