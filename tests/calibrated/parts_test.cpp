@@ -69,23 +69,6 @@ TEST_SUITE("calibrated") {
         CHECK(std::fabs((products / count - mean * mean) / variance - sinc * sinc) < 0.02);
     }
 
-    TEST_CASE("clutter: gamma-distributed, mean 1 and variance 1 / nu") {
-        for (const double shape : {0.5, 1.0, 4.0, 20.0}) {
-            double mean = 0.0;
-            double squares = 0.0;
-            const Clutter clutter = gamma_clutter(shape, 1.0);
-            for (const float s : clutter.strength) {
-                mean += s / Clutter::steps;
-                squares += static_cast<double>(s) * s / Clutter::steps;
-            }
-            CHECK(std::fabs(mean - 1.0) < 1e-5);
-            // Quantiles leave out the ends.
-            CHECK(std::fabs((squares - 1.0) * shape - 1.0) < 0.03);
-        }
-        // nu = 1 is exponential: the median is ln 2.
-        CHECK(std::fabs(gamma_clutter(1.0, 1.0).strength[512] - std::log(2.0)) < 2e-3);
-    }
-
     TEST_CASE("companding: the laws at several powers, and an offset that makes zeros") {
         const std::vector<float> powers{0.0F, 1e-4F, 1.0F / 256, 1.0F / 16, 1.0F, 7.0F};
         using Raw = std::vector<std::uint16_t>;

@@ -21,7 +21,7 @@ Material sand() {
 /// along the direction.
 std::vector<double> factors(double grazing_rad, double direction_rad, PhiloxKey key) {
     const std::vector<Material> materials{Material{}, sand()};
-    const Relief relief(materials, sea);
+    const Relief relief(materials, sea, 1.0);
     std::mt19937 draws(7);
     std::uniform_real_distribution<double> place(-500.0, 500.0);
     std::vector<double> out;

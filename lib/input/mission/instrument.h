@@ -68,9 +68,7 @@ struct PulseConfig {
 
 struct SpeckleConfig {
     SpeckleMode mode = SpeckleMode::scene;
-    /// nu of the K-distribution; 0: Rayleigh; empty: Relief (simulate/calibrated/relief.h).
-    std::optional<double> clutter_shape;
-    double clutter_m = 0.1;  ///< edge of the cells that share one clutter strength
+    double relief = 1.0;  ///< factor on the tilts of sea beds (simulate/calibrated/relief.h)
 };
 
 /// The rule by which several samples become the one that is delivered.
@@ -213,14 +211,8 @@ void describe(Visitor& v, SpeckleConfig& c) {
     v.choice("mode", c.mode, speckle_modes,
              "`scene`: scatterers stay in place in the scene; `ping`: scatterers are drawn "
              "for every ping, which is faster; `none`: no speckle, the mean power");
-    v.number("clutter_shape", c.clutter_shape, between(0, 100),
-             "shape nu of K-distributed clutter; 0 means Rayleigh; `auto`: the relief of sea beds "
-             "(docs/calibrated.md)");
-    // At much smaller shapes nearly all cells draw a power of 0.
-    v.require(c.clutter_shape.value_or(0.0) == 0.0 || *c.clutter_shape >= 0.05, {"clutter_shape"},
-              "clutter_shape is 0, for Rayleigh, or at least 0.05");
-    v.number("clutter_m", c.clutter_m, between(1e-3, 1e3),
-             "edge of the cells of the scene that share one clutter strength");
+    v.number("relief", c.relief, between(0, 10),
+             "factor on the relief of sea beds, which makes them patchy; 0: even speckle");
 }
 
 /// The keys of a receiver besides noise, gain and companding.

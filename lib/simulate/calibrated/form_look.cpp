@@ -32,7 +32,7 @@ class ImageFormer {
           beams_(beams),
           context_(context),
           scene_draws_(context.draws.of_scene(Stream::scatterers)),
-          clutter_draws_(context.draws.of_scene_all_looks(Stream::scatterers)),
+          relief_draws_(context.draws.of_scene_all_looks(Stream::scatterers)),
           ping_draws_(context.draws.of(Stream::speckle)),
           sonar_{traced.T_world_sensor.rotation.toRotationMatrix().cast<float>(),
                  traced.T_world_sensor.translation - context.scene.origin},
@@ -104,15 +104,14 @@ class ImageFormer {
         ping_.counts.out_of_range += find_columns(beams_, patches, echoes_);
     }
 
-    /// The same for pieces of surface of the scene, with its map and its clutter. `limits`: those
+    /// The same for pieces of surface of the scene, with its map and its relief. `limits`: those
     /// of PieceStrengths::apply().
     void find(std::span<const Sample> surface, const PatchBlock& patches,
               const PointLimits* limits) {
         find(patches, surface_scattering());
         strengths_.apply(surface, patches, limits, echoes_.power);
-        if (speckle_ == SpeckleMode::none) return;
-        add_clutter(patches, model_.clutter, sonar_, clutter_draws_, echoes_);
-        add_relief(patches, model_.relief, sonar_, clutter_draws_, echoes_);
+        if (speckle_ != SpeckleMode::none)
+            add_relief(patches, model_.relief, sonar_, relief_draws_, echoes_);
     }
 
     /// Lets add(powers) add echoes whose amplitudes are drawn for each ping, even with `speckle:
@@ -243,7 +242,7 @@ class ImageFormer {
     const CalibratedModel& model_;
     const Beams& beams_;
     const FormContext& context_;
-    PhiloxKey scene_draws_, clutter_draws_, ping_draws_;
+    PhiloxKey scene_draws_, relief_draws_, ping_draws_;
     SonarInScene sonar_;
     SpeckleMode speckle_;
     View view_;  ///< with the guard beams

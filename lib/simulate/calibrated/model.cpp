@@ -158,8 +158,6 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
     const ReceiverConfig& receiver = instrument.receiver;
     CalibratedModel model;
     model.instrument = instrument;
-    model.clutter =
-        gamma_clutter(instrument.speckle.clutter_shape.value_or(0.0), instrument.speckle.clutter_m);
     model.amplitude_taps = range_taps(resolution_bins, side_lobe_db, false);
     model.power_taps = range_taps(resolution_bins, side_lobe_db, true);
     const std::vector<float> of_noise = noise_taps(resolution_bins, side_lobe_db);

@@ -33,7 +33,6 @@ struct CalibratedModel final : EchoModel {
     PointLimits limits;  ///< for pieces that are not scatterers of the scene
     ScattererCells cells;
     PointLimits target_cell;  ///< the pieces of a target within it are one scatterer
-    Clutter clutter;
     RangeTaps amplitude_taps, power_taps;
     std::variant<TransducerBeams, ArrayBeams> beams;
     /// [samples in range] The factor from the power of an echo to the value of the image.

@@ -73,8 +73,9 @@ std::shared_ptr<const CalibratedModel> CalibratedModel::prepared_for(const Scene
     auto out = std::make_shared<CalibratedModel>(*this);
     out->prepared_materials = scene.materials;
     out->scattering = scattering_of(scene.materials, instrument.frequency_hz, seawater);
-    const bool has_relief = !instrument.speckle.clutter_shape && speckle != SpeckleMode::none;
-    out->relief = has_relief ? Relief(scene.materials, seawater) : Relief();
+    const bool has_relief = instrument.speckle.relief > 0.0 && speckle != SpeckleMode::none;
+    out->relief =
+        has_relief ? Relief(scene.materials, seawater, instrument.speckle.relief) : Relief();
     out->info.wall_transmissions =
         two_way_transmissions(scene.materials, instrument.frequency_hz, seawater);
     out->sediment.reset();

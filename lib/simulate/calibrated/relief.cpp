@@ -109,11 +109,11 @@ std::vector<Relief::Tilt> Relief::make_tilts() {
     return out;
 }
 
-Relief::Relief(std::span<const Material> materials, const Water& water) {
+Relief::Relief(std::span<const Material> materials, const Water& water, double factor) {
     for (const Material& material : materials) {
         const bool is_bed = is_sea_bed(material);
-        deviations_.push_back(is_bed ? static_cast<float>(deviation_of(sea_bed_of(material, water)))
-                                     : 0.0F);
+        deviations_.push_back(
+            is_bed ? static_cast<float>(factor * deviation_of(sea_bed_of(material, water))) : 0.0F);
     }
     if (std::ranges::any_of(deviations_, [](float s) { return s > 0.0F; })) tilts_ = make_tilts();
 }

@@ -38,7 +38,8 @@ class Relief {
     };
 
     Relief() = default;  ///< none
-    Relief(std::span<const Material> materials, const Water& water);
+    /// `factor`: on the deviations.
+    Relief(std::span<const Material> materials, const Water& water, double factor);
 
     bool exists() const { return !tilts_.empty(); }
     /// The tilts at places of surface of these materials; `key` moves the square. The deviation is

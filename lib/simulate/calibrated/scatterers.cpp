@@ -22,23 +22,6 @@ constexpr double scatterers_in_cell = 4.0;
 // The number of levels by which cells are larger at normal than at grazing incidence.
 constexpr int steep_levels = 1;
 
-/// A hash of two words: the finaliser of MurmurHash3, applied to each in turn.
-std::uint32_t hash2(std::uint32_t a, std::uint32_t b) {
-    std::uint32_t h = a * 0x85EBCA6BU;
-    h = (h ^ (h >> 15)) + b * 0xC2B2AE35U;
-    h = (h ^ (h >> 16)) * 0x85EBCA6BU;
-    h = (h ^ (h >> 13)) * 0xC2B2AE35U;
-    return h ^ (h >> 16);
-}
-
-std::uint32_t word_of(std::int32_t x) {
-    return static_cast<std::uint32_t>(x);
-}
-
-std::int32_t cell_along(float metres, float per_edge) {
-    return static_cast<std::int32_t>(std::floor(metres * per_edge));
-}
-
 /// The counters of the cells for their random draws.
 void name_cells(const Scatterers& block, int count, Words& low, Words& high) {
     for (int k = 0; k < count; ++k) {
@@ -112,20 +95,6 @@ void find_places(const PatchBlock& pieces, int count, const SonarInScene& sonar,
     place(0, out.x);
     place(1, out.y);
     place(2, out.z);
-}
-
-void add_clutter(const PatchBlock& pieces, const Clutter& clutter, const SonarInScene& sonar,
-                 PhiloxKey key, PointEchoes& echoes) {
-    if (clutter.strength.empty()) return;
-    WorldPlaces places;
-    find_places(pieces, echoes.count, sonar, places);
-    const float per_edge = 1.0F / clutter.edge_m;
-    for (int k = 0; k < echoes.count; ++k) {
-        const std::uint32_t h = hash2(word_of(cell_along(places.x[k], per_edge)) ^
-                                          word_of(cell_along(places.z[k], per_edge)) << 16 ^ key.k0,
-                                      word_of(cell_along(places.y[k], per_edge)) ^ key.k1);
-        echoes.power[k] *= clutter.strength[h >> 22];
-    }
 }
 
 void draw_amplitudes(const Scatterers& block, const PointEchoes& echoes,

@@ -6,7 +6,6 @@
 
 #include "core/pose.h"
 #include "core/random.h"
-#include "simulate/calibrated/clutter.h"
 #include "simulate/calibrated/sonar_equation.h"
 
 namespace sonarsim {
@@ -54,9 +53,5 @@ struct Scatterers {
 void draw_amplitudes(const Scatterers& block, const PointEchoes& echoes,
                      const ScattererCells& cells, const SonarInScene& sonar, PhiloxKey key,
                      Amplitudes& out);
-
-/// Multiplies the powers of echoes by the strength of the clutter at their places.
-void add_clutter(const PatchBlock& pieces, const Clutter& clutter, const SonarInScene& sonar,
-                 PhiloxKey key, PointEchoes& echoes);
 
 }  // namespace sonarsim
