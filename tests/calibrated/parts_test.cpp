@@ -37,6 +37,7 @@ TEST_SUITE("calibrated") {
         // powers by its square.
         const LineArray array = line_array(radians(0.4), -13.3);
         std::vector<double> sines;
+        sines.reserve(256);
         for (int j = 0; j < 256; ++j)
             sines.push_back((j - 127.5) / 255.0);
         const Beamformer beams(array, sines, false);

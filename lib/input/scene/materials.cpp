@@ -53,6 +53,7 @@ std::vector<OptionalColumn> optional_columns_of(const CsvTable& csv) {
                          "'Material, Density kg/m^3, Speed of Sound m/s'");
     }
     std::vector<std::string> known;
+    known.reserve(optional_columns.size());
     for (const OptionalColumn& column : optional_columns)
         known.emplace_back(column.name);
     std::vector<OptionalColumn> columns;
