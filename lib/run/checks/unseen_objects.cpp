@@ -129,7 +129,9 @@ bool sees(const Mission& mission, const Assembly& assembly, const Sonar& sonar,
             return sample.instance == instance && range >= sonar.settings.view.range_min_m &&
                    range < sonar.settings.view.range_max_m;
         };
-        if (std::ranges::any_of(traced.samples.items, is_it)) return true;
+        if (std::ranges::any_of(traced.samples.items, is_it) ||
+            std::ranges::any_of(traced.behind_walls, is_it))
+            return true;
     }
     return false;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "core/units.h"
 #include "simulate/product/object_masks.h"
@@ -94,8 +95,8 @@ std::vector<Eigen::AlignedBox3f> visible_boxes(const SceneObjects& objects,
         box.extend(sample.position + reach);
     };
     if (traced.later_groups.empty()) {
-        std::ranges::for_each(traced.samples.items, extend);
-        std::ranges::for_each(traced.outside_sector, extend);
+        for (const std::span<const Sample> surface : traced.surfaces())
+            std::ranges::for_each(surface, extend);
         return boxes;
     }
     const auto extend_by_group = [&](const TracedPing& group, int number) {
@@ -105,15 +106,17 @@ std::vector<Eigen::AlignedBox3f> visible_boxes(const SceneObjects& objects,
         const Eigen::Vector3f shift =
             (to_first * (group.T_world_sensor.translation - traced.T_world_sensor.translation))
                 .cast<float>();
+        const auto extend_turned = [&](Sample sample) {
+            sample.position = turn * sample.position + shift;
+            sample.edge_u = turn * sample.edge_u;
+            sample.edge_v = turn * sample.edge_v;
+            extend(sample);
+        };
         for (std::size_t j = 0; j < traced.group_of_beam.size(); ++j) {
-            if (traced.group_of_beam[j] != number) continue;
-            for (Sample sample : group.samples.beam(static_cast<int>(j))) {
-                sample.position = turn * sample.position + shift;
-                sample.edge_u = turn * sample.edge_u;
-                sample.edge_v = turn * sample.edge_v;
-                extend(sample);
-            }
+            if (traced.group_of_beam[j] == number)
+                std::ranges::for_each(group.samples.beam(static_cast<int>(j)), extend_turned);
         }
+        std::ranges::for_each(group.behind_walls, extend_turned);
     };
     extend_by_group(traced, 0);
     for (std::size_t k = 0; k < traced.later_groups.size(); ++k)

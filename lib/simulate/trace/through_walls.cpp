@@ -32,6 +32,7 @@ struct Pencil {
 /// do, since what lies behind may end within a sample.
 void add_pencils(const Sample& sample, const View& view, std::vector<Pencil>& pencils) {
     const Arrival middle = arrival_of(sample.position);
+    if (!(middle.range_m > 0.0F)) return;
     const auto across = [](const Eigen::Vector3f& edge,
                            const Eigen::Vector3f& along) -> Eigen::Vector3f {
         return edge - along * along.dot(edge);
@@ -51,6 +52,7 @@ void add_pencils(const Sample& sample, const View& view, std::vector<Pencil>& pe
         const Eigen::Vector3f row = sample.position + static_cast<float>(2 * i + 1 - rows) * u;
         for (int j = 0; j < columns; ++j) {
             const auto [r, d] = arrival_of(row + static_cast<float>(2 * j + 1 - columns) * v);
+            if (!(r > 0.0F)) continue;
             pencils.push_back({.direction = d,
                                .half_u = across(u, d) / r,
                                .half_v = across(v, d) / r,
