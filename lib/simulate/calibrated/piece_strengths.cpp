@@ -34,7 +34,7 @@ void PieceStrengths::apply(std::span<const Sample> surface, const PatchBlock& pi
     Eigen::Vector2d half_m = Eigen::Vector2d::Zero();
     for (int k = 0; k < pieces.count; ++k) {
         const Sample& sample = surface[pieces.sample[k]];
-        if (sample.region > 0 || !(power[k] > 0.0F)) continue;
+        if (sample.region > 0 || !(power[k] > 0.0F) || !maps_->lie_on(sample.instance)) continue;
         if (limits && &sample != of_half) {
             of_half = &sample;
             half_m = half_of_piece(sample, *limits);

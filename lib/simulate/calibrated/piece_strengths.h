@@ -9,7 +9,7 @@
 namespace sonarsim {
 
 /// The strengths of a scene's map at pieces of a ping's samples (MapStrengths::at_points). Samples
-/// that are cut by texels would be fifty times as many.
+/// that are cut by texels would be many times as many.
 class PieceStrengths {
   public:
     PieceStrengths(const TracedPing& traced, const Scene& scene, ViewShape shape);

@@ -57,7 +57,7 @@ Square transformed(const Square& square, bool backward) {
     return rows_transformed(rows_transformed(square, backward), backward);
 }
 
-/// Waves of the square of a frequency's number.
+/// The wave number of entry k of a transform along a side of the square, rad/m.
 double wave_number(int k) {
     return 2.0 * pi / (size * Relief::texel_m) * (k < size / 2 ? k : k - size);
 }

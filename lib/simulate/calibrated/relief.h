@@ -26,7 +26,7 @@ namespace sonarsim {
 /// lie on a square of the world that repeats itself, with the spectrum of usual sea beds, b = 3.25.
 class Relief {
   public:
-    static constexpr double shortest_m = 0.1;
+    static constexpr double shortest_m = 0.1;  ///< a choice: about the beam of a sonar at 10 m
     /// Number of texels along the square, and their edge.
     static constexpr int size = 256;
     static constexpr double texel_m = 0.05;

@@ -60,7 +60,8 @@ struct PatchEcho {
     double echo;
 };
 
-/// A piece of visible surface. A line array may receive it in several beams.
+/// A piece of visible surface, or of surface behind thin walls. A line array may receive it in
+/// several beams.
 struct EchoPatch {
     Eigen::Vector3f position, edge_u, edge_v;    ///< as in Sample
     std::uint32_t echo_begin = 0, echo_end = 0;  ///< its echoes in `patch_echoes`
