@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "exr_header.h"
 #include "guarded.h"
 #include "input/scene/images/module.h"
 #include "tiff_header.h"
@@ -109,6 +110,7 @@ extern "C" [[gnu::visibility("default")]] int sonarsim_read_image_2(const char* 
     return guarded(error, error_size, [&] {
         SonarsimImageHead head{};
         if (std::strcmp(format, "png") == 0) require_whole_bytes(file);
+        if (std::strcmp(format, "openexr") == 0) check_exr_header(file);
         if (std::strcmp(format, "tiff") == 0) read_tiff_header(file, head);
         ImageSpec spec;
         const std::unique_ptr<ImageInput> input = open_image(format, file, spec);

@@ -110,6 +110,16 @@ TEST_CASE("an OpenEXR file holds its floats, and damaged ones are refused") {
     write_file(path, whole.substr(0, whole.size() - 10));
     CHECK_THROWS_WITH_AS(read_image(path), doctest::Contains((path.string() + ": ").c_str()),
                          InputError);
+    // OpenEXR would reserve 2 GB for an attribute of a file of 5 kB, OpenImageIO 4 GB for 64 rows.
+    const auto changed = [&](const std::string& attribute, std::size_t at, const char(&bytes)[5]) {
+        std::string file = whole;
+        file.replace(file.find(attribute) + attribute.size() + 1 + at, 4, bytes, 4);
+        write_file(path, file);
+    };
+    changed(std::string("compression\0compression", 23), 0, "\0\0\0\x7f");
+    CHECK_THROWS_WITH_AS(read_image(path), doctest::Contains("its header is damaged"), InputError);
+    changed(std::string("dataWindow\0box2i", 16), 12, "\xff\xff\xff\0");
+    CHECK_THROWS_WITH_AS(read_image(path), doctest::Contains("2^22 of a row"), InputError);
 }
 
 TEST_CASE("TIFFs and PNGs whose numbers would not stay exact are refused") {

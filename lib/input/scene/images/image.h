@@ -8,6 +8,8 @@ namespace sonarsim {
 
 /// The most values, pixels times channels, of an image: 8,192 x 8,192 heights.
 inline constexpr std::size_t max_image_values = std::size_t{1} << 26;
+/// The most values of a row, of which OpenImageIO reserves 64.
+inline constexpr std::size_t max_row_values = std::size_t{1} << 22;
 
 /// The pixels of an image in the coordinates of its map: the centre of the pixel in row r
 /// and column c lies at (x_m + c * column_m, y_m + r * row_m).

@@ -58,7 +58,8 @@ struct Reading {
 float* make_room(void* user, const SonarsimImageHead* head) {
     auto& reading = *static_cast<Reading*>(user);
     reading.head = *head;
-    if (head->channels == 0 || head->width > max_image_values || head->height > max_image_values ||
+    if (head->channels == 0 || head->width > max_row_values / head->channels ||
+        head->height > max_image_values ||
         head->width * head->height > max_image_values / head->channels)
         return nullptr;
     reading.image.values.resize(head->width * head->height * head->channels);
@@ -83,13 +84,14 @@ Reading read_file_with_module(const std::filesystem::path& path, const std::stri
     std::ranges::replace(reason, '\n', ' ');
     if (!reason.empty()) throw InputError(where, "cannot be read: " + printable(reason));
     if (!reading.image.values.empty()) return reading;
-    throw InputError(where, "has " + std::to_string(reading.head.width) + " x " +
-                                std::to_string(reading.head.height) + " pixels of " +
-                                std::to_string(reading.head.channels) +
-                                (reading.head.channels == 1 ? " value" : " values") +
-                                ", and at most 2^26 values are read; make it coarser with "
-                                "gdal_translate -outsize 50% 50%, or cut a part out with "
-                                "gdal_translate -projwin");
+    throw InputError(where,
+                     "has " + std::to_string(reading.head.width) + " x " +
+                         std::to_string(reading.head.height) + " pixels of " +
+                         std::to_string(reading.head.channels) +
+                         (reading.head.channels == 1 ? " value" : " values") +
+                         ", and at most 2^26 values are read, 2^22 of a row; make it coarser with "
+                         "gdal_translate -outsize 50% 50%, or cut a part out with "
+                         "gdal_translate -projwin");
 }
 
 void set_reference(const SonarsimImageHead& head, const std::filesystem::path& path,
