@@ -56,6 +56,7 @@ void measure_sonar(const PingSet& pings, const Sonar& sonar, const VisibilityEng
         trials.push_back({make_sonar(config, pings.mission.accuracy, pings.mission.water),
                           {},
                           std::vector<PoseTimes>(pings.poses.size())});
+        prepare_for(pings.scene, trials.back().sonar);
     }
     make_echoes(pings, engine, trials);
     for (int round = 0; round < rounds; ++round) {

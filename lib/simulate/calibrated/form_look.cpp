@@ -50,8 +50,9 @@ class ImageFormer {
 
         // 1. Sonar equation: surface in view, in the guard beams and behind walls, multipath.
         if (context_.terms.direct) {
-            for (const std::span<const Sample> surface : traced.surfaces())
-                add_surface(surface, targets, grid);
+            add_surface(traced.samples.items, targets, grid);
+            add_surface(traced.outside_sector, targets, grid);
+            add_behind_walls(traced.behind_walls, grid);
             if (model_.sediment) add_sediment(traced, grid);
             add_water_surface(traced.water_surface, grid);
             if (expected_power)
@@ -125,6 +126,15 @@ class ImageFormer {
         grid.add(powers);
     }
 
+    /// Adds the echo of surface behind thin walls. Its amplitudes are drawn for each ping: parts of
+    /// it overlap where walls do, and its phase depends on the walls to a fraction of a wavelength.
+    void add_behind_walls(std::span<const Sample> surface, EchoGrid& grid) {
+        if (surface.empty()) return;
+        const PhiloxKey key = context_.draws.of(stream_named("behind walls"));
+        add_drawn_by_ping(key, grid,
+                          [&](EchoGrid& powers) { add_pieces(surface, model_.limits, powers); });
+    }
+
     /// Adds the echo of the water's surface, whose waves move from ping to ping. Its footprints are
     /// taken for parallelograms.
     void add_water_surface(std::span<const Sample> surface, EchoGrid& grid) {
@@ -192,9 +202,14 @@ class ImageFormer {
                             });
             return;
         }
-        PatchBlock block;
         PointLimits limits = model_.limits;
         if (speckle_ == SpeckleMode::ping) limits.depth_m *= deeper_patches;
+        add_pieces(surface, limits, grid);
+    }
+
+    /// Adds the powers of the pieces of a surface.
+    void add_pieces(std::span<const Sample> surface, const PointLimits& limits, EchoGrid& grid) {
+        PatchBlock block;
         subdivide(surface, view_.shape, limits, block, [&](const PatchBlock& patches) {
             find(surface, patches, &limits);
             add_powers(beams_, patches, echoes_, grid);
