@@ -3,6 +3,7 @@
 #include "calibrated/preset_fixtures.h"
 #include "simulate/calibrated/decibel.h"
 #include "simulate/calibrated/example_bottoms.h"
+#include "support/source_folder.h"
 #include "support/statistics.h"
 
 using namespace sonarsim;
@@ -145,8 +146,8 @@ TEST_SUITE("calibrated") {
     }
 
     TEST_CASE("presets: every one gives an image of sand that is neither black nor white") {
-        for (const auto& file : std::filesystem::directory_iterator(
-                 std::filesystem::path(SONARSIM_SOURCE_DIR) / "configs" / "sensors")) {
+        for (const auto& file :
+             std::filesystem::directory_iterator(test::source_folder() / "configs/sensors")) {
             const Sonar sonar = preset_sonar(file.path().stem().string(), "");
             CAPTURE(file.path().stem().string());
             // A full scale that is fitted to pings is right for their bottom, not for sand.

@@ -6,6 +6,7 @@
 #include "simulate/sonar/sonar.h"
 #include "support/calibrated.h"
 #include "support/patches.h"
+#include "support/source_folder.h"
 
 namespace sonarsim::test {
 
@@ -18,8 +19,8 @@ inline Sonar preset_sonar(const std::string& preset, const std::string& keys) {
         "  fls:\n"
         "    preset: sensors/" +
         preset + ".yaml\n" + keys;
-    const Mission mission = parse_mission(
-        text, "m.yaml", std::filesystem::path(SONARSIM_SOURCE_DIR) / "configs", {}, sonar_keys());
+    const Mission mission =
+        parse_mission(text, "m.yaml", source_folder() / "configs", {}, sonar_keys());
     return make_sonar(mission.sensors.front(), mission.accuracy, mission.water);
 }
 

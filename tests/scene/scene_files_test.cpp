@@ -1,10 +1,11 @@
 #include "scene/gltf/builder.h"
+#include "support/source_folder.h"
 
 using namespace sonarsim;
 
 TEST_SUITE("scene") {
     TEST_CASE("tank.glb is what the script writes, byte by byte, and 8 x 6 x 3 m large") {
-        const std::filesystem::path root = SONARSIM_SOURCE_DIR;
+        const std::filesystem::path root = test::source_folder();
         const TemporaryFolder folder;
         const std::string command = "python3 '" + (root / "scripts/make_scenes.py").string() +
                                     "' tank --out '" + folder.path.string() + "' > /dev/null";

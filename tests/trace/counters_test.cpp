@@ -1,5 +1,6 @@
 #include "simulate/trace/counters.h"
 
+#include "support/source_folder.h"
 #include "support/test.h"
 
 using namespace sonarsim;
@@ -46,7 +47,7 @@ TEST_CASE("the tables name every counter and every timer once") {
 }
 
 TEST_CASE("the model page says what is counted and timed") {
-    const std::string page = read_file(SONARSIM_SOURCE_DIR "/docs/model.md", 1 << 20);
+    const std::string page = read_file(test::source_folder() / "docs/model.md", 1 << 20);
     for (const std::string& rows :
          {rows_of(ping_counters), rows_of(multipath_counters), rows_of(ping_timers)}) {
         CAPTURE(rows);

@@ -23,12 +23,12 @@ bool has_gdal() {
 }
 
 /// map.tif in a folder, with its north-western corner at (500000, 5600300).
-struct MapFile {
+struct NumberedMap {
     test::TemporaryFolder folder;
     std::filesystem::path path = folder.path / "map.tif";
 
-    explicit MapFile(double cell_m = 10, const std::vector<float>& values = numbers(),
-                     int width = columns) {
+    explicit NumberedMap(double cell_m = 10, const std::vector<float>& values = numbers(),
+                         int width = columns) {
         write_geotiff(path, values, width,
                       {.west_m = 500000, .north_m = 5600300, .cell_m = cell_m});
     }
@@ -51,7 +51,7 @@ void check_refused(const std::filesystem::path& path, const std::string& reason)
 }  // namespace
 
 TEST_CASE("a map that we write reads back as the same numbers in the same place") {
-    const MapFile map;
+    const NumberedMap map;
     CHECK(is_image_file(map.path));
     const Image image = read_image(map.path);
     CHECK(image.width == columns);
@@ -73,7 +73,7 @@ TEST_CASE("a map that we write reads back as the same numbers in the same place"
 
 TEST_CASE("files of every type, packing and byte order hold the same numbers as for GDAL") {
     if (!has_gdal()) return;
-    const MapFile map;
+    const NumberedMap map;
     const std::pair<const char*, const char*> files[] = {
         {"-ot Byte -a_nodata 255", "a.tif"},
         {"-ot UInt16 -a_nodata none -co COMPRESS=LZW -co PREDICTOR=2", "b.tif"},
@@ -100,7 +100,7 @@ TEST_CASE("files of every type, packing and byte order hold the same numbers as 
 TEST_CASE("a tie point belongs to the corner of a pixel, or to its centre") {
     if (!has_gdal()) return;
     // GDAL moves the tie point by half a pixel as it says that it belongs to the centre.
-    const MapFile map;
+    const NumberedMap map;
     const auto point = map.translated("-a_srs EPSG:32632 -mo AREA_OR_POINT=Point");
     CHECK(read_image(point).grid->x_m == 500005);
     CHECK(read_image(point).grid->y_m == 5600295);
@@ -117,7 +117,7 @@ TEST_CASE("a tie point belongs to the corner of a pixel, or to its centre") {
 
 TEST_CASE("feet become metres, degrees are reported, a map that is turned is refused") {
     if (!has_gdal()) return;
-    const MapFile map(0.25);
+    const NumberedMap map(0.25);
     const auto feet = read_image(map.translated("-a_srs EPSG:2263"));
     CHECK(feet.grid->column_m == test::approx(0.25 * 1200.0 / 3937.0).epsilon(1e-12));
     const auto degrees = read_image(map.translated("-a_srs EPSG:4326"));
@@ -135,13 +135,13 @@ TEST_CASE("pixels of the file's mark have no value, also where the mark is round
     if (!has_gdal()) return;
     const std::pair<std::string, float> marks[] = {{"-9999", -9999.0F}, {"-3.4e38", -3.402823e38F}};
     for (const auto& mark : marks) {
-        const MapFile map(1.0, {1.0F, mark.second, 3.0F, -4.0F}, 2);
+        const NumberedMap map(1.0, {1.0F, mark.second, 3.0F, -4.0F}, 2);
         const Image image = read_image(map.translated("-a_nodata " + mark.first));
         CHECK(image.has_no_data);
         CHECK(std::isnan(image.values[1]));
         CHECK(image.values[3] == -4.0F);
     }
-    const MapFile map;
+    const NumberedMap map;
     const auto marked = map.translated("-a_nodata -9999");
     std::string bytes = read_file(marked, 1'000'000);
     bytes.replace(bytes.find("-9999"), 5, "-99,9");
@@ -154,7 +154,7 @@ TEST_CASE("pixels of the file's mark have no value, also where the mark is round
 }
 
 TEST_CASE("images that cannot be read are refused with the reason") {
-    const MapFile map;
+    const NumberedMap map;
     const std::filesystem::path& path = map.path;
     const std::string whole = read_file(path, 1'000'000);
     check_refused(map.folder.path / "none.tif", "none.tif: no such file");
@@ -178,11 +178,11 @@ TEST_CASE("images that cannot be read are refused with the reason") {
 
 TEST_CASE("files that OpenImageIO reads wrongly are refused") {
     if (!has_gdal()) return;
-    const MapFile map;
+    const NumberedMap map;
     check_refused(map.translated("-co COMPRESS=DEFLATE -co PREDICTOR=3 -co ENDIANNESS=BIG"),
                   "it is big-endian with the predictor of floats");
     check_refused(map.translated("-ot Float64 -co TILED=YES"), "it has tiles of 64-bit numbers");
-    const MapFile zeros(10, std::vector<float>(1200, 0.0F));
+    const NumberedMap zeros(10, std::vector<float>(1200, 0.0F));
     check_refused(
         zeros.translated("-ot Byte -a_nodata 0 -co SPARSE_OK=YES -co TILED=YES -co COMPRESS=LZW"),
         "it has empty tiles or strips");

@@ -29,8 +29,8 @@ std::size_t triangles_of(const OpenFile& file) {
     return triangles;
 }
 
-void add_mesh(RepeatedFile& repeated, const MaterialRules& rules, ReadingLimit& limit,
-              MaterialNumbers& materials, Scene& scene) {
+void add_repeated_mesh(RepeatedFile& repeated, const MaterialRules& rules, ReadingLimit& limit,
+                       MaterialNumbers& materials, Scene& scene) {
     repeated.mesh = static_cast<std::uint32_t>(scene.shared_meshes.size());
     repeated.class_name = scene.instance_classes[repeated.open.instance_of_mesh.front()];
     SharedMesh& mesh = scene.shared_meshes.emplace_back();
@@ -81,7 +81,7 @@ Repeats find_repeats(const std::vector<OpenFile>& open, std::size_t sharing_thre
 
 void add_copy(RepeatedFile& repeated, const OpenFile& file, const MaterialRules& rules,
               ReadingLimit& limit, MaterialNumbers& materials, Scene& scene) {
-    if (!repeated.mesh) add_mesh(repeated, rules, limit, materials, scene);
+    if (!repeated.mesh) add_repeated_mesh(repeated, rules, limit, materials, scene);
     const std::uint32_t instance = file.instance_of_mesh.front();
     scene.instance_classes[instance] = repeated.class_name;
     scene.copies.push_back(

@@ -1,0 +1,9 @@
+#include "support/source_folder.h"
+
+namespace sonarsim::test {
+
+std::filesystem::path source_folder() {
+    return SONARSIM_SOURCE_DIR;
+}
+
+}  // namespace sonarsim::test
