@@ -12,8 +12,8 @@ bool is_image_file(const std::filesystem::path& path);
 /// Reads a PNG, TIFF (GeoTIFF, BigTIFF) or OpenEXR image through OpenImageIO; its content says
 /// which. Reads the first of several images in a file. Its place on the map is that of its GeoTIFF
 /// tags, else that of a world file next to it. InputError for a file that is damaged, has another
-/// format or more values than `max_image_values` or `max_row_values`, or that OpenImageIO would read wrongly, and
-/// without OpenImageIO.
+/// format or more values than `max_image_values` or `max_row_values`, or that OpenImageIO would
+/// read wrongly, and without OpenImageIO.
 Image read_image(const std::filesystem::path& path);
 
 }  // namespace sonarsim
