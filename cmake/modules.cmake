@@ -26,7 +26,7 @@ if(OPENIMAGEIO_LIBRARY AND OPENIMAGEIO_UTIL_LIBRARY AND OPENIMAGEIO_INCLUDE_DIR 
                           ${TIFF_LIBRARIES})
     list(APPEND SONARSIM_MODULES sonarsim_images)
 else()
-    message(WARNING "libopenimageio-dev or libtiff-dev is not installed: this build will not read heightmaps")
+    message(STATUS "heightmaps and maps will not be read: libopenimageio-dev or libtiff-dev is missing")
 endif()
 
 foreach(module ${SONARSIM_MODULES})

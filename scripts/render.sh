@@ -5,9 +5,15 @@
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 if [[ -z ${SONARSIM:-} ]]; then
-    "$root/scripts/setup.sh"
+    SONARSIM_IMAGES=no "$root/scripts/setup.sh"
     SONARSIM=$root/build/sonarsim
 fi
+# Builds the module that reads heightmaps and maps, if a mission has some.
+add_images() {
+    [[ $SONARSIM = "$root/build/sonarsim" && ! -e $root/build/lib/sonarsim/libsonarsim_images.so ]] || return 0
+    [[ $("$SONARSIM" validate "$1" 2>&1) = *"install libopenimageio-dev"* ]] || return 0
+    "$root/scripts/setup.sh"
+}
 if (($# == 0)); then
     set -- "$root/configs/tank_imaging.yaml"
 fi
@@ -15,6 +21,7 @@ fi
 for argument in "$@"; do
     if [[ -f $argument ]]; then
         /usr/bin/python3 -B "$root/scripts/make_scenes.py" --for "$argument" "$@" >&2
+        add_images "$argument"
         break
     fi
 done

@@ -2,7 +2,7 @@
 # Installs the Debian packages that are missing, then configures and builds.
 #   ./scripts/setup.sh [more packages]
 # SONARSIM_PRESET picks the CMake preset (default: program, build/sonarsim without the tests);
-# SONARSIM_BUILD=no only installs.
+# SONARSIM_BUILD=no only installs; SONARSIM_IMAGES=no installs nothing for heightmaps and maps.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -21,6 +21,8 @@ install() {
         apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
 }
 
+# OpenImageIO brings more packages than all others together.
+[ "${SONARSIM_IMAGES:-yes}" = no ] || set -- libopenimageio-dev libtiff-dev "$@"
 # The tests need their framework; the Python package is left out under sanitizers.
 [ "$preset" = program ] || set -- doctest-dev "$@"
 case $preset in
@@ -31,8 +33,7 @@ case $preset in
 esac
 install g++ cmake ninja-build ccache make pkg-config python3 \
     libeigen3-dev libembree-dev libtbb-dev librandom123-dev libtinygltf-dev \
-    libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libspdlog-dev libdeflate-dev nettle-dev libtiff-dev libassimp-dev \
-    libopenimageio-dev "$@"
+    libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libspdlog-dev libdeflate-dev nettle-dev libassimp-dev "$@"
 case $preset in
     asan | tsan)
         install clang

@@ -4,11 +4,13 @@ and by a stand-in."""
 import csv
 import json
 import os
+import pathlib
+import shutil
 import subprocess
 import unittest
 
 import slurm_node
-from sandbox import ALL_FILES, ROOT, SONARSIM, Sandbox, box_gltf, digest, path_csv
+from sandbox import ALL_FILES, MISSION, ROOT, SONARSIM, Sandbox, box_gltf, digest, path_csv, png
 
 # Runs the tasks of a job at once, and one that depends on a job only if that did well.
 SBATCH = """\
@@ -34,6 +36,8 @@ for ((k = 1; k <= tasks; ++k)); do
     SLURM_ARRAY_TASK_ID=$k "$@" >"${log/\\%a/$k}" 2>&1 || touch "$SLURM_FAILED/$job"
 done
 """
+
+HEIGHTMAP = "  heightmap: {file: bed.png, material: Concrete, pixel_m: 0.25, height_offset_m: -3}\n"
 
 
 class Sweep(Sandbox):
@@ -167,6 +171,32 @@ class Clusters(Sandbox):
         self.assert_renders("--shard", "1/1", "--overwrite", env=in_array(2, 3))
         self.assertEqual(digest(self.out), self.whole)
         self.assert_refused(self.render(env=in_array(3, 3, 1, 7)), "task 3 of a Slurm array", "--array=1-N", "--shard I/N")
+
+
+class FirstPicture(Sandbox):
+    """render.sh installs and builds the module for images when a mission names one, and not before."""
+
+    @unittest.skipIf(pathlib.Path("/usr/local/lib/sonarsim").exists(), "an installed module takes the place of a missing one")
+    def test_images_on_demand(self):
+        for name in ("render.sh", "make_scenes.py", "scenes"):
+            self.write(f"clone/scripts/{name}", "").unlink()
+            os.symlink(ROOT / "scripts" / name, self.folder / "clone/scripts" / name)
+        program = self.write("clone/build/sonarsim", "")
+        shutil.copy(SONARSIM, program)
+        modules = pathlib.Path(SONARSIM).parent / "lib"
+        self.write("clone/scripts/setup.sh", f"""\
+#!/usr/bin/env bash
+echo "images ${{SONARSIM_IMAGES:-yes}}" >> {self.folder}/setups
+[[ ${{SONARSIM_IMAGES:-yes}} = no ]] || ln -s {modules} {program.parent}/lib
+""").chmod(0o755)
+        self.write("bed.png", png([[0] * 40] * 40))
+        environment = {name: value for name, value in os.environ.items() if name != "SONARSIM"}
+        plain = "images no\n"
+        for scene, setups in (("", plain), (HEIGHTMAP, 2 * plain + "images yes\n")):
+            self.write("mission.yaml", MISSION.replace("  materials:", scene + "  materials:"))
+            subprocess.run([self.folder / "clone/scripts/render.sh", "mission.yaml", "--quiet", "--overwrite"], cwd=self.folder,
+                           env=environment, check=True, timeout=120)
+            self.assertEqual((self.folder / "setups").read_text(), setups)
 
 
 if __name__ == "__main__":
