@@ -150,13 +150,6 @@ bool is_temporary_name(std::string_view name) {
            digits.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
-std::string final_name(std::string_view name) {
-    if (!is_temporary_name(name)) return std::string(name);
-    name.remove_prefix(1);
-    name.remove_suffix(temporary_ending.size());
-    return std::string(name.substr(0, name.rfind('.')));
-}
-
 AtomicFile::AtomicFile(const std::filesystem::path& path)
     : path_(path), part_(temporary_name(path)) {}
 

@@ -36,10 +36,6 @@ std::filesystem::path temporary_name(const std::filesystem::path& path);
 /// True if temporary_name() made this name.
 bool is_temporary_name(std::string_view name);
 
-/// The name that a temporary file gets once it is whole: "000007.npy" for
-/// ".000007.npy.<digits>.part". Returns any other name unchanged.
-std::string final_name(std::string_view name);
-
 /// A file that has a temporary name while it is written: a reader sees the old file or the whole
 /// new one. The destructor removes a file that was not committed.
 class AtomicFile {
