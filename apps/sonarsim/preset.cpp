@@ -2,7 +2,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -27,14 +26,13 @@ using Json = nlohmann::ordered_json;
 
 constexpr double sphere_db = -20.0;
 
-/// The file that an argument means: a path, or the name of a preset that comes with the program.
-/// InputError if it is neither.
+/// The file that an argument means: a path as missions have it, or the name of a preset that comes
+/// with the program. InputError if it is neither.
 std::string preset_path(const std::string& name) {
-    std::error_code unknown;
-    if (std::filesystem::is_regular_file(name, unknown))
-        return std::filesystem::absolute(name).string();
-    const std::vector<std::string> known = shipped_presets();
-    if (std::ranges::find(known, name) != known.end()) return "sensors/" + name + ".yaml";
+    for (const std::string& path : {name, std::string(sensor_presets) + "/" + name + ".yaml"}) {
+        const std::filesystem::path file = preset_file(path, std::filesystem::current_path());
+        if (!file.empty()) return file.string();
+    }
     throw InputError(
         Location{name},
         "is not a file, and no preset of this name came with the program" + shipped_hint(name));
