@@ -23,8 +23,8 @@ from sandbox import SANITIZED, SONARSIM, box_gltf, numbers_of
 MISSIONS = int(os.environ.get("RANDOM_MISSIONS", "15" if SANITIZED else "60"))
 SEED = os.environ.get("RANDOM_SEED", "1")
 ONLY = os.environ.get("RANDOM_ONLY")
-MOST_CPU_S = 300 if SANITIZED else 60
-LONGEST_S = 10 * MOST_CPU_S
+MOST_CPU_S = 300 if SANITIZED else 60 if MISSIONS > 100 else 10
+LONGEST_S = max(600, 10 * MOST_CPU_S)
 # What takes longer is not rendered again on one thread.
 MOST_TWICE_S = 600 if MISSIONS > 100 else 1
 MOST_MEMORY = 6 << 30
