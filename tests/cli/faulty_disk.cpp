@@ -134,21 +134,16 @@ mode_t mode_argument(int flags, std::va_list arguments) {
 
 extern "C" {
 
-int open(const char* path, int flags, ...) {
-    std::va_list arguments;
-    va_start(arguments, flags);
-    const mode_t mode = mode_argument(flags, arguments);
-    va_end(arguments);
-    return open_watched(NEXT(open), path, flags, mode);
-}
-
-int open64(const char* path, int flags, ...) {
-    std::va_list arguments;
-    va_start(arguments, flags);
-    const mode_t mode = mode_argument(flags, arguments);
-    va_end(arguments);
-    return open_watched(NEXT(open64), path, flags, mode);
-}
+#define OPENS(name)                                          \
+    int name(const char* path, int flags, ...) {             \
+        std::va_list arguments;                              \
+        va_start(arguments, flags);                          \
+        const mode_t mode = mode_argument(flags, arguments); \
+        va_end(arguments);                                   \
+        return open_watched(NEXT(name), path, flags, mode);  \
+    }
+OPENS(open)
+OPENS(open64)
 
 std::FILE* fopen(const char* path, const char* mode) {
     return open_stream(NEXT(fopen), path, mode);
@@ -170,11 +165,6 @@ ssize_t pwrite(int fd, const void* bytes, std::size_t size, off_t offset) {
     if (fails("pwrite", fd)) return -1;
     const std::size_t part = taken(size);
     return part == 0 && size > 0 ? -1 : NEXT(pwrite)(fd, bytes, part, offset);
-}
-
-int ftruncate(int fd, off_t size) noexcept {
-    if (is_watched(fd) && fails("ftruncate", fd)) return -1;
-    return NEXT(ftruncate)(fd, size);
 }
 
 // A stream's bytes may wait in its buffer. The disk is full for those as well, so they are thrown
@@ -209,20 +199,19 @@ int close(int fd) {
     return -1;
 }
 
-int fsync(int fd) {
-    if (is_below_open(fd) && fails("fsync", fd)) return -1;
-    return NEXT(fsync)(fd);
-}
-
-int fdatasync(int fd) {
-    if (is_below_open(fd) && fails("fdatasync", fd)) return -1;
-    return NEXT(fdatasync)(fd);
-}
-
-int syncfs(int fd) noexcept {
-    if (is_below_open(fd) && fails("syncfs", fd)) return -1;
-    return NEXT(syncfs)(fd);
-}
+// Calls that fail or are done, where the file or folder lies below.
+#define FAILS_OR_DOES(name, is_of_ours, at, parameters, ...) \
+    int name parameters {                                    \
+        if (is_of_ours(at) && fails(#name, at)) return -1;   \
+        return NEXT(name)(__VA_ARGS__);                      \
+    }
+FAILS_OR_DOES(fsync, is_below_open, fd, (int fd), fd)
+FAILS_OR_DOES(fdatasync, is_below_open, fd, (int fd), fd)
+FAILS_OR_DOES(syncfs, is_below_open, fd, (int fd) noexcept, fd)
+FAILS_OR_DOES(ftruncate, is_watched, fd, (int fd, off_t size) noexcept, fd, size)
+FAILS_OR_DOES(rename, is_below, to, (const char* from, const char* to) noexcept, from, to)
+FAILS_OR_DOES(link, is_below, to, (const char* from, const char* to) noexcept, from, to)
+FAILS_OR_DOES(mkdir, is_below, path, (const char* path, mode_t mode) noexcept, path, mode)
 
 int flock(int fd, int operation) noexcept {
     if (setting("FAULTY_DISK_MODE") == "nolock" && is_below_open(fd)) {
@@ -230,21 +219,6 @@ int flock(int fd, int operation) noexcept {
         return -1;
     }
     return NEXT(flock)(fd, operation);
-}
-
-int rename(const char* from, const char* to) noexcept {
-    if (is_below(to) && fails("rename", to)) return -1;
-    return NEXT(rename)(from, to);
-}
-
-int link(const char* from, const char* to) noexcept {
-    if (is_below(to) && fails("link", to)) return -1;
-    return NEXT(link)(from, to);
-}
-
-int mkdir(const char* path, mode_t mode) noexcept {
-    if (is_below(path) && fails("mkdir", path)) return -1;
-    return NEXT(mkdir)(path, mode);
 }
 
 }  // extern "C"

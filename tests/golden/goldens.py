@@ -3,8 +3,8 @@
 
     tests/golden/goldens.py PROGRAM [--write] [--keep FOLDER]
 
-Each mission is rendered with one and with two threads, one also in three shards that are merged, and one
-that is killed and resumed. A line of goldens.txt is a dataset, a sensor (or `-`), a kind of file, the number of such files, and
+Each mission is rendered with one and with two threads, one also in three shards that are merged; kills:
+cli/test_faults.py. A line of goldens.txt is a dataset, a sensor (or `-`), a kind of file, the number of such files, and
 the hash of their contents: arrays, decoded pixels, parsed JSON without what names a build, a version or a sum. The
 variants of a mission are one dataset here. Two missions are previewed. --write writes goldens.txt again; say in the
 commit why its lines changed.
@@ -21,7 +21,6 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import time
 
 import numpy as np
 from PIL import Image
@@ -29,7 +28,7 @@ from PIL import Image
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 GOLDENS = HERE / "goldens.txt"
-SHARDED, KILLED, PREVIEWED = "records", "moving", ("imaging_slices", "records")
+SHARDED, PREVIEWED = "records", ("imaging_slices", "records")
 # Files about the making of a dataset, and the keys of JSON files that name a build, a version or a sum of a file.
 NOT_HASHED = ("SHA256SUMS", "journal.txt", "mission.resolved.yaml")
 NOT_COMPARED = {"build", "program_version", "format_version", "mission_hash", "inputs_hash", "sha256"}
@@ -157,20 +156,6 @@ class Renderer:
         self.run(*self.command(name, out))
         return self.lines(name, out)
 
-    def killed(self, name):
-        """Killed once the first files of its pings are there, then run to its end."""
-        out = self.folder / f"out/{name}_killed"
-        command = self.command(name, out, "--threads", "1")
-        with subprocess.Popen(command, cwd=self.folder, stderr=subprocess.DEVNULL) as process:
-            while process.poll() is None and len(list(out.glob("*/meta/*.json"))) < 3:
-                time.sleep(0.002)
-            process.kill()
-        if (out / "SHA256SUMS").exists():
-            raise SystemExit(f"{name}: the run had ended before it was killed; let it have more pings")
-        self.run(*command)
-        return self.lines(name, out)
-
-
     def previews(self):
         """The pictures of sonarsim preview, of a fan, and of a side-scan sonar, an echosounder and a scanning sonar."""
         lines = []
@@ -186,7 +171,7 @@ def all_runs(renderer):
     names = sorted(path.stem for path in (HERE / "missions").glob("*.yaml"))
     jobs = [(name, f"{threads} threads", renderer.with_threads, (name, threads))
             for threads in (1, 2) for name in names]
-    jobs += [("preview", "1 threads", renderer.previews, ()), (SHARDED, "three shards", renderer.sharded, (SHARDED,)), (KILLED, "killed", renderer.killed, (KILLED,))]
+    jobs += [("preview", "1 threads", renderer.previews, ()), (SHARDED, "three shards", renderer.sharded, (SHARDED,))]
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         futures = [(name, way, pool.submit(run, *arguments)) for name, way, run, arguments in jobs]
         return [(name, way, future.result()) for name, way, future in futures]
