@@ -12,6 +12,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import zlib
 
@@ -193,19 +194,31 @@ class Sandbox(unittest.TestCase):
         """Appends to the mission."""
         self.write("mission.yaml", (self.folder / "mission.yaml").read_text() + text)
 
-    def run_sonarsim(self, *arguments, **options):
-        return subprocess.run([SONARSIM, *map(str, arguments)], cwd=self.folder, text=True, capture_output=True, timeout=120,
-                              check=False, **options)
+    def run_program(self, *command, code=0, **options):
+        """The result of a program, which ends with this exit code; None: with any."""
+        options = {"cwd": self.folder, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "timeout": 300, **options}
+        result = subprocess.run([str(word) for word in command], text=True, check=False, **options)
+        self.assertIn(code, (result.returncode, None), result.stderr)
+        return result
+
+    def run_sonarsim(self, *arguments, code=None, **options):
+        return self.run_program(SONARSIM, *arguments, code=code, **options)
 
     def start(self, *arguments, **options):
         """A run that goes on meanwhile; what it prints is thrown away."""
         return subprocess.Popen([SONARSIM, *map(str, arguments)], cwd=self.folder, text=True, stdout=subprocess.DEVNULL,
                                 stderr=subprocess.PIPE, **options)
 
+    def wait_for(self, holds, process, seconds=120):
+        """Until `holds` returns something true, which a process brings about."""
+        end = time.monotonic() + seconds
+        while not holds():
+            self.assertIsNone(process.poll(), "ended before it came to the phase")
+            self.assertLess(time.monotonic(), end, "never came to the phase")
+            time.sleep(0.005)
+
     def succeeds(self, *arguments, **options):
-        result = self.run_sonarsim(*arguments, **options)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return result
+        return self.run_program(SONARSIM, *arguments, **options)
 
     def render(self, *arguments, **options):
         return self.run_sonarsim("render", "mission.yaml", *arguments, **options)
@@ -240,8 +253,7 @@ class Sandbox(unittest.TestCase):
 
     def assert_verify_finds(self, *fragments, more=()):
         """`verify out` ends with exit code 1 and these words."""
-        result = self.run_sonarsim("verify", "out", *more)
-        self.assertEqual(result.returncode, 1, result.stderr)
+        result = self.run_sonarsim("verify", "out", *more, code=1)
         for fragment in fragments:
             self.assertIn(fragment, result.stderr)
         return result

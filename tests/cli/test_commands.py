@@ -65,21 +65,20 @@ class Texts(Sandbox):
 class Python(Sandbox):
     """SONARSIM_PYTHON names a program that stands in for the interpreter."""
 
-    def run_tool(self, script, *arguments, **variables):
+    def run_tool(self, script, *arguments, code, **variables):
         python = self.write("python", "#!/bin/sh\n" + script)
         python.chmod(0o755)
-        return self.run_sonarsim(*arguments, env={**os.environ, "SONARSIM_PYTHON": str(python), **variables})
+        return self.run_sonarsim(*arguments, code=code, env={**os.environ, "SONARSIM_PYTHON": str(python), **variables})
 
     def test_options_and_exit_codes_pass_through(self):
         result = self.run_tool('for word; do echo "<$word>"; done; echo "$PYTHONPATH"; exit 7\n', "import-holoocean",
-                               "--help", "two words", "--", "-q", PYTHONPATH="/elsewhere")
-        self.assertEqual(result.returncode, 7)
+                               "--help", "two words", "--", "-q", code=7, PYTHONPATH="/elsewhere")
         *words, folders = result.stdout.splitlines()
         self.assertEqual(words, ["<-m>", "<sonarsim.import_holoocean>", "<--help>", "<two words>", "<-->", "<-q>"])
         package, other = folders.split(":")
         self.assertTrue((pathlib.Path(package) / "sonarsim/command.py").is_file())
         self.assertEqual(other, "/elsewhere")
-        self.assertEqual(self.run_tool("kill -TERM $$\n", "export").returncode, -15)
+        self.run_tool("kill -TERM $$\n", "export", code=-15)
 
     def test_a_module_of_the_current_folder_is_not_taken(self):
         self.write("json.py", "raise SystemExit('the wrong module')\n")
@@ -92,8 +91,7 @@ class Python(Sandbox):
         self.assert_refused(result, "cannot run /nowhere/python3: No such file or directory; install python3")
         need = "from sonarsim.command import need; need('export', 'json', 'PIL', 'nothing')"
         result = self.run_tool(f'exec /usr/bin/python3 -SIc "import sys; sys.path.append(\'${{PYTHONPATH%%:*}}\'); {need}"\n',
-                               "export")
-        self.assertEqual(result.returncode, 2)
+                               "export", code=2)
         self.assertRegex(result.stderr, r"\Asonarsim export: install python3-pil nothing \(.*SONARSIM_PYTHON.*\)\n\Z")
 
 
@@ -114,8 +112,7 @@ class Usage(Sandbox):
                 (["render", "mission.yaml", "--out", "path.csv/out"], f"{self.folder}/path.csv/out: cannot make"),
                 (["render", "mission.yaml", "--out", "/proc/none/out"], "/proc/none/out: cannot make")):
             with self.subTest(arguments=arguments):
-                result = self.run_sonarsim(*arguments)
-                self.assertEqual(result.returncode, 2)
+                result = self.run_sonarsim(*arguments, code=2)
                 self.assertTrue(any(line.startswith("error: " + message) for line in result.stderr.splitlines()), result.stderr)
                 self.assertFalse(self.out.exists())
 
@@ -190,7 +187,7 @@ class Schema(Sandbox):
                 text = MISSION.replace(right, wrong)
                 self.assertIn(key, self.faults(text))
                 self.write("wrong.yaml", text)
-                self.assertEqual(self.run_sonarsim("validate", "wrong.yaml").returncode, 2)
+                self.run_sonarsim("validate", "wrong.yaml", code=2)
         # What only looks wrong is right.
         for right, other in (("name: box", "name: 7"), ("seed: 7", "seed: 18446744073709551615"),
                              ("range_max_m: 6", "range_max_m: 6e0"), ("image: true", "labels: true"),

@@ -3,7 +3,6 @@ kind of file is read: test_python.py."""
 import json
 import os
 import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
@@ -110,9 +109,8 @@ class Reader(Sandbox):
     def test_the_command(self):
         # A locale of ASCII alone reads UTF-8 wrongly, as that of Windows or Latin-1 does.
         ascii_only = {"LC_ALL": "C", "PYTHONCOERCECLOCALE": "0", "PYTHONUTF8": "0", "PYTHONIOENCODING": "utf-8"}
-        result = subprocess.run([sys.executable, "-B", PACKAGES / "sonarsim/data.py", self.out], capture_output=True,
-                                text=True, check=False, encoding="utf-8", env={**os.environ, **ascii_only})
-        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.run_program(sys.executable, "-B", PACKAGES / "sonarsim/data.py", self.out, encoding="utf-8",
+                                  env={**os.environ, **ascii_only})
         for words in ("mbes: profiling, 4 pings", "instances: 1 W\u00e4nde"):
             self.assertIn(words, result.stdout)
 

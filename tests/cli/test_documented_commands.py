@@ -161,10 +161,8 @@ class Snippets(Sandbox):
     def run_snippet(self, python, mark="", more="", folder=None):
         page = (ROOT / "docs/dataset.md").read_text().split(f"<!-- {mark} -->" if mark else "# ", 1)[1]
         program = re.search(r"```python\n(.*?)```", page, re.DOTALL).group(1) + more
-        result = subprocess.run([python, "-Bc", program], cwd=folder or self.folder, text=True, capture_output=True,
-                                check=False, timeout=300, env={**os.environ, "PYTHONPATH": PACKAGE, "OMP_NUM_THREADS": "1"})
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return result.stdout.splitlines()
+        return self.run_program(python, "-Bc", program, cwd=folder or self.folder,
+                                env={**os.environ, "PYTHONPATH": PACKAGE, "OMP_NUM_THREADS": "1"}).stdout.splitlines()
 
     @unittest.skipIf(python_with("numpy") is None, "needs numpy")
     def test_every_kind(self):

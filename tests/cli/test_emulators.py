@@ -3,7 +3,6 @@ set, which the sanitizers do not replace: an image once held what the stack had 
 processor that cannot run the program there is a sentence, on all others there are the same bytes. Needs valgrind
 and qemu-x86_64 (Debian: qemu-user)."""
 import shutil
-import subprocess
 import sys
 import unittest
 
@@ -52,11 +51,8 @@ class Memcheck(Sandbox):
                 self.write("mission.yaml", SCENE + text)
                 shutil.rmtree(self.out, ignore_errors=True)
                 self.assert_renders("--shard", "1/2", "--set", f"engine={engine}")
-                result = subprocess.run(
-                    [VALGRIND, "-q", "--error-exitcode=99", "--fair-sched=yes", SONARSIM, "render", "mission.yaml",
-                     "--quiet", "-j1", "--shard", "2/2", "--set", f"engine={engine}"],
-                    cwd=self.folder, text=True, capture_output=True, timeout=500, check=False)
-                self.assertEqual(result.returncode, 0, result.stderr)
+                self.run_program(VALGRIND, "-q", "--error-exitcode=99", "--fair-sched=yes", SONARSIM, "render", "mission.yaml",
+                                 "--quiet", "-j1", "--shard", "2/2", "--set", f"engine={engine}", timeout=500)
                 self.assertTrue(self.dataset()["complete"])
 
 
@@ -65,13 +61,9 @@ class Processor(Sandbox):
     """The emulator is another make of processor: what the manual leaves open, above all the
     estimates of roots and reciprocals (rsqrtps, rcpps), it rounds in a way of its own."""
 
-    def run_on(self, processor, *arguments):
-        return subprocess.run([QEMU, "-cpu", processor, SONARSIM, *arguments], cwd=self.folder, text=True,
-                              capture_output=True, timeout=300, check=False)
-
     def test_without_avx2(self):
-        result = self.run_on("IvyBridge", "--version")
-        self.assertEqual((result.returncode, result.stdout), (1, ""))
+        result = self.run_program(QEMU, "-cpu", "IvyBridge", SONARSIM, "--version", code=1)
+        self.assertEqual(result.stdout, "")
         self.assertIn("this processor lacks AVX2", result.stderr)
 
     def test_the_same_bytes(self):
@@ -84,8 +76,7 @@ class Processor(Sandbox):
             whole = digest(self.out)
             shutil.rmtree(self.out)
             self.assert_renders("--shard", "1/2", *setting)
-            result = self.run_on("max", "render", "mission.yaml", "--quiet", *setting)
-            self.assertEqual(result.returncode, 0, result.stderr)
+            self.run_program(QEMU, "-cpu", "max", SONARSIM, "render", "mission.yaml", "--quiet", *setting)
             self.assertEqual(digest(self.out), whole, engine)
 
 

@@ -8,7 +8,6 @@ import re
 import resource
 import shutil
 import signal
-import subprocess
 import time
 import unittest
 
@@ -119,9 +118,7 @@ class FaultyDisk(Faults):
         for arguments in (["render", "mission.yaml", "--no-files"], ["inspect", "box.gltf"], ["validate", "mission.yaml"],
                           ["--help"]):
             with self.subTest(arguments=arguments), open("/dev/full", "w") as full:
-                result = subprocess.run([SONARSIM, *arguments], cwd=self.folder, text=True, stdout=full,
-                                        stderr=subprocess.PIPE, check=False)
-                self.assertEqual(result.returncode, 1, result.stderr)
+                result = self.run_program(SONARSIM, *arguments, code=1, stdout=full)
                 self.assertIn("No space left on device", result.stderr)
 
 
@@ -198,9 +195,7 @@ class RandomSignals(Faults):
     def test_a_second_signal_ends_at_once(self):
         self.write("path.csv", path_csv(2400))
         with self.start("render", "mission.yaml") as process:
-            while not list(self.out.glob("fls/meta/*.json")):
-                self.assertIsNone(process.poll())
-                time.sleep(0.01)
+            self.wait_for(lambda: list(self.out.glob("fls/meta/*.json")), process)
             process.send_signal(signal.SIGSTOP)  # so that both are there before it can react
             for number in (signal.SIGINT, signal.SIGTERM, signal.SIGCONT):
                 process.send_signal(number)

@@ -3,7 +3,6 @@ seed. What is refused: test_refusals.py."""
 import array
 import math
 import shutil
-import subprocess
 import unittest
 
 from sandbox import ROOT, Composed, box_mesh, digest, gltf, numbers_of, png, relative_difference
@@ -157,8 +156,7 @@ output: {folder: out, labels: [material, clean]}
     def test_no_data(self):
         """A pixel that the file marks leaves the material of the mesh, and its strength."""
         for name, value in (("quarters", 3), ("db", 6)):
-            subprocess.run(["gdal_translate", "-q", "-a_nodata", str(value), f"{name}.png", f"{name}.tif"], cwd=self.folder,
-                           timeout=60, check=True)
+            self.run_program("gdal_translate", "-q", "-a_nodata", value, f"{name}.png", f"{name}.tif")
         quarters = self.QUARTERS.replace(", 3: south_west", "").replace(".png", ".tif")
         self.assert_materials(quarters, "north_west", "Concrete", "north_east", "Concrete")
         self.assert_decibels(quarters, self.DECIBELS.replace(".png", ".tif"), 0, 3, 0, 0)

@@ -2,7 +2,6 @@
 import json
 import math
 import struct
-import subprocess
 import unittest
 
 from sandbox import ALL_FILES, MISSION, ROOT, SONARSIM, Sandbox, box_gltf, python_with
@@ -48,10 +47,8 @@ class Inspect(Sandbox):
 
     @unittest.skipUnless(python_with("matplotlib"), "needs matplotlib")
     def test_the_picture_of_scattering_in_the_docs(self):
-        done = subprocess.run([python_with("matplotlib"), ROOT / "scripts/plot_scattering.py", SONARSIM,
-                               ROOT / "scenes/materials.csv", self.folder / "picture.svg"],
-                              text=True, capture_output=True, timeout=120, check=False)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.run_program(python_with("matplotlib"), ROOT / "scripts/plot_scattering.py", SONARSIM,
+                         ROOT / "scenes/materials.csv", "picture.svg")
         for name in ("mud", "rock", "100 kHz"):
             self.assertIn(name, (self.folder / "picture.svg").read_text())
 

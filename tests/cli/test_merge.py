@@ -2,7 +2,6 @@
 `sonarsim status` says of a job."""
 import json
 import shutil
-import time
 import unittest
 
 from sandbox import ALL_FILES, Sandbox, digest, path_csv
@@ -29,7 +28,7 @@ class Merge(Sandbox):
         completed = json.loads(self.assert_renders("--out", folders[-1], "--json").stdout)
         self.assertEqual((completed["pings"], completed["complete"]), (rendered, True))
         self.assertEqual(digest(self.folder / folders[-1]), self.whole)
-        self.assertEqual(self.run_sonarsim("verify", folders[-1]).returncode, 0)
+        self.succeeds("verify", folders[-1])
         return merged
 
     def test_in_any_order_without_the_inputs_and_again(self):
@@ -93,9 +92,7 @@ class Merge(Sandbox):
                                 (("part1", "part2", "part3", "taken"), "taken", "not a sonarsim dataset")):
             self.merge_refused(*folders, words=words)
         shutil.rmtree(self.folder / "part2/sss")
-        result = self.run_sonarsim("merge", "part1", "part2", "part3", "all")
-        self.assertEqual(result.returncode, 1)
-        self.assertIn("part2/sss/", result.stderr)
+        self.assertIn("part2/sss/", self.run_sonarsim("merge", "part1", "part2", "part3", "all", code=1).stderr)
 
 
 class Status(Sandbox):
@@ -120,12 +117,8 @@ class Status(Sandbox):
         with self.start("render", "mission.yaml", "-q", "--checkpoint", "0.05", "--set", "output.fan=false", "--set",
                         "output.image=false", "-j1") as process:
             try:
-                reported = {}
-                while process.poll() is None and not reported.get("pings", {}).get("done"):
-                    time.sleep(0.1)
-                    if (self.out / "dataset.json").exists():
-                        reported = self.status("out")
-                self.assertEqual(reported["state"], "running")
+                self.wait_for(lambda: (self.out / "dataset.json").exists() and self.status("out")["pings"]["done"], process)
+                self.assertEqual(self.status("out")["state"], "running")
             finally:
                 process.terminate()
         self.assertEqual(self.status("out")["state"], "interrupted")

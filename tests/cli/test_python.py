@@ -148,8 +148,7 @@ class Use(Package):
         def said(*settings):
             with self.assertRaises(sonarsim.InputError) as caught:
                 self.open(dict(setting.split("=", 1) for setting in settings))
-            result = self.render(*(word for setting in settings for word in ("--set", setting)))
-            self.assertEqual(result.returncode, 2, result.stderr)
+            result = self.render(*(word for setting in settings for word in ("--set", setting)), code=2)
             self.assertEqual([f"error: {line}" for line in str(caught.exception).replace(f"{self.folder}/", "").splitlines()],
                              result.stderr.replace(f"{self.folder}/", "").splitlines())
             return str(caught.exception)

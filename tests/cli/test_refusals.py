@@ -224,13 +224,11 @@ class Mistakes(Sandbox):
         for name, content in {**FILES, **files}.items():
             self.write(name, content)
 
-    def validate(self, *arguments):
-        return self.run_sonarsim("validate", "mission.yaml", "--json", *arguments)
+    def validate(self, *arguments, code):
+        return self.run_sonarsim("validate", "mission.yaml", "--json", *arguments, code=code)
 
     def test_a_sound_mission_has_no_warning(self):
-        result = self.validate("--strict")
-        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
-        reported = json.loads(result.stdout)
+        reported = json.loads(self.validate("--strict", code=0).stdout)
         self.assertEqual(reported["warnings"], [])
         surveyed = reported["sensors"]["fls"]["survey"]
         self.assertEqual((surveyed["pings_tried"], surveyed["blind"]), (10, 0))
@@ -247,8 +245,7 @@ class Mistakes(Sandbox):
                 before = digest(self.folder)
                 # libpng leaves an error by a jump, past what would free memory.
                 env = {**os.environ, "ASAN_OPTIONS": "detect_leaks=0"}
-                result = self.run_sonarsim("render", "mission.yaml", env=env)
-                self.assertEqual(result.returncode, 2, result.stderr)
+                result = self.run_sonarsim("render", "mission.yaml", env=env, code=2)
                 for word in words:
                     self.assertIn(word, result.stderr)
                 # A library may have its own lines.
@@ -262,8 +259,7 @@ class Mistakes(Sandbox):
         for files, number, words in WARNED:
             with self.subTest(number=number, words=words):
                 self.make(files)
-                result = self.validate("--strict")
-                self.assertEqual(result.returncode, 3, result.stderr)
+                result = self.validate("--strict", code=3)
                 lines = [json.loads(line) for line in result.stderr.splitlines()]
                 found = [line for line in lines if words in line["message"]]
                 self.assertEqual(len(found), 1, result.stderr)
@@ -273,18 +269,16 @@ class Mistakes(Sandbox):
 
     def test_faults_of_several_files_and_in_json(self):
         self.make({"path.csv": "t_s\n", "materials.csv": "material\n", "bottom.gltf": "{"})
-        result = self.validate()
-        self.assertEqual(result.returncode, 2)
+        said = self.validate(code=2).stderr
         for name in ("path.csv", "materials.csv", "bottom.gltf"):
-            self.assertIn(name, result.stderr)
+            self.assertIn(name, said)
         self.make(edited("range_max_m", "range_mx_m"))
-        fault = json.loads(self.validate().stderr.splitlines()[-1])
+        fault = json.loads(self.validate(code=2).stderr.splitlines()[-1])
         self.assertEqual((fault["file"], fault["line"], fault["column"]), ("mission.yaml", 13, 5))
 
     def test_render_warns_of_blind_pings(self):
         self.make({"path.csv": path(offset=(45.0, 0.0))})
-        result = self.run_sonarsim("render", "mission.yaml", "--no-files", "--strict", "-q")
-        self.assertEqual(result.returncode, 3, result.stderr)
+        result = self.run_sonarsim("render", "mission.yaml", "--no-files", "--strict", "-q", code=3)
         # The bottom ends at x = 50 m; at 49 m and beyond, seven poses, the sonar looks past it.
         self.assertIn("W12 sensor 'fls': 7 of 10 pings are blind", result.stderr)
         result = self.run_sonarsim("render", "mission.yaml", "--no-files", "--json", "--set", "output.full_scale=1e4")

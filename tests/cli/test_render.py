@@ -140,14 +140,6 @@ def busy_s(pid):
 class Signals(Sandbox):
     """Each test brings the program into a phase that lasts much longer than a second."""
 
-    def wait_for(self, holds, process):
-        for _ in range(6000):
-            if holds():
-                return
-            self.assertIsNone(process.poll(), "ended before it came to the phase")
-            time.sleep(0.02)
-        self.fail("never came to the phase")
-
     def assert_ends_at_once(self, process, number=signal.SIGTERM):
         """The phase goes on for long, so that only the end at once can print these words."""
         process.send_signal(number)

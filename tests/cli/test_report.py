@@ -1,6 +1,5 @@
 """The report of speed against error, from the command line, and its plot. Its figures: tests/report."""
 import json
-import subprocess
 import unittest
 import xml.etree.ElementTree
 
@@ -50,12 +49,10 @@ class Report(Sandbox):
             with self.subTest(arguments=arguments):
                 self.assert_refused(self.run_sonarsim("report", *arguments), words)
 
-    def plot(self, name, *options, code=0):
-        result = subprocess.run([PYTHON, ROOT / "scripts/plot_report.py", self.folder / name, self.out, *options],
-                                text=True, capture_output=True, timeout=120, check=False)
-        self.assertEqual(result.returncode, code, result.stderr)
-        self.assertNotIn("Traceback", result.stderr)
-        return result.stderr
+    def plot(self, name, code=0):
+        said = self.run_program(PYTHON, ROOT / "scripts/plot_report.py", name, self.out, code=code).stderr
+        self.assertNotIn("Traceback", said)
+        return said
 
     @unittest.skipIf(PYTHON is None, "needs matplotlib")
     def test_plot(self):

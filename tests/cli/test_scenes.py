@@ -5,7 +5,6 @@ import json
 import math
 import pathlib
 import shutil
-import subprocess
 import unittest
 
 from sandbox import (SONARSIM, Composed, Sandbox, box_gltf, box_mesh, digest, gltf, numbers_of, png, relative_difference,
@@ -119,8 +118,7 @@ class Objects(Composed):
 
     def test_without_the_modules(self):
         """A start needs neither libassimp nor OpenImageIO. A mission that does says what to install."""
-        libraries = subprocess.run(["ldd", SONARSIM], capture_output=True, text=True, check=True).stdout
-        self.assertNotRegex(libraries, "assimp|OpenImageIO")
+        self.assertNotRegex(self.run_program("ldd", SONARSIM).stdout, "assimp|OpenImageIO")
         if pathlib.Path("/usr/local/lib/sonarsim").exists():
             self.skipTest("an installed module takes the place of a missing one")
         own = self.folder / "deep/er/bin/sonarsim"
@@ -130,7 +128,7 @@ class Objects(Composed):
         self.write("bed.png", png([[1, 2], [3, 4]]))
 
         def inspect(*arguments):
-            done = subprocess.run([own, "inspect", *arguments], cwd=self.folder, capture_output=True, text=True, check=False)
+            done = self.run_program(own, "inspect", *arguments, code=None)
             return f"{done.returncode} {done.stderr}"
         self.assertRegex(inspect("crate.gltf"), "^0 ")
         self.assertRegex(inspect("crate.stl"), "^2 .*crate.stl: cannot be read: .*install libassimp-dev")

@@ -6,7 +6,6 @@ import json
 import os
 import pathlib
 import shutil
-import subprocess
 import unittest
 
 import slurm_node
@@ -41,18 +40,11 @@ HEIGHTMAP = "  heightmap: {file: bed.png, material: Concrete, pixel_m: 0.25, hei
 
 
 class Sweep(Sandbox):
-    def sweep(self, *arguments):
+    def sweep(self, *arguments, code=0):
         # A make that runs the tests hands its own flags down; they are not this sweep's.
         environment = {k: v for k, v in os.environ.items() if not k.startswith(("MAKE", "MFLAGS"))}
-        return subprocess.run(
-            ["make", "-f", ROOT / "scripts/sweep.mk", f"SONARSIM={SONARSIM}", "MISSION=mission.yaml", "OUT=grid",
-             *arguments], cwd=self.folder, env=environment, text=True, capture_output=True,
-            timeout=120, check=False)
-
-    def assert_sweeps(self, *arguments):
-        result = self.sweep(*arguments)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return result
+        return self.run_program("make", "-f", ROOT / "scripts/sweep.mk", f"SONARSIM={SONARSIM}", "MISSION=mission.yaml",
+                                "OUT=grid", *arguments, code=code, env=environment)
 
     def index(self):
         return (self.folder / "grid/index.csv").read_text().splitlines()
@@ -61,7 +53,7 @@ class Sweep(Sandbox):
         self.write("more/box.gltf", box_gltf((1.0, 1.0, 1.0)))
         grid = ["-j2", "SENSOR=fls", "add_sigma=0 0.1", "scene.file=box.gltf more/box.gltf",
                 "sensors.fls.mount.translation_m=[0,0,0.5]", "seed=3"]
-        self.assert_sweeps(*grid)
+        self.sweep(*grid)
         rows = self.index()
         self.assertEqual(rows[0], "add_sigma,seed,scene.file,sensors.fls.mount.translation_m,folder")
         self.assertEqual(rows[4], '0.1,3,more/box.gltf,"[0,0,0.5]","add_sigma=0.1,seed=3,scene.file=more_box.gltf,'
@@ -76,16 +68,16 @@ class Sweep(Sandbox):
                          f'materials: "{above}materials.csv"'):
                 self.assertIn(line, resolved)
         self.assertEqual(len(rows), 5)
-        self.assertNotIn("render", self.assert_sweeps(*grid).stdout)
+        self.assertNotIn("render", self.sweep(*grid).stdout)
 
     def test_variants_and_what_was_interrupted(self):
         grid = ["variants=1 2", "seed=1"]
-        self.assert_sweeps(*grid)
+        self.sweep(*grid)
         self.assertEqual(self.index(),
                          ['seed,variants,folder', '1,1,"seed=1,variants=1"', '1,2,"seed=1,variants=2"'])
         spoilt = self.folder / "grid/seed=1,variants=2/variant_0001/dataset.json"
         spoilt.write_text(json.dumps({**json.loads(spoilt.read_text()), "complete": False}))
-        resumed = self.assert_sweeps(*grid)
+        resumed = self.sweep(*grid)
         self.assertEqual(resumed.stdout.count(" render "), 1, resumed.stdout)
         self.assertTrue(self.dataset(spoilt.parent)["complete"])
 
@@ -93,12 +85,11 @@ class Sweep(Sandbox):
         (self.folder / "grid").mkdir()
         for arguments, shared in ((["SENSOR=fls", "add_sigma=0 0.1", "seed=1 2"], True),
                                   (["SENSOR=fls", "add_sigma=0.1", "seed=1 2"], False)):
-            self.assertEqual("share a seed" in self.assert_sweeps("-n", *arguments).stderr, shared)
+            self.assertEqual("share a seed" in self.sweep("-n", *arguments).stderr, shared)
 
     def test_a_point_that_fails(self):
         """The others are rendered, and the sweep reports which it was and why."""
-        result = self.sweep("-j2", "sensors.fls.range_max_m=5 0.01 6", "seed=1")
-        self.assertEqual(result.returncode, 2, result.stderr)
+        result = self.sweep("-j2", "sensors.fls.range_max_m=5 0.01 6", "seed=1", code=2)
         self.assertIn("of 3 points these failed", result.stderr)
         self.assertIn("range_min_m must be below range_max_m", result.stderr)
         self.assertEqual([p.name for p in (self.folder / "grid/failed").iterdir()],
@@ -119,9 +110,7 @@ class Sweep(Sandbox):
                 (f"SENSOR=x';touch {marker};'", sign), (f"MISSION=$(shell touch {marker})mission.yaml", sign)):
             with self.subTest(argument=argument):
                 more = ["engine=rays"] if "=" in argument and not argument.startswith("add_") else []
-                result = self.sweep(argument, *more)
-                self.assertEqual(result.returncode, 2, result.stdout)
-                self.assertIn(message, result.stderr)
+                self.assertIn(message, self.sweep(argument, *more, code=2).stderr)
                 self.assertFalse(marker.exists() or (self.folder / "grid").exists())
 
 
@@ -137,9 +126,8 @@ class Clusters(Sandbox):
         scene, away = self.folder / "box.gltf", self.folder / "away"
         for before, after in ((scene, away), (away, scene)):
             before.rename(after)
-            job = subprocess.run([ROOT / "scripts/slurm/render.sh", "4", "mission.yaml", "all", "--time=5"], cwd=self.folder,
-                                 env={**environment, "SONARSIM": SONARSIM}, stdout=subprocess.PIPE, text=True, timeout=60,
-                                 check=True).stdout.strip()
+            job = self.run_program(ROOT / "scripts/slurm/render.sh", 4, "mission.yaml", "all", "--time=5",
+                                   env={**environment, "SONARSIM": SONARSIM}).stdout.strip()
             self.assertTrue(slurm_node.wait_for(lambda job=job: job not in queued().split(), 120), "the merge did not end")
             logs = "\n".join(p.read_text() for p in (self.folder / "all.parts").glob("*.log"))
             self.assertEqual((self.folder / "all/SHA256SUMS").exists(), scene.exists(), logs)
@@ -150,8 +138,7 @@ class Clusters(Sandbox):
         node = self.folder / "slurm"
         node.mkdir()
         with slurm_node.one_node(node) as environment:
-            self.check_scripts(environment, lambda: subprocess.run(
-                ["squeue", "-h", "-o", "%A"], env=environment, capture_output=True, text=True, check=True).stdout)
+            self.check_scripts(environment, lambda: self.run_program("squeue", "-h", "-o", "%A", env=environment).stdout)
 
     def test_a_stand_in(self):
         self.write("bin/sbatch", SBATCH).chmod(0o755)
@@ -194,8 +181,7 @@ echo "images ${{SONARSIM_IMAGES:-yes}}" >> {self.folder}/setups
         plain = "images no\n"
         for scene, setups in (("", plain), (HEIGHTMAP, 2 * plain + "images yes\n")):
             self.write("mission.yaml", MISSION.replace("  materials:", scene + "  materials:"))
-            subprocess.run([self.folder / "clone/scripts/render.sh", "mission.yaml", "--quiet", "--overwrite"], cwd=self.folder,
-                           env=environment, check=True, timeout=120)
+            self.run_program(self.folder / "clone/scripts/render.sh", "mission.yaml", "--quiet", "--overwrite", env=environment)
             self.assertEqual((self.folder / "setups").read_text(), setups)
 
 

@@ -4,7 +4,6 @@ import json
 import math
 import shutil
 import struct
-import subprocess
 import unittest
 
 from sandbox import Sandbox, box_gltf, python_with
@@ -52,7 +51,14 @@ def read_xtf(data):
             for at in (256, 384)], pings
 
 
-class SwathFiles(Sandbox):
+class Gdal(Sandbox):
+    def gdal_info(self, path):
+        result = self.run_program("gdalinfo", "-json", "-stats", path)
+        self.assertEqual(result.stderr, "")
+        return json.loads(result.stdout)
+
+
+class SwathFiles(Gdal):
     def setUp(self):
         super().setUp()
         self.write("mission.yaml", MISSION)
@@ -101,14 +107,14 @@ class SwathFiles(Sandbox):
     @unittest.skipIf(shutil.which("gdalinfo") is None, "needs gdalinfo")
     def test_mosaic(self):
         path = self.out / "sss/mosaic.tif"
-        info, place = gdal_info(path), json.loads((self.out / "sss/mosaic.json").read_text())
+        info, place = self.gdal_info(path), json.loads((self.out / "sss/mosaic.json").read_text())
         cell = place["cell_m"]
         self.assertEqual(info["geoTransform"],
                          [place["west_m"], cell, 0, place["north_m"], 0, -cell])
         self.assertTrue(math.isnan(float(info["bands"][0]["noDataValue"])))
 
         def echo(x, y):
-            return value_at(path, x, y)
+            return float(self.run_program("gdallocationinfo", "-valonly", "-geoloc", path, x, y).stdout)
 
         # The side of the block that faces the sonar echoes before the floor below it: at the slant range
         # of its foot and of its top, (11.5, 10) and (11.5, 9), that is 11.5 and 10.7 m on level ground.
@@ -125,19 +131,7 @@ class SwathFiles(Sandbox):
         self.assertEqual((place["pings"], place["pings_left_out"]), (81, 0))
 
 
-def value_at(path, x, y):
-    found = subprocess.run(["gdallocationinfo", "-valonly", "-geoloc", path, str(x), str(y)],
-                           capture_output=True, text=True, timeout=60, check=True)
-    return float(found.stdout)
-
-
-def gdal_info(path):
-    result = subprocess.run(["gdalinfo", "-json", "-stats", path], capture_output=True, text=True, timeout=60, check=True)
-    assert result.stderr == "", result.stderr
-    return json.loads(result.stdout)
-
-
-class Bathymetry(Sandbox):
+class Bathymetry(Gdal):
     def setUp(self):
         super().setUp()
         self.edit("mission.yaml", "output:\n", "  mbes: {kind: profiling, azimuth_deg: 60, range_max_m: 6, range_bins: 64, "
@@ -155,14 +149,12 @@ numpy.testing.assert_array_equal(cloud.points, rows[:, 1:4])
 numpy.testing.assert_array_equal(cloud.point_data["quality"], rows[:, 4].astype(numpy.float32))
 """
         files = [self.out / "mbes" / name for name in ("soundings.ply", "soundings.npy")]
-        read = subprocess.run([python_with("meshio"), "-c", compare, *files], text=True, capture_output=True,
-                              timeout=120, check=False)
-        self.assertEqual(read.returncode, 0, read.stderr)
+        self.run_program(python_with("meshio"), "-c", compare, *files)
 
     @unittest.skipIf(shutil.which("gdalinfo") is None, "needs gdal-bin")
     def test_gdal(self):
         folder = self.out / "mbes"
-        place, info = json.loads((folder / "bathymetry.json").read_text()), gdal_info(folder / "bathymetry.tif")
+        place, info = json.loads((folder / "bathymetry.json").read_text()), self.gdal_info(folder / "bathymetry.tif")
         cell = place["cell_m"]
         self.assertEqual(info["size"], [place["columns"], place["rows"]])
         # x of the upper left corner, x by column, x by row; then y.

@@ -109,11 +109,7 @@ class HeldFolder(Folder):
         process = self.start("render", *arguments)
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
-        deadline = time.monotonic() + 30
-        while not list(self.out.rglob("fls/meta/*.json")):
-            self.assertIsNone(process.poll())
-            self.assertLess(time.monotonic(), deadline)
-            time.sleep(0.005)
+        self.wait_for(lambda: list(self.out.rglob("fls/meta/*.json")), process)
         process.send_signal(signal.SIGSTOP)
         # The signal is delivered later; this returns when every thread has stopped.
         os.waitid(os.P_PID, process.pid, os.WSTOPPED | os.WNOWAIT)
@@ -161,8 +157,8 @@ class HeldFolder(Folder):
 
 
 class Disks(Sandbox):
-    def on_disk(self, mode, *arguments):
-        return self.run_sonarsim(*arguments, env=with_disk(self, mode))
+    def on_disk(self, mode, *arguments, code=0):
+        return self.run_sonarsim(*arguments, code=code, env=with_disk(self, mode))
 
     def test_a_disk_without_locks(self):
         self.write("variants.yaml", (self.folder / "mission.yaml").read_text() + VARY)
@@ -171,7 +167,6 @@ class Disks(Sandbox):
             with self.subTest(arguments=arguments):
                 shutil.rmtree(self.out, ignore_errors=True)
                 result = self.on_disk("nolock", *arguments)
-                self.assertEqual(result.returncode, 0, result.stderr)
                 warnings = [line for line in result.stderr.splitlines() if "no locks" in line]
                 self.assertEqual(len(warnings), 1, result.stderr)
                 self.assertIn("out: the disk", warnings[0])
@@ -186,11 +181,10 @@ class Disks(Sandbox):
             before = digest(self.out)
             for more in ((), ("--shard", "1/2")):
                 result = self.on_disk("readonly", "render", name, *more)
-                self.assertEqual((result.returncode, digest(self.out)), (0, before), result.stderr)
+                self.assertEqual(digest(self.out), before)
                 self.assertIn("complete; ", result.stderr)
         (self.out / "s/echogram.npy").unlink()
-        result = self.on_disk("readonly", "render", "mission.yaml")
-        self.assertEqual(result.returncode, 1, result.stderr)
+        result = self.on_disk("readonly", "render", "mission.yaml", code=1)
         self.assertIn("Read-only file system", result.stderr)
 
 
