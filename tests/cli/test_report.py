@@ -8,7 +8,7 @@ from sandbox import ROOT, Sandbox, python_with
 ROW = {"sensor", "engine", "setting", "current", "on_front", "goal", "ms_per_ping", "pings_per_s", "times_131k_rays",
        "ms_131k_rays", "relative_l1", "worst_relative_l1", "miss_rate", "samples_per_ping"}
 # A million rays show whether the figures are sound.
-QUICK = ("--quick", "--reference-rays", "1000000")
+QUICK = ("--quick", "-j1", "--reference-rays", "1000000")
 PYTHON = python_with("matplotlib")
 
 

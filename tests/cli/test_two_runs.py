@@ -149,12 +149,6 @@ class HeldFolder(Folder):
             self.halted("variants.yaml"), ("render", "variants.yaml"), ("render", "variants.yaml", "--seed", "9", "--overwrite"),
             ("render", "mission.yaml", "--out", "out/variant_0000"))
 
-    def test_a_killed_run_holds_nothing(self):
-        first = self.halted("mission.yaml")
-        first.kill()
-        first.wait()
-        self.assert_renders()
-
 
 class Disks(Sandbox):
     def on_disk(self, mode, *arguments, code=0):
