@@ -10,6 +10,7 @@ functions from lib/core/elementary.h; x.h and x.cpp count as one. Tests compare 
 tests/support/approx.h. The table of docs/development.md names the same folders.
 Each rule is first tried on made-up files that break it.
 """
+import graphlib
 import pathlib
 import re
 import sys
@@ -123,23 +124,13 @@ def fault_of(here: str, unit: str, name: str, quoted: bool) -> str | None:
     return None
 
 
-def circles_of(includes: dict[str, list[str]]) -> list[str]:
-    """The circles that a walk along the includes runs into, each as "a -> b -> a"."""
-    circles, done, path = [], set(), []
-
-    def walk(unit):
-        if unit in path:
-            circles.append(" -> ".join(path[path.index(unit):] + [unit]))
-        elif unit not in done:
-            path.append(unit)
-            for other in includes.get(unit, []):
-                if other != unit:
-                    walk(other)
-            done.add(path.pop())
-
-    for unit in includes:
-        walk(unit)
-    return circles
+def circle_of(includes: dict[str, list[str]]) -> list[str]:
+    """The first circle of the includes as "a -> b -> a"; none where there is none."""
+    try:
+        graphlib.TopologicalSorter({unit: {*others} - {unit} for unit, others in includes.items()}).prepare()
+    except graphlib.CycleError as fault:
+        return [" -> ".join(reversed(fault.args[1]))]
+    return []
 
 
 def faults_in_code(root: pathlib.Path) -> tuple[int, list[str]]:
@@ -176,7 +167,7 @@ def faults_in_code(root: pathlib.Path) -> tuple[int, list[str]]:
                 faults.append(f"{relative}:{number}: {fault}")
             if quoted:
                 includes.setdefault(unit, []).append((without_door(name) or name).removesuffix(".h"))
-    return len(files), faults + [f"a circle: {circle}" for circle in circles_of(includes)]
+    return len(files), faults + [f"a circle: {circle}" for circle in circle_of(includes)]
 
 
 def faults_in_tests(root: pathlib.Path) -> list[str]:

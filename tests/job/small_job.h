@@ -6,7 +6,6 @@
 namespace sonarsim::test {
 
 inline constexpr int poses = 7;  // front pings at all of them, left at 0, 3 and 6: ten pings
-inline constexpr int pings = 10;
 
 inline RenderSummary run(const Mission& mission, const RenderOptions& options = {}) {
     return run_job(mission, small_assembly(mission, poses), options, {}, std::atomic<bool>(false));
