@@ -144,6 +144,17 @@ class DocumentedCommands(Clone):
         self.assertEqual((NOT_RUN.keys() | INSTEAD.keys()) - there, set())
         self.assertEqual(NOT_RUN.keys() & INSTEAD.keys(), set())
 
+    def test_labels_of_the_hull(self):
+        """What README adds for masks and boxes names the hull as an object."""
+        folder = self.folder / "labels"
+        folder.mkdir()
+        fill(folder, self.clone)
+        added = re.search(r"masks and boxes[^`]*`([^`]*)` and `([^`]*)`", (self.clone / "README.md").read_text()).groups()
+        (folder / "hull.yaml").write_text("\n".join(((folder / "hull.yaml").read_text(), *added)))
+        self.assertEqual(run(f"sonarsim render hull.yaml --shard 1/20 -q {TINY}", folder), "")
+        facts = json.loads(next(folder.glob("out/hull/fls/objects/*.json")).read_text())
+        self.assertEqual([one["class"] for one in facts["objects"]], ["walls"])
+
     def test_packages_are_installed_with_sudo(self):
         """Stand-ins for a user who is not root and lacks every package."""
         for name, text in (("dpkg-query", "exit 1"), ("id", "echo 1000"), ("sudo", 'echo "sudo $@"')):

@@ -68,6 +68,7 @@ class Preset(Sandbox):
     def test_a_preset_that_came_with_the_program(self):
         text = self.succeeds("preset", "gemini_720is").stdout
         self.assertIn("Mean echo and noise are equal at (bottoms at 20 degrees of grazing)", text)
+        self.assertEqual(self.succeeds("preset", "sensors/gemini_720is.yaml").stdout.splitlines()[1:], text.splitlines()[1:])
         base = self.reported("gemini_720is")
         ranges = base["noise_range_m"]
         self.assertTrue(ranges["mud"] < ranges["sand"] < ranges["rock"], ranges)
