@@ -69,10 +69,8 @@ TEST_SUITE_BEGIN("labels");
 TEST_CASE("annotations: the azimuth of an object astern, in a full turn") {
     for (const float y : {0.0F, 0.4F, -0.4F}) {
         CAPTURE(y);
-        Scene scene = empty_scene();
-        const std::uint32_t m = add_material(scene, 0.5F);
-        add_floor(scene, 30.0F, 0.0F, m);
-        add_quad(scene, {-6, y - 1, 0}, {-6, y - 1, 2}, {-6, y + 1, 2}, {-6, y + 1, 0}, m);
+        Scene scene = floor_scene(30.0F, 0.0F, 0.5F);
+        add_quad(scene, {-6, y - 1, 0}, {-6, y - 1, 2}, {-6, y + 1, 2}, {-6, y + 1, 0}, 0);
         SonarConfig config = wide_fan();
         config.azimuth_deg = 360.0;
         const FoundObjects found(scene, config, looking_down(1.0, 0.0), {});
@@ -89,14 +87,11 @@ TEST_CASE("annotations: the shadow of a wall on a flat floor is h r / (H - h) lo
     for (int k = 0; k < 6; ++k) {
         const double h = draw.between(0.3, 1.2);
         const double r = draw.between(4.0, 6.5);
-        CAPTURE(h);
-        CAPTURE(r);
-        Scene scene = empty_scene();
-        const std::uint32_t m = add_material(scene, 0.5F);
-        add_floor(scene, 40.0F, 0.0F, m);
+        CAPTURE_ALL(h, r);
+        Scene scene = floor_scene(40.0F, 0.0F, 0.5F);
         const auto x = static_cast<float>(r);
         const auto top = static_cast<float>(h);
-        add_quad(scene, {x, -0.3F, 0}, {x, 0.3F, 0}, {x, 0.3F, top}, {x, -0.3F, top}, m);
+        add_quad(scene, {x, -0.3F, 0}, {x, 0.3F, 0}, {x, 0.3F, top}, {x, -0.3F, top}, 0);
         const FoundObjects found(scene, wide_fan(), looking_down(sonar_m, 25.0),
                                  {ObjectSphere{{r, 0.0, 0.5 * h}, 0.5 * h + 0.3}});
         const ObjectInPing& wall = found.object(2);
@@ -125,15 +120,13 @@ TEST_CASE("annotations: visible shares are those of all sight lines, and the sha
     double either = 0.0;
     int partly_hidden = 0;
     for (int n = 0; n < 4; ++n) {
-        Scene scene = empty_scene();
-        const std::uint32_t m = add_material(scene, 0.5F);
-        add_floor(scene, 40.0F, 0.0F, m);
+        Scene scene = floor_scene(40.0F, 0.0F, 0.5F);
         std::vector<ObjectSphere> spheres;
         for (int k = 0; k < 12; ++k) {
             const Eigen::Vector3f centre(draw.single(3.0, 9.0), draw.single(-3.0, 3.0),
                                          draw.single(-0.1, 0.6));
             const float radius = draw.single(0.1, 0.5);
-            add_sphere(scene, centre, radius, m, 24);
+            add_sphere(scene, centre, radius, 0, 24);
             spheres.push_back({centre.cast<double>(), 1.0001 * radius});
         }
         const FoundObjects found(scene, wide_fan(), looking_down(3.0, 25.0), spheres, true);

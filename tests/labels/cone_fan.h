@@ -12,15 +12,12 @@ constexpr std::array spacings{Spacing::angle, Spacing::sine};
 
 /// 90 degrees of azimuth and of elevation, 1 to 9 m in 320 bins, 160 narrow beams, no noise.
 inline Sonar wide_fan(Spacing spacing) {
-    SonarConfig config = calibrated(default_sonar(SonarKind::imaging), 1e6);
+    SonarConfig config = bare_sonar(default_sonar(SonarKind::imaging), 1e6);
     config.name = "fls";
     config.azimuth_deg = 90.0;
     config.elevation_deg = 90.0;
-    config.range_min_m = 1.0;
-    config.range_max_m = 9.0;
-    config.range_bins = 320;
+    set_range(config, 1.0, 9.0, 320);
     config.azimuth_bins = 160;
-    config.instrument = bare(config.instrument);
     BeamConfig& beam = config.instrument.beam;
     beam.width_deg = 0.5;
     beam.side_lobe_db = -40.0;

@@ -110,18 +110,19 @@ Box between(const Box& box, const Box& least, const Box& most) {
             box.max().cwiseMax(least.max()).cwiseMin(most.max())};
 }
 
-/// The correlation of a mask with an image in decibels above its noise, where the mask is moved by
-/// some beams. All such masks are of one size: those that correlate best cover most decibels.
-double decibels_in(const std::vector<bool>& mask, int shift, const Ping& image, double noise) {
+/// The sum of the decibels in a mask that is moved by some beams. All such masks are of one size:
+/// those that correlate best cover most decibels.
+double decibels_in(const std::vector<bool>& mask, int shift, const std::vector<float>& decibels,
+                   int beams) {
     double sum = 0.0;
     for (std::size_t at = 0; at < mask.size(); ++at) {
-        const int beam = static_cast<int>(at % image.beams) + shift;
-        if (!mask[at] || beam < 0 || beam >= image.beams) continue;
-        const double value = image.intensity[at + shift];
-        if (value > noise) sum += std::log(value / noise);
+        if (!mask[at]) continue;
+        const int beam = static_cast<int>(at % beams) + shift;
+        if (beam >= 0 && beam < beams) sum += decibels[at + shift];
     }
     return sum;
 }
+
 }  // namespace
 
 TEST_SUITE_BEGIN("ping");
@@ -158,23 +159,23 @@ TEST_CASE("cone labels: masks of 500 things lie on their echoes" * doctest::skip
             continue;  // a bin more or less tells nothing
         ++measured;
         const std::vector<double> by_labels = energies_of_labels(traced, sonar, thing.scene);
-        const auto sum = [](const std::vector<double>& of) {
-            return std::accumulate(of.begin(), of.end(), 0.0);
-        };
         // Both have all of the energy, in another unit.
-        const double unit = sum(by_labels) / sum(by_points);
+        const double unit = std::accumulate(by_labels.begin(), by_labels.end(), 0.0) /
+                            std::accumulate(by_points.begin(), by_points.end(), 0.0);
         const Box box = box_above(by_labels, unit * least, view.beams, mask);
         const double o = overlap(box, between(box, loud, faint));
         // One bin and one beam more or less.
         const double min_overlap = (1.0 - 1.0 / loud.sizes().x()) * (1.0 - 1.0 / loud.sizes().y());
         CHECK(o >= std::min(0.95, min_overlap));
-        const Ping clean =
-            form_image(traced, sonar.settings, thing.scene, {}, without_random_terms);
-        const double quiet = noise * *std::ranges::max_element(clean.intensity);
-        const double here = decibels_in(mask, 0, clean, quiet);
+        std::vector<float> decibels =  // above the noise
+            form_image(traced, sonar.settings, thing.scene, {}, without_random_terms).intensity;
+        const double quiet = noise * *std::ranges::max_element(decibels);
+        for (float& value : decibels)
+            value = static_cast<float>(10.0 * std::log10(std::max(1.0, value / quiet)));
+        const double here = decibels_in(mask, 0, decibels, view.beams);
         for (int shift = 1; shift <= 20; ++shift) {
-            CHECK(here >= decibels_in(mask, shift, clean, quiet));
-            CHECK(here >= decibels_in(mask, -shift, clean, quiet));
+            CHECK(here >= decibels_in(mask, shift, decibels, view.beams));
+            CHECK(here >= decibels_in(mask, -shift, decibels, view.beams));
         }
     }
     CHECK(measured > 450);

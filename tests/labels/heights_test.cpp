@@ -63,12 +63,10 @@ TEST_CASE("labels: heights above the bottom, of a box, of a ramp and of the bott
     // The sonar sees the floor from 3.1 m on. Straight ahead stands a box, half a metre high, from
     // x = 4 to 5 m: its top lies at 4.27 to 5.22 m, and it hides the floor up to 6.96 m. A ramp
     // from (8, 0) to (9, 0.5) lies at 8.25 to 9.12 m and hides the floor up to 12.17 m.
-    Scene scene = empty_scene();
-    const std::uint32_t m = add_material(scene, 0.5F);
-    add_floor(scene, 100.0F, 0.0F, m);
-    add_quad(scene, {4, -3, 0.5F}, {5, -3, 0.5F}, {5, 3, 0.5F}, {4, 3, 0.5F}, m);
-    add_quad(scene, {4, -3, 0}, {4, 3, 0}, {4, 3, 0.5F}, {4, -3, 0.5F}, m);
-    add_quad(scene, {8, -6, 0}, {9, -6, 0.5F}, {9, 6, 0.5F}, {8, 6, 0}, m);
+    Scene scene = floor_scene(100.0F, 0.0F, 0.5F);
+    add_quad(scene, {4, -3, 0.5F}, {5, -3, 0.5F}, {5, 3, 0.5F}, {4, 3, 0.5F}, 0);
+    add_quad(scene, {4, -3, 0}, {4, 3, 0}, {4, 3, 0.5F}, {4, -3, 0.5F}, 0);
+    add_quad(scene, {8, -6, 0}, {9, -6, 0.5F}, {9, 6, 0.5F}, {8, 6, 0}, 0);
     // The bottom is the floor up to x = 14 m, as a slab: its underside, and a roof, do not count.
     Surface slab;
     for (const double z : {-1.0, 0.0, 5.0}) {
@@ -143,16 +141,14 @@ TEST_CASE("labels: a wall on the border of the bottom has heights") {
 
 TEST_CASE("labels: surface of the bottom has the same height with and without a search") {
     // A floor and a wall that are the bottom, and a box on it.
-    Scene scene = empty_scene();
-    const std::uint32_t m = add_material(scene, 0.5F);
-    add_floor(scene, 20.0F, 0.0F, m);
-    add_quad(scene, {8, -9, 0}, {8, 9, 0}, {8, 9, 5}, {8, -9, 5}, m);
+    Scene scene = floor_scene(20.0F, 0.0F, 0.5F);
+    add_quad(scene, {8, -9, 0}, {8, 9, 0}, {8, 9, 5}, {8, -9, 5}, 0);
     Surface surface;
     for (const Eigen::Vector3f& vertex : scene.vertices)
         surface.vertices.push_back(vertex.cast<double>());
     surface.triangles = scene.triangles;
     const Bottom bottom(surface);
-    add_quad(scene, {4, -3, 0.5F}, {5, -3, 0.5F}, {5, 3, 0.5F}, {4, 3, 0.5F}, m);
+    add_quad(scene, {4, -3, 0.5F}, {5, -3, 0.5F}, {5, 3, 0.5F}, {4, 3, 0.5F}, 0);
     const Sonar sonar = height_sonar();
     for (const EngineKind type : engine_types) {
         CAPTURE(static_cast<int>(type));

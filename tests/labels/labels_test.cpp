@@ -14,34 +14,14 @@ namespace {
 /// `theta` has an echo of reflection times r^2 cos(theta). Each falls into one bin.
 std::vector<double> echoes_by_rays(const Scene& scene, const SceneObjects& objects,
                                    const Sonar& sonar, const Pose& pose) {
-    constexpr int across = 12;
-    constexpr int up = 2000;
     const View& view = sonar.settings.view;
-    const auto engine = make_engine(scene, {});
-    std::vector<double> echoes(static_cast<std::size_t>(view.beams) * view.range_bins *
-                               objects.objects.size());
-    std::vector<Ray> rays(up);
-    std::vector<Intersection> met(up);
-    for (int n = 0; n < view.beams * across; ++n) {
-        const double phi = ((n + 0.5) / (view.beams * across) - 0.5) * view.azimuth_rad;
-        const auto theta_of = [&](int k) { return ((k + 0.5) / up - 0.5) * view.elevation_rad; };
-        for (int k = 0; k < up; ++k) {
-            const double theta = theta_of(k);
-            rays[k] = {Eigen::Vector3f::Zero(),
-                       Eigen::Vector3d(std::cos(theta) * std::cos(phi),
-                                       std::cos(theta) * std::sin(phi), std::sin(theta))
-                           .cast<float>()};
-        }
-        engine->intersect(pose, rays, met);
-        for (int k = 0; k < up; ++k) {
-            const double r = met[k].distance_m;
-            if (r < view.range_min_m || r >= view.range_max_m) continue;
-            const auto bin = static_cast<std::size_t>(n / across) * view.range_bins +
-                             static_cast<std::size_t>(bin_at(sonar, r));
-            echoes[bin * objects.objects.size() + objects.object_of(met[k].instance)] +=
-                scene.materials[met[k].material].reflection * r * r * std::cos(theta_of(k));
-        }
-    }
+    const std::size_t count = objects.objects.size();
+    std::vector<double> echoes(static_cast<std::size_t>(view.beams) * view.range_bins * count);
+    follow_rays(scene, sonar, pose, {12, 2000}, 1,
+                [&](std::size_t bin, double theta, int, double r, const Intersection& met) {
+                    echoes[bin * count + objects.object_of(met.instance)] +=
+                        scene.materials[met.material].reflection * r * r * std::cos(theta);
+                });
     return echoes;
 }
 

@@ -10,8 +10,7 @@ TEST_SUITE("labels") {
     // A tall wall stands on a floor. The bins behind it are in its shadow with or without the
     // floor's echo through it, and the label of that echo is the floor.
     TEST_CASE("thin walls: shadows stay, and the echo in them is the floor's") {
-        SonarConfig config = calibrated(small_imaging(), 4e5);
-        config.instrument = bare(config.instrument);
+        SonarConfig config = bare_sonar(small_imaging(), 4e5);
         Scene scene = floor_scene(12.0F, -1.0F, 0.4F, 4);
         const std::uint32_t wall = add_material(scene, 0.1F);
         scene.materials[wall].density_kg_m3 = 950.0;

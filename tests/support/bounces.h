@@ -10,13 +10,7 @@ namespace sonarsim::test {
 
 /// A fan of 128 beams and 512 bins from 0.5 to 10 m.
 inline View fan(double azimuth_deg, double elevation_deg) {
-    return {.azimuth_rad = radians(azimuth_deg),
-            .elevation_rad = radians(elevation_deg),
-            .range_min_m = 0.5,
-            .range_max_m = 10.0,
-            .range_bins = 512,
-            .beams = 128,
-            .relative_l1 = 0.03};
+    return {radians(azimuth_deg), radians(elevation_deg), 0.5, 10.0, 512, 128, 0.03};
 }
 
 inline Multipath clusters_of(int epsilon, double delta_deg = 15.0) {

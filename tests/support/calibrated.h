@@ -2,9 +2,8 @@
 
 #include "simulate/calibrated/model.h"
 #include "simulate/sonar/kinds.h"
-#include "simulate/sonar/sonar.h"
 #include "simulate/visibility/make_engine.h"
-#include "support/test.h"
+#include "support/sonars.h"
 
 namespace sonarsim::test {
 
@@ -22,6 +21,13 @@ inline InstrumentConfig bare(InstrumentConfig instrument) {
 inline SonarConfig calibrated(SonarConfig config, double frequency_hz) {
     config.model = ModelKind::calibrated;
     config.instrument.frequency_hz = frequency_hz;
+    return config;
+}
+
+/// A calibrated sonar whose image is the mean echo.
+inline SonarConfig bare_sonar(SonarConfig config, double frequency_hz) {
+    config = calibrated(std::move(config), frequency_hz);
+    config.instrument = bare(config.instrument);
     return config;
 }
 
@@ -51,13 +57,15 @@ inline Scene scene_of_rock() {
     return scene;
 }
 
-/// The image [range bins, beams] that a model makes of what was traced of `scene_of_rock()`.
-inline std::vector<float> image_of_traced(const CalibratedModel& model, const View& view,
+/// The image [range bins, beams] that a model makes of what was traced.
+inline std::vector<float> image_of_traced(const EchoModel& model, const View& view,
                                           const TracedPing& traced, const Terms& terms,
-                                          const PingDraws& draws = {1, 2, 0}) {
+                                          const PingDraws& draws = {1, 2, 0},
+                                          const Scene& scene = scene_of_rock()) {
     Ping ping;
+    ping.range_bins = view.range_bins;
+    ping.beams = view.beams;
     ping.intensity.resize(static_cast<std::size_t>(view.range_bins) * view.beams);
-    const Scene scene = scene_of_rock();
     model.form(traced, {.view = view, .scene = scene, .draws = draws, .terms = terms}, ping);
     return ping.intensity;
 }
@@ -73,14 +81,12 @@ inline std::vector<float> image_of_samples(const CalibratedModel& model, const V
     return image_of_traced(model, view, traced, terms, draws);
 }
 
-/// The expected image of an engine from the origin, without speckle and noise.
-inline std::vector<float> expected_image(const Sonar& sonar, const Scene& scene, EngineKind type) {
-    EngineSettings settings;
-    settings.type = type;
-    const auto engine = make_engine(scene, settings);
-    const Pose here;
-    return render_ping(sonar, scene, *engine, here, {.seed = 1, .ping = 0}, direct_echoes_alone)
-        .intensity;
+/// The image of an engine, as a rule the expected one, without speckle, noise and multipath.
+inline std::vector<float> expected_image(const Sonar& sonar, const Scene& scene, EngineKind type,
+                                         const Pose& pose = {},
+                                         const Terms& terms = direct_echoes_alone) {
+    const auto engine = make_engine(scene, {.type = type, .octree = {}});
+    return render_ping(sonar, scene, *engine, pose, {.seed = 1, .ping = 0}, terms).intensity;
 }
 
 }  // namespace sonarsim::test

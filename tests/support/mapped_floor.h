@@ -12,10 +12,34 @@ inline double db(double ratio) {
 
 /// A floor of 30 x 30 m at z = 0.
 inline Scene wide_floor() {
-    Scene scene = empty_scene();
-    add_floor(scene, 15.0F, 0.0F, add_material(scene, 0.2F), 6);
-    return scene;
+    return floor_scene(15.0F, 0.0F, 0.2F, 6);
 }
+
+/// The floor in fields of 2 cm, of materials of 0.1 and 0.3 or of strengths of 0.4 and 1.6, which
+/// send back as much as the plain one of 0.2.
+struct SmallFields {
+    Scene plain = wide_floor();
+    Scene by_material, by_strength;
+
+    SmallFields() {
+        const std::uint32_t dark = add_material(plain, 0.1F);
+        const std::uint32_t bright = add_material(plain, 0.3F);
+        for (Material& material : plain.materials) {
+            material.slope_rms_deg = 0.0;
+            material.lambert_db = db(static_cast<double>(material.reflection));
+        }
+        by_material = by_strength = plain;
+        const TexelFrame frame = square_frame(1400, 28.0);
+        lay(by_material,
+            material_texels(
+                frame, {dark, bright},
+                [](int row, int column) { return static_cast<std::uint16_t>((row + column) % 2); }),
+            {});
+        lay(by_strength, {}, strengths(frame, [](int row, int column) {
+                return (row + column) % 2 == 0 ? 0.4F : 1.6F;
+            }));
+    }
+};
 
 /// 3 m above the floor and not over a border, heading off the axes.
 inline Pose above_floor(double yaw_deg = 20.0) {
@@ -25,14 +49,11 @@ inline Pose above_floor(double yaw_deg = 20.0) {
 inline Sonar imaging(ModelKind model, int bins = 80) {
     SonarConfig config = small_imaging();
     if (model == ModelKind::calibrated) {
-        config = calibrated(config, 900e3);
-        config.instrument = bare(config.instrument);
+        config = bare_sonar(config, 900e3);
     }
     config.noise.gain = 1.0;
     config.elevation_deg = 40.0;
-    config.range_min_m = 4.0;
-    config.range_max_m = 12.0;
-    config.range_bins = bins;
+    set_range(config, 4.0, 12.0, bins);
     config.azimuth_bins = 32;
     config.mount.rpy_deg = {0.0, 30.0, 0.0};
     return make_sonar(config, {0.01});
@@ -41,21 +62,11 @@ inline Sonar imaging(ModelKind model, int bins = 80) {
 inline Sonar sidescan(ModelKind model, double bin_m = 0.05) {
     SonarConfig config = default_sonar(SonarKind::sidescan);
     if (model == ModelKind::calibrated) {
-        config = calibrated(config, 400e3);
-        config.instrument = bare(config.instrument);
+        config = bare_sonar(config, 400e3);
     }
     config.noise.gain = 1.0;
-    config.range_min_m = 3.5;
-    config.range_max_m = 12.5;
-    config.range_bins = static_cast<int>(std::lround(9.0 / bin_m));
+    set_range(config, 3.5, 12.5, static_cast<int>(std::lround(9.0 / bin_m)));
     return make_sonar(config, {0.01});
-}
-
-inline std::vector<float> clean_image(const Sonar& sonar, const Scene& scene, EngineKind type,
-                                      const Pose& pose) {
-    const auto engine = make_engine(scene, {.type = type, .octree = {}});
-    return render_ping(sonar, scene, *engine, pose, {.seed = 1, .ping = 0}, direct_echoes_alone)
-        .intensity;
 }
 
 }  // namespace sonarsim::test

@@ -2,6 +2,7 @@
 
 #include "simulate/assembly/brightness.h"
 #include "simulate/sonar/kinds.h"
+#include "support/sonars.h"
 
 namespace sonarsim::test {
 
@@ -35,23 +36,17 @@ Mission survey_mission(const std::filesystem::path& output_folder) {
     SonarConfig front = mission.sensors[0];
     SonarConfig mbes = default_sonar(SonarKind::profiling);
     mbes.name = "mbes";
-    mbes.range_min_m = 0.3;
-    mbes.range_max_m = 4.0;
-    mbes.range_bins = 80;
+    set_range(mbes, 0.3, 4.0, 80);
     mbes.azimuth_bins = 40;
     mbes.noise = {.range_lambda_m = 0.02, .add_sigma = 0.01, .mult_sigma = 0.1};
     SonarConfig sss = default_sonar(SonarKind::sidescan);
     sss.name = "sss";
-    sss.range_min_m = 0.3;
-    sss.range_max_m = 5.0;
-    sss.range_bins = 90;
+    set_range(sss, 0.3, 5.0, 90);
     sss.noise = {.add_sigma = 0.01, .mult_sigma = 0.1};
     SonarConfig sounder = default_sonar(SonarKind::echosounder);
     sounder.name = "sounder";
     sounder.every = 2;
-    sounder.range_min_m = 0.3;
-    sounder.range_max_m = 3.0;
-    sounder.range_bins = 60;
+    set_range(sounder, 0.3, 3.0, 60);
     sounder.noise = {.range_lambda_m = 0.02, .add_sigma = 0.01, .mult_sigma = 0.1};
     mission.name = "survey";
     mission.sensors = {front, mbes, sss, sounder};

@@ -6,15 +6,19 @@
 
 namespace sonarsim::test {
 
+inline void set_range(SonarConfig& config, double min_m, double max_m, int bins) {
+    config.range_min_m = min_m;
+    config.range_max_m = max_m;
+    config.range_bins = bins;
+}
+
 /// An imaging sonar of 60 x 12 degrees, 0.5-10 m, 256 x 64 bins, without noise.
 inline SonarConfig small_imaging() {
     SonarConfig config;
     config.name = "fls";
     config.azimuth_deg = 60.0;
     config.elevation_deg = 12.0;
-    config.range_min_m = 0.5;
-    config.range_max_m = 10.0;
-    config.range_bins = 256;
+    set_range(config, 0.5, 10.0, 256);
     config.azimuth_bins = 64;
     return config;
 }

@@ -40,3 +40,18 @@
 #include "support/sanitized.h"
 #include "support/scenes.h"
 #include "support/temporary_folder.h"
+
+namespace sonarsim::test {
+
+/// The values as text, for messages.
+template <class... Values>
+std::string listed(const Values&... values) {
+    std::string out;
+    ((out += std::string(out.empty() ? "" : ", ") + doctest::toString(values).c_str()), ...);
+    return out;
+}
+
+}  // namespace sonarsim::test
+
+/// CAPTURE of several values.
+#define CAPTURE_ALL(...) INFO(#__VA_ARGS__ " = ", sonarsim::test::listed(__VA_ARGS__))

@@ -47,19 +47,12 @@ TEST_SUITE("lay maps") {
         lay(twice, {}, strengths(square_frame(1, 28.0), [](int, int) { return 2.0F; }));
         for (const ModelKind model : {ModelKind::paper, ModelKind::calibrated}) {
             SonarConfig config = small_imaging();
-            if (model == ModelKind::calibrated) {
-                config = calibrated(config, 900e3);
-                config.instrument = bare(config.instrument);
-                config.instrument.speckle.mode = SpeckleMode::none;
-            }
+            if (model == ModelKind::calibrated) config = bare_sonar(config, 900e3);
             config.multipath.method = MultipathMethod::cluster;
             const Sonar sonar = noise_free(config);
             const auto bounced = [&](const Scene& of) {
-                const auto engine = make_engine(of, {.type = EngineKind::rays, .octree = {}});
                 const Pose pose{Eigen::Quaterniond::Identity(), {0.0, 0.0, 0.5}};
-                return render_ping(sonar, of, *engine, pose, {.seed = 1, .ping = 0},
-                                   multipath_alone)
-                    .intensity;
+                return expected_image(sonar, of, EngineKind::rays, pose, multipath_alone);
             };
             const std::vector<float> once = bounced(scene);
             const std::vector<float> both = bounced(twice);
@@ -75,40 +68,22 @@ TEST_SUITE("lay maps") {
     }
 
     TEST_CASE("speckle keeps the mean power of fields smaller than a scatterer's cell") {
-        // Materials of 0.1 and 0.3 in fields of 2 cm, or strengths of 0.5 and 1.5, send back as
-        // much as one of 0.2. Both images have the same scatterers, so that their sums, over more
-        // than 1,000 cells a ping, differ by less than speckle does.
-        Scene plain = wide_floor();
-        const std::uint32_t dark = add_material(plain, 0.1F);
-        const std::uint32_t bright = add_material(plain, 0.3F);
-        for (Material& material : plain.materials) {
-            material.slope_rms_deg = 0.0;
-            material.lambert_db = db(static_cast<double>(material.reflection));
-        }
-        const auto field = [](int row, int column) {
-            return static_cast<std::uint16_t>((row + column) % 2);
-        };
-        Scene by_material = plain;
-        lay(by_material, material_texels(square_frame(1400, 28.0), {dark, bright}, field), {});
-        Scene by_strength = plain;
-        lay(by_strength, {}, strengths(square_frame(1400, 28.0), [&](int row, int column) {
-                return 0.5F + static_cast<float>(field(row, column));
-            }));
+        // All images have the same scatterers, so that their sums, over more than 1,000 cells a
+        // ping, differ by less than speckle does.
+        const SmallFields fields;
         SonarConfig config = imaging(ModelKind::calibrated).config;
         config.instrument.speckle.mode = SpeckleMode::scene;
         const Sonar sonar = make_sonar(config, {0.01});
         const auto sum_of = [&](const Scene& scene) {
-            const auto engine = make_engine(scene, {.type = EngineKind::slices, .octree = {}});
             double sum = 0.0;
             for (const double yaw_deg : {0.0, 40.0, 80.0, 120.0}) {
-                sum += total(render_ping(sonar, scene, *engine, above_floor(yaw_deg),
-                                         {.seed = 1, .ping = 0}, {.multipath = false})
-                                 .intensity);
+                sum += total(expected_image(sonar, scene, EngineKind::slices, above_floor(yaw_deg),
+                                            {.multipath = false}));
             }
             return sum;
         };
-        const double expected = sum_of(plain);
-        CHECK(std::fabs(db(sum_of(by_material) / expected)) < 0.15);
-        CHECK(std::fabs(db(sum_of(by_strength) / expected)) < 0.15);
+        const double expected = sum_of(fields.plain);
+        CHECK(std::fabs(db(sum_of(fields.by_material) / expected)) < 0.15);
+        CHECK(std::fabs(db(sum_of(fields.by_strength) / expected)) < 0.15);
     }
 }

@@ -1,12 +1,10 @@
 #include "simulate/trace/clusters.h"
 
-#include "simulate/paper/accumulate.h"
-#include "simulate/paper/multipath_echoes.h"
-#include "simulate/sonar/sonar.h"
 #include "simulate/trace/multipath.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/bounces.h"
 #include "support/patches.h"
+#include "support/sonars.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -14,23 +12,6 @@ using namespace sonarsim::test;
 // The sonar sees the second point of a bounce or not: the tracer decides it to within rounding.
 
 namespace {
-
-/// The multipath echoes alone as an image, [bins, beams].
-std::vector<float> image_of(const Found& found, const View& view) {
-    const MultipathEchoes echoes = multipath_echoes(found.bounces, found.samples, view, {});
-    const RangeBins bins{static_cast<float>(view.range_min_m), static_cast<float>(view.bin_m()),
-                         view.range_bins};
-    std::vector<float> image;
-    BinSums sums;
-    std::vector<float> column(bins.count);
-    for (int j = 0; j < view.beams; ++j) {
-        sums.clear(bins.count);
-        accumulate(echoes.echoes, echoes.beam_begin[j], echoes.beam_begin[j + 1], bins, sums);
-        mean_of_bins(sums, column);
-        image.insert(image.end(), column.begin(), column.end());
-    }
-    return image;
-}
 
 Scene rough_seafloor() {
     Scene scene = floor_scene(20.0F, 0.0F, 0.4F, 200);
@@ -82,9 +63,7 @@ TEST_CASE("clusters keep their limits, and every sample is in one") {
 }
 
 TEST_CASE("epsilon 0 is the exact method") {
-    SonarConfig config;
-    config.name = "fls";
-    config.azimuth_bins = 64;
+    SonarConfig config = small_imaging();
     const Scene scene = tank();
     const auto engine = make_rays_engine(scene);
     const auto render = [&](MultipathMethod method, int epsilon) {
@@ -97,42 +76,41 @@ TEST_CASE("epsilon 0 is the exact method") {
 
 TEST_CASE("clusters light the bins that the exact method lights") {
     struct Tally {
-        int exact = 0;
-        int missed = 0;
-        int wrong = 0;
-        std::uint64_t rays = 0;
-        std::uint64_t exact_rays = 0;
+        int exact = 0, missed = 0, wrong = 0;
+        std::uint64_t rays = 0, exact_rays = 0;
     };
-    const auto compare = [](const Scene& scene, const View& view, const Pose& pose, Tally& tally) {
-        const Found exact = find(scene, view, clusters_of(0), pose);
-        const Found cluster = find(scene, view, clusters_of(5, 5.0), pose);
-        const std::vector<float> truth = image_of(exact, view);
-        const std::vector<float> image = image_of(cluster, view);
-        for (std::size_t k = 0; k < truth.size(); ++k) {
-            tally.exact += truth[k] > 0.0F;
-            tally.missed += truth[k] > 0.0F && !(image[k] > 0.0F);
-            tally.wrong += image[k] > 0.0F && !(truth[k] > 0.0F);
-        }
-        tally.rays += cluster.counts.rays;
-        tally.exact_rays += exact.counts.rays;
-    };
-    View view = fan(60.0, 12.0);
-    view.beams = 256;
+    SonarConfig config = small_imaging();
+    config.range_bins = 512;
+    config.azimuth_bins = 256;
     // Poses by rule, not by choice, and the bins of all of them together. Single poses do worse: of
     // the 43 that see multipath in the tank, k = 6, 28 and 48 have 7, 14 and 5 % of false bins.
-    const auto pose = [](int k, double z) {
-        return Pose{rotation_from_rpy(0.0, radians(6.0 + 4.0 * (k % 5)), radians(37.0 * k)),
-                    {2.5 * std::sin(1.3 * k), 1.8 * std::cos(2.1 * k), z}};
+    const auto compare = [&](const Scene& scene, const std::function<double(int)>& z_m) {
+        Tally tally;
+        const auto engine = make_rays_engine(scene);
+        for (int k = 0; k < 60; ++k) {
+            const Pose pose{rotation_from_rpy(0.0, radians(6.0 + 4.0 * (k % 5)), radians(37.0 * k)),
+                            {2.5 * std::sin(1.3 * k), 1.8 * std::cos(2.1 * k), z_m(k)}};
+            const auto by = [&](MultipathMethod method) {
+                config.multipath = {method, 5, 5.0};
+                return render_ping(noise_free(config), scene, *engine, pose, {}, multipath_alone);
+            };
+            const Ping exact = by(MultipathMethod::exact);
+            const Ping cluster = by(MultipathMethod::cluster);
+            for (std::size_t i = 0; i < exact.intensity.size(); ++i) {
+                const bool is = cluster.intensity[i] > 0.0F;
+                const bool should = exact.intensity[i] > 0.0F;
+                tally.exact += should;
+                tally.missed += should && !is;
+                tally.wrong += is && !should;
+            }
+            tally.rays += cluster.counts.multipath.rays;
+            tally.exact_rays += exact.counts.multipath.rays;
+        }
+        return tally;
     };
-    const Scene walls = tank();
-    const Scene waves = rough_seafloor();
-    Tally in_tank;
-    for (int k = 0; k < 60; ++k)
-        compare(walls, view, pose(k, 1.5), in_tank);
-    view.range_max_m = 15.0;
-    Tally at_sea;
-    for (int k = 0; k < 60; ++k)
-        compare(waves, view, pose(k, 1.3 + 0.35 * (k % 4)), at_sea);
+    const Tally in_tank = compare(tank(), [](int) { return 1.5; });
+    config.range_max_m = 15.0;
+    const Tally at_sea = compare(rough_seafloor(), [](int k) { return 1.3 + 0.35 * (k % 4); });
     for (const Tally& tally : {in_tank, at_sea}) {
         CHECK(tally.exact > 200);
         CHECK(tally.missed < 0.05 * tally.exact);
@@ -169,14 +147,10 @@ TEST_CASE("what hides the second point hides it however near it is") {
     // = 1.4985 stands 3.5 mm before that point for the sonar, and is passed by the sound from port.
     Scene scene = corner();
     const View view = fan(100.0, 12.0);
-    const Sample sample = [] {
-        Sample s = point_facing({4, 2, 0}, 1.0);
-        s.normal = {0, -1, 0};
-        return s;
-    }();
     Samples samples;
-    samples.items = {sample};
-    const int beam = beam_of(view, sample.position);
+    samples.items = {point_facing({4, 2, 0}, 1.0)};
+    samples.items[0].normal = {0, -1, 0};
+    const int beam = beam_of(view, samples.items[0].position);
     samples.beam_begin.assign(view.beams + 1, 0);
     std::fill(samples.beam_begin.begin() + beam + 1, samples.beam_begin.end(), 1U);
     const auto hidden = [&] {
@@ -217,8 +191,7 @@ TEST_CASE("rounding hides nothing, wherever the sonar is and however large the t
         REQUIRE(home > 1000.0);
         for (const double far : {0.0, 300.0, 30'000.0}) {
             for (const float size : {30.0F, 40'000.0F}) {
-                CAPTURE(far);
-                CAPTURE(size);
+                CAPTURE_ALL(far, size);
                 CHECK(bounces({far, -far, 0.3 * far}, size, turn) > 0.98 * home);
             }
         }

@@ -16,14 +16,7 @@ Particle particle_at(double x, double y, double z) {
     return particle;
 }
 
-const View wide_fan{.azimuth_rad = radians(90.0),
-                    .elevation_rad = radians(20.0),
-                    .range_min_m = 0.5,
-                    .range_max_m = 20.0,
-                    .range_bins = 100,
-                    .beams = 32,
-                    .relative_l1 = 0.03,
-                    .shape = ViewShape::fan};
+const View wide_fan{radians(90.0), radians(20.0), 0.5, 20.0, 100, 32, 0.03};
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 #include "simulate/trace/ping_motion.h"
 
+#include "support/draws.h"
 #include "support/patches.h"
 
 using namespace sonarsim;
@@ -31,17 +32,13 @@ TEST_SUITE("trace") {
     }
 
     TEST_CASE("ping motion: any motion, by a search for the time of reception; and its inverse") {
-        std::mt19937 random(3);
-        std::uniform_real_distribution<double> some(-1.0, 1.0);
-        const auto vector = [&](double size) -> Eigen::Vector3d {
-            const double x = some(random);
-            const double y = some(random);
-            const double z = some(random);
-            return size * Eigen::Vector3d(x, y, z);
+        Draws draws(3);
+        const auto vector = [&](float size) -> Eigen::Vector3d {
+            return (size * draws.in_ball()).cast<double>();
         };
         for (int k = 0; k < 50; ++k) {
-            const PingMotion motion = moving(vector(10.0), vector(0.5));
-            const Eigen::Vector3d place = vector(100.0);
+            const PingMotion motion = moving(vector(10.0F), vector(0.5F));
+            const Eigen::Vector3d place = vector(100.0F);
             double low = 0.0;
             double high = 1.0;
             for (int i = 0; i < 60; ++i) {
@@ -66,13 +63,7 @@ TEST_SUITE("trace") {
     TEST_CASE("ping motion: surface goes to the beam that receives it") {
         // Ten beams of 6 degrees; a turn of 6 degrees in the two-way time of 75 m, a tenth of a
         // second.
-        const View view{.azimuth_rad = radians(60.0),
-                        .elevation_rad = radians(20.0),
-                        .range_min_m = 1.0,
-                        .range_max_m = 100.0,
-                        .range_bins = 100,
-                        .beams = 10,
-                        .shape = ViewShape::fan};
+        const View view{radians(60.0), radians(20.0), 1.0, 100.0, 100, 10};
         Samples samples;
         std::vector<Sample> outside;
         samples.beam_begin = {0};

@@ -11,14 +11,8 @@ namespace {
 constexpr double surface_m = 5.0;
 
 View view_to_surface(ViewShape shape, double azimuth_deg, double elevation_deg) {
-    return {.azimuth_rad = radians(azimuth_deg),
-            .elevation_rad = radians(elevation_deg),
-            .range_min_m = 0.5,
-            .range_max_m = 40.0,
-            .range_bins = 800,
-            .beams = shape == ViewShape::fan ? 64 : 1,
-            .relative_l1 = 0.03,
-            .shape = shape};
+    const int beams = shape == ViewShape::fan ? 64 : 1;
+    return {radians(azimuth_deg), radians(elevation_deg), 0.5, 40.0, 800, beams, 0.03, shape};
 }
 
 /// The area of the surface between two ranges, m^2.

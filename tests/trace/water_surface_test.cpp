@@ -15,14 +15,7 @@ TEST_SUITE("ping") {
         constexpr double d = 2.0;
         Scene scene = floor_scene(50.0F, 0.0F, 0.25F, 4);
         scene.water_surface = {h + d, 0.9F};
-        const View view{.azimuth_rad = radians(30.0),
-                        .elevation_rad = radians(30.0),
-                        .range_min_m = 0.5,
-                        .range_max_m = 20.0,
-                        .range_bins = 400,
-                        .beams = 1,
-                        .relative_l1 = 0.03,
-                        .shape = ViewShape::cone};
+        const View view{radians(30.0), radians(30.0), 0.5, 20.0, 400, 1, 0.03, ViewShape::cone};
         const Pose down{rotation_from_rpy(0.0, radians(90.0), 0.0), {0.0, 0.0, h}};
         for (const int epsilon : {0, 5}) {
             const auto found = find(scene, view, clusters_of(epsilon), down);
