@@ -54,13 +54,7 @@ TEST_SUITE("calibrated") {
         InstrumentConfig config = bare({});
         config.beam.width_deg = 2.0;
         config.beam.side_lobe_db = -40.0;
-        const View view{.azimuth_rad = radians(90.0),
-                        .elevation_rad = radians(20.0),
-                        .range_min_m = 4.0,
-                        .range_max_m = 6.0,
-                        .range_bins = 40,
-                        .beams = 61,
-                        .relative_l1 = 0.03};
+        const View view{radians(90.0), radians(20.0), 4.0, 6.0, 40, 61, 0.03};
         BeamSines sines;
         for (int k = 0; k <= 122; ++k)
             (k % 2 == 0 ? sines.edges : sines.middles).push_back(0.707 * (k / 61.0 - 1.0));

@@ -1,6 +1,5 @@
 #include "simulate/reference/energy_reference.h"
 #include "simulate/reference/image_error.h"
-#include "simulate/visibility/rays/rays_engine.h"
 #include "support/calibrated.h"
 #include "support/lattices.h"
 
@@ -11,25 +10,21 @@ namespace {
 
 /// A plane bottom 5 m below the vehicle, with a box and a ball on it.
 Scene bottom_with_objects() {
-    Scene scene = empty_scene();
-    const std::uint32_t rock = add_material(scene, 0.4F);
-    add_floor(scene, 14.0F, -5.0F, rock, 4);
-    add_box(scene, {-0.6F, 1.5F, -5.0F}, {0.8F, 2.6F, -4.1F}, rock);
-    add_sphere(scene, {0.3F, -3.0F, -4.6F}, 0.4F, rock, 48);
+    Scene scene = floor_scene(14.0F, -5.0F, 0.4F, 4);
+    add_box(scene, {-0.6F, 1.5F, -5.0F}, {0.8F, 2.6F, -4.1F}, 0);
+    add_sphere(scene, {0.3F, -3.0F, -4.6F}, 0.4F, 0, 48);
     return scene;
 }
 
 /// A plane bottom 5 m below the vehicle, strewn with 300 stones of 5 to 20 cm.
 Scene bottom_with_stones(std::mt19937& random) {
     std::uniform_real_distribution<float> unit(0.0F, 1.0F);
-    Scene scene = empty_scene();
-    const std::uint32_t rock = add_material(scene, 0.4F);
-    add_floor(scene, 14.0F, -5.0F, rock, 4);
+    Scene scene = floor_scene(14.0F, -5.0F, 0.4F, 4);
     for (int k = 0; k < 300; ++k) {
         const float x = 2.0F * unit(random) - 1.0F;
         const float y = 24.0F * unit(random) - 12.0F;
         const float radius = 0.05F + 0.15F * unit(random);
-        add_sphere(scene, {x, y, -5.0F}, radius, rock, 12);
+        add_sphere(scene, {x, y, -5.0F}, radius, 0, 12);
     }
     return scene;
 }
@@ -61,20 +56,16 @@ TEST_SUITE("calibrated") {
             CAPTURE(k);
             const Scene scene = bottom_with_stones(random);
             SonarConfig config = calibrated(default_sonar(SonarKind::sidescan), 4e5);
-            config.range_min_m = 0.5;
-            config.range_max_m = 12.0;
-            config.range_bins = 230;
+            set_range(config, 0.5, 12.0, 230);
             config.elevation_deg = 6.0;
             const Sonar sonar = make_sonar(config, {0.03});
-            const Caster caster(scene);
             Pose pose;
             pose.translation = {unit(random) - 0.5, unit(random) - 0.5, 0.3 * unit(random)};
             const Reference truth =
-                cast_energy_reference(caster, scene, sonar.settings, sensor_pose(sonar, pose, 0),
-                                      {0.01, 64.0, 8'000'000});
-            const auto rays = make_rays_engine(scene, caster);
-            const Ping ping = render_ping(sonar, scene, *rays, pose, {1, 0}, direct_echoes_alone);
-            mean += image_error(ping.intensity, truth.intensity).relative_l1 / scenes;
+                cast_energy_reference(Caster(scene), scene, sonar.settings,
+                                      sensor_pose(sonar, pose, 0), {0.01, 64.0, 8'000'000});
+            const std::vector<float> image = expected_image(sonar, scene, EngineKind::rays, pose);
+            mean += image_error(image, truth.intensity).relative_l1 / scenes;
         }
         CHECK(mean < 0.04);
     }
@@ -84,20 +75,18 @@ TEST_SUITE("calibrated") {
     TEST_CASE("speckle over ripples keeps the level of the expected image") {
         std::mt19937 random(31);
         std::uniform_real_distribution<float> unit(0.0F, 1.0F);
-        SonarConfig config = calibrated(default_sonar(SonarKind::imaging), 7.5e5);
-        config.instrument = bare(config.instrument);
+        SonarConfig config = bare_sonar(default_sonar(SonarKind::imaging), 7.5e5);
         config.instrument.speckle.mode = SpeckleMode::scene;
         config.range_min_m = 1.0;
         config.range_max_m = 10.0;
         const Sonar sonar = make_sonar(config, {0.03});
         for (int k = 0; k < 3; ++k) {
             const Scene scene = ripples(random);
-            const auto rays = make_rays_engine(scene);
             Pose pose;
             pose.translation.z() = 1.5;
             pose.rotation = Eigen::AngleAxisd(0.25 + 0.1 * unit(random), Eigen::Vector3d::UnitY());
             const auto sum = [&](const Terms& terms) -> double {
-                return total(render_ping(sonar, scene, *rays, pose, {1, 0}, terms).intensity);
+                return total(expected_image(sonar, scene, EngineKind::rays, pose, terms));
             };
             // Some 10,000 resolution cells: the error of their mean is 0.04 dB.
             const double level = sum({.random = 1}) / sum(direct_echoes_alone);
@@ -139,17 +128,15 @@ TEST_SUITE("calibrated") {
             Lattice lattice = draw_lattice(100 + 2 * static_cast<std::uint32_t>(k));
             if (k == scenes - 1) lattice = draw_lattice(114);
             CAPTURE(lattice.shape);
-            SonarConfig config = calibrated(lattice.sonar, 4e5);
-            config.instrument = bare(config.instrument);
+            SonarConfig config = bare_sonar(lattice.sonar, 4e5);
             Sonar sonar = make_sonar(config, {goal});
             sonar.T_vehicle_sensor = Pose{};
             const Reference truth =
                 cast_energy_reference(Caster(lattice.scene), lattice.scene, sonar.settings, Pose{},
                                       {0.01, 32.0, 400'000});
-            const auto rays = make_engine(lattice.scene, {.type = EngineKind::rays, .octree = {}});
-            const Ping ping =
-                render_ping(sonar, lattice.scene, *rays, Pose{}, {1, 0}, direct_echoes_alone);
-            const double error = image_error(ping.intensity, truth.intensity).relative_l1;
+            const double error =
+                image_error(expected_image(sonar, lattice.scene, EngineKind::rays), truth.intensity)
+                    .relative_l1;
             CAPTURE(error);
             CHECK(error < 2.0 * goal);
             mean += error / scenes;

@@ -11,14 +11,10 @@ using namespace sonarsim::test;
 
 namespace {
 
-ExpectedEcho echo_of(const Sonar& sonar) {
-    return expected_echo(sonar.config.instrument, {}, sonar.settings.view);
-}
-
 /// The mean echo of sand over the noise, dB.
 double sand_over_noise_db(const Sonar& sonar, double range_m) {
     const InstrumentLevels& levels = calibrated_model_of(sonar).levels;
-    const ExpectedEcho echo = echo_of(sonar);
+    const ExpectedEcho echo = expected_echo(sonar.config.instrument, {}, sonar.settings.view);
     return levels.source_level_db +
            bottom_echo_db(echo, bottom_strength_db(echo, example_sand()), range_m) -
            levels.noise_db;
@@ -26,9 +22,9 @@ double sand_over_noise_db(const Sonar& sonar, double range_m) {
 
 /// The mean echo of sand by full scale, dB.
 double sand_over_full_scale_db(const Sonar& sonar, double range_m) {
-    const InstrumentLevels& levels = calibrated_model_of(sonar).levels;
-    return sand_over_noise_db(sonar, range_m) + levels.noise_db - levels.full_scale_db +
-           tvg_db(sonar.config.instrument.receiver, echo_of(sonar).absorption_db_per_m, range_m);
+    const CalibratedModel& model = calibrated_model_of(sonar);
+    return sand_over_noise_db(sonar, range_m) + model.levels.noise_db - model.levels.full_scale_db +
+           tvg_db(sonar.config.instrument.receiver, model.absorption_db_per_m, range_m);
 }
 
 /// A floor of sand that meets the axis of a sonar at the origin at 20 degrees of grazing.
@@ -115,13 +111,10 @@ TEST_SUITE("calibrated") {
             CAPTURE(c.preset);
             const Sonar sonar = preset_sonar(c.preset, c.keys + "usual_water: none}\n");
             const CalibratedModel& model = calibrated_model_of(sonar);
-            const Scene scene = sand_at(c.range_m);
-            const auto engine = make_engine(scene, {.type = EngineKind::rays, .octree = {}});
             const Pose pose{rotation_from_rpy(0.0, radians(c.pitch_deg), 0.0),
                             Eigen::Vector3d::Zero()};
-            const std::vector<float> echo = render_ping(sonar, scene, *engine, pose,
-                                                        {.seed = 1, .ping = 0}, direct_echoes_alone)
-                                                .intensity;
+            const std::vector<float> echo =
+                expected_image(sonar, sand_at(c.range_m), EngineKind::rays, pose);
             const std::vector<float> noise =
                 image_of_samples(model, sonar.settings.view, {}, {.random = 2});
             const double over_noise_db = db_of_power(mean_at(sonar, echo, c.range_m, 2) /

@@ -13,9 +13,7 @@ Sonar line_array_sonar(double view_azimuth_deg) {
     SonarConfig config = calibrated(default_sonar(SonarKind::imaging), 1e6);
     config.azimuth_deg = 60.0;
     config.elevation_deg = 178.0;
-    config.range_min_m = 1.0;
-    config.range_max_m = 3.0;
-    config.range_bins = 100;
+    set_range(config, 1.0, 3.0, 100);
     config.azimuth_bins = 64;
     config.instrument.beam.view_azimuth_deg = view_azimuth_deg;
     return make_sonar(config, {0.005});
@@ -60,9 +58,7 @@ TEST_SUITE("calibrated") {
 
     TEST_CASE("beams that the array does not resolve are traced two at a time at coarse goals") {
         SonarConfig config = calibrated(default_sonar(SonarKind::imaging), 1e6);
-        config.range_min_m = 1.0;
-        config.range_max_m = 5.0;
-        config.range_bins = 200;
+        set_range(config, 1.0, 5.0, 200);
         config.azimuth_deg = 60.0;
         config.elevation_deg = 60.0;
         config.azimuth_bins = 120;
@@ -73,11 +69,9 @@ TEST_SUITE("calibrated") {
         };
         CHECK(traced_beams(0.03) == 60);
         CHECK(traced_beams(0.01) == 120);
-        Scene scene = empty_scene();
-        const std::uint32_t rock = add_material(scene, 0.4F);
-        add_floor(scene, 8.0F, -1.5F, rock, 4);
-        add_sphere(scene, {3.0F, 0.4F, -1.2F}, 0.3F, rock, 32);
-        add_box(scene, {2.0F, -0.9F, -1.5F}, {2.4F, -0.3F, -0.8F}, rock);
+        Scene scene = floor_scene(8.0F, -1.5F, 0.4F, 4);
+        add_sphere(scene, {3.0F, 0.4F, -1.2F}, 0.3F, 0, 32);
+        add_box(scene, {2.0F, -0.9F, -1.5F}, {2.4F, -0.3F, -0.8F}, 0);
         for (const double view_azimuth_deg : {0.0, 91.4}) {
             config.instrument.beam.view_azimuth_deg = view_azimuth_deg;
             const Sonar joined = make_sonar(config, {0.02});

@@ -29,9 +29,7 @@ double over_sines(const Function& value) {
 SonarConfig imaging() {
     SonarConfig config = calibrated(default_sonar(SonarKind::imaging), 9e5);
     config.azimuth_deg = 60.0;
-    config.range_min_m = 1.0;
-    config.range_max_m = 21.0;
-    config.range_bins = 100;
+    set_range(config, 1.0, 21.0, 100);
     config.azimuth_bins = 16;
     config.instrument.beam.elevation_width_deg = 12.0;
     return config;

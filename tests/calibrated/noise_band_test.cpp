@@ -26,20 +26,20 @@ double tap_correlation(const std::vector<float>& taps, std::size_t lag) {
     return sum;
 }
 
-/// A sonar of 400 bins of 4 cm with this pulse, whose image is noise of mean 1.
-Sonar noisy_sonar(SonarKind kind, double resolution_m, double common_mode_db = -300.0) {
+/// A sonar of 400 bins of 4 cm and a pulse of 20 cm, whose image is noise of mean 1.
+Sonar noisy_sonar(SonarKind kind, double source_db, double noise_db,
+                  double common_mode_over_noise_db = -200.0) {
     SonarConfig config = calibrated(default_sonar(kind), 2e5);
     config.azimuth_deg = kind == SonarKind::sidescan ? 170.0 : 60.0;
-    config.range_min_m = 1.0;
-    config.range_max_m = 17.0;
-    config.range_bins = 400;
+    set_range(config, 1.0, 17.0, 400);
     config.azimuth_bins = 61;
     InstrumentConfig& instrument = config.instrument;
-    instrument.pulse.resolution_m = resolution_m;
+    instrument.pulse.resolution_m = 0.2;
     instrument.pulse.side_lobe_db = -20.0;
-    instrument.receiver.noise_db = -90.0;
-    instrument.receiver.common_mode_db = common_mode_db;
-    instrument.receiver.full_scale_db = -90.0;
+    instrument.source_level_db = source_db;
+    instrument.receiver.noise_db = noise_db;
+    instrument.receiver.common_mode_db = noise_db + common_mode_over_noise_db;
+    instrument.receiver.full_scale_db = noise_db;
     instrument.receiver.tvg_log = 0.0;
     instrument.receiver.tvg_absorption = false;
     return make_sonar(config, {});
@@ -99,8 +99,7 @@ TEST_SUITE("calibrated") {
     TEST_CASE("noise: its taps give it the correlation of the pulse and keep the power") {
         for (const double bins : {0.8, 1.0, 1.3, 2.0, 3.5, 5.0, 12.0}) {
             for (const double side_lobe_db : {-13.3, -20.0, -30.0, -40.0}) {
-                CAPTURE(bins);
-                CAPTURE(side_lobe_db);
+                CAPTURE_ALL(bins, side_lobe_db);
                 const std::vector<float> taps = noise_taps(bins, side_lobe_db);
                 CHECK(std::fabs(tap_correlation(taps, 0) - 1.0) < 1e-6);
                 for (const int lag : {1, 2, 3, 4, 6}) {
@@ -132,22 +131,25 @@ TEST_SUITE("calibrated") {
     }
 
     TEST_CASE("noise: the powers of every kind of sonar, correlated along range as the pulse is") {
-        // Bins of 4 cm and a pulse of 20 cm.
+        // Whatever its level is, and that of the source.
         struct Case {
             SonarKind kind;
+            double source_db, noise_db;
             std::uint32_t pings;
         };
-        for (const Case& c : {Case{SonarKind::imaging, 40}, Case{SonarKind::profiling, 40},
-                              Case{SonarKind::sidescan, 1500}, Case{SonarKind::echosounder, 3000},
-                              Case{SonarKind::scanning, 3000}}) {
+        for (const Case& c : {Case{SonarKind::imaging, 300.0, -90.0, 40},
+                              Case{SonarKind::profiling, -100.0, -300.0, 40},
+                              Case{SonarKind::sidescan, -300.0, 300.0, 1500},
+                              Case{SonarKind::echosounder, 150.0, -300.0, 3000},
+                              Case{SonarKind::scanning, 0.0, 300.0, 3000}}) {
             CAPTURE(static_cast<int>(c.kind));
-            check_noise(NoiseOfPings(noisy_sonar(c.kind, 0.2), c.pings));
+            check_noise(NoiseOfPings(noisy_sonar(c.kind, c.source_db, c.noise_db), c.pings));
         }
     }
 
     TEST_CASE("noise: so is that which all elements share, in the beam straight ahead") {
         // 30 dB above the elements' noise: beam 30 of 61 has 1 + 1000 times their power.
-        const Sonar sonar = noisy_sonar(SonarKind::imaging, 0.2, -60.0);
+        const Sonar sonar = noisy_sonar(SonarKind::imaging, 0.0, -90.0, 30.0);
         check_noise(NoiseOfPings(sonar, 1000, 30, 1001.0));
     }
 }

@@ -49,8 +49,7 @@ TEST_SUITE("calibrated") {
             calibrated_model(instrument_of(Aperture::piston, 7.0, 0.5), {}, view, {});
         for (const double range_m : {4.0, 9.03, 17.5}) {
             for (const double off_deg : {0.0, 2.0, 3.5, 6.0}) {
-                CAPTURE(range_m);
-                CAPTURE(off_deg);
+                CAPTURE_ALL(range_m, off_deg);
                 const double off = radians(off_deg);
                 const Eigen::Vector3f place =
                     (range_m *
@@ -139,9 +138,7 @@ TEST_SUITE("calibrated") {
         config.azimuth_deg = 60.0;
         config.elevation_deg = 20.0;
         config.azimuth_bins = 60;
-        config.range_min_m = 2.0;
-        config.range_max_m = 22.0;
-        config.range_bins = 200;
+        set_range(config, 2.0, 22.0, 200);
         Scene scene = empty_scene();
         const std::uint32_t rock = add_material(scene, 0.4F);
         add_quad(scene, {15.0F, -20.0F, -10.0F}, {15.0F, 20.0F, -10.0F}, {15.0F, 20.0F, 10.0F},

@@ -12,14 +12,7 @@ namespace {
 constexpr int chain_rows = 2000;
 
 View chain_view() {
-    return {.azimuth_rad = 0.3,
-            .elevation_rad = 0.3,
-            .range_min_m = 10.0,
-            .range_max_m = 30.0,
-            .range_bins = chain_rows,
-            .beams = 1,
-            .relative_l1 = 0.03,
-            .shape = ViewShape::cone};
+    return {0.3, 0.3, 10.0, 30.0, chain_rows, 1, 0.03, ViewShape::cone};
 }
 
 /// An echosounder that receives noise of -100 dB alone, without TVG. The pulse is so short that

@@ -1,7 +1,6 @@
 #include "simulate/calibrated/relief.h"
 
 #include "support/statistics.h"
-#include "support/test.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;

@@ -24,10 +24,7 @@ std::vector<float> image_of(const CalibratedModel& model, const Scene& scene, co
                             const std::vector<Sample>& patches) {
     TracedPing traced;
     traced.samples.items = patches;
-    Ping ping;
-    ping.intensity.resize(static_cast<std::size_t>(view.range_bins) * view.beams);
-    model.form(traced, {.view = view, .scene = scene, .draws = {1, 2, 0}, .terms = {}}, ping);
-    return ping.intensity;
+    return image_of_traced(model, view, traced, {}, {1, 2, 0}, scene);
 }
 
 /// A square patch, level if the normal is along z.
@@ -43,12 +40,7 @@ double sand(double sine, double frequency_hz, double sound_speed_m_s) {
     return bed.diffuse(std::asin(sine)) + bed.specular(std::asin(sine));
 }
 
-constexpr View fan_view{.azimuth_rad = 0.6,
-                        .elevation_rad = 1.2,
-                        .range_min_m = 3.0,
-                        .range_max_m = 5.0,
-                        .range_bins = 200,
-                        .beams = 65};
+constexpr View fan_view{0.6, 1.2, 3.0, 5.0, 200, 65};
 
 CalibratedModel fan_model() {
     InstrumentConfig config = bare({});

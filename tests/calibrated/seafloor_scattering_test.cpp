@@ -71,8 +71,7 @@ void check_curves(const std::array<Curve, 9>& curves, double frequency_hz) {
     for (const Curve& curve : curves) {
         const Backscatter bed = scattering_at(of_grain_size(curve.phi), frequency_hz);
         for (std::size_t i = 0; i < grazing_deg.size(); ++i) {
-            CAPTURE(curve.phi);
-            CAPTURE(grazing_deg[i]);
+            CAPTURE_ALL(curve.phi, grazing_deg[i]);
             const double expected =
                 curve.strength_db[i] + shadowing_db(curve.phi, frequency_hz, grazing_deg[i]);
             CHECK(std::fabs(db_at(bed, grazing_deg[i]) - expected) < 0.1);
@@ -156,9 +155,7 @@ TEST_SUITE("calibrated") {
             const Backscatter bed =
                 scattering_at(of_grain_size(row.phi), row.frequency_hz, {1000.0, 1528.0});
             for (std::size_t i = 0; i < angles_deg.size(); ++i) {
-                CAPTURE(row.phi);
-                CAPTURE(row.frequency_hz);
-                CAPTURE(angles_deg[i]);
+                CAPTURE_ALL(row.phi, row.frequency_hz, angles_deg[i]);
                 CHECK(std::fabs(db_at(bed, angles_deg[i]) - row.strength_db[i]) < 1.7);
             }
         }
@@ -202,8 +199,7 @@ TEST_SUITE("calibrated") {
                 const SeafloorScattering formula(bed, 2.0 * pi * frequency_hz / 1500.0);
                 const double by_formula = over_directions(
                     [&](float, double grazing) { return formula.specular(grazing); });
-                CAPTURE(phi);
-                CAPTURE(frequency_hz);
+                CAPTURE_ALL(phi, frequency_hz);
                 CHECK(std::fabs(by_table(formula) / by_formula - 1.0) < 0.01);
                 if (frequency_hz > 2e4)
                     CHECK(std::fabs(db_of_power(by_formula / (0.25 * reflection_of(bed)))) < 1.5);
@@ -218,9 +214,7 @@ TEST_SUITE("calibrated") {
                     smooth.spectral_exponent = exponent;
                     const SeafloorScattering formula(sea_bed_of(smooth, {1000.0, 1500.0}),
                                                      2.0 * pi * frequency_hz / 1500.0);
-                    CAPTURE(w2_cm4);
-                    CAPTURE(exponent);
-                    CAPTURE(frequency_hz);
+                    CAPTURE_ALL(w2_cm4, exponent, frequency_hz);
                     CHECK(by_table(formula) < 1.15 * 0.25 * formula.reflection());
                     CHECK(by_table(formula) > 0.25 * 0.25 * formula.reflection());
                 }

@@ -165,9 +165,7 @@ TEST_SUITE("calibrated") {
              {Motion{0.0, 0.010, 0.0}, Motion{0.0, 0.025, 0.0}, Motion{0.0, 0.0, 0.1},
               Motion{0.0, 0.0, 0.2}, Motion{0.005, 0.0, 0.0}, Motion{0.010, 0.0, 0.0},
               Motion{0.004, 0.012, 0.1}}) {
-            CAPTURE(motion.x_m);
-            CAPTURE(motion.y_m);
-            CAPTURE(motion.yaw_deg);
+            CAPTURE_ALL(motion.x_m, motion.y_m, motion.yaw_deg);
             const Pose pose{rotation_from_rpy(0.0, 0.0, radians(motion.yaw_deg)),
                             {motion.x_m, motion.y_m, 0.0}};
             double left = 0.0;

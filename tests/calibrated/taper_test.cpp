@@ -15,16 +15,6 @@ constexpr double below_m = 2.0;  // the floor
 constexpr int columns = 60;
 const double column_rad = radians(0.5);
 
-View view_of_floor(ViewShape shape = ViewShape::fan) {
-    return {.azimuth_rad = columns * column_rad,
-            .elevation_rad = 1.0,
-            .range_min_m = 7.0,
-            .range_max_m = 12.0,
-            .range_bins = 100,
-            .beams = columns,
-            .shape = shape};
-}
-
 /// The footprint on the floor between two azimuths and two distances.
 Sample footprint(int column, double from_m, double to_m) {
     const double azimuth = (column + 0.5 - 0.5 * columns) * column_rad;
@@ -93,7 +83,7 @@ TEST_SUITE("calibrated") {
         InstrumentConfig config = bare({});
         config.frequency_hz = 7e5;
         config.beam.width_deg = 1.0;
-        const View view = view_of_floor();
+        const View view{columns * column_rad, 1.0, 7.0, 12.0, 100, columns};
         const BeamSines sines = fan_sines(0.5 * columns, columns);
         const CalibratedModel model =
             calibrated_model(config, {}, view, {.middles = sines.middles, .edges = {}});

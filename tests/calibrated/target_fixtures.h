@@ -11,12 +11,9 @@ inline constexpr double slope_deg = 5.0;
 
 /// A sonar of a kind with the beams of a usual instrument.
 inline Sonar target_sonar(SonarKind kind, SpeckleMode speckle = SpeckleMode::none) {
-    SonarConfig config = calibrated(default_sonar(kind), 9e5);
-    config.instrument = bare(config.instrument);
+    SonarConfig config = bare_sonar(default_sonar(kind), 9e5);
     config.instrument.speckle.mode = speckle;
-    config.range_min_m = 0.5;
-    config.range_max_m = 20.5;
-    config.range_bins = 400;
+    set_range(config, 0.5, 20.5, 400);
     config.azimuth_bins = 128;
     if (kind == SonarKind::sidescan) {
         config.elevation_deg = 6.0;

@@ -101,8 +101,7 @@ TEST_SUITE("calibrated") {
         for (int draw = 0; draw < 6; ++draw) {
             const double edge = static_cast<double>(draws.between(0.03F, 0.12F));
             const double texel = edge * static_cast<double>(draws.between(0.05F, 0.8F));
-            CAPTURE(edge);
-            CAPTURE(texel);
+            CAPTURE_ALL(edge, texel);
             PlateScene plate(edge, {{.name = "dim", .lambert_db = -10.0, .slope_rms_deg = 0.0},
                                     {.name = "bright", .lambert_db = -4.0, .slope_rms_deg = 0.0}});
             apply_drawn_texels(plate, texel, draws);

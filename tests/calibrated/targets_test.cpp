@@ -47,11 +47,8 @@ TEST_SUITE("calibrated") {
                     const auto engine = make_engine(ball.scene, {.type = type, .octree = {}});
                     const double off_db =
                         db_of_power(energy_by(sonar, ball.scene, *engine) / expected);
-                    CAPTURE(static_cast<int>(kind));
-                    CAPTURE(static_cast<int>(type));
-                    CAPTURE(radius);
-                    CAPTURE(range);
-                    CAPTURE(sides[trial % 3]);
+                    CAPTURE_ALL(static_cast<int>(kind), static_cast<int>(type), radius, range,
+                                sides[trial % 3]);
                     CHECK(std::fabs(off_db) < 1.0);
                 }
             }
@@ -61,11 +58,8 @@ TEST_SUITE("calibrated") {
     TEST_CASE("targets: a sphere of few triangles is a sphere, however large it looks") {
         // Its highlight is seven resolution cells across, enough for an engine's samples; but these
         // have the normals of the facets.
-        SonarConfig config = calibrated(default_sonar(SonarKind::imaging), 9e5);
-        config.instrument = bare(config.instrument);
-        config.range_min_m = 0.5;
-        config.range_max_m = 12.0;
-        config.range_bins = 1200;
+        SonarConfig config = bare_sonar(default_sonar(SonarKind::imaging), 9e5);
+        set_range(config, 0.5, 12.0, 1200);
         config.azimuth_deg = 60.0;
         config.azimuth_bins = 512;
         const Sonar sonar = make_sonar(config, {});
@@ -138,8 +132,7 @@ TEST_SUITE("calibrated") {
             const BallScene hidden = behind_wall(open, 5.0, 0.5 * edge * 0.2, turn);
             const double expected = 0.5 + 0.25 * (3.0 * edge - edge * edge * edge);
             const double off = db_of_power(energy_by_rays(sonar, hidden.scene) / whole / expected);
-            CAPTURE(edge);
-            CAPTURE(turn);
+            CAPTURE_ALL(edge, turn);
             CHECK(std::fabs(off) < 1.0);
             squares += off * off / draws;
         }

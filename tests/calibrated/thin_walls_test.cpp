@@ -30,14 +30,11 @@ double two_way(const Material& wall) {
 }
 
 Sonar wall_sonar(SonarKind kind, SpeckleMode speckle = SpeckleMode::none) {
-    SonarConfig config = calibrated(default_sonar(kind), frequency_hz);
-    config.instrument = bare(config.instrument);
+    SonarConfig config = bare_sonar(default_sonar(kind), frequency_hz);
     config.instrument.speckle.mode = speckle;
     config.azimuth_deg = 60.0;
     config.azimuth_bins = 64;
-    config.range_min_m = 0.5;
-    config.range_max_m = 12.0;
-    config.range_bins = 240;
+    set_range(config, 0.5, 12.0, 240);
     return make_sonar(config, {});
 }
 
@@ -73,10 +70,15 @@ struct WallScene {
                    radius_m, material, 48);
     }
 
-    double energy(Sonar sonar, EngineKind type) const {
+    /// The engine; the sonar gets the walls and the targets.
+    std::unique_ptr<VisibilityEngine> prepared(Sonar& sonar, EngineKind type) const {
         prepare_for(scene, sonar);
         find_targets({&sonar, 1}, scene);
-        const auto engine = make_engine(scene, {.type = type, .octree = {}});
+        return make_engine(scene, {.type = type, .octree = {}});
+    }
+
+    double energy(Sonar sonar, EngineKind type) const {
+        const auto engine = prepared(sonar, type);
         return total(render_ping(sonar, scene, *engine, {}, {}, direct_echoes_alone).intensity);
     }
 };
@@ -138,9 +140,7 @@ TEST_SUITE("calibrated") {
                 walls.add_plate(rear_m, normal, 0);
                 const double alone = walls.energy(sonar, setting.engine);
                 walls.add_plate(first_m, normal, walls.add(first));
-                CAPTURE(name_of(setting.kind));
-                CAPTURE(static_cast<int>(setting.engine));
-                CAPTURE(n);
+                CAPTURE_ALL(name_of(setting.kind), static_cast<int>(setting.engine), n);
                 CHECK(walls.energy(sonar, setting.engine) / alone ==
                       test::approx(two_way(first)).epsilon(0.01));
                 walls.add_plate(0.5F * (first_m + rear_m), normal, walls.add(second));
@@ -172,9 +172,7 @@ TEST_SUITE("calibrated") {
                 const double lit = opaque.energy(sonar, setting.engine);
                 const double back = thin.energy(sonar, setting.engine) - lit;
                 const double expected = two_way(wall) * two_way(wall) * (whole - lit);
-                CAPTURE(name_of(setting.kind));
-                CAPTURE(static_cast<int>(setting.engine));
-                CAPTURE(n);
+                CAPTURE_ALL(name_of(setting.kind), static_cast<int>(setting.engine), n);
                 CHECK(std::fabs(back - expected) < 0.01 * (whole - lit));
             }
         }
@@ -194,10 +192,7 @@ TEST_SUITE("calibrated") {
                 WallScene bottle(sonar);
                 bottle.add_ball(4.0F, radius_m, bottle.add(wall));
                 bottle.add_ball(4.0F, 0.6F * radius_m, 0);
-                prepare_for(bottle.scene, sonar);
-                find_targets({&sonar, 1}, bottle.scene);
-                const auto engine =
-                    make_engine(bottle.scene, {.type = EngineKind::rays, .octree = {}});
+                const auto engine = bottle.prepared(sonar, EngineKind::rays);
                 double sum = 0.0;
                 double squares = 0.0;
                 for (std::uint64_t seed = 0; seed < seeds; ++seed) {
@@ -210,8 +205,7 @@ TEST_SUITE("calibrated") {
                     expected = sum;
                     continue;
                 }
-                CAPTURE(radius_m);
-                CAPTURE(static_cast<int>(mode));
+                CAPTURE_ALL(radius_m, static_cast<int>(mode));
                 const double standard_error = std::sqrt((squares - sum * sum) / seeds);
                 CHECK(std::fabs(sum - expected) < 4.0 * standard_error);
                 CHECK(standard_error < 0.06 * expected);
@@ -235,9 +229,7 @@ TEST_SUITE("calibrated") {
                 strengths(square_frame(40, 16.0),
                           [&](int, int) { return draws.scale(1.0F, 4.0F); }),
                 std::vector<char>{1});
-            prepare_for(bottle.scene, sonar);
-            find_targets({&sonar, 1}, bottle.scene);
-            const auto engine = make_engine(bottle.scene, {.type = setting.engine, .octree = {}});
+            const auto engine = bottle.prepared(sonar, setting.engine);
             const Reference reference =
                 cast_energy_reference(Caster(bottle.scene), bottle.scene, sonar.settings,
                                       bottle.T_world_sensor, {0.02, 16.0, 4'000'000});
@@ -247,9 +239,7 @@ TEST_SUITE("calibrated") {
                 return image_error(ping.intensity, reference.intensity, reference.scored)
                     .relative_l1;
             };
-            CAPTURE(name_of(setting.kind));
-            CAPTURE(static_cast<int>(setting.engine));
-            CAPTURE(reference.moved);
+            CAPTURE_ALL(name_of(setting.kind), static_cast<int>(setting.engine), reference.moved);
             const double through = error();
             CHECK(through < 0.02 + reference.apart);
             sonar.settings.wall_transmissions.clear();

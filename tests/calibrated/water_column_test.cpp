@@ -124,9 +124,7 @@ TEST_SUITE("calibrated") {
     TEST_CASE("water: a layer is at its depth, and the water ends at the bottom") {
         SonarConfig config = calibrated(kind_of(SonarKind::echosounder).keys.defaults, 2e5);
         config.opening_deg = 40.0;
-        config.range_min_m = 2.0;
-        config.range_max_m = 22.0;
-        config.range_bins = 200;
+        set_range(config, 2.0, 22.0, 200);
         config.instrument = instrument_of(Aperture::piston, 7.0);
         WaterConfig water;
         water.layers.push_back({.depth_m = {8.0, 11.0}, .scattering_db_per_m3 = strength_db});
@@ -160,9 +158,7 @@ TEST_SUITE("calibrated") {
         config.azimuth_deg = 90.0;
         config.elevation_deg = 30.0;
         config.azimuth_bins = 48;
-        config.range_min_m = 2.0;
-        config.range_max_m = 22.0;
-        config.range_bins = 200;
+        set_range(config, 2.0, 22.0, 200);
         config.instrument = instrument_of(Aperture::line, 2.0);
         const Sonar full = make_sonar(config, {}, scattering_water());
         const Sonar empty = make_sonar(config, {}, {});

@@ -27,14 +27,7 @@ inline InstrumentConfig instrument_of(Aperture aperture, double width_deg,
 
 /// 0.1 m bins from 2 to 22 m.
 inline View view_of(ViewShape shape, double azimuth_deg, double elevation_deg, int beams) {
-    return {.azimuth_rad = radians(azimuth_deg),
-            .elevation_rad = radians(elevation_deg),
-            .range_min_m = 2.0,
-            .range_max_m = 22.0,
-            .range_bins = 200,
-            .beams = beams,
-            .relative_l1 = 0.03,
-            .shape = shape};
+    return {radians(azimuth_deg), radians(elevation_deg), 2.0, 22.0, 200, beams, 0.03, shape};
 }
 
 /// The integral of the square of the compressed pulse over range: c tau / 2 of the text books. A

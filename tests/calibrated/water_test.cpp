@@ -52,8 +52,7 @@ TEST_SUITE("calibrated") {
         };
         for (const double k : {50.0, 400.0, 1600.0}) {
             for (const double um : {4.0, 20.0, 50.0}) {
-                CAPTURE(k);
-                CAPTURE(um);
+                CAPTURE_ALL(k, um);
                 CHECK(suspended_strength(10.0, um, k) ==
                       test::approx(by_hand(10.0, um, k)).epsilon(0.06));
             }

@@ -16,9 +16,7 @@ double surface_db(double grazing_deg, double wind_m_s, double hz) {
 Sonar sounder_to_surface() {
     SonarConfig config = calibrated(kind_of(SonarKind::echosounder).keys.defaults, 1e5);
     config.opening_deg = 60.0;
-    config.range_min_m = 5.0;
-    config.range_max_m = 15.0;
-    config.range_bins = 400;
+    set_range(config, 5.0, 15.0, 400);
     config.mount.rpy_deg = {0.0, 180.0, 0.0};
     config.instrument = instrument_of(Aperture::piston, 10.0, 0.05);
     config.instrument.frequency_hz = 1e5;
@@ -51,9 +49,7 @@ TEST_SUITE("calibrated") {
                                Row{100e3, 15.0, {-34.00, -28.06, -24.84, -20.05, 0.07}},
                                Row{400e3, 10.0, {-36.00, -30.07, -26.85, -23.72, -2.50}}}) {
             for (std::size_t k = 0; k < angles.size(); ++k) {
-                CAPTURE(row.hz);
-                CAPTURE(row.wind);
-                CAPTURE(angles[k]);
+                CAPTURE_ALL(row.hz, row.wind, angles[k]);
                 CHECK(std::fabs(surface_db(angles[k], row.wind, row.hz) - row.db[k]) < 0.05);
             }
         }
