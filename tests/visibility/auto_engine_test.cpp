@@ -9,13 +9,7 @@ using namespace sonarsim;
 namespace {
 
 View auto_view(double relative_l1 = 0.03) {
-    return {.azimuth_rad = radians(90.0),
-            .elevation_rad = radians(20.0),
-            .range_min_m = 1.0,
-            .range_max_m = 25.0,
-            .range_bins = 256,
-            .beams = 128,
-            .relative_l1 = relative_l1};
+    return {radians(90.0), radians(20.0), 1.0, 25.0, 256, 128, relative_l1};
 }
 
 bool same(const Samples& a, const Samples& b) {

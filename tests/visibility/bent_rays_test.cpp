@@ -42,14 +42,7 @@ struct Arc {
 
 /// A fan of 60 x 30 degrees that looks ahead and 25 degrees down, at z = 0.
 View bent_view() {
-    return {.azimuth_rad = radians(60.0),
-            .elevation_rad = radians(30.0),
-            .range_min_m = 1.0,
-            .range_max_m = 300.0,
-            .range_bins = 1500,
-            .beams = 60,
-            .relative_l1 = 0.02,
-            .shape = ViewShape::fan};
+    return {radians(60.0), radians(30.0), 1.0, 300.0, 1500, 60, 0.02};
 }
 
 const Pose bent_pose{rotation_from_rpy(0.0, radians(25.0), 0.0), {0.0, 0.0, 0.0}};

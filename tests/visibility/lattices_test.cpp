@@ -2,9 +2,8 @@
 
 #include "simulate/reference/image_error.h"
 #include "simulate/reference/reference.h"
-#include "simulate/trace/ping.h"
 #include "simulate/visibility/caster.h"
-#include "simulate/visibility/make_engine.h"
+#include "support/calibrated.h"
 
 using namespace sonarsim;
 
@@ -21,14 +20,11 @@ Reference reference_of(const test::Lattice& lattice, std::uint64_t rays) {
 /// The error of an engine without noise and gain.
 double error_of(EngineKind kind, const test::Lattice& lattice, const Reference& reference,
                 double goal) {
-    SonarConfig config = lattice.sonar;
-    config.noise.gain = 1.0;
-    Sonar sonar = make_sonar(config, {goal});
+    Sonar sonar = test::noise_free(lattice.sonar, goal);
     sonar.T_vehicle_sensor = Pose{};
-    const auto engine = make_engine(lattice.scene, {.type = kind, .octree = {}});
-    const Ping ping = render_ping(sonar, lattice.scene, *engine, Pose{}, {.seed = 1, .ping = 0},
-                                  direct_echoes_alone);
-    return image_error(ping.intensity, reference.intensity, reference.scored).relative_l1;
+    return image_error(test::expected_image(sonar, lattice.scene, kind), reference.intensity,
+                       reference.scored)
+        .relative_l1;
 }
 
 }  // namespace

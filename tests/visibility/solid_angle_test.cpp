@@ -58,9 +58,7 @@ TEST_CASE("a room fills the solid angle of a view, thin objects included") {
                 seen += static_cast<double>(sample.area_m2) * static_cast<double>(sample.height_m) /
                         (range * range * range);
             }
-            CAPTURE(static_cast<int>(shape));
-            CAPTURE(static_cast<int>(type));
-            CAPTURE(seen / solid_angle(view));
+            CAPTURE_ALL(static_cast<int>(shape), static_cast<int>(type), seen / solid_angle(view));
             CHECK(std::fabs(seen / solid_angle(view) - 1.0) < 0.005);
         }
     }

@@ -1,5 +1,6 @@
 #include "simulate/reference/reference.h"
 #include "simulate/visibility/slices/slices_engine.h"
+#include "support/calibrated.h"
 #include "support/draws.h"
 #include "support/lattices.h"
 #include "visibility/slices/fixtures.h"
@@ -11,38 +12,11 @@ using test::seen;
 
 namespace {
 
-/// The image of a view's samples, [beams, range_bins]: the mean over each bin (Eq. 9), with every
-/// sample a box in range.
-std::vector<double> mean_echoes(const Scene& scene, const View& view, const Samples& samples) {
-    const auto count = static_cast<std::size_t>(view.range_bins);
-    std::vector<double> image;
-    image.reserve(view.beams * count);
-    for (int beam = 0; beam < view.beams; ++beam) {
-        std::vector<double> weight(count), echo(count);
-        for (const Sample& sample : samples.beam(beam)) {
-            const auto range = static_cast<double>(sample.position.norm());
-            const double half = static_cast<double>(std::fabs(sample.position.dot(sample.edge_u)) +
-                                                    std::fabs(sample.position.dot(sample.edge_v))) /
-                                range;
-            // All lengths in bins; the sample spreads over those that it overlaps.
-            const double from = (range - half - view.range_min_m) / view.bin_m();
-            const double to =
-                std::max((range + half - view.range_min_m) / view.bin_m(), from + 1e-6);
-            const double density = static_cast<double>(sample.area_m2) / (to - from);
-            const double intensity =
-                static_cast<double>(scene.materials[sample.material].reflection) *
-                static_cast<double>(sample.strength) * static_cast<double>(sample.height_m) / range;
-            for (int i = static_cast<int>(std::max(from, 0.0));
-                 i < std::min(to, 1.0 * view.range_bins); ++i) {
-                const double overlap = std::min(to, i + 1.0) - std::max(from, 1.0 * i);
-                weight[i] += density * overlap;
-                echo[i] += density * overlap * intensity;
-            }
-        }
-        for (std::size_t i = 0; i < count; ++i)
-            image.push_back(weight[i] > 0.0 ? echo[i] / weight[i] : 0.0);
-    }
-    return image;
+/// The image of a view's samples by the paper's model without noise, [range bins, beams].
+std::vector<float> mean_echoes(const Scene& scene, const View& view, Samples samples) {
+    TracedPing traced;
+    traced.samples = std::move(samples);
+    return test::image_of_traced(PaperModel{}, view, traced, direct_echoes_alone, {}, scene);
 }
 
 /// A many-sided tapered stay that hangs upright in the picture and ends in view, so that slices run
@@ -81,22 +55,18 @@ void add_stay(Scene& scene, test::Draws& draws, std::vector<float>& areas) {
 /// The largest share of its light by which a beam is off the truth [range_bins, beams]. A dim beam
 /// counts as one that is as bright as the mean; beams of few bins are left out, where a sliver in
 /// another bin decides.
-double worst_beam(const std::vector<double>& image, const std::vector<float>& truth,
+double worst_beam(const std::vector<float>& image, const std::vector<float>& truth,
                   const View& view) {
-    double whole = 0.0;
-    for (const float intensity : truth)
-        whole += static_cast<double>(intensity);
+    const double whole = test::total(truth);
     double worst = 0.0;
     for (int j = 0; j < view.beams; ++j) {
         double apart = 0.0;
         double sum = 0.0;
         int occupied = 0;
-        for (int i = 0; i < view.range_bins; ++i) {
-            const auto expected =
-                static_cast<double>(truth[static_cast<std::size_t>(i) * view.beams + j]);
-            apart += std::fabs(image[static_cast<std::size_t>(j) * view.range_bins + i] - expected);
-            sum += expected;
-            occupied += expected > 0.0 ? 1 : 0;
+        for (std::size_t k = j; k < truth.size(); k += view.beams) {
+            apart += std::fabs(static_cast<double>(image[k] - truth[k]));
+            sum += static_cast<double>(truth[k]);
+            occupied += truth[k] > 0.0F ? 1 : 0;
         }
         if (occupied >= 16) worst = std::max(worst, apart / std::max(sum, whole / view.beams));
     }
@@ -188,10 +158,10 @@ TEST_CASE("slices: a grazing tread with an oblique near edge has its area in the
         test::add_quad(scene, {far, -0.5F, low}, {far, 0.5F, low}, {far, 0.5F, low + h},
                        {far, -0.5F, low + h}, rock);
         for (const int per_beam : {0, 1}) {
-            const std::vector<double> image =
+            const std::vector<float> image =
                 mean_echoes(scene, view, seen(scene, view, Pose{}, per_beam));
             for (const int beam : {31, 32}) {
-                const double intensity = image[beam * view.range_bins + last_bin];
+                const double intensity = image[last_bin * view.beams + beam];
                 const auto of_riser = static_cast<double>(0.5F * h / (h + d));
                 CHECK(std::fabs(intensity - of_riser) < 0.04);
             }
@@ -231,8 +201,7 @@ TEST_CASE("slices: no face of a stay stands for many times its area") {
             float most = 0.0F;
             for (std::size_t k = 0; k < areas.size(); ++k)
                 most = std::max(most, seen[k] / areas[k]);
-            CAPTURE(seed);
-            CAPTURE(goal);
+            CAPTURE_ALL(seed, goal);
             CHECK(most < 60.0F);
         }
     }
@@ -251,8 +220,7 @@ TEST_CASE("slices: no beam of a drawn lattice is far from brute force at any goa
         for (const double goal : {0.03, 0.02, 0.01, 0.006, 0.003}) {
             view.relative_l1 = goal;
             const Samples samples = engine->visible_surface(view, Pose{});
-            CAPTURE(number);
-            CAPTURE(goal);
+            CAPTURE_ALL(number, goal);
             CHECK(worst_beam(mean_echoes(lattice.scene, view, samples), truth.intensity, view) <
                   0.5);
         }
