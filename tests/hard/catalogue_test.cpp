@@ -44,9 +44,7 @@ void check_case(const HardCase& hard, const Scene& scene, EngineKind engine_kind
     const bool is_compared = hard.truth && (model == ModelKind::paper || hard.truth_of_any_model);
     // The invariants of a model do not depend on the engine.
     if (!is_compared && model != ModelKind::paper && engine_kind != EngineKind::rays) return;
-    CAPTURE(hard.name);
-    CAPTURE(static_cast<int>(engine_kind));
-    CAPTURE(static_cast<int>(model));
+    CAPTURE_ALL(hard.name, static_cast<int>(engine_kind), static_cast<int>(model));
     const bool slices = engine_kind == EngineKind::slices;
     // The mean of a bin hides errors of area that a sum of energies shows.
     const double bound =

@@ -12,9 +12,7 @@ HardTrial at(SonarKind kind, const ConfigChange& change, const Eigen::Vector3d& 
              double pitch_deg, double yaw_deg) {
     SonarConfig config = default_sonar(kind);
     config.name = name_of(kind);
-    config.range_min_m = 0.2;
-    config.range_max_m = 10.0;
-    config.range_bins = 128;
+    test::set_range(config, 0.2, 10.0, 128);
     config.azimuth_bins = 48;
     if (kind == SonarKind::imaging) config.azimuth_deg = 60.0;
     config.sector_deg = config.step_deg = 0.01;  // the head of a scanning sonar looks ahead

@@ -94,15 +94,6 @@ TEST_SUITE("product") {
         CHECK(contrast_of(false, {0, 0, 0, 0}) == test::approx(1.2494).epsilon(1e-4));
     }
 
-    TEST_CASE("masks: runs column by column") {
-        // Three columns of four pixels.
-        const auto masks = object_masks(Ids{0, 0, 2, 2, 2, 5, 5, 5, 5, 0, 0, 0}, 4);
-        REQUIRE(masks.size() == 2);
-        CHECK(masks[0].runs == std::vector<std::uint32_t>{2, 3, 7});
-        CHECK(masks[1].runs == std::vector<std::uint32_t>{5, 4, 3});
-        CHECK(object_masks(Ids(12, 7), 4)[0].runs == std::vector<std::uint32_t>{0, 12});
-    }
-
     TEST_CASE("masks: random pictures come back") {
         std::mt19937 random(3);
         for (int trial = 0; trial < 50; ++trial) {

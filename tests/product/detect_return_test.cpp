@@ -15,8 +15,7 @@ TEST_CASE("detect return: a bright stretch of any place and length is found exac
             std::vector<double> beam(100, 0.25);
             std::fill_n(beam.begin() + begin, length, 0.75);
             const DetectedReturn run = detect_return(beam);
-            CAPTURE(length);
-            CAPTURE(begin);
+            CAPTURE_ALL(length, begin);
             CHECK(run.begin == begin);
             CHECK(run.end == begin + length);
             const double expected = 0.5 * std::sqrt(length) * (1.0 - length / 100.0);

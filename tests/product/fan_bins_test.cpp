@@ -2,7 +2,7 @@
 
 #include "simulate/product/even_kernel.h"
 #include "simulate/sonar/sonar.h"
-#include "support/test.h"
+#include "support/sonars.h"
 
 using namespace sonarsim;
 
@@ -12,9 +12,7 @@ Sonar fan_sonar(double azimuth_deg, bool equal_azimuth = true) {
     SonarConfig config;
     config.name = "test";
     config.azimuth_deg = azimuth_deg;
-    config.range_min_m = 1.0;
-    config.range_max_m = 10.0;
-    config.range_bins = 90;
+    test::set_range(config, 1.0, 10.0, 90);
     config.azimuth_bins = 40;
     if (!equal_azimuth) {
         config.model = ModelKind::calibrated;
@@ -50,8 +48,7 @@ TEST_SUITE("product") {
              {std::pair{30.0, true}, {120.0, true}, {120.0, false}, {270.0, true}, {360.0, true}}) {
             const double azimuth_deg = fan_of.first;
             const bool equal_azimuth = fan_of.second;
-            CAPTURE(azimuth_deg);
-            CAPTURE(equal_azimuth);
+            CAPTURE_ALL(azimuth_deg, equal_azimuth);
             const Sonar sonar = fan_sonar(azimuth_deg, equal_azimuth);
             const FanBins fan = make_fan_bins(sonar);
             std::size_t inside = 0;
@@ -114,8 +111,7 @@ TEST_SUITE("product") {
             double high = 0.0;
             for (int phase = 0; phase < KernelTable::phases; ++phase) {
                 const Moments m = moments(table, phase);
-                CAPTURE(extent);
-                CAPTURE(phase);
+                CAPTURE_ALL(extent, phase);
                 REQUIRE(m.sum == 1.0);
                 REQUIRE(m.least == 0.0);
                 const double centre = (phase + 0.5) / KernelTable::phases - 0.5;

@@ -1,7 +1,7 @@
 #include "simulate/product/fan.h"
 
 #include "simulate/sonar/sonar.h"
-#include "support/test.h"
+#include "support/sonars.h"
 
 using namespace sonarsim;
 
@@ -11,9 +11,7 @@ Sonar fan_sonar(double azimuth_deg, double range_min_m, int range_bins, int beam
     SonarConfig config;
     config.name = "test";
     config.azimuth_deg = azimuth_deg;
-    config.range_min_m = range_min_m;
-    config.range_max_m = 10.0;
-    config.range_bins = range_bins;
+    test::set_range(config, range_min_m, 10.0, range_bins);
     config.azimuth_bins = beams;
     return make_sonar(config, {});
 }
@@ -72,6 +70,14 @@ bool is_far_inside(const Sonar& sonar, const FanFrame& frame, std::size_t index)
     return true;
 }
 
+/// make_kernel(), once for each extent.
+const KernelTable& known_kernel(double extent, int multiple) {
+    static std::map<std::pair<double, int>, KernelTable> known;
+    const auto [at, is_new] = known.try_emplace({extent, multiple});
+    if (is_new) at->second = make_kernel(extent, multiple);
+    return at->second;
+}
+
 /// The grey value of a pixel, without a table: kernels in range and in azimuth at its centre.
 int direct_grey(const Sonar& sonar, const FanMap& map, const Ping& ping, std::size_t index) {
     const View& view = sonar.settings.view;
@@ -84,8 +90,8 @@ int direct_grey(const Sonar& sonar, const FanMap& map, const Ping& ping, std::si
     double extent = 1.0;
     while (extent < std::min({beams_per_pixel, 128.0, static_cast<double>(view.beams)}))
         extent *= 1.125;
-    const KernelTable across = make_kernel(extent, 4);
-    const KernelTable along = make_kernel(std::min(map.frame.pixel_m / view.bin_m(), 128.0), 1);
+    const KernelTable& across = known_kernel(extent, 4);
+    const KernelTable& along = known_kernel(std::min(map.frame.pixel_m / view.bin_m(), 128.0), 1);
     const KernelPlace bin = kernel_place((place.range_m - view.range_min_m) / view.bin_m());
     const KernelPlace beam = kernel_place(ColumnFinder(sonar)(place.azimuth_rad));
     double mean = 0.0;
@@ -162,9 +168,7 @@ TEST_SUITE("product") {
                     const double off_m = 0.25 * pixel_m + (r1 - r0) * (r1 - r0) / (3.0 * r0) +
                                          (range_bin == 99 ? (r1 - r0) / 7 : 0.0);
                     const double off_rad = 0.25 * pixel_m / r0 + (last_beam ? (a1 - a0) / 7 : 0.0);
-                    CAPTURE(azimuth_deg);
-                    CAPTURE(range_bin);
-                    CAPTURE(beam);
+                    CAPTURE_ALL(azimuth_deg, range_bin, beam);
                     CHECK(std::fabs(range / sum - 0.5 * (r0 + r1)) < off_m);
                     CHECK(std::fabs(beside / sum) < off_rad);
                     const double pixels =
@@ -194,8 +198,7 @@ TEST_SUITE("product") {
                     if (inside < -0.72 && image[i] != 0) ++lit_outside;
                     area += share(image[i]) / share(128);
                 }
-                CAPTURE(azimuth_deg);
-                CAPTURE(width);
+                CAPTURE_ALL(azimuth_deg, width);
                 CHECK(uneven == 0);
                 CHECK(lit_outside == 0);
                 const double sector_m2 = 0.5 * radians(azimuth_deg) * (10.0 * 10.0 - 0.7 * 0.7);

@@ -14,8 +14,7 @@ TEST_SUITE("product") {
             for (const int start : {0, 1, 5, 13}) {
                 std::vector<float> column(20, 0.0F);
                 std::fill_n(column.begin() + start, length, 0.3F);
-                CAPTURE(length);
-                CAPTURE(start);
+                CAPTURE_ALL(length, start);
                 CHECK(first_return(column, 0.0) == start);
                 CHECK(first_return(column, 0.1) == start);
             }

@@ -3,7 +3,7 @@
 #include "simulate/product/bathymetry.h"
 #include "simulate/sonar/kinds.h"
 #include "simulate/sonar/sonar.h"
-#include "support/test.h"
+#include "support/sonars.h"
 
 using namespace sonarsim;
 
@@ -13,9 +13,7 @@ namespace {
 Sonar three_beams(bool scale_with_range = false) {
     SonarConfig config = default_sonar(SonarKind::profiling);
     config.name = "mbes";
-    config.range_min_m = 0.0;
-    config.range_max_m = 10.0;
-    config.range_bins = 100;
+    test::set_range(config, 0.0, 10.0, 100);
     config.azimuth_bins = 3;
     config.noise.scale_with_range = scale_with_range;
     return make_sonar(config, {});

@@ -86,9 +86,7 @@ TEST_CASE("a sphere agrees with its closed form") {
     SonarConfig config = small_imaging();
     config.azimuth_deg = 20.0;
     config.elevation_deg = 20.0;
-    config.range_min_m = 3.5;
-    config.range_max_m = 4.1;
-    config.range_bins = 60;
+    set_range(config, 3.5, 4.1, 60);
     const Sonar sonar = noise_free(config, 0.01);
     const Ping ping = look(scene, sonar, Pose{});
     const int first_bin = bin_at(sonar, D - a);
@@ -140,9 +138,7 @@ TEST_CASE("the mean over 1,000 seeds agrees with theory") {
     add_quad(scene, {D, -1, -1}, {D, 1, -1}, {D, 1, 1}, {D, -1, 1}, m);
     SonarConfig config = small_imaging();
     config.azimuth_deg = config.elevation_deg = 1.0;
-    config.range_min_m = 1.9;
-    config.range_max_m = 2.5;
-    config.range_bins = 12;
+    set_range(config, 1.9, 2.5, 12);
     config.azimuth_bins = 1;
     config.noise = {lambda, 1000.0, sigma_a, 0.05, true, 0.0};
     const Sonar sonar = make_sonar(config, {});

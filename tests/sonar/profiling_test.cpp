@@ -18,36 +18,6 @@ SonarConfig profiling() {
     return config;
 }
 
-struct Spread {
-    double bias_m;
-    double rms_m;
-};
-
-/// The heights of the soundings of a straight pass above the surface below them.
-Spread heights_of_a_pass(const Scene& scene, const Sonar& sonar) {
-    const auto engine = make_rays_engine(scene);
-    double sum = 0.0;
-    double square = 0.0;
-    double count = 0.0;
-    for (std::uint32_t ping = 0; ping < 20; ++ping) {
-        const Pose pose{rotation_from_rpy(0.02, -0.01, 0.4), {0.1 * ping, 0.05 * ping, 6.0}};
-        const Ping echo = render_ping(sonar, scene, *engine, pose, {7, ping});
-        for (const Sounding& sounding : find_soundings(sonar, pose, echo)) {
-            if (std::isnan(sounding.range_m)) continue;
-            const Eigen::Vector3d above(sounding.position.x(), sounding.position.y(), 50.0);
-            const Ray down{Eigen::Vector3f::Zero(), -Eigen::Vector3f::UnitZ()};
-            Intersection hit{};
-            engine->intersect({Eigen::Quaterniond::Identity(), above}, {&down, 1}, {&hit, 1});
-            const double off = sounding.position.z() - (above.z() - hit.distance_m);
-            sum += off;
-            square += off * off;
-            ++count;
-        }
-    }
-    REQUIRE(count > 4000.0);
-    return {sum / count, std::sqrt(square / count)};
-}
-
 }  // namespace
 
 TEST_SUITE_BEGIN("sonar");
@@ -151,23 +121,6 @@ TEST_CASE("profiling, side-scan, echosounder: on rough ground the error goal is 
         const Ping ping = render_ping(sonar, scene, *engine, pose, {});
         CHECK(image_error(ping.intensity, reference.intensity).relative_l1 < 0.03);
     }
-}
-
-TEST_CASE("profiling: the depths of a pass over rough ground, without and with noise") {
-    // Range noise only ever adds, but what it delays it dims: the peak stays where it was.
-    const Scene scene = rough_floor();
-    SonarConfig config = profiling();
-    config.range_max_m = 20.0;
-    config.range_bins = 400;
-    config.azimuth_bins = 240;
-    const double bin_m = noise_free(config).settings.view.bin_m();
-    const Spread clean = heights_of_a_pass(scene, noise_free(config));
-    config.noise = {0.04, 0.02, 0.01, 0.15, true, 0.0};  // as in configs/seafloor_bathymetry.yaml
-    const Spread noisy = heights_of_a_pass(scene, make_sonar(config, {0.03}));
-    CHECK(std::fabs(clean.bias_m) <= 0.1 * bin_m);
-    CHECK(clean.rms_m <= 0.5 * bin_m);
-    CHECK(std::fabs(noisy.bias_m) <= 0.1 * bin_m);
-    CHECK(noisy.rms_m <= bin_m);
 }
 
 TEST_SUITE_END();

@@ -3,7 +3,7 @@
 #include "simulate/sonar/measured.h"
 #include "simulate/sonar/sonar.h"
 #include "simulate/visibility/rays/rays_engine.h"
-#include "support/test.h"
+#include "support/sonars.h"
 
 using namespace sonarsim;
 
@@ -13,9 +13,7 @@ SonarConfig scanning_sonar() {
     SonarConfig config = default_sonar(SonarKind::scanning);
     config.name = "head";
     config.step_deg = 10.0;
-    config.range_min_m = 0.2;
-    config.range_max_m = 6.0;
-    config.range_bins = 290;  // 2 cm each
+    test::set_range(config, 0.2, 6.0, 290);  // 2 cm each
     return config;
 }
 
