@@ -126,21 +126,6 @@ TEST_CASE("what is wrong with a preset is said where it stands") {
               .find("nested.yaml:1:1: a preset cannot name a preset") != std::string::npos);
 }
 
-TEST_CASE("each kind of sonar has defaults of its own") {
-    const auto with = [](const std::string& sensor) {
-        return parse("scene: {file: a, materials: b}\ntrajectory: {file: c}\nsensors: {x: {kind: " +
-                     sensor + "}}\n")
-            .sensors[0];
-    };
-    const SonarConfig sidescan = with("sidescan, range_max_m: 50");
-    CHECK(sidescan.name == "x");
-    CHECK(sidescan.azimuth_deg == 170.0);
-    CHECK(sidescan.elevation_deg == 0.25);
-    CHECK(sidescan.range_max_m == 50.0);
-    CHECK(with("profiling").azimuth_bins == 480);
-    CHECK(with("echosounder, opening_deg: 20").opening_deg == 20.0);
-}
-
 TEST_CASE("values that are read: engines, labels, classes, water, sensors in their order") {
     CHECK(parse(smallest_mission).engine == EngineKind::automatic);
     CHECK(parse(smallest_mission + "engine: \"rays\"\n").engine == EngineKind::rays);  // as JSON

@@ -23,27 +23,30 @@ TEST_CASE("every key has a meaning, and a default unless it is required or free 
 }
 
 TEST_CASE("defaults of the reference are what a mission without these keys has") {
-    const Mission mission = parse(smallest_mission, {"output.folder=/o"});
-    std::vector<std::string> settings{"output.folder=/o"};
-    for (const SectionReference& section : mission_reference(sonar_keys())) {
-        // The smallest mission has no optional sections and no keys of the calibrated model.
-        if (section.path.starts_with("trajectory") || section.path.ends_with(".0") ||
-            section.path == "scene.water_surface" || section.path == "scene.heightmap" ||
-            section.path.starts_with("scene.seabed") || section.path.ends_with("_map") ||
-            section.path.ends_with("profile") ||
-            section.path.starts_with("sensors.NAME.instrument"))
-            continue;
-        std::string path = section.path.empty() ? "" : section.path + ".";
-        if (path.starts_with("sensors.NAME")) path.replace(8, 4, "fls");
-        for (const KeyReference& key : section.keys) {
-            for (const auto& [kind, value] : key.defaults) {
-                if (kind.empty() || kind == "imaging")
-                    settings.push_back(path + key.name + "=" + value);
+    for (const std::string kind : {"imaging", "profiling", "sidescan", "echosounder", "scanning"}) {
+        CAPTURE(kind);
+        std::vector<std::string> settings{"output.folder=/o", "sensors.fls.kind=" + kind};
+        const Mission mission = parse(smallest_mission, settings);
+        for (const SectionReference& section : mission_reference(sonar_keys())) {
+            // The smallest mission has no optional sections and no keys of the calibrated model.
+            if (section.path.starts_with("trajectory") || section.path.ends_with(".0") ||
+                section.path == "scene.water_surface" || section.path == "scene.heightmap" ||
+                section.path.starts_with("scene.seabed") || section.path.ends_with("_map") ||
+                section.path.ends_with("profile") ||
+                section.path.starts_with("sensors.NAME.instrument"))
+                continue;
+            std::string path = section.path.empty() ? "" : section.path + ".";
+            if (path.starts_with("sensors.NAME")) path.replace(8, 4, "fls");
+            for (const KeyReference& key : section.keys) {
+                for (const auto& [of_kind, value] : key.defaults) {
+                    if (of_kind.empty() || of_kind == kind)
+                        settings.push_back(path + key.name + "=" + value);
+                }
             }
         }
+        CHECK(settings.size() > 40);
+        CHECK(yaml_of(parse(smallest_mission, settings)) == yaml_of(mission));
     }
-    CHECK(settings.size() > 40);
-    CHECK(yaml_of(parse(smallest_mission, settings)) == yaml_of(mission));
 }
 
 TEST_SUITE_END();

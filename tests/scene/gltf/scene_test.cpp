@@ -1,7 +1,6 @@
 #include "input/scene/copies.h"
 #include "input/scene/gltf/load.h"
 #include "scene/gltf/builder.h"
-#include "support/test.h"
 
 using namespace sonarsim;
 using nlohmann::json;
