@@ -2,6 +2,7 @@
 
 #include "simulate/calibrated/decibel.h"
 #include "simulate/calibrated/model.h"
+#include "simulate/calibrated/piston.h"
 #include "simulate/sonar/setup.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/bounces.h"
@@ -109,12 +110,22 @@ TEST_SUITE("calibrated") {
         // z. With the plate at r and its image at s, sound comes back by either way round with R mu
         // (v_r . n) (v_s . n) dA / (r^2 s^2) e^(-loss (r + s) / 2), direct sound with
         // mu (v_r . n)^2 dA / r^4 e^(-loss r). A ceiling scatters the mirrored sound back as well.
+        // A disc has its pattern at r times that at s, or twice that at r.
         constexpr double reflection = 0.36;
-        SonarConfig config = with_mirrors(small_imaging());
-        config.elevation_deg = 110.0;
-        const Sonar sonar = make_sonar(config, {0.005});
-        const double loss = loss_per_m(sonar);
-        for (const bool ceiling : {false, true}) {
+        SonarConfig fan = with_mirrors(small_imaging());
+        fan.elevation_deg = 110.0;
+        SonarConfig disc = with_mirrors(default_sonar(SonarKind::echosounder));
+        disc.opening_deg = 110.0;
+        disc.instrument.beam.width_deg = 60.0;
+        for (const auto& [config, ceiling] : {std::pair{fan, false}, {fan, true}, {disc, false}}) {
+            Sonar sonar = make_sonar(config, {0.005});
+            sonar.T_vehicle_sensor = Pose{};
+            const double loss = loss_per_m(sonar);
+            const double scale =
+                config.kind == SonarKind::imaging ? 0.0 : piston_scale(radians(60.0));
+            const auto pattern = [&](double y, double z, double range) {
+                return std::pow(piston_pattern(scale * std::hypot(y, z) / range), 2.0);
+            };
             Scene scene = empty_scene();
             const std::uint32_t smooth = add_material(scene, static_cast<float>(reflection));
             const std::uint32_t rough = add_material(scene, 0.0F);
@@ -142,9 +153,10 @@ TEST_SUITE("calibrated") {
                     const double s = std::sqrt(x * x + y * y + below * below);
                     const double sine_r = (ceiling ? z : x) / r;
                     const double sine_s = (ceiling ? -below : x) / s;
-                    direct += sine_r * sine_r / (r * r * r * r) * std::exp(-loss * r);
-                    specular += 2.0 * reflection * sine_r * sine_s / (r * r * s * s) *
-                                std::exp(-0.5 * loss * (r + s));
+                    const double of_r = sine_r * pattern(y, z, r) / (r * r);
+                    const double of_s = sine_s * pattern(y, below, s) / (s * s);
+                    direct += of_r * of_r * std::exp(-loss * r);
+                    specular += 2.0 * reflection * of_r * of_s * std::exp(-0.5 * loss * (r + s));
                 }
             }
             const auto energy = [&](const Terms& terms) {
