@@ -63,7 +63,7 @@ TEST_SUITE("calibrated") {
             pose.translation = {unit(random) - 0.5, unit(random) - 0.5, 0.3 * unit(random)};
             const Reference truth =
                 cast_energy_reference(Caster(scene), scene, sonar.settings,
-                                      sensor_pose(sonar, pose, 0), {0.01, 64.0, 8'000'000});
+                                      sensor_pose(sonar, pose, 0), {0.02, 64.0, 2'000'000});
             const std::vector<float> image = expected_image(sonar, scene, EngineKind::rays, pose);
             mean += image_error(image, truth.intensity).relative_l1 / scenes;
         }
