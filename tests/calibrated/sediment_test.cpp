@@ -117,8 +117,12 @@ TEST_SUITE("calibrated") {
             CHECK(std::fabs(exp_neg(x) / std::exp(-static_cast<double>(x)) - 1.0) < 1e-5);
     }
 
-    TEST_CASE("bottom: facets send on what they meet") {
+    TEST_CASE("bottom: both ways along one direction are one, and facets send on what they meet") {
         const double slope = std::tan(radians(4.0));
+        const Backscatter rock = backscatter(-27.0, 0.4, slope);
+        for (const float sine : {0.1F, 0.6F, 0.99F})
+            CHECK(std::fabs(rock.between(sine, sine, sine) / rock.at(sine) - 1.0F) < 1e-5F);
+
         // Facets meet the part v . n of the sound and send on R of it, over all directions.
         const Backscatter facets = backscatter(-300.0, 0.4, slope);
         const double in = radians(60.0);  // grazing angle

@@ -249,4 +249,33 @@ TEST_SUITE("calibrated") {
         CHECK(std::fabs(db_of_power(energy(1) / energy(0) / predicted(1))) < 0.15);
         CHECK(energy(2) < 1e-3 * predicted(2) * energy(0));
     }
+
+    // Sound that a bottom h below and a surface d above a side-scan sonar reflect, and that the
+    // bottom scatters back, has gone 2 h + d at least: straight down, up, down and up.
+    TEST_CASE("second bottom echo: that of a side-scan sonar begins at 2 h + d") {
+        constexpr double h = 6.0;
+        constexpr double d = 3.0;
+        Scene scene = floor_scene(50.0F, 0.0F, 0.25F, 4);
+        scene.water_surface = {h + d, 0.9F};
+        SonarConfig config = with_mirrors(default_sonar(SonarKind::sidescan));
+        config.elevation_deg = 4.0;
+        config.range_max_m = 30.0;
+        config.range_bins = 600;
+        const Sonar sonar = make_sonar(config, {0.01});
+        const auto engine = make_engine(scene, {});
+        const Ping ping =
+            render_ping(sonar, scene, *engine, {Eigen::Quaterniond::Identity(), {0.0, 0.0, h}},
+                        {.seed = 1}, multipath_alone);
+        const double bin_m = sonar.settings.view.bin_m();
+        const float most = *std::ranges::max_element(ping.intensity);
+        REQUIRE(most > 0.0F);
+        for (const int side : {0, 1}) {
+            int first = 0;
+            while (first < ping.range_bins && ping.at(first, side) < 1e-3F * most)
+                ++first;
+            const double range = sonar.settings.view.range_min_m + first * bin_m;
+            CHECK(range > 2.0 * h + d - 4.0 * bin_m);
+            CHECK(range < 2.0 * h + d + 0.5);
+        }
+    }
 }
