@@ -23,6 +23,8 @@ makes the files that the mission or the options name and that are missing, and n
 The same command writes the same bytes on every machine.
 """
 import argparse
+import contextlib
+import os
 import pathlib
 import subprocess
 import sys
@@ -58,21 +60,34 @@ def file_name(name: str) -> str:
     return name + suffixes.get(name, ".glb")
 
 
-def write(path: pathlib.Path, build) -> None:
-    path.parent.mkdir(parents=True, exist_ok=True)
-    parts = build()
-    if path.suffix in (".tif", ".png"):
-        if path.suffix == ".png":
-            size = sediments.write_png(path, parts)
-        elif path.stem in ("backscatter", "mosaic"):
-            size = bathymetry.write_geotiff(path, parts, sediments.MOSAIC_PIXEL_M)
+def write_parts(file: pathlib.Path, name: pathlib.PurePath, parts: list) -> str:
+    """Writes the format that the ending of `name` asks for. Returns what the file holds."""
+    if name.suffix in (".tif", ".png"):
+        if name.suffix == ".png":
+            size = sediments.write_png(file, parts)
+        elif name.stem in ("backscatter", "mosaic"):
+            size = bathymetry.write_geotiff(file, parts, sediments.MOSAIC_PIXEL_M)
         else:
-            size = bathymetry.write_geotiff(path, parts)
-        print(f"{path}: {len(parts[0])} x {len(parts)} pixels, {size} bytes", flush=True)
-        return
-    size = (write_obj if path.suffix == ".obj" else write_glb)(path, parts)
-    triangles = sum(part.triangles() for part in parts)
-    print(f"{path}: {len(parts)} objects, {triangles} triangles, {size} bytes", flush=True)
+            size = bathymetry.write_geotiff(file, parts)
+        return f"{len(parts[0])} x {len(parts)} pixels, {size} bytes"
+    size = (write_obj if name.suffix == ".obj" else write_glb)(file, parts)
+    return f"{len(parts)} objects, {sum(part.triangles() for part in parts)} triangles, {size} bytes"
+
+
+def write(path: pathlib.Path, build) -> None:
+    """The file gets its name once it is whole. OSError with the folder where it cannot be written."""
+    part = path.with_name(f"{path.name}.{os.getpid()}.part")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        part.touch()  # a folder without rights is refused before seconds of work
+        contents = write_parts(part, path, build())
+        part.replace(path)
+    except OSError as fault:
+        raise OSError(fault.errno, f"cannot write {path.name} here: {fault.strerror or fault}", str(path.parent)) from fault
+    finally:
+        with contextlib.suppress(OSError):
+            part.unlink()
+    print(f"{path}: {contents}", flush=True)
 
 
 def make_for(mission: pathlib.Path, options: list[str], scenes: dict) -> int:
@@ -91,7 +106,8 @@ def make_for(mission: pathlib.Path, options: list[str], scenes: dict) -> int:
             return 2
     for path in missing:
         if path == foreign:
-            subprocess.run([ROOT / "scripts" / "foreign_mesh.sh"], check=True)
+            if subprocess.run([ROOT / "scripts" / "foreign_mesh.sh"], check=False).returncode != 0:
+                return 2
         else:
             write(path, known[path])
     return 0
@@ -121,12 +137,18 @@ def main() -> int:
     for name in arguments.names:
         if name not in scenes:
             parser.error(f"no scene '{name}'; there are {', '.join(scenes)}")
-    if arguments.mission:
-        return make_for(pathlib.Path(arguments.mission[0]), arguments.mission[1:], scenes)
-    for name in arguments.names or ["tank"]:
-        folder = arguments.out or (ROOT / "scenes" if name == "tank" else GENERATED)
-        for file, build in scenes[name].items():
-            write(folder / file_name(file), build)
+    try:
+        if arguments.mission:
+            return make_for(pathlib.Path(arguments.mission[0]), arguments.mission[1:], scenes)
+        for name in arguments.names or ["tank"]:
+            folder = arguments.out or (ROOT / "scenes" if name == "tank" else GENERATED)
+            for file, build in scenes[name].items():
+                write(folder / file_name(file), build)
+    except OSError as fault:
+        cure = "" if arguments.mission or arguments.out else "; --out DIR names another folder"
+        place = f"{fault.filename}: " if fault.filename else ""
+        print(f"error: {place}{fault.strerror}{cure}", file=sys.stderr)
+        return 2
     return 0
 
 

@@ -1,7 +1,6 @@
 """Parts of a scene and the .glb file that holds them."""
 import array
 import json
-import os
 import struct
 import sys
 
@@ -71,8 +70,7 @@ class Buffer:
 
 
 def write_glb(path, parts):
-    """One node and one mesh per part, one primitive per material of it. The file gets its name once it is
-    whole. Returns the size."""
+    """One node and one mesh per part, one primitive per material of it. Returns the size."""
     names = sorted({material for part in parts for material in part.indices})
     buffer = Buffer()
     meshes = []
@@ -97,10 +95,8 @@ def write_glb(path, parts):
     text = json.dumps(document, separators=(",", ":")).encode()
     text += b" " * (-len(text) % 4)
     head = struct.pack("<4sII", b"glTF", 2, 12 + 8 + len(text) + 8 + buffer.size)
-    part_file = f"{path}.{os.getpid()}.part"
-    with open(part_file, "wb") as file:
+    with open(path, "wb") as file:
         file.write(head + struct.pack("<I4s", len(text), b"JSON") + text)
         file.write(struct.pack("<I4s", buffer.size, b"BIN\0"))
         file.writelines(buffer.chunks)
-    os.replace(part_file, path)
     return 12 + 8 + len(text) + 8 + buffer.size

@@ -1,10 +1,8 @@
 """A scene as a text of the format OBJ."""
-import os
 
 
 def write_obj(path, parts):
-    """In millimetres with z up; a group for each part, and usemtl for its materials. The file gets
-    its name once it is whole. Returns the size."""
+    """In millimetres with z up; a group for each part, and usemtl for its materials. Returns the size."""
     lines, first = ["# millimetres, z up"], 1
     for part in parts:
         lines.append(f"g {part.name}")
@@ -18,8 +16,6 @@ def write_obj(path, parts):
                 lines.append("f " + " ".join(str(first + number) for number in numbers[k:k + 3]))
         first += len(part.vertices) // 3
     data = ("\n".join(lines) + "\n").encode()
-    part_file = f"{path}.{os.getpid()}.part"
-    with open(part_file, "wb") as file:
+    with open(path, "wb") as file:
         file.write(data)
-    os.replace(part_file, path)
     return len(data)

@@ -83,6 +83,18 @@ file: "scenes/tank.glb"  # not scenes/generated/block.glb
         self.assertIn("scenes/generated/reef.glb, which is not there, and no script makes it: "
                       "scripts/make_scenes.py makes anchor.obj, ", result.stderr)
 
+    def test_a_folder_that_cannot_be_written(self):
+        """One sentence and exit code 2. A file or /proc in place of the folder stops root, too."""
+        file = self.clone / "file"
+        file.touch()
+        for words, sentence in ((("seafloor", "--out", file), f"{file}: cannot write seafloor.glb here: File exists"),
+                                (("anchor", "--out", "/proc/none"), "/proc/none: cannot write anchor.obj here: "),
+                                (("--for", file / "own.yaml"), f"{file / 'own.yaml'}: Not a directory")):
+            result = subprocess.run([self.clone / "scripts/make_scenes.py", *words], text=True, capture_output=True, timeout=60,
+                                    check=False)
+            self.assertEqual((result.returncode, len(result.stderr.splitlines())), (2, 1), result.stderr)
+            self.assertIn(f"error: {sentence}", result.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()
