@@ -31,8 +31,15 @@ install(FILES scripts/sweep.mk
         DESTINATION ${CMAKE_INSTALL_DATADIR}/sonarsim/scripts COMPONENT program)
 install(DIRECTORY scripts/slurm scripts/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/sonarsim/scripts
         USE_SOURCE_PERMISSIONS COMPONENT program PATTERN "__pycache__" EXCLUDE)
+# The motorbike's mesh comes from another package, so its mission stays in the checkout.
 install(DIRECTORY configs scenes trajectories DESTINATION ${CMAKE_INSTALL_DATADIR}/sonarsim COMPONENT program
-        PATTERN "generated" EXCLUDE)
+        PATTERN "generated" EXCLUDE PATTERN "motorbike*" EXCLUDE)
+# Users cannot write where the missions are installed, so their scenes are installed, too.
+install(CODE "execute_process(COMMAND_ERROR_IS_FATAL ANY OUTPUT_QUIET
+    COMMAND /usr/bin/python3 -B \"${PROJECT_SOURCE_DIR}/scripts/make_scenes.py\"
+            seafloor wreck close_bottom lifeboat minefield anchor bathymetry sediments
+            --out \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}/sonarsim/scenes/generated\")"
+        COMPONENT program)
 
 set(SONARSIM_PACKAGE ${CMAKE_INSTALL_LIBDIR}/cmake/sonarsim)
 install(EXPORT sonarsim FILE sonarsimTargets.cmake NAMESPACE sonarsim:: DESTINATION ${SONARSIM_PACKAGE}

@@ -3,6 +3,8 @@ scripts/package.sh has left Debian packages in the build folder, they are unpack
 
     python3 tests/consumer/test_install.py <build folder> <compiler>
 """
+import concurrent.futures
+import json
 import os
 import pathlib
 import subprocess
@@ -14,6 +16,23 @@ def run(*command, **options):
     result = subprocess.run([str(word) for word in command], capture_output=True, text=True, **options)
     assert result.returncode == 0, f"{command}\n{result.stdout}{result.stderr}"
     return result.stdout
+
+
+def render_all(program, share, folder):
+    """A ping of every mission of the package, as a user who cannot write to the package's folder."""
+    def files():
+        return {path: path.stat().st_mtime_ns for path in share.rglob("*")}
+
+    def render(mission):
+        # Without files the error is not measured, which takes longer than the pings.
+        words = ("--shard", "1/1000", "--no-files", "--json")
+        assert json.loads(run(program, "render", mission, *words, cwd=folder))["pings"], mission
+
+    before = files()
+    missions = sorted((share / "configs").glob("*.yaml"))
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        assert len(list(pool.map(render, missions))) > 30
+    assert files() == before, "a render wrote into the folder of the package"
 
 
 def main(build, compiler):
@@ -41,6 +60,7 @@ def main(build, compiler):
         run(prefix / "bin/sonarsim", "render", share / "configs/tank_imaging.yaml", "--set",
             "trajectory.rate_hz=0.2", cwd=folder)
         assert pathlib.Path(folder, "out/tank_imaging/SHA256SUMS").exists()
+        render_all(prefix / "bin/sonarsim", share, folder)
         # It finds the instruments of the package.
         pathlib.Path(folder, "mission.yaml").write_text(
             f"scene: {{file: {share}/scenes/tank.glb, materials: {share}/scenes/materials.csv}}\n"
