@@ -160,6 +160,12 @@ class Export(tool.ToolTest):
         of_bins = open_dataset(self.out)["fls"].to_fan(bins, 80, -1)
         np.testing.assert_array_equal(found, np.where(of_bins < 0, 0, of_bins % 251))
         self.assertLess((found == 0).mean(), 0.5)
+        without_fan = json.loads(json.dumps(description))
+        without_fan["sensors"][0].pop("fan")
+        without_fan["sensors"][0]["files"].pop("fan")
+        path.write_text(json.dumps(without_fan))
+        self.refused("has no fans; set output.fan: true .* or take the pictures of its bins with --bins",
+                     "--format", "yolo", "--image", "raw", "--sensor", "fls")
         own["files"].pop("raw")
         path.write_text(json.dumps(description))
         self.refused("has no raw; leave out --image", "--format", "yolo", "--image", "raw", "--sensor", "fls")

@@ -124,7 +124,7 @@ def pings_of(sensor, of_ping, is_bins, is_raw):
     if not names and is_raw:
         raise data.DataError(f"{sensor.folder}: sensor {sensor.name!r} has no raw; leave out --image, or set output.raw: "
                              "true with the calibrated model and render it again")
-    if not names:
+    if not names or not is_bins and "fan" not in sensor.keys:     # objects have masks in fans where there are fans
         advice = ("neither images nor arrays of its bins; set output.image: true and render it again, or leave out "
                   "--bins" if is_bins else "no fans; set output.fan: true and render it again, or take the "
                   "pictures of its bins with --bins")
