@@ -2,12 +2,13 @@
 kind of file is read: test_python.py."""
 import json
 import os
+import re
 import shutil
 import sys
 import tempfile
 import unittest
 
-from sandbox import IN_MEMORY, ROOT, Sandbox, box_gltf, path_csv, run_with
+from sandbox import IN_MEMORY, ROOT, Sandbox, box_gltf, box_mesh, gltf, path_csv, run_with, sheet_mesh
 
 run_with("numpy")
 PACKAGES = ROOT / "apps/python"
@@ -162,6 +163,142 @@ class Reader(Sandbox):
                            (sonarsim_data.read_npy, polar[:-1]), (sonarsim_data.read_npy, polar[:20])):
             with self.assertRaises(ValueError):
                 read(data)
+
+
+CALIBRATED = "range_max_m: 6, range_bins: 16, model: calibrated, instrument: {frequency_hz: 4.0e+5}"
+KEYS = f"""\
+name: keys
+seed: 7
+vehicle: {{navigation: {{position_m: 0.1}}}}
+scene:
+  file: box.gltf
+  materials: materials.csv
+  objects: [{{name: crate, file: crate.gltf, trajectory: {{file: path.csv}}}}]
+  particles: [{{name: school, kind: fish, count: 5, length_m: 0.2, position_m: [1, 0, 0], size_m: [1, 1, 1]}}]
+trajectory: {{file: path.csv}}
+sensors:
+  fls: {{kind: imaging, azimuth_deg: 60, azimuth_bins: 8, {CALIBRATED}}}
+  mbes: {{kind: profiling, azimuth_bins: 8, {CALIBRATED}}}
+  sss: {{kind: sidescan, {CALIBRATED}}}
+  sounder: {{kind: echosounder, {CALIBRATED}}}
+  head: {{kind: scanning, {CALIBRATED}}}
+variants: 1
+vary: [{{key: sensors.fls.mount.rpy_deg.0, uniform: [-2, 2], per: ping}}]
+output: {{folder: out, image: true, labels: [instance]}}
+"""
+
+
+class Keys(Sandbox):
+    def rows_below(self, heading):
+        """The keys of the first table below a heading of docs/dataset.md."""
+        text = (ROOT / "docs/dataset.md").read_text().split(heading + "\n", 1)[1].split("\n#", 1)[0]
+        rows = [line.split("|")[1] for line in text.splitlines() if line.startswith("| `")]
+        return {key for row in rows for key in re.findall("`([^`]+)`", row)}
+
+    def test_the_tables_of_the_page_have_the_keys_of_a_dataset(self):
+        """A key stands in its table, or all keys below it do; and a dataset has every key of the tables."""
+        self.write("crate.gltf", gltf([{"name": "crate", "mesh": 0}], [box_mesh((0.1, 0.1, 0.1))]))
+        self.write("mission.yaml", KEYS)
+        self.assert_renders()
+        blocks = self.dataset("out/variant_0000")["sensors"]
+        metas = [self.json(f"out/variant_0000/{one['name']}/meta/000000.json") for one in blocks]
+        for heading, found in (("### The description of a sensor", blocks), ("### The metadata of a ping", metas)):
+            rows = self.rows_below(heading)
+            keys = set()
+            for block in found:
+                for key, value in block.items():
+                    keys |= {key} if key in rows or not isinstance(value, dict) else {f"{key}.{inner}" for inner in value}
+            self.assertEqual(keys, rows)
+
+
+class DrawnScene:
+    """A floor with boxes and balls at random, and the distance of a point from each of them."""
+
+    def __init__(self, seed):
+        draw = np.random.default_rng(seed)
+        self.surfaces = {"floor": lambda p: np.abs(p[:, 2] + 2)}
+        self.nodes, self.meshes = [{"name": "floor", "mesh": 0, "translation": [0, -2, 0]}], [sheet_mesh(20.0)]
+        for k in range(8):
+            azimuth, r, size = draw.uniform(-0.9, 0.9), draw.uniform(3, 7), draw.uniform(0.3, 0.9, 3)
+            centre = np.array([r * np.cos(azimuth), r * np.sin(azimuth), draw.uniform(-2, 2)])
+            self.add(f"box_{k}", centre, box_mesh(size[[0, 2, 1]]), lambda p, c=centre, h=size: self.of_box(p, c, h))
+            centre = centre + draw.uniform(-1.5, 1.5, 3) * [1, 1, 0.5]
+            self.add(f"ball_{k}", centre, self.ball(size[0]),
+                     lambda p, c=centre, h=size[0]: np.abs(np.linalg.norm(p - c, axis=1) - h))
+
+    def add(self, name, centre, mesh, distance):
+        x, y, z = centre
+        self.nodes.append({"name": name, "mesh": len(self.meshes), "translation": [x, z, -y]})
+        self.meshes.append(mesh)
+        self.surfaces[name] = distance
+
+    @staticmethod
+    def of_box(points, centre, half):
+        beyond = np.abs(points - centre) - half
+        return np.abs(np.linalg.norm(np.maximum(beyond, 0), axis=1) + np.minimum(beyond.max(axis=1), 0))
+
+    @staticmethod
+    def ball(radius, n=48):
+        """A sphere of n x 2 n quads, whose facets lie within 0.002 of the radius."""
+        rows, columns = np.mgrid[:n + 1, :2 * n + 1] * np.pi / n
+        points = radius * np.stack([np.sin(rows) * np.cos(columns), np.cos(rows), np.sin(rows) * np.sin(columns)], -1)
+        first = [j * (2 * n + 1) + i for j in range(n) for i in range(2 * n)]
+        return (points.reshape(-1, 3).tolist(),
+                [k for a in first for k in (a, a + 1, a + 2 * n + 2, a, a + 2 * n + 2, a + 2 * n + 1)], 0)
+
+
+FAN = """kind: imaging, azimuth_deg: 110, elevation_deg: 60, range_min_m: 1, range_max_m: 9, range_bins: 250,
+        azimuth_bins: 200, mount: {translation_m: [0.5, 0.2, -0.1], rpy_deg: [4, 15, 0]}"""
+POINTS = f"""\
+name: points
+scene: {{file: drawn.gltf, materials: materials.csv}}
+trajectory: {{file: path.csv}}
+sensors:
+  angles: {{{FAN}}}
+  cones: {{{FAN}, model: calibrated, instrument: {{frequency_hz: 1.0e+6}}}}
+  mbes: {{kind: profiling, range_max_m: 6, range_bins: 200, azimuth_bins: 120}}
+  sss: {{kind: sidescan, range_max_m: 6, range_bins: 16}}
+classes: [{{nodes: "ball*", class: ball}}]
+output: {{folder: out, fan: false, labels: [instance, class, elevation]}}
+"""
+
+
+class Points(Sandbox):
+    def test_points_lie_on_the_surfaces_of_the_scene(self):
+        """By each model, and in each frame: a column of the calibrated model is a cone, not an azimuth."""
+        drawn = DrawnScene(3)
+        self.write("drawn.gltf", gltf(drawn.nodes, drawn.meshes))
+        self.write("path.csv", "t_s,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n0,0,0,0,0,0,0\n1,0.5,-0.2,0.1,5,-3,20\n")
+        self.write("mission.yaml", POINTS)
+        self.assert_renders()
+        dataset = sonarsim_data.open_dataset(self.out)
+        floor = next(k for k, name in dataset.classes.items() if name == "floor")
+        # The bins are 0.03 m deep, and up to 0.09 m wide; those of mbes 0.03 and 0.13 m. The floor tells nothing.
+        for name, least, median, most in (("angles", 2000, 0.005, 0.1), ("cones", 2000, 0.005, 0.1), ("mbes", 100, 0.02, 0.1)):
+            sensor = dataset[name]
+            for sample in sensor:
+                points = sensor.points(sample, spread_rad=0.03)
+                self.assertEqual(points.position_m.shape, (len(points.instance), 3))
+                np.testing.assert_array_equal(sample["instance"][tuple(points.bins.T)], points.instance)
+                np.testing.assert_array_equal([dataset.class_of[k] for k in points.instance], points.class_id)
+                off = np.full(len(points.instance), np.nan)
+                for number, instance in dataset.instances.items():
+                    own = points.instance == number
+                    off[own] = drawn.surfaces[instance](points.position_m[own])
+                off = off[points.class_id != floor] if name != "mbes" else off
+                self.assertGreater(len(off), least)
+                self.assertLess(np.median(off), median, name)
+                self.assertLess(off.max(), most, name)
+                inner, vehicle = (sensor.points(sample, frame, 0.03).position_m for frame in ("sensor", "vehicle"))
+                ranges = sonarsim_data.middles(sensor.range_edges_m)[points.bins[:, 0]]
+                self.assert_near(np.linalg.norm(inner, axis=1), ranges)
+                meta = sample["meta"]
+                for found, pose, expected in ((vehicle, meta["T_world_vehicle"], points.position_m),
+                                              (inner, sensor.description["T_vehicle_sensor"], vehicle)):
+                    np.testing.assert_allclose(sonarsim_data.moved(found, pose), expected, atol=1e-9)
+        for name, words in (("sss", "sidescan sonars have no fan"), ("angles", "there is no frame 'ship'")):
+            with self.assertRaisesRegex(ValueError, words):
+                dataset[name].points(dataset[name][0], "ship")
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@
         names = dataset.instances              # id -> name
     fan = fls.to_fan(image, width=512)         # [row, column], boresight up, port on the left
     image = fls.from_fan(fan)                  # back again
+    points = fls.points(fls[0])                # [n, 3] in the world, with instance and class
     data = sonarsim.data.torch_dataset(fls, ("polar", "class"))      # where torch is installed
 
     python3 -m sonarsim.data OUT               # says what is in a dataset
@@ -27,6 +28,7 @@ import re
 import struct
 import sys
 import tokenize
+import typing
 import zlib
 
 import numpy as np
@@ -112,6 +114,14 @@ class Dataset:
         vehicle.navigation."""
         reported = self.folder / "navigation.tum"
         return np.loadtxt(reported, ndmin=2) if reported.exists() else self.poses()
+
+
+class Points(typing.NamedTuple):
+    """Surface that a ping shows, a point for each bin of it."""
+    position_m: np.ndarray      # float64 [n, 3]
+    instance: np.ndarray        # [n], as in Dataset.instances
+    class_id: np.ndarray        # [n], as in Dataset.classes
+    bins: np.ndarray            # [n, 2]: row and column in the arrays of the ping
 
 
 class Sensor:
@@ -239,6 +249,38 @@ class Sensor:
         return fan[np.clip(row.astype(int), 0, height - 1),
                    np.clip(column.astype(int), 0, width - 1)]
 
+    def points(self, sample, frame="world", spread_rad=math.inf):
+        """The Points of a ping of a fan, in the frame "world", "vehicle" or "sensor": for each bin with visible surface
+        the middle of its range and azimuth, at its mean elevation. Bins whose elevation_spread is above `spread_rad`
+        are left out: they may hold several surfaces, one above the other. Sound is taken to be straight and the sonar
+        to stand still while it listens. ValueError without the labels, or for a kind without a fan."""
+        if self.kind not in ("imaging", "profiling"):
+            raise ValueError(f"sensor {self.name!r} has no points: {self.kind} sonars have no fan")
+        wanted = "elevation", "elevation_spread", "instance", "class"
+        if not set(wanted) <= self._files.keys():
+            raise ValueError(f"sensor {self.name!r} has no points: set output.labels: [elevation, instance, class] and "
+                             "render it again")
+        elevation, spread, instance, class_id = (sample[name] for name in wanted)
+        bins = np.argwhere((spread <= spread_rad) & (instance != 0))
+        at = tuple(bins.T)
+        r, b = middles(self.range_edges_m)[at[0]], middles(self.azimuth_edges_rad)[at[1]]
+        sine = np.sin(elevation[at].astype(np.float64))
+        if "instrument" in self.description:    # the calibrated model: columns are cones about the y axis
+            y = r * np.sin(b)
+            x = np.sqrt(np.maximum(r ** 2 * (1 - sine ** 2) - y ** 2, 0))
+        else:
+            level = r * np.sqrt(1 - sine ** 2)
+            x, y = level * np.cos(b), level * np.sin(b)
+        position = np.stack([x, y, r * sine], axis=1)
+        if frame != "sensor":
+            meta = sample["meta"]
+            position = moved(position, meta["T_world_sensor"])
+            if frame == "vehicle":
+                position = moved(position, meta["T_world_vehicle"], inverse=True)
+            elif frame != "world":
+                raise ValueError(f"there is no frame {frame!r}; there are: world, vehicle, sensor")
+        return Points(position, instance[at], class_id[at], bins)
+
 
 class Sample(collections.abc.Mapping):
     """A ping of a sensor. Its arrays are read when needed: sample['polar']."""
@@ -281,6 +323,15 @@ def torch_dataset(sensor, names=("polar",), transform=None):
             return torch_dataset, (sensor, names, transform)
 
     return Pings()
+
+
+def moved(points, pose, inverse=False):
+    """Points [n, 3] of the frame `b` in the frame `a`, by a pose T_a_b of a meta file; `inverse`: the other way."""
+    x, y, z, w = pose["quaternion_xyzw"]
+    turn = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+    return (points - pose["position_m"]) @ turn if inverse else points @ turn.T + pose["position_m"]
 
 
 def bin_of(values, edges):

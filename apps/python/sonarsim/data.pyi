@@ -2,7 +2,7 @@ import os
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager
 from pathlib import Path
-from typing import Any, overload
+from typing import Any, NamedTuple, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -33,6 +33,12 @@ class Dataset:
     def poses(self) -> npt.NDArray[np.float64]: ...
     def reported_poses(self) -> npt.NDArray[np.float64]: ...
 
+class Points(NamedTuple):
+    position_m: npt.NDArray[np.float64]
+    instance: npt.NDArray[np.uint16]
+    class_id: npt.NDArray[np.uint16]
+    bins: npt.NDArray[np.intp]
+
 class Sensor:
     folder: Path
     description: dict[str, Any]
@@ -57,6 +63,7 @@ class Sensor:
     def fan_shape(self, width: int) -> tuple[int, int, float]: ...
     def to_fan(self, polar: npt.ArrayLike, width: int = 512, blank: float = 0) -> npt.NDArray[Any]: ...
     def from_fan(self, fan: npt.ArrayLike) -> npt.NDArray[Any]: ...
+    def points(self, sample: Sample, frame: str = "world", spread_rad: float = ...) -> Points: ...
 
 class Sample(Mapping[str, Any]):
     sensor: Sensor
