@@ -113,6 +113,28 @@ TEST_CASE("annotations: the shadow of a wall on a flat floor is h r / (H - h) lo
     }
 }
 
+TEST_CASE("annotations: a shadow begins at the surface that casts it") {
+    // A plate at 5 m hides another one almost edge-on, whose footprints reach far along the range.
+    Scene scene = floor_scene(40.0F, -9.0F, 0.5F);
+    const auto plate = [&](float x0, float y0, float x1, float y1) {
+        add_quad(scene, {x0, y0, -0.3F}, {x1, y1, -0.3F}, {x1, y1, 0.3F}, {x0, y0, 0.3F}, 0);
+    };
+    plate(5.0F, -0.3F, 5.0F, 0.3F);
+    plate(5.01F, -0.02F, 8.0F, 0.06F);
+    const std::vector<ObjectSphere> spheres{{{5.0, 0.0, 0.0}, 0.5}, {{6.5, 0.0, 0.0}, 1.6}};
+    const FoundObjects found(scene, wide_fan(), {}, spheres, true);
+    const double bin_m = found.sonar.settings.view.bin_m();
+    const double begin_m = found.sonar.range_edges_m[found.object(2).shadow.first_bin];
+    CHECK(begin_m > 5.0 - 0.5 * bin_m);
+    CHECK(begin_m < 5.2);
+    int before = 0;
+    for (std::size_t k = 0; k < found.labels.size(); ++k) {
+        const double end_m = found.sonar.range_edges_m[k % found.labels.range_bins + 1];
+        before += end_m < 5.0 && (found.labels.shadow[k] > 1 || found.labels.object_shadow[k] > 1);
+    }
+    CHECK(before == 0);
+}
+
 TEST_CASE("annotations: visible shares are those of all sight lines, and the shadows are, too") {
     // Spheres at random, some behind others and some half in the floor.
     Uniform draw(3);

@@ -82,8 +82,12 @@ class LineTracer {
         line.range_m = line.range_m * (1.0F + step_behind) + met.distance_m;
         if (!(line.range_m < range_max_m_)) return false;
         if (is_shadow(line)) {
-            pieces_.push_back({line.beam, owner_of(line), line.range_m,
-                               half_extent(line, line.range_m, met.normal), line.solid_angle});
+            // Hidden surface lies behind what hides it, however far its plane extends.
+            const float half_m = half_extent(line, line.range_m, met.normal);
+            const float near_m = std::max(line.range_m - half_m, line.before_m);
+            const float far_m = line.range_m + half_m;
+            pieces_.push_back({line.beam, owner_of(line), 0.5F * (near_m + far_m),
+                               0.5F * (far_m - near_m), line.solid_angle});
         }
         const std::uint32_t object = objects_.object_of(met.instance);
         if (!has_met(nodes_, line.last_node, object)) {

@@ -124,15 +124,18 @@ std::vector<Eigen::AlignedBox3f> visible_boxes(const SceneObjects& objects,
     return boxes;
 }
 
-/// Finds the shadows of the objects; `all` is indexed by object.
+/// Finds the shadows of the objects, from the first bin of each on: nearer ones lie behind a part
+/// of it that another surface outshines. `all` is indexed by object.
 void add_shadows(const PingLabels& labels, std::span<const PixelBox> fan_boxes,
                  std::vector<ObjectInPing>& all) {
     if (labels.object_shadow.empty()) return;
     for (int j = 0; j < labels.beams; ++j) {
         const std::size_t begin = static_cast<std::size_t>(j) * labels.range_bins;
         const auto own = std::span(labels.object_shadow).subspan(begin, labels.range_bins);
-        for_each_run(own, [&](std::uint16_t id, int from, int to) {
+        for_each_run(own, [&](std::uint16_t id, int first, int to) {
             ObjectInPing& object = all[id - 1];
+            const int from = std::max(first, object.range_first);
+            if (from >= to) return;
             object.shadow.extend(j, from);
             object.shadow.extend(j, to - 1);
             object.shadow_bins += static_cast<std::uint64_t>(to - from);
