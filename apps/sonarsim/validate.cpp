@@ -18,6 +18,7 @@
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/machine_memory.h"
+#include "core/text.h"
 #include "input/mission/variants.h"
 #include "logging.h"
 #include "mission_options.h"
@@ -28,6 +29,7 @@
 #include "run/job/folder.h"
 #include "run/job/ping_cost.h"
 #include "run/job/variants.h"
+#include "simulate/assembly/background.h"
 #include "simulate/assembly/engines.h"
 #include "simulate/visibility/make_engine.h"
 #include "survey_report.h"
@@ -114,6 +116,12 @@ std::string text_of_parts(const Findings& f) {
     if (!scene.copies.empty()) {
         text += result_line("copies", fmt::format("{} of {} shared meshes", scene.copies.size(),
                                                   scene.shared_meshes.size()));
+    }
+    if (const auto name = background_by_size(f.mission, scene, f.assembly.objects);
+        name && std::ranges::count(f.mission.output.labels, Label::objects) > 0) {
+        text += result_line("background", fmt::format("'{}', the largest surface, is no object by "
+                                                      "labels.background: [auto]; [none] keeps it",
+                                                      printable(*name)));
     }
     if (!scene.bodies.empty())
         text += result_line("moving", fmt::format("{} objects", scene.bodies.size()));

@@ -32,7 +32,6 @@ output:
 labels: {background: [none]}
 """
 
-
 def room_gltf():
     """A box with two pillars in it; y is up, so that (x, y, z) lies at (x, -z, y) of the world."""
     room = json.loads(box_gltf())
@@ -119,6 +118,16 @@ class Objects(Sandbox):
         self.assertEqual(set(whole), set(drawn))
         self.assertFalse(any((drawn[key] & ~mask).any() for key, mask in whole.items()))
         self.assertTrue(any(mask.sum() > drawn[key].sum() for key, mask in whole.items() if key[0] == "fls"))
+
+    def test_what_is_background_for_its_size_is_said(self):
+        """The largest part of a mesh may be what a mission is about; a bottom is not."""
+        says = "'walls', the largest surface, is no object by labels.background: [auto]; [none] keeps it"
+        for background, bottom, expected in (("auto", "", True), ("none", "", False), ("auto, walls", "", False),
+                                             ("auto", ", bottom: [walls]", False)):
+            mission = MISSION.replace("[none]", f"[{background}]").replace("materials.csv}", f"materials.csv{bottom}}}")
+            self.write("mission.yaml", mission)
+            with self.subTest(background=background, bottom=bottom):
+                self.assertEqual(says in self.succeeds("validate", "mission.yaml").stdout, expected)
 
     def test_what_is_refused(self):
         labels = "labels: {background: [none]}\n"

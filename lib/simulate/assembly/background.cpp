@@ -39,8 +39,8 @@ std::vector<double> surfaces_of(const Scene& scene, const SceneObjects& objects)
     return areas;
 }
 
-void add_automatic(const Mission& mission, const Scene& scene, const SceneObjects& objects,
-                   std::vector<std::uint8_t>& background) {
+void add_bottom(const Mission& mission, const Scene& scene, const SceneObjects& objects,
+                std::vector<std::uint8_t>& background) {
     const std::vector<std::string> bottom = bottom_patterns(mission.scene);
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         for (const std::string& pattern : bottom) {
@@ -48,10 +48,14 @@ void add_automatic(const Mission& mission, const Scene& scene, const SceneObject
                 background[objects.class_of(objects.object_of(i))] = 1;
         }
     }
+}
+
+/// The class of the largest surface; nothing for a single class.
+std::optional<std::uint32_t> largest_class(const Scene& scene, const SceneObjects& objects) {
     const std::vector<double> areas = surfaces_of(scene, objects);
     const auto largest = std::ranges::max_element(areas);
-    if (objects.classes.size() < 2 || !(*largest > 0.0)) return;
-    background[objects.class_of(static_cast<std::uint32_t>(largest - areas.begin()))] = 1;
+    if (objects.classes.size() < 2 || !(*largest > 0.0)) return std::nullopt;
+    return objects.class_of(static_cast<std::uint32_t>(largest - areas.begin()));
 }
 
 }  // namespace
@@ -64,7 +68,8 @@ std::vector<std::uint8_t> background_classes(const Mission& mission, const Scene
         if (found != objects.classes.end()) {
             background[static_cast<std::size_t>(found - objects.classes.begin())] = 1;
         } else if (name == "auto") {
-            add_automatic(mission, scene, objects, background);
+            add_bottom(mission, scene, objects, background);
+            if (const auto largest = largest_class(scene, objects)) background[*largest] = 1;
         } else if (name != "none") {
             std::string all;
             for (const std::string& one : objects.classes)
@@ -75,6 +80,19 @@ std::vector<std::uint8_t> background_classes(const Mission& mission, const Scene
         }
     }
     return background;
+}
+
+std::optional<std::string> background_by_size(const Mission& mission, const Scene& scene,
+                                              const SceneObjects& objects) {
+    const std::vector<std::string>& names = mission.labels.background;
+    if (std::ranges::find(names, "auto") == names.end()) return std::nullopt;
+    const std::optional<std::uint32_t> largest = largest_class(scene, objects);
+    std::vector<std::uint8_t> bottom(objects.classes.size(), 0);
+    add_bottom(mission, scene, objects, bottom);
+    if (!largest || bottom[*largest] != 0 ||
+        std::ranges::count(names, objects.classes[*largest]) > 0)
+        return std::nullopt;
+    return objects.classes[*largest];
 }
 
 }  // namespace sonarsim

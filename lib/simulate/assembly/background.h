@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "input/mission/mission.h"
@@ -15,5 +17,10 @@ namespace sonarsim {
 /// a name that no class has and no scattered object may have.
 std::vector<std::uint8_t> background_classes(const Mission& mission, const Scene& scene,
                                              const SceneObjects& objects);
+
+/// The class that `auto` makes background for its surface alone; nothing for a bottom. It may be
+/// the object that a mission is about, such as the hull of a wreck of several parts.
+std::optional<std::string> background_by_size(const Mission& mission, const Scene& scene,
+                                              const SceneObjects& objects);
 
 }  // namespace sonarsim
