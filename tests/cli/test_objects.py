@@ -4,7 +4,7 @@ import json
 import sys
 import unittest
 
-from sandbox import ROOT, Sandbox, box_gltf, run_with
+from sandbox import ROOT, Sandbox, box_gltf, gltf, run_with, sheet_mesh
 
 run_with("numpy", "PIL")
 sys.path.append(str(ROOT / "tests/python"))
@@ -31,6 +31,20 @@ output:
   image: true
 labels: {background: [none]}
 """
+
+# A fan that looks down at the foot of a wall.
+WALL = """\
+name: wall
+seed: 7
+scene: {file: room.gltf, materials: materials.csv}
+trajectory: {file: path.csv}
+sensors:
+  fls: {kind: imaging, azimuth_deg: 40, elevation_deg: 15, range_min_m: 0.8, range_max_m: 3, range_bins: 300,
+        azimuth_bins: 64, multipath: {method: cluster}, model: calibrated, instrument: {frequency_hz: 1.0e+6}}
+output: {folder: out, labels: [instance, objects]}
+labels: {background: [floor], mask: silhouette}
+"""
+
 
 def room_gltf():
     """A box with two pillars in it; y is up, so that (x, y, z) lies at (x, -z, y) of the world."""
@@ -138,6 +152,28 @@ class Objects(Sandbox):
             self.write("mission.yaml", MISSION)
             self.edit("mission.yaml", old, new)
             self.refused("mission.yaml:", *fragments)
+
+    def test_a_wall_is_drawn_at_its_foot(self):
+        """There floor and wall reflect the sound into each other: the brightest line of a tank is multipath. Of the
+        mirror image of the floor, which the wall shows behind it, nothing is drawn."""
+        self.write("room.gltf", gltf([{"name": "floor", "mesh": 0, "translation": [0, -0.8, 0]},
+                                      {"name": "wall", "mesh": 1}],
+                                     [sheet_mesh(5.0), ([(1.5, y, z) for y in (-0.8, 1) for z in (-5, 5)], [0, 1, 3, 0, 3, 2], 0)]))
+        self.write("path.csv", "t_s,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n0,0,0,0,0,30,0\n1,0,0,0,0,25,0\n")
+        self.write("mission.yaml", WALL)
+        self.assert_renders()
+        sensor = self.dataset()["sensors"][0]
+        edges, azimuth = (np.array(sensor[key]) for key in ("range_edges_m", "azimuth_edges_rad"))
+        # At the sine y / r of a beam the foot (1.5, y, -0.8) lies at r = hypot(1.5, 0.8) / cos b.
+        foot = np.hypot(1.5, 0.8) / np.cos(0.5 * (azimuth[:-1] + azimuth[1:]))
+        for ping in (0, 1):
+            walls = [one for one in self.objects_of(ping) if one["name"] == "wall"]
+            self.assertEqual(len(walls), 1)
+            mask = mask_of(walls[0]["mask"], 64, 300)
+            at_foot = mask[np.searchsorted(edges, foot) - 1, np.arange(64)]
+            behind = mask & (edges[:-1, None] > foot + 0.3)
+            self.assertGreater(at_foot.mean(), 0.9)
+            self.assertLess(behind.sum(), 0.02 * mask.sum())
 
 
 if __name__ == "__main__":

@@ -74,6 +74,14 @@ TEST_CASE("silhouette: of two objects a bin has the one with the stronger echo")
     CHECK(find_standouts({frame, object, echo, whole}).object == Ids{1, 0, 2, 2});
 }
 
+TEST_CASE("silhouette: a piece without visible surface of its object is its mirror image") {
+    const DrawnIds drawn({"11.11..", "11.11.2", ".......", "..33...", "..33..."});
+    const DrawnIds visible({"1......", "..2....", ".......", "......3", "......."});
+    Standouts found{drawn.ids, {}};
+    drop_mirror_images(drawn.frame, visible.ids, found);
+    CHECK(drawn.text(found.object) == Lines{"11.....", "11.....", ".......", ".......", "......."});
+}
+
 TEST_CASE("silhouette: gaps and holes are closed, specks are dropped") {
     const DrawnIds drawn({"............", ".11..11...3.", ".11..11...3.", "............",
                           ".22222......", ".2...2......", ".2...2......", ".2...2...22.",

@@ -1,3 +1,6 @@
+#include <cstring>
+#include <span>
+
 #include "simulate/labels/labels.h"
 #include "simulate/product/object_table.h"
 #include "simulate/sonar/kinds.h"
@@ -92,6 +95,33 @@ TEST_SUITE("sonar") {
             bright += is_bright(found.clean, j) ? 1 : 0;
         }
         CHECK(bright == 12);
+    }
+
+    TEST_CASE("shutter: every label of a beam is that of its group traced alone") {
+        const Scene scene = plates();
+        const auto engine = make_rays_engine(scene);
+        const Sonar sonar = yawing_camera(ShutterOrder::in_turn, turn_deg_s);
+        const TracedPing traced = trace(sonar, scene, *engine, {}, 0);
+        const SceneObjects objects = group_objects(scene, {});
+        LabelRequest request = everything;
+        request.silhouettes = request.height = request.annotations = true;
+        const auto labels_of = [&](const TracedPing& ping) {
+            return label_ping(ping, sonar.settings, scene, objects, *engine, request);
+        };
+        const PingLabels whole = labels_of(traced);
+        const PingLabels last = labels_of(traced.later_groups.back());
+        std::size_t listed = 0;
+        for_each_label(request, [&](auto member, bool wanted, auto) {
+            ++listed;
+            CHECK(wanted);
+            const auto at = static_cast<std::ptrdiff_t>(whole.size() / 60 * 50);
+            REQUIRE((whole.*member).size() == whole.size());
+            const std::span ours(whole.*member), own(last.*member);
+            CHECK(std::memcmp(&ours[at], &own[at], ours.subspan(at).size_bytes()) == 0);
+        });
+        // A list that lacks a label leaves it empty: all vectors, but two that are found later or
+        // by object.
+        CHECK(sizeof(PingLabels) == 2 * sizeof(int) + (listed + 2) * sizeof(std::vector<float>));
     }
 
     // A plate lies 0.533 degrees to starboard of its place. The first group sees the plates from

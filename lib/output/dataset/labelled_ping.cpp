@@ -28,8 +28,8 @@ ExpectedBins expected_bins(const Sonar& sonar, const Scene& scene, const TracedP
         }
     }
     return {{labels.beams, labels.range_bins, info.cell},
-            labels.direct_object,
-            labels.direct_echo,
+            labels.own_object,
+            labels.own_echo,
             labels.whole_echo};
 }
 
@@ -43,7 +43,8 @@ Ids without_background(Ids ids, const SceneObjects& objects) {
 
 /// Finds the silhouettes and returns the masks.
 Ids draw_masks(const LabelPlan& plan, const ExpectedBins& expected, PingLabels& labels) {
-    const Standouts found = find_standouts(expected);
+    Standouts found = find_standouts(expected);
+    drop_mirror_images(expected.frame, labels.visible_object, found);
     // Records are tidied in their pictures.
     labels.silhouette =
         plan.objects ? tidied(expected.frame, found.object, found.ratio) : found.object;
@@ -75,7 +76,7 @@ LabelPlan plan_labels(const Mission& mission, const Assembly& assembly, const So
                     .elevation = listed(Label::elevation),
                     .shadow = listed(Label::shadow),
                     .height = listed(Label::height),
-                    .direct_echoes = draws,
+                    .silhouettes = draws,
                     .annotations = objects,
                     .bottom = assembly.bottom.get()};
     plan.mask = mission.labels.mask;
@@ -102,7 +103,7 @@ LabelledPing label_for_writers(const LabelPlan& plan, const Assembly& assembly, 
         label_ping(traced, sonar.settings, assembly.scene, assembly.objects, engine, request);
     out.fan_bins = plan.fan.get();
     const Ids mask =
-        request.direct_echoes
+        request.silhouettes
             ? draw_masks(plan, expected_bins(sonar, assembly.scene, traced, out.bins), out.bins)
             : without_background(out.bins.object, assembly.objects);
     if (!plan.objects) return out;

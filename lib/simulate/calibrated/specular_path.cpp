@@ -43,6 +43,7 @@ SpecularPath specular_path(const BouncePath& path, const Sample& sample, const W
     out.sine_between = (out.sine_of_image + out.sine_of_point) / midway.norm();
     out.area_m2 = sample.area_m2 * sample.height_m / first_leg * t * t / out.sine_of_image;
     out.material = path.material;
+    out.instance = path.instance;
     return out;
 }
 

@@ -28,6 +28,7 @@ struct SpecularPath {
     float reflection = 0.0F;     ///< reflected share of the power, times the piece's strength
     std::uint32_t material = 0;  ///< index into Scene::materials
     std::uint32_t sample = 0;    ///< the first reflector: index into Samples::items
+    std::uint32_t instance = 0;  ///< that the piece belongs to
 };
 
 /// The pieces of second surfaces that receive specular reflections of a ping's samples. With t the

@@ -90,8 +90,9 @@ class SurfaceEchoFinder {
             const auto add = [&](int beam, int k, float power) {
                 const float range_m =
                     equation.range_min_m + (block.echoes.row[k] + 0.5F) * equation.bin_m;
+                const SpecularPath& path = paths[block.path[k]];
                 blocks_.add(static_cast<std::uint32_t>(beam), range_m, 0.0F, power, 1.0F,
-                            &samples_[paths[block.path[k]].sample]);
+                            &samples_[path.sample], path.instance);
             };
             const auto point = [](int) { return 0.0F; };
             for_each_beam(block.places, block.echoes, &block.out, point, add);

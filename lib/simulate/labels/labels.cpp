@@ -16,10 +16,13 @@ namespace sonarsim {
 
 namespace {
 
+constexpr std::uint32_t no_object = 0xFFFFFFFFU;
+
 /// Echoes are summed by object and material.
 struct Surface {
     bool multipath;
     std::uint32_t object, material;
+    std::uint32_t second;  ///< the object of the second surface of multipath, if it is needed
 
     auto operator<=>(const Surface&) const = default;  // NOLINT(modernize-use-nullptr): no pointer
 };
@@ -27,18 +30,23 @@ struct Surface {
 /// The sums of a ping's echoes by surface.
 class SurfaceSums {
   public:
-    SurfaceSums(const View& view, const SceneObjects& objects)
-        : sums_(range_bins(view), view.beams), objects_(objects) {}
+    SurfaceSums(const View& view, const SceneObjects& objects, bool by_second)
+        : sums_(range_bins(view), view.beams), objects_(objects), by_second_(by_second) {}
 
     void add(const EchoBlock& echoes) {
         std::array<std::uint32_t, EchoBlock::most> sources;
         const Sample* last = nullptr;
+        const bool has_second = by_second_ && echoes.multipath;
+        std::uint32_t last_second = no_instance;
         for (int k = 0; k < echoes.count; ++k) {
             const Sample* const sample = echoes.sample[k];
-            if (sample != last) {
+            const std::uint32_t second = has_second ? echoes.second[k] : no_instance;
+            if (sample != last || second != last_second) {
                 last = sample;
-                find_source(
-                    {echoes.multipath, objects_.object_of(sample->instance), sample->material});
+                last_second = second;
+                find_source({echoes.multipath, objects_.object_of(sample->instance),
+                             sample->material,
+                             second == no_instance ? no_object : objects_.object_of(second)});
             }
             sources[k] = source_;
         }
@@ -57,12 +65,17 @@ class SurfaceSums {
         return TopTwoFinder(std::move(sources));
     }
 
-    /// A finder of the objects that are no background, by their direct echoes.
-    TopTwoFinder finder_of_direct() const {
+    /// A finder of the objects that are no background, by their direct echoes or all of their own.
+    TopTwoFinder finder_of_own(bool direct_alone) const {
         std::vector<KeyedSource> sources;
+        const auto add = [&](std::uint32_t object, std::uint32_t source) {
+            if (!objects_.is_background(object)) sources.push_back({object, source});
+        };
         for (const auto& [surface, source] : source_of_) {
-            if (!surface.multipath && !objects_.is_background(surface.object))
-                sources.push_back({surface.object, source});
+            if (surface.multipath && direct_alone) continue;
+            add(surface.object, source);
+            if (surface.second != no_object && surface.second != surface.object)
+                add(surface.second, source);
         }
         return TopTwoFinder(std::move(sources));
     }
@@ -77,6 +90,7 @@ class SurfaceSums {
 
     EchoSums sums_;
     const SceneObjects& objects_;
+    bool by_second_;
     std::map<Surface, std::uint32_t> source_of_;
     Surface surface_{};  ///< the last one, and its source
     std::uint32_t source_ = 0;
@@ -122,16 +136,18 @@ void label_surfaces(const SurfaceSums& surfaces, const SceneObjects& objects,
     TopTwoFinder by_class =
         surfaces.finder_by([&](const Surface& of) { return objects.class_of(of.object); });
     TopTwoFinder by_material = surfaces.finder_by([](const Surface& of) { return of.material; });
-    TopTwoFinder direct = surfaces.finder_of_direct();
+    TopTwoFinder visible = surfaces.finder_of_own(true);
+    TopTwoFinder own_echoes = surfaces.finder_of_own(false);
     for (int j = 0; j < out.beams; ++j) {
         if (request.objects) {
             by_object.find(surfaces.sums(), j,
                            {own(out.object, out, j), own(out.second, out, j),
                             own(out.share, out, j), own(out.second_share, out, j)});
         }
-        if (request.direct_echoes) {
-            direct.find(surfaces.sums(), j,
-                        {own(out.direct_object, out, j), {}, own(out.direct_echo, out, j)});
+        if (request.silhouettes) {
+            visible.find(surfaces.sums(), j, {own(out.visible_object, out, j), {}});
+            own_echoes.find(surfaces.sums(), j,
+                            {own(out.own_object, out, j), {}, own(out.own_echo, out, j)});
             for (std::uint32_t source = 0; source < surfaces.sums().sources(); ++source)
                 surfaces.sums().add_to(source, j, own(out.whole_echo, out, j));
         }
@@ -146,29 +162,9 @@ PingLabels blank_labels(const View& view, const LabelRequest& request) {
     PingLabels labels;
     labels.range_bins = view.range_bins;
     labels.beams = view.beams;
-    const std::size_t n = labels.size();
-    if (request.objects) labels.object.resize(n);
-    if (request.direct_echoes) {
-        labels.direct_object.resize(n);
-        labels.direct_echo.resize(n);
-        labels.whole_echo.resize(n);
-    }
-    if (request.shares) {
-        labels.share.resize(n);
-        labels.second.resize(n);
-        labels.second_share.resize(n);
-        labels.multipath.resize(n);
-    }
-    if (request.classes) labels.class_id.resize(n);
-    if (request.materials) labels.material.resize(n);
-    if (request.shadow) labels.shadow.resize(n);
-    if (request.annotations) labels.object_shadow.resize(n);
-    constexpr float none = std::numeric_limits<float>::quiet_NaN();
-    if (request.height) labels.height_m.resize(n, none);
-    if (request.elevation) {
-        labels.elevation_rad.resize(n, none);
-        labels.elevation_spread_rad.resize(n, none);
-    }
+    for_each_label(request, [&](auto member, bool wanted, auto blank) {
+        if (wanted) (labels.*member).assign(labels.size(), blank);
+    });
     return labels;
 }
 
@@ -198,7 +194,7 @@ PingLabels label_group(const TracedPing& traced, const PingSettings& settings, c
                        const LabelRequest& request) {
     const View& view = settings.view;
     PingLabels labels = blank_labels(view, request);
-    SurfaceSums surfaces(view, objects);
+    SurfaceSums surfaces(view, objects, request.silhouettes);
     const SurfaceEchoes echoes =
         settings.model->surface_echoes(traced, view, scene,
                                        {.patches = request.elevation || request.height,
@@ -224,22 +220,12 @@ PingLabels label_group(const TracedPing& traced, const PingSettings& settings, c
 }
 
 /// Takes the labels of a beam.
-void copy_beam(const PingLabels& from, int beam, PingLabels& to) {
-    const auto copy = [&](auto member) {
-        const std::size_t first = static_cast<std::size_t>(beam) * from.range_bins;
-        if ((from.*member).empty()) return;
-        std::copy_n((from.*member).begin() + static_cast<std::ptrdiff_t>(first), from.range_bins,
-                    (to.*member).begin() + static_cast<std::ptrdiff_t>(first));
-    };
-    for (const auto member : {&PingLabels::object, &PingLabels::direct_object, &PingLabels::second,
-                              &PingLabels::class_id, &PingLabels::material, &PingLabels::shadow,
-                              &PingLabels::object_shadow})
-        copy(member);
-    for (const auto member :
-         {&PingLabels::direct_echo, &PingLabels::whole_echo, &PingLabels::share,
-          &PingLabels::second_share, &PingLabels::multipath, &PingLabels::elevation_rad,
-          &PingLabels::elevation_spread_rad, &PingLabels::height_m})
-        copy(member);
+void copy_beam(const PingLabels& from, int beam, const LabelRequest& request, PingLabels& to) {
+    for_each_label(request, [&](auto member, bool wanted, auto) {
+        if (!wanted) return;
+        const auto first = static_cast<std::ptrdiff_t>(beam) * from.range_bins;
+        std::copy_n((from.*member).begin() + first, from.range_bins, (to.*member).begin() + first);
+    });
 }
 
 }  // namespace
@@ -253,7 +239,7 @@ PingLabels label_ping(const TracedPing& traced, const PingSettings& settings, co
             label_group(traced.later_groups[k], settings, scene, objects, engine, request);
         for (int beam = 0; beam < labels.beams; ++beam) {
             if (traced.group_of_beam[beam] == static_cast<int>(k) + 1)
-                copy_beam(later, beam, labels);
+                copy_beam(later, beam, request, labels);
         }
     }
     return labels;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -23,7 +24,7 @@ struct LabelRequest {
     bool elevation = false;
     bool shadow = false;
     bool height = false;
-    bool direct_echoes = false;  ///< needs objects: direct_object, direct_echo and whole_echo
+    bool silhouettes = false;  ///< needs objects: visible_object, own_object, own_echo, whole_echo
     /// Needs objects: the data of annotations, for objects that are no background.
     bool annotations = false;
     std::span<const ObjectSphere> annotated = {};  ///< spheres around the annotated objects
@@ -44,9 +45,11 @@ struct PingLabels {
     std::vector<float> share;           ///< its share of that echo; 0 without an echo
     std::vector<std::uint16_t> second;  ///< the object that gives most of the rest
     std::vector<float> second_share;
-    /// The largest direct echo of an object that is no background, that object, and all echoes.
-    std::vector<std::uint16_t> direct_object;
-    std::vector<float> direct_echo, whole_echo;
+    /// For silhouettes, of the objects that are no background: that with the largest direct echo;
+    /// that with the largest echo of its own, which is direct or came over it on one of two
+    /// surfaces; this echo, and all echoes.
+    std::vector<std::uint16_t> visible_object, own_object;
+    std::vector<float> own_echo, whole_echo;
     std::vector<std::uint16_t> silhouette;    ///< and background; label_ping() leaves it empty
     std::vector<std::uint16_t> class_id;      ///< the class that gives most of the echo
     std::vector<std::uint16_t> material;      ///< the material that gives most of it
@@ -67,6 +70,31 @@ struct PingLabels {
     }
     std::size_t size() const { return static_cast<std::size_t>(range_bins) * beams; }
 };
+
+/// Calls use(member, wanted, blank) for every label of the bins: its member of PingLabels, whether
+/// a request needs it, and its value in a bin without any.
+template <class Use>
+void for_each_label(const LabelRequest& request, Use use) {
+    constexpr std::uint16_t no_id = 0;
+    constexpr float nothing = 0.0F;
+    constexpr float no_surface = std::numeric_limits<float>::quiet_NaN();
+    use(&PingLabels::object, request.objects, no_id);
+    use(&PingLabels::share, request.shares, nothing);
+    use(&PingLabels::second, request.shares, no_id);
+    use(&PingLabels::second_share, request.shares, nothing);
+    use(&PingLabels::multipath, request.shares, nothing);
+    use(&PingLabels::visible_object, request.silhouettes, no_id);
+    use(&PingLabels::own_object, request.silhouettes, no_id);
+    use(&PingLabels::own_echo, request.silhouettes, nothing);
+    use(&PingLabels::whole_echo, request.silhouettes, nothing);
+    use(&PingLabels::class_id, request.classes, no_id);
+    use(&PingLabels::material, request.materials, no_id);
+    use(&PingLabels::elevation_rad, request.elevation, no_surface);
+    use(&PingLabels::elevation_spread_rad, request.elevation, no_surface);
+    use(&PingLabels::height_m, request.height, no_surface);
+    use(&PingLabels::shadow, request.shadow, no_id);
+    use(&PingLabels::object_shadow, request.annotations, no_id);
+}
 
 /// Finds the origin of the echo of every bin of a traced ping, without noise: the echoes are those
 /// of EchoModel::surface_echoes(). A multipath echo counts for the specular surface. A pure

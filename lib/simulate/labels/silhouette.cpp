@@ -70,6 +70,27 @@ Standouts find_standouts(const ExpectedBins& ping) {
     return out;
 }
 
+void drop_mirror_images(const MaskFrame& frame, std::span<const std::uint16_t> visible,
+                        Standouts& standouts) {
+    constexpr float found = 2.0F;
+    Ids& ids = standouts.object;
+    for (auto& [id, shape] : windows_of(frame, CellReach({}), ids)) {
+        const std::uint16_t object = id;
+        MaskWindow kept = shape;
+        shape.for_each(
+            frame, [&](float& value, std::size_t k) { value = ids[k] == object ? 1.0F : 0.0F; });
+        kept.for_each(frame, [&](float& value, std::size_t k) {
+            value = visible[k] == object ? 1.0F : 0.0F;
+        });
+        for (int k = 0; k < std::ssize(shape.values); ++k) {
+            if (shape.values[k] == 1.0F && kept.values[k] == 1.0F) shape.flood(k, found, true);
+        }
+        shape.for_each(frame, [&](float value, std::size_t k) {
+            if (value == 1.0F) ids[k] = 0;
+        });
+    }
+}
+
 Ids tidied(const MaskFrame& frame, const Ids& ids, std::span<const float> weights) {
     const CellReach reach = closing_reach(frame.cell);
     const float least = greatest_ratio * CellReach(frame.cell).count();

@@ -11,9 +11,8 @@ namespace sonarsim {
 /// The expected content of the bins of a ping, [beams, range bins].
 struct ExpectedBins {
     MaskFrame frame;
-    std::span<const std::uint16_t>
-        object;                    ///< 1 + the object with the largest direct echo; 0: none
-    std::span<const float> echo;   ///< this echo
+    std::span<const std::uint16_t> object;  ///< PingLabels::own_object
+    std::span<const float> echo;            ///< this echo
     std::span<const float> whole;  ///< all that the bin holds, in the unit of echoes
 };
 
@@ -23,10 +22,15 @@ struct Standouts {
     std::vector<float> ratio;  ///< its echo over all else, at most 4
 };
 
-/// The objects whose direct echo within a resolution cell is at least as strong as all else that
+/// The objects whose own echo within a resolution cell is at least as strong as all else that
 /// the bin holds, and the strongest there. Such a bin is 3 dB above what it is without the object,
 /// the contrast by which widths of beams and pulses are measured.
 Standouts find_standouts(const ExpectedBins& ping);
+
+/// Drops the pieces without a bin that `visible`, PingLabels::visible_object, gives to their
+/// object: mirror images of it or in it.
+void drop_mirror_images(const MaskFrame& frame, std::span<const std::uint16_t> visible,
+                        Standouts& standouts);
 
 /// Ids of bins, 0 for none, as a person would draw the objects: gaps up to a resolution cell, or
 /// two bins, are closed and holes filled, but for bins of other ids. A piece is dropped if its

@@ -18,7 +18,7 @@ constexpr float max_bounce_pieces_per_bin = 16.0F;
 /// A part of a bounce in one beam and one scatterer cell.
 struct Piece {
     std::uint32_t beam;
-    std::uint32_t sample;
+    std::uint32_t path;
     float range_m;
     float half_m;
     float weight;
@@ -49,7 +49,7 @@ Cut cut(const BouncePath& b, const Sample& sample, float bin_m, const ScattererL
 }
 
 /// Adds the pieces of a bounce to `out`, without those outside the field of view.
-void add_pieces(const BouncePath& b, const Sample& sample, const View& view,
+void add_pieces(const BouncePath& b, std::uint32_t path, const Sample& sample, const View& view,
                 const ScattererLattice& lattice, const CellFrame& cells, std::vector<Piece>& out) {
     const auto beams = static_cast<float>(view.beams);
     const bool full_turn = is_full_turn(view);
@@ -57,7 +57,7 @@ void add_pieces(const BouncePath& b, const Sample& sample, const View& view,
     const float step_u = 1.0F / static_cast<float>(n_u);
     const float step_v = 1.0F / static_cast<float>(n_v);
     Piece piece{};
-    piece.sample = b.sample;
+    piece.path = path;
     // The variance of the box is the sum of the variances of the two edges' boxes.
     piece.half_m = std::sqrt(b.range_u * b.range_u * step_u * step_u +
                              b.range_v * b.range_v * step_v * step_v);
@@ -96,10 +96,10 @@ MultipathEchoes sorted_by_beam(const std::vector<Piece>& pieces, int beams, bool
     MultipathEchoes out;
     out.beam_begin = std::move(groups.begin);
     out.echoes.resize(pieces.size(), cells);
-    out.sample.resize(pieces.size());
+    out.path.resize(pieces.size());
     for (std::size_t k = 0; k < pieces.size(); ++k) {
         const Piece& piece = pieces[groups.items[k]];
-        out.sample[k] = piece.sample;
+        out.path[k] = piece.path;
         out.echoes.range_m[k] = piece.range_m;
         out.echoes.half_m[k] = piece.half_m;
         out.echoes.weight[k] = piece.weight;
@@ -119,8 +119,10 @@ MultipathEchoes multipath_echoes(std::span<const BouncePath> bounces, const Samp
     std::vector<Piece> pieces;
     pieces.reserve(16 * bounces.size());
     const CellFrame cells(lattice);
-    for (const BouncePath& b : bounces)
-        if (!b.scattered) add_pieces(b, samples.items[b.sample], view, lattice, cells, pieces);
+    for (std::uint32_t k = 0; k < bounces.size(); ++k) {
+        const BouncePath& b = bounces[k];
+        if (!b.scattered) add_pieces(b, k, samples.items[b.sample], view, lattice, cells, pieces);
+    }
     return sorted_by_beam(pieces, view.beams, lattice.exists());
 }
 

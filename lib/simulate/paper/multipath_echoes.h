@@ -13,7 +13,7 @@ namespace sonarsim {
 struct MultipathEchoes {
     Echoes echoes;                          ///< sorted by beam
     std::vector<std::uint32_t> beam_begin;  ///< beams + 1 offsets into `echoes`
-    std::vector<std::uint32_t> sample;      ///< index into Samples::items, by echo
+    std::vector<std::uint32_t> path;        ///< index into the paths, by echo
 };
 
 /// Turns the paths that are not scattered into echoes with the weight and the scatterer cells of

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 #include "simulate/paper/echoes.h"
 #include "simulate/paper/multipath_echoes.h"
@@ -19,14 +20,15 @@ double echo_of(const Sample& sample, const Material& material) {
     return sample.area_m2 * reflection * std::min(sample.height_m / range_m, 1.0);
 }
 
-/// Hands on echoes that are sorted by beam. `sample_of(k)`: the sample of echo k.
-template <class SampleOf>
+/// Hands on echoes that are sorted by beam. `surface_of(k)`: sample and second surface of echo k.
+template <class SurfaceOf>
 void add_all(const RangeBoxes& echoes, std::span<const std::uint32_t> beam_begin,
-             SampleOf sample_of, EchoBlocks& blocks) {
+             SurfaceOf surface_of, EchoBlocks& blocks) {
     for (std::uint32_t j = 0; j + 1 < beam_begin.size(); ++j) {
         for (std::uint32_t k = beam_begin[j]; k < beam_begin[j + 1]; ++k) {
+            const auto [sample, second] = surface_of(k);
             blocks.add(j, echoes.range_m[k], echoes.half_m[k], echoes.weight[k],
-                       echoes.intensity[k], sample_of(k));
+                       echoes.intensity[k], sample, second);
         }
     }
 }
@@ -44,12 +46,12 @@ void add_direct(const Samples& samples, const View& view, const Scene& scene, Ec
     for (const std::uint32_t begin : samples.beam_begin)
         beam_begin.push_back(begin > 0 ? ends[begin - 1] : 0);
     std::size_t sample = 0;
-    const auto sample_of = [&](std::uint32_t k) {
+    const auto surface_of = [&](std::uint32_t k) {
         while (ends[sample] <= k)
             ++sample;
-        return &samples.items[sample];
+        return std::pair(&samples.items[sample], no_instance);
     };
-    add_all(echoes, beam_begin, sample_of, blocks);
+    add_all(echoes, beam_begin, surface_of, blocks);
 }
 
 }  // namespace
@@ -64,9 +66,11 @@ SurfaceEchoes PaperModel::surface_echoes(const TracedPing& traced, const View& v
     blocks.begin_multipath();
     const MultipathEchoes bounced =
         multipath_echoes(traced.bounces, samples, view, ScattererLattice{});
-    add_all(
-        bounced.echoes, bounced.beam_begin,
-        [&](std::uint32_t k) { return &samples.items[bounced.sample[k]]; }, blocks);
+    const auto surface_of = [&](std::uint32_t k) {
+        const BouncePath& path = traced.bounces[bounced.path[k]];
+        return std::pair(&samples.items[path.sample], path.instance);
+    };
+    add_all(bounced.echoes, bounced.beam_begin, surface_of, blocks);
     blocks.flush();
     if (!request.patches) return out;
     out.patch_begin = samples.beam_begin;

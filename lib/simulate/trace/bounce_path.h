@@ -6,6 +6,7 @@
 namespace sonarsim {
 
 inline constexpr std::uint32_t no_material = 0xFFFFFFFFU;
+inline constexpr std::uint32_t no_instance = 0xFFFFFFFFU;
 
 /// A multipath path: from the sonar to a sample, which reflects the sound to a second surface, and
 /// from there back to the sonar. If the water's surface reflects the sound on its way
@@ -24,6 +25,7 @@ struct BouncePath {
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< n_h of the second surface
     std::uint32_t material =
         no_material;        ///< index into Scene::materials; no_material: the water's surface
+    std::uint32_t instance = no_instance;  ///< the second surface; no_instance: the water's
     float strength = 1.0F;  ///< strength of the second surface, as in Sample
     float water_reflection = 1.0F;  ///< R of the water's surface if it reflects the sound, else 1
     bool by_water_surface = false;

@@ -36,6 +36,7 @@ void set_surface(const BounceTracer& context, const Intersection& hit, const Eig
         surface =
             mapped_point(*context.maps, context.T_world_sensor, point, hit.instance, hit.material);
     out.material = surface.material;
+    out.instance = hit.instance;
     out.strength = surface.strength;
     out.reflection = context.materials[surface.material].reflection * surface.strength;
 }

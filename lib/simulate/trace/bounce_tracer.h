@@ -23,6 +23,7 @@ struct BounceHit {
     float strength = 1.0F;    ///< as in Sample
     std::uint32_t material =
         no_material;                ///< index into Scene::materials; none: the water's surface
+    std::uint32_t instance = no_instance;  ///< as in BouncePath
     float water_reflection = 1.0F;  ///< R of the water's surface if it reflects the sound, else 1
     bool exists = false;
 };

@@ -108,6 +108,7 @@ bool follow(const BounceTracer& context, std::uint32_t sample, std::uint32_t ray
     b.point = second.point;
     b.normal = second.normal;
     b.material = second.material;
+    b.instance = second.instance;
     b.strength = second.strength;
     b.water_reflection = second.water_reflection;
     b.by_water_surface = context.uses_surface_image();

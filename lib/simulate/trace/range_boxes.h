@@ -81,6 +81,7 @@ struct EchoBlock {
     std::array<float, most> range_m, half_m, weight, intensity;
     std::array<std::uint32_t, most> beam;
     std::array<const Sample*, most> sample;
+    std::array<std::uint32_t, most> second;  ///< BouncePath::instance of multipath
 };
 
 /// Sums of echoes by source, beam and range bin. Boxes are spread over the bins as by accumulate().

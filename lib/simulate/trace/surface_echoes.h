@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "input/scene/objects.h"
+#include "simulate/trace/bounce_path.h"
 #include "simulate/trace/cone_beams.h"
 #include "simulate/trace/range_boxes.h"
 #include "simulate/visibility/engine.h"
@@ -23,7 +24,7 @@ class EchoBlocks {
     explicit EchoBlocks(const UseEchoes& use) : use_(use) {}
 
     void add(std::uint32_t beam, float range_m, float half_m, float weight, float intensity,
-             const Sample* sample) {
+             const Sample* sample, std::uint32_t second = no_instance) {
         if (block_.count == EchoBlock::most) flush();
         const int k = block_.count++;
         block_.beam[k] = beam;
@@ -32,6 +33,7 @@ class EchoBlocks {
         block_.weight[k] = weight;
         block_.intensity[k] = intensity;
         block_.sample[k] = sample;
+        block_.second[k] = second;
     }
     void flush() {
         if (block_.count > 0) use_(block_);
