@@ -130,26 +130,24 @@ struct Caster::PlacedTree {
     EmbreeTree tree;
     std::uint32_t begin = 0;
     std::uint32_t end = 0;
-    std::vector<std::uint32_t> first_facet;  ///< number of each object's first facet
-    std::vector<std::uint32_t> tree_of;      ///< index into Trees::trees
-    std::vector<Eigen::Matrix<float, 3, 4>> transforms;
+    std::vector<TracedMesh> meshes;
     std::size_t first_copy = 0;  ///< index of the first copy
 
     PlacedTree(const Trees& trees, std::uint32_t first)
         : tree(trees.device), begin(first), end(first) {}
 
-    void add(const Trees& trees, std::uint32_t placed, const Eigen::Matrix<float, 3, 4>& T) {
-        add_instance(trees.device, tree, static_cast<unsigned int>(first_facet.size()),
+    void add(const Trees& trees, std::uint32_t placed, const Eigen::Matrix<float, 3, 4>& T,
+             bool scaled) {
+        add_instance(trees.device, tree, static_cast<unsigned int>(meshes.size()),
                      trees.trees[placed], T);
-        first_facet.push_back(end);
-        tree_of.push_back(placed);
-        transforms.push_back(T);
+        meshes.push_back(
+            {end, trees.facets.data() + trees.first_of_tree[placed], placed > 0, scaled, T});
         end += trees.size(placed);
     }
 
     void add_own(const Trees& trees) {
-        add(trees, 0, Eigen::Matrix<float, 3, 4>::Identity());
-        first_copy = first_facet.size();
+        add(trees, 0, Eigen::Matrix<float, 3, 4>::Identity(), false);
+        first_copy = meshes.size();
     }
 
     void add_bodies(const Trees& trees, std::span<const Pose> T_local_body) {
@@ -157,14 +155,14 @@ struct Caster::PlacedTree {
             Eigen::Matrix<float, 3, 4> transform;
             transform << T_local_body[k].rotation.toRotationMatrix().cast<float>(),
                 T_local_body[k].translation.cast<float>();
-            add(trees, static_cast<std::uint32_t>(1 + k), transform);
+            add(trees, static_cast<std::uint32_t>(1 + k), transform, false);
         }
-        first_copy = first_facet.size();
+        first_copy = meshes.size();
     }
 
     void add_copies(const Trees& trees) {
         for (const Trees::PlacedCopy& copy : trees.copies)
-            add(trees, copy.tree, copy.T_local_mesh);
+            add(trees, copy.tree, copy.T_local_mesh, true);
     }
 
     void finish(const Trees& trees) {
@@ -284,30 +282,30 @@ Caster Caster::moved(std::span<const Pose> T_local_body) const {
 Facet Caster::placed_facet(std::uint32_t index) const {
     const PlacedTree& placed_tree =
         index < placed_trees_.back()->begin ? *placed_trees_.front() : *placed_trees_.back();
-    const auto& first = placed_tree.first_facet;
-    const auto next = std::upper_bound(first.begin(), first.end(), index);
-    const auto placed = static_cast<std::size_t>(next - first.begin()) - 1;
-    const auto stored = trees_->first_of_tree[placed_tree.tree_of[placed]];
-    Facet facet = facets_[stored + (index - first[placed])];
-    const Eigen::Matrix<float, 3, 4>& T = placed_tree.transforms[placed];
-    facet.vertex = T.leftCols<3>() * facet.vertex + T.col(3);
-    facet.normal = T.leftCols<3>() * facet.normal;
-    if (placed < placed_tree.first_copy) return facet;
-    facet.normal.normalize();  // a copy may be scaled
-    facet.instance = trees_->copies[placed - placed_tree.first_copy].instance;
+    const auto& meshes = placed_tree.meshes;
+    const auto next = std::ranges::upper_bound(meshes, index, {}, &TracedMesh::first_facet);
+    const auto placed = static_cast<std::size_t>(next - meshes.begin()) - 1;
+    Facet facet = meshes[placed].facet(index - meshes[placed].first_facet);
+    if (placed >= placed_tree.first_copy)
+        facet.instance = trees_->copies[placed - placed_tree.first_copy].instance;
     return facet;
 }
 
 void Caster::cast_from(const RayOrigins& origins, std::span<const Eigen::Vector3f> directions,
                        float reach_m, RaySpread spread, std::span<std::uint32_t> facets) const {
     if (placed_trees_.empty()) {
-        const TracedLayer own{trees_->trees[0].get(), trees_->first_of_part};
+        std::array<TracedMesh, 2> parts;
+        for (std::size_t k = 0; k < parts.size(); ++k) {
+            parts[k].first_facet = trees_->first_of_part[k];
+            parts[k].facets = facets_ + parts[k].first_facet;
+        }
+        const TracedLayer own{trees_->trees[0].get(), parts};
         trace_packets({&own, 1}, origins, directions, reach_m, spread, facets);
         return;
     }
     std::array<TracedLayer, 2> layers;
     for (std::size_t k = 0; k < placed_trees_.size(); ++k)
-        layers[k] = {placed_trees_[k]->tree.get(), placed_trees_[k]->first_facet};
+        layers[k] = {placed_trees_[k]->tree.get(), placed_trees_[k]->meshes};
     trace_packets(std::span(layers).first(placed_trees_.size()), origins, directions, reach_m,
                   spread, facets);
 }

@@ -9,22 +9,14 @@
 
 #include "core/pose.h"
 #include "input/scene/scene.h"
+#include "simulate/visibility/facet.h"
 #include "simulate/visibility/ray_spread.h"
 
 namespace sonarsim {
 
 struct RayOrigins;
 
-/// The data of a triangle that a ray has met; 32 bytes, half a cache line.
-struct Facet {
-    Eigen::Vector3f vertex;  ///< one of its corners, scene-local, m
-    std::uint32_t material;
-    Eigen::Vector3f normal;  ///< unit
-    std::uint32_t instance;
-};
-
-/// Wraps Embree: finds the first triangle that a ray meets. Distances come from the facet's plane,
-/// since Embree's reciprocals differ between makers of processors.
+/// Wraps Embree: finds the first triangle that a ray meets, the same on every processor.
 class Caster {
   public:
     static constexpr std::uint32_t nothing = 0xFFFFFFFFU;

@@ -44,20 +44,29 @@ inline float flush_to_zero(float component) {
 
 /// rtcIntersect8; the arguments are Embree's own. `close`: the rays lie close together. Embree then
 /// traverses its tree with the whole packet; otherwise it follows each ray where the packet
-/// divides.
-inline void intersect_8(const int* valid, RTCScene tree, bool close, RTCRayHit8& rays) {
+/// divides. Filters of the meshes get `context`.
 #if SONARSIM_EMBREE == 3
-    RTCIntersectContext context;
+using QueryContext = RTCIntersectContext;
+
+inline void intersect_8(const int* valid, RTCScene tree, bool close, RTCRayHit8& rays,
+                        QueryContext& context) {
     rtcInitIntersectContext(&context);
     context.flags =
         close ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     rtcIntersect8(valid, tree, &context, &rays);
+}
 #else
+using QueryContext = RTCRayQueryContext;
+
+inline void intersect_8(const int* valid, RTCScene tree, bool close, RTCRayHit8& rays,
+                        QueryContext& context) {
+    rtcInitRayQueryContext(&context);
     RTCIntersectArguments arguments;
     rtcInitIntersectArguments(&arguments);
     arguments.flags = close ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+    arguments.context = &context;
     rtcIntersect8(valid, tree, &rays, &arguments);
-#endif
 }
+#endif
 
 }  // namespace sonarsim

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "simulate/visibility/embree_trace.h"
+
 namespace sonarsim {
 
 void check_embree(RTCDevice device, const char* doing) {
@@ -37,6 +39,7 @@ void put_mesh(RTCDevice device, const EmbreeTree& into, unsigned int index,
         std::copy(vertices.begin(), vertices.end(), static_cast<Eigen::Vector3f*>(points));
         std::copy(triangles.begin(), triangles.end(),
                   static_cast<std::array<std::uint32_t, 3>*>(corners));
+        rtcSetGeometryIntersectFilterFunction(mesh, &keep_hits);
         rtcCommitGeometry(mesh);
         rtcAttachGeometryByID(into.get(), mesh, index);
     }

@@ -13,7 +13,7 @@ namespace sonarsim {
 /// the last call.
 void check_embree(RTCDevice device, const char* doing);
 
-/// The tree of a mesh.
+/// The tree of a mesh, for trace_packets().
 EmbreeTree make_tree(RTCDevice device, std::span<const Eigen::Vector3f> vertices,
                      std::span<const std::array<std::uint32_t, 3>> triangles);
 

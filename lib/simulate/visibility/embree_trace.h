@@ -6,15 +6,34 @@
 #include <span>
 
 #include "simulate/visibility/embree.h"
+#include "simulate/visibility/facet.h"
 #include "simulate/visibility/ray_spread.h"
 
 namespace sonarsim {
 
-/// A tree that rays are traced through. The facet numbers of its k-th instance or mesh start at
-/// `first_facet[k]`.
+/// The triangles of an instance of a tree, or of one of a tree's own meshes.
+struct TracedMesh {
+    std::uint32_t first_facet = 0;  ///< the number of its first facet
+    const Facet* facets = nullptr;  ///< in the mesh's frame
+    bool placed = false;            ///< false: the mesh's frame is the scene-local one
+    bool scaled = false;
+    Eigen::Matrix<float, 3, 4> T_local_mesh = {};
+
+    /// Facet `first_facet + triangle`, scene-local.
+    Facet facet(std::uint32_t triangle) const {
+        Facet out = facets[triangle];
+        if (!placed) return out;
+        out.vertex = T_local_mesh.leftCols<3>() * out.vertex + T_local_mesh.col(3);
+        out.normal = T_local_mesh.leftCols<3>() * out.normal;
+        if (scaled) out.normal.normalize();
+        return out;
+    }
+};
+
+/// A tree that rays are traced through, and its instances or meshes.
 struct TracedLayer {
     RTCScene tree = nullptr;
-    std::span<const std::uint32_t> first_facet = {};
+    std::span<const TracedMesh> meshes = {};
 };
 
 /// Origins of rays: one common point, or one for each ray.
@@ -26,9 +45,17 @@ struct RayOrigins {
 };
 
 /// Traces rays in packets to the nearest hit in any layer: `facets[i]` is the facet that ray i
-/// meets within `reach_m`, or RTC_INVALID_GEOMETRY_ID.
+/// meets within `reach_m`, or RTC_INVALID_GEOMETRY_ID. All meshes need `keep_hits` as their filter.
+///
+/// Embree only proposes facets. Its distances contain estimates of reciprocals, in which makers of
+/// processors differ. Which facet is the nearest, and whether it is in reach, follows from the
+/// distance of the facet's plane. Of facets that coincide to within rounding, the one with the
+/// least number counts.
 void trace_packets(std::span<const TracedLayer> layers, const RayOrigins& origins,
                    std::span<const Eigen::Vector3f> directions, float reach_m, RaySpread spread,
                    std::span<std::uint32_t> facets);
+
+/// The filter of a mesh that trace_packets() meets: takes down Embree's hits.
+void keep_hits(const RTCFilterFunctionNArguments* hits);
 
 }  // namespace sonarsim
