@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 """Renders the small missions of this folder and compares what they make with goldens.txt.
 
-    tests/golden/goldens.py PROGRAM [--write] [--keep FOLDER]
+    tests/golden/goldens.py PROGRAM [--write] [--keep FOLDER] [--under "qemu-x86_64 -cpu max"]
 
 Each mission is rendered with one and with two threads, one also in three shards that are merged; kills:
 cli/test_faults.py. A line of goldens.txt is a dataset, a sensor (or `-`), a kind of file, the number of such files, and
 the hash of their contents: arrays, decoded pixels, parsed JSON without what names a build, a version or a sum. The
 variants of a mission are one dataset here. Two missions are previewed. --write writes goldens.txt again; say in the
-commit why its lines changed.
+commit why its lines changed. --under runs the program by a command, such as an emulator of another processor, with one
+thread.
 """
 import argparse
 import base64
@@ -17,6 +18,7 @@ import hashlib
 import json
 import pathlib
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -125,11 +127,11 @@ def lines_of(name, folder):
 
 
 class Renderer:
-    def __init__(self, program, folder):
-        self.program, self.folder = str(pathlib.Path(program).resolve()), folder
+    def __init__(self, program, folder, under=()):
+        self.program, self.folder = [*under, str(pathlib.Path(program).resolve())], folder
 
     def command(self, name, out, *arguments):
-        return [self.program, "render", f"missions/{name}.yaml", "--quiet", "--out", out, *arguments]
+        return [*self.program, "render", f"missions/{name}.yaml", "--quiet", "--out", out, *arguments]
 
     def run(self, *command):
         result = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, check=False)
@@ -152,7 +154,7 @@ class Renderer:
         parts = [self.folder / f"out/{name}_part{k}" for k in (1, 2, 3)]
         for k, part in enumerate(parts):
             self.run(*self.command(name, part, "--shard", f"{k + 1}/3"))
-        self.run(self.program, "merge", *parts, out)
+        self.run(*self.program, "merge", *parts, out)
         self.run(*self.command(name, out))
         return self.lines(name, out)
 
@@ -161,16 +163,16 @@ class Renderer:
         lines = []
         for name in PREVIEWED:
             out = self.folder / f"out/{name}_preview.png"
-            self.run(self.program, "preview", f"missions/{name}.yaml", "--ping", "3", "--quiet", "--out", out)
+            self.run(*self.program, "preview", f"missions/{name}.yaml", "--ping", "3", "--quiet", "--out", out)
             lines.append(f"preview - {name}.png 1 {hashlib.sha256(pixel_bytes(out)).hexdigest()[:32]}")
         return lines
 
 
-def all_runs(renderer):
-    """Name, way of rendering, and lines of every run, two at a time."""
+def all_runs(renderer, counts):
+    """Name, way of rendering, and lines of every run, two at a time. `counts`: the numbers of threads."""
     names = sorted(path.stem for path in (HERE / "missions").glob("*.yaml"))
     jobs = [(name, f"{threads} threads", renderer.with_threads, (name, threads))
-            for threads in (1, 2) for name in names]
+            for threads in counts for name in names]
     jobs += [("preview", "1 threads", renderer.previews, ()), (SHARDED, "three shards", renderer.sharded, (SHARDED,))]
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         futures = [(name, way, pool.submit(run, *arguments)) for name, way, run, arguments in jobs]
@@ -191,11 +193,13 @@ def main():
     parser.add_argument("program", metavar="PROGRAM")
     parser.add_argument("--write", action="store_true", help="write goldens.txt instead of comparing with it")
     parser.add_argument("--keep", type=pathlib.Path, metavar="FOLDER", help="render into this new folder and keep it")
+    parser.add_argument("--under", type=shlex.split, default=(), metavar="COMMAND", help="run the program by this command")
     options = parser.parse_args()
     with contextlib.ExitStack() as stack:
         folder = options.keep or stack.enter_context(tempfile.TemporaryDirectory(prefix="goldens-"))
         make_scenes(pathlib.Path(folder).resolve())
-        runs = all_runs(Renderer(options.program, pathlib.Path(folder).resolve()))
+        runs = all_runs(Renderer(options.program, pathlib.Path(folder).resolve(), options.under),
+                        (1,) if options.under else (1, 2))
     whole = {name: lines for name, way, lines in runs if way == "1 threads"}
     faults = [f"{line} ({way}, compared with 1 thread)" for name, way, lines in runs
               for line in differences(whole[name], lines)]
