@@ -1,4 +1,7 @@
+#include <ctime>
+
 #include "core/pose.h"
+#include "core/random.h"
 #include "input/scene/placing/bottom.h"
 #include "input/scene/placing/rest.h"
 #include "input/scene/placing/scatter.h"
@@ -136,7 +139,7 @@ std::vector<Surface> put(const std::vector<Surface>& shapes, ScatterRule rule, s
     rule.rpy_rad = {{{-0.5, 0.5}, {-0.5, 0.5}, {-3.0, 3.0}}};
     rule.scale = {0.6, 1.4};
     rule.tries = 1000;
-    std::vector<Hull> taken;
+    TakenGround taken;
     std::vector<Surface> out;
     for (const ScatteredObject& object : scatter(rule, 0, seed, bottom, taken))
         out.push_back(moved(shapes[object.shape], object.T_world_shape));
@@ -211,6 +214,63 @@ TEST_SUITE("scene") {
             CHECK(std::fabs(v.z() - 0.3 * v.x() - 0.1 * v.y()) < 1e-9);
         }
         CHECK(T->translation().head<2>() == Eigen::Vector2d(2.0, -3.0));
+    }
+
+    TEST_CASE("placing: room beside hulls of all sizes is that beside each hull one by one") {
+        auto draw = [counter = std::uint32_t{0}](double low, double high) mutable {
+            const PhiloxBlock block = philox({counter++, 0, 0, 0}, PhiloxKey{});
+            return low + (high - low) * unit_double(block.x0, block.x1);
+        };
+        const auto hull = [&] {
+            const double size = std::pow(10.0, draw(-3.0, 1.3));
+            const double x = draw(-300.0, 300.0);
+            const double y = draw(-30.0, 30.0);
+            std::vector<Eigen::Vector3d> points;
+            for (int k = 0; k < 6; ++k)
+                points.emplace_back(x + size * draw(0, 1), y + size * draw(0, 1), 0.0);
+            return hull_of(points);
+        };
+        TakenGround ground;
+        std::vector<Hull> all;
+        int free = 0;
+        for (int i = 0; i < 3000; ++i) {
+            const Hull room = hull();
+            const double spacing = i % 3 == 0 ? 0.0 : std::pow(10.0, draw(-2.0, 1.0));
+            const bool alone = std::ranges::none_of(all, [&](const Hull& other) {
+                const double distance = distance_between(room, other);
+                return distance <= 0.0 || distance < spacing;
+            });
+            CHECK(ground.has_room(room, spacing) == alone);
+            if (!alone) continue;
+            ++free;
+            ground.add(room);
+            all.push_back(room);
+        }
+        CHECK(free > 300);
+        CHECK(free < 2700);
+    }
+
+    TEST_CASE("placing: the time to scatter objects grows with their number, not with its square" *
+              doctest::skip(test::sanitized)) {
+        Surface plane;
+        for (const auto& [x, y] : {std::pair(-500, -500), {500, -500}, {500, 500}, {-500, 500}})
+            plane.vertices.emplace_back(x, y, 0.0);
+        plane.triangles = {{0, 1, 2}, {0, 2, 3}};
+        const Bottom bottom(plane);
+        const Surface shape = box(0.3, 0.2, 0.1);
+        const auto seconds = [&](double count) {
+            TakenGround taken;
+            ScatterRule rule;
+            rule.shapes = {&shape};
+            rule.count = {count, count};
+            rule.area = {Eigen::Vector2d(-499, -499), Eigen::Vector2d(499, 499)};
+            rule.tries = 1000;
+            const std::clock_t before = std::clock();
+            scatter(rule, 0, 1, bottom, taken);
+            return static_cast<double>(std::clock() - before);
+        };
+        seconds(1000);
+        CHECK(seconds(64000) < 20.0 * seconds(8000));  // linear: 8, by its square: 64
     }
 
     TEST_CASE("placing: distances between hulls") {

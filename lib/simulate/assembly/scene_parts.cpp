@@ -207,7 +207,7 @@ bool is_upright(const ObjectConfig& object) {
 /// the units.
 std::vector<ScatteredObject> scattered(const ScatterConfig& config, const ScatterRule& rule,
                                        std::uint32_t index, std::uint64_t seed, LazyBottom& bottom,
-                                       double range_m, std::vector<Hull>& taken) {
+                                       double range_m, TakenGround& taken) {
     const Bottom& ground = bottom.get();
     try {
         return scatter(rule, index, seed, ground, taken);
@@ -223,7 +223,7 @@ std::vector<ScatteredObject> scattered(const ScatterConfig& config, const Scatte
 
 /// Scatters the objects of one rule and appends their files.
 void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64_t seed,
-                   double range_m, SceneFiles& models, LazyBottom& bottom, std::vector<Hull>& taken,
+                   double range_m, SceneFiles& models, LazyBottom& bottom, TakenGround& taken,
                    SceneParts& parts) {
     std::vector<PlacedFile> kinds;
     std::vector<Surface> shapes;
@@ -299,7 +299,7 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
     }
     if (ground) parts.files.push_back(*ground);
     LazyBottom bottom(scene, ground, models);
-    std::vector<Hull> taken;
+    TakenGround taken;
     const double range_m = farthest_range_m(mission);
     for (const ObjectConfig& object : scene.objects) {
         PlacedFile& file = parts.files.emplace_back(file_of(object));
@@ -324,7 +324,7 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
                                         "on_bottom"
                                       : "lower bury_m"));
         }
-        if (!scene.scatter.empty()) taken.push_back(hull_of(placed.vertices));
+        if (!scene.scatter.empty()) taken.add(hull_of(placed.vertices));
     }
     for (std::size_t i = 0; i < scene.scatter.size(); ++i) {
         scatter_files(scene.scatter[i], static_cast<std::uint32_t>(i), mission.seed, range_m,

@@ -1,6 +1,5 @@
 #include "input/scene/placing/hull.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -18,13 +17,6 @@ double distance_to_edge(const Eigen::Vector2d& p, const Eigen::Vector2d& a,
     const double length = along.squaredNorm();
     const double t = length > 0.0 ? std::clamp((p - a).dot(along) / length, 0.0, 1.0) : 0.0;
     return (p - a - t * along).norm();
-}
-
-Eigen::AlignedBox2d box_around(const Hull& hull) {
-    Eigen::AlignedBox2d box;
-    for (const Eigen::Vector2d& corner : hull)
-        box.extend(corner);
-    return box;
 }
 
 /// True if a line along an edge of `a` separates `a` from `b`.
@@ -77,6 +69,13 @@ Hull hull_of(std::span<const Eigen::Vector3d> points) {
     return hull;
 }
 
+Eigen::AlignedBox2d box_of(const Hull& hull) {
+    Eigen::AlignedBox2d box;
+    for (const Eigen::Vector2d& corner : hull)
+        box.extend(corner);
+    return box;
+}
+
 double area_of(const Hull& hull) {
     double twice = 0.0;
     for (std::size_t i = 0; i < hull.size(); ++i) {
@@ -91,10 +90,10 @@ double distance_between(const Hull& a, const Hull& b, double most) {
     constexpr double far = std::numeric_limits<double>::infinity();
     if (a.empty() || b.empty()) return far;
     // The margin exceeds the rounding of the distance.
-    const Eigen::AlignedBox2d box = box_around(a);
+    const Eigen::AlignedBox2d box = box_of(a);
     const double near = 1.001 * most + 1e-6 * (1.0 + box.max().cwiseAbs().maxCoeff() +
                                                box.min().cwiseAbs().maxCoeff());
-    if (box.squaredExteriorDistance(box_around(b)) > near * near) return far;
+    if (box.squaredExteriorDistance(box_of(b)) > near * near) return far;
     // Convex polygons are disjoint if and only if an edge of one of them separates them.
     if (!has_gap(a, b) && !has_gap(b, a)) return 0.0;
     return std::min(min_distance(a, b), min_distance(b, a));

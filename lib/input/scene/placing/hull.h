@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <limits>
 #include <span>
 #include <vector>
@@ -14,6 +14,8 @@ double area_of(const Hull& hull);
 
 /// The convex hull of points seen from above.
 Hull hull_of(std::span<const Eigen::Vector3d> points);
+
+Eigen::AlignedBox2d box_of(const Hull& hull);
 
 /// The distance between two convex polygons, 0 when they meet; infinite, after a quick test, if it
 /// is clearly more than `most`.

@@ -56,26 +56,19 @@ struct Refusals {
 [[noreturn]] void give_up(const ScatterRule& rule, std::size_t object, std::size_t count,
                           const Refusals& refusals) {
     throw InputError(
-        rule.place,
-        "'" + rule.name + "': object " + std::to_string(object + 1) + " of " +
-            std::to_string(count) + " finds no room in " + std::to_string(rule.tries) +
-            " tries: " + std::to_string(refusals.outside) + " reach out of the area, " +
-            std::to_string(refusals.taken) + " come too near to other objects, " +
-            std::to_string(refusals.no_bottom) +
-            " have no bottom below; take a larger area, fewer or smaller objects or more tries");
+        rule.place, "'" + rule.name + "': object " + std::to_string(object + 1) + " of " +
+                        std::to_string(count) + " finds no room in " + std::to_string(rule.tries) +
+                        " tries: " + std::to_string(refusals.outside) + " reach out of the area, " +
+                        std::to_string(refusals.taken) + " come too near to other objects, " +
+                        std::to_string(refusals.no_bottom) +
+                        " have no bottom below; take a larger area, fewer or smaller objects or "
+                        "less spacing_m");
 }
 
 Hull shifted(Hull hull, const Eigen::Vector2d& by) {
     for (Eigen::Vector2d& corner : hull)
         corner += by;
     return hull;
-}
-
-bool has_room(const Hull& room, double spacing_m, const std::vector<Hull>& taken) {
-    return std::ranges::none_of(taken, [&](const Hull& other) {
-        const double distance = distance_between(room, other, spacing_m);
-        return distance <= 0.0 || distance < spacing_m;
-    });
 }
 
 /// One object whose positions are tried one after the other.
@@ -89,12 +82,12 @@ struct Attempt {
 
 /// Returns the object's transform if there is room for it, and marks the ground as taken.
 std::optional<Eigen::Affine3d> try_at(const Eigen::Vector2d& position, const Attempt& attempt,
-                                      std::vector<Hull>& taken, Refusals& refusals) {
+                                      TakenGround& taken, Refusals& refusals) {
     const ScatterRule& rule = attempt.rule;
     const auto fits = [&](const Hull& room) {
         const bool inside = std::ranges::all_of(
             room, [&](const Eigen::Vector2d& p) { return rule.area.contains(p); });
-        const bool alone = inside && has_room(room, rule.spacing_m, taken);
+        const bool alone = inside && taken.has_room(room, rule.spacing_m);
         refusals.outside += !inside;
         refusals.taken += inside && !alone;
         return alone;
@@ -108,13 +101,13 @@ std::optional<Eigen::Affine3d> try_at(const Eigen::Vector2d& position, const Att
         return std::nullopt;
     }
     if (!rule.align) {
-        taken.push_back(shifted(attempt.outline, position));
+        taken.add(shifted(attempt.outline, position));
         return T_world_shape;
     }
     // The object may have been tilted on a slope, so its outline is tested again.
     Hull room = hull_of(moved(attempt.shape, *T_world_shape).vertices);
     if (!fits(room)) return std::nullopt;
-    taken.push_back(std::move(room));
+    taken.add(std::move(room));
     return T_world_shape;
 }
 
@@ -142,8 +135,7 @@ std::optional<Eigen::Affine3d> put_on_bottom(const Bottom& bottom, const Surface
 }
 
 std::vector<ScatteredObject> scatter(const ScatterRule& rule, std::uint32_t rule_index,
-                                     std::uint64_t seed, const Bottom& bottom,
-                                     std::vector<Hull>& taken) {
+                                     std::uint64_t seed, const Bottom& bottom, TakenGround& taken) {
     const std::size_t count = count_of(rule, seed, rule_index);
     std::vector<ScatteredObject> objects;
     for (std::size_t i = 0; i < count; ++i) {

@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 #include "input/scene/placing/bottom.h"
-#include "input/scene/placing/hull.h"
+#include "input/scene/placing/taken_ground.h"
 #include "input/scene/surface.h"
 
 namespace sonarsim {
@@ -52,7 +52,6 @@ std::optional<Eigen::Affine3d> put_on_bottom(const Bottom& bottom, const Surface
 /// once, its position up to `tries` times. Every draw depends on the seed, the rule and the object,
 /// not on earlier draws. InputError at the rule's place if an object finds no room.
 std::vector<ScatteredObject> scatter(const ScatterRule& rule, std::uint32_t rule_index,
-                                     std::uint64_t seed, const Bottom& bottom,
-                                     std::vector<Hull>& taken);
+                                     std::uint64_t seed, const Bottom& bottom, TakenGround& taken);
 
 }  // namespace sonarsim
