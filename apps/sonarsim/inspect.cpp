@@ -10,6 +10,7 @@
 #include "core/text.h"
 #include "core/units.h"
 #include "input/mission/scene_keys.h"
+#include "input/scene/find_material.h"
 #include "input/scene/gltf/load.h"
 #include "input/scene/gltf/surface_of.h"
 #include "input/scene/images/read_image.h"
@@ -127,8 +128,8 @@ Json scene_json(const Scene& scene) {
 Json acoustics_json(const Scene& scene, const MaterialTable& table) {
     Json json = Json::object();
     for (const Material& material : scene.materials) {
-        const auto row = std::ranges::find(table.materials, material.name, &Material::name);
-        if (row == table.materials.end()) {
+        const Material* const row = find_material(table.materials, material.name);
+        if (!row) {
             json[material.name] = nullptr;
             continue;
         }

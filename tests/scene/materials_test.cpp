@@ -78,6 +78,21 @@ TEST_SUITE("scene") {
                                  ("m.csv:" + file.second).c_str(), InputError);
     }
 
+    TEST_CASE("materials: the copy of a material has the row of the material") {
+        const MaterialTable table =
+            parse_materials(header + "Steel,7850,5900\nSteel.002,7700,5800\n", "m.csv");
+        Scene scene;
+        for (const char* name : {"Steel.001", "Steel.002", "Sand.001", "Sand.002"})
+            scene.materials.push_back({name, 0.0, 0.0, 0.0F});
+        CHECK(materials_csv(scene, table) ==
+              "material,density_kg_m3,sound_speed_m_s\n"
+              "Steel,7850,5900\nSteel.002,7700,5800\nSand,,\n");
+        scene.materials.resize(2);
+        resolve_materials(scene, table, Water{1000.0, 1500.0});
+        CHECK(scene.materials[0].density_kg_m3 == 7850.0);
+        CHECK(scene.materials[1].density_kg_m3 == 7700.0);
+    }
+
     TEST_CASE("materials: reflection against water, finite at the limits of what is accepted") {
         const MaterialTable table = parse_materials(
             header + "steel,7850,5900\nvoid,1e-9,1e-9\nrock,1e9,1e9\nodd,1e-9,1e9\n", "m.csv");

@@ -34,6 +34,21 @@ TEST_CASE("objects: nodes by themselves, classes of the file, groups of the miss
     CHECK(objects.class_of(2) == 0);
 }
 
+TEST_CASE("objects: copies of a node are of one class") {
+    Scene scene;
+    scene.instances = {"Mine", "Mine.001", "Mine.1000", "v1.2", "Rock.01", ".001", "Mine.003"};
+    scene.instance_classes = {"", "", "", "", "", "", "threat.004"};
+    const SceneObjects objects = group_objects(scene, {});
+    CHECK(objects.objects.size() == 7);
+    CHECK(objects.objects[1].name == "Mine.001");
+    CHECK(objects.classes ==
+          std::vector<std::string>{"Mine", "v1.2", "Rock.01", ".001", "threat.004"});
+    CHECK(objects.class_of(2) == 0);
+    // A name that a rule gives is kept.
+    const std::vector<ClassRule> rules{{"Mine.*", "Mine.001", "", {}}};
+    CHECK(group_objects(scene, rules).classes[1] == "Mine.001");
+}
+
 TEST_CASE("objects: rules that cannot be meant") {
     Scene scene;
     scene.instances = {"floor", "ship_hull", "ship_mast"};

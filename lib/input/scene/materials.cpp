@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "core/csv.h"
@@ -11,6 +12,8 @@
 #include "core/input_limits.h"
 #include "core/text.h"
 #include "core/units.h"
+#include "input/scene/copy_number.h"
+#include "input/scene/find_material.h"
 
 namespace sonarsim {
 
@@ -159,17 +162,14 @@ MaterialTable parse_materials(std::string_view text, const std::string& file_nam
 
 void resolve_materials(Scene& scene, const MaterialTable& table, const Water& water,
                        std::span<const std::string> users) {
-    std::map<std::string, const Material*> by_name;
     std::vector<std::string> names;
-    for (const Material& material : table.materials) {
-        by_name.emplace(material.name, &material);
+    for (const Material& material : table.materials)
         names.push_back(material.name);
-    }
     ErrorList errors;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         Material& material = scene.materials[i];
-        const auto found = by_name.find(material.name);
-        if (found == by_name.end()) {
+        const Material* const found = find_material(table.materials, material.name);
+        if (!found) {
             const std::string name = "'" + printable(material.name) + "'";
             errors.add(InputError(Location{table.file},
                                   "lacks the material " + name +
@@ -178,7 +178,7 @@ void resolve_materials(Scene& scene, const MaterialTable& table, const Water& wa
                                       "; add it to the CSV or give scene.material_default"));
             continue;
         }
-        material = *found->second;
+        material = *found;
         material.reflection = static_cast<float>(
             power_reflection(material.density_kg_m3, material.sound_speed_m_s, water));
     }
@@ -197,12 +197,14 @@ void require_material(const MaterialTable& table, const std::string& name, const
 
 std::string materials_csv(const Scene& scene, const MaterialTable& known) {
     std::string csv = "material,density_kg_m3,sound_speed_m_s\n";
+    std::set<std::string> written;
     for (const Material& material : scene.materials) {
-        const auto row = std::ranges::find(known.materials, material.name, &Material::name);
-        csv += field_of(material.name);
-        csv += row == known.materials.end() ? ",,"
-                                            : "," + number_text(row->density_kg_m3) + "," +
-                                                  number_text(row->sound_speed_m_s);
+        const Material* const row = find_material(known.materials, material.name);
+        const std::string name = row ? row->name : without_copy_number(material.name);
+        if (!written.insert(name).second) continue;
+        csv += field_of(name);
+        csv += row ? "," + number_text(row->density_kg_m3) + "," + number_text(row->sound_speed_m_s)
+                   : ",,";
         csv += "\n";
     }
     return csv;

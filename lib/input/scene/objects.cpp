@@ -4,6 +4,8 @@
 #include <map>
 #include <string_view>
 
+#include "input/scene/copy_number.h"
+
 namespace sonarsim {
 
 namespace {
@@ -101,8 +103,9 @@ SceneObjects group_objects(const Scene& scene, std::span<const ClassRule> rules,
         const auto& [name, own] = instances[i];
         const ClassRule* const rule = rule_of[i];
         const bool grouped = rule && !rule->instance.empty();
-        const std::uint32_t class_index =
-            classes.number(rule ? rule->name : (own.empty() ? name : own));
+        const std::uint32_t class_index = classes.number(rule          ? rule->name
+                                                         : own.empty() ? without_copy_number(name)
+                                                                       : own);
         if (i < possible.instances.size()) continue;
         const std::uint32_t object = names.number(grouped ? rule->instance : name);
         out.object_of_instance.push_back(object);

@@ -55,8 +55,8 @@ struct PossibleObjects {
 bool fits_pattern(std::string_view pattern, std::string_view text);
 
 /// Groups the instances of a scene into objects. The first rule that matches a node applies to it.
-/// A node without rule is an object of its own; its class is the one that the scene's file gives
-/// it, or else its name. InputError for a rule that applies to no node and to no possible instance,
+/// A node without rule is an object of its own; its class is that of its file, else its name
+/// without the number of a copy. InputError for a rule that fits no node and no possible instance,
 /// for two rules that put nodes of different classes into one object, for an object with the name
 /// of a node outside of it, and for more objects or classes than 16 bits can number.
 SceneObjects group_objects(const Scene& scene, std::span<const ClassRule> rules,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/text.h"
+#include "input/scene/find_material.h"
 
 namespace sonarsim {
 
@@ -102,8 +103,8 @@ std::string describe_materials(const Scene& scene, const MaterialTable& table, c
     std::string out = padded("\n" + title, width + 1) + "  kg/m^3    m/s     reflection\n";
     for (const Material& material : scene.materials) {
         out += padded(printable(material.name), width);
-        const auto row = std::ranges::find(table.materials, material.name, &Material::name);
-        if (row == table.materials.end()) {
+        const Material* const row = find_material(table.materials, material.name);
+        if (!row) {
             out += "  not in " + printable(table.file) + "\n";
             continue;
         }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "input/mission/variants.h"
+#include "input/scene/copy_number.h"
 #include "input/scene/gltf/load.h"
 #include "input/scene/seabed/seabed.h"
 #include "simulate/assembly/placed_files.h"
@@ -78,11 +79,12 @@ void add_new(const std::vector<T>& values, std::vector<T>& all) {
 std::vector<std::string> classes_of(const PossibleObjects& possible,
                                     const std::vector<ClassConfig>& rules) {
     std::vector<std::string> classes;
-    for (const auto& [name, own] : possible.instances) {
-        const auto rule = std::ranges::find_if(rules, [&, &node = name](const ClassConfig& one) {
-            return fits_pattern(one.nodes, node);
-        });
-        classes.push_back(rule != rules.end() ? rule->name : (own.empty() ? name : own));
+    for (const NamedInstance& instance : possible.instances) {
+        const auto rule = std::ranges::find_if(
+            rules, [&](const ClassConfig& one) { return fits_pattern(one.nodes, instance.name); });
+        classes.push_back(rule != rules.end()           ? rule->name
+                          : instance.class_name.empty() ? without_copy_number(instance.name)
+                                                        : instance.class_name);
     }
     return classes;
 }

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "input/scene/copy_number.h"
 #include "input/scene/gltf/extras.h"
 #include "input/scene/meshes/read_mesh.h"
 
@@ -43,6 +44,8 @@ std::string material_name(const PlacedPrimitive& primitive, const MaterialRules&
     const PlacedFile& placed = *primitive.file.placed;
     if (!placed.material.empty()) return placed.material;
     std::string name = name_in_file(primitive);
+    if (!rules.known.contains(name) && rules.known.contains(without_copy_number(name)))
+        name = without_copy_number(name);
     if (!rules.fallback.empty() && !rules.known.contains(name)) return rules.fallback;
     if (!name.empty()) return name;
     if (rules.nameless_allowed) return "(no material)";
