@@ -15,6 +15,7 @@
 #include "input/scene/gltf/surface_of.h"
 #include "input/scene/images/read_image.h"
 #include "input/scene/materials.h"
+#include "input/scene/meshes/read_mesh.h"
 #include "input/scene/placing/standing.h"
 #include "input/scene/summary.h"
 #include "input/scene/unit_question.h"
@@ -160,7 +161,7 @@ std::vector<std::string> questions_about(const InspectArguments& arguments, cons
                                   ? unit_question(length_m, file.unit_m, usual_range_m, long_object)
                                   : "";
     if (!units.empty()) questions.push_back("it is " + units);
-    const std::string up = arguments.up.empty() ? up_question(file, surface_of(file, models)) : "";
+    const std::string up = up_question(file, surface_of(file, models));
     if (!up.empty()) questions.push_back(up);
     return questions;
 }
@@ -175,6 +176,7 @@ PlacedFile file_of(const InspectArguments& arguments) {
     MeshConfig mesh;
     mesh.units = chosen(length_units, arguments.units, mesh.units);
     mesh.up = chosen(up_axes, arguments.up, mesh.up);
+    mesh.up_given = !arguments.up.empty();
     return file_of(arguments.scene, mesh, {});
 }
 
@@ -205,9 +207,11 @@ int inspect(const InspectArguments& arguments) {
     } else if (arguments.log.json) {
         Json json = scene_json(scene);
         if (!arguments.materials.empty()) json["acoustics"] = acoustics_json(scene, table);
+        if (is_mesh_file(file.file)) json["read_as"] = reading_of(file);
         json["questions"] = questions;
         fmt::print("{}", json_line(json));
     } else {
+        if (is_mesh_file(file.file)) fmt::print("read as    {}\n", reading_of(file));
         fmt::print("{}", describe_scene(scene));
         for (const std::string& question : questions)
             fmt::print("\nquestion: {}", question);

@@ -14,6 +14,7 @@
 #include "core/text.h"
 #include "logging.h"
 #include "progress.h"
+#include "simulate/assembly/placed_files.h"
 
 namespace sonarsim {
 
@@ -77,6 +78,19 @@ std::string survey_text(const SonarSurvey& found, const Scene& scene) {
     return text +
            line(fmt::format("signal {:.3g}, noise {:.3g}, {:.1f} % of the occupied bins white",
                             found.signal, found.noise, 100.0 * found.white_share));
+}
+
+std::string readings_text(const SceneConfig& scene) {
+    constexpr std::size_t most = 5;
+    std::vector<std::string> readings = readings_of(scene);
+    if (readings.size() > most) {
+        readings[most] = fmt::format("and {} files more", readings.size() - most);
+        readings.resize(most + 1);
+    }
+    std::string text;
+    for (const std::string& reading : readings)
+        text += result_line("read as", reading);
+    return text;
 }
 
 Json survey_json(const SonarSurvey& found, const Scene& scene) {

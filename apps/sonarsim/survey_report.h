@@ -13,6 +13,9 @@
 
 namespace sonarsim {
 
+/// A line for each of the first files that do not say their unit and axis; "" if there are none.
+std::string readings_text(const SceneConfig& scene);
+
 /// A sonar's survey as indented lines.
 std::string survey_text(const SonarSurvey& found, const Scene& scene);
 

@@ -87,6 +87,7 @@ nlohmann::ordered_json json_of(const Findings& f) {
                                 {"triangles", f.assembly.scene.triangles.size()},
                                 {"poses", f.assembly.trajectory.size()},
                                 {"folder", f.mission.output.folder.string()},
+                                {"read_as", readings_of(f.mission.scene)},
                                 {"folder_state", f.state},
                                 {"warnings", warnings_json(f.warnings)}};
     for (std::size_t i = 0; i < f.pings.size(); ++i) {
@@ -114,6 +115,7 @@ std::string text_of_parts(const Findings& f) {
     text += result_line("trajectory", fmt::format("{} poses, {:.1f} s", trajectory.size(),
                                                   trajectory.back().t_s - trajectory.front().t_s));
     if (!scene.copies.empty()) {
+    text += readings_text(f.mission.scene);
         text += result_line("copies", fmt::format("{} of {} shared meshes", scene.copies.size(),
                                                   scene.shared_meshes.size()));
     }

@@ -71,9 +71,26 @@ TEST_SUITE("scene") {
             p = Eigen::Vector3d(p.x(), -p.z(), p.y());
         CHECK(up_question({.file = "drum.stl"}, lying).ends_with("does its z point up? up: z"));
         CHECK(up_question({.file = "drum.stl", .z_up = true}, lying).empty());
+        CHECK(up_question({.file = "drum.stl", .up_given = true}, lying).empty());
+        // A sea floor of 20 m x 20 m with a relief of 2 m.
+        Surface floor = surface_from([](double u, double v) -> Eigen::Vector3d {
+            return {20 * u, -(1 + std::sin(5 * u) * std::cos(4 * v)), 20 * v};
+        });
+        CHECK(up_question({.file = "floor.ply"}, floor) ==
+              "floor.ply stands on its edge with y up and would lie flat with z up: does its z "
+              "point up? up: z");
+        for (Eigen::Vector3d& p : floor.vertices)
+            p = Eigen::Vector3d(p.x(), p.z(), -p.y());
+        CHECK(up_question({.file = "floor.ply"}, floor).empty());
         CHECK(up_question({.file = "drum.glb"}, lying).empty());
         CHECK(up_question({.file = "drum.obj"}, drum()).empty());
         CHECK(up_question({.file = "ball.obj"}, ball()).empty());
+    }
+
+    TEST_CASE("standing: how a file is read, in words") {
+        CHECK(reading_of({.file = "a.stl"}) == "metres, y up (no `up` given)");
+        CHECK(reading_of({.file = "a.stl", .unit_m = 1e-3, .z_up = true, .up_given = true}) ==
+              "millimetres, z up");
     }
 
     TEST_CASE("units: a question where millimetres would fit the ranges") {

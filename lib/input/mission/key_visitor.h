@@ -45,6 +45,8 @@ class KeyVisitor {
                 const char* meaning) {
         self().value(key, values, SubsetType<T>{choices}, meaning, Presence::optional);
     }
+    /// Readers note in `given` whether the mission has a key.
+    void note_given(const char* /*key*/, bool& /*given*/) {}
 
   private:
     Visitor& self() { return static_cast<Visitor&>(*this); }

@@ -82,6 +82,8 @@ class MissionReader : public KeyVisitor<MissionReader> {
         });
     }
 
+    void note_given(const char* key, bool& given) { given = node_.find(key) != nullptr; }
+
     /// Sets the alternative of `value` by the one key of `keys` that is present.
     template <class... T>
     void one_of(std::variant<T...>& value, const std::array<const char*, sizeof...(T)>& keys) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -21,13 +22,14 @@
 namespace sonarsim {
 
 enum class LengthUnit { m, mm, cm, km, inch, foot };
-enum class UpAxis { y, z };
+enum class UpAxis : std::uint8_t { y, z };
 
 /// Options for reading a file of a mesh.
 struct MeshConfig {
     LengthUnit units = LengthUnit::m;
     UpAxis up = UpAxis::y;
-    std::string material;  ///< for all triangles; "": the file's materials
+    bool up_given = false;  ///< the mission has the key `up`
+    std::string material;   ///< for all triangles; "": the file's materials
 
     bool operator==(const MeshConfig&) const = default;
 };
@@ -120,6 +122,7 @@ void describe_mesh(Visitor& v, MeshConfig& c) {
     v.choice(
         "up", c.up, up_axes,
         "axis of the file that points up; glTF says y, and STL, PLY and OBJ files often have z");
+    v.note_given("up", c.up_given);
 }
 
 template <class Visitor>

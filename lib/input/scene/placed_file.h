@@ -33,6 +33,7 @@ struct PlacedFile {
     std::filesystem::path file = {};
     double unit_m = 1.0;        ///< length of the file's unit
     bool z_up = false;          ///< the file's z points up, not its y
+    bool up_given = false;      ///< the user has said which axis points up
     std::string material = {};  ///< material of every triangle; "": the file's own
     std::optional<HeightmapRule> heightmap = {};  ///< the file is an image of heights
     std::shared_ptr<const Seabed> seabed = {};    ///< generated sea bed, in place of the file

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "core/text.h"
+#include "input/scene/meshes/read_mesh.h"
+#include "input/scene/placing/standing.h"
 
 namespace sonarsim {
 
@@ -29,6 +31,7 @@ PlacedFile file_of(const std::filesystem::path& path, const MeshConfig& mesh,
     return {.file = path,
             .unit_m = metres(mesh.units),
             .z_up = mesh.up == UpAxis::z,
+            .up_given = mesh.up_given,
             .material = mesh.material,
             .place = place};
 }
@@ -52,6 +55,25 @@ PlacedFile file_of(const HeightmapConfig& map) {
     file.T_world_file.translation() =
         Eigen::Vector3d(-map.origin_m[0], -map.origin_m[1], map.height_offset_m);
     return file;
+}
+
+std::vector<std::string> readings_of(const SceneConfig& scene) {
+    std::vector<std::string> readings;
+    const auto add = [&](const std::filesystem::path& path, const MeshConfig& mesh) {
+        const PlacedFile file = file_of(path, mesh, {});
+        if (path.empty() || !is_mesh_file(path)) return;
+        std::string text = printable(path.filename().string()) + ": " + reading_of(file);
+        if (std::ranges::find(readings, text) == readings.end())
+            readings.push_back(std::move(text));
+    };
+    add(scene.file, scene.mesh);
+    for (const ObjectConfig& object : scene.objects)
+        add(object.file, object.mesh);
+    for (const ScatterConfig& scatter : scene.scatter) {
+        for (const std::filesystem::path& path : scatter.files)
+            add(path, scatter.mesh);
+    }
+    return readings;
 }
 
 std::string title_of(const ObjectConfig& object) {

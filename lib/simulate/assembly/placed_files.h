@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "input/mission/mission.h"
 #include "input/scene/placed_file.h"
@@ -17,6 +18,10 @@ PlacedFile file_of(const std::filesystem::path& path, const MeshConfig& mesh,
 PlacedFile file_of(const ObjectConfig& object);
 /// A heightmap, placed.
 PlacedFile file_of(const HeightmapConfig& map);
+
+/// The unit and axis of the .obj, .stl and .ply files of a scene, which do not say them: "tyre.stl:
+/// metres, y up (no `up` given)".
+std::vector<std::string> readings_of(const SceneConfig& scene);
 
 /// "'tyre'", or "'tyre.stl'" for an object without a name.
 std::string title_of(const ObjectConfig& object);

@@ -11,6 +11,7 @@
 #include "core/text.h"
 #include "core/units.h"
 #include "input/scene/gltf/surface_of.h"
+#include "input/scene/meshes/read_mesh.h"
 #include "input/scene/placing/rest.h"
 #include "input/scene/placing/scatter.h"
 #include "input/scene/placing/standing.h"
@@ -288,8 +289,13 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
                        std::span<const Sonar> sonars, SceneStore& models) {
     const SceneConfig& scene = mission.scene;
     SceneParts parts;
-    if (!scene.file.empty()) parts.files.push_back(file_of(scene.file, scene.mesh, scene.place));
     Shapes shapes(models);
+    if (!scene.file.empty()) {
+        const PlacedFile& file =
+            parts.files.emplace_back(file_of(scene.file, scene.mesh, scene.place));
+        if (is_mesh_file(scene.file))
+            add_orientation_warning(up_question(file, surface_of(file, models)), parts);
+    }
     std::optional<PlacedFile> ground;
     if (scene.heightmap || scene.seabed) {
         const Eigen::AlignedBox2d needed = needed_ground(mission, vehicle, sonars, shapes);

@@ -1,5 +1,8 @@
 #include "input/scene/placing/standing.h"
 
+#include <algorithm>
+#include <array>
+#include <utility>
 #include <vector>
 
 #include "core/text.h"
@@ -7,6 +10,19 @@
 #include "input/scene/placing/hull.h"
 
 namespace sonarsim {
+
+namespace {
+
+/// True if a surface is much thinner along an axis than across it, as a plate or a sea floor.
+bool is_flat(const Surface& surface, int axis) {
+    constexpr double thin = 0.2;
+    const Eigen::AlignedBox3d box = box_of(surface);
+    if (box.isEmpty()) return false;
+    const Eigen::Vector3d size = box.sizes();
+    return size[axis] < thin * std::min(size[(axis + 1) % 3], size[(axis + 2) % 3]);
+}
+
+}  // namespace
 
 bool rests_upright(const Surface& surface, int axis) {
     constexpr double low = 0.01;
@@ -24,17 +40,33 @@ bool rests_upright(const Surface& surface, int axis) {
     return area_of(hull_of(lowest)) >= broad * area_of(hull_of(all));
 }
 
+std::string reading_of(const PlacedFile& file) {
+    constexpr std::array<std::pair<double, const char*>, 6> units{{{1.0, "metres"},
+                                                                   {1e-3, "millimetres"},
+                                                                   {1e-2, "centimetres"},
+                                                                   {1e3, "kilometres"},
+                                                                   {0.0254, "inches"},
+                                                                   {0.3048, "feet"}}};
+    const auto* const unit =
+        std::ranges::find(units, file.unit_m, &std::pair<double, const char*>::first);
+    return std::string(unit->second) + (file.z_up ? ", z up" : ", y up") +
+           (file.up_given ? "" : " (no `up` given)");
+}
+
 std::string up_question(const PlacedFile& file, const Surface& surface) {
     constexpr int up = 2;
     constexpr int y = 1;
-    if (file.z_up || !is_mesh_file(file.file)) return "";
+    if (file.z_up || file.up_given || !is_mesh_file(file.file)) return "";
+    const std::string name = printable(file.file.filename().string());
+    const char* const question = " with z up: does its z point up? up: z";
     // The file's z is the world's -y.
+    if (is_flat(surface, y))
+        return name + " stands on its edge with y up and would lie flat" + question;
     Surface turned = surface;
     for (Eigen::Vector3d& vertex : turned.vertices)
         vertex[y] = -vertex[y];
     if (rests_upright(surface, up) || !rests_upright(turned, y)) return "";
-    return printable(file.file.filename().string()) +
-           " lies on its side with y up and would stand with z up: does its z point up? up: z";
+    return name + " lies on its side with y up and would stand" + question;
 }
 
 }  // namespace sonarsim

@@ -13,9 +13,12 @@ namespace sonarsim {
 /// a tyre on its side; a ball, a lying cylinder and a tyre on its tread do not.
 bool rests_upright(const Surface& surface, int axis);
 
+/// "metres, y up (no `up` given)": how a file is read.
+std::string reading_of(const PlacedFile& file);
+
 /// "tyre.stl lies on its side ...: does its z point up? up: z" for a file that does not say which
-/// axis points up, is read as y up, and stands only with z up; else "". `surface` is that of the
-/// file before it is placed.
+/// axis points up, as the user does not, is read as y up, and stands or lies flat only with z up;
+/// else "". `surface` is that of the file before it is placed.
 std::string up_question(const PlacedFile& file, const Surface& surface);
 
 }  // namespace sonarsim
