@@ -48,10 +48,23 @@ def mine(half):
     return gltf([{"name": "steel", "mesh": 0}], [box_mesh((half,) * 3)], ("Steel",))
 
 
-def path(z=5.0, offset=(0.0, 0.0)):
+def lone_hull():
+    """A closed box of 120 m whose faces look outwards."""
+    points, indices, material = box_mesh((60.0, 60.0, 60.0))
+    return gltf([{"name": "hull", "mesh": 0}], [(points, indices[::-1], material)], ("Sand",))
+
+
+def slab_obj():
+    """A slab of 2 m x 2 m x 0.2 m whose z points up."""
+    points, indices, _ = box_mesh((1.0, 1.0, 0.1))
+    corners = [indices[k:k + 3] for k in range(0, len(indices), 3)]
+    return "\n".join(["v %g %g %g" % p for p in points] + ["f %d %d %d" % tuple(i + 1 for i in t) for t in corners]) + "\n"
+
+
+def path(z=5.0, offset=(0.0, 0.0), step=1.0):
     """From west to east over the bottom and then north, ten poses."""
     places = [(-20 + 8 * i, 0, 0) if i < 5 else (20, 8 * (i - 5), 90) for i in range(10)]
-    rows = [f"{i},{x + offset[0]},{y + offset[1]},{z},0,0,{yaw}" for i, (x, y, yaw) in enumerate(places)]
+    rows = [f"{step * i},{x + offset[0]},{y + offset[1]},{z},0,0,{yaw}" for i, (x, y, yaw) in enumerate(places)]
     return "\n".join(["t_s,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg", *rows]) + "\n"
 
 
@@ -191,6 +204,7 @@ WARNED = (
     ({"materials.csv": MATERIALS.replace("5900", "5.9")}, "W01", "looks like km/s"),
     ({"path.csv": path(z=-5)} | edited("\n    - " + MINE, " []"), "W10", "z points up"),
     ({"mine.gltf": mine(3.0)} | mine_as(MINE.replace("[20, 4, 0.3]", "[4, 0, 5]")), "W11", "it is inside 'mine'"),
+    ({"bottom.gltf": lone_hull()} | edited("\n    - " + MINE, " []"), "W11", "it is inside 'hull'"),
     ({"path.csv": path(z=30)}, "W13", "raise range_max_m or sail nearer"),
     ({"path.csv": path(z=95), "bottom.gltf": bottom(z=-100)}
      | edited("0.3]", "-99.7]", "[0, 30, 0]", "[0, 90, 0]"), "W13", "z points up, and depths are negative"),
@@ -201,6 +215,10 @@ WARNED = (
      "turn it with mount.rpy_deg"),
     ({"path.csv": path(offset=(4e5, 6e6))}, "W17", "the nearest ever is 6.01"),
     (edited("add_sigma: 0.01", "add_sigma: 5"), "W18", "lower noise.add_sigma"),
+    (edited("azimuth_deg: 90", "azimuth_deg: 1.57"), "W38", "1.57 radians are 89.95 degrees; radians? azimuth_deg: 89.95"),
+    ({"path.csv": path(step=0.005)}, "W39", "9 of its 9 pings after the first begin before"),
+    ({"slab.obj": slab_obj()} | mine_as("{name: mine, file: slab.obj, material: Steel, position_m: [20, 4, 0.3]}"), "W01",
+     "slab.obj stands on its edge with y up and would lie flat with z up: does its z point up? up: z"),
     (mine_as(MINE.replace("[20, 4, 0.3]", "[-45, -45, 0.3]")), "W21", "1 object is not in view"),
     (mine_as(MINE + "\n    - {name: b, file: mine.gltf, scale: 0.5, position_m: [20, 4, 0.3]}"), "W21",
      "'b'; these may lie behind"),
@@ -265,7 +283,24 @@ class Mistakes(Sandbox):
                 self.assertEqual(len(found), 1, result.stderr)
                 if number is not None:
                     self.assertEqual(found[0]["code"], number)
-                    self.assertIn(number, [w["number"] for w in json.loads(result.stdout)["warnings"]])
+                    numbers = [w["number"] for w in json.loads(result.stdout)["warnings"]]
+                    self.assertIn(number, numbers)
+                    # That pings are blind comes after the reasons.
+                    after = numbers[numbers.index("W12"):] if "W12" in numbers else []
+                    self.assertFalse({"W10", "W11", "W13", "W14", "W15", "W16", "W17"} & set(after), numbers)
+
+    def test_how_a_file_without_axes_is_read(self):
+        self.make({"slab.obj": slab_obj(), **mine_as("{name: mine, file: slab.obj, material: Steel, position_m: [20, 4, 0.3]}")})
+        self.assertEqual(json.loads(self.validate(code=0).stdout)["read_as"], ["slab.obj: metres, y up (no `up` given)"])
+        self.assertRegex(self.succeeds("validate", "mission.yaml").stdout, r"read as +slab.obj: metres, y up \(no `up` given\)\n")
+        self.assertRegex(self.succeeds("inspect", "slab.obj").stdout, r"^read as +metres, y up \(no `up` given\)\n")
+        self.assertIn("question: slab.obj stands on its edge", self.succeeds("inspect", "slab.obj").stdout)
+        said = json.loads(self.succeeds("inspect", "slab.obj", "--up", "z", "--units", "cm", "--json").stdout)
+        self.assertEqual((said["read_as"], said["questions"]), ("centimetres, z up", []))
+        for up in ("y", "z"):  # an answer is not questioned
+            self.make(mine_as("{name: mine, file: slab.obj, up: %s, material: Steel, position_m: [20, 4, 0.3]}" % up))
+            said = json.loads(self.validate(code=0).stdout)
+            self.assertEqual((said["read_as"], said["warnings"]), ([f"slab.obj: metres, {up} up"], []))
 
     def test_faults_of_several_files_and_in_json(self):
         self.make({"path.csv": "t_s\n", "materials.csv": "material\n", "bottom.gltf": "{"})

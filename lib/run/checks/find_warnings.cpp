@@ -29,6 +29,7 @@ std::vector<Warning> warnings_before_pings(const Mission& mission, const Assembl
     append(out, material_warnings(mission.water, assembly.scene));
     for (const Sonar& sonar : assembly.sonars)
         judge_engine(mission, sonar, out);
+    append(out, settings_warnings(mission, assembly));
     return out;
 }
 

@@ -11,7 +11,7 @@ constexpr double many_white = 0.05;  // a share of the occupied bins
 constexpr double faint = 0.25;       // a share of the noise's deviation
 constexpr double fewest_greys = 16.0;
 
-/// Warns of pings that see nothing, with the reasons.
+/// Warns of pings that see nothing: the reasons, then their number.
 void judge_blindness(const Sonar& sonar, const SonarSurvey& found, std::vector<Warning>& out) {
     const SonarConfig& config = sonar.config;
     const std::string about = about_sensor(config.name);
@@ -21,7 +21,6 @@ void judge_blindness(const Sonar& sonar, const SonarSurvey& found, std::vector<W
     };
     const std::string depths =
         why.depths == 0 ? "" : "; z points up, and depths are negative: these z look like depths";
-    add(WarningCode::blind, found.blind);
     add(WarningCode::range_too_short, why.too_far, why.in_view_m.low, why.in_view_m.high,
         config.range_max_m, depths);
     add(WarningCode::range_begins_late, why.too_near, why.ends_m.high, config.range_min_m);
@@ -35,6 +34,7 @@ void judge_blindness(const Sonar& sonar, const SonarSurvey& found, std::vector<W
             ? std::string("the scene is empty")
             : fmt::format("the nearest ever is {:.4g} m away or more", why.nearest_m.low),
         depths);
+    add(WarningCode::blind, found.blind);
 }
 
 /// Warns of images that are too bright or too dark for the scale of the pictures. With `auto`
@@ -78,7 +78,6 @@ std::vector<Warning> sonar_warnings(const OutputConfig& output, const Sonar& son
                                     double full_scale, const SonarSurvey& found) {
     std::vector<Warning> out;
     const std::string about = about_sensor(sonar.config.name);
-    judge_blindness(sonar, found, out);
     if (2 * found.below_surface > found.pings) {
         out.push_back(
             make_warning(WarningCode::below_surface, about, found.below_surface, found.pings));
@@ -87,6 +86,7 @@ std::vector<Warning> sonar_warnings(const OutputConfig& output, const Sonar& son
         out.push_back(make_warning(WarningCode::inside_object, about, found.enclosed, found.pings,
                                    found.enclosed_by));
     }
+    judge_blindness(sonar, found, out);
     if (found.blind == found.pings) return out;
     if (found.signal < faint * found.noise) {
         out.push_back(make_warning(WarningCode::below_noise, about, found.signal, found.noise,

@@ -92,7 +92,7 @@ bool looks_like_depth(const Scene& scene, double z_m, double reach_m) {
     return z_m > highest_m && -z_m > scene.bounds_min.z() && -z_m < highest_m;
 }
 
-/// True for a box around the whole scene, such as that of a basin: a sonar may be inside.
+/// True for a box around the whole scene, such as that of a basin or of a lone hull.
 bool holds_all(const Eigen::AlignedBox3d& box, const Scene& scene) {
     const Eigen::Vector3d extent = scene.bounds_max - scene.bounds_min;
     return !box.isEmpty() && (box.sizes().array() >= 0.9 * extent.array()).all();
@@ -114,6 +114,25 @@ bool faces_up(const Scene& scene) {
     return up > 0.1 * either;
 }
 
+/// True if an instance surrounds a point with faces that look away from it, as a hull does: the
+/// solid angle of its triangles sums to the whole sphere, and to 0 or less in a basin. Van Oosterom
+/// and Strackee, IEEE Trans. Biomed. Eng. 30 (1983), eq. 8.
+bool is_inside_solid(const Scene& scene, std::size_t instance, const Eigen::Vector3d& point) {
+    const Eigen::Vector3d at = point - scene.origin;
+    double solid_angle = 0.0;
+    for (std::size_t k = 0; k < scene.triangles.size(); ++k) {
+        if (scene.triangle_instance[k] != instance) continue;
+        const auto& corners = scene.triangles[k];
+        const Eigen::Vector3d a = scene.vertices[corners[0]].cast<double>() - at;
+        const Eigen::Vector3d b = scene.vertices[corners[1]].cast<double>() - at;
+        const Eigen::Vector3d c = scene.vertices[corners[2]].cast<double>() - at;
+        solid_angle += 2.0 * std::atan2(a.dot(b.cross(c)),
+                                        a.norm() * b.norm() * c.norm() + a.dot(b) * c.norm() +
+                                            b.dot(c) * a.norm() + c.dot(a) * b.norm());
+    }
+    return solid_angle > 2.0 * pi;
+}
+
 /// Counts the pose if no vehicle can be there. docs/warnings.md gives the reasons for the limits.
 void check_position(const Scene& scene, bool open_upwards,
                     std::span<const Eigen::AlignedBox3d> boxes, const Pose& T_world_sensor,
@@ -133,9 +152,12 @@ void check_position(const Scene& scene, bool open_upwards,
     // Below a sea floor, and below a hull, there is surface everywhere above and none below.
     out.below_surface += open_upwards && 2 * met_above > above && 50 * met_below <= below;
     const auto most = std::ranges::max_element(met);
-    if (scene.instances.size() < 2 || 100 * *most < 98 * around.directions.size()) return;
+    if (met.empty() || 100 * *most < 98 * around.directions.size()) return;
     const auto instance = static_cast<std::size_t>(most - met.begin());
-    if (boxes[instance].isEmpty() || holds_all(boxes[instance], scene)) return;
+    if (boxes[instance].isEmpty()) return;
+    if (holds_all(boxes[instance], scene) &&
+        !is_inside_solid(scene, instance, T_world_sensor.translation))
+        return;
     ++out.enclosed;
     out.enclosed_by = scene.instances[instance];
 }

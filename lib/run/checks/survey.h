@@ -47,7 +47,7 @@ struct SonarSurvey {
     std::size_t blind = 0;  ///< pings without an occupied bin
     NoReturnReasons no_return;
     std::size_t below_surface = 0;  ///< pings with surface above and none below
-    std::size_t enclosed = 0;       ///< pings inside one instance, if the scene has several
+    std::size_t enclosed = 0;       ///< pings inside one instance that is no basin
     std::string enclosed_by;        ///< the last of these instances
     ValueRange altitude_m;          ///< empty if there never is surface below
     ValueRange first_echo_m;        ///< one value for each ping that saw anything

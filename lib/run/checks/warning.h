@@ -31,6 +31,8 @@ enum class WarningCode {
     no_locks = 28,
     goal_missed = 29,
     heightmap_facets = 37,
+    azimuth_in_radians = 38,
+    ping_too_early = 39,
 };
 
 /// A row of the table of all warnings. `what` and `cure` are format strings of the same figures.

@@ -32,10 +32,11 @@ constexpr std::array table{
                 "surface in more than half of the directions above and in at most 2 % of those "
                 "below, in more than half of the pings, if a tenth more of the scene's surface "
                 "faces up than down"},
-    WarningText{WarningCode::inside_object, "in {0} of {1} pings it is inside '{2:s}'",
-                "move the trajectory or the object",
-                "one instance in 98 % of all directions, unless it is as large as the scene, like "
-                "a basin"},
+    WarningText{
+        WarningCode::inside_object, "in {0} of {1} pings it is inside '{2:s}'",
+        "move the trajectory or the object",
+        "one instance in 98 % of all directions, unless it is as large as the scene and its "
+        "faces look inwards, like those of a basin"},
     WarningText{
         WarningCode::blind, "{0} of {1} pings are blind: they see no surface within the range",
         "sonarsim validate prints the reason as W13 to W17; the trajectory may leave the scene",
@@ -104,6 +105,17 @@ constexpr std::array table{
         "interpolate the map smoothly onto smaller cells before, as by gdalwarp -tr {1:.3g} "
         "{1:.3g} -r cubicspline, or take fewer range bins",
         "cells above eight range bins of a sonar"},
+    WarningText{WarningCode::azimuth_in_radians,
+                "its azimuth_deg is {0:.4g}, and {0:.4g} radians are {1:.4g} degrees",
+                "radians? azimuth_deg: {1:.4g}",
+                "0.3 to 2 pi degrees for a kind of sonar whose default is wider"},
+    WarningText{
+        WarningCode::ping_too_early,
+        "{0} of its {1} pings after the first begin before the sound of the ping before is "
+        "back: it pings at up to {2:.4g} Hz, and the way to range_max_m ({3:.4g} m) and back "
+        "allows {4:.4g} Hz",
+        "lower the trajectory's rate_hz, raise every to {5:.0f}, or lower range_max_m",
+        "one such ping, except with trajectory.look_at"},
 };
 
 static_assert(std::ranges::is_sorted(table, {}, &WarningText::code));
