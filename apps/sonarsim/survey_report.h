@@ -31,7 +31,7 @@ struct Estimate {
     std::size_t images = 0;  ///< pings with a picture, and pictures of all pings
     double set_up_s = 0.0;   ///< before the first ping: reading, tables, the engine
     double hours = 0.0;      ///< all threads at work, without set_up_s; NaN: unknown
-    double bytes = 0.0;      ///< files and records of pings
+    double bytes = 0.0;      ///< all files
 
     Estimate& operator+=(const Estimate& more) {
         pings += more.pings;

@@ -56,6 +56,7 @@ struct Findings {
     std::vector<std::size_t> pings;
     std::size_t images = 0;
     double set_up_s = 0.0;
+    double common_bytes = 0.0;  ///< files of no single ping
     std::vector<PingCost> costs = {};
     std::vector<SonarSurvey> sonars = {};
     std::vector<std::optional<MeasuredError>> errors = {};
@@ -65,6 +66,7 @@ struct Findings {
     Estimate estimate() const {
         Estimate out{.images = images, .set_up_s = set_up_s};
         for (std::size_t i = 0; i < pings.size(); ++i) {
+        out.bytes = common_bytes;
             const auto count = static_cast<double>(pings[i]);
             out.pings += pings[i];
             out.hours += count * costs[i].seconds / 3600.0 / tbb::info::default_concurrency();
@@ -174,12 +176,13 @@ Findings check_folder(const Mission& mission, const Assembly& assembly,
     const Layout layout = make_layout(mission, writers, poses);
     protect_inputs(layout, mission);
     const FolderState state =
-        inspect_folder(layout.folder, describe_dataset(mission, assembly, layout, writers),
-                       resolved_text(mission, assembly), overwrite);
+    const CommonFiles common = make_common_files(mission, assembly, layout, writers);
+        inspect_folder(layout.folder, common.description, common.mission, overwrite);
     require_writable(layout.folder);
     Findings findings{mission, assembly, state_names[static_cast<std::size_t>(state)],
                       count_pings(mission, poses)};
     for (std::size_t i = 0; i < writers.size(); ++i)
+    findings.common_bytes = bytes_of(common);
         findings.images += count_images(writers[i], findings.pings[i]);
     return findings;
 }

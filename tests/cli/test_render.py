@@ -11,7 +11,7 @@ import subprocess
 import time
 import unittest
 
-from sandbox import SANITIZED, SONARSIM, Sandbox, digest, gltf, path_csv, sheet_mesh, with_disk
+from sandbox import ROOT, SANITIZED, SONARSIM, Sandbox, digest, gltf, path_csv, sheet_mesh, with_disk
 
 try:
     import yaml
@@ -135,6 +135,29 @@ def busy_s(pid):
     """The processor time that a process has had so far."""
     fields = of_process(pid, "stat").rpartition(")")[2].split() or ["0"] * 13
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+class EstimatedSize(Sandbox):
+    """`validate` states the bytes that `render` writes to within a factor of 1.3."""
+
+    def assert_states_the_bytes(self, mission, *settings):
+        options = [word for setting in settings for word in ("--set", setting)] + ["--out", self.out]
+        stated = json.loads(self.succeeds("validate", mission, "--json", *options).stdout)["bytes"]
+        self.succeeds("render", mission, "-q", *options)
+        written = sum(path.stat().st_size for path in self.out.rglob("*") if path.is_file())
+        self.assertTrue(written / 1.3 < stated < 1.3 * written, (stated, written))
+
+    def test_a_scanning_sonar(self):
+        self.assert_states_the_bytes(ROOT / "configs/tank_scanning.yaml")
+
+    def test_a_sidescan_sonar_with_all_its_files(self):
+        text = (ROOT / "configs/towed_sidescan.yaml").read_text().replace("../scenes", str(ROOT / "scenes"))
+        scatter, trajectory = text.index("  scatter:"), text.index("trajectory:")
+        self.write("towed.yaml", text[:scatter] + text[trajectory:])
+        self.assert_states_the_bytes("towed.yaml", "output.xtf=true", "output.mosaic=true", "output.labels=[]")
+
+    def test_variants_of_a_seabed(self):
+        self.assert_states_the_bytes(ROOT / "configs/made_seabeds.yaml", "variants=2")
 
 
 class Signals(Sandbox):

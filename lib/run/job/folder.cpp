@@ -12,7 +12,10 @@
 #include "core/file.h"
 #include "input/mission/differences.h"
 #include "input/mission/files.h"
+#include "input/trajectory/files.h"
+#include "output/dataset/json.h"
 #include "output/dataset/metadata.h"
+#include "output/dataset/seabed_files.h"
 
 namespace sonarsim {
 
@@ -96,6 +99,24 @@ DatasetFile require_part(const fs::path& folder, const fs::path& first) {
     throw InputError({folder.string()}, "holds a dataset " + difference + ", seen from " +
                                             first.string() +
                                             "; only parts of one mission become one dataset");
+}
+
+CommonFiles make_common_files(const Mission& mission, const Assembly& assembly,
+                              const Layout& layout, const std::vector<Writers>& writers) {
+    CommonFiles files{describe_dataset(mission, assembly, layout, writers),
+                      resolved_text(mission, assembly), write_tum(assembly.trajectory)};
+    if (assembly.seabed) files.initial = seabed_files(*assembly.seabed);
+    if (!assembly.reported.empty())
+        files.initial.emplace_back(navigation_name, write_tum(assembly.reported));
+    return files;
+}
+
+double bytes_of(const CommonFiles& files) {
+    std::size_t bytes =
+        json_text(files.description).size() + files.mission.size() + files.trajectory.size();
+    for (const auto& [name, content] : files.initial)
+        bytes += content.size();
+    return static_cast<double>(bytes);
 }
 
 bool is_unused(const fs::path& folder) {

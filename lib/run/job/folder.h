@@ -26,6 +26,12 @@ struct CommonFiles {  // NOLINT(bugprone-exception-escape): moving JSON throws n
     std::vector<std::pair<std::string, std::string>> initial = {};
 };
 
+CommonFiles make_common_files(const Mission& mission, const Assembly& assembly,
+                              const Layout& layout, const std::vector<Writers>& writers);
+
+/// Their size on the disk, bytes.
+double bytes_of(const CommonFiles& files);
+
 /// The keys in which the mission of a dataset differs from the text `mission`, for messages.
 std::string mission_differences(const std::filesystem::path& dataset, const std::string& mission);
 

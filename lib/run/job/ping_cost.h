@@ -9,7 +9,7 @@ namespace sonarsim {
 /// Mean cost of a ping of a sonar.
 struct PingCost {
     double seconds = 0.0;  ///< on one thread, without the disk
-    double bytes = 0.0;    ///< size of its files and records
+    double bytes = 0.0;    ///< its files and records, and its share of what all pings make
 };
 
 /// Renders a few pings of each sonar as the mission would, with its engine and its writers, and

@@ -12,10 +12,8 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/sha256.h"
-#include "input/trajectory/files.h"
 #include "output/dataset/dataset_file.h"
-#include "output/dataset/metadata.h"
-#include "output/dataset/seabed_files.h"
+#include "output/dataset/json.h"
 #include "run/checks/measured_error.h"
 #include "run/job/folder.h"
 #include "run/job/journal.h"
@@ -61,15 +59,6 @@ std::vector<PingId> pings_of_shard(const std::vector<PingId>& all, const RenderO
     for (auto i = static_cast<std::size_t>(options.shard); i < all.size(); i += options.shards)
         own.push_back(all[i]);
     return own;
-}
-
-/// The names and bytes of the shared products that are there from the beginning.
-std::vector<std::pair<std::string, std::string>> initial_files(const Assembly& assembly) {
-    std::vector<std::pair<std::string, std::string>> files;
-    if (assembly.seabed) files = seabed_files(*assembly.seabed);
-    if (!assembly.reported.empty())
-        files.emplace_back(navigation_name, write_tum(assembly.reported));
-    return files;
 }
 
 /// The sums of the pings' files in the journal, by the name of the file in the dataset.
@@ -143,9 +132,7 @@ void run_in_folder(const RenderRun& run, const RenderOptions& options,
     RenderSummary& summary = run.summary;
     const std::vector<Writers> writers = make_writers(mission, assembly);
     const Layout layout = make_layout(mission, writers, assembly.trajectory.size());
-    CommonFiles common{describe_dataset(mission, assembly, layout, writers),
-                       resolved_text(mission, assembly), write_tum(assembly.trajectory),
-                       initial_files(assembly)};
+    CommonFiles common = make_common_files(mission, assembly, layout, writers);
     const std::vector<PingId> own = pings_of_shard(all, options);
     const auto finished = [&](FolderState state) {
         summary.complete =

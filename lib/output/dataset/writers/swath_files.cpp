@@ -13,6 +13,7 @@
 #include "output/dataset/writer.h"
 #include "output/format/geotiff.h"
 #include "output/format/xtf.h"
+#include "simulate/assembly/sample_pings.h"
 #include "simulate/product/gain.h"
 #include "simulate/product/mosaic.h"
 #include "simulate/product/sidescan_row.h"
@@ -21,6 +22,12 @@
 namespace sonarsim {
 
 namespace {
+
+Pose pose_of_sensor(const WriterContext& context, std::size_t pose) {
+    const auto number = static_cast<std::uint32_t>(pose);
+    const SonarAtPose then(context.mission, context.sonar(), number);
+    return sensor_pose(*then, context.assembly.trajectory[pose].T_world_vehicle, number);
+}
 
 struct RecordedRow {
     std::size_t pose;
@@ -36,10 +43,7 @@ void for_each_row(const WriterContext& context, const RecordFile& rows,
     for (std::size_t k = 0; k < rows.records(); ++k) {
         rows.read(k, std::as_writable_bytes(std::span(values)));
         const std::size_t pose = k * static_cast<std::size_t>(sonar.config.every);
-        const SonarAtPose then(context.mission, sonar, static_cast<std::uint32_t>(pose));
-        const Pose T_world_sensor =
-            sensor_pose(*then, context.assembly.trajectory[pose].T_world_vehicle,
-                        static_cast<std::uint32_t>(pose));
+        const Pose T_world_sensor = pose_of_sensor(context, pose);
         visit({pose, T_world_sensor, values, swath_of(sonar, T_world_sensor, values)});
     }
 }
@@ -97,6 +101,20 @@ double mosaic_cell_m(const WriterContext& context) {
     return round_up_125(std::max(1.2 * spacing_m, context.sonar().settings.view.bin_m()));
 }
 
+/// The bytes of a mosaic with the swath of one of the pings at every pose.
+double mosaic_bytes(const WriterContext& context, const SampleRecord& sample) {
+    constexpr std::size_t max_poses = 1000;
+    const std::vector<float> row = sample.values<float>();
+    SoundingBounds bounds;
+    for (const std::uint32_t pose : sample_pings(context.assembly.trajectory.size(),
+                                                 context.sonar().config.every, max_poses)) {
+        const auto swath = swath_of(context.sonar(), pose_of_sensor(context, pose), row);
+        if (swath) add_bounds(*swath, bounds);
+    }
+    const Bathymetry map = make_bathymetry(bounds, mosaic_cell_m(context));
+    return static_cast<double>(sizeof(float)) * map.rows * map.columns;
+}
+
 void write_mosaic(const WriterContext& context, const RecordFile& rows,
                   const std::filesystem::path& folder) {
     SoundingBounds bounds;
@@ -135,6 +153,21 @@ std::vector<std::string> swath_products(const WriterContext& context) {
     if (context.mission.output.mosaic)
         products.insert(products.end(), {"mosaic.tif", "mosaic.json"});
     return products;
+}
+
+/// The bytes of these files if all pings were like the samples.
+double swath_file_bytes(const WriterContext& context, std::span<const SampleRecord> samples) {
+    double bytes = 0.0;
+    if (context.mission.output.xtf) {
+        const std::vector<float> row = samples.front().values<float>();
+        bytes += static_cast<double>(xtf_record({}, grey_16(row, context.full_scale())).size()) *
+                 static_cast<double>(context.pings);
+    }
+    if (context.mission.output.mosaic) {
+        for (const SampleRecord& sample : samples)
+            bytes += mosaic_bytes(context, sample) / static_cast<double>(samples.size());
+    }
+    return bytes;
 }
 
 void write_swath_files(const WriterContext& context, const RecordFile& rows,
