@@ -158,7 +158,9 @@ std::vector<Warning> warn_before(const Mission& mission, const Assembly& assembl
 Outcome render_one(const RenderArguments& arguments, const Mission& mission,
                    const std::atomic<bool>& stop) {
     Outcome out;
-    const Assembly assembly = assemble(mission);
+    SceneStore models;
+    models.announce = [](const std::string& what) { spdlog::info("{}", what); };
+    const Assembly assembly = assemble(mission, models);
     out.before = warn_before(mission, assembly);
     ProgressLine line(arguments.log);
     out.summary = run_job(

@@ -300,7 +300,7 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
     if (scene.heightmap || scene.seabed) {
         const Eigen::AlignedBox2d needed = needed_ground(mission, vehicle, sonars, shapes);
         ground = scene.heightmap ? heightmap_of(*scene.heightmap, needed)
-                                 : seabed_of(*scene.seabed, mission.seed, needed);
+                                 : seabed_of(*scene.seabed, mission.seed, needed, models.announce);
         parts.seabed = ground->seabed;
     }
     if (ground) parts.files.push_back(*ground);

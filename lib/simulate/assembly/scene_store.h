@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -21,6 +22,10 @@ class SceneStore : public SceneFiles {
   public:
     const std::shared_ptr<SharedTrees> trees = std::make_shared<SharedTrees>();
     const std::shared_ptr<FanStore> fans = std::make_shared<FanStore>();
+
+    /// Gets a sentence before a part of the scene is made that takes many seconds, with the key
+    /// that makes it smaller; null: it goes unsaid.
+    std::function<void(const std::string&)> announce = {};
 
     /// The bottom that the nodes of a placed file form; no patterns: all nodes. InputError as
     /// surface_of().

@@ -27,27 +27,6 @@ std::array<double, 2> cells_within(double low, double high, double cell_m, doubl
     return {from, to};
 }
 
-BedGrid grid_of_rule(const SeabedRule& rule) {
-    const std::array<double, 2> size = rule.size_m.value_or(std::array{0.0, 0.0});
-    const BedArea& w = rule.window;
-    const auto x = cells_within(w[0], w[2], rule.cell_m, size[0]);
-    const auto y = cells_within(w[1], w[3], rule.cell_m, size[1]);
-    const double columns = x[1] - x[0];
-    const double rows = y[1] - y[0];
-    if (columns < 2.0 || rows < 2.0) {
-        throw InputError(rule.place, "size_m has fewer than 2 x 2 cells of cell_m; make it larger");
-    }
-    if (columns * rows > max_cells_of_bed) {
-        throw InputError(
-            rule.place,
-            fmt::format("the mission needs {:.0f} x {:.0f} heights of the seabed, and at most 2^25 "
-                        "have room; raise cell_m, or shorten the trajectory or the ranges",
-                        columns, rows));
-    }
-    return {rule.cell_m, static_cast<std::int64_t>(x[0]), static_cast<std::int64_t>(y[1]) - 1,
-            static_cast<int>(columns), static_cast<int>(rows)};
-}
-
 /// The height of the bed between the heights of the grid, on its triangles.
 double height_at(const Seabed& bed, double x_m, double y_m) {
     const BedGrid& grid = bed.grid;
@@ -109,9 +88,30 @@ std::vector<std::string> materials_of(const Seabed& bed) {
     return names;
 }
 
+BedGrid grid_of(const SeabedRule& rule) {
+    const std::array<double, 2> size = rule.size_m.value_or(std::array{0.0, 0.0});
+    const BedArea& w = rule.window;
+    const auto x = cells_within(w[0], w[2], rule.cell_m, size[0]);
+    const auto y = cells_within(w[1], w[3], rule.cell_m, size[1]);
+    const double columns = x[1] - x[0];
+    const double rows = y[1] - y[0];
+    if (columns < 2.0 || rows < 2.0) {
+        throw InputError(rule.place, "size_m has fewer than 2 x 2 cells of cell_m; make it larger");
+    }
+    if (columns * rows > max_cells_of_bed) {
+        throw InputError(
+            rule.place,
+            fmt::format("the mission needs {:.0f} x {:.0f} heights of the seabed, and at most 2^25 "
+                        "have room; raise cell_m, or shorten the trajectory or the ranges",
+                        columns, rows));
+    }
+    return {rule.cell_m, static_cast<std::int64_t>(x[0]), static_cast<std::int64_t>(y[1]) - 1,
+            static_cast<int>(columns), static_cast<int>(rows)};
+}
+
 Seabed make_seabed(const SeabedRule& rule) {
     Seabed bed;
-    bed.grid = grid_of_rule(rule);
+    bed.grid = grid_of(rule);
     bed.class_name = rule.class_name;
     std::vector<double> heights(bed.grid.size(), rule.z_m);
     if (rule.ripples) add_ripples(bed.grid, *rule.ripples, rule.seed, heights);

@@ -53,6 +53,9 @@ std::string rock_name(std::size_t index);
 /// The names of all materials that a bed names.
 std::vector<std::string> materials_of(const Seabed& bed);
 
+/// The heights of the part that a rule asks for. InputError as make_seabed().
+BedGrid grid_of(const SeabedRule& rule);
+
 /// Makes a part of a bed. The same rule makes the same bed in every part, except for the numbers of
 /// the rocks. InputError at the rule's place for a part with more than 2^25 heights, fewer than 2 x
 /// 2, or more than 50,000 rocks.
