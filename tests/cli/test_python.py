@@ -5,6 +5,7 @@ import importlib
 import inspect
 import os
 import pathlib
+import signal
 import sys
 import threading
 import time
@@ -165,6 +166,31 @@ class Use(Package):
             with self.assertRaisesRegex(fault, words):
                 sonarsim.open(mission)
         self.assertFalse(self.out.exists())
+
+    def test_half_of_a_letter(self):
+        for mission, set in (({"name": "\ud800"}, None), (self.folder / "mission.yaml", {"name": "a\udfff"}),
+                             (self.folder / "mission\ud800.yaml", None), (self.folder / "mission.yaml", {"\ud800": 1})):
+            with self.assertRaisesRegex(sonarsim.InputError, r"one half of a letter"):
+                sonarsim.open(mission, set)
+
+    def test_a_fork_does_not_wait_for_threads_that_it_has_not(self):
+        pings = self.open().pings(threads=2)
+        next(pings)
+        child = os.fork()
+        if child == 0:
+            try:
+                next(pings)
+            except RuntimeError as fault:
+                os._exit(7 if "forked" in str(fault) and len(list(self.open().pings(threads=2))) == 6 else 8)
+            os._exit(9)
+        end = time.monotonic() + 60
+        while (ended := os.waitpid(child, os.WNOHANG))[0] == 0 and time.monotonic() < end:
+            time.sleep(0.01)
+        if ended[0] == 0:
+            os.kill(child, signal.SIGKILL)
+            os.waitpid(child, 0)
+        self.assertEqual(ended[1], 7 << 8, "0: it hung")
+        self.assertEqual(len(list(pings)), 5)     # the parent goes on
 
     def test_wrong_numbers_and_names(self):
         mission = self.open({"sensors.fls.every": 2, "sensors.other": {"kind": "echosounder"}})

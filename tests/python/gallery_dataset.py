@@ -83,4 +83,5 @@ def write_dataset(folder):
              "pictures": [{"title": "scan", "file": "head/scan_%04d.png", "per": "sweep", "pings": 60,
                            "boxes_of": "head/scan_%04d.png", "radius_px": 15.5, "width_px": 31}]}]}
     (folder / "dataset.json").write_text(json.dumps(description))
+    (folder / "trajectory.tum").write_text("0 0 0 0 0 0 0 1\n" * PINGS)
     return description

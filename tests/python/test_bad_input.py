@@ -1,12 +1,19 @@
 """Every tool of the package with bad input ends with one sentence, and leaves nothing half."""
+import contextlib
+import io
 import json
+import random
+import re
 import shutil
+import types
 import unittest
+import unittest.mock
 
 import numpy as np
 import tool
 import test_export
 from gallery_dataset import write_dataset
+from sonarsim import command
 
 RECORDING = ("kind: imaging\nfiles: pings.npy\nlaw: {kind: gamma, full_value: 255}\nsound_speed_m_s: 1500\nfirst_range_m: 1\n"
              "range_step_m: 0.01\nbearing_first_deg: -30\nbearing_last_deg: 30\n")
@@ -49,6 +56,10 @@ class BadInput(tool.ToolTest):
         for name, write in (("gallery", write_dataset), ("export", test_export.write_dataset)):
             write(self.source)
             self.refused(name, "File too large", 1, FULL_DISK)
+            if name == "export":    # each format names the file that the disk does not take
+                for kind, file in (("webdataset", "train-000000.tar"), ("coco", "train/.*png"), ("masks", "img_dir/.*png")):
+                    self.assert_refused("export", f"e.part/{file}: File too large", self.source, "--format", kind,
+                                        self.out / "e", code=1, setup=FULL_DISK)
             shutil.rmtree(self.source)
         self.source.mkdir()
         speckle = np.random.default_rng(1).rayleigh(40.0, (4, 240, 96))
@@ -68,6 +79,101 @@ class BadInput(tool.ToolTest):
                 hide = ("import importlib.util as u; find = u.find_spec; "
                         f"u.find_spec = lambda name, package=None: None if name == '{package}' else find(name, package)")
                 self.refused(name, f"install python3-{package.lower()} ", setup=hide)
+
+
+class ForeignNumbers(tool.ToolTest):
+    """Of a dataset.json from elsewhere: each is refused within a second or so, and little memory."""
+    LIMITS = ("import resource; resource.setrlimit(resource.RLIMIT_AS, (3 << 30,) * 2); "
+              "resource.setrlimit(resource.RLIMIT_CPU, (20, 20))")
+
+    def test_more_than_lies_on_disk(self):
+        out = self.folder / "in"
+        test_export.write_dataset(out)
+        sound = {name: (out / name).read_text() for name in ("dataset.json", "sss/objects.json", "trajectory.tum")}
+        wide = json.loads(sound["dataset.json"])
+        wide["sensors"] = wide["sensors"][:1]
+        wide["sensors"][0]["fan"] |= {"width_px": 40000, "height_px": 40000}
+        raw = json.loads(json.dumps(wide))
+        raw["sensors"][0]["files"]["raw"] = "fls/fan/%06d.png"
+        for name, text, words, more in (
+                ("dataset.json", sound["dataset.json"].replace('"poses": 60', '"poses": 4000000000'), "'poses' is 4000000000", ()),
+                ("dataset.json", sound["dataset.json"].replace('"pings": 10', '"pings": 4000000000'), "more than poses", ()),
+                ("dataset.json", sound["dataset.json"].replace('"every": 1', '"every": 4000000000'), "more than poses", ()),
+                ("trajectory.tum", "", "'poses' is 60", ()),
+                ("sss/objects.json", sound["sss/objects.json"].replace('"width": 24', '"width": 1000000000'), "too large", ()),
+                ("dataset.json", json.dumps(wide), "is not 40000 x 40000 pixels", ()),
+                ("dataset.json", json.dumps(raw), "too large a fan", ("--image", "raw"))):
+            (out / name).write_text(text)
+            with self.subTest(name=name, words=words):
+                self.assertNotEqual(text, sound[name])
+                self.assert_refused("export", words, out, "--format", "yolo", *more, self.folder / "e", setup=self.LIMITS)
+                if "pose" in words:
+                    self.assert_refused("gallery", words, out, setup=self.LIMITS)
+                    self.assert_refused("compare", words, out, out, setup=self.LIMITS)
+            (out / name).write_text(sound[name])
+
+
+class Mutations(tool.ToolTest):
+    """Some values in the JSON of a dataset are others: each tool works, or says one sentence that is not Python's."""
+    VALUES = (None, True, -1, 0, 4_000_000_000, 10**30, 1.5, float("inf"), float("nan"), "x", "\ud800", [], {}, [None], {"a": 1})
+    PYTHON = re.compile("Error|Traceback|codec|NoneType|argument|literal|could not convert|hashable|subscript|<class|indices|"
+                        "Warning|operand|shape mismatch|tuple|reshape|line [0-9]+$")
+
+    def places(self, value):
+        items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+        for key, one in list(items):
+            if key == 9 and isinstance(value, list):    # the rest of a long list is alike
+                return
+            yield value, key
+            yield from self.places(one)
+
+    def run_tools(self, source, names):
+        from sonarsim.compare.__main__ import compare
+        from sonarsim.export import __main__ as exporter
+        from sonarsim.gallery.__main__ import write_page
+        options = types.SimpleNamespace(real=source, simulated=source, out=None, sensor="fls", real_sensor="fls", pings=2,
+                                        json=False, quiet=True)
+        for name, work in (("export", lambda: exporter.main([str(source), "--format", "coco", str(self.folder / "e")])),
+                           ("gallery", lambda: command.run("gallery", write_page, source)),
+                           ("compare", lambda: command.run("compare", compare, options))):
+            if name not in names:
+                continue
+            said = io.StringIO()
+            # In one process, which is quicker for two pictures and forks nothing.
+            alone = unittest.mock.patch.object(exporter, "prepare_all", lambda pictures, numbers, options: (
+                exporter.prepare(one, numbers[one.dataset], options) for one in pictures))
+            with contextlib.redirect_stderr(said), contextlib.redirect_stdout(io.StringIO()), alone:
+                code = work()
+            with self.subTest(name, code=code):
+                self.assertIn(code, (0, 2))
+                self.assertRegex(said.getvalue(), r"\Asonarsim [^\n]*\n\Z" if code else r"\A\Z")
+                self.assertNotRegex(said.getvalue(), self.PYTHON)
+            shutil.rmtree(self.folder / "e", ignore_errors=True)
+
+    def test_any_value(self):
+        (self.folder / "m.yaml").write_text(
+            f"name: small\nscene: {{file: {tool.ROOT}/scenes/tank.glb, materials: {tool.ROOT}/scenes/materials.csv}}\n"
+            f"trajectory: {{file: {tool.ROOT}/trajectories/tank_loop.csv, rate_hz: 0.5}}\nsensors:\n"
+            "  fls: {kind: imaging, azimuth_deg: 60, range_max_m: 6, range_bins: 64, azimuth_bins: 32}\n"
+            "  sss: {kind: sidescan, range_max_m: 6, range_bins: 16}\n"
+            "labels: {background: [none]}\noutput: {folder: in, labels: [objects]}\n")
+        self.sonarsim("render", "m.yaml", "-q")
+        source, draw = self.folder / "in", random.Random(3)
+        names = ["dataset.json", *(str(path.relative_to(source)) for path in sorted(source.rglob("*/*.json")))]
+        self.run_tools(source, TOOLS)
+        for k in range(40):
+            name = names[0] if draw.random() < 0.7 else draw.choice(names)
+            sound = (source / name).read_text()
+            content = json.loads(sound)
+            holder, key = draw.choice(list(self.places(content)))
+            if isinstance(holder, dict) and draw.random() < 0.3:
+                del holder[key]
+            else:
+                holder[key] = draw.choice(self.VALUES)
+            (source / name).write_text(json.dumps(content))
+            with self.subTest(file=name, key=key):
+                self.run_tools(source, TOOLS if k % 8 == 0 else ("export", "gallery"))
+            (source / name).write_text(sound)
 
 
 if __name__ == "__main__":

@@ -64,6 +64,7 @@ def write_dataset(folder, mission="made"):
         "labels": {"classes": [{"id": k + 1, "name": name} for k, name in enumerate(CLASSES)],
                    "instances": [], "annotations": {"background": ["bottom"]}}}
     (folder / "dataset.json").write_text(json.dumps(description))
+    (folder / "trajectory.tum").write_text("0 0 0 0 0 0 0 1\n" * ROWS)
 
 
 class Export(tool.ToolTest):

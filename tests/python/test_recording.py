@@ -3,12 +3,13 @@ import json
 import random
 import struct
 import unittest
+import unittest.mock
 import warnings
 
 import numpy as np
 import tool
 from instrument_files import FORMATS, aris, counted, didson, ek60, oculus, simrad, xtf_header, xtf_ping
-from sonarsim.recording import Law, RecordingError, open_recording  # noqa: E402
+from sonarsim.recording import Law, RecordingError, dataset, open_recording  # noqa: E402
 
 ARRAYS = ("kind: imaging\nfiles: pings.npy\nlaw: {kind: gamma, exponent: 0.5}\nsound_speed_m_s: 1490\n"
           "first_range_m: 0.5\nrange_step_m: 0.1\n")
@@ -162,7 +163,8 @@ class RecordingTest(tool.ToolTest):
         sensor = {"name": "s", "kind": kind, "every": 1, "pings": 2, "full_scale": 4.0, "files": {},
                   "range_edges_m": [1.0, 2.0, 3.0, 4.0], "azimuth_edges_rad": [-0.2, 0.0, 0.2], **more}
         (self.folder / "dataset.json").write_text(json.dumps({
-            "format": "sonarsim dataset", "format_version": 3, "complete": True, "sensors": [sensor]}))
+            "format": "sonarsim dataset", "format_version": 3, "complete": True, "poses": 3, "sensors": [sensor]}))
+        (self.folder / "trajectory.tum").write_text("0 0 0 0 0 0 0 1\n" * 3)
         (self.folder / "mission.resolved.yaml").write_text(
             f"water: {{sound_speed_m_s: 1480}}\nsensors:\n  s: {{instrument: {{{resolved}}}}}\n")
         return open_recording(self.folder)
@@ -199,11 +201,13 @@ class RecordingTest(tool.ToolTest):
                            records={"name": "soundings", "file": "s/soundings.npy", "axes": ["ping", "beam", "value"]})
         bins = 20 * 0.2 * np.tan([0.8, 0.6]) / 0.1
         np.testing.assert_allclose(own.soundings.intensity[0], 1 / bins, rtol=0.05)
-        for more, what in (({"pings": 1 << 31}, "take fewer pings"), ({"pings": 3}, "000002.npy"),
+        for more, what in (({"pings": 1 << 31}, "pings, more than poses"), ({"pings": 3}, "000002.npy"),
                            ({"range_edges_m": [1, 2]}, "another shape"), ({"files": {}}, "set output.polar: true"),
                            ({"files": {"polar": "../%06d.npy"}}, "not a name that"), ({"kind": "sidescan"}, "no records")):
             with self.subTest(what), self.assertRaisesRegex(RecordingError, what):
                 self.dataset(more.pop("kind", "imaging"), polar, **{**files, **more})
+        with unittest.mock.patch.object(dataset, "MOST_VALUES", 11), self.assertRaisesRegex(RecordingError, "take fewer pings"):
+            self.dataset("imaging", polar, **files)
         (self.folder / "s/polar/000001.npy").write_bytes(b"\x93NUMPY\1\0")
         with self.assertRaisesRegex(RecordingError, "ping 1"):
             self.dataset("imaging", {}, **files)

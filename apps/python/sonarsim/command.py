@@ -5,6 +5,7 @@ import os
 import pathlib
 import shutil
 import sys
+import traceback
 
 PACKAGES = {"numpy": "python3-numpy", "PIL": "python3-pil", "scipy": "python3-scipy", "yaml": "python3-yaml"}
 
@@ -28,11 +29,26 @@ def run(command, work, *arguments):
         code, text = 2, str(fault)
     except MemoryError:
         code, text = 1, "out of memory"
+    except (ArithmeticError, AttributeError, LookupError, TypeError, RuntimeError) as fault:
+        place = traceback.extract_tb(fault.__traceback__)[-1]
+        code, text = 2, ("cannot work with a value of its input; sonarsim verify says which file was changed. If none was, "
+                         f"report {pathlib.Path(place.filename).name}, line {place.lineno}")
     except OSError as fault:
         # Of a copy that fails, the second name is that of the file that is written.
         code, text = 1, f"{fault.filename2 or fault.filename or 'output'}: {fault.strerror or fault}"
     print(f"sonarsim {command}: {text}", file=sys.stderr)
     return code
+
+
+@contextlib.contextmanager
+def naming(path):
+    """Gives the path to an OSError that has none: that of a write does not say what is written."""
+    try:
+        yield path
+    except OSError as fault:
+        if fault.filename is not None:
+            raise
+        raise OSError(fault.errno, fault.strerror or str(fault), str(path)) from fault
 
 
 @contextlib.contextmanager

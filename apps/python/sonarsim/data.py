@@ -39,6 +39,9 @@ NAME = r"[A-Za-z0-9_+-][A-Za-z0-9_+.-]*"
 INNER_PATH = re.compile(f"{NAME}(/{NAME})*", re.ASCII)
 # The only number of a pattern stands in its last name.
 PATTERN = re.compile(rf"(?:{NAME}/)*(?:{NAME})?%0[1-9]d[A-Za-z0-9_+.-]*", re.ASCII)
+ANY_TEXT = re.compile(".*", re.DOTALL)
+# The bytes that a pose takes in trajectory.tum: eight numbers, each with a blank or the line's end.
+SHORTEST_POSE = 16
 # A byte of a PNG file unpacks to at most this many bytes.
 MOST_INFLATED = 1032
 # Bits and colour type of the PNG files of pings: 0 is grey, 2 RGB, 3 a colour table.
@@ -82,20 +85,27 @@ class Dataset:
             self._read()
 
     def _read(self):
-        self.sensors = {d["name"]: Sensor(self.folder, d) for d in self.description["sensors"]}
+        self.complete = self.description["complete"] is True
+        poses = whole(self.description["poses"], 0, "poses")
+        room = own_file(self.folder, "trajectory.tum").stat().st_size // SHORTEST_POSE
+        if poses > room:
+            raise Damage(f"'poses' is {poses}, and trajectory.tum has no room for more than {room}")
+        self.sensors = {}
+        for one in self.description["sensors"]:
+            sensor = Sensor(self.folder, one)
+            self.sensors[sensor.name] = sensor
+            if sensor.pings and sensor.pings[-1] >= poses:
+                raise Damage(f"sensor {sensor.name!r} has {len(sensor)} pings, more than poses")
         labels = self.description.get("labels", {})
         self.instances, self.classes, self.materials = (
-            {entry["id"]: entry["name"] for entry in labels.get(kind, [])}
+            {whole(entry["id"], 0, "id"): checked(entry["name"], ANY_TEXT, "name") for entry in labels.get(kind, [])}
             for kind in ("instances", "classes", "materials"))
-        self.class_of = {entry["id"]: entry["class"] for entry in labels.get("instances", [])}
+        self.class_of = {entry["id"]: whole(entry["class"], 0, "class") for entry in labels.get("instances", [])}
         if not self.classes.keys() >= set(self.class_of.values()):
-            raise ValueError("labels.instances has a class that labels.classes does not have")
+            raise Damage("labels.instances has a class that labels.classes does not have")
         # The names of the classes that are not objects.
-        self.background = set(labels.get("annotations", {}).get("background", []))
-
-    @property
-    def complete(self):
-        return self.description["complete"]
+        self.background = {checked(name, ANY_TEXT, "background")
+                           for name in labels.get("annotations", {}).get("background", [])}
 
     def __getitem__(self, name):
         return self.sensors[name]
@@ -134,10 +144,10 @@ class Sensor:
         self.folder = folder
         self.description = description
         self.name = checked(description["name"], re.compile(NAME, re.ASCII), "name")
-        self.kind = description["kind"]
-        self.range_edges_m = np.array(description["range_edges_m"])
+        self.kind = checked(description["kind"], ANY_TEXT, "kind")
+        self.range_edges_m = numbers(description["range_edges_m"], "range_edges_m")
         azimuth = description.get("azimuth_edges_rad")
-        self.azimuth_edges_rad = None if azimuth is None else np.array(azimuth)
+        self.azimuth_edges_rad = None if azimuth is None else numbers(azimuth, "azimuth_edges_rad")
         every, pings = (whole(description[key], low, key) for key, low in (("every", 1), ("pings", 0)))
         self.pings = range(0, every * pings, every)
         self._files = description["files"]
@@ -160,7 +170,7 @@ class Sensor:
     def _path(self, path, rule):
         """ValueError unless the path, or pattern, lies in the folder of the sensor."""
         if not checked(path, rule, "file").startswith(self.name + "/"):
-            raise ValueError(f"sensor {self.name!r} has {path!r}, which is not in its folder")
+            raise Damage(f"sensor {self.name!r} has {path!r}, which is not in its folder")
 
     def __len__(self):
         return len(self.pings)
@@ -206,7 +216,7 @@ class Sensor:
         data = self.raw(index, name)
         suffix = pathlib.PurePath(self._files[name]).suffix
         if suffix not in DECODERS:
-            raise ValueError(f"sensor {self.name!r} has {self._files[name]!r}, which this cannot read")
+            raise Damage(f"sensor {self.name!r} has {self._files[name]!r}, which this cannot read")
         return DECODERS[suffix](data)
 
     def fan_shape(self, width):
@@ -348,6 +358,10 @@ class DataError(ValueError):
     """What is wrong with a dataset; the text names the file."""
 
 
+class Damage(ValueError):
+    """What is wrong in a file: a sentence that lacks its subject. reading() adds it."""
+
+
 # What comes from the content of a damaged file; the last four from numpy.
 FAULTS = (ValueError, LookupError, TypeError, AttributeError, ArithmeticError, SyntaxError, EOFError, RecursionError,
           tokenize.TokenError)
@@ -361,22 +375,40 @@ def reading(path):
     except DataError:
         raise
     except FAULTS as fault:
-        what = str(fault) if isinstance(fault, ValueError) else repr(fault)
-        raise DataError(f"{path}: is damaged: {what}; sonarsim verify says more") from fault
+        raise DataError(f"{path}: is damaged: {what_is_wrong(fault)}; sonarsim verify says more") from fault
+
+
+def what_is_wrong(fault):
+    """A sentence for one of FAULTS. The texts of Python and numpy mean nothing to who uses a command."""
+    if isinstance(fault, Damage):
+        return str(fault)
+    if isinstance(fault, json.JSONDecodeError):
+        return f"is not JSON from line {fault.lineno}, column {fault.colno} on"
+    if isinstance(fault, KeyError) and fault.args:
+        return f"lacks {str(fault.args[0])[:80]!r}"
+    return "has a value of a type or size that sonarsim does not write"
 
 
 def checked(text, rule, key):
-    """The text, if all of it matches the rule; else ValueError."""
+    """The text, if all of it matches the rule; else Damage."""
     if isinstance(text, str) and rule.fullmatch(text):
         return text
-    raise ValueError(f"{key!r} is {text!r}, which is not a name that sonarsim gives")
+    raise Damage(f"{key!r} is {str(text)[:80]!r}, which is not a name that sonarsim gives")
 
 
 def whole(number, low, key):
-    """The number, if it is whole and not below `low`; else ValueError."""
+    """The number, if it is whole, not below `low` and below 2^32; else Damage."""
     if isinstance(number, int) and not isinstance(number, bool) and low <= number < 1 << 32:
         return number
-    raise ValueError(f"{key!r} is {number!r} and must be a whole number from {low} on")
+    raise Damage(f"{key!r} is {repr(number)[:80]} and must be a whole number from {low} on")
+
+
+def numbers(values, key):
+    """A list of finite numbers as an array; else Damage."""
+    array = np.array(values, float)
+    if array.ndim != 1 or not np.isfinite(array).all():
+        raise Damage(f"{key!r} is not a list of numbers")
+    return array
 
 
 def own_file(folder, inner, is_folder=False):
@@ -397,7 +429,7 @@ def read_png(data):
     as [row, column] or [row, column, 3]; with a colour table the numbers of the colours, which are ids.
     ValueError for any other."""
     if data[:8] != b"\x89PNG\r\n\x1a\n":
-        raise ValueError("is not a PNG")
+        raise Damage("is not a PNG")
     packed, header, at = [], None, 8
     while at + 12 <= len(data):
         size, kind = struct.unpack(">I4s", data[at:at + 8])
@@ -408,15 +440,15 @@ def read_png(data):
             packed.append(chunk)
         at += size + 12
     if header is None:
-        raise ValueError("is a PNG without a header")
+        raise Damage("is a PNG without a header")
     width, height, bits, colour, _, _, interlaced = header
     if (bits, colour) not in PNG_KINDS or interlaced:
-        raise ValueError("is a PNG of a kind that sonarsim does not write")
+        raise Damage("is a PNG of a kind that sonarsim does not write")
     channels = 3 if colour == 2 else 1
     pixel = channels * bits // 8
     expected = height * (1 + width * pixel)
     if not width or not height or expected > MOST_INFLATED * len(data):
-        raise ValueError("is a PNG whose width and height cannot be right")
+        raise Damage("is a PNG whose width and height cannot be right")
     rows = np.frombuffer(unpacked(b"".join(packed), expected), np.uint8)
     rows = rows.reshape(height, 1 + width * pixel)
     pixels = unfiltered(rows[:, 0], rows[:, 1:].reshape(height, width, pixel))
@@ -430,9 +462,9 @@ def unpacked(data, expected):
     try:
         out = stream.decompress(data, expected + 1)
     except zlib.error as fault:
-        raise ValueError(f"cannot be unpacked: {fault}") from fault
+        raise Damage(f"cannot be unpacked: {fault}") from fault
     if len(out) != expected:
-        raise ValueError("is a PNG with more or fewer rows than its header says")
+        raise Damage("is a PNG with more or fewer rows than its header says")
     return out
 
 
@@ -446,7 +478,7 @@ def unfiltered(filters, rows):
         elif filters[y] == 2:
             out[y] += out[y - 1] if y else 0
         else:
-            raise ValueError("is a PNG with filters that sonarsim does not use")
+            raise Damage("is a PNG with filters that sonarsim does not use")
     return out
 
 
@@ -454,18 +486,24 @@ def read_npy(data):
     """The array in a .npy file, format 1.0; ValueError if it is not such a file, or not as long as its header says."""
     file = io.BytesIO(data)
     if np.lib.format.read_magic(file) != (1, 0):
-        raise ValueError("is not a .npy file, format 1.0")
+        raise Damage("is not a .npy file, format 1.0")
     shape, _, dtype = np.lib.format.read_array_header_1_0(file)
     if dtype.hasobject or math.prod(shape) * dtype.itemsize != len(data) - file.tell():
-        raise ValueError(f"is {len(data)} bytes long, and its header says {shape} of {dtype}")
+        raise Damage(f"is {len(data)} bytes long, and its header says {shape} of {dtype}")
     return np.load(io.BytesIO(data))
 
 
 def read_json(data):
+    """What JSON says; Damage also for text that no file can hold."""
     try:
-        return json.loads(data)
+        value = json.loads(data)
+        if re.search(rb"\\u[dD][89a-fA-F]", data):
+            json.dumps(value, ensure_ascii=False).encode()
+        return value
     except RecursionError as fault:
-        raise ValueError("is JSON that is nested too deep") from fault
+        raise Damage("is JSON that is nested too deep") from fault
+    except UnicodeError as fault:
+        raise Damage("is not UTF-8, or has one half of a letter of UTF-16") from fault
 
 
 DECODERS = {".npy": read_npy, ".png": read_png, ".json": read_json}

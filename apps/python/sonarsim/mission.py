@@ -5,6 +5,7 @@ import collections
 import concurrent.futures
 import dataclasses
 import functools
+import itertools
 import json
 import os
 import sys
@@ -50,6 +51,9 @@ def load(mission: Path | Mapping[str, Any], set: Mapping[str, Any] | None = None
         file, text = os.fspath(mission), None
         folder = os.path.dirname(file)
     base = folder if paths_from is None else os.fspath(paths_from)
+    for given in (file, base, *settings, text):
+        if isinstance(given, str):
+            _require_utf8(given)
     return Mission(_sonarsim.load(file, base, settings, text))
 
 
@@ -309,6 +313,15 @@ def _yaml(value: Any) -> str:
     return json.dumps(value, ensure_ascii=False, default=plain)
 
 
+def _require_utf8(text: str) -> None:
+    try:
+        text.encode()
+    except UnicodeEncodeError as fault:
+        near = text[max(0, fault.start - 30):fault.start + 30]
+        raise InputError(f"mission: {near!r} has one half of a letter of UTF-16, which no file can hold; write the whole "
+                         "letter") from None
+
+
 def _index_of(sensor: str, names: list[str]) -> int:
     if sensor not in names:
         raise KeyError(f"there is no sensor {sensor!r}, but {', '.join(names)}")
@@ -325,19 +338,23 @@ def _sensor(description: dict[str, Any]) -> Sensor:
 
 def _ahead(jobs: Iterable[Callable[[], Ping]], threads: int) -> Iterator[Ping]:
     """The results of the jobs in their order. Threads work ahead while a batch is trained on; at most
-    eight results for each thread wait."""
+    eight results for each thread wait. RuntimeError in a fork of the process: it has none of the threads."""
     if threads == 1:
         for job in jobs:
             yield job()
         return
     pool = concurrent.futures.ThreadPoolExecutor(threads)
+    process = os.getpid()
     waiting: collections.deque[concurrent.futures.Future[Ping]] = collections.deque()
     try:
-        for job in jobs:
-            waiting.append(pool.submit(job))
-            if len(waiting) >= 8 * threads:
-                yield waiting.popleft().result()
-        while waiting:
+        while True:
+            if os.getpid() != process:
+                raise RuntimeError("pings() began before this process was forked from its parent, where its threads are; "
+                                   "call pings() in the child")
+            waiting.extend(pool.submit(job) for job in itertools.islice(jobs, 8 * threads - len(waiting)))
+            if not waiting:
+                return
             yield waiting.popleft().result()
     finally:
-        pool.shutdown(cancel_futures=True)
+        if os.getpid() == process:
+            pool.shutdown(cancel_futures=True)

@@ -5,6 +5,7 @@ import os
 import shutil
 import tarfile
 
+from ..command import naming
 from . import runs
 from .pieces import colour_of
 from .split import PARTS
@@ -18,9 +19,10 @@ def place(folder, name, content, link=False):
     """Writes a file; `content` is its bytes, or the path of the file that it is a copy of."""
     folder.mkdir(parents=True, exist_ok=True)
     if isinstance(content, bytes):
-        (folder / name).write_bytes(content)
+        write(folder / name, content)
     elif not link:
-        shutil.copyfile(content, folder / name)
+        with naming(folder / name):
+            shutil.copyfile(content, folder / name)
     else:
         try:
             os.link(content, folder / name)
@@ -28,12 +30,17 @@ def place(folder, name, content, link=False):
             raise ValueError(f"{content}: cannot be linked ({fault.strerror}); leave out --link") from fault
 
 
+def write(path, content):
+    with naming(path):
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+
+
 def bbox(box):
     return [box[0], box[2], box[1] - box[0], box[3] - box[2]]
 
 
 def write_json(path, value):
-    path.write_text(json.dumps(value, ensure_ascii=False) + "\n", encoding="utf-8")
+    write(path, json.dumps(value, ensure_ascii=False) + "\n")
 
 
 class Format:
@@ -78,7 +85,8 @@ class Coco(Format):
         categories = [json.dumps({"id": k + 1, "name": name, "supercategory": "object"})
                       for k, name in enumerate(self.classes)]
         for part, (images, annotations) in self.parts.items():
-            with open(folder / f"instances_{part}.json", "w", encoding="utf-8") as file:
+            path = folder / f"instances_{part}.json"
+            with naming(path), open(path, "w", encoding="utf-8") as file:
                 file.write(f'{{"info": {json.dumps(self.info)},\n"licenses": []')
                 for key, items in (("categories", categories), ("images", images), ("annotations", annotations)):
                     file.write(f',\n"{key}": [\n' + ",\n".join(items) + "\n]")
@@ -111,7 +119,7 @@ class Yolo(Format):
             elif part != "test":
                 text += f"{part}: images/{next(iter(self.parts))}  # there is no such part\n"
         text += "names:\n" + "".join(f"  {k}: {json.dumps(name)}\n" for k, name in enumerate(self.classes))
-        (self.folder / "data.yaml").write_text(text, encoding="utf-8")
+        write(self.folder / "data.yaml", text)
 
 
 class Masks(Format):
@@ -143,21 +151,27 @@ class WebDataset(Format):
         png = piece.content if isinstance(piece.content, bytes) else piece.content.read_bytes()
         number, shard = self.parts.get(piece.part, (-1, None))
         if shard is None or shard.offset + len(png) + len(text) + 4096 > SHARD_BYTES:
-            if shard:
-                shard.close()
-            shard = tarfile.open(self.folder / f"{piece.part}-{number + 1:06}.tar", "w", format=tarfile.USTAR_FORMAT)
+            self.close(shard)
+            path = self.folder / f"{piece.part}-{number + 1:06}.tar"
+            with naming(path):
+                shard = tarfile.open(path, "w", format=tarfile.USTAR_FORMAT)
             self.parts[piece.part] = number + 1, shard
         for ending, content in ((".png", png), (".json", text.encode())):
             member = tarfile.TarInfo(piece.name + ending)
             member.size = len(content)
-            shard.addfile(member, io.BytesIO(content))
+            with naming(shard.name):
+                shard.addfile(member, io.BytesIO(content))
+
+    def close(self, shard):
+        if shard:
+            with naming(shard.name):
+                shard.close()
 
     def finish(self):
         for _, shard in self.parts.values():
-            shard.close()
+            self.close(shard)
         # A line each, whatever is in a name.
-        names = [json.dumps(name, ensure_ascii=False)[1:-1] + "\n" for name in self.classes]
-        (self.folder / "classes.txt").write_text("".join(names), encoding="utf-8")
+        write(self.folder / "classes.txt", "".join(json.dumps(name, ensure_ascii=False)[1:-1] + "\n" for name in self.classes))
 
 
 KINDS = {"coco": Coco, "yolo": Yolo, "masks": Masks, "webdataset": WebDataset}

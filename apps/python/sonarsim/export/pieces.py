@@ -32,11 +32,11 @@ def prepare(picture, numbers, options):
     parts = [part_of(picture, frame) for frame in frames]
     if not any(parts):
         return [], len(frames), 0
+    pixels = pixels_of(picture, len(frames) == 1)   # first, since the masks are as large
     with data.reading(picture.facts):
         listed = data.read_json(picture.facts.read_bytes())["objects"]
         shown = [object_of(one, picture.kind, numbers[one["class"]]) for one in listed]
         objects = [one for one in shown if one and is_kept(one, picture, options)]
-    pixels = pixels_of(picture, len(frames) == 1)
     pieces, dropped = [], 0
     for frame, part in zip(frames, parts):
         if part is None:
@@ -136,6 +136,8 @@ def pixels_of(picture, is_whole):
             pixels = np.floor(255 * np.sqrt(shares.clip(0, 1)) + 0.5).astype(np.uint8)
         else:
             with Image.open(picture.path, formats=["PNG"]) as image:
+                if image.width * image.height > data.MOST_INFLATED * picture.path.stat().st_size:
+                    raise data.Damage("its width and height cannot be right")
                 is_grey = image.mode in ("L", "I", "I;16")
                 if (is_whole and picture.bins is None and image.mode in ("L", "P", "RGB")
                         and image.size == (picture.width, picture.height)):
@@ -144,14 +146,15 @@ def pixels_of(picture, is_whole):
             if pixels.dtype != np.uint8:
                 wide = pixels.astype(np.uint16)
                 pixels = (wide >> 8).astype(np.uint8) if picture.path.parent.name == "raw" else GREYS[wide]
-            if picture.bins is not None:
+            if picture.bins is not None and picture.bins.max() < pixels.size:
                 pixels = np.where(picture.bins < 0, 0, pixels.ravel()[np.maximum(picture.bins, 0)])
-    except (ValueError, SyntaxError, OSError) as fault:
+    except (*data.FAULTS, OSError) as fault:
         if isinstance(fault, OSError) and fault.errno:
             raise
-        raise ValueError(f"{picture.path}: cannot be read: {fault}") from fault
+        what = fault if isinstance(fault, data.Damage) else "it is not a whole picture as its dataset says"
+        raise data.DataError(f"{picture.path}: cannot be read: {what}") from fault
     if pixels.shape[:2] != (picture.height, picture.width):
-        raise ValueError(f"{picture.path}: is not {picture.width} x {picture.height} pixels, as its dataset says")
+        raise data.DataError(f"{picture.path}: is not {picture.width} x {picture.height} pixels, as its dataset says")
     return pixels
 
 

@@ -4,19 +4,21 @@ A mask is held as the sorted numbers of its pixels, column * height + row.
 """
 import numpy as np
 
+from ..data import Damage
+
 MOST_GROUPS = 7     # a run of 2^31 pixels takes fewer groups of five bits
 
 
 def pixels_of(counts, width, height):
-    """The pixels of a mask in a picture. ValueError unless the runs fill the picture and hold a pixel."""
+    """The pixels of a mask in a picture. Damage unless the runs fill the picture and hold a pixel."""
     codes = np.frombuffer(counts.encode("ascii", "replace"), np.uint8).astype(np.int64) - 48
     last = (codes & 0x20) == 0
     if not codes.size or codes.min() < 0 or codes.max() > 0x3F or not last[-1]:
-        raise ValueError("has a mask that is not in COCO's compressed runs")
+        raise Damage("has a mask that is not in COCO's compressed runs")
     ends = np.flatnonzero(last) + 1
     begins = np.concatenate(([0], ends[:-1]))
     if (ends - begins).max() > MOST_GROUPS:
-        raise ValueError("has a mask with a run that is too long")
+        raise Damage("has a mask with a run that is too long")
     group = np.arange(codes.size) - np.repeat(begins, ends - begins)
     runs = np.add.reduceat((codes & 0x1F) << 5 * group, begins)
     runs -= np.where(codes[ends - 1] & 0x10, 1 << 5 * (ends - begins), 0)
@@ -24,7 +26,7 @@ def pixels_of(counts, width, height):
     runs[1::2] = np.cumsum(runs[1::2])
     runs[2::2] = np.cumsum(runs[2::2])
     if runs[0] < 0 or (runs[1:] < 1).any() or runs.size < 2 or runs.sum() != width * height:
-        raise ValueError(f"has a mask that does not fit a picture of {width} x {height} pixels")
+        raise Damage(f"has a mask that does not fit a picture of {width} x {height} pixels")
     borders = np.cumsum(runs)
     begins, lengths = borders[::2][:runs.size // 2], runs[1::2]
     within = np.arange(lengths.sum()) - np.repeat(np.cumsum(lengths) - lengths, lengths)

@@ -10,6 +10,7 @@ from .. import data
 from . import split
 
 MOST_PIXELS = 1 << 31
+MOST_FAN_PIXELS = 1 << 22   # of a fan that is drawn from its bins; those of sonarsim are at most 1024 wide
 ADVICE = "set output.labels: [objects] and render it again"
 FACTS = ("range_m", "bearing_deg", "contrast_db", "visible_share", "shadow_contrast_db")
 
@@ -78,8 +79,7 @@ class Source:
 
     def _add_pictures(self, index, options):
         dataset, shares = self.datasets[index], self._shares[index]
-        with data.reading(dataset.folder / "dataset.json") as file:
-            count = data.whole(dataset.description["poses"], 0, "poses")
+        count, file = dataset.description["poses"], dataset.folder / "dataset.json"
         if isinstance(shares, dict):
             parts = split.of_poses(shares, count, options.gap, options.rounds)
         else:
@@ -134,9 +134,12 @@ def pings_of(sensor, of_ping, is_bins, is_raw):
     shape = len(sensor.azimuth_edges_rad) - 1, len(sensor.range_edges_m) - 1
     bins = None
     if not is_bins:
+        width, height = (data.whole(sensor.description["fan"][key], 1, key) for key in ("width_px", "height_px"))
+        if is_raw and width * height > MOST_FAN_PIXELS:
+            raise data.DataError(f"{sensor.folder}: sensor {sensor.name!r} has too large a fan: {width} x {height} pixels")
         if is_raw:
-            bins = sensor.to_fan(np.arange(shape[0] * shape[1]).reshape(shape[::-1]), sensor.description["fan"]["width_px"], -1)
-        shape = sensor.description["fan"]["width_px"], sensor.description["fan"]["height_px"]
+            bins = sensor.to_fan(np.arange(shape[0] * shape[1]).reshape(shape[::-1]), width, -1)
+        shape = width, height
     for k, part in enumerate(of_ping):
         one = picture(sensor, sensor.file(k, names[0]), sensor.file(k, "objects"), "bins" if is_bins else "fan", shape,
                       [part])
@@ -173,7 +176,7 @@ def picture(sensor, path, facts, kind, shape, parts):
     width, height = (data.whole(side, 1, "width or height") for side in shape)
     if width * height > MOST_PIXELS:
         raise data.DataError(f"{path}: is too large a picture: {width} x {height} pixels")
-    return Picture(path, facts, "", 0, kind, width, height, sensor.description["full_scale"], parts)
+    return Picture(path, facts, "", 0, kind, width, height, float(sensor.description["full_scale"]), parts)
 
 
 def object_of(one, kind, number):

@@ -4,7 +4,7 @@ import numpy as np
 from .. import data
 from .arrays import two_sides
 from .description import Section, read_yaml
-from .recording import MOST_VALUES, Law, Recording, RecordingError, Soundings
+from .recording import MOST_POWER, MOST_VALUES, Law, Recording, RecordingError, Soundings
 
 LARGEST_MISSION = 1 << 26
 LEAST_QUALITY = 0.5
@@ -20,7 +20,7 @@ def read_dataset(folder, name, most_pings):
     if name not in names and (name or len(names) > 1):
         wrong = f"no sensor {name!r}" if name else "several sensors; choose one with --sensor"
         raise RecordingError(f"{folder}: has {wrong}; there are {', '.join(names)}")
-    with data.reading(folder):
+    with data.reading(f"{folder}: sensor {name or names[0]!r}"):
         return recording_of(folder, dataset[name or names[0]], most_pings)
 
 
@@ -42,9 +42,9 @@ def recording_of(folder, sensor, most_pings):
 
 
 def require(folder, sensor, is_right, values=0):
-    """ValueError or RecordingError unless an array has the right shape, and values are few."""
+    """RecordingError unless an array has the right shape, and values are few."""
     if not is_right:
-        raise ValueError(f"{folder}: an array of {sensor.name} has another shape than dataset.json says")
+        raise RecordingError(f"{folder}: an array of {sensor.name} has another shape than dataset.json says")
     if values > MOST_VALUES:
         raise RecordingError(f"{folder}: has more than {MOST_VALUES} values; take fewer pings with --pings")
 
@@ -56,10 +56,8 @@ def read_images(folder, sensor, name, pings):
     shape, images = (len(sensor.range_edges_m) - 1, len(sensor.azimuth_edges_rad) - 1), []
     require(folder, sensor, min(shape) > 0, pings * shape[0] * shape[1])
     for k in range(pings):
-        try:
+        with data.reading(f"{folder}/{sensor.name}/{name}: ping {k}"):
             images.append(np.asarray(sensor.read(k, name), np.float32))
-        except ValueError as fault:
-            raise ValueError(f"{folder}/{sensor.name}/{name}: ping {k} {fault}") from fault
         require(folder, sensor, images[-1].shape == shape)
     return np.array(images)
 
@@ -102,11 +100,16 @@ def soundings_of(folder, sensor, recording):
 def set_facts(folder, sensor, is_raw, recording):
     """The law and the speed of sound."""
     path = folder / "mission.resolved.yaml"
-    mission = read_yaml(path, LARGEST_MISSION)
+    with data.reading(path):
+        mission = read_yaml(path, LARGEST_MISSION)
+        own, water = mission["sensors"][sensor.name].get("instrument") or {}, mission["water"]
     def section(keys):
         return Section(path, keys, keys)
-    instrument = section(mission["sensors"][sensor.name].get("instrument") or {})
-    recording.law = Law("amplitude", full_value=float(sensor.description["full_scale"]))
+    instrument, water = section(own), section(water)
+    full_scale = data.numbers([sensor.description["full_scale"]], "full_scale")
+    if not 0 < full_scale[0] < MOST_POWER:
+        raise data.Damage("'full_scale' is not above 0")
+    recording.law = Law("amplitude", full_value=float(full_scale[0]))
     if "instrument" in sensor.description:      # the calibrated model
         recording.law = Law("power", full_value=1.0)
     if is_raw:
@@ -115,6 +118,5 @@ def set_facts(folder, sensor, is_raw, recording):
         recording.law = Law(kind, receiver.number("gamma", 0.1, 2.0, 0.5),
                             receiver.number("dynamic_range_db", 10.0, 200.0, 60.0),
                             2.0 ** int(receiver.number("bits", 4, 16, 8)) - 1.0, receiver.number("offset", 0.0, 0.9, 0.0))
-    water = section(mission["water"])
     if not isinstance(water.keys.get("sound_speed_m_s"), dict):     # a section where it changes with depth
         recording.sound_speed_m_s = water.number("sound_speed_m_s", 1.0, 1e5, recording.sound_speed_m_s)
