@@ -4,7 +4,7 @@ import json
 import shutil
 import unittest
 
-from sandbox import ALL_FILES, Sandbox, digest, path_csv
+from sandbox import ALL_FILES, Sandbox, digest, path_csv, with_disk
 
 
 class Merge(Sandbox):
@@ -92,7 +92,61 @@ class Merge(Sandbox):
                                 (("part1", "part2", "part3", "taken"), "taken", "not a sonarsim dataset")):
             self.merge_refused(*folders, words=words)
         shutil.rmtree(self.folder / "part2/sss")
-        self.assertIn("part2/sss/", self.run_sonarsim("merge", "part1", "part2", "part3", "all", code=1).stderr)
+        self.merge_refused("part1", "part2", "part3", "all", words=("part2/sss/", "No such file"))
+
+    def test_links_in_a_part_are_not_followed(self):
+        self.assert_renders("--out", "done")
+        self.write("secret/word", "swordfish")
+        for part, files in (("part1", "mission.resolved.yaml dataset.json journal.d fls/polar sss sss/waterfall.npy FAN"),
+                            ("done", "mission.resolved.yaml trajectory.tum SHA256SUMS journal.txt fls fls/polar/000001.npy "
+                                     "sounder/echogram.npy mbes/bathymetry.tif")):
+            for name in files.replace("FAN", str(next((self.folder / "part1").glob("fls/fan/*"))).split("part1/")[1]).split():
+                with self.subTest(part=part, name=name):
+                    path, kept = self.folder / part / name, self.folder / "kept"
+                    path.rename(kept)
+                    # Without the link there would be nothing to say: it names what was there.
+                    path.symlink_to(kept)
+                    self.merge_refused(part, "all", words=(f"{part}/{name}: is a symbolic link",))
+                    if kept.is_file():
+                        path.unlink()
+                        path.symlink_to(self.folder / "secret/word")
+                        self.run_sonarsim("merge", part, "all", code=2)
+                    path.unlink()
+                    kept.rename(path)
+                    for copied in (self.folder / "all").rglob("*"):
+                        self.assertNotIn(b"swordfish", copied.read_bytes() if copied.is_file() else b"")
+                    shutil.rmtree(self.folder / "all", ignore_errors=True)
+        self.succeeds("merge", "part1", "done", "all")
+        self.assertEqual(digest(self.folder / "all"), self.whole)
+
+    def test_what_a_kill_left_is_removed(self):
+        left = [f"all/{name}.0123456789abcdef.part" for name in (".dataset.json", "..dataset.json.0123456789abcdef.part",
+                                                                 ".SHA256SUMS", "fls/.x", "fls/polar/.000001.npy")]
+        self.assert_renders("--out", "done")
+        for parts in (("part1", "part2"), ("part1", "done"), ("done",)):    # the last is a merge that is done already
+            with self.subTest(parts=parts):
+                for name in left:
+                    self.write(name, "half")
+                if parts == ("part1", "part2"):
+                    shutil.rmtree(self.folder / "all/fls")      # of no dataset yet
+                self.write("all/journal.d/1-of-1.txt", "torn")
+                self.succeeds("merge", *parts, "all")
+                self.assertEqual(list((self.folder / "all").rglob("*.part")), [])
+        self.assertEqual(digest(self.folder / "all"), self.whole)
+
+    def test_a_full_disk_is_named_and_not_the_source(self):
+        self.assert_renders("--out", "done")
+        for parts in (("part1", "part2", "part3"), ("done",)):
+            log = self.folder / "calls"
+            log.unlink(missing_ok=True)
+            self.succeeds("merge", *parts, "out", env=with_disk(self, "none"))
+            calls = log.read_text().splitlines()
+            shutil.rmtree(self.out)
+            for number in range(1, len(calls), max(1, len(calls) // 25)):
+                with self.subTest(parts=parts, call=calls[number - 1]):
+                    result = self.run_sonarsim("merge", *parts, "out", env=with_disk(self, "full", number), code=1)
+                    self.assertRegex(result.stderr, r"^error: [^\n]*\bout\b[^\n]*: No space left on device\n$")
+                    shutil.rmtree(self.out, ignore_errors=True)
 
 
 class Status(Sandbox):

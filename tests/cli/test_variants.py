@@ -82,6 +82,56 @@ class Variants(Sandbox):
         self.assert_renders(*two, "--set", "sensors.fls.noise.mult_sigma=0.3", "--out", "other")
         self.assert_refused(self.run_sonarsim("merge", "other", "merged"), "holds variants of another mission")
 
+    def test_merge_with_a_missing_file(self):
+        two = ("--set", "variants=2")
+        for part in ("part1", "part2"):
+            self.assert_renders(*two, "--out", part)
+        for name in ("fls/polar/000001.npy", "SHA256SUMS", "mission.resolved.yaml"):
+            path = self.folder / "part1/variant_0001" / name
+            path.rename(self.folder / "away")
+            self.assert_refused(self.run_sonarsim("merge", "part1", "part2", "merged"), "part1/variant_0001", name.split("/")[-1])
+            (self.folder / "away").rename(path)
+            shutil.rmtree(self.folder / "merged")
+        (self.folder / "part1/variant_0001").rename(self.folder / "away")
+        (self.folder / "part1/variant_0001").symlink_to(self.folder / "away")
+        self.assert_refused(self.run_sonarsim("merge", "part1", "part2", "merged"), "variant_0001: is a symbolic link")
+
+    def test_what_a_kill_left(self):
+        """verify names it; resume, --overwrite and merge remove it; what is not sonarsim's stays."""
+        two = ("--set", "variants=2")
+        self.assert_renders(*two)
+        whole = digest(self.out)
+        left = [f"out/{name}.0123456789abcdef.part" for name in (".variants.json", "..variants.json.0123456789abcdef.part",
+                                                                 "variant_0000/.dataset.json", "variant_0001/fls/polar/.x")]
+        for name in (*left, "out/mine.part"):
+            self.write(name, "half")
+        unknown = json.loads(self.succeeds("verify", "out", "--json").stdout)["unknown_files"]
+        self.assertEqual(unknown, sorted(name.removeprefix("out/") for name in (*left, "out/mine.part")))
+        (self.out / "mine.part").unlink()
+        for more in ((), ("--shard", "1/2"), ("--overwrite",), "merge"):
+            with self.subTest(more=more):
+                for name in left:
+                    self.write(name, "half")
+                self.succeeds("merge", "part", "out") if more == "merge" else self.assert_renders(*two, *more)
+                kept = [left[3]] if "--shard" in more else []    # the other shard's
+                self.assertEqual([str(p.relative_to(self.folder)) for p in self.out.rglob("*.part")], kept)
+                if "--overwrite" in more:
+                    shutil.copytree(self.out, self.folder / "part")
+        self.assertEqual(digest(self.out), whole)
+
+    def test_overwrite_over_a_link(self):
+        self.write("victim/1-of-1.txt", "mine")
+        self.assert_renders("--set", "variants=2")
+        for name, target in (("journal.d", "victim"), ("variant_0001/journal.d", "victim"),
+                             ("journal.d/1-of-1.txt", "victim/1-of-1.txt")):
+            link = self.out / name
+            link.parent.mkdir(exist_ok=True)
+            link.symlink_to(self.folder / target)
+            with self.subTest(name=name):
+                self.assert_refused(self.render("--set", "variants=2", "--overwrite"), name, "is a symbolic link")
+                self.assertEqual((self.folder / "victim/1-of-1.txt").read_text(), "mine")
+            link.unlink()
+
     def test_variants_with_files_of_their_own_are_rendered(self):
         self.write("one/box.gltf", box_gltf())
         self.write("two/box.gltf", box_gltf((2.5, 1.5, 2.0)))

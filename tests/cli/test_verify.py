@@ -4,10 +4,12 @@ import hashlib
 import json
 import random
 import re
+import resource
 import shutil
+import time
 import unittest
 
-from sandbox import ALL_FILES, Sandbox, digest, path_csv
+from sandbox import ALL_FILES, SANITIZED, Sandbox, digest, path_csv
 
 
 class Verify(Sandbox):
@@ -124,7 +126,7 @@ class Hostile(Sandbox):
         sound = json.dumps(self.sound)
         for right, wrong, words in (
                 ('"complete": true', '"complete": "yes"', "type must be boolean"),
-                ('"poses": 2', '"poses": 1000000000', "more than ten million poses"),
+                ('"poses": 2', '"poses": 4000000000', "more than ten million poses"),
                 ('"pings": 2', f'"pings": {1 << 60}', "another number of pings of 'fls'"),
                 ('"name": "fls"', '"name": "../fls"', "'../fls', which is not the name of a folder"),
                 ("fls/meta/%06d", "fls/../secret/%06d", "not the path of a file in 'fls/'"),
@@ -146,6 +148,18 @@ class Hostile(Sandbox):
                 self.assert_refused(result, *words)
                 self.assertNotIn("json.exception", result.stderr)
                 self.assertFalse((self.folder / "merged").exists())
+
+    def test_more_files_than_there_are(self):
+        """Ten million pings would be a list of gigabytes."""
+        sound = json.dumps(self.sound)
+        self.describe(sound.replace('"poses": 2', '"poses": 10000000').replace('"pings": 2', '"pings": 10000000'))
+        limit = (1 << 30, 1 << 30)
+        for command in (("verify", "out"), ("merge", "out", "merged")):
+            start = time.monotonic()
+            result = self.run_sonarsim(*command, preexec_fn=None if SANITIZED else lambda: resource.setrlimit(
+                resource.RLIMIT_AS, limit))
+            self.assert_refused(result, "out/dataset.json: lists more files than SHA256SUMS")
+            self.assertLess(time.monotonic() - start, 10)   # without a bound it is minutes
 
     def test_names_of_shards(self):
         """The name of a part of the journal has the number of shards."""

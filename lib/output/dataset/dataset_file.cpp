@@ -214,6 +214,23 @@ std::vector<std::string> list_files(const DatasetFile& dataset) {
     return names;
 }
 
+bool has_sums(const std::filesystem::path& folder, const DatasetFile& dataset) {
+    constexpr std::uint64_t shortest_line = 68;  // a sum, two blanks, a letter and the line's end
+    std::uint64_t files = 0;
+    for (const DescribedSensor& sensor : dataset.sensors)
+        files += sensor.files.size() * sensor.pings;
+    const std::filesystem::path sums = folder / checksums_name;
+    return std::filesystem::is_regular_file(sums) &&
+           files <= std::filesystem::file_size(sums) / shortest_line;
+}
+
+std::vector<std::string> list_files(const std::filesystem::path& folder,
+                                    const DatasetFile& dataset) {
+    if (has_sums(folder, dataset)) return list_files(dataset);
+    refuse((folder / description_name).string(),
+           "lists more files than SHA256SUMS, which is missing or too short");
+}
+
 std::uint64_t count_pings(const DatasetFile& dataset) {
     std::uint64_t pings = 0;
     for (const DescribedSensor& sensor : dataset.sensors)

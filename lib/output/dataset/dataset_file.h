@@ -61,6 +61,14 @@ std::string numbered(const std::string& pattern, std::uint64_t number);
 /// The files that dataset.json lists, and the common ones, without SHA256SUMS.
 std::vector<std::string> list_files(const DatasetFile& dataset);
 
+/// True if SHA256SUMS in a folder is long enough to have a line for each file that dataset.json
+/// lists, whose numbers may be any: it may come from anybody.
+bool has_sums(const std::filesystem::path& folder, const DatasetFile& dataset);
+
+/// The files that dataset.json of a folder lists. InputError unless has_sums().
+std::vector<std::string> list_files(const std::filesystem::path& folder,
+                                    const DatasetFile& dataset);
+
 /// The pings of all sensors.
 std::uint64_t count_pings(const DatasetFile& dataset);
 

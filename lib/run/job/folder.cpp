@@ -6,16 +6,19 @@
 #include <cerrno>
 #include <optional>
 #include <set>
+#include <stdexcept>
 
 #include "core/atomic_file.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/no_links.h"
 #include "input/mission/differences.h"
 #include "input/mission/files.h"
 #include "input/trajectory/files.h"
 #include "output/dataset/json.h"
 #include "output/dataset/metadata.h"
 #include "output/dataset/seabed_files.h"
+#include "run/job/shard_lock.h"
 
 namespace sonarsim {
 
@@ -68,16 +71,50 @@ Json own_description(const fs::path& folder) {
     refuse(folder, "holds a dataset.json that is not sonarsim's");
 }
 
+/// The temporary files in a folder, with its inner folders where `Iterator` enters them.
+template <class Iterator>
+std::vector<fs::path> temporary_files(const fs::path& folder) {
+    std::vector<fs::path> found;
+    std::error_code absent;
+    for (const fs::directory_entry& entry : Iterator(folder, absent)) {
+        if (is_temporary(entry)) found.push_back(entry.path());
+    }
+    return found;
+}
+
+/// The temporary files in the folder of a dataset and in the folders that are its own.
+std::vector<fs::path> leftovers(const fs::path& folder, const Json& description) {
+    std::vector<fs::path> found = temporary_files<fs::directory_iterator>(folder);
+    for (const std::string& name : own_names(description)) {
+        if (fs::is_symlink(folder / name)) continue;
+        const auto inner = temporary_files<fs::recursive_directory_iterator>(folder / name);
+        found.insert(found.end(), inner.begin(), inner.end());
+    }
+    return found;
+}
+
 }  // namespace
 
 void remove_temporary_files(const fs::path& folder) {
-    std::vector<fs::path> found;
-    std::error_code absent;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, absent)) {
-        if (is_temporary(entry)) found.push_back(entry.path());
-    }
-    for (const fs::path& file : found)
+    for (const fs::path& file : temporary_files<fs::directory_iterator>(folder))
         fs::remove(file);
+}
+
+void remove_leftovers(const fs::path& folder, const Json& description) {
+    for (const fs::path& file : leftovers(folder, description))
+        fs::remove(file);
+}
+
+void tidy(const fs::path& folder, const Json& description) {
+    remove_journal_parts(folder);
+    const std::vector<fs::path> found = leftovers(folder, description);
+    if (found.empty()) return;
+    try {
+        const ShardLock lock(folder, 0, 1);
+        for (const fs::path& file : found)
+            fs::remove(file);
+    } catch (const std::runtime_error&) {  // NOLINT(bugprone-empty-catch): they do no harm
+    }
 }
 
 std::string mission_differences(const fs::path& dataset, const std::string& mission) {
@@ -146,13 +183,6 @@ FolderState inspect_folder(const fs::path& folder, const Json& description,
                                                    : FolderState::unfinished;
 }
 
-void require_no_link(const fs::path& path, const std::string& what) {
-    if (!fs::is_symlink(path)) return;
-    throw InputError({path.string()}, "is a symbolic link, and " + what +
-                                          " is written into folders of its own; remove the link "
-                                          "or choose another output folder");
-}
-
 void protect_inputs(const Layout& layout, const Mission& mission) {
     std::set<std::string> own{description_name, mission_name, trajectory_name, journal_name,
                               checksums_name};
@@ -165,6 +195,7 @@ void protect_inputs(const Layout& layout, const Mission& mission) {
 }
 
 void remove_dataset(const fs::path& folder, const Mission& mission) {
+    remove_temporary_files(folder);
     if (!fs::exists(folder / description_name)) return;
     std::set<std::string> own = own_names(own_description(folder));
     spare_inputs(folder, own, mission);
@@ -172,7 +203,6 @@ void remove_dataset(const fs::path& folder, const Mission& mission) {
         part.filename() == journal_part(1, 1) ? fs::resize_file(part, 0) : void(fs::remove(part));
     for (const std::string& name : own)
         fs::remove_all(folder / name);
-    remove_temporary_files(folder);
     sync_file_system(folder);
     // dataset.json goes last: it marks the dataset, so that an interrupted removal can be repeated.
     fs::remove(folder / description_name);
@@ -180,12 +210,12 @@ void remove_dataset(const fs::path& folder, const Mission& mission) {
 }
 
 bool has_files(const fs::path& folder, const DatasetFile& dataset) {
-    std::vector<std::string> names = list_files(dataset);
-    names.emplace_back(checksums_name);
-    return std::ranges::all_of(names, [&](const std::string& name) {
+    const auto is_there = [&](const std::string& name) {
         std::error_code absent;
         return fs::symlink_status(folder / name, absent).type() == fs::file_type::regular;
-    });
+    };
+    return is_there(checksums_name) && has_sums(folder, dataset) &&
+           std::ranges::all_of(list_files(dataset), is_there);
 }
 
 bool create_once(const fs::path& path, const std::string& text) {

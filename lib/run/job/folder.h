@@ -49,9 +49,6 @@ FolderState inspect_folder(const std::filesystem::path& folder,
                            const nlohmann::ordered_json& description, const std::string& mission,
                            bool overwrite = false);
 
-/// InputError when the path is a symbolic link. `what` is what a user writes there: "a dataset".
-void require_no_link(const std::filesystem::path& path, const std::string& what);
-
 /// InputError when writing the dataset would touch what is not its own: a file that the mission
 /// reads, or something behind a symbolic link. The folder of the dataset itself may be a link.
 void protect_inputs(const Layout& layout, const Mission& mission);
@@ -79,5 +76,14 @@ void write_common_files(const Layout& layout, const CommonFiles& files);
 /// Removes the temporary files that interrupted runs left in a folder, in which nobody may be at
 /// work; nothing if there is no such folder.
 void remove_temporary_files(const std::filesystem::path& folder);
+
+/// The same for the folder of a dataset and those in it that `description` (dataset.json) names.
+void remove_leftovers(const std::filesystem::path& folder,
+                      const nlohmann::ordered_json& description);
+
+/// Removes what killed runs left in the folder of a complete dataset, or of variants: parts of the
+/// journal and, unless another run is at work there or the disk cannot be written to, temporary
+/// files. The caller holds no lock of the folder.
+void tidy(const std::filesystem::path& folder, const nlohmann::ordered_json& description);
 
 }  // namespace sonarsim

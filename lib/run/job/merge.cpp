@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/no_links.h"
 #include "output/dataset/dataset_file.h"
 #include "output/dataset/metadata.h"
 #include "run/job/folder.h"
@@ -21,13 +22,31 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+/// InputError when a file of a part, or a folder on the way to it, is a link: the part may come
+/// from anybody, and what a link names may be private.
+void require_own(const fs::path& part, const fs::path& name) {
+    for (fs::path inner = name; !inner.empty(); inner = inner.parent_path()) {
+        if (!fs::is_symlink(part / inner)) continue;
+        throw InputError({(part / inner).string()},
+                         "is a symbolic link, and merge follows none within a part; put the files "
+                         "themselves in its place");
+    }
+}
+
+/// require_own() for all that is read of a part, or of a variant in it, but the files of pings.
+void require_own_dataset(const fs::path& part, const fs::path& variant) {
+    for (const char* name : {variants_name, description_name, mission_name, journal_name,
+                             journal_folder_name, checksums_name})
+        require_own(part, variant / name);
+}
+
 /// Copies a file of a dataset, and makes the folders above it. A link in its place is replaced.
 void copy_file(const fs::path& from, const fs::path& to, const std::string& name) {
     for (fs::path inner = fs::path(name).parent_path(); !inner.empty(); inner = inner.parent_path())
         require_no_link(to / inner, "a dataset");
+    require_own(from, name);
     fs::create_directories((to / name).parent_path());
-    fs::remove(to / name);
-    fs::copy_file(from / name, to / name);
+    copy_regular_file(from / name, to / name);
 }
 
 /// Copies one of `pings` equal records between two NumPy files. The first one comes with its file.
@@ -36,16 +55,16 @@ void copy_record(const fs::path& from, const fs::path& to, const std::string& na
     require_no_link((to / name).parent_path(), "a dataset");
     require_no_link(to / name, "a dataset");
     if (!fs::exists(to / name)) return copy_file(from, to, name);
-    std::ifstream source(from / name, std::ios::binary);
-    std::string header;
-    std::getline(source, header);  // a line is all of it
-    const std::size_t begin = header.size() + 1;
-    std::string bytes((std::max(fs::file_size(from / name), begin) - begin) / pings, '\0');
-    const auto at = static_cast<std::streamoff>(begin + record * bytes.size());
-    const auto size = static_cast<std::streamsize>(bytes.size());
-    if (!source.seekg(at).read(bytes.data(), size)) throw_errno("cannot read", from / name);
+    require_own(from, name);
+    constexpr std::size_t longest_header = 1024;
+    const std::size_t begin = read_bytes(from / name, 0, longest_header).find('\n') + 1;
+    const std::size_t size = (std::max(fs::file_size(from / name), begin) - begin) / pings;
+    if (begin == 0) throw InputError({(from / name).string()}, "is not a .npy file");
+    const std::string bytes = read_bytes(from / name, begin + record * size, size);
     std::fstream target(to / name, std::ios::in | std::ios::out | std::ios::binary);
-    if (!target.seekp(at).write(bytes.data(), size).flush()) throw_errno("cannot write", to / name);
+    const auto at = static_cast<std::streamoff>(begin + record * size);
+    if (!target.seekp(at).write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush())
+        throw_errno("cannot write", to / name);
 }
 
 /// The datasets of one mission, and the folder that they are copied to.
@@ -65,7 +84,9 @@ class DatasetMerge {
     void run(const std::atomic<bool>& stop, MergeSummary& summary) {
         ShardLock lock(out_, 0, 1);
         summary.unlocked = summary.unlocked || !lock.works();
+        remove_leftovers(out_, common_.description);
         if (claim_folder(out_, common_) == FolderState::complete) {
+            lock.remove_parts();  // a run was killed at its very end
             summary.skipped += count_pings(dataset_);
             return;
         }
@@ -83,7 +104,7 @@ class DatasetMerge {
   private:
     void copy_whole(const fs::path& part) const {
         const DatasetFile complete = require_dataset(part);
-        for (const std::string& name : list_files(complete)) {
+        for (const std::string& name : list_files(part, complete)) {
             if (name != description_name) copy_file(part, out_, name);
         }
         copy_file(part, out_, checksums_name);
@@ -137,11 +158,13 @@ void merge_variants(const std::vector<fs::path>& parts, const fs::path& out, con
         require_same_variants(part, json, parts[0]);
     inspect_variants(out, json, {}, false);
     const ShardLock lock(out, 0, 1);
+    remove_temporary_files(out);
     claim_variants(out, json);
     const std::vector<fs::path> names = folders_of_variants("", json);
     for (std::size_t i = 0; i < names.size() && !summary.stopped; ++i) {
         std::vector<fs::path> sources;
         for (const fs::path& part : parts) {
+            require_own_dataset(part, names[i]);
             if (fs::exists(part / names[i] / description_name)) sources.push_back(part / names[i]);
         }
         const fs::path target = out / names[i];
@@ -162,6 +185,7 @@ MergeSummary merge_parts(const std::vector<fs::path>& parts, const fs::path& out
             throw InputError({out.string()},
                              "is one of the parts; name another folder to write to");
         }
+        require_own_dataset(part, "");
     }
     MergeSummary summary;
     summary.complete = true;

@@ -24,8 +24,8 @@ struct MergeSummary {
 /// `progress` counts the datasets.
 ///
 /// InputError when a part is not a dataset or not of the same mission, inputs, version and build as
-/// the first, and when `out` holds something else or another run writes there; std::system_error
-/// when the disk fails.
+/// the first, lacks a file or has a symbolic link in place of one, and when `out` holds something
+/// else or another run writes there; std::system_error when the disk fails.
 MergeSummary merge_parts(const std::vector<std::filesystem::path>& parts,
                          const std::filesystem::path& out, const ProgressCallback& progress,
                          const std::atomic<bool>& stop);

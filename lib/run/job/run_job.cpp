@@ -141,7 +141,7 @@ void run_in_folder(const RenderRun& run, const RenderOptions& options,
             FinishedPings(layout).has_all(own);
         if (!summary.complete) return false;
         summary.skipped = own.size();
-        remove_journal_parts(layout.folder);  // a run was killed at its very end
+        tidy(layout.folder, common.description);  // a run was killed at its very end
         return true;
     };
     protect_inputs(layout, mission);
@@ -164,10 +164,7 @@ void run_in_folder(const RenderRun& run, const RenderOptions& options,
     RecordFiles records = open_records(layout, RecordAccess::write);
     const std::vector<PingId> todo = FinishedPings(layout).missing(own);
     summary.skipped = own.size() - todo.size();
-    if (options.shards == 1) {  // nobody else is at work
-        remove_temporary_files(layout.folder);
-        std::ranges::for_each(layout.folders(), remove_temporary_files);
-    }
+    if (options.shards == 1) remove_leftovers(layout.folder, common.description);
     Journal journal(lock, options.checkpoint_s);
     const Destination to{layout, writers, records, journal};
     render_pings(run, *engine, todo, &to);
@@ -177,6 +174,7 @@ void run_in_folder(const RenderRun& run, const RenderOptions& options,
     if (now.has_all(all)) {
         complete_dataset(layout, writers, records, common);
         lock.remove_parts();
+        if (options.shards > 1) tidy(layout.folder, common.description);  // others were killed
         summary.complete = true;
     } else if (!now.has_all(own)) {
         throw std::runtime_error(layout.folder.string() +

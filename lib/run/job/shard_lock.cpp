@@ -15,6 +15,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/no_links.h"
 #include "output/dataset/layout.h"
 
 namespace sonarsim {
@@ -76,6 +77,8 @@ ShardLock::ShardLock(const fs::path& folder, int shard, int shards)
     // Others hold a lock for a moment to see whether this one is free. Two runs that exclude each
     // other and begin at once both give way and come again at different times.
     constexpr int tries = 20;
+    require_no_link(part_.parent_path(), "a dataset");
+    require_no_link(part_, "a dataset");
     std::minstd_rand random{std::random_device{}()};
     for (int i = 0; i < tries; ++i) {
         if (take(shards)) return;

@@ -8,6 +8,7 @@
 #include "core/clock.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/no_links.h"
 #include "input/mission/files.h"
 #include "input/mission/resolved.h"
 #include "input/mission/variants.h"
@@ -81,6 +82,7 @@ std::optional<std::uint64_t> finished_pings(const Mission& variant, SceneStore& 
         if (models.sum_of(file) != input.at("sha256").get<std::string>()) return std::nullopt;
     }
     if (!has_files(folder, found)) return std::nullopt;
+    tidy(folder, found.json);
     return count_pings(found);
 } catch (const std::exception&) {
     return std::nullopt;  // run_job() says what is wrong
@@ -226,7 +228,8 @@ RenderSummary run_variants(const Mission& mission, std::span<const Mission> vari
     if (options.files) {
         // A shard without a variant makes its folder, too: merge takes those of all shards.
         if (!fs::exists(folder / variants_name)) enter();
-        remove_journal_parts(folder);  // runs were killed
+        lock.reset();
+        tidy(folder, Json::object());  // runs were killed
     }
     for (const Mission& variant : variants)
         all.complete = all.complete && is_complete(variant.output.folder);

@@ -53,6 +53,22 @@ std::map<std::string, std::string> read_checksums(const fs::path& file) {
     return sums;
 }
 
+/// Adds the files in a folder that are not among the expected files and folders. `prefix` is the
+/// folder in the folder that is checked.
+void list_strangers(const fs::path& top, const fs::path& prefix,
+                    const std::set<std::string>& expected, DatasetCheck& check) {
+    for (fs::recursive_directory_iterator entry(top / prefix), end; entry != end; ++entry) {
+        const std::string name = entry->path().lexically_relative(top / prefix).string();
+        const bool is_folder = entry->symlink_status().type() == fs::file_type::directory;
+        // The page of sonarsim gallery is not part of the dataset.
+        const bool is_of_page = name == gallery_name || name.starts_with(gallery_files);
+        if (expected.contains(name))
+            entry.disable_recursion_pending();
+        else if (!is_folder && !is_of_page)
+            check.unknown_files.push_back((prefix / name).string());
+    }
+}
+
 /// Adds the files of a dataset to `tasks`, and to `check` what can be said without reading them.
 /// `prefix` is the folder of the dataset in the folder that is checked.
 void list_tasks(const fs::path& top, const std::string& prefix, std::vector<Task>& tasks,
@@ -64,20 +80,18 @@ void list_tasks(const fs::path& top, const std::string& prefix, std::vector<Task
     const DatasetFile dataset = require_dataset(folder);
     if (!dataset.complete)
         add_error(description_name, std::string("the dataset is not complete; ") + render_again);
-    std::map<std::string, std::string> sums;
-    if (fs::is_regular_file(folder / checksums_name))
-        sums = read_checksums(folder / checksums_name);
-    else
-        add_error(checksums_name, std::string("is missing; ") + render_again);
+    if (!fs::is_regular_file(folder / checksums_name))
+        return add_error(checksums_name, std::string("is missing; ") + render_again);
+    const std::map<std::string, std::string> sums = read_checksums(folder / checksums_name);
     std::set<std::string> expected{checksums_name};
-    for (const std::string& name : list_files(dataset)) {
+    for (const std::string& name : list_files(folder, dataset)) {
         expected.insert(name);
         const auto sum = sums.find(name);
         if (!fs::is_regular_file(folder / name))
             add_error(name, std::string("is missing; ") + render_again);
         else if (sum != sums.end())
             tasks.push_back({(fs::path(prefix) / name).string(), sum->second});
-        else if (!sums.empty())
+        else
             add_error(name,
                       "SHA256SUMS does not list it; remove SHA256SUMS, and the render command "
                       "that made the dataset writes it again");
@@ -88,14 +102,7 @@ void list_tasks(const fs::path& top, const std::string& prefix, std::vector<Task
                       "SHA256SUMS lists it, and dataset.json does not; one of them was "
                       "changed: render the dataset again (--overwrite)");
     }
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
-        const std::string name = entry.path().lexically_relative(folder).string();
-        const bool is_folder = entry.symlink_status().type() == fs::file_type::directory;
-        // The page of sonarsim gallery is not part of the dataset.
-        const bool is_of_page = name == gallery_name || name.starts_with(gallery_files);
-        if (!is_folder && !is_of_page && !expected.contains(name))
-            check.unknown_files.push_back((fs::path(prefix) / name).string());
-    }
+    list_strangers(top, prefix, expected, check);
 }
 
 /// The cure for a damaged file. dataset.json stays: without it a folder is not a dataset any more.
@@ -128,12 +135,15 @@ DatasetCheck verify_folder(const fs::path& folder, int threads, const ProgressCa
     DatasetCheck check;
     std::vector<Task> tasks;
     if (const auto json = read_variants(folder)) {
+        std::set<std::string> expected{variants_name};
         for (const fs::path& variant : folders_of_variants("", *json)) {
+            expected.insert(variant.string());
             if (fs::exists(folder / variant / description_name))
                 list_tasks(folder, variant.string(), tasks, check);
             else
                 check.errors.push_back(variant.string() + ": is missing; " + render_again);
         }
+        list_strangers(folder, "", expected, check);
     } else {
         list_tasks(folder, "", tasks, check);
     }
