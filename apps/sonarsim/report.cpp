@@ -85,7 +85,7 @@ int report(const ReportArguments& arguments) {
     if (arguments.quick) {
         options.poses = std::min(options.poses, 3);
         options.rounds = 2;
-        options.reference_moved = 0.005;
+        options.reference_noise = 0.005;
         options.reference_rays = std::min(options.reference_rays, std::uint64_t{50'000'000});
     }
     const auto progress = [](const std::string& what) { spdlog::info("{}", what); };

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/short_text.h"
 #include "core/text.h"
 #include "logging.h"
 #include "progress.h"
@@ -115,12 +116,19 @@ std::string error_line(const std::optional<MeasuredError>& error, const Scene& s
         return scene.sound_profile
                    ? result_line("", "error not measured: water.profile bends the sound")
                    : "";
-    const PingError& worst = error->worst();
-    return result_line(
-        "", fmt::format("error {:.2g} % on average and {:.2g} % at worst in {} "
-                        "pings, goal {:.4g} %; noise of the reference itself {:.2g} %",
-                        100.0 * error->mean(), 100.0 * worst.relative_l1, error->pings.size(),
-                        100.0 * goal, 100.0 * worst.noise));
+    const double unknown = error->least_measurable();
+    const std::string limit =
+        fmt::format("cannot be measured to better than {} %", short_text(100.0 * unknown));
+    const std::optional<PingError> worst = error->worst();
+    if (!worst) return result_line("", "error " + limit);
+    std::string text =
+        fmt::format("error {} % on average and {} % at worst in {} pings, goal {} %",
+                    short_text(100.0 * *error->mean()), short_text(100.0 * *worst->relative_l1),
+                    error->measured().size(), short_text(100.0 * goal, 4));
+    if (unknown > 0.0)
+        text += fmt::format("; in {} more it {}", error->pings.size() - error->measured().size(),
+                            limit);
+    return result_line("", text);
 }
 
 std::string estimate_text(const Estimate& estimate) {

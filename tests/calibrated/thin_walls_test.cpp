@@ -239,9 +239,9 @@ TEST_SUITE("calibrated") {
                 return image_error(ping.intensity, reference.intensity, reference.scored)
                     .relative_l1;
             };
-            CAPTURE_ALL(name_of(setting.kind), static_cast<int>(setting.engine), reference.moved);
+            CAPTURE_ALL(name_of(setting.kind), static_cast<int>(setting.engine), reference.noise);
             const double through = error();
-            CHECK(through < 0.02 + reference.apart);
+            CHECK(through < 0.02 + reference.noise);
             sonar.settings.wall_transmissions.clear();
             CHECK(error() > 4.0 * through);
         }

@@ -131,7 +131,7 @@ class Report(Sandbox):
         self.edit("mission.yaml", "    noise:", "    multipath: {method: cluster, delta_deg: 15}\n"
                   "    streaks: {mode: add}\n    noise:")
         result = self.succeeds("report", "mission.yaml", *QUICK, "--out", "report", "--json", "elsewhere.json")
-        self.assertIn("fls: the reference settled to", result.stdout)
+        self.assertIn("fls: the noise of the reference is", result.stdout)
         self.assertRegex(result.stdout, r"\n\| cluster \| 5.00 \| 15.0 \|.* the mission's own\n")
         report = json.loads((self.folder / "elsewhere.json").read_text())
         self.assertEqual(report, json.loads((self.folder / "report/report.json").read_text()))

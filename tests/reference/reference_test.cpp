@@ -60,7 +60,7 @@ TEST_CASE("the reference of a floor is its closed form, R H / r_mid") {
     const View view = small_view();
     const Pose pose{rotation_from_rpy(0.0, radians(30.0), 0.0), {0.0, 0.0, H}};
     const Reference reference = cast_reference(caster, scene, view, pose, {0.0005, 64.0});
-    CHECK(reference.moved < 0.0005);
+    CHECK(reference.noise < 0.0005);
     CHECK(reference.rays_per_bin >= 64.0);
     const int first = static_cast<int>((H / std::sin(radians(40.0)) - 0.5) / view.bin_m()) + 2;
     const int last = static_cast<int>((H / std::sin(radians(20.0)) - 0.5) / view.bin_m()) - 2;
@@ -121,7 +121,7 @@ TEST_CASE("the reference sees a ball of 2 cm at 8 m and a wire of 4 mm at 5 m") 
     REQUIRE(occupied.size() == 2);
     CHECK(occupied[0] / wire == test::approx(1.0).epsilon(0.01));
     CHECK(occupied[1] / (0.5 * R) == test::approx(1.0).epsilon(0.01));
-    CHECK(reference.moved < 0.01);
+    CHECK(reference.noise < 0.01);
 }
 
 TEST_CASE("rays and points of the surface together add up to its area") {
@@ -166,10 +166,10 @@ TEST_CASE("a rope of 4 mm that is drawn at random converges with few rays, from 
         }
         const View view{radians(60.0), radians(20.0), 0.5, 9.5, 100, 32, 0.03};
         const Reference truth = cast_reference(Caster(scene), scene, view, Pose{},
-                                               {.moved = 0.0, .rays_max = 1'000'000});
+                                               {.noise = 0.0, .rays_max = 1'000'000});
         CAPTURE(seed);
-        CAPTURE(truth.apart);
-        CHECK(truth.apart < 0.02);
+        CAPTURE(truth.noise);
+        CHECK(truth.noise < 0.02);
         CHECK(std::ranges::count(truth.scored, 1) > 12);
     }
 }
@@ -208,7 +208,7 @@ TEST_CASE("a reference sees copies of a mesh as it sees their triangles") {
     // The same rays to the same points; the corners differ by the rounding of a transform.
     CHECK(a.rays_per_bin / b.rays_per_bin == test::approx(1.0).epsilon(1e-3));
     CHECK(image_error(a.intensity, b.intensity).relative_l1 < 1e-3);
-    CHECK(a.moved < 0.01);
+    CHECK(a.noise < 0.01);
     // Points on the copies' triangles find them, not only rays over directions.
     const LocalPose local = local_pose(pose, shared.origin);
     const std::vector<SurfaceShare> shares = surface_shares(shared, view, local);
@@ -259,9 +259,9 @@ TEST_CASE("the calibrated reference agrees with the engines") {
         const ImageError error = image_error(ping.intensity, reference.intensity);
         CAPTURE(name_of(kind));
         CAPTURE(sonar.settings.guard_beams.count);
-        CAPTURE(reference.moved);
-        CHECK(error.relative_l1 < 0.02 + reference.moved);
-        CHECK(reference.apart < 0.03);
+        CAPTURE(reference.noise);
+        CHECK(error.relative_l1 < 0.02 + reference.noise);
+        CHECK(reference.noise < 0.03);
     }
 }
 

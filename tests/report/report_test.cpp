@@ -13,7 +13,7 @@ Report report_of(const Mission& mission, const std::vector<Setting>& settings) {
     options.poses = 3;
     options.rounds = 1;
     options.threads = 2;
-    options.reference_moved = 0.005;
+    options.reference_noise = 0.005;
     options.reference_rays = 4'000'000;
     return make_report(mission, small_assembly(mission, 4), settings, options,
                        [](const std::string&) {});
@@ -89,7 +89,7 @@ TEST_CASE("a report has a sane row per setting") {
     CHECK(report.rows[0].relative_l1 < 0.01);
     CHECK(report.rows[1].relative_l1 < 0.01);
     REQUIRE(report.references.size() == 1);
-    CHECK(report.references[0].max_moved < 0.05);
+    CHECK(report.references[0].max_noise < 0.05);
 }
 
 TEST_CASE("a report pings as the mission does: with the draws of each ping, and a turning head") {

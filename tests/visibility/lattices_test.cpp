@@ -35,10 +35,10 @@ TEST_CASE("lattices: the distance of a reference's halves is about its error") {
         const test::Lattice lattice = test::draw_lattice(number);
         const Reference few = reference_of(lattice, 200'000);
         const Reference many = reference_of(lattice, 1'600'000);
-        CHECK(many.apart < few.apart);
+        CHECK(many.noise < few.noise);
         const double moved = image_error(few.intensity, many.intensity, many.scored).relative_l1;
-        CHECK(moved < 1.5 * few.apart);
-        CHECK(moved > 0.5 * few.apart);
+        CHECK(moved < 1.5 * few.noise);
+        CHECK(moved > 0.5 * few.noise);
     }
 }
 
@@ -48,7 +48,7 @@ TEST_CASE("lattices: bars that stand between two slices are seen") {
     const auto error = [](std::uint32_t number, double goal) -> double {
         const test::Lattice lattice = test::draw_lattice(number);
         const Reference reference = reference_of(lattice, 400'000);
-        CHECK(reference.apart < 0.05);
+        CHECK(reference.noise < 0.05);
         return error_of(EngineKind::slices, lattice, reference, goal);
     };
     CHECK(error(257, 0.1) < 0.11);

@@ -7,11 +7,10 @@
 #include <utility>
 
 #include "core/in_parallel.h"
-#include "core/text.h"
+#include "core/short_text.h"
 #include "simulate/assembly/engine_at.h"
 #include "simulate/assembly/sample_pings.h"
 #include "simulate/reference/energy_reference.h"
-#include "simulate/reference/image_error.h"
 #include "simulate/sonar/sonar_at_pose.h"
 
 namespace sonarsim {
@@ -20,9 +19,12 @@ namespace {
 
 constexpr std::size_t max_measured_pings = 3;
 
-// Rays of the last cast, which with those before are half a second of one core.
-constexpr std::uint64_t mean_rays_max = 1'000'000;
-constexpr std::uint64_t energy_rays_max = 1'000'000;  // an echo costs as much as its ray
+/// Noise of a reference by an error that can be measured with it.
+constexpr double measurable = 0.5;
+
+// A count and not a time, so that the numbers are the same on every machine.
+constexpr std::uint64_t mean_rays_max = 6'000'000;
+constexpr std::uint64_t energy_rays_max = 3'000'000;  // an echo costs as much as its ray
 
 /// The cell of a sonar's range noise; 1 cm^2 without that noise. A cell above 1 cm^2 is at most a
 /// tenth of a bin in the middle of the ranges: the noise of the reference decides which bins hold a
@@ -71,26 +73,46 @@ PingError measure(const Mission& mission, const Assembly& assembly, const Caster
     const double goal = mission.accuracy.relative_l1;
     const Reference truth = cast_reference(
         placed, scene, *sonar, T_world_sensor,
-        {.moved = 0.1 * goal,
-         .rays_per_bin = 16.0,
-         .rays_max = sonar->settings.model->info.energies_add ? energy_rays_max : mean_rays_max});
+        {.noise = measurable * goal,
+         .rays_per_bin = 4.0,
+         .rays_max = sonar->settings.model->info.energies_add ? energy_rays_max : mean_rays_max,
+         .gives_up = true});
     const Ping ping =
         direct_image(*sonar, scene, *engine_at(engine, assembly.motions, at.t_s), T_world_sensor);
-    return {pose, image_error(ping.intensity, truth.intensity, truth.scored).relative_l1,
-            truth.apart};
+    const double error = error_without_noise(ping.intensity, truth);
+    if (truth.noise > measurable * std::max(goal, error)) return {pose, {}, truth.noise};
+    return {pose, error, truth.noise};
 }
 
 }  // namespace
 
-double MeasuredError::mean() const {
-    double sum = 0.0;
-    for (const PingError& ping : pings)
-        sum += ping.relative_l1;
-    return sum / static_cast<double>(pings.size());
+std::vector<PingError> MeasuredError::measured() const {
+    std::vector<PingError> found = pings;
+    std::erase_if(found, [](const PingError& ping) { return !ping.relative_l1; });
+    return found;
 }
 
-const PingError& MeasuredError::worst() const {
-    return *std::ranges::max_element(pings, {}, &PingError::relative_l1);
+std::optional<double> MeasuredError::mean() const {
+    const std::vector<PingError> found = measured();
+    if (found.empty()) return {};
+    double sum = 0.0;
+    for (const PingError& ping : found)
+        sum += *ping.relative_l1;
+    return sum / static_cast<double>(found.size());
+}
+
+std::optional<PingError> MeasuredError::worst() const {
+    const std::vector<PingError> found = measured();
+    if (found.empty()) return {};
+    return *std::ranges::max_element(found, {}, &PingError::relative_l1);
+}
+
+double MeasuredError::least_measurable() const {
+    double noise = 0.0;
+    for (const PingError& ping : pings) {
+        if (!ping.relative_l1) noise = std::max(noise, ping.noise);
+    }
+    return noise / measurable;
 }
 
 Mission without_water_echoes(Mission mission) {
@@ -150,20 +172,19 @@ std::vector<std::optional<MeasuredError>> measure_errors(const Mission& mission,
 
 namespace {
 
-/// Rounds to a thousandth of a percent.
-double rounded(double share) {
+/// Rounds to a thousandth of a percent; null for none.
+nlohmann::ordered_json rounded(const std::optional<double>& share) {
     constexpr double steps = 1e5;
-    return std::round(steps * share) / steps;
+    return share ? nlohmann::ordered_json(std::round(steps * *share) / steps)
+                 : nlohmann::ordered_json();
 }
 
 /// The key that lowers the error, as the imperative of a sentence.
-std::string cure_of(const Mission& mission, const PingError& worst) {
+std::string cure_of(const Mission& mission, double worst) {
     if (mission.engine == EngineKind::octree) return "use engine: auto";
     // Errors fall about as fast as the goal.
     const double goal = mission.accuracy.relative_l1;
-    const double lower = goal * goal / worst.without_noise();
-    const double step = std::pow(10.0, std::floor(std::log10(lower)) - 1.0);
-    return "lower accuracy.relative_l1 to " + number_text(step * std::floor(lower / step)) +
+    return "lower accuracy.relative_l1 to " + short_text(goal * goal / worst) +
            (mission.engine == EngineKind::automatic
                 ? ""
                 : ", or use the engine with the least error in `sonarsim report`");
@@ -178,8 +199,9 @@ nlohmann::ordered_json json_of(const MeasuredError& error) {
                          {"relative_l1", rounded(ping.relative_l1)},
                          {"reference_noise", rounded(ping.noise)}});
     }
+    const std::optional<PingError> worst = error.worst();
     return {{"mean", rounded(error.mean())},
-            {"worst", rounded(error.worst().relative_l1)},
+            {"worst", worst ? rounded(worst->relative_l1) : nlohmann::ordered_json()},
             {"pings", std::move(pings)}};
 }
 
@@ -188,14 +210,12 @@ std::vector<Warning> error_warnings(const Mission& mission,
     const double goal = mission.accuracy.relative_l1;
     std::vector<Warning> warnings;
     for (std::size_t i = 0; i < errors.size(); ++i) {
-        if (!errors[i]) continue;
-        const PingError& worst =
-            *std::ranges::max_element(errors[i]->pings, {}, &PingError::without_noise);
-        if (worst.without_noise() <= goal) continue;
-        warnings.push_back(make_warning(WarningCode::goal_missed,
-                                        about_sensor(mission.sensors[i].name),
-                                        100.0 * errors[i]->mean(), 100.0 * worst.relative_l1,
-                                        worst.pose, 100.0 * goal, cure_of(mission, worst)));
+        const std::optional<PingError> worst = errors[i] ? errors[i]->worst() : std::nullopt;
+        if (!worst || *worst->relative_l1 <= goal) continue;
+        warnings.push_back(make_warning(
+            WarningCode::goal_missed, about_sensor(mission.sensors[i].name),
+            short_text(100.0 * *errors[i]->mean()), short_text(100.0 * *worst->relative_l1),
+            worst->pose, short_text(100.0 * goal, 4), cure_of(mission, *worst->relative_l1)));
     }
     return warnings;
 }

@@ -12,22 +12,23 @@
 
 namespace sonarsim {
 
-/// The error of one ping's image against the reference.
+/// The error of one ping's image, as error_without_noise() estimates it.
 struct PingError {
     std::uint32_t pose = 0;
-    double relative_l1 = 0.0;
-    double noise = 0.0;  ///< noise of the reference, a part of `relative_l1`
-
-    /// The least error that the reference's noise leaves to the image.
-    double without_noise() const { return relative_l1 - noise; }
+    /// Nothing where the reference's noise is above half of both the error and the goal.
+    std::optional<double> relative_l1;
+    double noise = 0.0;  ///< the noise of the reference, which does not enter `relative_l1`
 };
 
 /// The error of a sonar at a few pings that are spread over its trajectory.
 struct MeasuredError {
     std::vector<PingError> pings;
 
-    double mean() const;
-    const PingError& worst() const;
+    std::vector<PingError> measured() const;  ///< the pings with a relative L1
+    std::optional<double> mean() const;       ///< over the measured pings
+    std::optional<PingError> worst() const;   ///< the largest error of a measured ping
+    /// The least error that could be measured in all pings; 0 where each has one.
+    double least_measurable() const;
 };
 
 /// The mission without what a reference does not find: echoes of the water, and several samples per
@@ -44,18 +45,18 @@ Ping direct_image(const Sonar& sonar, const Scene& scene, const VisibilityEngine
                   const Pose& T_world_sensor);
 
 /// Measures the error of each sonar of a mission with its engine, by sonar, at up to three pings
-/// with a bounded number of rays: about half a second each. It depends on the mission alone, not on
+/// with a bounded number of rays. It depends on the mission alone, not on
 /// threads or on the part that is rendered. Nothing where sound bends, which the reference's rays
 /// do not. Uses all threads of the arena.
 std::vector<std::optional<MeasuredError>> measure_errors(const Mission& mission,
                                                          const Assembly& assembly,
                                                          const VisibilityEngine& engine);
 
-/// For dataset.json: the mean, the worst and every ping with the noise of its reference.
+/// For dataset.json: the mean, the worst and every ping with the noise of its reference. An
+/// error that is not measured is null.
 nlohmann::ordered_json json_of(const MeasuredError& error);
 
-/// A warning for each sonar that misses the mission's goal by more than the reference's noise, with
-/// the key to change.
+/// A warning for each sonar with a measured error above the mission's goal, with the key to change.
 std::vector<Warning> error_warnings(const Mission& mission,
                                     std::span<const std::optional<MeasuredError>> errors);
 

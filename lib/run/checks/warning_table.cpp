@@ -95,9 +95,9 @@ constexpr std::array table{
                 "start only one", "the file system refuses flock"},
     WarningText{
         WarningCode::goal_missed,
-        "its images are off by {0:.2g} % on average over the pings that were measured, and by "
-        "{1:.2g} % at pose {2}; accuracy.relative_l1 asks for {3:.4g} %",
-        "{4:s}", "the error of one measured ping, less the reference's own noise, above the goal"},
+        "its images are off by {0:s} % on average over the pings that were measured, and by "
+        "{1:s} % at pose {2}; accuracy.relative_l1 asks for {3:s} %",
+        "{4:s}", "the error of one measured ping above the goal"},
     WarningText{
         WarningCode::heightmap_facets,
         "its cells of {0:.3g} m are {2:.0f} times as long as the range bins of {1:.3g} m, "

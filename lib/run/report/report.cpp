@@ -76,11 +76,11 @@ double mean_over(const std::vector<Figures>& poses, double Figures::*figure) {
     return mean_of(values);
 }
 
-/// The reference at each pose. Adds how far they have settled to the report.
+/// The reference at each pose. Adds their noise to the report.
 std::vector<Reference> cast_references(const Comparison& comparison, const Sonar& sonar,
                                        Report& report) {
     const PingSet& pings = comparison.pings;
-    const ReferenceGoal goal{comparison.options.reference_moved, 64.0,
+    const ReferenceGoal goal{comparison.options.reference_noise, 64.0,
                              comparison.options.reference_rays};
     std::vector<Reference> references(pings.poses.size());
     in_parallel(references.size(), [&](std::size_t p) {
@@ -88,9 +88,9 @@ std::vector<Reference> cast_references(const Comparison& comparison, const Sonar
         references[p] = cast_reference(comparison.caster, pings.scene, *then,
                                        sensor_pose(*then, pings.poses[p], pings.indices[p]), goal);
     });
-    const auto most = std::ranges::max_element(references, {}, &Reference::moved);
-    report.references.push_back({sonar.config.name, mean_over(references, &Reference::moved),
-                                 most->moved, mean_over(references, &Reference::rays_per_bin)});
+    const auto most = std::ranges::max_element(references, {}, &Reference::noise);
+    report.references.push_back({sonar.config.name, mean_over(references, &Reference::noise),
+                                 most->noise, mean_over(references, &Reference::rays_per_bin)});
     return references;
 }
 
@@ -104,6 +104,7 @@ void measure_errors(const PingSet& pings, const Trial& trial,
         const Ping ping = direct_image(*then, pings.scene, *trial.engine,
                                        sensor_pose(*then, pings.poses[p], pings.indices[p]));
         errors[p] = image_error(ping.intensity, references[p].intensity, references[p].scored);
+        errors[p].relative_l1 = error_without_noise(ping.intensity, references[p]);
         samples[p] = static_cast<double>(ping.counts.samples);
     });
     row.relative_l1 = mean_over(errors, &ImageError::relative_l1);

@@ -55,11 +55,11 @@ struct MultipathRow {
     double times_without = 0.0;  ///< a multiple of the time of a ping without multipath
 };
 
-/// The convergence of a sonar's reference images.
+/// The quality of a sonar's reference images.
 struct ReferenceQuality {
     std::string sensor;
-    double moved = 0.0;         ///< mean of Reference::moved over the poses
-    double max_moved = 0.0;     ///< the largest of them
+    double noise = 0.0;         ///< mean of Reference::noise over the poses
+    double max_noise = 0.0;     ///< the largest of them
     double rays_per_bin = 0.0;  ///< rays that echoed, per occupied bin
 };
 
@@ -76,7 +76,7 @@ struct ReportOptions {
     int poses = 8;
     int rounds = 5;
     int threads = 0;                 ///< 0: one per core
-    double reference_moved = 0.001;  ///< relative L1 at which the reference has converged
+    double reference_noise = 0.001;  ///< relative L1 at which the reference has converged
     std::uint64_t reference_rays = 200'000'000;  ///< limit per image
 };
 

@@ -53,8 +53,8 @@ Json json_of(const JobRow& row) {
 
 Json json_of(const ReferenceQuality& reference) {
     return {{"sensor", reference.sensor},
-            {"moved_mean", reference.moved},
-            {"moved_max", reference.max_moved},
+            {"noise_mean", reference.noise},
+            {"noise_max", reference.max_noise},
             {"rays_per_bin_mean", reference.rays_per_bin}};
 }
 
@@ -135,9 +135,9 @@ std::string report_markdown(const Report& report) {
         text +=
             fmt::format("The machine was busy (load {:.1f}): times are too long.\n", report.load);
     for (const ReferenceQuality& reference : report.references) {
-        text += fmt::format("\n{}: the reference settled to {} %, at most {} %.\n",
-                            reference.sensor, short_number(100.0 * reference.moved),
-                            short_number(100.0 * reference.max_moved));
+        text += fmt::format("\n{}: the noise of the reference is {} %, at most {} %.\n",
+                            reference.sensor, short_number(100.0 * reference.noise),
+                            short_number(100.0 * reference.max_noise));
         text += table(json["rows"], reference.sensor,
                       {{"engine", "engine"},
                        {"setting", "setting"},

@@ -161,25 +161,13 @@ Reference cast_energy_reference(const Caster& caster, const Scene& scene,
                                  rays, T_world_sensor);
     }
     const ReferenceView looking{caster, scene, view, pose, shares};
-    return settled(settings.view, goal, [&](int per_beam, int count) {
-        CastResult cast;
-        std::vector<double> mean;
-        for (const std::uint32_t start : {0U, 1U}) {
-            EnergyImage image(scene, settings, T_world_sensor, rays, targets);
-            cast.rays += cast_over_surface(looking, {per_beam, count, start},
-                                           [&](const SurfacePoint& point) { image.add(point); });
-            const std::vector<double> sum = image.take();
-            cast.hits += image.hits();
-            (start == 0 ? cast.lattice : cast.scattered).assign(sum.begin(), sum.end());
-            mean.resize(sum.size());
-            cast.area_m2.resize(sum.size());
-            for (std::size_t k = 0; k < sum.size(); ++k) {
-                mean[k] += 0.5 * sum[k];
-                cast.area_m2[k] += 0.5 * image.area_m2()[k];
-            }
-        }
-        cast.both.assign(mean.begin(), mean.end());
-        return cast;
+    return settled(settings.view, goal, [&](const RayLayout& layout) -> CastResult {
+        EnergyImage image(scene, settings, T_world_sensor, rays, targets);
+        const std::uint64_t cast = cast_over_surface(
+            looking, layout, [&](const SurfacePoint& point) { image.add(point); });
+        std::vector<double> sum = image.take();
+        std::vector<double> weight(sum.size(), 1.0);
+        return {std::move(sum), std::move(weight), image.area_m2(), cast, image.hits()};
     });
 }
 

@@ -79,24 +79,20 @@ struct Cast {
     float reach_m() const { return static_cast<float>(looking.view.range_max_m) * 1.01F; }
 };
 
-/// Position of ray i in its cell: shares of the column's width and of a step along it.
+/// Position of ray i in its cell: shares of the column's width and of a step along it. A lattice
+/// oblique to columns and rows, so that an edge along either of them is sampled at all phases. Each
+/// cast has its own in each beam.
 struct CellPosition {
     double across;
     double along;
 };
 
-CellPosition position_in_cell(const RayLayout& layout, std::uint32_t column, std::uint32_t i) {
-    if (layout.start == 0) {
-        // A lattice oblique to columns and rows: an edge along either of them is sampled at all
-        // phases.
-        constexpr double golden = 0.6180339887498949;
-        constexpr double root_two = 0.4142135623730950;
-        const double across = golden * i;
-        const double along = root_two * column;
-        return {across - std::floor(across), along - std::floor(along)};
-    }
-    const PhiloxBlock draw = philox({i, column, layout.start, 0}, {0x72617973U, 0});
-    return {unit_float(draw.x0), unit_float(draw.x1)};
+CellPosition position_in_cell(const PhiloxBlock& shift, std::uint32_t column, std::uint32_t i) {
+    constexpr double golden = 0.6180339887498949;
+    constexpr double root_two = 0.4142135623730950;
+    const double across = unit_float(shift.x0) + golden * i;
+    const double along = unit_float(shift.x1) + root_two * column;
+    return {across - std::floor(across), along - std::floor(along)};
 }
 
 /// The directions of one column, in the sensor frame.
@@ -104,8 +100,10 @@ void column_directions(const Cast& cast, const ViewColumn& column, std::uint32_t
                        std::vector<Eigen::Vector3f>& directions) {
     const double step = (column.along_max - column.along_min) / cast.layout.count;
     const SinCosFloat middle = sincos_float(column.across);
+    const auto beam = static_cast<std::uint32_t>(column.beam);
+    const PhiloxBlock shift = philox({beam, cast.layout.start, 0, 0}, {0x72617973U, 0});
     for (std::uint32_t i = 0; i < directions.size(); ++i) {
-        const CellPosition position = position_in_cell(cast.layout, index, i);
+        const CellPosition position = position_in_cell(shift, index, i);
         const auto off = static_cast<float>((position.across - 0.5) * column.width);
         const SinCosFloat along = sincos_float(column.along_min + (i + position.along) * step);
         directions[i] = direction(cast.looking.view.shape, middle + sincos_small(off), along);

@@ -27,7 +27,7 @@ struct ReferenceView {
 struct RayLayout {
     int per_beam;         ///< columns per beam of a fan, per side, or around a cone
     int count;            ///< rays per column
-    std::uint32_t start;  ///< 0: a lattice; above: random positions in the lattice's cells
+    std::uint32_t start;  ///< casts with different starts are independent
 };
 
 /// A point of the visible surface.
