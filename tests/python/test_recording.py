@@ -43,6 +43,12 @@ class RecordingTest(tool.ToolTest):
         recording = self.opened(ARRAYS.replace("imaging", "sidescan"))
         np.testing.assert_array_equal(recording.values[0], [[2, 3], [1, 4], [0, 5]])
 
+    def test_clipping_below_the_declared_value(self):
+        values = np.random.default_rng(1).integers(0, 256, (3, 60, 40)).astype(np.uint8)
+        for clipped, more, found in ((200, "", 200.0), (200, ", full_value: 255", 255.0), (254, "", 255.0)):
+            np.save(self.folder / "pings.npy", np.where(values > clipped, np.uint8(clipped), values))
+            self.assertEqual(self.opened(ARRAYS.replace("exponent: 0.5", "exponent: 0.5" + more)).law.full_value, found)
+
     def test_pictures(self):
         from PIL import Image
         for dtype in (np.uint8, np.uint16):

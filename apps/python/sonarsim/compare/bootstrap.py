@@ -8,18 +8,20 @@ import dataclasses
 import numpy as np
 from scipy import stats
 
-from .figure import joined, value_of
+from .figure import joined, value_of, without_gain
 
 DRAWS, CELL_DRAWS, EXCHANGES = 300, 100, 499
 FEWEST_PLACES = 8
 MOST_DEGREES = 300.0
 SIGNIFICANCE = 0.05
+TOLERANCES = {"decibel": 1.0, "texture": 0.3, "correlation": 0.05, "skewness": 0.1, "hundredth": 0.01}
 
 
 @dataclasses.dataclass
 class ComparedFigure:
     """A figure of both recordings and what its difference means. Errors are standard errors."""
     name: str
+    group: str
     real: float
     simulated: float
     tolerance: float            # in the figure's unit
@@ -46,6 +48,10 @@ class ComparedFigure:
         return self.difference / self.error if self.error > 0.0 else 0.0
 
     @property
+    def tolerances_off(self):
+        return abs(self.difference) / max(self.tolerance, self.halves[2], 1e-9)
+
+    @property
     def agrees(self):
         return abs(self.difference) <= max(self.tolerance, self.halves[2])
 
@@ -57,8 +63,8 @@ class ComparedFigure:
 def compared(real, simulated, same_places, same_pings, seed):
     """The ComparedFigure of two figures. What they share at common places, or in common pings, cancels in the difference."""
     tenth = 0.1 * abs(value_of(real))
-    tolerances = {"tenth": tenth, "decibel": 1.0, "correlation": 0.05, "share": max(0.001, tenth)}
-    out = ComparedFigure(real.name, value_of(real), value_of(simulated), tolerances[real.tolerance])
+    tolerances = {"tenth": tenth, "share": max(0.001, tenth), **TOLERANCES}
+    out = ComparedFigure(real.name, real.group, value_of(real), value_of(simulated), tolerances[real.tolerance])
     places, pings = (min(len(np.unique(units)) for units in both) for both in (
         (real.places, simulated.places), (real.pings, simulated.pings)))
     of_places, of_pings = corrected(variances(real, simulated, "places", same_places, seed), places), np.zeros(3)
@@ -125,7 +131,7 @@ def exchange_p(pairs, errors, seed):
     swaps = np.random.default_rng([seed, 3]).integers(0, 2, (EXCHANGES + 1, places)).astype(float)
     swaps[0] = 0.0
     sizes = np.zeros((len(pairs), EXCHANGES + 1))
-    for size, (real, simulated), error in zip(sizes, pairs, errors):
+    for size, (real, simulated), error in zip(sizes, [tuple(map(without_gain, pair)) for pair in pairs], errors):
         if error > 0.0:
             one, other = (joined((real, real.places, a), (simulated, simulated.places, b))
                           for a, b in ((1.0 - swaps, swaps), (swaps, 1.0 - swaps)))

@@ -8,6 +8,7 @@ from .bootstrap import adjust, compared, exchange_p
 from .images import have_one_grid, images_of, patch_size_of, zones_of
 from .measure import measure_images
 from .soundings import common_angles, measure_soundings
+from .texture import block_sizes
 
 
 @dataclasses.dataclass
@@ -15,7 +16,7 @@ class Comparison:
     real: Recording
     simulated: Recording
     has_one_grid: bool
-    is_relative: bool           # powers are relative to the mean of each recording
+    is_relative: bool           # one has no full value, so the gain is not compared
     figures: list               # of ComparedFigure
 
     @property
@@ -32,9 +33,10 @@ class Comparison:
 
     @property
     def first_change(self):
-        """The figure that is furthest off among those that differ and do not agree, else among all that differ."""
+        """The figure that is off by the most tolerances among those that differ and do not agree, else among all that
+        differ. A ring has no speckle, so its standard error says nothing; it comes last."""
         return max((figure for figure in self.figures if figure.differs), default=None,
-                   key=lambda figure: (not figure.agrees, abs(figure.standardised)))
+                   key=lambda figure: (figure.group != "ring", not figure.agrees, figure.tolerances_off))
 
 
 def compare_recordings(real, simulated, seed=1):
@@ -76,7 +78,7 @@ def measure_images_of_both(recordings, is_relative):
     means = [one.mean_powers() for one in images]
     # With a common grid both have the zones of their mean, so that chance does not shift one's against the other's.
     zones = [zones_of(mean) for mean in ([0.5 * (means[0] + means[1])] * 2 if is_one else means)]
-    measured = [measure_images(one, size, own, bands) for one, own in zip(images, zones)]
+    measured = [measure_images(one, size, own, bands, block_sizes(a, b)) for one, own in zip(images, zones)]
     return is_one, is_one and len(a.powers) == len(b.powers), measured
 
 

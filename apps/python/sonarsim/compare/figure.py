@@ -16,22 +16,45 @@ def decibels(powers):
 class Figure:
     """Cells: the values of a figure at a place of the image in a ping. Cells of one place share its number."""
     name: str
-    reduce: str             # mean, level (10 log10 of the mean) or quantile
-    tolerance: str          # tenth, decibel, correlation or share
+    reduce: str             # mean, level (10 log10 of the mean), quantile or spread (half of what 68 % of the cells lie in)
+    tolerance: str          # tenth, decibel, texture, correlation, skewness, share or hundredth
     places: np.ndarray
     pings: np.ndarray
     values: np.ndarray
     weights: np.ndarray
     share: float = 0.5      # of quantile
+    less: float | None = None               # the quantile of this share is subtracted
+    is_reference: np.ndarray | None = None  # cells of level whose level is subtracted
+    group: str = ""         # in the table
 
     @classmethod
-    def of(cls, name, reduce, tolerance, places, pings, values, weights=1.0, share=0.5):
+    def of(cls, name, reduce, tolerance, places, pings, values, weights=1.0, share=0.5, less=None):
         """A figure of the cells with finite values and weight; arrays are broadcast to the shape of the values."""
         values = np.asarray(values, float)
         places, pings, weights = (np.broadcast_to(array, values.shape) for array in (places, pings, weights))
         kept = np.isfinite(values) & (weights > 0.0)
         return cls(name, reduce, tolerance, places[kept].astype(int), pings[kept].astype(int), values[kept],
-                   weights[kept].astype(float), share)
+                   weights[kept].astype(float), share, less)
+
+    def over(self, other):
+        """This level over another one: no gain changes it."""
+        both = (np.concatenate([getattr(one, name) for one in (self, other)])
+                for name in ("places", "pings", "values", "weights"))
+        places, pings, values, weights = both
+        return dataclasses.replace(self, places=places, pings=pings, values=values, weights=weights, is_reference=np.repeat(
+            [False, True], [self.values.size, other.values.size]))
+
+
+def without_gain(figure):
+    """A figure that no gain changes, with the gain of its own reference taken from its values, so that cells of two
+    recordings can be exchanged."""
+    if figure.is_reference is not None:
+        level = value_of(dataclasses.replace(figure, is_reference=None, weights=figure.weights * figure.is_reference))
+        return dataclasses.replace(figure, values=figure.values / 10.0 ** (0.1 * level))
+    if figure.less is not None:
+        return dataclasses.replace(figure, values=figure.values - value_of(
+            dataclasses.replace(figure, share=figure.less, less=None)))
+    return figure
 
 
 def value_of(figure):
@@ -43,19 +66,30 @@ def joined(*parts):
     """The values of the cells of all parts together in draws. A part is a figure, the units of its cells, and draws[d, u],
     which multiply the weights of the cells of unit u."""
     first, _, draws = parts[0]
-    if first.reduce != "quantile":
-        with np.errstate(invalid="ignore", divide="ignore"):
-            mean = np.divide(*(sum(own @ np.bincount(units, figure.weights * factor(figure), own.shape[1])
-                                   for figure, units, own in parts) for factor in (lambda f: f.values, lambda f: 1.0)))
-        return decibels(mean) if first.reduce == "level" else mean
+    if first.reduce in ("mean", "level"):
+        def mean_of(kept):
+            sums = (sum(own @ np.bincount(units, kept(figure) * figure.weights * factor(figure), own.shape[1])
+                        for figure, units, own in parts) for factor in (lambda f: f.values, lambda f: 1.0))
+            with np.errstate(invalid="ignore", divide="ignore"):
+                return np.divide(*sums)
+        if first.reduce == "mean":
+            return mean_of(lambda f: 1.0)
+        if first.is_reference is None:
+            return decibels(mean_of(lambda f: 1.0))
+        return decibels(mean_of(lambda f: ~f.is_reference)) - decibels(mean_of(lambda f: f.is_reference))
     values, at = np.unique(np.concatenate([figure.values for figure, *_ in parts]), return_inverse=True)
     ends = np.cumsum([figure.values.size for figure, *_ in parts])
     cells = [sparse.csr_matrix((figure.weights, (own, units)), (len(values), drawn.shape[1]))
              for (figure, units, drawn), own in zip(parts, np.split(at, ends))]
     step = max(1, MOST_WEIGHTS // len(values))
-    return np.concatenate([
-        quantile_of(values, sum(own @ drawn[k:k + step].T for own, (*_, drawn) in zip(cells, parts)), first.share)
-        for k in range(0, len(draws), step)])
+    high, low = (0.84, 0.16) if first.reduce == "spread" else (first.share, first.less)
+
+    def reduced(weights):
+        found = quantile_of(values, weights, high)
+        found = found if low is None else found - quantile_of(values, weights, low)
+        return 0.5 * found if first.reduce == "spread" else found
+    return np.concatenate([reduced(sum(own @ drawn[k:k + step].T for own, (*_, drawn) in zip(cells, parts)))
+                           for k in range(0, len(draws), step)])
 
 
 def quantile_of(values, weights, share):

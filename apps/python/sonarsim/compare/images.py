@@ -3,13 +3,14 @@ import dataclasses
 
 import numpy as np
 
+from ..recording.recording import MOST_POWER
 from .figure import decibels
 
 MOST_STRIP_PINGS = 64
 CLIPPED_SHARE = 0.995       # values above this share of the largest count as clipped
 # Zones; on three pings of a real sonar over a rough bottom these shares find the ranges that a person had marked.
 BOTTOM_DB, STANDS_OUT_DB = 10.0, 15.0
-RING_SHARE, SMOOTHED_SHARE = 28, 44
+RING_SHARE, SMOOTHED_SHARE, RANGES_OF_LEVEL = 28, 44, 8
 
 
 @dataclasses.dataclass
@@ -21,9 +22,12 @@ class Images:
     first_range_m: float
     range_step_m: float
     bearing_rad: np.ndarray | None  # of the columns; None where they are pings
-    has_shadows: bool               # of a side-scan
+    kind: str                       # of the recording
+    is_relative: bool               # levels of the recording have no common scale with those of the other
     full_power: float               # powers from here on are clipped; inf: none are
     least_power: float              # powers up to here are at the lower end of the scale
+    ping_levels_db: np.ndarray      # [side, ping], one side for all kinds but a side-scan; also of pings in no image
+    beam_levels_db: np.ndarray      # [ping, beam]
 
     @property
     def columns_are_pings(self):
@@ -45,7 +49,8 @@ class Images:
 def images_of(recording, is_relative):
     """The Images of a recording; their powers are divided by their mean if levels are relative."""
     law, powers = recording.law, recording.powers()
-    is_imaging = recording.kind == "imaging"
+    is_imaging, blocks = recording.kind == "imaging", block_levels_db(powers)
+    levels = blocks.mean(axis=1)
     if not is_imaging:
         pings, ranges, beams = powers.shape
         width = min(MOST_STRIP_PINGS, pings)
@@ -55,8 +60,16 @@ def images_of(recording, is_relative):
     factor = np.float32(1.0 / mean if mean > 0.0 else 1.0)
     full = float(factor * law.powers(CLIPPED_SHARE * law.largest_value)) if law.full_value else np.inf
     return Images(factor * powers, recording.first_range_m, recording.range_step_m,
-                  recording.bearing_rad if is_imaging else None, recording.kind == "sidescan", full,
-                  float(factor * law.powers(0.0)))
+                  recording.bearing_rad if is_imaging else None, recording.kind, is_relative, full,
+                  float(factor * law.powers(0.0)), levels.mean(axis=1)[None] if is_imaging else levels.T, levels)
+
+
+def block_levels_db(powers):
+    """The levels of blocks of 8 ranges behind the ring, [ping, block, beam]: zeros count as the least power above 0."""
+    powers = powers[:, len(powers[0]) // RING_SHARE:]
+    count = max(powers.shape[1] // RANGES_OF_LEVEL, 1)
+    means = powers[:, :count * RANGES_OF_LEVEL].reshape(len(powers), count, -1, powers.shape[2]).mean(axis=2, dtype=float)
+    return decibels(np.maximum(means, powers.min(where=powers > 0.0, initial=MOST_POWER)))
 
 
 def have_one_grid(a, b):

@@ -1,34 +1,42 @@
 """All figures of the images of a recording (docs/calibrate.md)."""
+import dataclasses
 import functools
 
 import numpy as np
 
 from . import speckle
+from .behind import behind_figures
 from .figure import Figure, decibels
 from .images import Grid
 from .points import point_figures
 from .shadows import shadow_figures
+from .texture import block_figures, off_figures
 
-RANGE_BANDS, BEARING_BANDS = 12, 8
+RANGE_BANDS, BEARING_BANDS = 8, 4
 MOST_TREND = {"bottom": 0.5, "image": 0.5, "water": 0.35, "tail": 0.35}
 MOST_CLIPPED = 0.03
 LAGS = (1, 2, 4)
 LOWEST_DB, BIN_DB, LEVEL_BINS = -160.0, 0.5, 340
-PERCENTILES = (5, 25, 50, 75, 95, 99)
+PERCENTILES = (5, 25, 75, 95, 99)
 
 
-def measure_images(images, size, zones, bands):
-    """The figures of images. `bands` are the intervals of range and of bearing (or None) that are compared."""
+def measure_images(images, size, zones, bands, sizes_m):
+    """The figures of images. `bands` are the intervals of range and of bearing (or None) that are compared, `sizes_m` those
+    of blocks."""
     grid = Grid(images.shape, size)
-    figures = level_figures(images, grid, zones, bands) + share_figures(images, grid)
+    groups = {**level_figures(images, grid, zones, bands),
+              "greys": share_figures(images, grid) + percentile_figures(images, grid)}
     for name, zone in (("image" if zones.is_one else "bottom", zones.bottom), ("water", zones.water), ("tail", zones.tail)):
-        figures += zone_figures(images, grid, name, zone)
-    figures += percentile_figures(images, grid)
+        groups[f"speckle of the {name}"] = zone_figures(images, grid, name, zone)
+    groups["patches of the bottom"] = block_figures(images, grid, zones.bottom, sizes_m)
+    groups["behind strong echoes"] = behind_figures(images)
+    groups["pings and beams that are off"] = off_figures(images)
     if not images.columns_are_pings:
-        figures += point_figures(images, grid, zones)
-    if images.has_shadows:
-        figures += shadow_figures(images, grid, zones)
-    return [figure for figure in figures if figure.values.size]
+        groups["points"] = point_figures(images, grid, zones)
+    if images.kind == "sidescan":
+        groups["shadows"] = shadow_figures(images, grid, zones)
+    return [dataclasses.replace(figure, group=group) for group, figures in groups.items() for figure in figures
+            if figure.values.size]
 
 
 def zone_figures(images, grid, name, zone):
@@ -37,8 +45,7 @@ def zone_figures(images, grid, name, zone):
     across = "pings" if images.columns_are_pings else "beams"
     rules = [("variation of amplitude", "tenth", speckle.variation), ("Weibull shape", "tenth", speckle.weibull_shape),
              ("inverse K shape", "correlation", speckle.inverse_k_shape),
-             ("scintillation index", "tenth", speckle.scintillation),
-             ("spread of levels, dB", "tenth", speckle.spread_db),
+             ("skewness of logarithms", "skewness", speckle.skewness),
              *((f"correlation over {lag} {unit}", "correlation",
                 functools.partial(speckle.correlation, lag=lag, axis=axis))
                for axis, unit in ((1, "ranges"), (2, across)) for lag in LAGS),
@@ -62,20 +69,25 @@ def zone_figures(images, grid, name, zone):
 
 
 def level_figures(images, grid, zones, bands):
-    """Levels of zones, of bands of range, and of bands of bearing in the bottom."""
+    """Groups of levels: that of the bottom, which the gain decides; over it those of zones, of bands of range, and of bands
+    of bearing in the bottom; and that of the ring."""
     ranges, everywhere = np.arange(images.shape[0]), np.zeros(images.shape[1], int)
     zone = np.where(ranges < zones.water[0], 3, -1)
     for number, (begin, end) in ((2, zones.tail), (1, zones.water), (0, zones.bottom)):
         zone[begin:end] = number
-    names = [f"{name}: level, dB" for name in ("image" if zones.is_one else "bottom", "water", "tail", "ring")]
-    figures = banded_levels(images, grid, names, zone, everywhere)
+    bottom = "image" if zones.is_one else "bottom"
+    names = [f"{bottom}: level, dB", *(f"{name}: level over the {bottom}, dB" for name in ("water", "tail", "ring"))]
+    whole, *others = banded_levels(images, grid, names, zone, everywhere)
+    ring = others.pop() if len(others) == 3 else None
     names, band = bands_of("level at", images.ranges_m, bands[0], RANGE_BANDS, "m")
-    figures += banded_levels(images, grid, names, band, everywhere)
+    others += banded_levels(images, grid, names, np.where(zone == 3, -1, band), everywhere)
     if images.bearing_rad is not None and bands[1]:
         names, band = bands_of("bottom: level at", np.degrees(images.bearing_rad), np.degrees(bands[1]),
                                BEARING_BANDS, "degrees")
-        figures += banded_levels(images, grid, names, np.where(zone == 0, 0, -1), band)
-    return figures
+        others += banded_levels(images, grid, names, np.where(zone == 0, 0, -1), band)
+    levels = {"gain": [] if images.is_relative else [whole],
+              "levels over the bottom": [one.over(whole) for one in others if one.values.size]}
+    return {**levels, "ring": [ring.over(whole)]} if ring else levels
 
 
 def bands_of(what, values, interval, count, unit):
@@ -107,7 +119,7 @@ def share_figures(images, grid):
     return [Figure.of(name, "mean", "share", np.arange(grid.places), np.arange(len(images.powers))[:, None],
                       [is_at(grid.cut(image)).mean(axis=(1, 2)) for image in images.powers])
             for name, is_at in (("share of zeros", lambda power: ~(power > images.least_power)),
-                                ("share of clipped values", lambda power: power >= images.full_power))[:1 + is_known]]
+                                ("share of white", lambda power: power >= images.full_power))[:1 + is_known]]
 
 
 def percentile_figures(images, grid):
@@ -118,5 +130,5 @@ def percentile_figures(images, grid):
         numbers = np.arange(grid.places)[:, None] * LEVEL_BINS + np.clip(bins, 0, LEVEL_BINS - 1)
         counts += np.bincount(numbers.ravel(), minlength=counts.size)
     places, bins = np.divmod(np.flatnonzero(counts), LEVEL_BINS)
-    return [Figure.of(f"level of {percent} % of the image, dB", "quantile", "decibel", places, 0, LOWEST_DB + BIN_DB * bins,
-                      counts[counts > 0], percent / 100.0) for percent in PERCENTILES]
+    return [Figure.of(f"{percent} % of the levels over their median, dB", "quantile", "decibel", places, 0,
+                      LOWEST_DB + BIN_DB * bins, counts[counts > 0], percent / 100.0, 0.5) for percent in PERCENTILES]

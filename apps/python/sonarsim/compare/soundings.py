@@ -1,9 +1,12 @@
 """Figures of soundings, in bands of 10 degrees from the vertical."""
+import dataclasses
+
 import numpy as np
 
 from .figure import Figure
 
 BAND = np.pi / 18.0
+GROUPS = "levels over the mean", "variation of power", "spread of ranges"
 PINGS_IN_GROUP = 8
 FEWEST_IN_BAND = 6
 
@@ -26,7 +29,15 @@ def measure_soundings(recording, angles, is_relative):
     if is_relative and np.nansum(power) > 0.0:
         power /= np.nanmean(power)
     bands = range(int(np.ceil(angles[0] / BAND - 0.5)), int(np.floor(angles[1] / BAND + 0.5)))
-    return [figure for band in bands for figure in band_figures(own, power, band) if figure.values.size]
+    found = [figure for band in bands for figure in band_figures(own, power, band) if figure.values.size]
+    levels = [one for one in found if one.reduce == "level"]
+    if not levels:
+        return found
+    whole = Figure.of("level, dB", "level", "decibel", *(np.concatenate([getattr(one, name) for one in levels])
+                                                         for name in ("places", "pings", "values", "weights")))
+    whole.group = "gain"
+    found = [one.over(whole) if one.reduce == "level" else one for one in found]
+    return [whole] * (not is_relative) + sorted(found, key=lambda one: GROUPS.index(one.group))
 
 
 def band_figures(soundings, power, band):
@@ -39,9 +50,10 @@ def band_figures(soundings, power, band):
                       100.0 * spread_of(soundings.range_m[ping, own].astype(float), offset[ping, own] - 0.5)))
     groups, levels, counts, variations, spreads = np.array(cells).T if cells else np.zeros((5, 0))
     name = f"{10 * band} to {10 * (band + 1)} degrees"
-    return [Figure.of(f"{name}: level, dB", "level", "decibel", groups, 0, levels, counts),
-            Figure.of(f"{name}: variation of power", "mean", "tenth", groups, 0, variations),
-            Figure.of(f"{name}: spread of ranges, %", "mean", "tenth", groups, 0, spreads)]
+    return [dataclasses.replace(figure, group=group) for group, figure in (
+        (GROUPS[0], Figure.of(f"{name}: level over all, dB", "level", "decibel", groups, 0, levels, counts)),
+        (GROUPS[1], Figure.of(f"{name}: variation of power", "mean", "tenth", groups, 0, variations)),
+        (GROUPS[2], Figure.of(f"{name}: spread of ranges, %", "mean", "tenth", groups, 0, spreads)))]
 
 
 def spread_of(ranges, offset):

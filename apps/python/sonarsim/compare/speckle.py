@@ -1,7 +1,7 @@
 """Statistics of the amplitudes of homogeneous patches, [patch, range, column], one value for each patch.
 
 Amplitudes of developed speckle are Rayleigh distributed: coefficient of variation 0.5227, Weibull shape 2, inverse K shape
-0, scintillation index 1, spread 5.57 dB."""
+0, skewness of logarithms -1.1395."""
 import numpy as np
 
 LEAST_TREND = 0.15      # a trend that falls below this share of the mean is that of an edge
@@ -33,9 +33,11 @@ def variation(amplitude):
     return amplitude.std(axis=(1, 2)) / amplitude.mean(axis=(1, 2))
 
 
-def scintillation(amplitude):
-    """The variance of powers over the square of their mean."""
-    return variation(amplitude ** 2) ** 2
+def skewness(amplitude):
+    """Of the logarithms of the amplitudes above 0: -1.1395 for Rayleigh, near 0 for the largest of several samples."""
+    is_above, logs, mean = logarithms(amplitude)
+    off, count = is_above * (logs - mean[:, None]), is_above.sum(axis=1)
+    return (off ** 3).sum(axis=1) / count / ((off ** 2).sum(axis=1) / count) ** 1.5
 
 
 def logarithms(amplitude):
@@ -65,13 +67,6 @@ def inverse_k_shape(amplitude, looks=1.0):
     is_above, logs, mean = logarithms(amplitude)
     power = is_above * np.exp(2.0 * logs)
     return 2.0 * (power * logs).sum(axis=1) / power.sum(axis=1) - 2.0 * mean - 1.0 / looks
-
-
-def spread_db(amplitude):
-    """The standard deviation of the levels of the amplitudes above 0."""
-    is_above, logs, mean = logarithms(amplitude)
-    off = is_above * (logs - mean[:, None])
-    return 20.0 / np.log(10.0) * np.sqrt((off ** 2).sum(axis=1) / is_above.sum(axis=1))
 
 
 def correlation_of(one, other):

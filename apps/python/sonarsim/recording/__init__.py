@@ -4,6 +4,7 @@
     recording.values                        # float32 [ping, range, beam], as the instrument delivers them
     recording.powers()                      # the same, as powers by the law of the recording
 """
+import dataclasses
 import pathlib
 
 from .arrays import read_soundings
@@ -23,6 +24,9 @@ def open_recording(path, sensor=None, pings=None):
     if file.exists():
         own = read_description(file)
         recording = (read_soundings if own.source == "soundings" else read_files)(own, most_pings)
+        if own.full_value_is_auto or own.law is None:
+            full_value = recording.found_full_value()
+            recording.law = dataclasses.replace(recording.law, **({"full_value": full_value} if full_value else {}))
     elif (path / "dataset.json").exists():
         recording = read_dataset(path, sensor, most_pings)
     else:

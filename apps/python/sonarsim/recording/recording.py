@@ -10,6 +10,8 @@ LAWS = ("amplitude", "power", "gamma", "decibel")
 MOST_VALUES = 1 << 28       # of one file, and of all pings of a recording
 MOST_RANGES = 1 << 20
 MOST_POWER = 1e30           # a float32 holds it, and a double its cube
+# Values clip at the largest one if this share and number are at it, and so many times those in the two per cent below.
+LEAST_CLIPPED, FEWEST_CLIPPED, MOST_LIKE_OTHERS = 1e-3, 30, 2.0
 
 
 @dataclasses.dataclass
@@ -76,6 +78,16 @@ class Recording:
     def powers(self):
         """The powers of all values by the law, float32 [ping, range, beam]."""
         return np.stack([self.law.powers(ping) for ping in self.values])
+
+    def found_full_value(self):
+        """The value at which many samples clip below the declared largest one; None if there is none."""
+        full = self.law.largest_value
+        if self.values is None or not full:
+            return None
+        largest = float(self.values.max())
+        at, below = (self.values >= largest).mean(), ((self.values >= 0.98 * largest) & (self.values < largest)).mean()
+        is_many = at > max(LEAST_CLIPPED, MOST_LIKE_OTHERS * below) and at * self.values.size > FEWEST_CLIPPED
+        return largest if largest < full and is_many else None
 
     def part(self, pings):
         """The recording of some of the pings: a slice, or an array of their numbers or of booleans."""
