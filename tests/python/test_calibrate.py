@@ -8,9 +8,9 @@ import unittest.mock
 
 import numpy as np
 from tool import ROOT, ToolTest
-from sonarsim.calibrate import command, correlations, law, noise, preset, soundings  # noqa: E402
+from sonarsim.calibrate import command, correlations, image, judge_pass, law, levels, noise, preset, scene, soundings  # noqa: E402
 from sonarsim.calibrate.patches import Patches  # noqa: E402
-from sonarsim.calibrate.statistics import LogStatistics, bootstrap, sampled_correlations, sampled_statistics  # noqa: E402
+from sonarsim.calibrate.statistics import Bounded, CalibrationError, LogStatistics, bootstrap, sampled_correlations, sampled_statistics  # noqa: E402
 from sonarsim.recording import Law, Recording, Soundings  # noqa: E402
 
 RANGES, BEAMS = 240, 96
@@ -184,6 +184,67 @@ class Fits(unittest.TestCase):
             pings = recording_of(noise_of(draws, 20.0, -45.0, pings=10), range_db=range_db, full=4095).values
             self.assertGreater((pings == 0.0).mean(), 0.01)
             self.assert_within(law.fit_law(pings, 4095.0, LogStatistics(1)).scale, range_db)
+
+    def test_detected_samples_are_speckle(self):
+        """The largest of 14 samples has logarithms of no skewness; the beams of a lens have a bent level."""
+        draws = np.random.default_rng(60)
+        amplitude = np.sqrt(draws.exponential(0.002, (4, 14, RANGES, BEAMS)).max(axis=1))
+        expected = 2.0 * np.log(amplitude).std() / LogStatistics(1).variance ** 0.5
+        amplitude *= np.cos(np.linspace(-1.2, 1.2, BEAMS))
+        values = recording_of(amplitude, 1.0, full=65535).values
+        found = law.fit_law(values, 65535.0, LogStatistics(1))
+        self.assertAlmostEqual(found.scale.value / expected, 1.0, delta=0.1)
+
+    def test_numbers_with_wide_intervals_are_kept_from_the_start(self):
+        start = {"receiver": {"gamma": 0.5}, "beam": {"width_deg": 1.0}, "pulse": {}}
+        fit = image.Fit({section: dict(keys) for section, keys in start.items()}, 0.0, start=start)
+        fit.set("receiver.gamma", Bounded(1.32, 0.40, 2.25))
+        fit.set("beam.width_deg", Bounded(0.9, 0.8, 1.0))
+        fit.set("receiver.full_scale_db", Bounded(-2.0, -8.0, 4.0))
+        image.drop_wide(fit)
+        self.assertEqual(sorted(fit.estimates), ["beam.width_deg", "receiver.full_scale_db"])
+        self.assertEqual(fit.instrument["receiver"]["gamma"], 0.5)
+        self.assertIn("gamma", fit.lacks[0])
+
+    def test_windows_of_one_sonar(self):
+        fits = [image.Fit({"receiver": {}}, 0.0) for _ in range(2)]
+        fits[0].set("receiver.gamma", Bounded(0.50, 0.48, 0.52))
+        fits[1].set("receiver.gamma", Bounded(0.56, 0.52, 0.60))
+        gamma = image.joined(fits).estimates["receiver.gamma"]
+        self.assertAlmostEqual(gamma.value, (0.50 * 4 + 0.56) / 5)
+        self.assertTrue(gamma.low < 0.48 and gamma.high > 0.54, gamma)
+
+    def test_fits_that_are_not_written(self):
+        def judged(agree, white=0.0, figures=40):
+            return judge_pass.Judged([[()] * figures], (agree, agree), white)
+        judge_pass.check_judged(judged(17), judged(12), [])
+        for fit, why in ((judged(17, 0.06), "6% of a pass .* is white"), (judged(11), "11 of 40 figures .* and 12 with the start"),
+                         (judged(12), "12 of 40")):
+            with self.assertRaisesRegex(CalibrationError, why + ".* lacks rows that show noise alone$"):
+                judge_pass.check_judged(fit, judged(12), ["rows that show noise alone"])
+
+    def test_gain_and_noise_together(self):
+        """Noise and gain laid over echoes are found from the levels of pings, whatever the start."""
+        echoes = unittest.mock.Mock(range_m=FIRST_M + STEP_M * np.arange(RANGES)[:, None])
+        draws = np.random.default_rng(70)
+        level_db = np.where(np.arange(RANGES) > 100, -50.0, -200.0)[:, None] - 30.0 * np.log10(echoes.range_m)
+        echoes.amplitude = 10.0 ** (0.05 * level_db) * np.abs(speckle(draws, 2))[:, :, :32]
+        own = unittest.mock.Mock(instrument={"receiver": {"tvg_absorption": False, "offset": 0.0}}, absorption_db_per_m=0.0)
+        true = np.array([-40.0, -85.0, 25.0])
+        for name, scale in (("gamma", 0.5), ("log", 80.0)):
+            measured = levels.levels_of(levels.Records(echoes, own, 5).greys(name, (scale, *true, 0.0)), name, scale)
+            pairs = [(levels.Records(echoes, own, 1), np.array([[levels.LEVEL_ERROR]] + levels.RINGS * [[levels.RING_ERROR]]))]
+            numbers, errors = levels.numbers_of(pairs, [measured], np.array([-30.0, -100.0, 30.0]), name, scale, [])
+            np.testing.assert_array_less(np.abs(numbers - true), np.array([1.0, 1.0, 2.0]), f"{name} {numbers} {errors}")
+
+    def test_the_view_of_a_recording(self):
+        """A beam 20 degrees high that meets a level bottom from 0.75 to 1.65 m hangs 0.47 m above it, 29 degrees down."""
+        values = np.full((2, 240, BEAMS), 1e-3) * np.random.default_rng(3).exponential(size=(2, 240, BEAMS))
+        values[:, 75:165] *= 1e4
+        recording = Recording(law=Law("power", full_value=100.0), range_step_m=0.01, bearing_rad=np.arcsin(SINES), values=values)
+        height_m, pitch = scene.view_of(recording, unittest.mock.Mock(instrument={"beam": {"elevation_width_deg": 20.0}}))
+        self.assertAlmostEqual(height_m / np.sin(pitch + np.radians(10.0)), 0.75, delta=0.05)
+        self.assertAlmostEqual(height_m / np.sin(pitch - np.radians(10.0)), 1.65, delta=0.1)
 
     def test_soundings(self):
         draws = np.random.default_rng(40)

@@ -10,6 +10,8 @@ import numpy as np
 import tool
 from instrument_files import FORMATS, aris, counted, didson, ek60, oculus, simrad, xtf_header, xtf_ping
 from sonarsim.recording import Law, RecordingError, dataset, open_recording  # noqa: E402
+from instrument_files import FORMATS, aris, counted, didson, ek60, oculus, ping360, simrad, xtf_header, xtf_ping
+from sonarsim.recording import Law, RecordingError, open_recording  # noqa: E402
 
 ARRAYS = ("kind: imaging\nfiles: pings.npy\nlaw: {kind: gamma, exponent: 0.5}\nsound_speed_m_s: 1490\n"
           "first_range_m: 0.5\nrange_step_m: 0.1\n")
@@ -120,6 +122,23 @@ class RecordingTest(tool.ToolTest):
         self.assertEqual(self.opened(yaml + "frequency_hz: 120000\n", FILE=two).values.shape, (1, 1, 1))
         for mark, what in ((b"XML0", "EK80"), (b"#MRZ", ".kmall"), (b"\2I..", ".all")):
             self.assertIn(what, self.fault(yaml, FILE=b"\x10\0\0\0" + mark + bytes(20)))
+
+    def test_a_ping_of_odd_length(self):
+        yaml = FORMATS["ping360"][0]
+        pings = [ping360(k) for k in range(12)]
+        own = self.opened(yaml, FILE=b"".join([*pings[:5], ping360(5, samples=(1, 2)), *pings[5:]]))
+        self.assertEqual((own.values.shape, own.notes), ((12, 3, 1), ["1 of 13 pings have another length and are left out"]))
+        # Two of four are no exception.
+        self.assertIn("split the file", self.fault(yaml, FILE=b"".join(pings[:2] + [ping360(5, samples=(1, 2))] * 2)))
+
+    def test_margins(self):
+        values = np.random.default_rng(1).integers(1, 200, (4, 30, 10)).astype(np.uint8)
+        values[:, :3], values[:, 25:], values[:, :, 8:] = 1, 0, 7
+        np.save(self.folder / "pings.npy", values)
+        own = self.opened(ARRAYS + "bearing_last_deg: 30\n").without_margins()
+        self.assertEqual(own.values.shape, (4, 22, 8))
+        self.assertAlmostEqual(own.first_range_m, 0.8)
+        self.assertEqual(len(own.bearing_rad), 8)
 
     def test_several_files(self):
         yaml, content, _ = FORMATS["aris"]

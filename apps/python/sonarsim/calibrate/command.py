@@ -1,6 +1,7 @@
 """The command `sonarsim calibrate`."""
 import argparse
 import contextlib
+import copy
 import json
 import math
 import pathlib
@@ -11,13 +12,19 @@ from ..command import replaced, run
 from ..recording import open_recording
 from .fan_fit import RING_ERROR, RING_ERROR_USUAL, fit_fans, vary_block
 from .fans import read_fans
-from .image import fit_image
+from .image import fit_image, joined
 from .judge import figures_of
+from .judge_pass import MOST_WHITE, check_judged, is_worse, judge
 from .law import full_value_of
+from .levels import fit_levels
 from .preset import new_keys, read_start, set_levels, set_shape, with_key
 from .scene import Echoes, own_mission, usual_mission
 from .soundings import NOTES, soundings_figures
 from .statistics import Bounded, CalibrationError
+
+SCENE_DECIDES = ("the scene decides law and noise: two scenes of one sonar differed by 20 dB, and the intervals are of this "
+                 "scene alone")
+LEVEL_KEYS = "receiver.full_scale_db", "receiver.noise_db", "receiver.tvg_log"
 
 
 def result_of(name, pings, figures, notes, estimates):
@@ -41,6 +48,9 @@ def table_of(result):
     def interval(number):
         return str(Bounded(**number)) if isinstance(number, dict) else str(number)
 
+    def text(number):
+        return f"{'-':>11}" if number is None else f"{number:11.4g}"
+
     verdict = {True: "yes", False: " NO"}
     lines = [f"{result['recording']}: {result['pings_fitted']} pings fitted, {result['pings_judged']} judged", "",
              *(f"  {key:28} {interval(number)}" for key, number in result["estimates"].items()), "",
@@ -52,6 +62,12 @@ def table_of(result):
         lines.append(f"{row['figure']:44} {start} {' '.join(fits)}")
     lines.append("{} figures agree: {start} of the start, {in_sample} of the fit with the fitted pings, "
                  "{held_out} with the judged ones".format(len(result["figures"]), **result["agree"]))
+    if "rendered" in result:
+        lines += ["", f"{'figure of a rendered pass':50} {'judged pings':>12} {'start':>15} {'fit':>15}"]
+        lines += [f"{row['figure']:50} {row['judged']:12.4g} {text(row['start'])} {verdict[row['start_agrees']]} "
+                  f"{text(row['fit'])} {verdict[row['agrees']]}" for row in result["rendered"]["rows"]]
+        lines.append("{figures} figures of a rendered pass: {start} of the start agree with the judged pings, {fit} of the "
+                     "fit".format(**result["rendered"]))
     return "\n".join([*lines, *(f"- {note}" for note in result["notes"])])
 
 
@@ -92,29 +108,87 @@ def check_settings(settings):
         raise CalibrationError("--set: sets only keys of the water; write others into the preset")
 
 
-def calibrate(recording, preset, judged_share=0.5, is_reversed=False, slope_rad=0.0, settings=()):
-    """(result as in JSON, text of the new preset) of a recording and the name or file of a preset."""
-    start = read_start(preset)
-    check_settings(settings)
+def calibrate(recordings, options):
+    """(result as in JSON, text of the new preset) of the recordings of one sonar, each with a window of its own."""
+    start = read_start(options.preset)
+    check_settings(options.settings)
+    name = recordings[0].name + (f" and {len(recordings) - 1} more" if len(recordings) > 1 else "")
     try:
-        check_usable(recording, start.kind)
-        parts = [recording.part(of) for of in split(len(recording), judged_share, is_reversed)]
-        pings, keys = [len(part) for part in parts], {}
-        if recording.kind == "soundings":
-            result = result_of(recording.name, pings, soundings_figures(parts, slope_rad), NOTES, {})
+        for recording in recordings:
+            check_usable(recording, start.kind)
+        notes = [note for one in recordings for note in one.notes]
+        windows = [[one.part(of) for of in split(len(one), options.judge, options.reverse)] for one in recordings]
+        pings = [sum(len(parts[k]) for parts in windows) for k in (0, 1)]
+        source = f"{pings[0]} pings of {name}, from {options.preset}"
+        if start.kind == "soundings":
+            figures = [row for parts in windows for row in soundings_figures(parts, math.radians(options.slope_deg))]
+            return result_of(name, pings, figures, [*notes, *NOTES], {}), text_of(start, {}, source)
+        starts = [copy.deepcopy(start) for _ in windows]
+        for own, (part, _) in zip(starts, windows):
+            set_shape(own, part, options.settings)
+        fits = [fit_image(part, own) for own, (part, _) in zip(starts, windows)]
+        fit, start = joined(fits), starts[0]
+        shaped, text = [*zip(starts, windows)], text_of(start, new_keys(start, fit), source)
+        # Of a dataset without a mission nothing is rendered: its scene is known to be another, and its law to be single speckle.
+        passes = None
+        if options.mission or not all((pathlib.Path(one) / "dataset.json").exists() for one in options.recordings):
+            fit, text, *passes = fit_by_passes(shaped, start, fit, source, options)
         else:
-            set_shape(start, parts[0], settings)
-            fit = fit_image(parts[0], start)
-            keys = new_keys(start, fit)
-            # The figures that the start and the fit both predict.
-            before = figures_of(parts[1], start.instrument, start.noise_db - start.full_scale_db, start, fit)
-            rows = [before, *(figures_of(part, fit.instrument, fit.level_db, start, fit) for part in parts)]
-            named = [{figure.name: figure for figure in figures} for figures in rows]
-            figures = [tuple(of[name] for of in named) for name in named[2] if name in named[0] and name in named[1]]
-            result = result_of(recording.name, pings, figures, fit.notes, fit.estimates)
+            fit.notes.append(SCENE_DECIDES)
+        result = result_of(name, pings, [row for own, parts, one in zip(starts, windows, fits)
+                                         for row in closed_figures(own, parts, one)], [*notes, *fit.notes], fit.estimates)
+        if passes:
+            result["rendered"] = table_of_passes(*passes)
     except CalibrationError as fault:
-        raise CalibrationError(f"{recording.name}: {fault}") from fault
-    return result, text_of(start, keys, f"{pings[0]} pings of {recording.name}, from {preset}")
+        raise CalibrationError(f"{name}: {fault}") from fault
+    return result, text
+
+
+def fit_by_passes(shaped, start, fit, source, options):
+    """(fit, text of its preset, pass of the start, pass of the fit). Gain and noise are by the noise of the start; if that
+    makes a rendered pass worse, by the levels of a scene or those of the start. CalibrationError if no fit is better."""
+    more = options.mission, options.settings
+    before, tried = judge(shaped, start.text, *more), []
+    for way in ("noise", "scene", "start"):
+        one = copy.deepcopy(fit)
+        if way == "noise" and "receiver.full_scale_db" not in fit.estimates:
+            continue
+        if way == "scene":
+            fit_levels([(part, own) for own, (part, _) in shaped], start, one, *more)
+        elif way == "start":
+            for key in LEVEL_KEYS:
+                one.estimates.pop(key, None)
+        one.notes += {"noise": [SCENE_DECIDES], "scene": [], "start": [
+            "gain and noise are those of the start, with which more figures of a rendered pass agree", SCENE_DECIDES]}[way]
+        text = text_of(start, new_keys(start, one), source)
+        after = judge(shaped, text, *more)
+        tried.append((after.white <= MOST_WHITE, after.agree[0], -len(tried), after, text, one))
+        if way == "noise" and not is_worse(after, before, 0):
+            break
+    *_, after, text, fit = max(tried, key=lambda of: of[:3])
+    check_judged(after, before, fit.lacks)
+    return fit, text, before, after
+
+
+def table_of_passes(before, after):
+    rows = [(a, b) for old, new in zip(before.rows, after.rows) for b in new for a in old if a[:2] == b[:2]]
+    return {"figures": len(rows), "start": before.agree[1], "fit": after.agree[1], "rows": [
+        {"group": a[0], "figure": a[1], "judged": a[2], "start": number(a[3]), "fit": number(b[3]),
+         "start_agrees": bool(a[4]), "agrees": bool(b[4])} for a, b in rows]}
+
+
+def number(value):
+    return float(value) if math.isfinite(value) else None
+
+
+def closed_figures(start, parts, fit):
+    """The figures that the start and the fit both predict."""
+    if fit.law is None:
+        return []
+    before = figures_of(parts[1], start.instrument, start.noise_db - start.full_scale_db, start, fit)
+    rows = [before, *(figures_of(part, fit.instrument, fit.level_db, start, fit) for part in parts)]
+    named = [{figure.name: figure for figure in figures} for figures in rows]
+    return [tuple(of[name] for of in named) for name in named[2] if name in named[0] and name in named[1]]
 
 
 def text_of(start, keys, source, more=()):
@@ -129,43 +203,45 @@ def text_of(start, keys, source, more=()):
 
 
 def calibrate_fans(options):
-    """As calibrate(), of a folder of pictures."""
+    """As calibrate(), of folders of pictures, one for each window."""
     start = read_start(options.preset)
     check_settings(options.settings)
     if start.kind != "imaging":
         raise CalibrationError(f"{options.preset}: is no imaging sonar, and only these have fans")
-    if options.azimuth_deg is None or options.range_m is None:
-        raise CalibrationError("fans need both --azimuth-deg and --range-m")
-    fans = read_fans(pathlib.Path(options.recording), options.azimuth_deg, options.range_m)
-    # The judged ones lie evenly between the others: the scene changes on the way.
-    order = np.argsort(np.modf(np.arange(len(fans)) * options.judge + options.judge)[0] < options.judge, kind="stable")
-    parts = [fans.pixels[np.sort(order[of])] for of in split(len(fans), options.judge, options.reverse)]
-    start.shape = {"azimuth_deg": options.azimuth_deg, "range_min_m": options.range_m[0], "range_max_m": options.range_m[1]}
-    mission, name, paths_from = usual_mission(options.range_m[1]), "sonar", None
-    if options.mission:
-        path = pathlib.Path(options.mission)
-        (mission, name), paths_from = own_mission(path, options.sensor), path.absolute().parent
-    water = [f"water.{key}={value}" for key, value in (mission.get("water") or {}).items() if not isinstance(value, (dict, list))]
-    set_levels(start, [*water, *options.settings])
-    fit, figures = fit_fans(parts, fans, Echoes(start, mission, name, paths_from, options.settings), start,
-                            RING_ERROR if paths_from else RING_ERROR_USUAL)
-    if not paths_from:
-        fit.notes.append("gain and noise are those that give sand with rocks the greys of the fans; name a mission with a "
-                         "scene like theirs by --mission")
-    pings = [len(part) for part in parts]
-    result = result_of(fans.name, pings, figures, fit.notes, fit.estimates)
-    return result, text_of(start, new_keys(start, fit), f"{pings[0]} fans of {fans.name}, from {options.preset}",
-                           vary_block(fit))
+    if options.azimuth_deg is None or len(options.range_m or []) != 2 * len(options.recordings):
+        raise CalibrationError("fans need both --azimuth-deg and --range-m, with two numbers for each folder")
+    windows, starts = [], []
+    for folder, range_m in zip(options.recordings, zip(options.range_m[::2], options.range_m[1::2])):
+        fans = read_fans(pathlib.Path(folder), options.azimuth_deg, range_m)
+        # The judged ones lie evenly between the others: the scene changes on the way.
+        order = np.argsort(np.modf(np.arange(len(fans)) * options.judge + options.judge)[0] < options.judge, kind="stable")
+        parts = [fans.pixels[np.sort(order[of])] for of in split(len(fans), options.judge, options.reverse)]
+        own = copy.deepcopy(start)
+        own.shape = {"azimuth_deg": options.azimuth_deg, "range_min_m": range_m[0], "range_max_m": range_m[1]}
+        mission, name, paths_from = usual_mission("imaging", range_m[1]), "sonar", None
+        if options.mission:
+            (mission, name), paths_from = own_mission(options.mission, options.sensor), options.mission.absolute().parent
+        water = [f"water.{key}={value}" for key, value in (mission.get("water") or {}).items()
+                 if not isinstance(value, (dict, list))]
+        set_levels(own, [*water, *options.settings])
+        starts.append(own)
+        windows.append((parts, fans, Echoes(own, mission, name, paths_from, options.settings)))
+    fit, figures = fit_fans(windows, starts[0], RING_ERROR if options.mission else RING_ERROR_USUAL)
+    fit.notes.append(SCENE_DECIDES if options.mission else "gain and noise are those that give sand with rocks the greys of "
+                     f"the fans; name a mission with a scene like theirs by --mission. {SCENE_DECIDES}")
+    pings, name = [sum(len(parts[k]) for parts, *_ in windows) for k in (0, 1)], windows[0][1].name
+    result = result_of(name, pings, figures, fit.notes, fit.estimates)
+    start = starts[0]
+    return result, text_of(start, new_keys(start, fit), f"{pings[0]} fans of {name}, from {options.preset}", vary_block(fit))
 
 
 def fit_preset(options):
     """Fits a preset, writes it, and prints the result."""
-    if options.azimuth_deg is not None or options.range_m is not None or options.mission:
+    if options.azimuth_deg is not None or options.range_m is not None:
         result, text = calibrate_fans(options)
     else:
-        recording = open_recording(options.recording, sensor=options.sensor)
-        result, text = calibrate(recording, options.preset, options.judge, options.reverse,
-                                 math.radians(options.slope_deg), options.settings)
+        result, text = calibrate([open_recording(one, sensor=options.sensor).without_margins() for one in options.recordings],
+                                 options)
     with contextlib.ExitStack() as files:
         files.enter_context(replaced(options.out)).write_text(text, "utf-8")
         if options.report:
@@ -178,7 +254,8 @@ def main(arguments=None):
     parser = argparse.ArgumentParser("sonarsim calibrate", description=(
         "Fits a preset to pings of a real sonar and judges it by other pings"))
     add = parser.add_argument
-    add("recording", help="the pings: a folder with recording.yaml, a dataset, or a folder of fans (*.png)")
+    add("recordings", nargs="+", metavar="recording",
+        help="the pings: a folder with recording.yaml, a dataset, or a folder of fans (*.png); several: windows of one sonar")
     add("--preset", required=True, metavar="START", help="the start: a file, or the name of one of configs/sensors")
     add("--out", required=True, metavar="PRESET", help="the preset to write")
     add("--report", metavar="FILE", help="writes all numbers as JSON")
@@ -187,8 +264,9 @@ def main(arguments=None):
     add("--slope-deg", type=float, default=0.0, metavar="DEG", help="slope of the bottom under soundings, down to port")
     add("--sensor", metavar="NAME", help="the sensor of a dataset, or of --mission, with several")
     add("--azimuth-deg", type=float, metavar="DEG", help="of fans: the opening")
-    add("--range-m", type=float, nargs=2, metavar=("MIN", "MAX"), help="of fans: the ranges")
-    add("--mission", metavar="FILE", help="of fans: a mission with a scene like theirs (default: sand with rocks)")
+    add("--range-m", type=float, nargs="+", metavar="METRES", help="of fans: least and largest, of each folder")
+    add("--mission", metavar="FILE", type=pathlib.Path,
+        help="a mission with a scene like that of the pings (default: a level bottom, that of fans with rocks)")
     add("--set", action="append", default=[], metavar="KEY=VALUE", dest="settings",
         help="sets a key of the water, as water.temperature_c=20")
     add("--json", action="store_true", help="prints JSON instead of text")

@@ -9,6 +9,7 @@ from ..data import middles
 from .correlations import beam_correlation, predicted_correlations, taper
 from .image import Fit
 from .judge import Figure
+from .levels import Records
 from .patches import Patches
 from .statistics import Bounded, LogStatistics, bootstrap
 
@@ -24,31 +25,25 @@ LAWS, SMOOTHING_PX = {"gamma": "gamma", "log": "dynamic_range_db"}, 0.4
 BLOCK, LEAST_BLOCKS, LEAST_GREY = 12, 30, 8.0
 
 
-class Display:
-    """Fans of the echoes of a scene. `numbers`: those of NUMBERS, the first for the law "gamma" or "log"."""
+class Display(Records):
+    """Fans of the echoes of a scene."""
 
     def __init__(self, fans, echoes, start, seed):
-        self.fans, self.echoes = fans, echoes
-        self.receiver, self.absorption = start.instrument["receiver"], start.absorption_db_per_m
-        normal = np.random.default_rng(seed).standard_normal((2, *echoes.amplitude.shape)).astype(np.float32)
+        super().__init__(echoes, start, seed)
+        self.fans = fans
         # Beams are formed of the same elements, so they share noise.
         beam, sines = start.instrument["beam"], np.sin(middles(echoes.sensor.azimuth_edges_rad))
         pedestal, half_power = taper(beam["side_lobe_db"])
         apart = np.abs(np.subtract.outer(sines, sines)) * half_power / np.sin(0.5 * np.radians(beam["width_deg"]))
         values, vectors = np.linalg.eigh(np.sqrt(beam_correlation(pedestal, apart)))
         root = (vectors * np.sqrt(np.maximum(values, 0.0))).astype(np.float32).T
-        self.noise = np.sqrt(0.5) * (normal[0] @ root + 1j * (normal[1] @ root))
+        self.noise = self.noise.real @ root + 1j * (self.noise.imag @ root)
         shape = echoes.amplitude.shape[1:]
         self.index = echoes.sensor.to_fan(np.arange(shape[0] * shape[1]).reshape(shape), fans.pixels.shape[2], -1)
 
     def pixels(self, law, numbers):
         """Fans [ping, row, column]."""
-        scale, full_scale_db, noise_db, tvg_log, smoothing_px = numbers
-        r = self.echoes.range_m
-        gain_db = tvg_log * np.log10(r) + 2.0 * self.absorption * r * self.receiver["tvg_absorption"] - full_scale_db
-        amplitude = np.abs(self.echoes.amplitude + 10.0 ** (0.05 * noise_db) * self.noise) * 10.0 ** (0.05 * gain_db)
-        share = amplitude**scale if law == "gamma" else 1.0 + 20.0 * np.log10(np.maximum(amplitude, 1e-15)) / scale
-        values = np.floor(FULL * np.clip(np.minimum(share, 1.0) - self.receiver["offset"], 0.0, 1.0) + 0.5)
+        values, smoothing_px = super().greys(law, numbers), numbers[-1]
         fan = values.astype(np.float32).reshape(len(values), -1)[:, np.maximum(self.index, 0)] * (self.index >= 0)
         return np.round(ndimage.gaussian_filter(fan, (0.0, smoothing_px, smoothing_px), truncate=3.0))
 
@@ -87,18 +82,20 @@ def variance_of(blocks):
     return 0.5 * (off**2).mean(axis=(1, 2)) - 0.5 * off.mean(axis=(1, 2)) ** 2
 
 
-def fit_numbers(display, law, measured, first, ring_error):
-    """(cost, law, numbers, their standard errors) of the display that has the measured features."""
+def fit_numbers(displays, law, measured, first, ring_error):
+    """(cost, law, numbers, their standard errors) with which all displays, one for each window, have the measured features."""
     scale, low, high = np.array([NUMBERS[name] for name in (LAWS[law], *list(NUMBERS)[2:])]).T
     grey_errors = np.array([[GREY_ERROR]] + RINGS * [[ring_error]])
 
     def residuals(z):
         # Offset by 10, since the steps of least_squares are shares of z.
         z = z - 10.0
-        found = features(display.greys(law, np.clip(first + z * scale, low, high)))
-        rings, grains, skewness = (a - b for a, b in zip(found, measured))
-        return np.nan_to_num(np.concatenate([(rings / grey_errors).ravel(), grains / GRAIN_ERROR,
-                                             [skewness / SKEWNESS_ERROR], z]))
+        out = [z]
+        for display, own in zip(displays, measured):
+            found = features(display.greys(law, np.clip(first + z * scale, low, high)))
+            rings, grains, skewness = (a - b for a, b in zip(found, own))
+            out = [(rings / grey_errors).ravel(), grains / GRAIN_ERROR, [skewness / SKEWNESS_ERROR], *out]
+        return np.nan_to_num(np.concatenate(out))
     # The gain may be far off, where all is black or white and no step helps.
     shifts = np.arange(-2.0, 2.01, 0.3)
     costs = [np.sum(residuals(10.0 + np.array([0.0, shift, 0.0, 0.0, 0.0])) ** 2) for shift in shifts]
@@ -132,7 +129,7 @@ def beam_width(start, sensor, measured, simulated):
                                                              found[0](weights)[:, 1] - of_start]])[0]
 
 
-def grey_figures(display, fans, law, numbers):
+def grey_figures(display, fans, law, numbers, where=""):
     """The figures that a display predicts of the greys of fans, [fan, range, beam]."""
     def columns(greys):
         thirds = [part.mean(axis=(1, 2)) for part in np.array_split(greys, 3, axis=1)]
@@ -145,25 +142,28 @@ def grey_figures(display, fans, law, numbers):
     of_fans, of_scene = columns(fans), columns(display.greys(law, numbers))
     measured = bootstrap(len(of_fans), lambda weights: estimate(weights, of_fans))
     names = "mean", "standard deviation", "mean, near", "mean, middle", "mean, far", "50 %", "90 %", "99 %"
-    return [Figure(f"grey: {name}", 0.1, float(value), of) for name, value, of in zip(
+    return [Figure(f"grey: {name}{where}", 0.1, float(value), of) for name, value, of in zip(
         names, estimate(np.ones((1, len(of_scene))), of_scene)[0], measured)]
 
 
-def fit_fans(parts, fans, echoes, start, ring_error):
-    """(Fit, figures) of the fitted and the judged pictures, both [fan, row, column]."""
+def fit_fans(windows, start, ring_error):
+    """(Fit, figures) of the windows of one sonar, each the fitted and the judged pictures [fan, row, column], the Fans and
+    the Echoes."""
     fit, receiver = Fit(copy.deepcopy(start.instrument), 0.0), start.instrument["receiver"]
-    displays, greys = [Display(fans, echoes, start, seed) for seed in (1, 2)], [fans.polar(part) for part in parts]
-    measured, begin = features(greys[0]), {law: np.array([
+    displays = [[Display(fans, echoes, start, seed) for _, fans, echoes in windows] for seed in (1, 2)]
+    greys = [[fans.polar(part) for part in parts] for parts, fans, _ in windows]
+    measured, begin = [features(own[0]) for own in greys], {law: np.array([
         receiver[key], start.full_scale_db, start.noise_db, receiver["tvg_log"], SMOOTHING_PX]) for law, key in LAWS.items()}
-    _, law, numbers, errors = min(fit_numbers(displays[0], law, measured, first, ring_error)
-                                  for law, first in begin.items())
+    _, law, numbers, errors = min((fit_numbers(displays[0], law, measured, first, ring_error)
+                                   for law, first in begin.items()), key=lambda found: found[0])
     fit.set("receiver.companding", law)
     for name, value, error in zip((LAWS[law], "full_scale_db", "noise_db", "tvg_log"), numbers, errors):
         if error > 0.9 * NUMBERS[name][0]:
             fit.notes.append(f"{name}: the fans hardly show it; that of the start is kept")
         else:
             fit.set(f"receiver.{name}", Bounded(value, value - 1.96 * error, value + 1.96 * error))
-    width = beam_width(start, echoes.sensor, parts[0], displays[0].pixels(law, numbers))
+    (parts, _, echoes), *_ = windows
+    width = beam_width(start, echoes.sensor, parts[0], displays[0][0].pixels(law, numbers))
     if width is None:
         fit.notes.append("beam.width_deg: too few even patches; that of the start is kept")
     else:
@@ -171,8 +171,12 @@ def fit_fans(parts, fans, echoes, start, ring_error):
     if numbers[-1] > 0.6:
         fit.notes.append(f"the fans are smoothed, as by a Gaussian of {numbers[-1]:.1f} pixels, which no key does")
     of_start = "log" if receiver["companding"] == "log" else "gamma"
-    chosen = (displays[1], greys[1], of_start, begin[of_start]), *((*of, law, numbers) for of in zip(displays, greys))
-    return fit, list(zip(*(grey_figures(*one) for one in chosen)))
+    rows = []
+    for k, own in enumerate(greys):
+        chosen = (displays[1][k], own[1], of_start, begin[of_start]), *((of[k], part, law, numbers)
+                                                                        for of, part in zip(displays, own))
+        rows += zip(*(grey_figures(*one, f", window {k + 1}" * (len(greys) > 1)) for one in chosen))
+    return fit, rows
 
 
 def vary_block(fit):

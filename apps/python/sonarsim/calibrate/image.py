@@ -6,11 +6,12 @@ import numpy as np
 
 from .correlations import bins_of, fit_array, fit_pulse, pulse_of
 from .judge import classified
-from .law import Law, fit_law, full_value_of
+from .law import FewPatches, Law, fit_law, full_value_of
 from .noise import Noise, fit_noise, noise_blocks
-from .statistics import LAGS, Bounded
+from .statistics import LAGS, WIDEST, Bounded
 
 LEAST_PATCHES = 24
+DECIBELS = "receiver.full_scale_db", "receiver.noise_db", "beam.side_lobe_db"   # they have no share of themselves
 
 
 @dataclasses.dataclass
@@ -21,6 +22,8 @@ class Fit:
     noise: Noise | None = None
     estimates: dict = dataclasses.field(default_factory=dict)   # key -> Bounded or a word
     notes: list = dataclasses.field(default_factory=list)
+    lacks: list = dataclasses.field(default_factory=list)   # what the recording lacks, for a refusal
+    start: dict | None = None   # the instrument of the start
 
     def set(self, key, value):
         """Notes an estimate, and puts it into the instrument."""
@@ -31,20 +34,73 @@ class Fit:
 
 def fit_image(recording, start):
     """Fits pings. CalibrationError for values that are not from a sonar."""
-    fit = Fit(copy.deepcopy(start.instrument), start.noise_db - start.full_scale_db)
+    fit = Fit(copy.deepcopy(start.instrument), start.noise_db - start.full_scale_db, start=start.instrument)
 
     def find():
         from_m = fit.instrument["receiver"]["tvg_from_m"]
         fit.noise = fit_noise(noise_blocks(recording, fit.law), start.absorption_db_per_m, from_m)
-    fit_laws(recording, fit, find)
-    fit_pulse_and_beams(recording, fit)
     bits = np.log2(recording.law.full_value + 1.0)
     if bits in range(8, 17):
         fit.set("receiver.bits", int(bits))
+    try:
+        fit_laws(recording, fit, find)
+    except FewPatches as fault:
+        fit.lacks.append("even patches of speckle between the ends of the scale")
+        if not recording.law.full_value:
+            raise
+        state_law(fit, recording.law, str(fault))
+        return fit
+    fit_pulse_and_beams(recording, fit)
+    key = "receiver.dynamic_range_db" if fit.law.is_log else "receiver.gamma"
     fit.set("receiver.companding", "log" if fit.law.is_log else "gamma")
-    fit.set("receiver.dynamic_range_db" if fit.law.is_log else "receiver.gamma", fit.law.scale)
+    fit.set(key, fit.law.scale)
     set_levels(start, fit)
+    drop_wide(fit)
+    if key not in fit.estimates:
+        state_law(fit, recording.law, "the pings hardly show the law")
     return fit
+
+
+def drop_wide(fit):
+    """Takes the numbers out of a fit whose interval is wider than 30 %."""
+    for key, number in [*fit.estimates.items()]:
+        if isinstance(number, Bounded) and key not in DECIBELS and number.high - number.low > WIDEST * abs(number.value):
+            section, name = key.split(".")
+            del fit.estimates[key]
+            fit.instrument[section][name] = fit.start[section].get(name)
+            fit.lacks.append(f"what shows {name} within 30 %")
+            fit.notes.append(f"{key}: the interval {number.low:.4g} to {number.high:.4g} is wider than 30 %; that of the "
+                             "start is kept")
+
+
+def joined(fits):
+    """One Fit of several windows of a sonar: means of their numbers, weighted by 1 / variance. An interval also holds half
+    of what the windows differ by."""
+    whole = fits[0]
+    for other in fits[1:]:
+        whole.notes += [note for note in other.notes if note not in whole.notes]
+        whole.lacks += [lack for lack in other.lacks if lack not in whole.lacks]
+    for key in sorted({key for fit in fits for key in fit.estimates}):
+        found = [fit.estimates[key] for fit in fits if key in fit.estimates]
+        if not isinstance(found[0], Bounded) or len(found) == 1 or not all(isinstance(one, Bounded) for one in found):
+            whole.set(key, found[0])
+            continue
+        weight = np.array([max(one.half_width, 1e-9) ** -2.0 for one in found])
+        value = float(weight @ [one.value for one in found] / weight.sum())
+        half = float(np.hypot(weight.sum() ** -0.5, 0.5 * np.ptp([one.value for one in found])))
+        whole.set(key, Bounded(value, value - half, value + half))
+    return whole
+
+
+def state_law(fit, law, why):
+    """Takes the law of recording.yaml for that of the instrument."""
+    fit.notes.append(f"{why}; the law is that of recording.yaml")
+    is_log = law.kind == "decibel"
+    for key in ("receiver.gamma", "receiver.dynamic_range_db"):
+        fit.estimates.pop(key, None)
+    fit.set("receiver.companding", "log" if is_log else "gamma")
+    fit.set("receiver.dynamic_range_db" if is_log else "receiver.gamma", min(law.range_db, 200.0) if is_log else
+            {"amplitude": 1.0, "power": 2.0, "gamma": law.exponent}[law.kind])
 
 
 def fit_laws(recording, fit, find):
@@ -110,7 +166,8 @@ def set_levels(start, fit):
     """Sets gain and levels by the noise. Pings show only differences of levels, so full_scale_db is fitted."""
     noise, law = fit.noise, fit.law
     if noise is None:
-        return fit.notes.append("full_scale_db and tvg_log: no rows show noise alone; those of the start are kept")
+        fit.lacks.append("rows that show noise alone")
+        return fit.notes.append("tvg_log: no rows show noise alone; that of the start is kept")
     # An error of the law scales all levels below full scale, and the gain with them.
     share = law.scale.half_width / law.scale.value
     near, far = noise.used.range_m[[0, -1]]

@@ -13,6 +13,11 @@ MOST_ZEROS = 0.02               # share of values at a place that a logarithm ma
 LEAST_ERROR = 0.015             # that finite patches, their trend and the steps of the values leave; by 200 draws
 # If a share p of the powers becomes 0, the variance of the logarithm lacks p (0.8 - 2 ln p): half a per cent here.
 MOST_CUT_OFF = 5e-4
+MOST_SKEWNESS, LEAST_GAMMA = 0.1, 0.08  # speckle of a smaller gamma would not be seen: it is the noise of a camera
+
+
+class FewPatches(CalibrationError):
+    """Too few even patches to fit a law."""
 
 
 @dataclasses.dataclass
@@ -82,7 +87,7 @@ def fit_law(values, full_value, statistics, places=None, offset=0.0, is_log=None
 
 def require_patches(chosen):
     if len(chosen) < LEAST_PATCHES:
-        raise CalibrationError("fewer than 8 even patches of speckle, of 24 bins and 24 beams (96 bins of a sonar with "
+        raise FewPatches("fewer than 8 even patches of speckle, of 24 bins and 24 beams (96 bins of a sonar with "
                                "few beams), between the ends of the scale: record longer pings, or with another gain")
 
 
@@ -100,11 +105,15 @@ def moments_of(patches, chosen, statistics=None, left=1.0):
 
 def check_speckle(logs, even, skewness, of_start):
     """CalibrationError if values a third of a patch apart are correlated, or if neither skewness can, within its
-    errors, lie between -2 and -0.3: one look has -1.14, eight looks have about -0.4."""
+    errors, lie between -2 and 0.1: one look has -1.14, eight looks have about -0.4, the largest of many samples has 0."""
     lasting = logs.correlations(even)(np.ones((1, logs.places)))[0, 0, -1]
     if lasting > 0.6:
         raise CalibrationError(f"values 8 bins apart have the correlation {lasting:.2f}, speckle of a sonar much less: "
                                "is this a photograph, a picture that was smoothed, or a pulse of many bins?")
-    if not any(s.high > -2.0 and s.low < max(-0.3, of_start + 0.3) for s in skewness):
+    if not any(s.high > -2.0 and s.low < max(MOST_SKEWNESS, of_start + 0.3) for s in skewness):
         raise CalibrationError(f"the logarithms of values have a skewness of {skewness[0].value:.2f}, that of speckle "
                                "is -1.14: is this a photograph, or were the values changed after the sonar?")
+    gamma = 2.0 * np.sqrt(logs.variance[even].mean() / LogStatistics().variance)
+    if gamma < LEAST_GAMMA:
+        raise CalibrationError(f"the values of even patches vary by {50.0 * gamma:.1g} %, those of speckle by half of their "
+                               "mean: is this a photograph?")

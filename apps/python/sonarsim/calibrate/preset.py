@@ -128,7 +128,7 @@ def new_keys(start, fit):
     receiver = start.instrument["receiver"]
     if fit.noise and not receiver["tvg_absorption"]:
         out["instrument.receiver.tvg_absorption"] = "true", "rule: tvg_log is fitted beside the absorption of the water"
-    if fit.noise and receiver.get("noise_db", "auto") == "auto":
+    if fit.noise and receiver.get("noise_db", "auto") == "auto" and "receiver.noise_db" not in fit.estimates:
         out["instrument.receiver.noise_db"] = f"{start.noise_db:.4g}", "rule: that of the start, for full_scale_db"
     return out
 

@@ -5,6 +5,7 @@ import numpy as np
 from scipy import linalg, special
 
 DB_OF_E = 10.0 / np.log(10.0)   # a ratio e of powers in dB
+WIDEST = 0.3                    # interval of a number over its value that a preset may have
 LAGS = 8                        # the greatest lag of correlations, in bins and beams
 
 

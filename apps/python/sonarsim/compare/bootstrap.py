@@ -60,11 +60,15 @@ class ComparedFigure:
         return self.adjusted_p < SIGNIFICANCE
 
 
+def tolerance_of(kind, value):
+    tenth = 0.1 * abs(value)
+    return {"tenth": tenth, "share": max(0.001, tenth), **TOLERANCES}[kind]
+
+
 def compared(real, simulated, same_places, same_pings, seed):
     """The ComparedFigure of two figures. What they share at common places, or in common pings, cancels in the difference."""
-    tenth = 0.1 * abs(value_of(real))
-    tolerances = {"tenth": tenth, "share": max(0.001, tenth), **TOLERANCES}
-    out = ComparedFigure(real.name, real.group, value_of(real), value_of(simulated), tolerances[real.tolerance])
+    out = ComparedFigure(real.name, real.group, value_of(real), value_of(simulated),
+                         tolerance_of(real.tolerance, value_of(real)))
     places, pings = (min(len(np.unique(units)) for units in both) for both in (
         (real.places, simulated.places), (real.pings, simulated.pings)))
     of_places, of_pings = corrected(variances(real, simulated, "places", same_places, seed), places), np.zeros(3)

@@ -70,14 +70,14 @@ def measure_soundings_of_both(recordings, is_relative):
     return False, False, [measure_soundings(one, angles, is_relative) for one in recordings]
 
 
-def measure_images_of_both(recordings, is_relative):
+def measure_images_of_both(recordings, is_relative, have_one_zone=True):
     """(same places, same pings, figures of both)."""
     images = [images_of(one, is_relative) for one in recordings]
     a, b = images
     is_one, size, bands = have_one_grid(a, b), patch_size_of(a, b), common_bands(a, b)
     means = [one.mean_powers() for one in images]
     # With a common grid both have the zones of their mean, so that chance does not shift one's against the other's.
-    zones = [zones_of(mean) for mean in ([0.5 * (means[0] + means[1])] * 2 if is_one else means)]
+    zones = [zones_of(mean) for mean in ([0.5 * (means[0] + means[1])] * 2 if is_one and have_one_zone else means)]
     measured = [measure_images(one, size, own, bands, block_sizes(a, b)) for one, own in zip(images, zones)]
     return is_one, is_one and len(a.powers) == len(b.powers), measured
 

@@ -24,17 +24,18 @@ def read_dataset(folder, name, most_pings):
         return recording_of(folder, dataset[name or names[0]], most_pings)
 
 
-def recording_of(folder, sensor, most_pings):
+def recording_of(folder, sensor, most_pings, values="raw"):
+    """The recording of a sensor: its values after the companding, if it has them, or "linear" before it."""
     pings, middles = min(len(sensor), most_pings), data.middles(sensor.range_edges_m)
     recording = Recording(KINDS.get(sensor.kind, "imaging"), first_range_m=float(middles[0]),
                           range_step_m=float(middles[1] - middles[0]) if len(middles) > 1 else 0.0)
-    name = "raw" if "raw" in sensor.keys else "polar"
+    name = "raw" if values == "raw" and "raw" in sensor.keys else "polar"
     set_facts(folder, sensor, name == "raw", recording)
     if recording.kind in ("imaging", "soundings"):
         recording.values = read_images(folder, sensor, name, pings)
         recording.bearing_rad = data.middles(sensor.azimuth_edges_rad)
     else:
-        recording.values = read_records(folder, sensor, recording.kind, pings)
+        recording.values = read_records(folder, sensor, recording.kind, pings, name)
     if recording.kind == "soundings":
         recording.soundings = soundings_of(folder, sensor, recording)
         recording.values = recording.bearing_rad = None
@@ -62,9 +63,9 @@ def read_images(folder, sensor, name, pings):
     return np.array(images)
 
 
-def read_records(folder, sensor, kind, pings):
+def read_records(folder, sensor, kind, pings, first):
     """Records [ping, range] or [range, ping] as float32 [ping, range, beam]."""
-    name = next((name for name in ("raw", "waterfall", "echogram", "scan") if name in sensor.keys), None)
+    name = next((name for name in (first, "waterfall", "echogram", "scan") if name in sensor.keys), None)
     if name is None:
         raise RecordingError(f"{folder}: has no records of {sensor.name}")
     records, beams = sensor.records(name), 2 if kind == "sidescan" else 1
@@ -72,7 +73,9 @@ def read_records(folder, sensor, kind, pings):
     require(folder, sensor, rows.ndim == 2 and len(rows) == len(sensor) and rows.shape[1] % beams == 0
             and rows.shape[1] // beams >= len(sensor.range_edges_m) - 1, pings * rows.shape[-1])
     rows = np.asarray(rows[:pings], np.float32)
-    return two_sides(rows) if beams == 2 else rows[:, :, None]
+    # Columns of a waterfall before range_min are blank.
+    blank = sensor.description.get("waterfall", {}).get("blank_columns_a_side", 0)
+    return two_sides(rows)[:, blank:] if beams == 2 else rows[:, :, None]
 
 
 def soundings_of(folder, sensor, recording):

@@ -12,6 +12,7 @@ MOST_RANGES = 1 << 20
 MOST_POWER = 1e30           # a float32 holds it, and a double its cube
 # Values clip at the largest one if this share and number are at it, and so many times those in the two per cent below.
 LEAST_CLIPPED, FEWEST_CLIPPED, MOST_LIKE_OTHERS = 1e-3, 30, 2.0
+LEAST_KEPT = 0.5            # share of ranges and beams that are no margin
 
 
 @dataclasses.dataclass
@@ -65,6 +66,7 @@ class Recording:
     # scanning and echosounder: 1 beam; soundings: None.
     values: np.ndarray | None = None
     soundings: Soundings | None = None      # of the kind soundings alone
+    notes: list = dataclasses.field(default_factory=list)   # what a reader left out
 
     def __len__(self):
         """The number of pings."""
@@ -88,6 +90,21 @@ class Recording:
         at, below = (self.values >= largest).mean(), ((self.values >= 0.98 * largest) & (self.values < largest)).mean()
         is_many = at > max(LEAST_CLIPPED, MOST_LIKE_OTHERS * below) and at * self.values.size > FEWEST_CLIPPED
         return largest if largest < full and is_many else None
+
+    def without_margins(self):
+        """The recording without the ranges and beams at its ends that have one value below the largest in all pings: no echo
+        is in them."""
+        if self.values is None or not len(self):
+            return self
+        same = (np.ptp(self.values, axis=0) == 0.0) & (len(self) > 1) & (self.values[0] < (self.law.largest_value or np.inf))
+        is_imaging, ends = self.kind == "imaging", []
+        for axis in (1, 0):
+            kept = np.flatnonzero(~same.all(axis=axis))
+            is_margin = kept.size > LEAST_KEPT * same.shape[1 - axis]   # else it is a recording of nothing
+            ends.append(slice(kept[0], kept[-1] + 1) if is_margin else slice(None))
+        values = self.values[:, ends[0], ends[1] if is_imaging else slice(None)]
+        return dataclasses.replace(self, values=values, bearing_rad=self.bearing_rad[ends[1]] if is_imaging else None,
+                                   first_range_m=self.first_range_m + (ends[0].start or 0) * self.range_step_m)
 
     def part(self, pings):
         """The recording of some of the pings: a slice, or an array of their numbers or of booleans."""
