@@ -17,10 +17,17 @@ struct Candidate {
     float distance_m;
     float rounding_m;  ///< bound of the distance's error
     std::uint32_t facet;
+    Eigen::Vector3f normal;
 
     bool operator<(const Candidate& other) const {
         return distance_m < other.distance_m ||
                (distance_m == other.distance_m && facet < other.facet);
+    }
+
+    /// True if both facets are parts of one plane, to within rounding.
+    bool coincides(const Candidate& other) const {
+        return std::fabs(distance_m - other.distance_m) <= rounding_m + other.rounding_m &&
+               normal.cross(other.normal).lpNorm<1>() < 0x1p-18F;
     }
 };
 
@@ -50,7 +57,8 @@ struct TracedRay {
         // In this order a number that is none, of a facet that is edge-on, becomes a limit.
         const float distance = std::min(std::max(embree_m - off_m, to_plane), embree_m + off_m);
         const float size = to_vertex.lpNorm<1>() + origin_m + std::fabs(distance);
-        return {distance, std::min(slack(distance), 0x1p-21F * size / std::fabs(along)), number};
+        return {distance, std::min(slack(distance), 0x1p-21F * size / std::fabs(along)), number,
+                facet.normal};
     }
 
     /// True if the candidate is the nearest so far.
@@ -72,19 +80,18 @@ struct TracedRay {
     }
 
     std::uint32_t facet() const {
+        if (count == 0) return no_hit;
         const auto found = std::span(met).first(count);
-        float least_m = INFINITY;
-        for (const Candidate& one : found)
-            least_m = std::min(least_m, one.distance_m + one.rounding_m);
-        std::uint32_t first = no_hit;
+        const Candidate& nearest = *std::ranges::min_element(found, std::less<>());
+        std::uint32_t first = nearest.facet;
         for (const Candidate& one : found) {
-            if (one.distance_m - one.rounding_m <= least_m) first = std::min(first, one.facet);
+            if (one.coincides(nearest)) first = std::min(first, one.facet);
         }
         return first;
     }
 };
 
-/// What the filter needs. Embree hands the address of its first member on.
+/// The data of the filter. Embree hands the address of its first member on.
 struct Query {
     QueryContext context;
     const TracedLayer* layer;

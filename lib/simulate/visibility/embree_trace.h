@@ -49,7 +49,7 @@ struct RayOrigins {
 ///
 /// Embree only proposes facets. Its distances contain estimates of reciprocals, in which makers of
 /// processors differ. Which facet is the nearest, and whether it is in reach, follows from the
-/// distance of the facet's plane. Of facets that coincide to within rounding, the one with the
+/// distance of the facet's plane. Among facets of one plane, to within rounding, the one with the
 /// least number counts.
 void trace_packets(std::span<const TracedLayer> layers, const RayOrigins& origins,
                    std::span<const Eigen::Vector3f> directions, float reach_m, RaySpread spread,
