@@ -105,7 +105,7 @@ TEST_CASE("profiling, side-scan, echosounder: on rough ground the error goal is 
         int range_bins, beams;
         double spread;  ///< the goal of the reference
     };
-    for (const Case& one : {Case{SonarKind::profiling, 20.0, 6.0, 400, 240, 0.005},
+    for (const Case& one : {Case{SonarKind::profiling, 20.0, 6.0, 400, 240, 0.001},
                             {SonarKind::sidescan, 25.5, 5.02, 500, 2, 0.003},
                             {SonarKind::echosounder, 10.0, 6.0, 200, 1, 0.003}}) {
         CAPTURE(static_cast<int>(one.kind));

@@ -52,9 +52,10 @@ void add_bottom(const Mission& mission, const Scene& scene, const SceneObjects& 
 
 /// The class of the largest surface; nothing for a single class.
 std::optional<std::uint32_t> largest_class(const Scene& scene, const SceneObjects& objects) {
+    if (objects.classes.size() < 2) return std::nullopt;
     const std::vector<double> areas = surfaces_of(scene, objects);
     const auto largest = std::ranges::max_element(areas);
-    if (objects.classes.size() < 2 || !(*largest > 0.0)) return std::nullopt;
+    if (!(*largest > 0.0)) return std::nullopt;
     return objects.class_of(static_cast<std::uint32_t>(largest - areas.begin()));
 }
 
