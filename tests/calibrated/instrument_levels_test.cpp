@@ -187,7 +187,7 @@ TEST_SUITE("calibrated") {
         config.azimuth_bins = 128;
         config.range_bins = 400;
         config.instrument.receiver.noise_db = -300.0;
-        config.instrument.speckle.relief = 0.0;  // the rule is that of exponential powers
+        config.instrument.speckle.texture = 0.0;  // the rule is that of exponential powers
         const double half_m = 0.5 * config.range_max_m;
         const double down_rad = radians(20.0);
         const Sonar sonar = make_sonar(config, {});

@@ -10,7 +10,8 @@
 
 namespace sonarsim::test {
 
-/// An imaging sonar by a preset of configs/sensors, with these keys in place of its own.
+/// A sonar by a preset of configs/sensors, with these keys in place of its own, without what closed
+/// forms lack: texture, reverberation and the floor of the lobes.
 inline Sonar preset_sonar(const std::string& preset, const std::string& keys) {
     const std::string text =
         "scene: {file: a.glb, materials: a.csv}\n"
@@ -21,7 +22,11 @@ inline Sonar preset_sonar(const std::string& preset, const std::string& keys) {
         preset + ".yaml\n" + keys;
     const Mission mission =
         parse_mission(text, "m.yaml", source_folder() / "configs", {}, sonar_keys());
-    return make_sonar(mission.sensors.front(), mission.accuracy, mission.water);
+    SonarConfig config = mission.sensors.front();
+    config.instrument.speckle.texture = 0.0;
+    config.instrument.receiver.reverberation_s = 0.0;
+    config.instrument.beam.lobe_floor_db = no_lobe_floor_db;
+    return make_sonar(config, mission.accuracy, mission.water);
 }
 
 /// The receiving array of a preset.

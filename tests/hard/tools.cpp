@@ -44,6 +44,7 @@ HardTrial with_model(HardTrial trial, ModelKind model) {
     SonarConfig config = trial.sonar.config;
     config.model = model;
     config.instrument.receiver.noise_db = -200.0;
+    config.instrument.speckle.texture = 0.0;  // a field of the world, which these cases move
     config.instrument.receiver.full_scale_db = -20.0;
     config.instrument.receiver.companding = Companding::linear;
     config.instrument.receiver.bits = 16;

@@ -7,7 +7,7 @@
 
 namespace sonarsim::test {
 
-/// An instrument whose image is the mean echo: no noise, no TVG, no speckle.
+/// An instrument whose image is the mean echo: no noise, no TVG, no speckle, no texture.
 inline InstrumentConfig bare(InstrumentConfig instrument) {
     instrument.receiver.noise_db = -300.0;
     if (!instrument.receiver.full_scale_db) instrument.receiver.full_scale_db = 0.0;
@@ -15,12 +15,14 @@ inline InstrumentConfig bare(InstrumentConfig instrument) {
     instrument.receiver.tvg_log = 0.0;
     instrument.receiver.tvg_absorption = false;
     instrument.speckle.mode = SpeckleMode::none;
+    instrument.speckle.texture = 0.0;
     return instrument;
 }
 
 inline SonarConfig calibrated(SonarConfig config, double frequency_hz) {
     config.model = ModelKind::calibrated;
     config.instrument.frequency_hz = frequency_hz;
+    config.instrument.speckle.texture = 0.0;
     return config;
 }
 

@@ -137,7 +137,7 @@ TEST_SUITE("lay maps") {
             SonarConfig config = side ? sidescan(ModelKind::calibrated).config
                                       : imaging(ModelKind::calibrated).config;
             config.instrument.speckle.mode = SpeckleMode::scene;
-            config.instrument.speckle.relief = 0.0;
+            config.instrument.speckle.texture = 0.0;
             const Sonar sonar = make_sonar(config, {0.01});
             const View& view = sonar.settings.view;
             const Scene plain = wide_floor();

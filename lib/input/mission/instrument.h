@@ -45,6 +45,8 @@ struct ElementsConfig {
     bool exist() const { return gain_error_db > 0.0 || phase_error_deg > 0.0; }
 };
 
+inline constexpr double no_lobe_floor_db = -120.0;
+
 struct BeamConfig {
     Aperture aperture = Aperture::line;
     double width_deg = 1.0;       ///< one-way half-power beamwidth
@@ -57,6 +59,8 @@ struct BeamConfig {
     double elevation_side_lobe_db = -13.3;
     double across_width_deg = 50.0;  ///< port_starboard: one-way half-power width across track
     double tilt_deg = 20.0;          ///< port_starboard: depression of the axes
+    /// Two-way power between the lobes, re the axis: in elevation, of a side-scan across the track.
+    double lobe_floor_db = no_lobe_floor_db;
     ElementsConfig elements = {};
 };
 
@@ -68,14 +72,16 @@ struct PulseConfig {
 
 struct SpeckleConfig {
     SpeckleMode mode = SpeckleMode::scene;
-    double relief = 1.0;  ///< factor on the tilts of sea beds (simulate/calibrated/relief.h)
+    double texture = 1.0;  ///< factor on the patches in dB (simulate/calibrated/texture.h)
 };
 
-/// The rule by which several samples become the one that is delivered.
-enum class SampleRule { maximum, mean, rms };
+/// The value that is delivered of several samples.
+enum class SampleRule { maximum, mean };
 
 struct ReceiverConfig {
     std::optional<double> noise_db;  ///< noise power in a beam; empty: by instrument_levels()
+    double noise_figure_db = 6.0;    ///< noise of the electronics, for noise_db: auto
+    double gain_db = 0.0;            ///< raises all values, as a user's gain does
     double common_mode_db = -300.0;  ///< power of the noise that all elements share
     double tvg_log = 40.0;           ///< spreading factor k of k log10 r
     bool tvg_absorption = true;      ///< TVG has the term 2 alpha r
@@ -86,13 +92,19 @@ struct ReceiverConfig {
     double gamma = 0.5;            ///< value = (amplitude / full scale)^gamma
     double dynamic_range_db = 60;  ///< for Companding::log
     int bits = 8;
-    int samples = 1;  ///< for each range bin
+    double samples = 1.0;  ///< independent samples of a range bin
     SampleRule combine = SampleRule::maximum;
-    int looks = 1;              ///< their powers are averaged
-    double offset = 0.0;        ///< subtracted from raw/, as a share of its largest value
-    double ring_down_db = 0.0;  ///< at range 0, above the noise; 0: none
-    double ring_down_m = 0.1;   ///< range over which it falls by 10 dB
-    double beam_gain_db = 0.0;  ///< standard deviation of the gains of the beams
+    double expansion = 1.0;           ///< factor on the decibels of a sample about their mean
+    double offset = 0.0;              ///< subtracted from raw/, as a share of its largest value
+    double ring_down_db = 0.0;        ///< at range 0, above the noise; 0: none
+    double ring_down_m = 0.1;         ///< range over which it falls by 10 dB
+    double beam_gain_db = 0.0;        ///< standard deviation of the gains of the beams
+    double reverberation_db = -20.0;  ///< energy of the tail of an echo over the echo's
+    double reverberation_s = 0.0;     ///< time in which it falls by 60 dB; 0: none
+    double interference_per_s = 0.0;  ///< rate of foreign pulses
+    double interference_db = 20.0;    ///< their level above the noise
+    double loss_share = 0.0;          ///< pings that are weakened, as by bubbles
+    double loss_db = 10.0;            ///< the mean loss of these
 };
 
 /// Echoes and noise of the sea lie above 0 dB re 1 uPa, so a lower level must be relative to the
@@ -136,8 +148,8 @@ inline constexpr Choice<WaterContent> water_contents[]{
     {"clear", WaterContent::clear},       {"coastal", WaterContent::coastal},
     {"plankton", WaterContent::plankton}, {"plume", WaterContent::plume}};
 inline constexpr Limits any_level_db{-300.0, 300.0};
-inline constexpr Choice<SampleRule> sample_rules[]{
-    {"max", SampleRule::maximum}, {"mean", SampleRule::mean}, {"rms", SampleRule::rms}};
+inline constexpr Choice<SampleRule> sample_rules[]{{"max", SampleRule::maximum},
+                                                   {"mean", SampleRule::mean}};
 /// Levels above the noise.
 inline constexpr Limits raised_levels_db{0.0, 200.0};
 /// From a Hamming taper to no taper.
@@ -160,6 +172,9 @@ void describe(Visitor& v, BeamConfig& c) {
              "one-way half-power beamwidth: of the receiving line array, across a scanning sonar's "
              "beam, along track of a side-scan sonar, or of an echosounder's cone");
     if (c.aperture == Aperture::piston) return;
+    v.number("lobe_floor_db", c.lobe_floor_db, between(no_lobe_floor_db, 0),
+             "two-way power that fills the nulls in elevation, or of a side-scan across the track, "
+             "where transmitter, receiver and housing differ; -120 means none");
     v.number("side_lobe_db", c.side_lobe_db, side_lobes_db,
              "highest side lobe of that array, set by its taper; -13.3 means no taper");
     if (c.aperture == Aperture::port_starboard) {
@@ -211,20 +226,21 @@ void describe(Visitor& v, SpeckleConfig& c) {
     v.choice("mode", c.mode, speckle_modes,
              "`scene`: scatterers stay in place in the scene; `ping`: scatterers are drawn "
              "for every ping, which is faster; `none`: no speckle, the mean power");
-    v.number("relief", c.relief, between(0, 10),
-             "factor on the relief of sea beds, which makes them patchy; 0: even speckle");
+    v.number("texture", c.texture, between(0, 10),
+             "factor on the texture of surface, patches of stronger and weaker echoes; 0: none");
 }
 
 /// The keys of a receiver besides noise, gain and companding.
 template <class Visitor>
 void describe_chain(Visitor& v, ReceiverConfig& c) {
-    v.number("samples", c.samples, between(1, 16), "samples that become one range bin");
+    v.number(
+        "samples", c.samples, between(1, 100),
+        "independent samples of a range bin, of pulses, bands or ranges, of which one value is "
+        "delivered; need not be whole");
     v.choice("combine", c.combine, sample_rules,
-             "what these become: their largest amplitude, the mean of the amplitudes, or the root "
-             "of the mean power");
-    v.number("looks", c.looks, between(1, 16),
-             "looks with independent speckle and noise whose powers are averaged, as of several "
-             "pulses or bands");
+             "the value that is delivered: their largest or their mean power");
+    v.number("expansion", c.expansion, between(0.5, 3),
+             "factor by which the instrument stretches the decibels of a sample about their mean");
     v.number("offset", c.offset, between(0, 0.9),
              "share of the largest value that is taken from the values of raw/; what would be "
              "negative is 0");
@@ -232,6 +248,18 @@ void describe_chain(Visitor& v, ReceiverConfig& c) {
              "level of the transducer's ringing at range 0 above the noise; 0 means none");
     v.number("ring_down_m", c.ring_down_m, between(1e-4, 1e4),
              "range over which the ringing falls by 10 dB");
+    v.number("reverberation_s", c.reverberation_s, between(0, 10),
+             "time in which the reverberation behind an echo falls by 60 dB; 0 means none");
+    v.number("reverberation_db", c.reverberation_db, between(-100, 0),
+             "energy of the reverberation behind an echo over that of the echo");
+    v.number("interference_per_s", c.interference_per_s, between(0, 1000),
+             "foreign pulses per second of reception, at drawn times, in all beams; 0 means none");
+    v.number("interference_db", c.interference_db, between(-20, 100),
+             "mean level of a foreign pulse above the noise before TVG");
+    v.number("loss_share", c.loss_share, between(0, 1),
+             "share of the pings that are weaker, as by bubbles below a hull");
+    v.number("loss_db", c.loss_db, between(0, 60),
+             "mean loss of such a ping, exponentially distributed");
     v.number("beam_gain_db", c.beam_gain_db, between(0, 30),
              "standard deviation of the gains of single beams, which stay from ping to ping");
 }
@@ -244,6 +272,10 @@ void describe(Visitor& v, ReceiverConfig& c) {
     v.number(
         "common_mode_db", c.common_mode_db, any_level_db,
         "level of the noise that all elements share, in the beam straight ahead; -300 means none");
+    v.number("noise_figure_db", c.noise_figure_db, between(0, 40),
+             "noise of the electronics above heat, for noise_db: auto");
+    v.number("gain_db", c.gain_db, between(-60, 60),
+             "gain above full_scale_db, as set by a user: raises all values");
     v.number("tvg_log", c.tvg_log, between(0, 60), "spreading factor k of the TVG k log10 r");
     v.flag("tvg_absorption", c.tvg_absorption, "TVG compensates absorption");
     v.number("tvg_from_m", c.tvg_from_m, at_least(0),

@@ -13,7 +13,8 @@ struct RemovedKey {
 };
 
 inline constexpr RemovedKey removed_keys[] = {
-    {"speckle", "clutter_shape clutter_m", "write relief, a factor on the relief of sea beds"},
+    {"speckle", "clutter_shape clutter_m relief", "write texture, a factor on the texture of surface"},
+    {"receiver", "looks", "write samples and combine: mean"},
     {"octree", "literal", "leave it out: the octree is always the paper's"},
     {"octree", "memory_mb", "leave it out: the octree takes up to 512 MB for what is out of view"},
     {"labels", "min_pixels", "give it to the export: sonarsim export --min-pixels"},

@@ -119,8 +119,6 @@ Mission without_water_echoes(Mission mission) {
     mission.water.content = WaterContent::none;
     mission.water.scattering_db_per_m3.reset();
     mission.water.layers.clear();
-    for (SonarConfig& sensor : mission.sensors)
-        sensor.instrument.receiver.samples = 1;
     return mission;
 }
 

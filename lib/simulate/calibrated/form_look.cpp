@@ -9,6 +9,7 @@
 
 #include "simulate/calibrated/particle_echoes.h"
 #include "simulate/calibrated/piece_strengths.h"
+#include "simulate/calibrated/reverberation.h"
 #include "simulate/calibrated/scatterer_search.h"
 #include "simulate/calibrated/speckle.h"
 #include "simulate/calibrated/specular_echoes.h"
@@ -32,7 +33,6 @@ class ImageFormer {
           beams_(beams),
           context_(context),
           scene_draws_(context.draws.of_scene(Stream::scatterers)),
-          relief_draws_(context.draws.of_scene_all_looks(Stream::scatterers)),
           ping_draws_(context.draws.of(Stream::speckle)),
           sonar_{traced.T_world_sensor.rotation.toRotationMatrix().cast<float>(),
                  traced.T_world_sensor.translation - context.scene.origin},
@@ -80,7 +80,10 @@ class ImageFormer {
         // 3. Pulse.
         const std::size_t echo_bins =
             grid.convolve_pulse(expected_power ? model_.power_taps : model_.amplitude_taps);
-        // The grid has samples of the receiver and guard beams, the image bins.
+        add_reverberation(model_.reverberation,
+                          expected_power ? PowerForm::power : PowerForm::amplitude,
+                          context_.draws.of(stream_named("reverberation")), grid);
+        // The grid has guard beams, too.
         const View& view = context_.view;
         const double bins_per_cell =
             static_cast<double>(view.range_bins) / grid.rows() * view.beams / grid.columns();
@@ -105,14 +108,13 @@ class ImageFormer {
         ping_.counts.out_of_range += find_columns(beams_, patches, echoes_);
     }
 
-    /// The same for pieces of surface of the scene, with its map and its relief. `limits`: those
+    /// The same for pieces of surface of the scene, with its map and its texture. `limits`: those
     /// of PieceStrengths::apply().
     void find(std::span<const Sample> surface, const PatchBlock& patches,
               const PointLimits* limits) {
         find(patches, surface_scattering());
         strengths_.apply(surface, patches, limits, echoes_.power);
-        if (speckle_ != SpeckleMode::none)
-            add_relief(patches, model_.relief, sonar_, relief_draws_, echoes_);
+        model_.texture.apply(patches, sonar_, scene_draws_, echoes_.power);
     }
 
     /// Lets add(powers) add echoes whose amplitudes are drawn for each ping, even with `speckle:
@@ -257,7 +259,7 @@ class ImageFormer {
     const CalibratedModel& model_;
     const Beams& beams_;
     const FormContext& context_;
-    PhiloxKey scene_draws_, relief_draws_, ping_draws_;
+    PhiloxKey scene_draws_, ping_draws_;
     SonarInScene sonar_;
     SpeckleMode speckle_;
     View view_;  ///< with the guard beams

@@ -19,6 +19,10 @@ constexpr double watt_db = 170.8;
 // Shares of the largest value of raw/.
 constexpr double recorded_share_of_sand = 1.0 / 3.0;
 constexpr double max_share_of_noise = 2.0 / 3.0;
+// Above sand a logarithmic record keeps at most this: highlights of fans need no more, and below an
+// echosounder little is stronger than the bottom.
+constexpr double max_headroom_of_sand_db = 37.0;
+constexpr double max_headroom_below_db = 30.0;
 
 /// The decibels from a share of the largest value of raw/ to that value.
 double headroom_db(const ReceiverConfig& receiver, double share) {
@@ -34,9 +38,10 @@ double headroom_db(const ReceiverConfig& receiver, double share) {
 
 /// The decibels from the mean power of sand to the largest value of raw/. Values by `gamma` are
 /// made to be seen: sand fills them. Records of decibels and of amplitudes keep a reserve.
-double headroom_of_sand_db(const ReceiverConfig& receiver) {
-    return receiver.companding == Companding::gamma ? db_of_power(speckle_p99)
-                                                    : headroom_db(receiver, recorded_share_of_sand);
+double headroom_of_sand_db(const ReceiverConfig& receiver, Aperture aperture) {
+    if (receiver.companding == Companding::gamma) return db_of_power(speckle_p99);
+    return std::min(headroom_db(receiver, recorded_share_of_sand),
+                    aperture == Aperture::piston ? max_headroom_below_db : max_headroom_of_sand_db);
 }
 
 /// Sets the levels after TVG.
@@ -52,9 +57,11 @@ void set_received_levels(const InstrumentConfig& instrument, const WaterConfig& 
                      bottom_echo_db(echo, bottom_strength_db(echo, example_sand()), half_m) +
                      gain_db(half_m);
     const double noise_db = levels.noise_db + gain_db(view.range_max_m);
-    levels.full_scale_db = receiver.full_scale_db.value_or(
-        std::max(levels.sand_db + headroom_of_sand_db(receiver),
-                 noise_db + headroom_db(receiver, max_share_of_noise)));
+    levels.full_scale_db =
+        receiver.full_scale_db.value_or(
+            std::max(levels.sand_db + headroom_of_sand_db(receiver, instrument.beam.aperture),
+                     noise_db + headroom_db(receiver, max_share_of_noise))) -
+        receiver.gain_db;
 }
 
 }  // namespace
@@ -69,22 +76,20 @@ InstrumentLevels instrument_levels(const InstrumentConfig& instrument, const Wat
                                    const View& view) {
     const ReceiverConfig& receiver = instrument.receiver;
     InstrumentLevels out;
-    out.noise_hz =
-        pulse_band(instrument.pulse, sample_m(view, receiver), water.sound_speed_m_s).noise_hz;
+    out.noise_hz = pulse_band(instrument.pulse, view.bin_m(), water.sound_speed_m_s).noise_hz;
     out.receiving_directivity_db = db_of_power(receiving_directivity(instrument.beam));
     out.transmitting_directivity_db = db_of_power(transmitting_directivity(instrument.beam, view));
     out.thermal_noise_db = thermal_noise_db(instrument.frequency_hz);
     out.wind_noise_db = wind_noise_db(instrument.frequency_hz, water.wind_m_s);
 
     // Rules of thumb for the levels that are auto.
-    constexpr double power_w = 100.0;        // electric power of the transmitter
-    constexpr double efficiency = 0.5;       // acoustic by electric power of the transducer
-    constexpr double noise_figure_db = 6.0;  // electronics
+    constexpr double power_w = 100.0;   // electric power of the transmitter
+    constexpr double efficiency = 0.5;  // acoustic by electric power of the transducer
     const double efficiency_db = db_of_power(efficiency);
     const double source_db =
         watt_db + db_of_power(power_w) + efficiency_db + out.transmitting_directivity_db;
     const double sea_db =
-        db_of_power(power_of_db(out.thermal_noise_db + noise_figure_db - efficiency_db) +
+        db_of_power(power_of_db(out.thermal_noise_db + receiver.noise_figure_db - efficiency_db) +
                     power_of_db(out.wind_noise_db));
     const double noise_db = sea_db + db_of_power(out.noise_hz) - out.receiving_directivity_db;
 

@@ -93,18 +93,12 @@ PointLimits target_cell(const BeamConfig& beam, double resolution_m) {
     return {depth, width, part(beam.elevation_width_deg)};
 }
 
-/// The view with a range bin for each sample of the receiver.
-View sampled_view(View view, int samples) {
-    view.range_bins *= samples;
-    return view;
-}
-
 /// The mean value of noise in each range bin of the image.
-std::vector<float> noise_values(const std::vector<float>& row_gain, double noise, int samples) {
+std::vector<float> noise_values(const std::vector<float>& row_gain, double noise) {
     std::vector<float> out;
-    out.reserve(row_gain.size() / samples);
-    for (std::size_t row = 0; row < row_gain.size(); row += samples)
-        out.push_back(std::min(row_gain[row] * static_cast<float>(noise), max_value));
+    out.reserve(row_gain.size());
+    for (const float gain : row_gain)
+        out.push_back(std::min(gain * static_cast<float>(noise), max_value));
     return out;
 }
 
@@ -127,16 +121,15 @@ void set_info(CalibratedModel& model, const View& view) {
     const int columns =
         std::visit([](const auto& of_model) { return columns_of(of_model); }, model.beams);
     const double of_grid = 2.0 * columns * model.equation.rows * sizeof(float);
-    // Multipath has a grid of its own, sediment has two. Several samples or looks are images.
-    const bool several = receiver.samples > 1 || receiver.looks > 1;
-    info.working_bytes =
-        (1.0 + (model.instrument.below_bottom ? 2.0 : 0.0) + (several ? 1.0 : 0.0)) * of_grid;
+    // Multipath has a grid of its own, sediment has two. Ranks of samples need the mean image.
+    info.working_bytes = (1.0 + (model.instrument.below_bottom ? 2.0 : 0.0) +
+                          (model.detected.changes() ? 1.0 : 0.0)) *
+                         of_grid;
     info.multipath_bytes = of_grid;
     if (model.levels.noise_db > no_level_db || receiver.common_mode_db > no_level_db)
         info.mean_noise = model.noise_values;
-    for (std::size_t row = 0; row < model.row_gain.size(); row += receiver.samples)
-        info.echo_gain.push_back(model.row_gain[row]);
-    info.cell.range_bins = model.target_cell.depth_m / (receiver.samples * view.bin_m());
+    info.echo_gain.assign(model.row_gain.begin(), model.row_gain.end());
+    info.cell.range_bins = model.target_cell.depth_m / view.bin_m();
     if (model.cones.exist())
         info.cell.beams = radians(model.instrument.beam.width_deg) / model.cones.mean_width();
     info.raw_bits = receiver.bits;
@@ -147,8 +140,7 @@ void set_info(CalibratedModel& model, const View& view) {
 }  // namespace
 
 CalibratedModel calibrated_model(const InstrumentConfig& instrument, const WaterConfig& water,
-                                 const View& view_of_image, const BeamSines& sines) {
-    const View view = sampled_view(view_of_image, instrument.receiver.samples);
+                                 const View& view, const BeamSines& sines) {
     const double bin_m = view.bin_m();
     const double resolution_m =
         instrument.pulse.resolution_m > 0.0 ? instrument.pulse.resolution_m : bin_m;
@@ -168,14 +160,19 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
     model.absorption_db_per_m = absorption_db_per_m(
         instrument.frequency_hz, {water.temperature_c, water.salinity_psu, water.depth_m});
 
-    model.levels = instrument_levels(instrument, water, view_of_image);
-    const double noise_db = model.levels.noise_db - model.levels.source_level_db;
-    const bool has_common_mode = receiver.common_mode_db > no_level_db;
-    const double common_mode_db =
-        has_common_mode ? receiver.common_mode_db - model.levels.source_level_db : noise_db;
-    const double raised_db = float_headroom_db(noise_db, common_mode_db);
-    const double noise = power_of_db(noise_db + raised_db);
-    const double common_mode = has_common_mode ? power_of_db(common_mode_db + raised_db) : 0.0;
+    model.levels = instrument_levels(instrument, water, view);
+    // Relative to the source level; a noise that there is not asks for no headroom.
+    const auto noise_of = [&](double level_db) {
+        return level_db > no_level_db ? level_db - model.levels.source_level_db : no_level_db;
+    };
+    const double noise_db = noise_of(model.levels.noise_db);
+    const double common_mode_db = noise_of(receiver.common_mode_db);
+    const double raised_db = float_headroom_db(noise_db, std::max(noise_db, common_mode_db));
+    const auto power_of = [&](double level_db, double relative_db) {
+        return level_db > no_level_db ? power_of_db(relative_db + raised_db) : 0.0;
+    };
+    const double noise = power_of(model.levels.noise_db, noise_db);
+    const double common_mode = power_of(receiver.common_mode_db, common_mode_db);
     if (beam.aperture == Aperture::line) {
         model.beams = array_beams(beam, sines.middles, noise, common_mode, of_noise);
         model.cones = ConeBeams(sines.edges);
@@ -191,14 +188,17 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
                       .loss_per_m = static_cast<float>(0.2 * ln_10 * model.absorption_db_per_m),
                       .ln_headroom = static_cast<float>(0.1 * ln_10 * raised_db),
                       .elevation = elevation_pattern(radians(beam.elevation_width_deg),
-                                                     beam.elevation_side_lobe_db, beam.elements)};
+                                                     beam.elevation_side_lobe_db, beam.elements,
+                                                     beam.lobe_floor_db)};
     model.water = water_column(water_of(water, instrument), instrument.frequency_hz, view,
                                model.info.guard_beams, model.beams, model.equation);
     model.cells = scatterer_cells(std::max(resolution_m, 0.5 * bin_m), radians(beam.width_deg),
                                   view.range_min_m, model.wavelength_m);
     model.target_cell = target_cell(beam, std::max(resolution_m, 0.5 * bin_m));
     model.row_gain = row_gains(receiver, model.levels, view, model.absorption_db_per_m, raised_db);
-    model.noise_values = noise_values(model.row_gain, noise + common_mode, receiver.samples);
+    model.noise_values = noise_values(model.row_gain, noise + common_mode);
+    model.reverberation = Reverberation(receiver, bin_m, water.sound_speed_m_s);
+    model.detected = DetectedSample(receiver);
     set_info(model, view);
     return model;
 }

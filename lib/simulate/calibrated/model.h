@@ -11,12 +11,14 @@
 #include "input/mission/mission.h"
 #include "input/scene/scene.h"
 #include "simulate/calibrated/array_beams.h"
+#include "simulate/calibrated/detected_sample.h"
 #include "simulate/calibrated/instrument_levels.h"
-#include "simulate/calibrated/relief.h"
+#include "simulate/calibrated/reverberation.h"
 #include "simulate/calibrated/scatterers.h"
 #include "simulate/calibrated/sediment.h"
 #include "simulate/calibrated/sonar_equation.h"
 #include "simulate/calibrated/specular_path.h"
+#include "simulate/calibrated/texture.h"
 #include "simulate/calibrated/transducer_beams.h"
 #include "simulate/calibrated/water_column.h"
 #include "simulate/trace/echo_model.h"
@@ -35,9 +37,11 @@ struct CalibratedModel final : EchoModel {
     PointLimits target_cell;  ///< the pieces of a target within it are one scatterer
     RangeTaps amplitude_taps, power_taps;
     std::variant<TransducerBeams, ArrayBeams> beams;
-    /// [samples in range] The factor from the power of an echo to the value of the image.
+    Reverberation reverberation;
+    DetectedSample detected;
+    /// [range bins] The factor from the power of an echo to the value of the image.
     std::vector<float> row_gain;
-    /// [range bins of the image] The value of the receiver's mean noise.
+    /// [range bins] The value of the receiver's mean noise.
     std::vector<float> noise_values;
     std::optional<WaterColumn> water;  ///< its volume scattering; nothing: none
     ConeBeams cones;                   ///< the beams of a line array
@@ -52,7 +56,7 @@ struct CalibratedModel final : EchoModel {
     /// The parts of the scattering on and below sea beds; nothing: the whole echo comes from their
     /// surface.
     std::optional<SedimentScattering> sediment;
-    Relief relief;
+    Texture texture;
 
     /// True if the model has the data that depend on this scene.
     bool is_prepared_for(const Scene& scene) const;

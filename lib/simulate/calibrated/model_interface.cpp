@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -17,25 +18,21 @@ namespace sonarsim {
 
 namespace {
 
-/// Averages the powers of several looks, and makes one range bin of several samples. The counts are
-/// those of the first look.
-void form_looks(const CalibratedModel& model, const TracedPing& traced, const FormContext& context,
-                Ping& ping) {
-    const ReceiverConfig& receiver = model.instrument.receiver;
-    // Without random draws all looks are the same.
-    const int looks = context.terms.random > 0 ? receiver.looks : 1;
-    std::vector<float> sum(ping.intensity.size() * receiver.samples);
-    for (int look = 0; look < looks; ++look) {
-        Ping of_look = ping;
-        of_look.intensity.assign(sum.size(), 0.0F);
-        FormContext with_draws = context;
-        with_draws.draws.look = static_cast<std::uint32_t>(look);
-        form_look(model, traced, with_draws, of_look);
-        for (std::size_t k = 0; k < sum.size(); ++k)
-            sum[k] += of_look.intensity[k] / static_cast<float>(looks);
-        if (look == 0) std::swap(ping.counts, of_look.counts);
+/// Replaces one sample of a bin by the one that is delivered of several. The mean of its draws is
+/// the image without speckle and the mean noise.
+void deliver(const CalibratedModel& model, const TracedPing& traced, const FormContext& context,
+             Ping& ping) {
+    Ping mean = ping;
+    std::ranges::fill(mean.intensity, 0.0F);
+    FormContext expected = context;
+    expected.terms.random = 0;
+    form_look(model, traced, expected, mean);
+    const auto beams = static_cast<std::size_t>(context.view.beams);
+    if (context.terms.random > 1) {
+        for (std::size_t k = 0; k < mean.intensity.size(); ++k)
+            mean.intensity[k] += model.noise_values[k / beams];
     }
-    combine_samples(sum, receiver.samples, receiver.combine, context.view.beams, ping.intensity);
+    model.detected.apply(mean.intensity, ping.intensity);
 }
 
 std::optional<double> wind_over(const Scene& scene) {
@@ -49,12 +46,12 @@ void CalibratedModel::form(const TracedPing& traced, const FormContext& context,
         return prepared_for(context.scene)->form(traced, context, ping);
     Stopwatch watch;
     const ReceiverConfig& receiver = instrument.receiver;
-    if (receiver.samples == 1 && receiver.looks == 1)
-        form_look(*this, traced, context, ping);
-    else
-        form_looks(*this, traced, context, ping);
+    form_look(*this, traced, context, ping);
+    if (detected.changes() && context.terms.random > 0) deliver(*this, traced, context, ping);
     const ImageRows rows{.range_min_m = context.view.range_min_m,
                          .bin_m = context.view.bin_m(),
+                         .bin_s = 2.0 * context.view.bin_m() / sound_speed_m_s,
+                         .pulse_bins = amplitude_taps.reach + 1,
                          .rows = context.view.range_bins,
                          .beams = context.view.beams,
                          .noise = noise_values};
@@ -73,9 +70,7 @@ std::shared_ptr<const CalibratedModel> CalibratedModel::prepared_for(const Scene
     auto out = std::make_shared<CalibratedModel>(*this);
     out->prepared_materials = scene.materials;
     out->scattering = scattering_of(scene.materials, instrument.frequency_hz, seawater);
-    const bool has_relief = instrument.speckle.relief > 0.0 && speckle != SpeckleMode::none;
-    out->relief =
-        has_relief ? Relief(scene.materials, seawater, instrument.speckle.relief) : Relief();
+    out->texture = Texture(scene.materials, instrument.speckle.texture);
     out->info.wall_transmissions =
         two_way_transmissions(scene.materials, instrument.frequency_hz, seawater);
     out->sediment.reset();

@@ -20,12 +20,7 @@ struct PulseBand {
     double length_m = 0.0;
 };
 
-/// The length in range of a sample of the receiver, of which a bin may have several.
-inline double sample_m(const View& view, const ReceiverConfig& receiver) {
-    return (view.range_max_m - view.range_min_m) / (view.range_bins * receiver.samples);
-}
-
-/// A pulse with `resolution_m` 0 has the resolution of a sample.
-PulseBand pulse_band(const PulseConfig& pulse, double sample_m, double sound_speed_m_s);
+/// A pulse with `resolution_m` 0 has the resolution of a bin.
+PulseBand pulse_band(const PulseConfig& pulse, double bin_m, double sound_speed_m_s);
 
 }  // namespace sonarsim

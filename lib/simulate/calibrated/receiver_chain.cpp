@@ -13,23 +13,6 @@ namespace sonarsim {
 
 namespace {
 
-float combined_power(SampleRule rule, const float* first, int samples, std::size_t stride) {
-    float most = 0.0F;
-    float amplitudes = 0.0F;
-    float powers = 0.0F;
-    for (int k = 0; k < samples; ++k) {
-        const float power = first[k * stride];
-        most = std::max(most, power);
-        amplitudes += std::sqrt(power);
-        powers += power;
-    }
-    const auto count = static_cast<float>(samples);
-    if (rule == SampleRule::maximum) return most;
-    if (rule == SampleRule::rms) return powers / count;
-    const float mean = amplitudes / count;
-    return mean * mean;
-}
-
 void add_to_row(float value, int row, const ImageRows& rows, std::span<float> image) {
     float* const first = image.data() + static_cast<std::size_t>(row) * rows.beams;
     for (int beam = 0; beam < rows.beams; ++beam)
@@ -56,19 +39,49 @@ void apply_beam_gains(const ReceiverConfig& receiver, const ImageRows& rows, con
     }
 }
 
+/// Foreign pulses begin by a Poisson process, have exponential powers and last two pulses, the
+/// factor of the range resolution, in which each bin and beam has a draw of its own.
+void add_interference(const ReceiverConfig& receiver, const ImageRows& rows, PhiloxKey key,
+                      std::span<float> image) {
+    const double window_s = rows.rows * rows.bin_s;
+    const double mean_gap = 1.0 / (receiver.interference_per_s * window_s);
+    const auto level = static_cast<float>(power_of_db(receiver.interference_db));
+    double at = 0.0;  // in windows
+    for (std::uint32_t pulse = 0;; ++pulse) {
+        const PhiloxBlock draw = philox({pulse, 0, 0, 1}, key);
+        at -= mean_gap * static_cast<double>(natural_log(unit_float(draw.x0)));
+        if (at >= 1.0) return;
+        const float power = -level * natural_log(unit_float(draw.x1));
+        const int first = static_cast<int>(at * rows.rows);
+        const int last = std::min(rows.rows, first + rows.pulse_bins);
+        for (int row = first; row < last; ++row) {
+            float* const values = image.data() + static_cast<std::size_t>(row) * rows.beams;
+            for (int beam = 0; beam < rows.beams; ++beam) {
+                const auto cell = static_cast<std::uint32_t>(row * rows.beams + beam);
+                const float speckle = -natural_log(unit_float(philox({cell, pulse, 0, 2}, key).x0));
+                values[beam] =
+                    std::min(std::fma(rows.noise[row] * power, speckle, values[beam]), max_value);
+            }
+        }
+    }
+}
+
+/// Weakens a whole ping, echoes and noise of the water alike, with the probability `loss_share`.
+void lose_power(const ReceiverConfig& receiver, PhiloxKey key, std::span<float> image) {
+    const PhiloxBlock draw = philox({0, 0, 0, 0}, key);
+    if (static_cast<double>(unit_float(draw.x0)) > receiver.loss_share) return;
+    const double loss_db =
+        -receiver.loss_db * static_cast<double>(natural_log(unit_float(draw.x1)));
+    const auto gain = static_cast<float>(power_of_db(-loss_db));
+    for (float& value : image)
+        value *= gain;
+}
+
 }  // namespace
 
 bool has_faults(const ReceiverConfig& receiver) {
-    return receiver.ring_down_db > 0.0 || receiver.beam_gain_db > 0.0;
-}
-
-void combine_samples(std::span<const float> powers, int samples, SampleRule rule, int beams,
-                     std::span<float> combined) {
-    const auto stride = static_cast<std::size_t>(beams);
-    for (std::size_t k = 0; k < combined.size(); ++k) {
-        const float* const first = powers.data() + k / stride * stride * samples + k % stride;
-        combined[k] = combined_power(rule, first, samples, stride);
-    }
+    return receiver.ring_down_db > 0.0 || receiver.beam_gain_db > 0.0 ||
+           receiver.interference_per_s > 0.0 || receiver.loss_share > 0.0;
 }
 
 double beam_gain_db(const ReceiverConfig& receiver, int beam, const PingDraws& draws) {
@@ -79,7 +92,10 @@ double beam_gain_db(const ReceiverConfig& receiver, int beam, const PingDraws& d
 
 void add_faults(const ReceiverConfig& receiver, const ImageRows& rows, const PingDraws& draws,
                 std::span<float> image) {
+    if (receiver.loss_share > 0.0) lose_power(receiver, draws.of(stream_named("losses")), image);
     if (receiver.ring_down_db > 0.0) add_ringing(receiver, rows, image);
+    if (receiver.interference_per_s > 0.0)
+        add_interference(receiver, rows, draws.of(stream_named("interference")), image);
     if (receiver.beam_gain_db > 0.0) apply_beam_gains(receiver, rows, draws, image);
 }
 

@@ -14,21 +14,18 @@ namespace sonarsim {
 /// True if any stage changes an image.
 bool has_faults(const ReceiverConfig& receiver);
 
-/// Combines every `samples` rows of an image of powers into one: [rows * samples, beams] becomes
-/// [rows, beams].
-void combine_samples(std::span<const float> powers, int samples, SampleRule rule, int beams,
-                     std::span<float> combined);
-
 /// The rows of an image in range.
 struct ImageRows {
     double range_min_m = 0.0;
     double bin_m = 1.0;
+    double bin_s = 1.0;  ///< two-way time of a bin
+    int pulse_bins = 1;  ///< length of a pulse
     int rows = 0;
     int beams = 0;
     std::span<const float> noise;  ///< [rows] the value of the mean noise
 };
 
-/// Adds ringing and applies the gains of beams.
+/// Adds ringing and foreign pulses, weakens pings, and applies the gains of beams.
 void add_faults(const ReceiverConfig& receiver, const ImageRows& rows, const PingDraws& draws,
                 std::span<float> image);
 

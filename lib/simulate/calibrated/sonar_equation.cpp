@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/lanes.h"
+#include "simulate/calibrated/decibel.h"
 #include "simulate/calibrated/element_errors.h"
 #include "simulate/calibrated/levels.h"
 #include "simulate/calibrated/line_array.h"
@@ -101,16 +102,16 @@ class BackscatterTable {
 }  // namespace
 
 ElevationPattern elevation_pattern(double width_rad, double side_lobe_db,
-                                   const ElementsConfig& elements) {
+                                   const ElementsConfig& elements, double floor_db) {
     ElevationPattern out;
     if (width_rad <= 0.0) return out;
     // The mean over instruments: one draw of the errors of so few elements would move the nulls.
     const LineArray array = line_array(width_rad, side_lobe_db);
-    const double errors = mean_side_lobe(array, elements);
+    const double floor = mean_side_lobe(array, elements) + power_of_db(floor_db);
     for (int k = 0; k <= ElevationPattern::steps + 1; ++k) {
         const double sine = 2.0 * k / ElevationPattern::steps - 1.0;
         const double amplitude = line_pattern(array, sine);
-        out.power.push_back(static_cast<float>(amplitude * amplitude + errors));
+        out.power.push_back(static_cast<float>(amplitude * amplitude + floor));
     }
     return out;
 }

@@ -21,9 +21,10 @@ struct ElevationPattern {
 };
 
 /// The two-way pattern is that of a line array of half-power width `width_rad`, as if only the
-/// transmitter were directed in elevation; 0: omnidirectional.
+/// transmitter were directed in elevation; 0: omnidirectional. `floor_db` is added to its power.
 ElevationPattern elevation_pattern(double width_rad, double side_lobe_db,
-                                   const ElementsConfig& elements = {});
+                                   const ElementsConfig& elements = {},
+                                   double floor_db = no_lobe_floor_db);
 
 /// The echo of a piece of surface, and its range bin:
 ///

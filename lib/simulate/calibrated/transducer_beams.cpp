@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/units.h"
+#include "simulate/calibrated/decibel.h"
 #include "simulate/calibrated/element_errors.h"
 #include "simulate/calibrated/filtered_noise.h"
 #include "simulate/calibrated/levels.h"
@@ -101,9 +102,10 @@ TransducerBeams transducer_beams(const BeamConfig& beam, const View& view, doubl
     out.along = unfocused_beam(line_array(radians(beam.width_deg), beam.side_lobe_db), wavelength_m,
                                view.range_min_m, sincos(0.5 * view.elevation_rad).sin);
     const LineArray across = line_array(radians(beam.across_width_deg), 0.0);
+    const double floor = power_of_db(beam.lobe_floor_db);
     out.pattern = sine_table(-1.0, 1.0, [&](double sine) {
         const double one_way = line_pattern(across, sine);
-        return one_way * one_way;
+        return std::sqrt(one_way * one_way * one_way * one_way + floor);
     });
     return out;
 }

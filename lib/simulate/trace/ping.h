@@ -27,16 +27,10 @@ struct PingDraws {
     std::uint64_t seed = 0;
     std::uint32_t sensor = 0;  ///< names the sonar
     std::uint32_t ping = 0;    ///< index of the pose on the trajectory
-    std::uint32_t look = 0;    ///< number of the look, of several that are averaged
 
-    PhiloxKey of(Stream stream) const { return stream_key(seed_of_look(), sensor, ping, stream); }
+    PhiloxKey of(Stream stream) const { return stream_key(seed, sensor, ping, stream); }
     /// Draws that belong to the scene: the same for all sonars and pings.
-    PhiloxKey of_scene(Stream stream) const { return stream_key(seed_of_look(), 0, 0, stream); }
-    /// The same for all looks, too.
-    PhiloxKey of_scene_all_looks(Stream stream) const { return stream_key(seed, 0, 0, stream); }
-
-  private:
-    std::uint64_t seed_of_look() const { return seed + 0x9E3779B97F4A7C15U * look; }
+    PhiloxKey of_scene(Stream stream) const { return stream_key(seed, 0, 0, stream); }
 };
 
 }  // namespace sonarsim

@@ -1,0 +1,61 @@
+"""The greys of raw/ by every preset over sand: as instruments deliver them, neither black nor white."""
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+from PIL import Image
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+MISSION = """\
+name: greys
+seed: 3
+scene:
+  materials: {materials}
+  seabed: {{material: sand, size_m: [{size}, {size}], cell_m: {cell}, z_m: -{height},
+           roughness: {{spectral_strength_cm4: 0.0044, spectral_exponent: 3.25, corner_m: 2}}}}
+trajectory:
+  waypoints: [{{position_m: [{middle}, {middle}, 0]}}, {{position_m: [{end}, {middle}, 0]}}]
+  speed_m_s: 1
+  rate_hz: {rate}
+sensors:
+  s: {{preset: sensors/{preset}.yaml{mount}}}
+output: {{raw: true, fan: false, polar: false}}
+"""
+# By kind: the height above the sand over the range, and pings in a hundredth of the range.
+SCENES = {"imaging": (0.15, 1), "profiling": (0.3, 1), "sidescan": (0.15, 10), "echosounder": (0.5, 10),
+          "scanning": (0.1, 400)}
+
+
+class PresetGreys(unittest.TestCase):
+    def test_sand_is_neither_black_nor_white(self):
+        for path in sorted((ROOT / "configs/sensors").glob("*.yaml")):
+            with self.subTest(path.stem), tempfile.TemporaryDirectory() as folder:
+                grey = self.greys(path, pathlib.Path(folder))
+                self.assertLess(np.mean(grey == 0), 0.2)
+                self.assertLess(np.mean(grey == 1), 0.03)
+                self.assertTrue(6 < 255 * np.mean(grey) < 140, 255 * np.mean(grey))
+
+    def greys(self, preset, folder):
+        """raw/ of all pings over its largest value."""
+        keys = dict(line.split("  #")[0].split(": ") for line in preset.read_text().splitlines()
+                    if line.startswith(("kind:", "range_max_m:")))
+        range_m = float(keys["range_max_m"])
+        near = range_m < 2.2  # recorded half a metre above the bottom
+        height, pings = SCENES[keys["kind"]]
+        mount = f", mount: {{rpy_deg: [0, {50 if near else 20}, 0]}}" if keys["kind"] == "imaging" else ""
+        (folder / "mission.yaml").write_text(MISSION.format(
+            materials=ROOT / "scenes/materials.csv", size=2.5 * range_m, cell=max(range_m / 200, 0.05),
+            height=(0.4 if near else height) * range_m, middle=1.25 * range_m, end=1.26 * range_m, preset=preset.stem,
+            mount=mount, rate=100 * pings / range_m))
+        subprocess.run([os.environ["SONARSIM"], "render", "mission.yaml", "--quiet", "--out", "out"], cwd=folder, check=True)
+        files = [folder / "out/s/raw.npy"]
+        values = (np.load(files[0]) if files[0].exists() else
+                  np.stack([np.asarray(Image.open(file)) for file in sorted((folder / "out/s/raw").glob("*.png"))]))
+        return values / (255 if values.dtype == np.uint8 else 65535)
+
+
+if __name__ == "__main__":
+    unittest.main()
