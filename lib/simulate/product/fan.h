@@ -79,4 +79,9 @@ FanMap make_fan_map(const Sonar& sonar, int width_px = 0);
 /// `full_scale`.
 std::vector<std::uint8_t> render_fan(const FanMap& map, const Ping& ping, double full_scale);
 
+/// The fan as the sonar's own display shows it: the values of raw/ from 0 (black) to their largest
+/// (white), or for a model without an instrument render_fan().
+std::vector<std::uint8_t> display_fan(const FanMap& map, const EchoModel& model, const Ping& ping,
+                                      double full_scale);
+
 }  // namespace sonarsim

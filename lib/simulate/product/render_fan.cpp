@@ -164,4 +164,20 @@ std::vector<std::uint8_t> render_fan(const FanMap& map, const Ping& ping, double
     return picture;
 }
 
+std::vector<std::uint8_t> display_fan(const FanMap& map, const EchoModel& model, const Ping& ping,
+                                      double full_scale) {
+    if (model.info.raw_bits == 0) return render_fan(map, ping, full_scale);
+    // render_fan() takes the root of mean powers.
+    Ping shown;
+    shown.range_bins = ping.range_bins;
+    shown.beams = ping.beams;
+    shown.intensity.reserve(ping.intensity.size());
+    const float scale = 1.0F / static_cast<float>((1 << model.info.raw_bits) - 1);
+    for (const std::uint16_t value : model.raw(ping)) {
+        const float share = scale * static_cast<float>(value);
+        shown.intensity.push_back(share * share);
+    }
+    return render_fan(map, shown, 1.0);
+}
+
 }  // namespace sonarsim

@@ -39,7 +39,8 @@ std::optional<Writer> make_image_writer(const WriterContext& context) {
             }};
 }
 
-/// fan/NNNNNN.png: grey, 8 bits, as an operator sees it.
+/// fan/NNNNNN.png: grey, 8 bits, as an operator sees it: of the calibrated model the values of
+/// raw/.
 std::optional<Writer> make_fan_writer(const WriterContext& context) {
     if (!context.kind().has_images || !context.mission.output.fan) return std::nullopt;
     const auto map = context.assembly.fans->map(context.sonar());
@@ -49,8 +50,9 @@ std::optional<Writer> make_fan_writer(const WriterContext& context) {
     return Writer{.per_ping = PingFile{"fan", ".png", PingArray::fan, {}, "fan"},
                   .encode =
                       [=](const FinishedPing& finished) {
-                          return png_bytes(render_fan(*map, finished.ping, white), frame.width,
-                                           frame.height);
+                          const auto fan = display_fan(*map, *finished.sonar.settings.model,
+                                                       finished.ping, white);
+                          return png_bytes(fan, frame.width, frame.height);
                       },
                   .describe =
                       [=](nlohmann::ordered_json& sensor) {
@@ -76,7 +78,8 @@ std::optional<Writer> make_stages_writer(const WriterContext& context) {
         for (const Ping& stage :
              form_stages(finished.traced, finished.sonar, context.assembly.scene,
                          {context.mission.seed, finished.id.pose})) {
-            const std::vector<std::uint8_t> fan = render_fan(*map, stage, context.full_scale());
+            const std::vector<std::uint8_t> fan =
+                display_fan(*map, *finished.sonar.settings.model, stage, context.full_scale());
             for (std::size_t row = 0; row < height; ++row)
                 std::copy_n(fan.data() + row * width, width,
                             picture.data() + (row * stages + k) * width);

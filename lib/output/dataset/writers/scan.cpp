@@ -26,8 +26,9 @@ void write_displays(const WriterContext& context, const FanMap& map, const Recor
             write_file(folder / scan_file_name(stem, sweep, ".npy"),
                        npy_bytes(image.intensity, image.range_bins, image.beams));
             write_file(folder / scan_file_name(stem, sweep, ".png"),
-                       png_bytes(render_fan(map, image, context.full_scale()), map.frame.width,
-                                 map.frame.height));
+                       png_bytes(display_fan(map, *context.sonar().settings.model, image,
+                                             context.full_scale()),
+                                 map.frame.width, map.frame.height));
         });
 }
 
