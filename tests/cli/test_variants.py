@@ -48,6 +48,22 @@ class Variants(Sandbox):
         self.assertEqual(self.variants(), index[:3])
         self.assertFalse((self.out / "variant_0003").exists())
 
+    def test_rules_of_a_file_vary_the_sensor_that_is_named(self):
+        own = "vary:\n  - {key: sensors.fls.noise.add_sigma"
+        self.edit("mission.yaml", own, own.replace("vary:\n", "vary:\n  - {preset: rules.yaml, sensor: fls}\n"))
+        self.refused("mission.yaml:", "there is no preset", "randomised/NAME.yaml")
+        self.write("rules.yaml", "noise: 3\n")
+        self.refused("rules.yaml:", "a list of rules")
+        self.write("rules.yaml", "- {key: noise.mult_sigma, uniform: [0.2, 0.3]}\n"
+                                 "- {key: noise.add_sigma, uniform: [3, 4]}\n")
+        self.edit("mission.yaml", ", sensor: fls}", "}")
+        self.refused("mission.yaml:", "needs the key 'sensor'")
+        self.edit("mission.yaml", "rules.yaml}", "rules.yaml, sensor: fls}")
+        self.assert_renders()
+        for one in self.variants():
+            self.assertTrue(0.2 <= one["drawn"]["sensors.fls.noise.mult_sigma"] <= 0.3)
+            self.assertTrue(0.01 <= one["drawn"]["sensors.fls.noise.add_sigma"] <= 0.2)  # the mission's own rule
+
     def test_finished_variants_are_skipped_without_their_scenes(self):
         for shard in ("2/3", "1/3", "3/3"):
             self.assert_renders("--shard", shard)
@@ -149,7 +165,7 @@ class Variants(Sandbox):
         for words in ("variants    6\n", "surveyed    variant_0000:\n", "together    6 variants:\n", "36 pings\n"):
             self.assertIn(words, text)
         self.assert_renders()
-        files = sum(path.stat().st_size for path in self.out.rglob("fls/*/*"))
+        files = sum(path.stat().st_size for path in self.out.rglob("*") if path.is_file())
         self.assertLess(abs(found["bytes"] - files), 0.2 * files)
 
     def test_validate_refuses_a_folder_as_render_does(self):

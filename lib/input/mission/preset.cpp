@@ -62,8 +62,9 @@ std::filesystem::path shipped_preset(const std::filesystem::path& name) {
     return {};
 }
 
-YamlNode read_preset(const YamlNode& name, const std::filesystem::path& base_folder,
-                     const std::string& kind) {
+/// Reads the file that the value of a key `preset` names.
+YamlNode read_preset_file(const YamlNode& name, const std::filesystem::path& base_folder,
+                          const std::string& kind) {
     if (name.kind != YamlNode::Kind::scalar || name.text.empty()) {
         throw InputError(name.place.location(), "'preset' must be the path of a YAML file");
     }
@@ -75,10 +76,14 @@ YamlNode read_preset(const YamlNode& name, const std::filesystem::path& base_fol
                              ", and none of this name came with the program" +
                              shipped_hint(name.text, kind) + ", written as " + kind + "/NAME.yaml");
     }
-    YamlNode preset = read_document(read_file(path, largest_preset), path.string());
-    if (preset.kind != YamlNode::Kind::map) {
-        throw InputError(Location{path.string()}, "a preset is a section of keys");
-    }
+    return read_document(read_file(path, largest_preset), path.string());
+}
+
+YamlNode read_preset(const YamlNode& name, const std::filesystem::path& base_folder,
+                     const std::string& kind) {
+    YamlNode preset = read_preset_file(name, base_folder, kind);
+    if (preset.kind != YamlNode::Kind::map)
+        throw InputError(preset.place.location(), "a preset is a section of keys");
     if (const YamlNode* const nested = preset.find(preset_key)) {
         throw InputError(nested->key_place.location(), "a preset cannot name a preset");
     }
@@ -95,6 +100,43 @@ void fill_in_section(YamlNode& section, const std::filesystem::path& base_folder
     std::erase_if(section.items, [](const YamlNode& item) { return item.key == preset_key; });
     section.implied = false;
     fill_in(section, preset);
+}
+
+/// The items of `vary`, with the rules of presets in place of the items that name one. Rules of the
+/// mission's own have precedence over those for the same key.
+std::vector<YamlNode> rules_of(const YamlNode& vary, const std::filesystem::path& base_folder) {
+    std::vector<YamlNode> rules;
+    const auto is_given = [&](const std::string& key) {
+        return std::ranges::any_of(vary.items, [&](const YamlNode& rule) {
+            const YamlNode* const own = rule.find("key");
+            return own != nullptr && own->text == key;
+        });
+    };
+    for (const YamlNode& item : vary.items) {
+        const YamlNode* const name =
+            item.kind == YamlNode::Kind::map ? item.find(preset_key) : nullptr;
+        if (name == nullptr) {
+            rules.push_back(item);
+            continue;
+        }
+        const YamlNode* const sensor = item.find("sensor");
+        if (sensor == nullptr || sensor->text.empty() || item.items.size() != 2) {
+            throw InputError(item.place.location(),
+                             "a preset of 'vary' needs the key 'sensor', the name of the sensor "
+                             "that it varies, and no other key");
+        }
+        const YamlNode preset = read_preset_file(*name, base_folder, randomised_presets);
+        if (preset.kind != YamlNode::Kind::list)
+            throw InputError(preset.place.location(), "a preset of 'vary' is a list of rules");
+        for (YamlNode rule : preset.items) {
+            YamlNode* const key = rule.kind == YamlNode::Kind::map ? rule.find("key") : nullptr;
+            if (key == nullptr)
+                throw InputError(rule.place.location(), "a rule of 'vary' needs the key 'key'");
+            key->text = "sensors." + sensor->text + "." + key->text;
+            if (!is_given(key->text)) rules.push_back(std::move(rule));
+        }
+    }
+    return rules;
 }
 
 }  // namespace
@@ -127,12 +169,19 @@ std::string shipped_hint(std::string name, const std::string& kind) {
     return did_you_mean(stem, names) + "; there are: " + listed(names);
 }
 
+void fill_in_rules(YamlNode& mission, const std::filesystem::path& base_folder) {
+    YamlNode* const vary = mission.kind == YamlNode::Kind::map ? mission.find("vary") : nullptr;
+    if (vary != nullptr && vary->kind == YamlNode::Kind::list)
+        vary->items = rules_of(*vary, base_folder);
+}
+
 void fill_in_presets(YamlNode& mission, const std::filesystem::path& base_folder) {
     const auto section_of = [](YamlNode* node, const char* key) -> YamlNode* {
         return node != nullptr && node->kind == YamlNode::Kind::map ? node->find(key) : nullptr;
     };
     if (YamlNode* const seabed = section_of(section_of(&mission, "scene"), "seabed"))
         fill_in_section(*seabed, base_folder, seabed_presets);
+    fill_in_rules(mission, base_folder);
     YamlNode* const sensors = section_of(&mission, "sensors");
     if (sensors == nullptr || sensors->kind != YamlNode::Kind::map) return;
     for (YamlNode& sensor : sensors->items)

@@ -6,6 +6,7 @@
 #include "input/mission/draw_value.h"
 #include "input/mission/override.h"
 #include "input/mission/parse.h"
+#include "input/mission/preset.h"
 
 namespace sonarsim {
 
@@ -52,6 +53,7 @@ class VariantMaker {
           source_(source),
           sonars_(sonars),
           whole_(read_mission_document(source)) {
+        fill_in_rules(whole_, source.base_folder);
         erase_key(whole_, "variants");
         keep_rules_of_pings(whole_, mission.vary);
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -24,7 +25,9 @@ enum class VaryPer { variant, dataset, ping };
 
 /// A key of the mission that is drawn at random. Exactly one of the distributions is given.
 struct VaryConfig {
-    std::string key;  ///< as in --set
+    std::filesystem::path preset;  ///< empty after reading: its rules are filled in
+    std::string sensor;            ///< likewise
+    std::string key;               ///< as in --set
     VaryPer per = VaryPer::variant;
     std::optional<std::array<double, 2>> uniform;      ///< least and largest
     std::optional<std::array<double, 2>> log_uniform;  ///< uniform in the logarithm
@@ -54,10 +57,14 @@ inline constexpr Choice<VaryPer> vary_pers[]{
 template <class Visitor>
 void describe(Visitor& v, VaryConfig& c) {
     constexpr Limits any{-1e18, 1e18};
+    v.path("preset", c.preset,
+           "a file of rules for a sensor, below the mission's folder or one that came with the "
+           "program, such as randomised/imaging.yaml; the mission's own rules have precedence");
+    v.text("sensor", c.sensor, "the sensor that these rules vary");
     v.text("key", c.key,
            "a key of the mission, as --set takes it: sensors.fls.noise.add_sigma, "
-           "scene.objects.0.position_m.2",
-           required);
+           "scene.objects.0.position_m.2");
+    v.require(!c.key.empty(), {}, "a rule of 'vary' needs the key 'key', or 'preset' and 'sensor'");
     v.choice("per", c.per, vary_pers,
              "when the key is drawn: for every variant, once for all variants (`dataset`), or for "
              "every ping. Keys that may vary per ping are a sensor's mount, the numbers of its "
