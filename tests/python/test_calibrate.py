@@ -7,16 +7,17 @@ import unittest
 import unittest.mock
 
 import numpy as np
+from scipy import special
 from tool import ROOT, ToolTest
 from sonarsim.calibrate import command, correlations, image, judge_pass, law, levels, noise, preset, scene, soundings  # noqa: E402
 from sonarsim.calibrate.patches import Patches  # noqa: E402
-from sonarsim.calibrate.statistics import Bounded, CalibrationError, LogStatistics, bootstrap, sampled_correlations, sampled_statistics  # noqa: E402
+from sonarsim.calibrate.statistics import Bounded, CalibrationError, LogStatistics, bootstrap, delivered  # noqa: E402
 from sonarsim.recording import Law, Recording, Soundings  # noqa: E402
 
 RANGES, BEAMS = 240, 96
 STEP_M, FIRST_M = 0.02, 1.01
 SINES = np.sin(np.radians(24.0)) * (2.0 * (np.arange(BEAMS) + 0.5) / BEAMS - 1.0)
-SINGLE = {"samples": 1, "looks": 1, "combine": "max"}
+SINGLE = {"samples": 1.0, "combine": "max", "expansion": 1.0}
 RECORDING = """\
 kind: imaging
 files: pings.npy
@@ -110,17 +111,30 @@ class Fits(unittest.TestCase):
         self.assertLess(abs(found.value - truth), 3.3 / 1.96 * found.half_width, (found, truth))
 
     def test_closed_forms_of_log_powers(self):
-        one, two = LogStatistics(1), LogStatistics(2)
+        one, two, larger = LogStatistics(), LogStatistics(2, "mean"), LogStatistics(2)
         for found, known in ((one.variance, np.pi**2 / 6), (one.mean, -0.577216), (one.skewness, -1.139547),
                              (one.variation, 0.522723), (one.correlation(1.0), 1.0), (two.variance, np.pi**2 / 6 - 1),
-                             (two.skewness, -0.780245), (two.correlation(0.0), 0.0)):
+                             (two.skewness, -0.780245), (two.correlation(0.0), 0.0),
+                             (one.correlation(0.5), special.spence(0.5) * 6 / np.pi**2),
+                             # The larger of two has the mean 3 / 2; its logarithm is ln 2 more and varies 2 ln(2)^2 less.
+                             (larger.mean, one.mean + np.log(2.0) - np.log(1.5)),
+                             (larger.variance, one.variance - 2.0 * np.log(2.0) ** 2)):
             self.assertAlmostEqual(found, known, 5)
-        # The larger of two independent samples: the mean of ln P is ln 2 higher, its variance 2 ln(2)^2 lower.
-        of_two = {"samples": 2, "looks": 1, "combine": "max"}, lambda lag: (lag == 0).astype(float)
-        larger, along = sampled_statistics(*of_two), sampled_correlations(*of_two)
-        self.assertAlmostEqual(larger.mean, one.mean + np.log(2.0), delta=0.02)
-        self.assertAlmostEqual(larger.variance, one.variance - 2.0 * np.log(2.0) ** 2, delta=0.03)
-        self.assertLess(np.abs(along).max(), 0.03)
+
+    def test_delivered_samples_have_the_correlations_of_the_remapped_ranks(self):
+        draws = np.random.default_rng(61).standard_normal((4, 400000))
+        one, other = (draws[k] + 1j * draws[k + 1] for k in (0, 2))
+        for of in ((9.0, "max", 1.75), (2.5, "mean", 1.0)):
+            known = LogStatistics(*of)
+            for k2 in (0.2, 0.7):
+                logs = [of[2] * np.log(delivered(0.5 * np.abs(z) ** 2, *of[:2])) for z in
+                        (one, np.sqrt(k2) * one + np.sqrt(1.0 - k2) * other)]
+                self.assertAlmostEqual(np.corrcoef(logs)[0, 1], known.correlation(k2), delta=0.01)
+            self.assertAlmostEqual(logs[0].std(), known.variance**0.5, delta=0.01 * logs[0].std())
+        # Of docs/calibrated.md, section 4.
+        nine = LogStatistics(9.0, "max", 1.75)
+        self.assertAlmostEqual(nine.variation, 0.381, delta=0.003)
+        self.assertAlmostEqual(nine.skewness, -0.11, delta=0.01)
 
     def test_bootstrap_of_a_mean(self):
         x = np.random.default_rng(1).standard_normal(400)
@@ -132,10 +146,10 @@ class Fits(unittest.TestCase):
             draws = np.random.default_rng(seed)
             gamma, range_db = draws.uniform(0.35, 0.7), draws.uniform(50.0, 80.0)
             amplitude = noise_of(draws, tvg=draws.uniform(15.0, 30.0))
-            power = law.fit_law(recording_of(amplitude, gamma, full=4095).values, 4095.0, LogStatistics(1))
+            power = law.fit_law(recording_of(amplitude, gamma, full=4095).values, 4095.0, LogStatistics())
             self.assertFalse(power.is_log)
             self.assert_within(power.scale, gamma)
-            logarithm = law.fit_law(recording_of(amplitude, range_db=range_db).values, 255.0, LogStatistics(1))
+            logarithm = law.fit_law(recording_of(amplitude, range_db=range_db).values, 255.0, LogStatistics())
             self.assertTrue(logarithm.is_log)
             self.assert_within(logarithm.scale, range_db)
 
@@ -160,7 +174,7 @@ class Fits(unittest.TestCase):
             # Echoes only add to noise: they must not lift the law.
             amplitude[:, 100:150, 20:70] += 0.3
             recording = recording_of(amplitude, full=65535)
-            known = law.Law(65535.0, False, law.Bounded(0.5, 0.5, 0.5), 0.0, LogStatistics(1))
+            known = law.Law(65535.0, False, law.Bounded(0.5, 0.5, 0.5), 0.0, LogStatistics())
             found = noise.fit_noise(noise.noise_blocks(recording, known), 0.0)
             self.assert_within(found.level_db, level)
             self.assert_within(found.tvg_log, tvg)
@@ -173,7 +187,7 @@ class Fits(unittest.TestCase):
             patches = Patches(logs, np.inf, lambda ping: ping)
             chosen = np.arange(len(patches.place))
             self.assert_within(correlations.fit_pulse(patches, chosen, correlations.Pulse(SINGLE, -30.0, "noise")), bins)
-            found = correlations.fit_array(*patches.beam_covariance(chosen, True), SINES, LogStatistics(1))
+            found = correlations.fit_array(*patches.beam_covariance(chosen, True), SINES, LogStatistics())
             self.assert_within(found[0], width)
             self.assertTrue(found[1].low - 2.0 < side_lobe < found[1].high + 2.0, (found[1], side_lobe))
 
@@ -183,16 +197,16 @@ class Fits(unittest.TestCase):
             range_db = draws.uniform(50.0, 57.0)
             pings = recording_of(noise_of(draws, 20.0, -45.0, pings=10), range_db=range_db, full=4095).values
             self.assertGreater((pings == 0.0).mean(), 0.01)
-            self.assert_within(law.fit_law(pings, 4095.0, LogStatistics(1)).scale, range_db)
+            self.assert_within(law.fit_law(pings, 4095.0, LogStatistics()).scale, range_db)
 
     def test_detected_samples_are_speckle(self):
         """The largest of 14 samples has logarithms of no skewness; the beams of a lens have a bent level."""
         draws = np.random.default_rng(60)
         amplitude = np.sqrt(draws.exponential(0.002, (4, 14, RANGES, BEAMS)).max(axis=1))
-        expected = 2.0 * np.log(amplitude).std() / LogStatistics(1).variance ** 0.5
+        expected = 2.0 * np.log(amplitude).std() / LogStatistics().variance ** 0.5
         amplitude *= np.cos(np.linspace(-1.2, 1.2, BEAMS))
         values = recording_of(amplitude, 1.0, full=65535).values
-        found = law.fit_law(values, 65535.0, LogStatistics(1))
+        found = law.fit_law(values, 65535.0, LogStatistics())
         self.assertAlmostEqual(found.scale.value / expected, 1.0, delta=0.1)
 
     def test_numbers_with_wide_intervals_are_kept_from_the_start(self):
@@ -318,10 +332,17 @@ class Command(ToolTest):
         (self.folder / "materials.csv").write_bytes((ROOT / "scenes" / "materials.csv").read_bytes())
         (self.folder / "track.csv").write_text("t_s,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n"
                                                + "".join(f"{0.1 * k},0,0,0,0,0,0\n" for k in range(8)))
-        (self.folder / "mission.yaml").write_text(MISSION)
-        self.sonarsim("render", "mission.yaml", "--out", "out", "-q")
-        code, out = self.calibrate("out", "start.yaml", "--report", str(self.folder / "mine.json"))
-        self.assertEqual(code, 0, out)
+        # Speckle of one sample, and of the largest of nine, stretched, whose form and correlations are those of the program.
+        for number, known in enumerate(([], ["samples: 9", "expansion: 1.75"])):
+            with self.subTest(known=known):
+                (self.folder / "start.yaml").write_text(START + "".join(f"    {key}\n" for key in known))
+                (self.folder / "mission.yaml").write_text(MISSION.replace("gamma: 0.6", ", ".join(["gamma: 0.6", *known])))
+                self.gives_its_instrument_back(f"out{number}")
+
+    def gives_its_instrument_back(self, out):
+        self.sonarsim("render", "mission.yaml", "--out", out, "-q")
+        code, text = self.calibrate(out, "start.yaml", "--report", str(self.folder / "mine.json"))
+        self.assertEqual(code, 0, text)
         found = json.loads((self.folder / "mine.json").read_text())
         for key, truth in TRUTH.items():
             number = found["estimates"][key]
@@ -335,7 +356,7 @@ class Command(ToolTest):
             self.assertIn(line, written)
         head = MISSION.split("sensors:")[0]
         (self.folder / "again.yaml").write_text(head + "sensors: {made: {preset: mine.yaml}}\n")
-        self.sonarsim("render", "again.yaml", "--out", "again", "-q")
+        self.sonarsim("render", "again.yaml", "--out", f"again-{out}", "-q")
 
 
 if __name__ == "__main__":

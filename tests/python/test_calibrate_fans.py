@@ -39,8 +39,9 @@ class Fans(ToolTest):
     def render(self, preset, seed):
         """Fans of raw/, [ping, row, column]."""
         (self.folder / "made.yaml").write_text(MISSION.replace("PRESET", preset).replace("SEED", str(seed)))
-        self.sonarsim("render", "made.yaml", "--out", f"out{seed}", "-q")
-        sonar = open_dataset(self.folder / f"out{seed}")["sonar"]
+        out = f"out-{preset}-{seed}"
+        self.sonarsim("render", "made.yaml", "--out", out, "-q")
+        sonar = open_dataset(self.folder / out)["sonar"]
         return np.array([sonar.to_fan(sonar[k]["raw"], 300) for k in range(len(sonar))])
 
     def calibrate(self, fans, *options):
@@ -72,10 +73,10 @@ class Fans(ToolTest):
                                               str(self.folder / "mine.json")))
                 report = json.loads((self.folder / "mine.json").read_text())
                 self.assertLess(abs(report["estimates"][f"receiver.{law}"]["value"] / scale - 1.0), 0.1)
-                # Of fans that were not fitted, and of a render of the preset with another seed.
-                held_out, again = fans[1::2], self.render("mine.yaml", 20 + seed)
-                self.assertLess(abs(again.mean() / held_out.mean() - 1.0), 0.07)
-                self.assertLess(abs(again.std() / held_out.std() - 1.0), 0.07)
+                # Renders of another seed, whose texture of the tank changes the mean by up to 18 %.
+                other, again = (self.render(f"{name}.yaml", 20 + seed) for name in ("true", "mine"))
+                self.assertLess(abs(again.mean() / other.mean() - 1.0), 0.07)
+                self.assertLess(abs(again.std() / other.std() - 1.0), 0.07)
                 self.assertGreaterEqual(report["agree"]["held_out"], 6)
                 self.assertIn(f"#   - {{key: sensors.NAME.instrument.receiver.{law}, uniform: [",
                               (self.folder / "mine.yaml").read_text())

@@ -8,10 +8,8 @@ import warnings
 
 import numpy as np
 import tool
-from instrument_files import FORMATS, aris, counted, didson, ek60, oculus, simrad, xtf_header, xtf_ping
-from sonarsim.recording import Law, RecordingError, dataset, open_recording  # noqa: E402
 from instrument_files import FORMATS, aris, counted, didson, ek60, oculus, ping360, simrad, xtf_header, xtf_ping
-from sonarsim.recording import Law, RecordingError, open_recording  # noqa: E402
+from sonarsim.recording import Law, RecordingError, dataset, open_recording  # noqa: E402
 
 ARRAYS = ("kind: imaging\nfiles: pings.npy\nlaw: {kind: gamma, exponent: 0.5}\nsound_speed_m_s: 1490\n"
           "first_range_m: 0.5\nrange_step_m: 0.1\n")

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..command import replaced, run
 from ..recording import open_recording
-from .fan_fit import RING_ERROR, RING_ERROR_USUAL, fit_fans, vary_block
+from .fan_fit import LAWS, RING_ERROR, RING_ERROR_USUAL, fit_fans, vary_block
 from .fans import read_fans
 from .image import fit_image, joined
 from .judge import figures_of
@@ -210,7 +210,7 @@ def calibrate_fans(options):
         raise CalibrationError(f"{options.preset}: is no imaging sonar, and only these have fans")
     if options.azimuth_deg is None or len(options.range_m or []) != 2 * len(options.recordings):
         raise CalibrationError("fans need both --azimuth-deg and --range-m, with two numbers for each folder")
-    windows, starts = [], []
+    windows, starts, full_scale_db = [], [], {}
     for folder, range_m in zip(options.recordings, zip(options.range_m[::2], options.range_m[1::2])):
         fans = read_fans(pathlib.Path(folder), options.azimuth_deg, range_m)
         # The judged ones lie evenly between the others: the scene changes on the way.
@@ -223,10 +223,14 @@ def calibrate_fans(options):
             (mission, name), paths_from = own_mission(options.mission, options.sensor), options.mission.absolute().parent
         water = [f"water.{key}={value}" for key, value in (mission.get("water") or {}).items()
                  if not isinstance(value, (dict, list))]
+        # Full scale follows another rule where a record has a logarithm.
+        for law in LAWS:
+            set_levels(own, [*water, *options.settings, f"sensors.sonar.instrument.receiver.companding={law}"])
+            full_scale_db.setdefault(law, own.full_scale_db)
         set_levels(own, [*water, *options.settings])
         starts.append(own)
         windows.append((parts, fans, Echoes(own, mission, name, paths_from, options.settings)))
-    fit, figures = fit_fans(windows, starts[0], RING_ERROR if options.mission else RING_ERROR_USUAL)
+    fit, figures = fit_fans(windows, starts[0], full_scale_db, RING_ERROR if options.mission else RING_ERROR_USUAL)
     fit.notes.append(SCENE_DECIDES if options.mission else "gain and noise are those that give sand with rocks the greys of "
                      f"the fans; name a mission with a scene like theirs by --mission. {SCENE_DECIDES}")
     pings, name = [sum(len(parts[k]) for parts, *_ in windows) for k in (0, 1)], windows[0][1].name

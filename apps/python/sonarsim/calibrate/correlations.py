@@ -8,7 +8,7 @@ import functools
 import numpy as np
 from scipy import interpolate, linalg, optimize
 
-from .statistics import LAGS, Bounded, bootstrap, sampled_correlations, sampled_statistics
+from .statistics import LAGS, Bounded, bootstrap, receiver_statistics
 
 TAPERS_DB = np.arange(-13.3, -41.0, -0.5)
 LEAST_UNITS, MOST_PAIRS = 24, 16
@@ -47,23 +47,16 @@ class Pulse:
     side_lobe_db: float
     kind: str
 
-    def statistics(self, bins):
-        return sampled_statistics(self.receiver, self.amplitude(bins))
-
     def correlations(self, bins):
-        return sampled_correlations(self.receiver, self.amplitude(bins))
-
-    def amplitude(self, bins):
-        """The correlation of complex amplitudes as a function of the lag in samples."""
-        in_samples = bins * self.receiver["samples"]
-        taps = taps_of(in_samples, self.side_lobe_db, self.kind)
-        whole = np.append(np.correlate(taps, taps, "full")[len(taps) - 1:] / (taps @ taps), 0.0)
-        return lambda lag: whole[np.minimum(lag, len(whole) - 1)]
+        """The correlations of ln P 1 to LAGS bins apart."""
+        taps = taps_of(bins, self.side_lobe_db, self.kind)
+        whole = np.pad(np.correlate(taps, taps, "full")[len(taps):] / (taps @ taps), (0, LAGS))[:LAGS]
+        return receiver_statistics(self.receiver).correlation(whole**2)
 
     @functools.cached_property
     def table(self):
         """Widths in bins, and the correlations that they predict, [width, lag]."""
-        bins = np.linspace(0.6, 8.0, 75 if self.receiver["samples"] == 1 else 38)
+        bins = np.linspace(0.6, 8.0, 75)
         rows = interpolate.CubicSpline(bins, [self.correlations(b) for b in bins])
         fine = np.linspace(0.6, 8.0, 741)
         return fine, rows(fine)
@@ -120,7 +113,7 @@ def fit_pulse(patches, chosen, pulse):
         measured = correlations(weights)[:, 0, :rows.shape[1]]
         return bins[((rows**2).sum(axis=1) - 2.0 * measured @ rows.T).argmin(axis=1)]
     found = bootstrap(patches.places, width)[0]
-    return found.widened((0.01 if pulse.receiver["samples"] == 1 else 0.025) * found.value)
+    return found.widened(0.01 * found.value)
 
 
 def beam_correlation(pedestal, t):

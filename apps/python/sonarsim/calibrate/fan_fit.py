@@ -87,18 +87,20 @@ def fit_numbers(displays, law, measured, first, ring_error):
     scale, low, high = np.array([NUMBERS[name] for name in (LAWS[law], *list(NUMBERS)[2:])]).T
     grey_errors = np.array([[GREY_ERROR]] + RINGS * [[ring_error]])
 
-    def residuals(z):
+    def residuals(z, greys_alone=False):
         # Offset by 10, since the steps of least_squares are shares of z.
         z = z - 10.0
         out = [z]
         for display, own in zip(displays, measured):
             found = features(display.greys(law, np.clip(first + z * scale, low, high)))
             rings, grains, skewness = (a - b for a, b in zip(found, own))
-            out = [(rings / grey_errors).ravel(), grains / GRAIN_ERROR, [skewness / SKEWNESS_ERROR], *out]
+            out.append((rings / grey_errors).ravel())
+            if not greys_alone:
+                out += grains / GRAIN_ERROR, [skewness / SKEWNESS_ERROR]
         return np.nan_to_num(np.concatenate(out))
-    # The gain may be far off, where all is black or white and no step helps.
+    # The gain may be far off, where all is black or white and no step helps; such fans have no grain that is off.
     shifts = np.arange(-2.0, 2.01, 0.3)
-    costs = [np.sum(residuals(10.0 + np.array([0.0, shift, 0.0, 0.0, 0.0])) ** 2) for shift in shifts]
+    costs = [np.sum(residuals(10.0 + np.array([0.0, shift, 0.0, 0.0, 0.0]), True) ** 2) for shift in shifts]
     begin = 10.0 + np.array([0.0, shifts[np.argmin(costs)], 0.0, 0.0, 0.0])
     found = optimize.least_squares(residuals, begin, diff_step=[0.005, 0.0025, 0.006, 0.01, 0.01], max_nfev=8)
     errors = scale * np.sqrt(np.diag(np.linalg.inv(found.jac.T @ found.jac)) * max(2.0 * found.cost / len(found.fun), 1.0))
@@ -146,14 +148,14 @@ def grey_figures(display, fans, law, numbers, where=""):
         names, estimate(np.ones((1, len(of_scene))), of_scene)[0], measured)]
 
 
-def fit_fans(windows, start, ring_error):
+def fit_fans(windows, start, full_scale_db, ring_error):
     """(Fit, figures) of the windows of one sonar, each the fitted and the judged pictures [fan, row, column], the Fans and
     the Echoes."""
     fit, receiver = Fit(copy.deepcopy(start.instrument), 0.0), start.instrument["receiver"]
     displays = [[Display(fans, echoes, start, seed) for _, fans, echoes in windows] for seed in (1, 2)]
     greys = [[fans.polar(part) for part in parts] for parts, fans, _ in windows]
     measured, begin = [features(own[0]) for own in greys], {law: np.array([
-        receiver[key], start.full_scale_db, start.noise_db, receiver["tvg_log"], SMOOTHING_PX]) for law, key in LAWS.items()}
+        receiver[key], full_scale_db[law], start.noise_db, receiver["tvg_log"], SMOOTHING_PX]) for law, key in LAWS.items()}
     _, law, numbers, errors = min((fit_numbers(displays[0], law, measured, first, ring_error)
                                    for law, first in begin.items()), key=lambda found: found[0])
     fit.set("receiver.companding", law)

@@ -4,11 +4,11 @@ import dataclasses
 
 import numpy as np
 
-from .correlations import bins_of, fit_array, fit_pulse, pulse_of
+from .correlations import fit_array, fit_pulse, pulse_of
 from .judge import classified
 from .law import FewPatches, Law, fit_law, full_value_of
 from .noise import Noise, fit_noise, noise_blocks
-from .statistics import LAGS, WIDEST, Bounded
+from .statistics import LAGS, WIDEST, Bounded, receiver_statistics
 
 LEAST_PATCHES = 24
 DECIBELS = "receiver.full_scale_db", "receiver.noise_db", "beam.side_lobe_db"   # they have no share of themselves
@@ -107,27 +107,14 @@ def fit_laws(recording, fit, find):
     """Fits the law to all patches, finds the noise, and fits the law again to patches of noise, if there are
     enough, since even patches of echoes may hold a texture of the bottom."""
     values, full, receiver = recording.values, full_value_of(recording), fit.instrument["receiver"]
-    bins, offset = bins_of(fit.instrument, recording.range_step_m), receiver["offset"]
-    statistics = pulse_of(fit.instrument, "noise").statistics(bins)
-    of_noise = statistics.variance
+    statistics, offset = receiver_statistics(receiver), receiver["offset"]
     fit.law = fit_law(values, full, statistics, None, offset)
     find()
-    for _ in range(2):      # where samples are combined, the pulse of the start may be too wrong to find the noise
-        patches, noise, echoes = classified(recording, fit.law, fit.noise, fit.instrument["receiver"])
-        of_echoes = len(noise) < LEAST_PATCHES
-        places = None if of_echoes else np.bincount(patches.place[noise], minlength=patches.places) > 0
-        if receiver["samples"] > 1:
-            # The statistics depend on the pulse; no law changes the correlations to which it is fitted.
-            chosen, pulse = echoes if of_echoes else noise, pulse_of(fit.instrument, "echo" if of_echoes else "noise")
-            width = fit_pulse(patches, chosen, pulse) if len(chosen) >= LEAST_PATCHES else None
-            statistics = pulse.statistics(width.value if width else bins)
-        # Even patches may be noise as well as echoes, whose variances differ if samples are combined.
-        share = abs(np.sqrt(of_noise / statistics.variance) - 1.0) if of_echoes else 0.0
-        fit.law = fit_law(values, full, statistics, places, offset, fit.law.is_log)
-        fit.law.scale = fit.law.scale.widened(share * fit.law.scale.value)
-        find()
-        if not of_echoes or receiver["samples"] == 1:
-            break
+    patches, noise, _ = classified(recording, fit.law, fit.noise, receiver)
+    of_echoes = len(noise) < LEAST_PATCHES
+    places = None if of_echoes else np.bincount(patches.place[noise], minlength=patches.places) > 0
+    fit.law = fit_law(values, full, statistics, places, offset, fit.law.is_log)
+    find()
     if of_echoes:
         fit.notes.append("companding is fitted to echoes: a texture of the bottom counts as speckle, and makes gamma too "
                          "large or dynamic_range_db too small")

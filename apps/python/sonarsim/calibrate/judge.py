@@ -7,7 +7,7 @@ from .correlations import bins_of, predicted_correlations, pulse_of
 from .law import full_value_of, stated_law
 from .noise import ROWS, Noise, noise_blocks
 from .patches import Patches
-from .statistics import DB_OF_E, LAGS, Bounded, bootstrap
+from .statistics import DB_OF_E, LAGS, Bounded, bootstrap, receiver_statistics
 
 LEAST_PATCHES, LEAST_ECHO_DB, DRAWS = 12, 6.0, 40
 
@@ -50,7 +50,8 @@ def classified(recording, law, noise, receiver):
 def figures_of(recording, instrument, level_db, start, fit):
     """The figures of noise and of echoes, where the pings determine them. `fit` has the blocks of noise."""
     receiver, bins = instrument["receiver"], bins_of(instrument, recording.range_step_m)
-    law = stated_law(receiver, full_value_of(recording), pulse_of(instrument, "noise").statistics(bins))
+    statistics = receiver_statistics(receiver)
+    law = stated_law(receiver, full_value_of(recording), statistics)
     noise = Noise(Bounded(*3 * [level_db]), Bounded(*3 * [receiver["tvg_log"]]), receiver["tvg_from_m"],
                   start.absorption_db_per_m if receiver["tvg_absorption"] else 0.0,
                   fit.noise and fit.noise.used)
@@ -63,7 +64,6 @@ def figures_of(recording, instrument, level_db, start, fit):
         if len(chosen) < LEAST_PATCHES:
             continue
         pulse, sums = pulse_of(instrument, kind), patches.sums(chosen, *columns)
-        statistics = pulse.statistics(bins)
 
         def distribution(weights, sums=sums):
             count, coefficient, variance = (weights @ sums).T

@@ -81,8 +81,7 @@ def fit_law(values, full_value, statistics, places=None, offset=0.0, is_log=None
     if is_log:
         deviation = moments_of(plain, loose, of_noise, statistics.cut_variance(plain.zeros))[0]
         scale = Bounded(*(full_value * DB_OF_E * sigma / x for x in (deviation.value, deviation.high, deviation.low)))
-    least = LEAST_ERROR * scale.value * (2.0 if statistics.excess.any() else 1.0)   # drawn statistics have errors
-    return Law(full_value, is_log, scale.widened(least), offset, statistics)
+    return Law(full_value, is_log, scale.widened(LEAST_ERROR * scale.value), offset, statistics)
 
 
 def require_patches(chosen):
@@ -105,7 +104,7 @@ def moments_of(patches, chosen, statistics=None, left=1.0):
 
 def check_speckle(logs, even, skewness, of_start):
     """CalibrationError if values a third of a patch apart are correlated, or if neither skewness can, within its
-    errors, lie between -2 and 0.1: one look has -1.14, eight looks have about -0.4, the largest of many samples has 0."""
+    errors, lie between -2 and 0.1: one sample has -1.14, the mean of eight about -0.4, the largest of many 0."""
     lasting = logs.correlations(even)(np.ones((1, logs.places)))[0, 0, -1]
     if lasting > 0.6:
         raise CalibrationError(f"values 8 bins apart have the correlation {lasting:.2f}, speckle of a sonar much less: "

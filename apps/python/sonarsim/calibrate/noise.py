@@ -16,7 +16,7 @@ def noise_blocks(recording, law):
     """The level in dB re full scale of the part that changes from ping to ping, in blocks of 8 bins, without
     the middle quarter of the beams, if there are eight: noise that all elements share acts like a wave from there.
     Noise N is new in every ping, an echo of a scene at rest is constant: with M the mean of the powers A and B of a
-    place in two pings, the mean of (A - B)^2 is 2 (2 M N - N^2), for one look at one sample. `homogeneous`: beams and
+    place in two pings, the mean of (A - B)^2 is 2 (2 M N - N^2), for one sample. `homogeneous`: beams and
     pings have one level, and no value is 0; `without_echo`: no part is constant."""
     pings, ranges, beams = recording.values.shape
     group, count = np.arange(beams) * GROUPS // beams, ranges // ROWS
@@ -45,10 +45,9 @@ def noise_blocks(recording, law):
     level_db = DB_OF_E * np.where(echo, fresh, mean - law.statistics.mean)
     independent = max(pings * ROWS * beams / GROUPS / 6.0, 1.0)
     even = spread_of_groups(groups / pings, group) < 0.3 + 3.0 * np.sqrt(expected / independent)
-    single = law.statistics.looks == 1 and not law.statistics.excess.any()
     row = ROWS * np.arange(count)
     range_m = recording.first_range_m + (row + 0.5 * (ROWS - 1)) * recording.range_step_m
-    homogeneous = (zeros < 0.003) & np.where(echo, single, even) & np.isfinite(level_db)
+    homogeneous = (zeros < 0.003) & np.where(echo, law.statistics.is_single, even) & np.isfinite(level_db)
     columns = row, range_m, level_db, homogeneous, ~echo, ~law.cuts_off(np.exp(level_db / DB_OF_E))
     return np.rec.fromarrays(columns, names="row,range_m,level_db,homogeneous,without_echo,without_zeros")[range_m > 0.0]
 

@@ -1,12 +1,14 @@
-"""Intervals by the bootstrap, and the logarithm of the power of speckle and noise in closed form."""
+"""Intervals by the bootstrap, and the logarithm of the power of speckle and noise."""
+import functools
 import typing
 
 import numpy as np
-from scipy import linalg, special
+from scipy import special
 
 DB_OF_E = 10.0 / np.log(10.0)   # a ratio e of powers in dB
 WIDEST = 0.3                    # interval of a number over its value that a preset may have
 LAGS = 8                        # the greatest lag of correlations, in bins and beams
+TERMS = 400                     # of the correlation of ln P
 
 
 class CalibrationError(ValueError):
@@ -51,17 +53,37 @@ def bootstrap(count, estimate, least=0.0, draws=80):
 
 
 class LogStatistics:
-    """ln P of the mean power P of n independent looks, which is gamma distributed with shape n. A law P^(g / 2) or
-    a + b ln P scales and shifts ln P, so its skewness and its correlations do not depend on the law."""
-    def __init__(self, looks=1):
-        self.looks = looks
-        self.mean = special.digamma(looks) - np.log(looks)
-        self.variance = special.polygamma(1, looks)
-        self.skewness = special.polygamma(2, looks) / self.variance**1.5
-        # Of the root of a gamma distributed power: 0.5227 for one look.
-        self.variation = np.sqrt(looks * np.exp(2.0 * (special.gammaln(looks) - special.gammaln(looks + 0.5))) - 1.0)
-        self.excess = np.zeros(2)   # of the correlation at even steps of k2, where samples are combined
-        self.sorted = np.log(special.gammaincinv(looks, (np.arange(4000) + 0.5) / 4000) / looks)    # ln P, evenly likely
+    """ln P of the delivered power P of speckle of the mean 1: the rank of one sample, whose power x is exponential,
+    becomes that rank of the largest (or mean) power of n independent samples, whose logarithm is then multiplied by the
+    expansion. A law P^(g / 2) or a + b ln P scales and shifts ln P, so its skewness and its correlations do not depend on
+    the law."""
+    def __init__(self, samples=1.0, combine="max", expansion=1.0):
+        self.is_single = samples == 1.0 and expansion == 1.0
+        step = 0.005
+        x = np.exp(np.arange(-40.0, 4.0, step))
+        weight = step * x * np.exp(-x)      # of x in steps of its logarithm
+
+        def log_of(x):
+            return expansion * np.log(delivered(x, samples, combine))
+        logs = log_of(x)
+        mean_power = weight @ np.exp(logs)
+        logs -= np.log(mean_power)
+        self.mean = weight @ logs
+        off = logs - self.mean
+        self.variance = weight @ off**2
+        self.skewness = weight @ off**3 / self.variance**1.5
+        self.variation = np.sqrt((weight @ np.exp(0.5 * logs)) ** -2.0 - 1.0)   # of the root of P: 0.5227 for one sample
+        self.sorted = log_of(-np.log1p(-(np.arange(4000) + 0.5) / 4000)) - np.log(mean_power)   # evenly likely
+        # Laguerre polynomials L_j diagonalise the joint density of two samples' powers (Kibble's bivariate gamma) with
+        # the factors k2^j; ln P of one sample has the coefficients -1 / j.
+        shares, before, now = [], np.zeros_like(x), np.ones_like(x)
+        for j in range(1, TERMS + 1):
+            before, now = now, ((2 * j - 1 - x) * now - (j - 1) * before) / j
+            shares.append((weight * off) @ now)
+        shares = np.array(shares) ** 2 / self.variance
+        powers = np.append(np.arange(1, TERMS + 1), 2 * TERMS)    # the last has what is left
+        self.known = 1.0 - np.linspace(1.0, 0.0, 2001) ** 2
+        self.correlations = self.known[:, None] ** powers @ np.append(shares, 1.0 - shares.sum())
 
     def cut_variance(self, shares):
         """The share of the variance that is left where the lowest values, these shares of all, become one value."""
@@ -70,61 +92,25 @@ class LogStatistics:
         return np.interp(shares, known, np.array(left) / left[0])
 
     def correlation(self, k2):
-        """The correlation of ln P where complex amplitudes have the squared correlation k2. Laguerre polynomials
-        diagonalise the joint density of both powers (Kibble's bivariate gamma) with the factors k2^j; ln P has the
-        coefficients -1 / j, so the covariance is sum k2^j / (j^2 h_j), h_j = binomial(n + j - 1, j)."""
-        k2 = np.clip(np.asarray(k2, float), 0.0, 1.0)
-        if self.looks == 1:
-            covariance = special.spence(1.0 - k2)   # the dilogarithm of k2
-        else:
-            j = np.arange(1, 400)
-            covariance = (k2[..., None] ** j / (j**2 * special.binom(self.looks + j - 1, j))).sum(axis=-1)
-        excess = np.interp(k2, np.linspace(0.0, 1.0, len(self.excess)), self.excess)
-        return covariance / special.polygamma(1, self.looks) + excess
+        """The correlation of ln P where the complex amplitudes of one sample have the squared correlation k2."""
+        return np.interp(k2, self.known, self.correlations)
 
 
-# Several correlated samples that become one value have no closed form: a result is that of single samples plus a drawn
-# difference between combined and single ones. `amplitude(lag)` is the correlation of complex amplitudes, in samples.
+def delivered(x, samples, combine):
+    """The largest or mean power of some samples that has the rank of the power x of one."""
+    if samples == 1.0:
+        return x
+    below = -np.expm1(-x)
+    if combine == "max":
+        return -np.log(-np.expm1(np.where(x < 0.7, np.log(below), np.log1p(-np.exp(-np.maximum(x, 0.7)))) / samples))
+    return np.where(x < 0.7, special.gammaincinv(samples, below), special.gammainccinv(samples, np.exp(-x))) / samples
 
-def sampled_statistics(receiver, amplitude, count=120000):
+
+@functools.lru_cache(16)
+def statistics_of(samples, combine, expansion):
+    return LogStatistics(samples, combine, expansion)
+
+
+def receiver_statistics(receiver):
     """The statistics of the values of a receiver."""
-    out = LogStatistics(receiver["looks"])
-    if receiver["samples"] == 1:
-        return out
-    one, other = (drawn(receiver, amplitude, 1, count, seed) for seed in (1, 2))
-    (whole,), (single,) = pair = combined(receiver, one)
-    out.sorted = np.sort(whole)[::10]
-    out.mean += whole.mean() - single.mean()
-    out.variance += whole.var() - single.var()
-    out.skewness += np.subtract(*(((x - x.mean()) ** 3).mean() / x.std() ** 3 for x in pair))
-    out.variation += np.subtract(*(np.exp(0.5 * x).std() / np.exp(0.5 * x).mean() for x in pair))
-    mixed = [combined(receiver, np.sqrt(k2) * one + np.sqrt(1.0 - k2) * other) for k2 in np.linspace(0.0, 1.0, 17)]
-    out.excess = np.array([np.corrcoef(whole, m)[0, 1] - np.corrcoef(single, s)[0, 1] for m, s in mixed])
-    return out
-
-
-def sampled_correlations(receiver, amplitude, count=6000):
-    """The correlations of ln P 1 to LAGS bins apart."""
-    lags = np.arange(1, LAGS + 1)
-    along = LogStatistics(receiver["looks"]).correlation(amplitude(receiver["samples"] * lags) ** 2)
-    if receiver["samples"] == 1:
-        return along
-    pair = combined(receiver, drawn(receiver, amplitude, LAGS + 1, count, 1))
-    return along + [np.subtract(*(np.corrcoef(x[:-k].ravel(), x[k:].ravel())[0, 1] for x in pair)) for k in lags]
-
-
-def drawn(receiver, amplitude, bins, count, seed):
-    """Complex normal samples [look, sample, draw] of some bins."""
-    size = bins * receiver["samples"]
-    root = np.linalg.cholesky(linalg.toeplitz(amplitude(np.arange(size))) + 1e-9 * np.eye(size))
-    draws = np.random.default_rng(seed).standard_normal((2, receiver["looks"], size, count))
-    return root @ draws[0] + 1j * (root @ draws[1])
-
-
-def combined(receiver, looks):
-    """ln P of the values of bins, [bin, draw], and of the first sample of each bin."""
-    powers = (looks.real**2 + looks.imag**2).mean(axis=0)
-    powers = powers.reshape(-1, receiver["samples"], powers.shape[1]) + 1e-12
-    rule = {"max": lambda: powers.max(axis=1), "mean": lambda: np.sqrt(powers).mean(axis=1) ** 2,
-            "rms": lambda: powers.mean(axis=1)}[receiver["combine"]]
-    return np.log(rule()), np.log(powers[:, 0])
+    return statistics_of(*(receiver[key] for key in ("samples", "combine", "expansion")))

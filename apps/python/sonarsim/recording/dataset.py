@@ -65,7 +65,8 @@ def read_images(folder, sensor, name, pings):
 
 def read_records(folder, sensor, kind, pings, first):
     """Records [ping, range] or [range, ping] as float32 [ping, range, beam]."""
-    name = next((name for name in (first, "waterfall", "echogram", "scan") if name in sensor.keys), None)
+    name = next((name for name in (first, "waterfall", "echogram", "scan")
+                 if name in sensor.keys and name not in sensor.description["files"]), None)
     if name is None:
         raise RecordingError(f"{folder}: has no records of {sensor.name}")
     records, beams = sensor.records(name), 2 if kind == "sidescan" else 1
