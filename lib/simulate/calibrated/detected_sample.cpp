@@ -58,6 +58,7 @@ Ranks ranks_of_mean(double samples) {
     // dF = z^(n-1) e^-z dz = z^n e^-z dln z, z = n v.
     const std::vector<double> at = values(1e-12, 120.0);
     std::vector<double> density;
+    density.reserve(at.size());
     for (const double v : at)
         density.push_back(exponential(samples * (logarithm(v) - v + 1.0)));
     std::vector<double> below(at.size()), above(at.size());

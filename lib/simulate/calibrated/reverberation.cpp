@@ -1,6 +1,7 @@
 #include "simulate/calibrated/reverberation.h"
 
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "core/elementary.h"
@@ -26,7 +27,8 @@ Reverberation::Reverberation(const ReceiverConfig& receiver, double bin_m, doubl
 void add_reverberation(const Reverberation& tail, PowerForm form, PhiloxKey key, EchoGrid& grid) {
     if (!(tail.share > 0.0F)) return;
     const float gain = (1.0F - tail.decay) * tail.share;
-    std::vector<float> powers((grid.rows() + lanes - 1) / lanes * lanes);
+    const int padded = (grid.rows() + lanes - 1) / lanes * lanes;
+    std::vector<float> powers(static_cast<std::size_t>(padded));
     for (int c = 0; c < grid.columns(); ++c) {
         const float* const cells = grid.column(c);
         float reverberant = 0.0F;
