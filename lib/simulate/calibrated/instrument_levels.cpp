@@ -22,7 +22,7 @@ constexpr double max_share_of_noise = 2.0 / 3.0;
 // Above sand a logarithmic record keeps at most this: highlights of fans need no more, and below an
 // echosounder little is stronger than the bottom.
 constexpr double max_headroom_of_sand_db = 37.0;
-constexpr double max_headroom_below_db = 30.0;
+constexpr double max_headroom_below_db = 35.0;
 
 /// The decibels from a share of the largest value of raw/ to that value.
 double headroom_db(const ReceiverConfig& receiver, double share) {
