@@ -39,8 +39,8 @@ void apply_beam_gains(const ReceiverConfig& receiver, const ImageRows& rows, con
     }
 }
 
-/// Foreign pulses begin by a Poisson process, have exponential powers and last two pulses, the
-/// factor of the range resolution, in which each bin and beam has a draw of its own.
+/// Foreign pulses begin by a Poisson process, have exponential powers and last as long as the pulse.
+/// Each bin and beam of one has a draw of its own.
 void add_interference(const ReceiverConfig& receiver, const ImageRows& rows, PhiloxKey key,
                       std::span<float> image) {
     const double window_s = rows.rows * rows.bin_s;

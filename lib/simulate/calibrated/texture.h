@@ -16,8 +16,8 @@ namespace sonarsim {
 ///
 ///     t = 1.2 - 0.08 (phi - 1.5) dB for a sea bed of the grain size phi, 0.6 dB for the rest.
 ///
-/// Sand is a fit to the spread of the means of blocks of 0.23 to 1.9 m in one half of a 600 kHz
-/// side-scan record; the other numbers are a rule. A factor 10^(dB / 10) is divided by its mean,
+/// Sand is set by hand by the spread of the means of blocks of 0.23 to 1.9 m in one 600 kHz side-scan
+/// record; the other numbers are a rule. A factor 10^(dB / 10) is divided by its mean,
 /// exp((ln(10) / 10)^2 octaves t^2 / 2).
 class Texture {
   public:
