@@ -4,10 +4,14 @@
 
 namespace sonarsim {
 
-/// Forms the image of one look of a receiver, at its own samples: [samples, beams] powers after the
-/// gain into `ping.intensity`, which must be 0 before, and the counts. The numbered steps are
-/// sections 1 to 5 of docs/calibrated.md.
+/// What an image without speckle is formed for: to be written, or as the scale of the ranks of
+/// detected samples, which larger pieces of surface suffice for.
+enum class MeanFor { image, ranks };
+
+/// Forms the image of one ping: [range bins, beams] powers after the gain into `ping.intensity`,
+/// which must be 0 before, and the counts. The numbered steps are sections 1 to 5 of
+/// docs/calibrated.md. `use` matters without speckle only.
 void form_look(const CalibratedModel& model, const TracedPing& traced, const FormContext& context,
-               Ping& ping);
+               MeanFor use, Ping& ping);
 
 }  // namespace sonarsim

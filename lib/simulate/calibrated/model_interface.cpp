@@ -26,7 +26,7 @@ void deliver(const CalibratedModel& model, const TracedPing& traced, const FormC
     std::ranges::fill(mean.intensity, 0.0F);
     FormContext expected = context;
     expected.terms.random = 0;
-    form_look(model, traced, expected, mean);
+    form_look(model, traced, expected, MeanFor::ranks, mean);
     const auto beams = static_cast<std::size_t>(context.view.beams);
     if (context.terms.random > 1) {
         for (std::size_t k = 0; k < mean.intensity.size(); ++k)
@@ -46,7 +46,7 @@ void CalibratedModel::form(const TracedPing& traced, const FormContext& context,
         return prepared_for(context.scene)->form(traced, context, ping);
     Stopwatch watch;
     const ReceiverConfig& receiver = instrument.receiver;
-    form_look(*this, traced, context, ping);
+    form_look(*this, traced, context, MeanFor::image, ping);
     if (detected.changes() && context.terms.random > 0) deliver(*this, traced, context, ping);
     const ImageRows rows{.range_min_m = context.view.range_min_m,
                          .bin_m = context.view.bin_m(),

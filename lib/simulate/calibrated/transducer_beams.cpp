@@ -44,10 +44,13 @@ void find_weights(const TransducerBeams& beams, int beam, const PatchBlock& piec
             continue;
         }
         const TransducerBeams::Axis axis = beams.sides[beam];
-        const bool ahead = std::fma(x, axis.x, y * axis.y) > 0.0F;
+        if (!(std::fma(x, axis.x, y * axis.y) > 0.0F)) {
+            out.re[k] = out.im[k] = 0.0F;
+            continue;
+        }
         const float across = piece_sine(y * axis.x - x * axis.y, range);
         const std::complex<float> along = beams.along.at(piece_sine(z, range), range);
-        const float weight = ahead ? beams.pattern.at(across) : 0.0F;
+        const float weight = beams.pattern.at(across);
         out.re[k] = weight * along.real();
         out.im[k] = weight * along.imag();
     }
@@ -118,6 +121,7 @@ void add_powers(const TransducerBeams& beams, const PatchBlock& pieces, const Po
         for (int k = 0; k < pieces.count; ++k) {
             const float re = weights.re[k];
             const float im = weights.im[k];
+            if (re == 0.0F && im == 0.0F) continue;
             const float power = echoes.power[k] * std::fma(re, re, im * im);
             add_between_bins(grid.column(beam), echoes.row[k], power, 0.0F);
         }
@@ -134,6 +138,7 @@ void add_amplitudes(const TransducerBeams& beams, const PatchBlock& pieces,
             const float b = amplitudes.im[k];
             const float re = weights.re[k];
             const float im = weights.im[k];
+            if (re == 0.0F && im == 0.0F) continue;
             // Explicit fma(): GCC contracts two adjacent products even if contraction is switched
             // off, and other compilers do not.
             add_between_bins(grid.column(beam), echoes.row[k], std::fma(a, re, -(b * im)),
