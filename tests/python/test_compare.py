@@ -5,7 +5,7 @@ import warnings
 
 import numpy as np
 import tool
-from sonarsim.compare import points, report, shadows, speckle  # noqa: E402
+from sonarsim.compare import coverage, points, report, shadows, speckle  # noqa: E402
 from sonarsim.compare.bootstrap import exchange_p  # noqa: E402
 from sonarsim.compare.comparison import compare_recordings  # noqa: E402
 from sonarsim.compare.figure import Figure  # noqa: E402
@@ -166,6 +166,21 @@ class ComparisonTest(unittest.TestCase):
         self.assertEqual(exchange_p([(made(np.where(places == 7, 1e3, 1.0)), made(ones))], [1e-3], 1), [1.0])
         # A difference of 1 at each place is never reached: 2^-39 of the exchanges have it.
         self.assertEqual(exchange_p([(made(2.0 * ones), made(ones))], [0.1], 1), [1.0 / 500.0])
+
+    def test_coverage(self):
+        """Levels from -30 to -10 dB cover -20 dB and not 0 dB; one law of speckle covers itself and not the other."""
+        shape = (3, 64, 32)
+        simulated = [drawn(seed, level, shape=shape) for seed, level in enumerate(np.linspace(-30.0, -10.0, 11))]
+        def inside(real):
+            return {one.name: one.is_inside for one in coverage.cover_of(real, iter(simulated))}
+        covered, off = inside(drawn(50, shape=shape)), inside(drawn(51, level_db=0.0, is_k=True, shape=shape))
+        self.assertTrue(covered["image: level, dB"])
+        self.assertFalse(off["image: level, dB"])
+        self.assertFalse(off["95 % of the levels over their median, dB"])
+        # A figure of a like recording is outside with a chance of about 0.17, so half of 34 are with one below 1e-4.
+        self.assertGreater(np.mean(list(covered.values())), 0.5)
+        with self.assertRaisesRegex(RecordingError, "no figure in common with 5"):
+            coverage.cover_of(drawn(1, shape=shape), iter(simulated[:4]))
 
     def test_refusals(self):
         other, far, tiny = drawn(1), drawn(1), drawn(1, shape=(1, 2, 1))
