@@ -65,7 +65,6 @@ TEST_SUITE("calibrated") {
             instrument.frequency_hz = std::pow(10.0, number(3.0, 7.0));
             instrument.source_level_db = number(-300.0, 300.0);
             instrument.receiver.noise_db = number(-300.0, 300.0);
-            instrument.receiver.common_mode_db = number(-300.0, 300.0);
             instrument.receiver.full_scale_db = number(-300.0, 300.0);
             instrument.receiver.tvg_log = number(0.0, 60.0);
             instrument.receiver.tvg_from_m = number(0.0, 1.0) < 0.5 ? 0.0 : 1e9;

@@ -27,8 +27,7 @@ double tap_correlation(const std::vector<float>& taps, std::size_t lag) {
 }
 
 /// A sonar of 400 bins of 4 cm and a pulse of 20 cm, whose image is noise of mean 1.
-Sonar noisy_sonar(SonarKind kind, double source_db, double noise_db,
-                  double common_mode_over_noise_db = -200.0) {
+Sonar noisy_sonar(SonarKind kind, double source_db, double noise_db) {
     SonarConfig config = calibrated(default_sonar(kind), 2e5);
     config.azimuth_deg = kind == SonarKind::sidescan ? 170.0 : 60.0;
     set_range(config, 1.0, 17.0, 400);
@@ -38,40 +37,33 @@ Sonar noisy_sonar(SonarKind kind, double source_db, double noise_db,
     instrument.pulse.side_lobe_db = -20.0;
     instrument.source_level_db = source_db;
     instrument.receiver.noise_db = noise_db;
-    instrument.receiver.common_mode_db = noise_db + common_mode_over_noise_db;
     instrument.receiver.full_scale_db = noise_db;
     instrument.receiver.tvg_log = 0.0;
     instrument.receiver.tvg_absorption = false;
     return make_sonar(config, {});
 }
 
-/// Noise of many pings, of all beams or of one whose power should be `expected`. A ping's
-/// correlation of powers is over its bins and beams, about that power.
+/// Noise of many pings, whose power should be 1. A ping's correlation of powers is over its bins
+/// and beams, about that power.
 struct NoiseOfPings {
     static constexpr int lags = 6;
     std::array<std::vector<double>, lags + 1> products;  ///< [lag][ping]
     std::vector<double> power;                           ///< [ping]
 
-    NoiseOfPings(const Sonar& sonar, std::uint32_t pings, int one_beam = -1,
-                 double expected = 1.0) {
+    NoiseOfPings(const Sonar& sonar, std::uint32_t pings) {
         const CalibratedModel& model = calibrated_model_of(sonar);
         const View& view = sonar.settings.view;
         for (std::uint32_t ping = 0; ping < pings; ++ping) {
             const std::vector<float> image =
                 image_of_samples(model, view, {}, {.random = 2}, {}, {5, 6, ping});
             const std::size_t beams = image.size() / static_cast<std::size_t>(view.range_bins);
-            std::vector<double> of_mean;
-            for (std::size_t k = 0; k < image.size(); ++k) {
-                if (one_beam < 0 || k % beams == static_cast<std::size_t>(one_beam))
-                    of_mean.push_back(image[k] / expected);
-            }
+            const std::vector<double> of_mean(image.begin(), image.end());
             power.push_back(mean(of_mean));
-            const std::size_t step = one_beam < 0 ? beams : 1;
             for (std::size_t lag = 0; lag <= lags; ++lag) {
                 double sum = 0.0;
-                const std::size_t end = of_mean.size() - lag * step;
+                const std::size_t end = of_mean.size() - lag * beams;
                 for (std::size_t k = 0; k < end; ++k)
-                    sum += (of_mean[k] - 1.0) * (of_mean[k + lag * step] - 1.0);
+                    sum += (of_mean[k] - 1.0) * (of_mean[k + lag * beams] - 1.0);
                 products[lag].push_back(sum / static_cast<double>(end));
             }
         }
@@ -120,7 +112,7 @@ TEST_SUITE("calibrated") {
 
     TEST_CASE("noise: that of a bin does not depend on the bins before it") {
         const std::vector<float> taps = noise_taps(5.0, -25.0);
-        const NoiseChannels channels{.firsts = 4, .seconds = 3, .common_mode = true};
+        const NoiseChannels channels{.firsts = 4, .seconds = 3};
         FilteredNoise all(channels, taps, noise_key);
         for (int row = 0; row <= 40; row += lanes)
             all.go_to(row);
@@ -145,11 +137,5 @@ TEST_SUITE("calibrated") {
             CAPTURE(static_cast<int>(c.kind));
             check_noise(NoiseOfPings(noisy_sonar(c.kind, c.source_db, c.noise_db), c.pings));
         }
-    }
-
-    TEST_CASE("noise: so is that which all elements share, in the beam straight ahead") {
-        // 30 dB above the elements' noise: beam 30 of 61 has 1 + 1000 times their power.
-        const Sonar sonar = noisy_sonar(SonarKind::imaging, 0.0, -90.0, 30.0);
-        check_noise(NoiseOfPings(sonar, 1000, 30, 1001.0));
     }
 }

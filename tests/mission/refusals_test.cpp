@@ -222,12 +222,7 @@ TEST_CASE("labels and classes, and keys that are gone with what to do instead") 
          {"classes:\n  - {nodes: a}\n",
           "7:5: a rule for classes needs the keys 'nodes' and 'class'"},
          {"classes: {}\n", "6:10: 'classes' must be a list, not a section of keys"},
-         {"slices: {per_beam: 2}\n",
-          "6:1: 'slices' is no longer there; leave it out: the number of slices follows from "
-          "accuracy.relative_l1"},
-         {"output: {labels: [instance, coco]}\n",
-          "6:29: 'coco' is no longer there; write labels: [objects], then run sonarsim export "
-          "--format coco"}});
+         {"output: {labels: [instance, coco]}\n", "6:29: unknown labels 'coco'; known: " + known}});
 }
 
 TEST_CASE("particles: what is refused, and where") {

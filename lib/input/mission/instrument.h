@@ -82,7 +82,6 @@ struct ReceiverConfig {
     std::optional<double> noise_db;  ///< noise power in a beam; empty: by instrument_levels()
     double noise_figure_db = 6.0;    ///< noise of the electronics, for noise_db: auto
     double gain_db = 0.0;            ///< raises all values, as a user's gain does
-    double common_mode_db = -300.0;  ///< power of the noise that all elements share
     double tvg_log = 40.0;           ///< spreading factor k of k log10 r
     bool tvg_absorption = true;      ///< TVG has the term 2 alpha r
     double tvg_from_m = 0.0;         ///< TVG is constant at shorter ranges
@@ -115,8 +114,7 @@ constexpr bool is_relative_level(double level_db) {
 
 constexpr bool has_relative_level(const ReceiverConfig& receiver) {
     return is_relative_level(receiver.noise_db.value_or(0.0)) ||
-           is_relative_level(receiver.full_scale_db.value_or(0.0)) ||
-           is_relative_level(receiver.common_mode_db);
+           is_relative_level(receiver.full_scale_db.value_or(0.0));
 }
 
 /// 120 dB re 1 uPa at 1 m are 8 microwatts of sound. A smaller number is not a source level but the
@@ -269,9 +267,6 @@ void describe(Visitor& v, ReceiverConfig& c) {
     v.number("noise_db", c.noise_db, any_level_db,
              "noise level in a beam before TVG, in the unit of source_level_db; `auto` "
              "computes it from frequency, pulse, beam and water.wind_m_s; -300 means none");
-    v.number(
-        "common_mode_db", c.common_mode_db, any_level_db,
-        "level of the noise that all elements share, in the beam straight ahead; -300 means none");
     v.number("noise_figure_db", c.noise_figure_db, between(0, 40),
              "noise of the electronics above heat, for noise_db: auto");
     v.number("gain_db", c.gain_db, between(-60, 60),
@@ -301,8 +296,8 @@ template <class Visitor>
 void require_one_unit(Visitor& v, const InstrumentConfig& c) {
     const bool absolute = c.source_level_db && !is_relative_source(*c.source_level_db);
     v.require(!absolute || !has_relative_level(c.receiver), {"source_level_db", "receiver"},
-              "source_level_db is in dB re 1 uPa, where a noise_db, full_scale_db or "
-              "common_mode_db below 0 makes no sense: give them in dB re 1 uPa or leave them out; "
+              "source_level_db is in dB re 1 uPa, where a noise_db or "
+              "full_scale_db below 0 makes no sense: give them in dB re 1 uPa or leave them out; "
               "or give source_level_db: 0, to which they are then relative");
 }
 

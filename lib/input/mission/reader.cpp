@@ -6,7 +6,6 @@
 
 #include "core/text.h"
 #include "input/mission/dataset_names.h"
-#include "input/mission/removed_keys.h"
 
 namespace sonarsim {
 
@@ -162,12 +161,6 @@ void MissionReader::require(bool holds, std::initializer_list<const char*> keys,
 void MissionReader::finish() {
     for (const YamlNode& item : node_.items) {
         if (std::ranges::find(known_, item.key) != known_.end()) continue;
-        const std::string removed =
-            instead_of_removed(std::string_view(name_).substr(0, name_.find('.')), item.key);
-        if (!removed.empty()) {
-            errors_.add(InputError(item.key_place.location(), removed));
-            continue;
-        }
         std::string hint = misplaced(item.key, known_);
         if (hint.empty()) hint = did_you_mean(item.key, known_);
         errors_.add(InputError(item.key_place.location(),

@@ -6,7 +6,6 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "input/mission/removed_keys.h"
 
 namespace sonarsim {
 
@@ -73,8 +72,6 @@ void refuse_type(const YamlNode& node, const std::string& key, const std::string
 void FlagType::read(const YamlNode& node, const char* key, bool& value) const {
     value = node.text == "true";
     if (is_plain(node) && (value || node.text == "false")) return;
-    const std::string removed = instead_of_removed(key, node.text);
-    if (!removed.empty()) refuse(node, removed);
     refuse_type(node, key, "true or false");
 }
 
@@ -209,8 +206,6 @@ std::vector<bool> chosen_of(const YamlNode& node, const char* key,
         refuse_type(node, key, "true, false or a list of: " + listed(names));
     }
     for (const YamlNode& item : node.items) {
-        const std::string removed = instead_of_removed(key, item.text);
-        if (!removed.empty()) refuse(item, removed);
         const std::size_t index = index_of(item, key, names);
         if (chosen[index]) refuse(item, in_quotes(item.text) + " stands twice in '" + key + "'");
         chosen[index] = true;

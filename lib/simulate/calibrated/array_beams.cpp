@@ -111,14 +111,13 @@ void form_beams(const Beamformer& former, const EchoGrid* grid, ElementNoiseOfPi
 }  // namespace
 
 ArrayBeams array_beams(const BeamConfig& beam, const std::vector<double>& beam_sines, double noise,
-                       double common_mode, const std::vector<float>& taps) {
+                       const std::vector<float>& taps) {
     const LineArray array = receiving_array(beam);
     ArrayBeams out{.amplitudes = Beamformer(array, beam_sines, false, beam.elements),
                    .powers = Beamformer(array, beam_sines, true, beam.elements),
                    .noise = {}};
     out.noise.element_sigma =
         static_cast<float>(std::sqrt(noise)) * out.amplitudes.element_sigma_of_unit();
-    out.noise.common_mode_sigma = static_cast<float>(std::sqrt(0.5 * common_mode));
     out.noise.taps = taps;
     return out;
 }

@@ -18,10 +18,9 @@ struct ArrayBeams {
 };
 
 /// `beam_sines`: the sines of the beams' azimuths. `noise`: the noise power in a beam.
-/// `common_mode`: the power of the noise that all elements share, in the beam straight ahead.
 /// `taps`: the noise's filter along range.
 ArrayBeams array_beams(const BeamConfig& beam, const std::vector<double>& beam_sines, double noise,
-                       double common_mode, const std::vector<float>& taps);
+                       const std::vector<float>& taps);
 
 inline int columns_of(const ArrayBeams& beams) {
     return beams.amplitudes.grid().columns;

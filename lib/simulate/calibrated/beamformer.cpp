@@ -150,7 +150,6 @@ Beamformer::Beamformer(const LineArray& array, const std::vector<double>& beam_s
         if (excess > 0) weights = Complexes(weights.begin() + excess, weights.end() - excess);
     }
     const int reach = static_cast<int>(weights.size()) / 2;
-    const double ahead = -grid_.first / grid_.step;
     double in_columns = 0.0;
     double between = 0.0;
     double noise = 0.0;
@@ -159,13 +158,10 @@ Beamformer::Beamformer(const LineArray& array, const std::vector<double>& beam_s
         // transform; the weight undoes it.
         const double triangle = sinc(static_cast<double>(k) / size);
         const std::complex<double> weight = weights[k + reach] / (triangle * triangle);
-        const SinCos turn = sincos(-2.0 * pi * k * ahead / size);
         weights_.push_back({.re = static_cast<float>(weight.real()),
                             .im = static_cast<float>(weight.imag()),
                             .index = (k + size) % size,
-                            .noise_scale = static_cast<float>(triangle * triangle),
-                            .ahead_re = static_cast<float>(turn.cos),
-                            .ahead_im = static_cast<float>(turn.sin)});
+                            .noise_scale = static_cast<float>(triangle * triangle)});
         noise += std::norm(weights[k + reach]);
         in_columns += std::norm(weight);
         between += std::norm(weight) * (2.0 + sincos(2.0 * pi * k / size).cos) / 3.0;
@@ -203,9 +199,7 @@ Beamformer::Scratch::Scratch(const Beamformer& beams)
 ElementNoiseOfPing Beamformer::noise_of_ping(const ElementNoise& levels, PhiloxKey key) const {
     // One counter serves two elements.
     const int pairs = (elements() + 1) / 2;
-    const NoiseChannels channels{.firsts = pairs,
-                                 .seconds = elements() - pairs,
-                                 .common_mode = levels.common_mode_sigma > 0.0F};
+    const NoiseChannels channels{.firsts = pairs, .seconds = elements() - pairs};
     return {.levels = levels, .drawn = FilteredNoise(channels, levels.taps, key)};
 }
 
@@ -222,18 +216,6 @@ void Beamformer::add_noise(ElementNoiseOfPing& noise, int row, Scratch& scratch)
             z.im[lane] = std::fma(sigma, drawn.im[lane], z.im[lane]);
         }
         scratch.data[weights_[e].index] = z;
-    }
-    if (noise.levels.common_mode_sigma == 0.0F) return;
-    const ComplexLanes common = noise.drawn.of(elements);
-    for (const Weight& w : weights_) {
-        ComplexLanes z = scratch.data[w.index];
-        const float ahead_re = noise.levels.common_mode_sigma * w.noise_scale * w.ahead_re;
-        const float ahead_im = noise.levels.common_mode_sigma * w.noise_scale * w.ahead_im;
-        for (int lane = 0; lane < lanes; ++lane) {
-            z.re[lane] += common.re[lane] * ahead_re - common.im[lane] * ahead_im;
-            z.im[lane] += common.re[lane] * ahead_im + common.im[lane] * ahead_re;
-        }
-        scratch.data[w.index] = z;
     }
 }
 

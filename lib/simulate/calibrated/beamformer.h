@@ -13,9 +13,8 @@ namespace sonarsim {
 
 /// Noise of the receiver, before its beams are formed.
 struct ElementNoise {
-    float element_sigma = 0.0F;      ///< real and imaginary part each, per element
-    float common_mode_sigma = 0.0F;  ///< each part, in the beam straight ahead
-    std::vector<float> taps{1.0F};   ///< the filter along range, by noise_taps()
+    float element_sigma = 0.0F;     ///< real and imaginary part each, per element
+    std::vector<float> taps{1.0F};  ///< the filter along range, by noise_taps()
 };
 
 /// The noise of one ping at the elements.
@@ -59,7 +58,6 @@ class Beamformer {
         int index;          ///< element of the transform
         float noise_scale;  ///< cancels, for noise, the interpolation correction, which applies to
                             ///< echoes only
-        float ahead_re, ahead_im;  ///< signal of a source straight ahead
     };
 
     void add_noise(ElementNoiseOfPing& noise, int row, Scratch& scratch) const;

@@ -1,18 +1,11 @@
 #include "simulate/calibrated/filtered_noise.h"
 
 #include <algorithm>
-#include <array>
 
 #include "core/lanes.h"
 #include "simulate/calibrated/normals.h"
 
 namespace sonarsim {
-
-namespace {
-
-constexpr std::uint32_t common_mode_number = 0xFFFFFFFFU;
-
-}  // namespace
 
 FilteredNoise::FilteredNoise(const NoiseChannels& channels, const std::vector<float>& taps,
                              PhiloxKey key)
@@ -46,14 +39,6 @@ void FilteredNoise::draw(int row) {
         put(channel++, a_.data() + static_cast<std::ptrdiff_t>(lanes) * number);
     for (int number = 0; number < channels_.seconds; ++number)
         put(channel++, b_.data() + static_cast<std::ptrdiff_t>(lanes) * number);
-    if (!channels_.common_mode) return;
-    std::array<std::uint32_t, lanes> a, b;
-    for (int lane = 0; lane < lanes; ++lane) {
-        a[lane] = static_cast<std::uint32_t>(row + lane);
-        b[lane] = common_mode_number;
-    }
-    philox_pairs(a.data(), b.data(), lanes, key_);
-    put(channel, a.data());
 }
 
 void FilteredNoise::put(int channel, const std::uint32_t* words) {

@@ -11,14 +11,12 @@ namespace sonarsim {
 
 /// The channels of a receiver. The counter of the random numbers is a bin and a number; it yields
 /// two words. The first words of the numbers 0 to `firsts` - 1 make the noise of the first
-/// channels, the second words of the numbers 0 to `seconds` - 1 that of the next channels. The last
-/// channel is the common mode, if there is one.
+/// channels, the second words of the numbers 0 to `seconds` - 1 that of the next channels.
 struct NoiseChannels {
     int firsts = 0;
     int seconds = 0;
-    bool common_mode = false;
 
-    int count() const { return firsts + seconds + (common_mode ? 1 : 0); }
+    int count() const { return firsts + seconds; }
 };
 
 /// The receiver's noise in the range bins of one ping. Each channel has white complex normal noise,

@@ -4,8 +4,8 @@
 
 namespace sonarsim {
 
-/// What an image without speckle is formed for: to be written, or as the scale of the ranks of
-/// detected samples, which larger pieces of surface suffice for.
+/// The use of an image without speckle: it is written, or it scales the ranks of detected samples,
+/// for which larger pieces of surface suffice.
 enum class MeanFor { image, ranks };
 
 /// Forms the image of one ping: [range bins, beams] powers after the gain into `ping.intensity`,

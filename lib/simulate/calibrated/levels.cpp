@@ -12,9 +12,9 @@ constexpr double max_gain_db = 370.0;
 
 }  // namespace
 
-double float_headroom_db(double noise_db, double common_mode_db) {
+double float_headroom_db(double noise_db) {
     const double at_least = std::max(0.0, min_noise_db - noise_db);
-    return std::min(at_least, max_noise_db - std::max(noise_db, common_mode_db));
+    return std::min(at_least, max_noise_db - noise_db);
 }
 
 std::vector<float> row_gains(const ReceiverConfig& receiver, const InstrumentLevels& levels,

@@ -16,10 +16,9 @@ namespace sonarsim {
 // real instruments.
 
 /// The dB that are added to the powers of the grid of echoes, which are ratios to the source level,
-/// so that floats hold the noise of the receiver and the echoes above it. `noise_db` and
-/// `common_mode_db` are relative to the source level. 0 where the noise lies within -300 and 200
-/// dB.
-double float_headroom_db(double noise_db, double common_mode_db);
+/// so that floats hold the noise of the receiver and the echoes above it. `noise_db` is relative to
+/// the source level. 0 where the noise lies within -300 and 200 dB.
+double float_headroom_db(double noise_db);
 
 /// The greatest power of an echo in the grid, 40 dB above the greatest noise there. A million such
 /// echoes that add in phase are finite in every beam.

@@ -126,8 +126,7 @@ void set_info(CalibratedModel& model, const View& view) {
                           (model.detected.changes() ? 1.0 : 0.0)) *
                          of_grid;
     info.multipath_bytes = of_grid;
-    if (model.levels.noise_db > no_level_db || receiver.common_mode_db > no_level_db)
-        info.mean_noise = model.noise_values;
+    if (model.levels.noise_db > no_level_db) info.mean_noise = model.noise_values;
     info.echo_gain.assign(model.row_gain.begin(), model.row_gain.end());
     info.cell.range_bins = model.target_cell.depth_m / view.bin_m();
     if (model.cones.exist())
@@ -161,25 +160,18 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
         instrument.frequency_hz, {water.temperature_c, water.salinity_psu, water.depth_m});
 
     model.levels = instrument_levels(instrument, water, view);
-    // Relative to the source level; a noise that there is not asks for no headroom.
-    const auto noise_of = [&](double level_db) {
-        return level_db > no_level_db ? level_db - model.levels.source_level_db : no_level_db;
-    };
-    const double noise_db = noise_of(model.levels.noise_db);
-    const double common_mode_db = noise_of(receiver.common_mode_db);
-    const double raised_db = float_headroom_db(noise_db, std::max(noise_db, common_mode_db));
-    const auto power_of = [&](double level_db, double relative_db) {
-        return level_db > no_level_db ? power_of_db(relative_db + raised_db) : 0.0;
-    };
-    const double noise = power_of(model.levels.noise_db, noise_db);
-    const double common_mode = power_of(receiver.common_mode_db, common_mode_db);
+    // Relative to the source level. Without noise there is no headroom.
+    const bool has_noise = model.levels.noise_db > no_level_db;
+    const double noise_db =
+        has_noise ? model.levels.noise_db - model.levels.source_level_db : no_level_db;
+    const double raised_db = float_headroom_db(noise_db);
+    const double noise = has_noise ? power_of_db(noise_db + raised_db) : 0.0;
     if (beam.aperture == Aperture::line) {
-        model.beams = array_beams(beam, sines.middles, noise, common_mode, of_noise);
+        model.beams = array_beams(beam, sines.middles, noise, of_noise);
         model.cones = ConeBeams(sines.edges);
         model.info.guard_beams = guard_beams_of(beam, view);
     } else {
-        model.beams =
-            transducer_beams(beam, view, model.wavelength_m, noise + common_mode, of_noise);
+        model.beams = transducer_beams(beam, view, model.wavelength_m, noise, of_noise);
     }
     model.limits = point_limits(beam, view, model.beams);
     model.equation = {.range_min_m = static_cast<float>(view.range_min_m),
@@ -196,7 +188,7 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
                                   view.range_min_m, model.wavelength_m);
     model.target_cell = target_cell(beam, std::max(resolution_m, 0.5 * bin_m));
     model.row_gain = row_gains(receiver, model.levels, view, model.absorption_db_per_m, raised_db);
-    model.noise_values = noise_values(model.row_gain, noise + common_mode);
+    model.noise_values = noise_values(model.row_gain, noise);
     model.reverberation = Reverberation(receiver, bin_m, water.sound_speed_m_s);
     model.detected = DetectedSample(receiver);
     set_info(model, view);

@@ -25,19 +25,9 @@ int steps_for(double bend, double turn) {
     return 32 + static_cast<int>(4.0 * (std::fabs(bend) + std::fabs(turn)));
 }
 
-/// Adds `factor` times the values to the sums.
-void add_times(const float* values, float factor, std::vector<float>& sums) {
-    for (std::size_t i = 0; i < sums.size(); ++i)
-        sums[i] = std::fma(factor, values[i], sums[i]);
-}
-
-// A table that takes more products than these, a second of work, is filled by Fourier transforms.
-constexpr double max_products = 1e9;
-
-/// Fills the table by Fourier transforms over the array, of several curvatures at once: half a
-/// second where sums take a minute. The sines are those of the transform. `bend` is the phase of
-/// the last curvature, `turn` that of the greatest sine, `half` the least number of sines on a
-/// side.
+/// Fills the table by Fourier transforms over the array, of several curvatures at once. The sines
+/// are those of the transform. `bend` is the phase of the last curvature, `turn` that of the
+/// greatest sine, `half` the least number of sines on a side.
 void fill_by_transforms(const LineArray& array, double bend, double turn, int half,
                         UnfocusedBeam& out) {
     const int steps = 2 * (steps_for(bend, turn) / 4);
@@ -107,51 +97,13 @@ UnfocusedBeam unfocused_beam(const LineArray& array, double wavelength_m, double
     const double turn = 2.0 * pi * array.wavelengths * greatest_sine;
     const double bend = 4.0 * end_phase(array, wavelength_m) / nearest;
     UnfocusedBeam out;
-    out.greatest_sine = static_cast<float>(greatest_sine);
     out.max_curvature = static_cast<float>(1.0 / nearest);
     const auto entries = [](double phase) { return 2 + static_cast<int>(phase / phase_by_entry); };
     const int half = (entries(turn) + 1) / 2;
-    out.sines = 2 * half + 1;
     out.curvatures = 1 + entries(0.25 * bend);
-    out.sines_per_unit = static_cast<float>((out.sines - 1) / (2.0 * greatest_sine));
     out.curvatures_per_unit = static_cast<float>((out.curvatures - 1) * nearest);
 
-    // As unfocused_pattern(). The array is symmetric, so the sines of the phase cancel; the cosines
-    // of x times the turn are the same for every curvature.
-    const int steps = steps_for(bend, turn) / 2;
-    const int count = half + 1;
-    if (1.0 * steps * count * out.curvatures > max_products) {
-        fill_by_transforms(array, bend, turn, half, out);
-        return out;
-    }
-    std::vector<double> x(steps);
-    std::vector<float> cosines;
-    for (int k = 0; k < steps; ++k) {
-        x[k] = 0.5 * (k + 0.5) / steps;
-        for (int i = 0; i < count; ++i)
-            cosines.push_back(static_cast<float>(sincos(x[k] * turn * i / half).cos));
-    }
-    std::vector<float> re(count), im(count);
-    out.values.resize(static_cast<std::size_t>(out.sines) * out.curvatures);
-    for (int j = 0; j < out.curvatures; ++j) {
-        std::ranges::fill(re, 0.0F);
-        std::ranges::fill(im, 0.0F);
-        for (int k = 0; k < steps; ++k) {
-            const SinCos phase = sincos(bend * j / (out.curvatures - 1) * x[k] * x[k]);
-            const double weight = array.weight(x[k]).real() / steps;
-            add_times(cosines.data() + static_cast<std::ptrdiff_t>(k) * count,
-                      static_cast<float>(weight * phase.cos), re);
-            add_times(cosines.data() + static_cast<std::ptrdiff_t>(k) * count,
-                      static_cast<float>(weight * phase.sin), im);
-        }
-        std::complex<float>* const middle =
-            out.values.data() + static_cast<std::ptrdiff_t>(j) * out.sines + half;
-        for (int i = 0; i < count; ++i) {
-            const std::complex<float> one_way(re[i], im[i]);
-            middle[i] = one_way * one_way;
-            middle[-i] = middle[i];
-        }
-    }
+    fill_by_transforms(array, bend, turn, half, out);
     return out;
 }
 

@@ -110,7 +110,7 @@ def fit_laws(recording, fit, find):
     statistics, offset = receiver_statistics(receiver), receiver["offset"]
     fit.law = fit_law(values, full, statistics, None, offset)
     find()
-    patches, noise, _ = classified(recording, fit.law, fit.noise, receiver)
+    patches, noise, _ = classified(recording, fit.law, fit.noise)
     of_echoes = len(noise) < LEAST_PATCHES
     places = None if of_echoes else np.bincount(patches.place[noise], minlength=patches.places) > 0
     fit.law = fit_law(values, full, statistics, places, offset, fit.law.is_log)

@@ -24,19 +24,15 @@ class Figure(typing.NamedTuple):
         return self.predicted is not None and abs(self.predicted - self.measured.value) <= most
 
 
-def classified(recording, law, noise, receiver):
+def classified(recording, law, noise):
     """(patches of log powers less the level of the noise, numbers of noise patches, of echo patches). Patches are
-    noise if all their rows are blocks of `noise` without echoes and zeros, outside of the middle quarter if all elements
-    share noise, which acts like a wave from there. Even patches 6 dB above the noise, or without `noise` all, are echoes."""
+    noise if all their rows are blocks of `noise` without echoes and zeros. Even patches 6 dB above the noise, or without `noise` all, are echoes."""
     level = (noise.at(recording.ranges_m) if noise else np.zeros(recording.values.shape[1]))[:, None] / DB_OF_E
     patches = Patches(recording.values, law.full_value, lambda ping: law.log_power(ping) - level)
     is_noise = np.zeros(len(patches.place), bool)
     if noise and noise.used is not None:
         rows = noise.used.row[noise.used.without_echo & noise.used.without_zeros]
         is_noise = np.all([np.isin(patches.row + k, rows) for k in range(0, patches.shape[0], ROWS)], axis=0)
-        if receiver["common_mode_db"] > -300.0:    # -300: none
-            middle = patches.beam + 0.5 * patches.shape[1] - 0.5 * recording.values.shape[2]
-            is_noise &= np.abs(middle) >= 0.5 * patches.shape[1] + recording.values.shape[2] / 8.0
     chosen, echoes = np.flatnonzero(is_noise), patches.even()
     if len(chosen):
         # Particles are bright points in some. The variance of four means of one level exceeds four times its median
@@ -55,7 +51,7 @@ def figures_of(recording, instrument, level_db, start, fit):
     noise = Noise(Bounded(*3 * [level_db]), Bounded(*3 * [receiver["tvg_log"]]), receiver["tvg_from_m"],
                   start.absorption_db_per_m if receiver["tvg_absorption"] else 0.0,
                   fit.noise and fit.noise.used)
-    patches, of_noise, echoes = classified(recording, law, noise, receiver)
+    patches, of_noise, echoes = classified(recording, law, noise)
     to_shape, out = 2.0 * np.pi / np.sqrt(6.0), []
     of = Patches(recording.values, law.full_value, lambda ping: np.exp(
         0.5 * (law.log_power(ping) - noise.at(recording.ranges_m)[:, None] / DB_OF_E)))
