@@ -122,7 +122,7 @@ def fit_laws(recording, fit, find):
 
 def fit_pulse_and_beams(recording, fit):
     """Sets pulse and beams."""
-    patches, noise, echoes = classified(recording, fit.law, fit.noise, fit.instrument["receiver"])
+    patches, noise, echoes = classified(recording, fit.law, fit.noise)
     of_echoes = len(noise) < LEAST_PATCHES
     chosen = echoes if of_echoes else noise
     if len(chosen) < LEAST_PATCHES:
