@@ -44,7 +44,8 @@ TEST_SUITE("calibrated") {
         Beamformer::Scratch scratch(beams);
         std::vector<Lanes> out(beams.beams());
         ElementNoiseOfPing noise =
-            beams.noise_of_ping({.element_sigma = beams.element_sigma_of_unit()}, {5, 6});
+            beams.noise_of_ping(
+                {.row_sigma = std::vector<float>(2000, beams.element_sigma_of_unit())}, {5, 6});
         double sum = 0.0;
         double squares = 0.0;
         double products = 0.0;

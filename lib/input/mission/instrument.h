@@ -81,6 +81,7 @@ enum class SampleRule { maximum, mean };
 struct ReceiverConfig {
     std::optional<double> noise_db;  ///< noise power in a beam; empty: by instrument_levels()
     double noise_figure_db = 6.0;    ///< noise of the electronics, for noise_db: auto
+    double converter_noise_db = -300.0;  ///< behind the gain, re full scale
     double gain_db = 0.0;            ///< raises all values, as a user's gain does
     double tvg_log = 40.0;           ///< spreading factor k of k log10 r
     bool tvg_absorption = true;      ///< TVG has the term 2 alpha r
@@ -269,6 +270,8 @@ void describe(Visitor& v, ReceiverConfig& c) {
              "computes it from frequency, pulse, beam and water.wind_m_s; -300 means none");
     v.number("noise_figure_db", c.noise_figure_db, between(0, 40),
              "noise of the electronics above heat, for noise_db: auto");
+    v.number("converter_noise_db", c.converter_noise_db, between(-300, 0),
+             "noise behind the TVG, as of a converter, below full_scale_db; -300 means none");
     v.number("gain_db", c.gain_db, between(-60, 60),
              "gain above full_scale_db, as set by a user: raises all values");
     v.number("tvg_log", c.tvg_log, between(0, 60), "spreading factor k of the TVG k log10 r");

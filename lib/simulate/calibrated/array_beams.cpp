@@ -110,14 +110,16 @@ void form_beams(const Beamformer& former, const EchoGrid* grid, ElementNoiseOfPi
 
 }  // namespace
 
-ArrayBeams array_beams(const BeamConfig& beam, const std::vector<double>& beam_sines, double noise,
-                       const std::vector<float>& taps) {
+ArrayBeams array_beams(const BeamConfig& beam, const std::vector<double>& beam_sines,
+                       std::span<const double> noise, const std::vector<float>& taps) {
     const LineArray array = receiving_array(beam);
     ArrayBeams out{.amplitudes = Beamformer(array, beam_sines, false, beam.elements),
                    .powers = Beamformer(array, beam_sines, true, beam.elements),
                    .noise = {}};
-    out.noise.element_sigma =
-        static_cast<float>(std::sqrt(noise)) * out.amplitudes.element_sigma_of_unit();
+    for (const double power : noise) {
+        out.noise.row_sigma.push_back(static_cast<float>(std::sqrt(power)) *
+                                      out.amplitudes.element_sigma_of_unit());
+    }
     out.noise.taps = taps;
     return out;
 }

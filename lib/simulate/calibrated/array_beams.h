@@ -17,10 +17,10 @@ struct ArrayBeams {
     ElementNoise noise;
 };
 
-/// `beam_sines`: the sines of the beams' azimuths. `noise`: the noise power in a beam.
-/// `taps`: the noise's filter along range.
-ArrayBeams array_beams(const BeamConfig& beam, const std::vector<double>& beam_sines, double noise,
-                       const std::vector<float>& taps);
+/// `beam_sines`: the sines of the beams' azimuths. `noise`: [range bins, to a multiple of 8] the
+/// noise power in a beam. `taps`: the noise's filter along range.
+ArrayBeams array_beams(const BeamConfig& beam, const std::vector<double>& beam_sines,
+                       std::span<const double> noise, const std::vector<float>& taps);
 
 inline int columns_of(const ArrayBeams& beams) {
     return beams.amplitudes.grid().columns;

@@ -206,12 +206,14 @@ ElementNoiseOfPing Beamformer::noise_of_ping(const ElementNoise& levels, PhiloxK
 /// Adds the noise of the bins `row` to `row` + 7.
 void Beamformer::add_noise(ElementNoiseOfPing& noise, int row, Scratch& scratch) const {
     noise.drawn.go_to(row);
+    const float* const row_sigma = noise.levels.row_sigma.data() + row;
     const int elements = this->elements();
     for (int e = 0; e < elements; ++e) {
         const ComplexLanes drawn = noise.drawn.of(e);
         ComplexLanes z = scratch.data[weights_[e].index];
-        const float sigma = noise.levels.element_sigma * weights_[e].noise_scale;
+        const float scale = weights_[e].noise_scale;
         for (int lane = 0; lane < lanes; ++lane) {
+            const float sigma = row_sigma[lane] * scale;
             z.re[lane] = std::fma(sigma, drawn.re[lane], z.re[lane]);
             z.im[lane] = std::fma(sigma, drawn.im[lane], z.im[lane]);
         }

@@ -13,7 +13,8 @@ namespace sonarsim {
 
 /// Noise of the receiver, before its beams are formed.
 struct ElementNoise {
-    float element_sigma = 0.0F;     ///< real and imaginary part each, per element
+    /// [range bins, to a multiple of 8] real and imaginary part each, per element.
+    std::vector<float> row_sigma;
     std::vector<float> taps{1.0F};  ///< the filter along range, by noise_taps()
 };
 

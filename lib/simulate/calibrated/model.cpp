@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string_view>
 #include <variant>
 
 #include "core/elementary.h"
+#include "core/lanes.h"
 #include "core/units.h"
 #include "simulate/calibrated/beamformer.h"
 #include "simulate/calibrated/decibel.h"
@@ -27,6 +29,7 @@ constexpr float max_sine_by_step = 1.1F;
 constexpr double max_by_width = 0.1;
 
 constexpr double no_level_db = -300.0;  // docs/mission.md
+constexpr double max_noise = 1e20;      // levels.h: echoes are at most 1e24
 
 // In the order in which they enter an image.
 constexpr std::array<std::string_view, 2> calibrated_terms{"speckle", "receiver_noise"};
@@ -93,12 +96,27 @@ PointLimits target_cell(const BeamConfig& beam, double resolution_m) {
     return {depth, width, part(beam.elevation_width_deg)};
 }
 
+/// The noise power in a beam in each range bin, to a multiple of 8: `noise` before the gain, and
+/// that of the converter behind it.
+std::vector<double> row_noises(const std::vector<float>& row_gain, double noise,
+                               double converter_noise_db) {
+    const double converter =
+        converter_noise_db > no_level_db ? power_of_db(converter_noise_db) : 0.0;
+    std::vector<double> out((row_gain.size() + lanes - 1) / lanes * lanes, noise);
+    for (std::size_t i = 0; i < row_gain.size(); ++i) {
+        const double gain = row_gain[i];
+        if (gain > 0.0) out[i] = std::min(noise + converter / gain, max_noise);
+    }
+    return out;
+}
+
 /// The mean value of noise in each range bin of the image.
-std::vector<float> noise_values(const std::vector<float>& row_gain, double noise) {
+std::vector<float> noise_values(const std::vector<float>& row_gain,
+                                std::span<const double> row_noise) {
     std::vector<float> out;
     out.reserve(row_gain.size());
-    for (const float gain : row_gain)
-        out.push_back(std::min(gain * static_cast<float>(noise), max_value));
+    for (std::size_t i = 0; i < row_gain.size(); ++i)
+        out.push_back(std::min(row_gain[i] * static_cast<float>(row_noise[i]), max_value));
     return out;
 }
 
@@ -126,7 +144,7 @@ void set_info(CalibratedModel& model, const View& view) {
                           (model.detected.changes() ? 1.0 : 0.0)) *
                          of_grid;
     info.multipath_bytes = of_grid;
-    if (model.levels.noise_db > no_level_db) info.mean_noise = model.noise_values;
+    if (std::ranges::max(model.noise_values) > 0.0F) info.mean_noise = model.noise_values;
     info.echo_gain.assign(model.row_gain.begin(), model.row_gain.end());
     info.cell.range_bins = model.target_cell.depth_m / view.bin_m();
     if (model.cones.exist())
@@ -166,12 +184,16 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
         has_noise ? model.levels.noise_db - model.levels.source_level_db : no_level_db;
     const double raised_db = float_headroom_db(noise_db);
     const double noise = has_noise ? power_of_db(noise_db + raised_db) : 0.0;
+    model.row_gain = row_gains(receiver, model.levels, view, model.absorption_db_per_m, raised_db);
+    const std::vector<double> row_noise =
+        row_noises(model.row_gain, noise, receiver.converter_noise_db);
+    model.noise_values = noise_values(model.row_gain, row_noise);
     if (beam.aperture == Aperture::line) {
-        model.beams = array_beams(beam, sines.middles, noise, of_noise);
+        model.beams = array_beams(beam, sines.middles, row_noise, of_noise);
         model.cones = ConeBeams(sines.edges);
         model.info.guard_beams = guard_beams_of(beam, view);
     } else {
-        model.beams = transducer_beams(beam, view, model.wavelength_m, noise, of_noise);
+        model.beams = transducer_beams(beam, view, model.wavelength_m, row_noise, of_noise);
     }
     model.limits = point_limits(beam, view, model.beams);
     model.equation = {.range_min_m = static_cast<float>(view.range_min_m),
@@ -187,8 +209,6 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
     model.cells = scatterer_cells(std::max(resolution_m, 0.5 * bin_m), radians(beam.width_deg),
                                   view.range_min_m, model.wavelength_m);
     model.target_cell = target_cell(beam, std::max(resolution_m, 0.5 * bin_m));
-    model.row_gain = row_gains(receiver, model.levels, view, model.absorption_db_per_m, raised_db);
-    model.noise_values = noise_values(model.row_gain, noise);
     model.reverberation = Reverberation(receiver, bin_m, water.sound_speed_m_s);
     model.detected = DetectedSample(receiver);
     set_info(model, view);

@@ -78,11 +78,13 @@ float SineTable::at(float sine) const {
 }
 
 TransducerBeams transducer_beams(const BeamConfig& beam, const View& view, double wavelength_m,
-                                 double noise, const std::vector<float>& taps) {
+                                 std::span<const double> noise,
+                                 const std::vector<float>& taps) {
     TransducerBeams out;
     out.noise_taps = taps;
     out.aperture = beam.aperture;
-    out.noise_sigma = static_cast<float>(std::sqrt(0.5 * noise));
+    for (const double power : noise)
+        out.row_sigma.push_back(static_cast<float>(std::sqrt(0.5 * power)));
     if (beam.aperture == Aperture::piston) {
         const double scale = piston_scale(radians(beam.width_deg));
         out.pattern = sine_table(0.0, sincos(0.5 * view.elevation_rad).sin, [&](double sine) {
@@ -189,7 +191,6 @@ void add_bistatic_powers(const TransducerBeams& beams, const PathEndpoint& out,
 void beamform(const TransducerBeams& beams, const EchoGrid& grid, bool powers, bool noisy,
               PhiloxKey key, std::span<const float> row_gain, std::span<float> image) {
     const int count = beams.beams();
-    const float sigma = noisy ? beams.noise_sigma : 0.0F;
     FilteredNoise noise({.firsts = count}, beams.noise_taps, key);
     for (int row = 0; row < grid.rows(); row += lanes) {
         if (noisy) noise.go_to(row);
@@ -199,6 +200,7 @@ void beamform(const TransducerBeams& beams, const EchoGrid& grid, bool powers, b
             const auto [re, im] = noisy ? noise.of(beam) : ComplexLanes{};
             for (int lane = 0; lane < filled; ++lane) {
                 const std::ptrdiff_t at = std::ptrdiff_t{2} * (row + lane);
+                const float sigma = noisy ? beams.row_sigma[row + lane] : 0.0F;
                 // Without speckle the energies of echo and noise add.
                 const float x = sigma * re[lane] + (powers ? 0.0F : column[at]);
                 const float y = sigma * im[lane] + (powers ? 0.0F : column[at + 1]);

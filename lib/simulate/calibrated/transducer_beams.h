@@ -34,15 +34,17 @@ struct TransducerBeams {
     UnfocusedBeam along;      ///< pattern of a side along the sensor's z axis, two-way
     /// Two-way amplitude of a side across the track, of a disc off its axis, of a head in azimuth.
     SineTable pattern;
-    float noise_sigma = 0.0F;  ///< real and imaginary part each
+    /// [range bins, to a multiple of 8] of the noise, real and imaginary part each.
+    std::vector<float> row_sigma;
     std::vector<float> noise_taps{1.0F};
 
     int beams() const { return sides.empty() ? 1 : static_cast<int>(sides.size()); }
 };
 
-/// `noise`: the noise power in a beam. `taps`: the noise's filter along range.
+/// `noise`: [range bins, to a multiple of 8] the noise power in a beam. `taps`: the noise's filter
+/// along range.
 TransducerBeams transducer_beams(const BeamConfig& beam, const View& view, double wavelength_m,
-                                 double noise, const std::vector<float>& taps);
+                                 std::span<const double> noise, const std::vector<float>& taps);
 
 inline int columns_of(const TransducerBeams& beams) {
     return beams.beams();

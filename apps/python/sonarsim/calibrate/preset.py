@@ -19,7 +19,8 @@ DEFAULTS = {
     "pulse": {"resolution_m": 0.0, "side_lobe_db": -30.0},
     "speckle": {"mode": "scene"},
     "receiver": {"tvg_log": 40.0, "tvg_absorption": True, "tvg_from_m": 0.0, "companding": "gamma", "gamma": 0.5,
-                 "dynamic_range_db": 60.0, "samples": 1.0, "combine": "max", "expansion": 1.0, "offset": 0.0},
+                 "dynamic_range_db": 60.0, "samples": 1.0, "combine": "max", "expansion": 1.0, "offset": 0.0,
+                 "converter_noise_db": -300.0},
 }
 
 

@@ -108,6 +108,7 @@ class Echoes:
 
     def __init__(self, start, mission, name, paths_from, settings=()):
         text = with_shape(start, start.text, {"instrument.receiver.noise_db": NO_NOISE_DB,
+                                              "instrument.receiver.converter_noise_db": NO_NOISE_DB,
                                               "instrument.receiver.full_scale_db": start.full_scale_db})
         powers = rendered(start, text, mission, name, paths_from, settings, lambda out: self._powers(out, name))
         receiver = start.instrument["receiver"]
