@@ -1,6 +1,8 @@
 """The facts of objects: per ping, and in the pictures of all pings, against the label arrays beside them; read as the
 formats' authors publish them."""
 import json
+import re
+import shutil
 import sys
 import unittest
 
@@ -60,6 +62,96 @@ def picture(path):
         return np.asarray(image)
 
 
+BEAMS, BINS, STEPS = 96, 260, 8      # steps of the z-buffer in a beam
+OUTLINES = """\
+name: outlines
+seed: 7
+scene: {file: room.gltf, materials: materials.csv}
+trajectory: {file: path.csv}
+sensors:
+  fls: {kind: imaging, azimuth_deg: 60, elevation_deg: 40, range_min_m: 0.8, range_max_m: 3.4, range_bins: 260,
+        azimuth_bins: 96}
+output: {folder: out, labels: [objects]}
+labels: {background: [none]}
+"""
+
+
+def grid_of(u, v, point):
+    """Points [u, v, 3] of a surface of two angles."""
+    return np.stack(np.broadcast_arrays(*point(u[:, None], v[None, :])), -1)
+
+
+def sphere(radius):
+    return grid_of(np.linspace(0, np.pi, 61), np.linspace(0, 2 * np.pi, 121), lambda u, v: (
+        radius * np.sin(u) * np.cos(v), radius * np.sin(u) * np.sin(v), radius * np.cos(u)))
+
+
+def torus(radius, tube):
+    turn = np.linspace(0, 2 * np.pi, 161)
+    return grid_of(turn, turn, lambda u, v: ((radius + tube * np.cos(v)) * np.cos(u),
+                                             (radius + tube * np.cos(v)) * np.sin(u), tube * np.sin(v)))
+
+
+def plate(half_y, half_z):
+    return grid_of(np.linspace(-1, 1, 161), np.linspace(-1, 1, 161), lambda u, v: (0.2 * u, half_y * u, half_z * v))
+
+
+def mesh_of(points):
+    """A mesh of glTF over a grid of points."""
+    rows, columns = points.shape[:2]
+    first = (np.arange(rows - 1)[:, None] * columns + np.arange(columns - 1)).ravel()
+    corners = np.stack([first, first + 1, first + columns, first + 1, first + columns + 1, first + columns], 1)
+    return points.reshape(-1, 3).tolist(), corners.ravel().tolist(), 0
+
+
+def silhouettes(bodies):
+    """For each body, the bins [range, beam] of its nearest points in a z-buffer; points lie closer than its steps."""
+    at, owner = [], []
+    for number, points in enumerate(bodies.values()):
+        fine = np.concatenate([points[:-1] * (1 - s) + points[1:] * s for s in np.arange(0, 1, 0.25)])
+        fine = np.concatenate([fine[:, :-1] * (1 - s) + fine[:, 1:] * s for s in np.arange(0, 1, 0.25)], 1)
+        at.append(fine.reshape(-1, 3))
+        owner.append(np.full(len(at[-1]), number))
+    at, owner = np.concatenate(at), np.concatenate(owner)
+    r = np.linalg.norm(at, axis=1)
+    across = (30 + np.degrees(np.arctan2(at[:, 1], at[:, 0]))) / 60 * BEAMS
+    up = np.degrees(np.arcsin(at[:, 2] / r)) / 60 * BEAMS
+    cell = np.floor(across * STEPS).astype(int) * 100000 + np.floor(up * STEPS).astype(int) + 50000
+    order = np.lexsort((r, cell))
+    nearest = order[np.unique(cell[order], return_index=True)[1]]
+    seen = {name: np.zeros((BINS, BEAMS), bool) for name in bodies}
+    for k in nearest:
+        bin_, beam = int((r[k] - 0.8) / 0.01), int(across[k])
+        if abs(np.degrees(np.arcsin(at[k, 2] / r[k]))) < 20 and 0 <= bin_ < BINS and 0 <= beam < BEAMS:
+            seen[list(bodies)[owner[k]]][bin_, beam] = True
+    return {name: filled(mask) for name, mask in seen.items()}
+
+
+def label(mask, corners):
+    """The number of the piece of each True, from 1 on; pieces are joined by sides, or by corners, too."""
+    marks, count = np.zeros(mask.shape, int), 0
+    for start in zip(*np.nonzero(mask)):
+        if marks[start]:
+            continue
+        count, todo = count + 1, [start]
+        while todo:
+            y, x = todo.pop()
+            if not (0 <= y < mask.shape[0] and 0 <= x < mask.shape[1]) or not mask[y, x] or marks[y, x]:
+                continue
+            marks[y, x] = count
+            todo += [(y + dy, x + dx) for dy in (-1, 0, 1) for dx in (-1, 0, 1) if corners or not dy or not dx]
+    return marks
+
+
+def pieces(mask, corners):
+    return label(mask, corners).max()
+
+
+def filled(mask):
+    outside = label(~np.pad(mask, 1), False)
+    return (outside != outside[0, 0])[1:-1, 1:-1]
+
+
 class Objects(Sandbox):
     def setUp(self):
         super().setUp()
@@ -74,7 +166,7 @@ class Objects(Sandbox):
         self.assertEqual(area, len(rows))
 
     def test_masks_and_boxes_are_those_of_the_label_images(self):
-        self.assert_renders()
+        self.masks_of("echo")
         for sensor, pings in (("fls", (0, 2, 4)), ("mbes", (0, 3))):
             for ping in pings:
                 found = {one["id"]: one for one in self.objects_of(ping, sensor)}
@@ -90,7 +182,7 @@ class Objects(Sandbox):
                         self.assertIsNone(one["fan"])
 
     def test_a_side_scan_has_an_entry_a_side(self):
-        self.assert_renders()
+        self.masks_of("echo")
         found = self.json("out/sss/objects.json")
         self.assertEqual((found["picture"], found["width"], found["height"], found["pings"], found["pings_per_pixel"]),
                          ("waterfall.png", 92, 6, 6, 1))
@@ -112,7 +204,8 @@ class Objects(Sandbox):
 
     def masks_of(self, kind):
         """The masks of the pillars in the pings of fls and in the waterfall, for a kind of mask."""
-        self.edit("mission.yaml", "labels: {", f"labels: {{mask: {kind}, ") if kind else None
+        mission = self.folder / "mission.yaml"
+        mission.write_text(re.sub(r"labels: \{(mask: [^,]*, )?", f"labels: {{mask: {kind}, ", mission.read_text()))
         self.assert_renders("--overwrite")
         found = {("fls", ping, one["name"]): one for ping in (0, 2, 4) for one in self.objects_of(ping, "fls")}
         found |= {("sss", one["side"], one["name"]): one for one in self.json("out/sss/objects.json")["objects"]}
@@ -121,17 +214,53 @@ class Objects(Sandbox):
 
     def test_silhouettes_lie_in_the_echo_and_have_shadows(self):
         self.edit("mission.yaml", "background: [none]", "background: [auto]")
-        echo = self.masks_of("")
+        echo = self.masks_of("echo")
         drawn = self.masks_of("silhouette")
         self.assertTrue(drawn)
         self.assertLessEqual(set(drawn), set(echo))
         for key, mask in drawn.items():
             self.assertGreater((mask & echo[key]).sum(), 0.8 * mask.sum(), key)
-        self.edit("mission.yaml", "mask: silhouette", "mask: silhouette+shadow")
-        whole = self.masks_of("")
+        whole = self.masks_of("silhouette+shadow")
         self.assertEqual(set(whole), set(drawn))
         self.assertFalse(any((drawn[key] & ~mask).any() for key, mask in whole.items()))
         self.assertTrue(any(mask.sum() > drawn[key].sum() for key, mask in whole.items() if key[0] == "fls"))
+
+    def test_outlines_are_those_of_the_bodies_in_view(self):
+        """Against rays through a z-buffer of points on the bodies, closed and filled as a person draws."""
+        bodies = {"ball": (sphere(0.12), (1.5, 0.5, 0.1)), "tyre": (torus(0.25, 0.08), (1.6, -0.35, -0.3)),
+                  "front": (sphere(0.1), (2.2, 0.3, -0.3)), "behind": (sphere(0.2), (2.6, 0.42, -0.28)),
+                  "chain": (np.concatenate([sphere(0.04) + (0, 0.05 * k, 0) for k in range(8)]), (2.7, -0.9, 0.2)),
+                  "wall": (plate(0.8, 0.5), (3.2, -0.3, 0.1))}
+        nodes = [{"name": name, "mesh": k} for k, name in enumerate(bodies)]
+        # glTF is y up: (x, y, z) of the world lies at (x, z, -y).
+        meshes = [mesh_of((points + np.array(at))[..., [0, 2, 1]] * (1, 1, -1)) for points, at in bodies.values()]
+        self.write("room.gltf", gltf(nodes, meshes))
+        self.write("path.csv", "t_s,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n0,0,0,0,0,0,0\n1,0,0,0,0,0,0\n")
+        self.write("mission.yaml", OUTLINES)
+        self.assert_renders()
+        expected = silhouettes({name: points + np.array(at) for name, (points, at) in bodies.items()})
+        found = {one["name"]: one for one in self.objects_of(0)}
+        self.assertEqual(set(found), set(bodies))
+        for name, one in found.items():
+            mask, body = mask_of(one["mask"], BEAMS, BINS), expected[name]
+            overlap = (mask & body).sum() / (mask | body).sum()
+            self.assertGreater(overlap, 0.85, name)
+            padded = np.pad(mask, 1)
+            self.assertEqual(pieces(padded, True), 1, name)         # one piece,
+            self.assertEqual(pieces(~padded, False), 1, name)       # without holes
+            self.assert_mask(one["mask"], mask, one["box_bins"], one["area_bins"], "beam", "range")
+
+    def test_shadows_belong_to_masks_by_class(self):
+        plain = self.masks_of("outline")
+        self.edit("mission.yaml", "mask: outline, ", "mask: outline, shadow: [pillar], ")
+        self.edit("mission.yaml", "background: [none]", "background: [auto]")
+        self.assert_renders("--overwrite")
+        shaded = {("fls", ping, one["name"]): mask_of(one["mask"], 48, 70) for ping in (0, 2, 4)
+                  for one in self.objects_of(ping, "fls") if "pillar" in one["name"]}
+        self.assertTrue(any(mask.sum() > plain[key].sum() for key, mask in shaded.items()))
+        shutil.rmtree(self.out)
+        self.edit("mission.yaml", "shadow: [pillar]", "shadow: [pilar]")
+        self.refused("mission.yaml:", "labels.shadow: there is no class 'pilar' (did you mean 'pillar'?)")
 
     def test_what_is_background_for_its_size_is_said(self):
         """The largest part of a mesh may be what a mission is about; a bottom is not."""

@@ -108,14 +108,49 @@ TEST_CASE("silhouette: gaps up to a resolution cell are closed, but for other ob
           Lines{"1111111111.....111", "1111121111.....111", "1111111111.....111"});
 }
 
+TEST_CASE("outline: the body in view is what comes up to a share of all else in a cell") {
+    const MaskFrame frame{1, 6, {}};
+    const Ids object{1, 1, 1, 2, 2, 0};
+    const std::vector<float> echo{1.0F, 1.0F, 1.0F, 8.0F, 1.0F, 0.0F};
+    const std::vector<float> whole{1.0F, 4.9F, 5.1F, 9.0F, 1.0F, 7.0F};
+    CHECK(find_bodies({frame, object, echo, whole}, {}, 0.25F) == Ids{1, 1, 0, 2, 2, 0});
+    const std::vector<float> noise{3.9F, 0.0F, 0.0F, 0.0F, 4.1F, 0.0F};
+    CHECK(find_bodies({frame, object, echo, whole}, noise, 0.25F) == Ids{1, 1, 0, 2, 0, 0});
+    // In cells of three bins the strong bins of a body carry the weak one between them.
+    const std::vector<float> weak{6.0F, 0.1F, 6.0F};
+    const std::vector<float> all{7.0F, 5.0F, 7.0F};
+    CHECK(find_bodies({{1, 3, {.range_bins = 3.0, .beams = 1.0}}, Ids(3, 1), weak, all}, {},
+                      0.25F) == Ids(3, 1));
+}
+
+TEST_CASE("outline: what is bright beside a body belongs to it, but for whiskers") {
+    const DrawnIds body({".......", ".111...", ".111...", ".......", "......."});
+    const DrawnIds bright({"..1....", ".1111.1", ".111...", ".111...", "...2222"});
+    Ids bodies = body.ids;
+    add_bright(body.frame, bright.ids, bodies);
+    CHECK(body.text(bodies) == Lines{".......", ".111...", ".111...", ".111...", "......."});
+}
+
+TEST_CASE("outline: half a cell around a body, filled, and one piece for a contiguous body") {
+    const DrawnIds drawn(
+        {"............", "..1...1.....", "............", "..1...1...2.", "............"},
+        {.range_bins = 5.0, .beams = 3.0});
+    CHECK(drawn.text(outlined(drawn.frame, drawn.ids)) ==
+          Lines{"111111111...", "111111111...", "1111111112..", "1111111112..", "1111111112.."});
+    const DrawnIds other({"1111", "1221", "1111"});
+    CHECK(other.text(outlined(other.frame, other.ids)) == other.text(other.ids));
+}
+
 TEST_CASE("silhouette: an object has the shadow behind it") {
     const DrawnIds drawn({".......", ".11....", ".11....", "......."});
     const DrawnIds shadow({".......", "...111.", "....112", "....11."});
-    CHECK(drawn.text(with_shadows(drawn.frame, drawn.ids, shadow.ids)) ==
+    const std::vector<std::uint8_t> of_all(3, 1);
+    CHECK(drawn.text(with_shadows(drawn.frame, drawn.ids, shadow.ids, of_all)) ==
           Lines{".......", ".11111.", ".11111.", "....11."});
     const DrawnIds far({".......", ".......", ".......", ".......", "....111"});
     const DrawnIds object({".11....", ".......", ".......", ".......", "......."});
-    CHECK(object.text(with_shadows(object.frame, object.ids, far.ids)) == object.text(object.ids));
+    CHECK(object.text(with_shadows(object.frame, object.ids, far.ids, of_all)) ==
+          object.text(object.ids));
 }
 
 TEST_SUITE_END();

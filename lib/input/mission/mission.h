@@ -42,13 +42,14 @@ struct ClassConfig {
 };
 
 /// The bins that the mask of an object has.
-enum class MaskKind { echo, silhouette, silhouette_and_shadow };
+enum class MaskKind { outline, echo, silhouette, silhouette_and_shadow };
 
 /// The classes that are background, which have neither contrast, shadow nor visible share, and the
 /// masks of the others.
 struct LabelConfig {
     std::vector<std::string> background{"auto"};  ///< classes that are not objects
-    MaskKind mask = MaskKind::echo;               ///< the masks of `objects`
+    MaskKind mask = MaskKind::outline;            ///< the masks of `objects`
+    std::vector<std::string> shadow;              ///< classes whose masks include the shadow
     Location place = {};
 };
 
@@ -109,6 +110,7 @@ void describe(Visitor& v, ClassConfig& c) {
 }
 
 inline constexpr Choice<MaskKind> mask_kinds[]{
+    {"outline", MaskKind::outline},
     {"echo", MaskKind::echo},
     {"silhouette", MaskKind::silhouette},
     {"silhouette+shadow", MaskKind::silhouette_and_shadow}};
@@ -124,8 +126,12 @@ void describe(Visitor& v, LabelConfig& c) {
               "'background' names classes, auto or none; with [none] all classes are objects");
     v.choice(
         "mask", c.mask, mask_kinds,
-        "mask of an object in `objects`: `echo` is where its echo is the largest, `silhouette` "
-        "where its direct echo stands out of all else, as a person draws it");
+        "mask of an object in `objects`: `outline` is a filled outline around its visible body, as "
+        "a person draws it, `echo` where its echo is the largest, `silhouette` where its echo "
+        "stands out of all else");
+    v.text("shadow", c.shadow, "classes whose masks include the shadow behind");
+    v.require(c.shadow.empty() || c.mask != MaskKind::echo, {"shadow", "mask"},
+              "'shadow' needs mask: outline or silhouette");
 }
 
 template <class Visitor>

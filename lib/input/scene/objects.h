@@ -29,12 +29,16 @@ struct SceneObjects {
     std::vector<std::string> classes;
     /// Indexed by class: 1 if it is never annotated. Empty: no class is.
     std::vector<std::uint8_t> background;
+    std::vector<std::uint8_t> shadow;  ///< indexed by class: 1 if masks include the shadow
     std::vector<std::uint32_t> object_of_instance;  ///< index into `objects`, by Scene::instances
 
     std::uint32_t object_of(std::uint32_t instance) const { return object_of_instance[instance]; }
     std::uint32_t class_of(std::uint32_t object) const { return objects[object].class_index; }
     bool is_background(std::uint32_t object) const {
         return !background.empty() && background[class_of(object)] != 0;
+    }
+    bool has_shadow(std::uint32_t object) const {
+        return !shadow.empty() && shadow[class_of(object)] != 0;
     }
 };
 

@@ -41,15 +41,29 @@ Ids without_background(Ids ids, const SceneObjects& objects) {
     return ids;
 }
 
-/// Finds the silhouettes and returns the masks.
-Ids draw_masks(const LabelPlan& plan, const ExpectedBins& expected, PingLabels& labels) {
+/// The outlines of a ping; in a record, which is drawn in its picture, the bodies.
+Ids find_outlines(const LabelPlan& plan, const EchoModelInfo& info, const PingLabels& labels) {
+    const MaskFrame frame{labels.beams, labels.range_bins, info.cell};
+    std::vector<float> noise = info.mean_noise;
+    for (std::size_t i = 0; i < noise.size(); ++i)
+        noise[i] = info.echo_gain.empty() ? 0.0F : noise[i] / info.echo_gain[i];
+    // Weak parts of the visible body count, 1 dB above what is there without them; of multipath,
+    // such as the foot of a wall, what outshines all else.
+    constexpr float body_ratio = 0.25F;
+    Standouts found{find_bodies(
+        {frame, labels.visible_object, labels.visible_echo, labels.whole_echo}, noise, body_ratio)};
+    const Ids bright =
+        find_bodies({frame, labels.own_object, labels.own_echo, labels.whole_echo}, noise, 1.0F);
+    add_bright(frame, bright, found.object);
+    drop_mirror_images(frame, labels.visible_object, found);
+    return plan.objects ? outlined(frame, found.object) : found.object;
+}
+
+Ids find_silhouettes(const LabelPlan& plan, const ExpectedBins& expected,
+                     const PingLabels& labels) {
     Standouts found = find_standouts(expected);
     drop_mirror_images(expected.frame, labels.visible_object, found);
-    // Records are tidied in their pictures.
-    labels.silhouette =
-        plan.objects ? tidied(expected.frame, found.object, found.ratio) : found.object;
-    if (!plan.objects || plan.mask != MaskKind::silhouette_and_shadow) return labels.silhouette;
-    return with_shadows(expected.frame, labels.silhouette, labels.object_shadow);
+    return plan.objects ? tidied(expected.frame, found.object, found.ratio) : found.object;
 }
 
 }  // namespace
@@ -64,8 +78,10 @@ LabelPlan plan_labels(const Mission& mission, const Assembly& assembly, const So
     const bool objects = listed(Label::objects);
     const bool shares = listed(Label::share) || listed(Label::second) || listed(Label::multipath);
     const OutputConfig& output = mission.output;
-    const bool draws = objects && mission.labels.mask != MaskKind::echo;
-    const bool only_objects = has_images && !draws && output.labels == std::vector{Label::objects};
+    const MaskKind mask = mission.labels.mask;
+    const bool is_local = mask == MaskKind::echo || mask == MaskKind::outline;
+    const bool only_objects =
+        has_images && is_local && output.labels == std::vector{Label::objects};
     LabelPlan plan;
     plan.on = !output.labels.empty();
     plan.request = {.objects = objects || listed(Label::instance) || shares,
@@ -76,10 +92,11 @@ LabelPlan plan_labels(const Mission& mission, const Assembly& assembly, const So
                     .elevation = listed(Label::elevation),
                     .shadow = listed(Label::shadow),
                     .height = listed(Label::height),
-                    .silhouettes = draws,
+                    .silhouettes = objects && mask != MaskKind::echo,
                     .annotations = objects,
                     .bottom = assembly.bottom.get()};
-    plan.mask = mission.labels.mask;
+    plan.mask = mask;
+    plan.has_shadow = shadow_ids(assembly.objects);
     plan.objects = has_images && objects;
     plan.fan_objects = plan.objects && output.fan;
     if (plan.fan_objects || (has_images && listed(Label::fan)))
@@ -102,11 +119,19 @@ LabelledPing label_for_writers(const LabelPlan& plan, const Assembly& assembly, 
     out.bins =
         label_ping(traced, sonar.settings, assembly.scene, assembly.objects, engine, request);
     out.fan_bins = plan.fan.get();
-    const Ids mask =
-        request.silhouettes
-            ? draw_masks(plan, expected_bins(sonar, assembly.scene, traced, out.bins), out.bins)
-            : without_background(out.bins.object, assembly.objects);
+    if (request.silhouettes) {
+        out.bins.silhouette =
+            plan.mask == MaskKind::outline
+                ? find_outlines(plan, sonar.settings.model->info, out.bins)
+                : find_silhouettes(plan, expected_bins(sonar, assembly.scene, traced, out.bins),
+                                   out.bins);
+    }
     if (!plan.objects) return out;
+    Ids mask = without_background(out.bins.facts(), assembly.objects);
+    if (plan.mask != MaskKind::echo) {
+        const MaskFrame frame{out.bins.beams, out.bins.range_bins, sonar.settings.model->info.cell};
+        mask = with_shadows(frame, mask, out.bins.object_shadow, plan.has_shadow);
+    }
     out.polar = object_masks(mask, out.bins.range_bins);
     std::span<const PixelBox> fan_boxes;
     if (plan.fan_objects) {

@@ -23,8 +23,9 @@ struct LabelPlan {
     LabelRequest request;
     bool objects = false;                ///< a writer needs the masks and the table of objects
     std::shared_ptr<const FanBins> fan;  ///< null if no label is in the fan
-    MaskKind mask = MaskKind::echo;
-    bool fan_objects = false;  ///< objects have masks and boxes in the fan, too
+    MaskKind mask = MaskKind::outline;
+    std::vector<std::uint8_t> has_shadow;  ///< shadow_ids()
+    bool fan_objects = false;              ///< objects have masks and boxes in the fan, too
     /// For shadows; null without.
     std::shared_ptr<const TriangleRuns> triangles;
     AnnotatedObjects annotated;  ///< empty without annotations and shadows

@@ -225,6 +225,7 @@ SceneObjects objects_of(const Mission& mission, const Scene& scene) {
         rules.push_back({rule.nodes, rule.name, rule.instance, rule.place});
     SceneObjects objects = group_objects(scene, rules, possible_objects(mission, scene));
     objects.background = background_classes(mission, scene, objects);
+    objects.shadow = shadow_classes(mission, objects);
     return objects;
 }
 

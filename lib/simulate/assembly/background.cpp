@@ -59,28 +59,43 @@ std::optional<std::uint32_t> largest_class(const Scene& scene, const SceneObject
     return objects.class_of(static_cast<std::uint32_t>(largest - areas.begin()));
 }
 
+/// The index of the class that an entry of labels.`key` names. InputError if there is none.
+std::size_t class_named(const Mission& mission, const SceneObjects& objects, const char* key,
+                        const std::string& name) {
+    const auto found = std::ranges::find(objects.classes, name);
+    if (found != objects.classes.end())
+        return static_cast<std::size_t>(found - objects.classes.begin());
+    std::string all;
+    for (const std::string& one : objects.classes)
+        all += (all.empty() ? "" : ", ") + printable(one);
+    throw InputError(mission.labels.place,
+                     std::string("labels.") + key + ": there is no class '" + printable(name) +
+                         "'" + did_you_mean(name, objects.classes) + "; there are: " + all);
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> background_classes(const Mission& mission, const Scene& scene,
                                              const SceneObjects& objects) {
     std::vector<std::uint8_t> background(objects.classes.size(), 0);
     for (const std::string& name : mission.labels.background) {
-        const auto found = std::ranges::find(objects.classes, name);
-        if (found != objects.classes.end()) {
-            background[static_cast<std::size_t>(found - objects.classes.begin())] = 1;
-        } else if (name == "auto") {
+        const bool is_class = std::ranges::find(objects.classes, name) != objects.classes.end();
+        if (name == "auto" && !is_class) {
             add_bottom(mission, scene, objects, background);
             if (const auto largest = largest_class(scene, objects)) background[*largest] = 1;
-        } else if (name != "none") {
-            std::string all;
-            for (const std::string& one : objects.classes)
-                all += (all.empty() ? "" : ", ") + printable(one);
-            throw InputError(mission.labels.place,
-                             "labels.background: there is no class '" + printable(name) + "'" +
-                                 did_you_mean(name, objects.classes) + "; there are: " + all);
+        } else if (name != "none" || is_class) {
+            background[class_named(mission, objects, "background", name)] = 1;
         }
     }
     return background;
+}
+
+std::vector<std::uint8_t> shadow_classes(const Mission& mission, const SceneObjects& objects) {
+    const bool all = mission.labels.mask == MaskKind::silhouette_and_shadow;
+    std::vector<std::uint8_t> shadow(objects.classes.size(), all ? 1 : 0);
+    for (const std::string& name : mission.labels.shadow)
+        shadow[class_named(mission, objects, "shadow", name)] = 1;
+    return shadow;
 }
 
 std::optional<std::string> background_by_size(const Mission& mission, const Scene& scene,

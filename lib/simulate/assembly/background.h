@@ -18,6 +18,9 @@ namespace sonarsim {
 std::vector<std::uint8_t> background_classes(const Mission& mission, const Scene& scene,
                                              const SceneObjects& objects);
 
+/// The classes whose masks include the shadow, as SceneObjects::shadow. InputError as above.
+std::vector<std::uint8_t> shadow_classes(const Mission& mission, const SceneObjects& objects);
+
 /// The class that `auto` makes background for its surface alone; nothing for a bottom. It may be
 /// the object that a mission is about, such as the hull of a wreck of several parts.
 std::optional<std::string> background_by_size(const Mission& mission, const Scene& scene,

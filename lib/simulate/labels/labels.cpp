@@ -145,7 +145,8 @@ void label_surfaces(const SurfaceSums& surfaces, const SceneObjects& objects,
                             own(out.share, out, j), own(out.second_share, out, j)});
         }
         if (request.silhouettes) {
-            visible.find(surfaces.sums(), j, {own(out.visible_object, out, j), {}});
+            visible.find(surfaces.sums(), j,
+                         {own(out.visible_object, out, j), {}, own(out.visible_echo, out, j)});
             own_echoes.find(surfaces.sums(), j,
                             {own(out.own_object, out, j), {}, own(out.own_echo, out, j)});
             for (std::uint32_t source = 0; source < surfaces.sums().sources(); ++source)

@@ -177,6 +177,13 @@ std::vector<std::uint8_t> background_ids(const SceneObjects& objects) {
     return is_background;
 }
 
+std::vector<std::uint8_t> shadow_ids(const SceneObjects& objects) {
+    std::vector<std::uint8_t> has_shadow(std::size_t{1} << 16, 0);
+    for (std::uint32_t k = 0; k < objects.objects.size(); ++k)
+        has_shadow[k + 1] = objects.has_shadow(k) ? 1 : 0;
+    return has_shadow;
+}
+
 std::vector<ObjectInPing> visible_objects(const Sonar& sonar, const SceneObjects& objects,
                                           const TracedPing& traced, const PingLabels& labels,
                                           const Ping& ping, std::span<const PixelBox> fan_boxes) {

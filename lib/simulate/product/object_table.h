@@ -35,6 +35,9 @@ struct ObjectInPing {
 /// 1 for the ids of background, and for those that no object has; indexed by all ids of 16 bits.
 std::vector<std::uint8_t> background_ids(const SceneObjects& objects);
 
+/// 1 for the ids whose masks include the shadow, 0 for all others of 16 bits.
+std::vector<std::uint8_t> shadow_ids(const SceneObjects& objects);
+
 /// The objects in a ping, sorted by id. `labels` gives the object of each bin, `ping` the levels.
 /// `fan_boxes` are FanBins::boxes; empty: no fan.
 /// The surroundings of an object are the box of its bins, enlarged on each side by half its size

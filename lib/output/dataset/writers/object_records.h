@@ -66,22 +66,30 @@ class ObjectRecords {
   public:
     ObjectRecords(const WriterContext& context, const std::filesystem::path& folder)
         : context_(context),
-          object_(open(folder, is_drawn() ? silhouette_record : "instance", "<u2")),
+          object_(
+              open(folder,
+                   context.mission.labels.mask == MaskKind::echo ? "instance" : silhouette_record,
+                   "<u2")),
           shadow_(open(folder, object_shadow_record, "<u2")),
           visible_share_(open(folder, visible_share_record, "<u2")),
           level_(open(folder, context.kind().record.name, "<f4")),
-          is_background_(background_ids(context.assembly.objects)) {
+          is_background_(background_ids(context.assembly.objects)),
+          has_shadow_(shadow_ids(context.assembly.objects)) {
         const std::vector<double>& edges = context.sonar().range_edges_m;
         for (std::size_t k = 0; k + 1 < edges.size(); ++k)
             range_m.push_back(0.5 * (edges[k] + edges[k + 1]));
     }
 
-    /// True if masks are silhouettes, whose records have to be tidied.
-    bool is_drawn() const { return context_.mission.labels.mask != MaskKind::echo; }
-    const ResolutionCell& cell() const { return context_.sonar().settings.model->info.cell; }
-    bool has_shadows() const {
-        return context_.mission.labels.mask == MaskKind::silhouette_and_shadow;
+    /// The ids, or passes of objects, of a picture as their masks.
+    std::vector<std::uint16_t> drawn(const MaskFrame& frame,
+                                     const std::vector<std::uint16_t>& ids) const {
+        const MaskKind mask = context_.mission.labels.mask;
+        if (mask == MaskKind::echo) return ids;
+        return mask == MaskKind::outline ? outlined(frame, ids) : tidied(frame, ids);
     }
+    const ResolutionCell& cell() const { return context_.sonar().settings.model->info.cell; }
+    /// 1 for the ids whose masks include the shadow.
+    const std::vector<std::uint8_t>& has_shadow() const { return has_shadow_; }
 
     /// Reads `count` pings from `first` on into the lines from `line` on, without background.
     void read(std::size_t first, std::size_t count, std::size_t line, RecordValues& values) const {
@@ -152,7 +160,7 @@ class ObjectRecords {
 
     const WriterContext& context_;
     RecordFile object_, shadow_, visible_share_, level_;
-    std::vector<std::uint8_t> is_background_;  ///< indexed by id
+    std::vector<std::uint8_t> is_background_, has_shadow_;  ///< indexed by id
 };
 
 }  // namespace sonarsim

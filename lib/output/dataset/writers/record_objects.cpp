@@ -46,13 +46,11 @@ class Strip {
         find_passes();
         const std::size_t across = shape_.upright ? rows_ : static_cast<std::size_t>(bins_);
         const std::size_t down = shape_.upright ? static_cast<std::size_t>(bins_) : rows_;
-        if (source_.is_drawn()) {
-            const double range_bins = source_.cell().range_bins;
-            const ResolutionCell cell =
-                shape_.upright ? ResolutionCell{range_bins, 1.0} : ResolutionCell{1.0, range_bins};
-            const MaskFrame frame{static_cast<int>(across), static_cast<int>(down), cell};
-            pass_of_pixel_ = tidied(frame, pass_of_pixel_);
-        }
+        const double range_bins = source_.cell().range_bins;
+        const ResolutionCell cell =
+            shape_.upright ? ResolutionCell{range_bins, 1.0} : ResolutionCell{1.0, range_bins};
+        pass_of_pixel_ =
+            source_.drawn({static_cast<int>(across), static_cast<int>(down), cell}, pass_of_pixel_);
         std::vector<Json> objects;
         for (const ObjectMask& mask : object_masks(pass_of_pixel_, static_cast<int>(down))) {
             complete(passes_[mask.id]);
@@ -101,7 +99,7 @@ class Strip {
                 const std::uint16_t id = values.shadow[bin];
                 Present& one = present[is_port(bin) ? 1 : 0][id];
                 if (id == 0 || one.pass == 0) continue;
-                if (source_.has_shadows() && one.last == ping) draw(ping, bin, one.pass);
+                if (source_.has_shadow()[id] != 0 && one.last == ping) draw(ping, bin, one.pass);
                 BinBox& box = one.last == ping ? passes_[one.pass].shadow : one.shadow;
                 box.extend(static_cast<int>(ping), bin);
             }
@@ -224,12 +222,9 @@ void write_sweeps(const WriterContext& context, const std::filesystem::path& fol
         const std::size_t begin = sweep * static_cast<std::size_t>(display.lines);
         const std::vector<ObjectMask> shadows = masks(display.shadow);
         RecordValues drawn = display;
-        Ids mask_ids = display.object;
-        if (source.is_drawn()) {
-            const MaskFrame frame{display.lines, display.bins, source.cell()};
-            mask_ids = drawn.object = tidied(frame, display.object);
-            if (source.has_shadows()) mask_ids = with_shadows(frame, mask_ids, display.shadow);
-        }
+        const MaskFrame frame{display.lines, display.bins, source.cell()};
+        drawn.object = source.drawn(frame, display.object);
+        const Ids mask_ids = with_shadows(frame, drawn.object, display.shadow, source.has_shadow());
         std::vector<Json> objects;
         for (const ObjectMask& mask : masks(mask_ids)) {
             SeenObject seen =
