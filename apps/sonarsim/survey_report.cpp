@@ -39,6 +39,30 @@ std::vector<std::pair<std::string, double>> visible_most(const SonarSurvey& foun
     return seen;
 }
 
+/// The objects that are no background with the pings that see them, the rarest first.
+std::vector<std::pair<std::string, std::size_t>> pings_in_view(const SonarSurvey& found,
+                                                               const SceneObjects& objects) {
+    std::vector<std::pair<std::string, std::size_t>> all;
+    for (std::uint32_t k = 0; k < objects.objects.size(); ++k) {
+        if (!objects.is_background(k)) all.emplace_back(objects.objects[k].name, found.seen[k]);
+    }
+    std::ranges::stable_sort(all, {}, [](const auto& one) { return one.second; });
+    return all;
+}
+
+/// A line for the objects, "" if there are none.
+std::string in_view_text(const SonarSurvey& found, const SceneObjects& objects) {
+    constexpr std::size_t most = 12;
+    const auto all = pings_in_view(found, objects);
+    if (all.empty()) return "";
+    std::string text;
+    for (std::size_t k = 0; k < std::min(all.size(), most); ++k)
+        text += fmt::format("{}{} {}", k == 0 ? "" : ", ", printable(all[k].first), all[k].second);
+    if (all.size() > most)
+        text += fmt::format(", {} others {} or more", all.size() - most, all[most].second);
+    return result_line("", fmt::format("in view in {} pings: {}", found.pings, text));
+}
+
 std::string text_of(const ValueRange& interval, const char* unit) {
     if (interval.empty()) return "none";
     return fmt::format("{:.4g} to {:.4g} {}", interval.low, interval.high, unit);
@@ -60,7 +84,7 @@ std::string size_text(double bytes) {
 
 }  // namespace
 
-std::string survey_text(const SonarSurvey& found, const Scene& scene) {
+std::string survey_text(const SonarSurvey& found, const Scene& scene, const SceneObjects& objects) {
     const auto line = [](const std::string& text) { return result_line("", text); };
     std::string text = line("altitude " + text_of(found.altitude_m, "m"));
     text += line(fmt::format("{} of {} pings tried are blind, {:.1f} % of the bins are occupied",
@@ -76,6 +100,7 @@ std::string survey_text(const SonarSurvey& found, const Scene& scene) {
                             100.0 * share);
     }
     text += line("sees most of " + seen);
+    text += in_view_text(found, objects);
     return text +
            line(fmt::format("signal {:.3g}, noise {:.3g}, {:.1f} % of the occupied bins white",
                             found.signal, found.noise, 100.0 * found.white_share));
@@ -94,10 +119,13 @@ std::string readings_text(const SceneConfig& scene) {
     return text;
 }
 
-Json survey_json(const SonarSurvey& found, const Scene& scene) {
+Json survey_json(const SonarSurvey& found, const Scene& scene, const SceneObjects& objects) {
     Json seen = Json::object();
     for (const auto& [name, share] : visible_most(found, scene))
         seen[name] = share;
+    Json in_view = Json::object();
+    for (const auto& [name, pings] : pings_in_view(found, objects))
+        in_view[name] = pings;
     return {{"pings_tried", found.pings},
             {"blind", found.blind},
             {"altitude_m", json_of(found.altitude_m)},
@@ -105,6 +133,7 @@ Json survey_json(const SonarSurvey& found, const Scene& scene) {
             {"first_echo_m", json_of(found.first_echo_m)},
             {"last_echo_m", json_of(found.last_echo_m)},
             {"seen_most", seen},
+            {"in_view", in_view},
             {"signal", found.signal},
             {"noise", found.noise},
             {"white_share", found.white_share},

@@ -17,10 +17,11 @@ namespace sonarsim {
 std::string readings_text(const SceneConfig& scene);
 
 /// A sonar's survey as indented lines.
-std::string survey_text(const SonarSurvey& found, const Scene& scene);
+std::string survey_text(const SonarSurvey& found, const Scene& scene, const SceneObjects& objects);
 
 /// A sonar's survey as JSON.
-nlohmann::ordered_json survey_json(const SonarSurvey& found, const Scene& scene);
+nlohmann::ordered_json survey_json(const SonarSurvey& found, const Scene& scene,
+                                   const SceneObjects& objects);
 
 /// The measured error of a sonar as an indented line; "" if there is none.
 std::string error_line(const std::optional<MeasuredError>& error, const Scene& scene, double goal);

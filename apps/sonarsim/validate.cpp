@@ -98,7 +98,7 @@ nlohmann::ordered_json json_of(const Findings& f) {
         sensor["pings"] = f.pings[i];
         sensor["seconds_per_ping"] = f.costs[i].seconds;
         sensor["bytes_per_ping"] = f.costs[i].bytes;
-        sensor["survey"] = survey_json(f.sonars[i], f.assembly.scene);
+        sensor["survey"] = survey_json(f.sonars[i], f.assembly.scene, f.assembly.objects);
         sensor["measured_error"] = f.errors[i] ? json_of(*f.errors[i]) : nlohmann::ordered_json();
     }
     describe_estimate(f.estimate(), json);
@@ -135,7 +135,7 @@ std::string text_of_parts(const Findings& f) {
         text += result_line(sonar.config.name,
                             fmt::format("{} x {} bins, {} pings", sonar.config.range_bins,
                                         sonar.settings.view.beams, f.pings[i]));
-        text += survey_text(f.sonars[i], scene);
+        text += survey_text(f.sonars[i], scene, f.assembly.objects);
         text += error_line(f.errors[i], scene, f.mission.accuracy.relative_l1);
     }
     return text;

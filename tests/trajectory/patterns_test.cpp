@@ -86,6 +86,24 @@ TEST_SUITE("trajectory") {
         CHECK(heading(poses[860]) == test::approx(144));
     }
 
+    TEST_CASE("lawnmower: without turns only the lines are left, at their times") {
+        const Trajectory all = lawnmower(survey(0.0, 5.0));
+        Lawnmower plan = survey(0.0, 5.0);
+        plan.turns = false;
+        const Trajectory lines = lawnmower(plan);
+        // Four lines of 40 m have 401 poses each; three turns of 5 m have 49 within.
+        CHECK(all.size() == 1751);
+        CHECK(lines.size() == 4 * 401);
+        std::size_t k = 0;
+        for (const TimedPose& pose : lines) {
+            while (all[k].t_s < pose.t_s)
+                ++k;
+            CHECK(all[k].T_world_vehicle.translation == pose.T_world_vehicle.translation);
+            const double off = std::remainder(heading(pose), 180.0);
+            CHECK(std::abs(off) < 1e-9);
+        }
+    }
+
     TEST_CASE("lawnmower: strips that do not fit exactly get equal margins") {
         // 20 m in strips of 8 m: three, at 15 - 8, 15 and 15 + 8.
         const Trajectory poses = lawnmower(survey(0.0, 8.0));

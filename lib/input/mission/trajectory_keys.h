@@ -30,11 +30,14 @@ struct WaypointTrajectoryConfig {
     double rate_hz = 10.0;
 };
 
-/// Parallel lines over a rectangle at constant height, in alternating directions.
+/// Parallel lines over a rectangle, in alternating directions.
 struct LawnmowerTrajectoryConfig {
     std::array<double, 2> area_min_m{};  ///< x, y
     std::array<double, 2> area_max_m{};
     double z_m = 0.0;          ///< world height of the vehicle
+    double altitude_m = 0.0;   ///< above the bottom; 0: z_m applies
+    bool z_given = false;      ///< the mission has z_m
+    bool turns = true;         ///< poses between the lines, too
     double heading_deg = 0.0;  ///< direction of the first line
     double line_spacing_m = 5.0;
     double speed_m_s = 1.0;
@@ -43,10 +46,11 @@ struct LawnmowerTrajectoryConfig {
 
 /// Poses that each have a drawn object in view.
 struct LookAtTrajectoryConfig {
-    std::string look_at;  ///< a class, or all_objects
+    std::string look_at;  ///< a class, several with commas, or all_objects
     int count = 100;
     std::array<double, 2> range_m{};  ///< to the middle of the object, seen from above
     std::array<double, 2> bearing_deg{-20.0, 20.0};
+    std::array<double, 2> elevation_deg{-4.0, 4.0};
     std::array<double, 2> height_m{1.0, 3.0};  ///< above the lowest point of the object
 };
 inline constexpr const char* all_objects = "objects";
@@ -107,7 +111,11 @@ void describe(Visitor& v, LawnmowerTrajectoryConfig& c) {
     v.array("area_max_m", c.area_max_m, any_position_m,
             "corner of the rectangle with the largest x and y", required);
     v.number("z_m", c.z_m, any_position_m,
-             "height of the vehicle in the world; negative below a surface at 0", required);
+             "height of the vehicle in the world; negative below a surface at 0");
+    v.note_given("z_m", c.z_given);
+    v.number("altitude_m", c.altitude_m, at_least(0),
+             "height above the bottom, in place of z_m; 0: z_m applies");
+    v.flag("turns", c.turns, "false leaves out the poses between the lines");
     v.number("heading_deg", c.heading_deg, any_angle_deg,
              "direction of the first line; 0 is along x, positive to the left");
     v.number("line_spacing_m", c.line_spacing_m, above(0), "distance between the lines");
@@ -115,16 +123,23 @@ void describe(Visitor& v, LawnmowerTrajectoryConfig& c) {
     v.number("rate_hz", c.rate_hz, above(0), "poses per second");
     v.require(c.area_min_m[0] < c.area_max_m[0] && c.area_min_m[1] < c.area_max_m[1],
               {"area_min_m", "area_max_m"}, "area_min_m must be below area_max_m in x and in y");
+    v.require(
+        c.altitude_m > 0.0 ? c.z_m == 0.0 : c.z_given, {"z_m", "altitude_m"},
+        "'lawnmower' needs one of z_m, a height in the world, and altitude_m, above the bottom");
 }
 
 template <class Visitor>
 void describe(Visitor& v, LookAtTrajectoryConfig& c) {
-    v.text("look_at", c.look_at, "each pose has one of the `objects`, or of a class, in view",
+    v.text("look_at", c.look_at,
+           "each pose has one of the `objects`, of a class, or of several (`mine, tyre`), in view. "
+           "`objects` leaves out those longer than range_m, such as walls",
            required);
     v.number("count", c.count, between(1, 1e6), "number of poses, one second apart");
     v.number("range_m", c.range_m, above(0), "distance to its middle, seen from above", required);
     v.number("bearing_deg", c.bearing_deg, between(-180, 180),
-             "its direction from the bow, positive to port");
+             "its azimuth in the first fan, or from the bow if there is none; positive to port");
+    v.number("elevation_deg", c.elevation_deg, between(-90, 90),
+             "its elevation from the axis of the first fan; the vehicle pitches to it");
     v.number("height_m", c.height_m, any_position_m, "height above its lowest point");
 }
 
@@ -132,8 +147,7 @@ template <class Visitor>
 void describe(Visitor& v, TrajectoryConfig& c) {
     v.one_of(c, {"file", "waypoints", "lawnmower", "look_at"});
     if (auto* lawnmower = std::get_if<LawnmowerTrajectoryConfig>(&c)) {
-        v.section("lawnmower", *lawnmower,
-                  "parallel lines over a rectangle, to and fro at constant height", required);
+        v.section("lawnmower", *lawnmower, "parallel lines over a rectangle, to and fro", required);
     } else {
         std::visit([&v](auto& form) { describe(v, form); }, c);
     }

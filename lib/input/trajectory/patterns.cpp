@@ -58,6 +58,26 @@ Interval reach_in_strip(const std::array<Eigen::Vector2d, 4>& corners, const Int
 
 }  // namespace
 
+namespace {
+
+/// Drops the poses between the lines of a survey, which have three waypoints each after the first
+/// two: half-way, start and end of the next line. The other poses keep their times.
+void drop_turns(std::span<const Waypoint> waypoints, const Lawnmower& survey, Trajectory& poses) {
+    constexpr double rounding_s = 1e-9;
+    std::vector<double> t_s{0.0};
+    for (std::size_t k = 1; k < waypoints.size(); ++k) {
+        const double leg_m = (waypoints[k].position_m - waypoints[k - 1].position_m).norm();
+        t_s.push_back(t_s.back() + leg_m / survey.speed_m_s);
+    }
+    std::erase_if(poses, [&, line_end = std::size_t{1}](const TimedPose& pose) mutable {
+        while (line_end + 3 < t_s.size() && pose.t_s >= t_s[line_end + 2] - rounding_s)
+            line_end += 3;
+        return line_end + 3 < t_s.size() && pose.t_s > t_s[line_end] + rounding_s;
+    });
+}
+
+}  // namespace
+
 Trajectory follow_waypoints(std::span<const Waypoint> waypoints, double speed_m_s, double rate_hz) {
     Trajectory knots;
     knots.reserve(waypoints.size());
@@ -120,7 +140,9 @@ Trajectory lawnmower(const Lawnmower& survey) {
         waypoints.push_back({start, attitude});
         waypoints.push_back({end, attitude});
     }
-    return follow_waypoints(waypoints, survey.speed_m_s, survey.rate_hz);
+    Trajectory poses = follow_waypoints(waypoints, survey.speed_m_s, survey.rate_hz);
+    if (!survey.turns) drop_turns(waypoints, survey, poses);
+    return poses;
 }
 
 }  // namespace sonarsim

@@ -27,6 +27,7 @@ struct Lawnmower {
     double line_spacing_m = 0.0;
     double speed_m_s = 0.0;
     double rate_hz = 0.0;
+    bool turns = true;  ///< false: without the poses between the lines
 };
 
 /// A lawnmower pattern over the rectangle at constant height and speed. The rectangle is cut along

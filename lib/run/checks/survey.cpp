@@ -162,16 +162,21 @@ void check_position(const Scene& scene, bool open_upwards,
     out.enclosed_by = scene.instances[instance];
 }
 
-/// Adds the surface that a ping saw, and the range of its first and last echo. Returns false if it
-/// saw nothing.
-bool take_samples(const View& view, const Samples& samples, SonarSurvey& out) {
+/// Adds the surface and the objects that a ping saw, and the range of its first and last echo.
+/// Returns false if it saw nothing.
+bool take_samples(const View& view, const Samples& samples, const SceneObjects& objects,
+                  SonarSurvey& out) {
     ValueRange echoes;
+    std::vector<std::size_t> sees(objects.objects.size(), 0);
     for (const Sample& sample : samples.items) {
         const double range = arrival_range(sample.position);
         if (range < view.range_min_m || range >= view.range_max_m) continue;
         echoes.take(range);
         out.visible_m2[sample.instance] += sample.area_m2;
+        if (!sees.empty()) sees[objects.object_of(sample.instance)] = 1;
     }
+    for (std::size_t k = 0; k < sees.size(); ++k)
+        out.seen[k] += sees[k];
     if (echoes.empty()) return false;
     out.first_echo_m.take(echoes.low);
     out.last_echo_m.take(echoes.high);
@@ -221,6 +226,7 @@ SonarSurvey survey_sonar(const Mission& mission, const Assembly& assembly, Sonar
                          const VisibilityEngine& rays) {
     SonarSurvey out;
     out.visible_m2.resize(assembly.scene.instances.size());
+    out.seen.resize(assembly.objects.objects.size());
     const bool open_upwards = faces_up(assembly.scene);
     View& view = sonar.settings.view;
     view.relative_l1 = std::max(view.relative_l1, coarse_l1);
@@ -242,7 +248,7 @@ SonarSurvey survey_sonar(const Mission& mission, const Assembly& assembly, Sonar
         const bool in_turn = !slow || out.pings % images_of_slow == 0;
         ++out.pings;
         if (const auto altitude = altitude_m(*now, T_world_sensor)) out.altitude_m.take(*altitude);
-        bool is_blind = !take_samples(view, traced.samples, out);
+        bool is_blind = !take_samples(view, traced.samples, assembly.objects, out);
         check_position(assembly.scene, open_upwards, boxes, T_world_sensor, around, out);
         if (in_turn || is_blind) {  // water and targets in it have echoes without surface
             const Ping ping = form_image(traced, then->settings, assembly.scene, key);

@@ -229,13 +229,20 @@ SceneObjects objects_of(const Mission& mission, const Scene& scene) {
     return objects;
 }
 
-/// Draws the poses of `trajectory.look_at`, before targets are scattered in the water around them.
-void look_at_objects(const Mission& mission, Assembly& assembly) {
-    const auto* const look_at = std::get_if<LookAtTrajectoryConfig>(&mission.trajectory);
-    if (!look_at) return;
-    const Scene& scene = assembly.scene;
-    assembly.trajectory = moved_vehicle(
-        mission, look_at_poses(*look_at, scene, objects_of(mission, scene), mission.seed));
+/// Finds the poses that depend on the scene: of `trajectory.look_at`, before targets are scattered
+/// in the water around them, and of a lawnmower above the ground.
+void find_poses(const Mission& mission, const Bottom* bottom, Assembly& assembly) {
+    keep_altitude(mission, bottom, assembly.trajectory);
+    if (const auto* look_at = std::get_if<LookAtTrajectoryConfig>(&mission.trajectory)) {
+        const Scene& scene = assembly.scene;
+        const auto fan = std::ranges::find_if(assembly.sonars, [](const Sonar& sonar) {
+            return kind_of(sonar.config.kind).has_images;
+        });
+        const Pose* const mount = fan != assembly.sonars.end() ? &fan->T_vehicle_sensor : nullptr;
+        assembly.trajectory = moved_vehicle(
+            mission,
+            look_at_poses(*look_at, scene, objects_of(mission, scene), mount, mission.seed));
+    }
     assembly.reported = navigation_poses(mission, assembly.trajectory);
 }
 
@@ -256,7 +263,7 @@ Assembly assemble(const Mission& mission, SceneStore& models) {
                                 {mission.water.density_kg_m3, mission.water.sound_speed_m_s},
                                 sharing_threshold(settings.type));
     place_moving_scene(assembly.trajectory, parts.motions, assembly.scene);
-    look_at_objects(mission, assembly);
+    find_poses(mission, parts.bottom.get(), assembly);
     apply_ground_maps(mission.scene, materials,
                       {mission.water.density_kg_m3, mission.water.sound_speed_m_s}, assembly.scene);
     for (std::string& warning : parts.orientation_warnings)

@@ -1,6 +1,7 @@
 #include "simulate/assembly/poses.h"
 
 #include <cmath>
+#include <optional>
 #include <variant>
 
 #include "core/error.h"
@@ -37,7 +38,7 @@ Trajectory form_of(const WaypointTrajectoryConfig& config) {
 Trajectory form_of(const LawnmowerTrajectoryConfig& config) {
     return lawnmower({Eigen::Vector2d(config.area_min_m.data()),
                       Eigen::Vector2d(config.area_max_m.data()), config.z_m, config.heading_deg,
-                      config.line_spacing_m, config.speed_m_s, config.rate_hz});
+                      config.line_spacing_m, config.speed_m_s, config.rate_hz, config.turns});
 }
 
 /// The times alone: the poses are drawn when the scene is placed.
@@ -87,6 +88,34 @@ std::vector<Pose> poses_at(std::span<const Trajectory> motions, double t_s) {
 
 Trajectory poses_of(const TrajectoryConfig& config) {
     return std::visit([](const auto& form) { return form_of(form); }, config);
+}
+
+void keep_altitude(const Mission& mission, const Bottom* bottom, Trajectory& poses) {
+    const auto* const lines = std::get_if<LawnmowerTrajectoryConfig>(&mission.trajectory);
+    if (!lines || !(lines->altitude_m > 0.0)) return;
+    // A vehicle follows the ground within about its altitude, not ripples.
+    constexpr int steps = 2;
+    for (TimedPose& pose : poses) {
+        Eigen::Vector3d& at = pose.T_world_vehicle.translation;
+        double sum = 0.0;
+        int met = 0;
+        for (int k = 0; k < (2 * steps + 1) * (2 * steps + 1); ++k) {
+            const Eigen::Vector2d off(k % (2 * steps + 1) - steps, k / (2 * steps + 1) - steps);
+            const std::optional<double> ground =
+                bottom ? bottom->highest(at.head<2>() + lines->altitude_m / (2 * steps) * off)
+                       : std::nullopt;
+            if (!ground) continue;
+            sum += *ground;
+            ++met;
+        }
+        if (met == 0) {
+            throw InputError({mission.scene.place.file},
+                             "trajectory.lawnmower.altitude_m: there is no bottom below " +
+                                 number_text(at.x()) + ", " + number_text(at.y()) +
+                                 " m; name it in scene.bottom, or give z_m");
+        }
+        at.z() += sum / met + lines->altitude_m;
+    }
 }
 
 Trajectory vehicle_poses(const Mission& mission) {

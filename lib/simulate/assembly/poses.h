@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "input/mission/mission.h"
+#include "input/scene/placing/bottom.h"
 #include "input/trajectory/trajectory.h"
 
 namespace sonarsim {
@@ -19,6 +20,10 @@ Trajectory poses_of(const TrajectoryConfig& config);
 /// times and their number are right, until look_at_poses() gives `poses` for moved_vehicle().
 Trajectory vehicle_poses(const Mission& mission);
 Trajectory moved_vehicle(const Mission& mission, Trajectory poses);
+
+/// Adds the height of the bottom and `altitude_m` of a lawnmower to poses. InputError where there
+/// is no bottom.
+void keep_altitude(const Mission& mission, const Bottom* bottom, Trajectory& poses);
 
 /// The poses that the vehicle's navigation reports; empty if it reports the true ones.
 Trajectory navigation_poses(const Mission& mission, const Trajectory& truth);

@@ -152,6 +152,10 @@ Trajectory motion_of(const ObjectConfig& object, const Trajectory& vehicle) {
         throw InputError(object.place,
                          title_of(object) + " cannot look at objects: name a file or waypoints");
     }
+    const auto* const lines = std::get_if<LawnmowerTrajectoryConfig>(&*object.trajectory);
+    if (lines && lines->altitude_m > 0.0) {
+        throw InputError(object.place, title_of(object) + " has no altitude_m: give z_m");
+    }
     Trajectory motion;
     try {
         motion = poses_of(*object.trajectory);
