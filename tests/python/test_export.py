@@ -13,6 +13,7 @@ from tool import counts_of, disc, mask_of
 WIDTH, HEIGHT, PINGS = 40, 30, 10
 ROWS, COLUMNS = 60, 24
 CLASSES = ["bottom", "mine", "tyre"]
+BRIGHTER = 100      # greys of objects in fans above their surroundings
 
 
 def box_of(mask):
@@ -42,14 +43,20 @@ def write_dataset(folder, mission="made"):
         (folder / name).mkdir(parents=True)
     noise = np.random.default_rng(1)
     for ping in range(PINGS):
-        Image.fromarray(noise.integers(0, 256, (HEIGHT, WIDTH), np.uint8)).save(folder / f"fls/fan/{ping:06}.png")
+        fan = noise.integers(1, 120, (HEIGHT, WIDTH), np.uint8)
+        for *_, mask, _, _ in fan_objects(ping)[1:]:
+            fan[mask] += BRIGHTER
+        Image.fromarray(fan).save(folder / f"fls/fan/{ping:06}.png")
         listed = []
         for number, name, mask, share, contrast in fan_objects(ping):
             fan = {"mask": counts_of(mask)} | ({"shadow_box_px": SHADOW} if number == 2 else {})
             listed.append({"id": number, "name": f"{name}_1", "class": name, "range_m": 5.0, "azimuth_rad": 0.5,
                            "visible_share": share, "contrast_db": contrast, "fan": fan, "clipped": False})
         (folder / f"fls/objects/{ping:06}.json").write_text(json.dumps({"ping": ping, "objects": listed}))
-    Image.fromarray(noise.integers(0, 65536, (ROWS, COLUMNS), np.uint16)).save(folder / "sss/waterfall.png")
+    waterfall = noise.integers(100, 16000, (ROWS, COLUMNS), np.uint16)
+    for *_, mask in STRIP:
+        waterfall[mask] += 40000
+    Image.fromarray(waterfall).save(folder / "sss/waterfall.png")
     listed = [{"id": number, "class": name, "side": side, "mask": counts_of(mask), "range_m": 3.0, "bearing_deg": 90.0,
                "contrast_db": 5.0, "visible_share": 1.0}
               for (number, name, mask), side in zip(STRIP, ("port", "starboard"))]
@@ -122,6 +129,74 @@ class Export(tool.ToolTest):
             self.assertEqual({one["instance_id"]: one["bbox"] for one in found}, expected, words)
         self.export(self.out, "--format", "coco", "--faint", "crowd", "--min-pixels", "40")
         self.assertEqual([one["iscrowd"] for one in self.coco()[1]["fls-000000.png"]], [0, 1])
+
+    def test_objects_that_no_eye_sees(self):
+        """Objects that add 8 greys to a noise of 34 are faint, dark ones are not; all formats agree on it."""
+        for ping in range(PINGS):
+            path = self.out / f"fls/fan/{ping:06}.png"
+            fan = np.asarray(Image.open(path)).copy()
+            fan[fan_objects(ping)[1][2]] -= BRIGHTER - 8
+            Image.fromarray(fan).save(path)
+        fls = self.out, "--sensor", "fls", "--format"
+        for words, expected in (((), [3]), (("--min-grey", "0"), [2, 3]), (("--min-grey", "200"), [])):
+            dests = [self.folder / "-".join((kind, *words)) for kind in ("coco", "yolo", "masks")]
+            for dest, kind in zip(dests, ("coco", "yolo", "masks")):
+                self.export(*fls, kind, *words, dest=dest)
+            for ping in range(4):
+                found = self.coco(dest=dests[0])[1][f"fls-{ping:06}.png"]
+                self.assertEqual([one["instance_id"] for one in found], expected, words)
+                lines = (dests[1] / f"labels/train/fls-{ping:06}.txt").read_text().splitlines()
+                self.assertEqual([int(line.split()[0]) + 2 for line in lines], expected)
+                for line, one in zip(lines, found):
+                    x, y, width, height = np.array(line.split()[1:], float) * (WIDTH, HEIGHT, WIDTH, HEIGHT)
+                    np.testing.assert_allclose(one["bbox"], (x - width / 2, y - height / 2, width, height), atol=0.01)
+                marks = np.asarray(Image.open(dests[2] / f"ann_dir/train/fls-{ping:06}.png"))
+                for one in found:
+                    mask = mask_of(one["segmentation"]["counts"], WIDTH, HEIGHT)
+                    np.testing.assert_array_equal(marks == one["category_id"], mask)
+                self.assertEqual(set(np.unique(marks)), {0} | {number - 1 for number in expected})
+        for ping in range(PINGS):
+            path = self.out / f"fls/fan/{ping:06}.png"
+            fan = np.asarray(Image.open(path)).copy()
+            fan[fan_objects(ping)[1][2]] //= 20
+            Image.fromarray(fan).save(path)
+        self.export(*fls, "coco")
+        self.assertEqual([one["instance_id"] for one in self.coco()[1]["fls-000001.png"]], [2, 3])
+
+    def test_crops(self):
+        """Around each object and of the bed, at a scale in metres; 1:1 a crop has the pixels of the picture."""
+        path = self.out / "dataset.json"
+        description = json.loads(path.read_text())
+        half = np.arcsin(20 / 30)       # a fan of 40 x 30 m with pixels of 1 m
+        description["sensors"][0].update(range_edges_m=[1.0, 30.0], azimuth_edges_rad=[-half, half])
+        path.write_text(json.dumps(description))
+        fls = "--format", "crops", "--sensor", "fls", "--crop", "20x16"
+        self.export(self.out, *fls, "--pixel-m", "0.5", "--negatives", "2")
+        found = sorted(str(one.relative_to(self.dest)) for one in self.dest.rglob("*.png"))
+        self.assertEqual(len([name for name in found if name.startswith("train/mine/")]), PINGS)
+        self.assertEqual(len([name for name in found if name.startswith("train/tyre/")]), PINGS - 1)
+        self.assertEqual(len([name for name in found if name.startswith("train/background/")]), 2 * PINGS)
+        crop = np.asarray(Image.open(self.dest / "train/tyre/fls-000002-3.png"))
+        fan = np.asarray(Image.open(self.out / "fls/fan/000002.png")).astype(float)
+        self.assertEqual(crop.shape, (16, 20))
+        np.testing.assert_allclose(crop.mean(), fan[18:26, 25:35].mean(), atol=8)
+        counts = json.loads((self.dest / "statistics.json").read_text())["all"]
+        self.assertEqual((counts["pictures"], counts["without_objects"]), (4 * PINGS - 1, 2 * PINGS))
+        for name in found:
+            if "background" in name:
+                self.assertLess(np.asarray(Image.open(self.dest / name)).max(), 121, name)
+        self.refused("needs --pixel-m", *fls)
+        self.refused("'sss' stands still", "--format", "crops", "--sensor", "sss", "--pixel-m", "0.1")
+        rows = "".join(f"{k} {0.5 * k} 0 0 0 0 0 1\n" for k in range(ROWS))
+        (self.out / "trajectory.tum").write_text(rows)
+        dest = self.folder / "strip"
+        description["sensors"][1]["range_edges_m"] = [0.0, 0.5]     # of a column
+        path.write_text(json.dumps(description))
+        self.export(self.out, "--format", "crops", "--sensor", "sss", "--pixel-m", "0.5", "--crop", "17", dest=dest)
+        crop = np.asarray(Image.open(next(dest.glob("train/mine/*.png"))))
+        linear = np.asarray(Image.open(self.out / "sss/waterfall.png"))[3:20, :14] / 65535     # its middle is (5.5, 11.5)
+        np.testing.assert_allclose(crop[:, 3:], np.floor(255 * np.sqrt(linear) + 0.5), atol=1)
+        self.assertEqual(crop[:, :3].max(), 0)
 
     def test_yolo(self):
         for words in ((), ("--polygons",)):

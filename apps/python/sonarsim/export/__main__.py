@@ -28,7 +28,8 @@ class Parser(argparse.ArgumentParser):
 
 # The least and largest values of numbers.
 LIMITS = {"min_pixels": (1, 1 << 30), "min_visible_share": (0, 1), "min_contrast_db": (0, 100), "gap": (0, 1 << 30),
-          "rounds": (1, 1 << 20), "overlap": (0, 65536), "least_share": (0, 1)}
+          "min_grey": (0, 255), "rounds": (1, 1 << 20), "overlap": (0, 65536), "least_share": (0, 1),
+          "negatives": (0, 1000)}
 
 
 def tile(text):
@@ -56,6 +57,8 @@ def parse(arguments):
     add("--min-visible-share", type=float, default=0.1, metavar="X", help="less makes it faint")
     add("--min-contrast-db", type=float, default=1.0, metavar="DB",
         help="less, of object and shadow, makes it faint")
+    add("--min-grey", type=float, default=12, metavar="N",
+        help="an object is faint if it stands out of its surroundings and their grain by fewer greys, of 255; 0: none is")
     add("--faint", choices=("omit", "crowd"), default="omit", help="faint objects are left out, or marked as crowd")
     add("--split", metavar="train=A,val=B,test=C", help="parts of the trajectory, or of the variants")
     add("--gap", type=int, default=10, metavar="N", help="poses left out at each border")
@@ -64,6 +67,9 @@ def parse(arguments):
     add("--overlap", type=int, default=0, metavar="N", help="pixels that tiles share")
     add("--least-share", type=float, default=0.2, metavar="X",
         help="a piece with a smaller share of its object is left out")
+    add("--pixel-m", type=float, metavar="M", help="of crops: the side of a pixel in metres")
+    add("--crop", type=tile, default=(64, 64), metavar="N|WxH", help="size of crops")
+    add("--negatives", type=int, default=1, metavar="N", help="crops of each picture without an object")
     add("--link", action="store_true", help="hard links to pictures that need no change")
     options = parser.parse_intermixed_args(arguments)
     *options.folders, options.dest = options.folders
@@ -72,6 +78,10 @@ def parse(arguments):
     for key, (low, high) in LIMITS.items():
         if not low <= getattr(options, key) <= high:
             parser.error(f"--{key.replace('_', '-')} must be a number from {low} to {high}")
+    if (options.format == "crops") != (options.pixel_m is not None) or options.pixel_m is not None and (
+            not 1e-4 <= options.pixel_m <= 100 or options.tile):
+        parser.error("--format crops needs --pixel-m, the side of a pixel from 0.0001 to 100 m, and no --tile; "
+                     "other formats take no --pixel-m")
     if options.tile and options.overlap >= min(options.tile):
         parser.error("--overlap must be less than the sides of a tile")
     return options

@@ -2,6 +2,7 @@
 import io
 import json
 import os
+import re
 import shutil
 import tarfile
 
@@ -174,4 +175,20 @@ class WebDataset(Format):
         write(self.folder / "classes.txt", "".join(json.dumps(name, ensure_ascii=False)[1:-1] + "\n" for name in self.classes))
 
 
-KINDS = {"coco": Coco, "yolo": Yolo, "masks": Masks, "webdataset": WebDataset}
+class Crops(Format):
+    """PART/CLASS/NAME.png; crops without an object are in PART/background."""
+
+    def add(self, piece):
+        name = self.classes[piece.objects[0]["class"] - 1] if piece.objects else "background"
+        place(self.folder / piece.part / folder_of(name), f"{piece.name}.png", piece.content)
+
+    def finish(self):
+        pass
+
+
+def folder_of(name):
+    """The name of a class as that of a folder."""
+    return re.sub(r"[^A-Za-z0-9_+-]", "_", name)
+
+
+KINDS = {"coco": Coco, "yolo": Yolo, "masks": Masks, "webdataset": WebDataset, "crops": Crops}

@@ -6,8 +6,9 @@ import numpy as np
 from PIL import Image
 
 from .. import data
-from . import runs
+from . import crops, runs
 from .source import MOST_PIXELS, object_of
+from .stand_out import Greys
 
 Image.MAX_IMAGE_PIXELS = MOST_PIXELS
 GREYS = np.floor(255 * np.sqrt(np.arange(65536) / 65535) + 0.5).astype(np.uint8)
@@ -30,23 +31,26 @@ def prepare(picture, numbers, options):
     """(pieces, pictures left out, objects left out) of a picture of a dataset."""
     frames = frames_of(picture, options)
     parts = [part_of(picture, frame) for frame in frames]
-    if not any(parts):
+    if not any(parts) and options.format != "crops":
         return [], len(frames), 0
-    pixels = pixels_of(picture, len(frames) == 1)   # first, since the masks are as large
+    pixels, is_copy = pixels_of(picture, len(frames) == 1, options)     # first, since the masks are as large
     with data.reading(picture.facts):
         listed = data.read_json(picture.facts.read_bytes())["objects"]
         shown = [object_of(one, picture.kind, numbers[one["class"]]) for one in listed]
-        objects = [one for one in shown if one and is_kept(one, picture, options)]
+        objects = with_pixels([one for one in shown if one], picture, pixels, options)
+        kept = [one for one in objects if is_kept(one, picture, options)]
+    if options.format == "crops":
+        return crops.crops_of(picture, pixels, kept, [one["box"] for one in objects], options)
     pieces, dropped = [], 0
     for frame, part in zip(frames, parts):
         if part is None:
             continue
-        shown = [show(one, picture, frame, options) for one in objects]
+        shown = [show(one, picture, frame, options) for one in kept]
         dropped += shown.count(False)
         piece = Piece(picture.name + (f"-y{frame[2]:05}-x{frame[0]:05}" if len(frames) > 1 else ""), part,
                       frame[1] - frame[0], frame[3] - frame[2], picture.dataset, [one for one in shown if one],
                       picture.path)
-        if pixels is not None:
+        if not is_copy:
             piece.content = png_of(Image.fromarray(np.ascontiguousarray(pixels[frame[2]:frame[3], frame[0]:frame[1]])))
         if options.format == "masks":
             piece.classes_png = classes_png(piece)
@@ -81,14 +85,25 @@ def part_of(picture, frame):
     return shown.pop() if len(shown) == 1 else None
 
 
+def with_pixels(objects, picture, pixels, options):
+    """The objects of a picture with their pixels, area, box and, if it decides, grey difference."""
+    for one in objects:
+        one["pixels"] = runs.pixels_of(one["mask"], picture.width, picture.height)
+        one["area"], one["box"] = one["pixels"].size, runs.box_of(one["pixels"], picture.height)
+    if options.min_grey and objects:
+        greys = Greys(pixels, [one["pixels"] for one in objects], [one["shadow"] for one in objects])
+        for one in objects:
+            one["grey"] = greys.difference(one["pixels"], one["box"], one["shadow"])
+    return objects
+
+
 def is_kept(one, picture, options):
-    """True for an object that this picture has in this format; sets its pixels, area and iscrowd."""
-    one["pixels"] = runs.pixels_of(one["mask"], picture.width, picture.height)
-    one["area"] = one["pixels"].size
+    """True for an object that this picture has in this format; sets its iscrowd."""
     contrasts = [abs(one[key]) for key in ("contrast_db", "shadow_contrast_db") if one[key] is not None]
     share = 1.0 if one["visible_share"] is None else one["visible_share"]
     one["iscrowd"] = (one["area"] < options.min_pixels or share < options.min_visible_share or
-                      bool(contrasts) and max(contrasts) < options.min_contrast_db)
+                      bool(contrasts) and max(contrasts) < options.min_contrast_db or
+                      one.get("grey", options.min_grey) < options.min_grey)
     has_crowds = options.faint == "crowd" and options.format in ("coco", "masks")
     return (not one["iscrowd"] or has_crowds) and box_of(one, picture.height, one["shadow"], options.box) is not None
 
@@ -126,9 +141,10 @@ def show(one, picture, frame, options):
     return shown
 
 
-def pixels_of(picture, is_whole):
-    """The grey values, or colours, of a picture in 8 bits; None if its file can be copied. White is full_scale, and
-    grey its square root."""
+def pixels_of(picture, is_whole, options):
+    """The grey values, or colours, of a picture in 8 bits, None if nothing needs them, and whether its file can be
+    copied. White is full_scale, and grey its square root."""
+    is_copy = False
     try:
         if picture.path.suffix == ".npy":
             values = data.read_npy(picture.path.read_bytes()).astype(np.float64)
@@ -139,9 +155,10 @@ def pixels_of(picture, is_whole):
                 if image.width * image.height > data.MOST_INFLATED * picture.path.stat().st_size:
                     raise data.Damage("its width and height cannot be right")
                 is_grey = image.mode in ("L", "I", "I;16")
-                if (is_whole and picture.bins is None and image.mode in ("L", "P", "RGB")
-                        and image.size == (picture.width, picture.height)):
-                    return None
+                is_copy = (is_whole and picture.bins is None and image.mode in ("L", "P", "RGB")
+                           and image.size == (picture.width, picture.height))
+                if is_copy and not options.min_grey and options.format != "crops":
+                    return None, True
                 pixels = np.asarray(image if is_grey else image.convert("RGB"))
             if pixels.dtype != np.uint8:
                 wide = pixels.astype(np.uint16)
@@ -155,7 +172,7 @@ def pixels_of(picture, is_whole):
         raise data.DataError(f"{picture.path}: cannot be read: {what}") from fault
     if pixels.shape[:2] != (picture.height, picture.width):
         raise data.DataError(f"{picture.path}: is not {picture.width} x {picture.height} pixels, as its dataset says")
-    return pixels
+    return pixels, is_copy
 
 
 def png_of(image):

@@ -29,6 +29,7 @@ class Picture:
     parts: list                 # the part of each row or column of pings of a strip, else one part
     rows_are_pings: bool = True
     bins: object = None         # the bin of each pixel, -1 for none, of a fan that is drawn from its bins
+    pixel_m: tuple = None       # width and height of a pixel in metres, for crops
 
 
 class Source:
@@ -90,6 +91,8 @@ class Source:
             with data.reading(file):
                 for picture in pictures_of(sensor, parts, options):
                     self._name(picture, index, sensor.name)
+                    if options.format == "crops":
+                        picture.pixel_m = pixel_m_of(picture, sensor, dataset)
                     self.pictures.append(picture)
 
     def _name(self, picture, index, sensor):
@@ -145,6 +148,21 @@ def pings_of(sensor, of_ping, is_bins, is_raw):
                       [part])
         one.bins = bins
         yield one
+
+
+def pixel_m_of(picture, sensor, dataset):
+    """Width and height in metres of a pixel of a fan or a waterfall, the latter by the slant range and the median way
+    between pings."""
+    if picture.kind == "fan":
+        return (sensor.fan_shape(picture.width)[2],) * 2
+    if sensor.kind != "sidescan":
+        raise data.DataError(f"{sensor.folder}: sensor {sensor.name!r} has neither fans nor a waterfall to cut crops "
+                             "from; choose another with --sensor, and leave out --bins")
+    ways = np.linalg.norm(np.diff(dataset.poses()[sensor.pings, 1:4], axis=0), axis=1)
+    along = float(np.median(ways)) * sensor.picture("sensor").get("pings_per_pixel", 1) if ways.size else 0
+    if not along > 0:
+        raise data.DataError(f"{sensor.folder}: sensor {sensor.name!r} stands still, so that its rows have no scale")
+    return float(np.diff(sensor.range_edges_m).mean()), along
 
 
 def records_of(sensor, of_ping):
