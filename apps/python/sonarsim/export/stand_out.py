@@ -12,34 +12,42 @@ class Greys:
     boxes of their shadows."""
 
     def __init__(self, pixels, masks, shadows):
-        grey = Image.fromarray(np.ascontiguousarray(pixels)).convert("L")
-        self.values = np.asarray(grey.filter(ImageFilter.BoxBlur(REACH)))
-        self.height = grey.height
-        marks = np.zeros(grey.width * grey.height, np.uint8)
+        self.grey = np.asarray(Image.fromarray(np.ascontiguousarray(pixels)).convert("L"))
+        marks = np.zeros(self.grey.shape[::-1], np.uint8)
         for mask in masks:
-            marks[mask] = 255
-        marks = Image.fromarray(np.ascontiguousarray(marks.reshape(grey.width, grey.height).T))
-        near = np.asarray(marks.filter(ImageFilter.MaxFilter(2 * REACH + 1)))
-        self.bare = (near == 0) & (np.asarray(grey) > 0)
-        for left, right, top, bottom in filter(None, shadows):
-            self.bare[top:bottom, left:right] = False
+            marks.ravel()[mask] = 255
+        self.marks = marks.T
+        self.shadows = [box for box in shadows if box]
+
+    def within(self, box, margin=(0, 0)):
+        """Greys in a box with a margin, and which of them belong to surroundings."""
+        left, right, top, bottom = box
+        left, top = max(0, left - margin[0]), max(0, top - margin[1])
+        right, bottom = min(self.grey.shape[1], right + margin[0]), min(self.grey.shape[0], bottom + margin[1])
+        window = slice(max(0, top - REACH), bottom + REACH), slice(max(0, left - REACH), right + REACH)
+        greys, near = (np.asarray(Image.fromarray(np.ascontiguousarray(one[window])).filter(ImageFilter.BoxBlur(REACH)))
+                       for one in (self.grey, self.marks))
+        bare = (near == 0) & (self.grey[window] > 0)
+        for one in self.shadows:
+            bare[max(0, one[2] - window[0].start):max(0, one[3] - window[0].start),
+                 max(0, one[0] - window[1].start):max(0, one[1] - window[1].start)] = False
+        inner = (slice(top - window[0].start, bottom - window[0].start),
+                 slice(left - window[1].start, right - window[1].start))
+        return greys[inner], bare[inner]
 
     def around(self, box):
         """The median grey around a box (left, right, top, bottom), as wide as half of it to each side, and how far the
         darkest tenth lies below it: so far grain alone rises above it, too. Bright things nearby do not matter."""
-        left, right, top, bottom = box
-        wide, high = max(MARGIN, (right - left) // 2), max(MARGIN, (bottom - top) // 2)
-        window = slice(max(0, top - high), bottom + high), slice(max(0, left - wide), right + wide)
-        bare = self.values[window][self.bare[window]]
-        low, median = np.quantile(bare, (0.1, 0.5)).tolist() if bare.size else (0.0, 0.0)
+        greys, bare = self.within(box, (max(MARGIN, (box[1] - box[0]) // 2), max(MARGIN, (box[3] - box[2]) // 2)))
+        low, median = np.quantile(greys[bare], (0.1, 0.5)).tolist() if bare.any() else (0.0, 0.0)
         return median, median - low
 
     def difference(self, mask, box, shadow):
         """By how many greys the brightest tenth of a mask is above its surroundings and their grain, or the mean of it or
         of its shadow below these; as it looks on middle grey, since grain grows with the grey."""
-        own, (median, grain) = self.values[mask % self.height, mask // self.height], self.around(box)
+        columns, rows = np.divmod(mask, len(self.grey))
+        own, (median, grain) = self.within(box)[0][rows - box[2], columns - box[0]], self.around(box)
         found = [np.quantile(own, 0.9) - median - grain, median - own.mean()]
         if shadow:
-            left, right, top, bottom = shadow
-            found.append(self.around(shadow)[0] - self.values[top:bottom, left:right].mean())
+            found.append(self.around(shadow)[0] - self.within(shadow)[0].mean())
         return float(max(found)) * 2 * MIDDLE / (MIDDLE + median)
