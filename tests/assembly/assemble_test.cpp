@@ -103,6 +103,50 @@ TEST_SUITE("assembly") {
             InputError);
     }
 
+    TEST_CASE("assemble: look_at has an object at an azimuth and elevation of the fan, no wall") {
+        const MissionOnDisk disk;
+        const std::vector<std::string> settings{
+            "scene.objects=[{file: wall.gltf, scale: 0.01, position_m: [5, 6, 0], name: near, "
+            "class: box},"
+            " {file: wall.gltf, scale: 0.01, position_m: [40, -6, 2], name: far, class: post}]",
+            "labels.background=[none]", "sensors.fls.mount={rpy_deg: [0, 35, 10]}", "seed=7"};
+        const Eigen::Quaterniond mount = rotation_from_rpy(0.0, radians(35), radians(10));
+        // The middles of the two objects; the wall is longer than range_m.
+        const Eigen::Vector3d near(5.05, 6, 0), far(40.05, -6, 2);
+        for (const std::string of : {"objects", "post, box"}) {
+            const Assembly assembly =
+                assemble(disk.load("{look_at: '" + of +
+                                       "', count: 50, range_m: [2, 9], bearing_deg: [-9, 3], "
+                                       "elevation_deg: [2, 5], height_m: [1, 3]}",
+                                   settings));
+            for (const TimedPose& pose : assembly.trajectory) {
+                const Pose& T = pose.T_world_vehicle;
+                const bool is_far = T.translation.x() > 20.0;
+                const Eigen::Vector3d seen =
+                    (T.rotation * mount).conjugate() * ((is_far ? far : near) - T.translation);
+                CHECK(std::abs(std::atan2(seen.y(), seen.x()) + radians(3)) < radians(6.001));
+                CHECK(std::abs(std::asin(seen.z() / seen.norm()) - radians(3.5)) < radians(1.501));
+            }
+        }
+    }
+
+    TEST_CASE("assemble: a lawnmower keeps its altitude above the bottom") {
+        const MissionOnDisk disk;
+        const std::string lines =
+            "{lawnmower: {area_min_m: [1, 1], area_max_m: [9, 9], altitude_m: 3, speed_m_s: 1, "
+            "rate_hz: 1}}";
+        CHECK_THROWS_WITH_AS(assemble(disk.load(lines)),
+                             "mission.yaml: trajectory.lawnmower.altitude_m: there is no bottom "
+                             "below 1, 2.5 m; name "
+                             "it in scene.bottom, or give z_m",
+                             InputError);
+        const std::vector<std::string> bed{
+            "scene={seabed: {cell_m: 1, z_m: -12, size_m: [10, 10], material: concrete}, "
+            "materials: materials.csv}"};
+        for (const TimedPose& pose : assemble(disk.load(lines, bed)).trajectory)
+            CHECK(pose.T_world_vehicle.translation.z() == test::approx(-9.0));
+    }
+
     TEST_CASE("assemble: calibrated sonars know the scene's materials before the first ping") {
         const MissionOnDisk disk;
         const std::vector<std::string> settings{"sensors.fls.model=calibrated"};

@@ -136,7 +136,7 @@ TEST_CASE("outline: half a cell around a body, filled, and one piece for a conti
         {"............", "..1...1.....", "............", "..1...1...2.", "............"},
         {.range_bins = 5.0, .beams = 3.0});
     CHECK(drawn.text(outlined(drawn.frame, drawn.ids)) ==
-          Lines{"111111111...", "111111111...", "1111111112..", "1111111112..", "1111111112.."});
+          Lines{"111111111...", "111111111...", "111111111222", "111111111222", "111111111222"});
     const DrawnIds other({"1111", "1221", "1111"});
     CHECK(other.text(outlined(other.frame, other.ids)) == other.text(other.ids));
 }

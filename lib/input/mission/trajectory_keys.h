@@ -35,13 +35,13 @@ struct LawnmowerTrajectoryConfig {
     std::array<double, 2> area_min_m{};  ///< x, y
     std::array<double, 2> area_max_m{};
     double z_m = 0.0;          ///< world height of the vehicle
-    double altitude_m = 0.0;   ///< above the bottom; 0: z_m applies
-    bool z_given = false;      ///< the mission has z_m
-    bool turns = true;         ///< poses between the lines, too
     double heading_deg = 0.0;  ///< direction of the first line
     double line_spacing_m = 5.0;
     double speed_m_s = 1.0;
     double rate_hz = 10.0;
+    double altitude_m = 0.0;  ///< above the bottom; 0: z_m applies
+    bool z_given = false;     ///< the mission has z_m
+    bool turns = true;        ///< poses between the lines, too
 };
 
 /// Poses that each have a drawn object in view.

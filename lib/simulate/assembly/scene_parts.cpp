@@ -344,7 +344,8 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
     if (!scene.bottom.empty()) bottom.get();
     const bool heights =
         std::ranges::find(mission.output.labels, Label::height) != mission.output.labels.end();
-    if (heights && bottom.exists()) {
+    const auto* const lines = std::get_if<LawnmowerTrajectoryConfig>(&mission.trajectory);
+    if ((heights || (lines && lines->altitude_m > 0.0)) && bottom.exists()) {
         parts.bottom = bottom.share();
         bottom.mark(parts.files);
     }
