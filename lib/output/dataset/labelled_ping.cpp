@@ -50,8 +50,9 @@ Ids find_outlines(const LabelPlan& plan, const EchoModelInfo& info, const PingLa
     // Weak parts of the visible body count, 1 dB above what is there without them; of multipath,
     // such as the foot of a wall, what outshines all else.
     constexpr float body_ratio = 0.25F;
-    Standouts found{find_bodies(
-        {frame, labels.visible_object, labels.visible_echo, labels.whole_echo}, noise, body_ratio)};
+    Standouts found;
+    found.object = find_bodies(
+        {frame, labels.visible_object, labels.visible_echo, labels.whole_echo}, noise, body_ratio);
     const Ids bright =
         find_bodies({frame, labels.own_object, labels.own_echo, labels.whole_echo}, noise, 1.0F);
     add_bright(frame, bright, found.object);
