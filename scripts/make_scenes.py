@@ -14,6 +14,8 @@ anchor    an anchor as an OBJ in millimetres with z up
 bathymetry  a survey's map of 55 x 50 m of sand as a GeoTIFF in UTM coordinates
 sediments a map of what that ground is made of as a PNG, and backscatter, a map of decibels as a
           GeoTIFF
+stock     forty kinds of things, each in six drawn examples: stock/tyre_1.glb and so on, for
+          `scatter: [{stock: tyre}]`
 mosaic    a drawn side-scan mosaic of that ground as a GeoTIFF of decibels, with gaps below the tracks
 
     ./scripts/make_scenes.py --for mission.yaml [options of sonarsim]
@@ -29,9 +31,9 @@ import pathlib
 import subprocess
 import sys
 
-from scenes import anchor, bathymetry, close_bottom, lifeboat, minefield, mosaic, seafloor, sediments, tank, wreck
+from scenes import anchor, bathymetry, close_bottom, lifeboat, minefield, mosaic, seafloor, sediments, stock, tank, wreck
 from scenes.glb import write_glb
-from scenes.named import files_named
+from scenes.named import files_named, stock_named
 from scenes.obj import write_obj
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -52,6 +54,7 @@ def builders(cells: int, area: float, quarterings: int) -> dict:
         "bathymetry": {"bathymetry": bathymetry.build},
         "sediments": {"sediments": sediments.colours, "backscatter": sediments.decibels},
         "mosaic": {"mosaic": mosaic.decibels},
+        "stock": {f"stock/{name}": build for name, build in stock.files().items()},
     }
 
 
@@ -97,11 +100,14 @@ def make_for(mission: pathlib.Path, options: list[str], scenes: dict) -> int:
     known[ROOT / "scenes" / "tank.glb"] = tank.build
     missing = [path for path in files_named(mission, options)
                if not path.exists() and (path in known or path.parent == GENERATED)]
+    wanted = stock_named(mission, options, stock.KINDS, stock.CLUTTER)
+    missing += [path for path in (GENERATED / "stock" / f"{kind}_{k}.glb" for kind in wanted
+                                  for k in range(1, stock.EXAMPLES + 1)) if not path.exists() and path not in missing]
     foreign = GENERATED / f"{FOREIGN}.glb"
     for path in missing:
         if path not in known and path != foreign:
             print(f"error: {mission} names {path}, which is not there, and no script makes it: "
-                  f"scripts/make_scenes.py makes {', '.join(sorted(one.name for one in known))}, "
+                  f"scripts/make_scenes.py makes {', '.join(sorted(one.name for one in known if one.parent.name != 'stock'))}, "
                   f"and scripts/foreign_mesh.sh {foreign.name}", file=sys.stderr)
             return 2
     for path in missing:

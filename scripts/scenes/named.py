@@ -19,6 +19,21 @@ def values_in(text: str) -> list[str]:
     return values
 
 
+def text_of(mission: pathlib.Path, options: list[str]) -> str:
+    """A mission and the options of sonarsim as lines. OSError where the mission cannot be read."""
+    return "\n".join([mission.read_text(encoding="utf-8", errors="replace"), *options])
+
+
+def stock_named(mission: pathlib.Path, options: list[str], kinds, clutter: tuple) -> list[str]:
+    """The kinds of the stock that stand in lists or on lines after the word `stock`, and those of clutter where
+    the mission has some."""
+    text = re.sub(r"#.*", "", text_of(mission, options))
+    words = re.findall(r"\w+", " ".join(re.findall(r"\bstock\b(?:[^\n\[]*\[[^\]]*\])?[^\n]*", text)))
+    if re.search(r"\bclutter\b", text):
+        words += clutter
+    return sorted(set(words) & set(kinds))
+
+
 def files_named(mission: pathlib.Path, options: list[str]) -> list[pathlib.Path]:
     """Absolute paths of the .glb, .obj, .tif and .png files in a mission and in options of sonarsim, as in
     `--set scene.file=a.glb`, in their order. Relative paths start at the folder of the mission, or
