@@ -1,11 +1,13 @@
 """Many runs by the scripts: a sweep, one folder per point, nothing done twice, what was interrupted resumes; and shards
 by the tasks of a Slurm array, with their merge: the bytes of a single run. By a Slurm of one node where it is installed,
 and by a stand-in."""
+import collections
 import csv
 import json
 import os
 import pathlib
 import shutil
+import sys
 import unittest
 
 import slurm_node
@@ -162,6 +164,36 @@ class Clusters(Sandbox):
 
 class FirstPicture(Sandbox):
     """render.sh installs and builds the module for images when a mission names one, and not before."""
+
+    def test_stock(self):
+        """Closed meshes of plausible sizes that rest on 0, each example another; `--for` makes what a mission names."""
+        sys.path.insert(0, str(ROOT / "scripts"))
+        from scenes import stock
+        self.assertGreaterEqual(len(stock.KINDS), 40)
+        materials = [line.split(",")[0] for line in (ROOT / "scenes/materials.csv").read_text().splitlines()]
+        for kind in stock.KINDS:
+            shapes = set()
+            for parts in (stock.example(kind, k) for k in range(1, stock.EXAMPLES + 1)):
+                numbers = [x for one in parts for x in one.vertices]
+                shapes.add(tuple(numbers))
+                sizes = [max(numbers[k::3]) - min(numbers[k::3]) for k in range(3)]
+                self.assertTrue(0.05 < max(sizes) < 7, (kind, sizes))
+                self.assertAlmostEqual(min(numbers[1::3]), 0, 3, kind)
+                for one in parts:
+                    self.assertIn(one.material, materials)
+                    (indices,) = one.indices.values()
+                    edges = collections.Counter(tuple(sorted((indices[k], indices[k - 2 if k % 3 == 2 else k + 1])))
+                                                for k in range(len(indices)))
+                    self.assertEqual(set(edges.values()), {2}, (kind, one.name))
+            self.assertEqual(len(shapes), stock.EXAMPLES, kind)
+        shutil.copytree(ROOT / "scripts/scenes", self.folder / "own/scripts/scenes")
+        shutil.copy(ROOT / "scripts/make_scenes.py", self.folder / "own/scripts")
+        mission = self.write("mission.yaml", "scene:\n  scatter:\n    - {name: a, stock: [can,\n        hook]}  # [tyre]\n")
+        made = self.folder / "own/scenes/generated/stock"
+        self.run_program("/usr/bin/python3", "-B", self.folder / "own/scripts/make_scenes.py", "--for", mission, "--set",
+                         "scene.scatter.1.stock=[net]")
+        self.assertEqual(sorted(path.name for path in made.iterdir()),
+                         sorted(f"{kind}_{k}.glb" for kind in ("can", "hook", "net") for k in range(1, 7)))
 
     @unittest.skipIf(pathlib.Path("/usr/local/lib/sonarsim").exists(), "an installed module takes the place of a missing one")
     def test_images_on_demand(self):

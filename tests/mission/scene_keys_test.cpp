@@ -79,6 +79,57 @@ TEST_CASE("a composed scene is written as it is read, and goes to another machin
     CHECK(mission_hash(elsewhere, sonar_keys()) == mission_hash(mission, sonar_keys()));
 }
 
+TEST_CASE(
+    "rules of scatter have the scene's area, kinds of the stock their files, clutter its rule") {
+    const std::string head =
+        "scene:\n  materials: a.csv\n  seabed: {cell_m: 1}\n  area: {min_m: [0, 1], max_m: [10, "
+        "5]}\n";
+    const std::string tail = smallest_mission.substr(smallest_mission.find('\n') + 1);
+    const Mission mission = parse(
+        head +
+        "  scatter:\n    - {name: a, files: [m.glb, n.glb, o.glb, p.glb], stock: [can, net]}\n"
+        "    - {name: b, files: m.glb, bury: [-0.2, 0.5], density_per_m2: [0.1, 0.26]}\n" +
+        tail);
+    REQUIRE(mission.scene.scatter.size() == 2);
+    const ScatterConfig& kinds = mission.scene.scatter[0];
+    CHECK(kinds.class_of(1) == "can");
+    CHECK(kinds.class_of(2) == "net");
+    CHECK(kinds.area_max_m == std::array{10.0, 5.0});
+    CHECK(mission.scene.scatter[1].class_of(0) == "b");
+    CHECK(mission.scene.scatter[1].count == std::array{4.0, 11.0});
+    CHECK(reads_back(mission));
+    const Mission cluttered = parse(head +
+                                    "  clutter: {density_per_m2: 0.5, bury: 0.1, files: m.glb, "
+                                    "stock: [can]}\n" +
+                                    tail);
+    REQUIRE(cluttered.scene.scatter.size() == 1);
+    const ScatterConfig& clutter = cluttered.scene.scatter[0];
+    CHECK(clutter.class_of(0) == "clutter");
+    CHECK(clutter.count == std::array{20.0, 20.0});
+    CHECK(clutter.bury == std::array{0.1, 0.1});
+    CHECK(clutter.scale == ClutterConfig().scale);
+    CHECK((clutter.unlabelled && clutter.overlap));
+    CHECK(reads_back(cluttered));
+}
+
+TEST_CASE("what is refused of stock, clutter and areas") {
+    const std::string head = "scene:\n  materials: a.csv\n  seabed: {cell_m: 1}\n";
+    const std::string tail = smallest_mission.substr(smallest_mission.find('\n') + 1);
+    const auto begins = [&](const std::string& text, const std::string& words) {
+        CHECK_MESSAGE(refusal(head + text + tail).starts_with("m.yaml:" + words),
+                      refusal(head + text + tail));
+    };
+    begins("  scatter: [{name: a, stock: [tire]}]\n",
+           "4:32: the stock has no 'tire' (did you mean 'tyre'?)");
+    begins("  scatter: [{name: a, files: a.glb}]\n", "4:13: 'a' needs an area: ");
+    begins("  scatter: [{name: a}]\n", "4:13: a rule of 'scatter' needs 'stock' or 'files'");
+    begins("  scatter: [{name: a, files: a.glb, area_min_m: [0, 0]}]\n",
+           "4:37: an area needs both");
+    begins("  clutter: 3\n", "4:12: 'clutter' must be a section");
+    begins("  clutter: {stock: [net]}\n", "4:12: 'clutter' needs the key 'density_per_m2'");
+    begins("  area: {min_m: [0, 0], max_m: [0, 1]}\n", "4:25: min_m must be below max_m");
+}
+
 TEST_SUITE_END();
 
 }  // namespace sonarsim

@@ -196,6 +196,25 @@ TEST_SUITE("scene") {
         }
     }
 
+    TEST_CASE(
+        "placing: a share of the height is buried or raised, and what would vanish is redrawn") {
+        const Bottom bottom(Waves::surface());
+        const std::vector<Surface> shapes{box(0.3, 0.2, 0.1)};
+        for (const double share : {0.4, -0.5}) {
+            ScatterRule rule;
+            rule.bury = {share, share};
+            for (const Surface& one : put(shapes, rule, 5, bottom))
+                CHECK(std::fabs(min_gap(one) + share * box_of(one).sizes().z()) < 1e-3);
+        }
+        ScatterRule rule;
+        rule.bury_m = {0.0, 3.0};  // few of the draws leave a part in sight
+        rule.overlap = true;
+        for (const Surface& one : put(shapes, rule, 5, bottom))
+            CHECK(!lies_below(bottom, one));
+        rule.bury_m = {9.0, 9.0};
+        CHECK_THROWS_AS(put(shapes, rule, 5, bottom), InputError);
+    }
+
     TEST_CASE("placing: on a plane a box that is aligned lies flat on it") {
         // z = 0.3 x + 0.1 y: all four corners of the box's lower face must lie in the plane.
         Surface plane;

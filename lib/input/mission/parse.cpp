@@ -14,6 +14,7 @@
 #include "input/mission/ping_draws.h"
 #include "input/mission/preset.h"
 #include "input/mission/reader.h"
+#include "input/mission/stock.h"
 
 namespace sonarsim {
 
@@ -99,6 +100,7 @@ Mission parse_mission(const YamlNode& root, const std::string& file_name,
     mission.name = std::filesystem::path(file_name).stem().string();
     YamlNode filled = root;
     fill_in_presets(filled, base_folder);
+    fill_in_stock(filled, base_folder);
     ErrorList errors;
     errors.attempt([&] {
         MissionReader reader(filled, "mission", base_folder, sonars, errors);
@@ -106,6 +108,7 @@ Mission parse_mission(const YamlNode& root, const std::string& file_name,
         reader.finish();
     });
     errors.raise();
+    complete_scatter(mission.scene);
     check_rules(mission);
     check_ping_draws(mission);
     if (mission.water.sound_speed_m_s == 0.0)

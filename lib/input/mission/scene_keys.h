@@ -56,19 +56,49 @@ struct ObjectConfig {
 struct ScatterConfig {
     std::string name;  ///< the objects are NAME_1, NAME_2, ...
     std::string class_name;
-    std::vector<std::filesystem::path> files;  ///< all equally likely
+    std::vector<std::string> stock;            ///< kinds of things that come with the program
+    std::vector<std::filesystem::path> files;  ///< all equally likely; as many for each of `stock`
     MeshConfig mesh;
     std::array<double, 2> count{1, 1};
-    std::array<double, 2> area_min_m{};  ///< x, y
-    std::array<double, 2> area_max_m{};
+    std::array<double, 2> density_per_m2{};  ///< instead of `count`, unless it is 0
+    /// x, y; none: the scene's area, else the bottom.
+    std::optional<std::array<double, 2>> area_min_m;
+    std::optional<std::array<double, 2>> area_max_m;
     std::array<double, 2> roll_deg{};
     std::array<double, 2> pitch_deg{};
     std::array<double, 2> yaw_deg{0, 360};
     std::array<double, 2> scale{1, 1};
+    std::array<double, 2> bury{};  ///< share of the height
     std::array<double, 2> bury_m{};
     double spacing_m = 0.0;  ///< least distance between objects, seen from above
+    bool overlap = false;
     bool align = false;
+    bool unlabelled = false;
     Location place = {};
+
+    /// The class of the objects of a file.
+    const std::string& class_of(std::size_t file) const {
+        if (!class_name.empty()) return class_name;
+        return stock.empty() ? name : stock[file / (files.size() / stock.size())];
+    }
+};
+
+/// Unlabelled things on the bottom, which become a rule of `scatter` when a mission is read.
+struct ClutterConfig {
+    std::array<double, 2> density_per_m2{};
+    std::vector<std::string> stock;
+    std::array<double, 2> roll_deg{-15, 15};
+    std::array<double, 2> pitch_deg{-15, 15};
+    std::array<double, 2> scale{0.3, 1.2};
+    std::array<double, 2> bury{0, 0.6};
+    std::optional<std::array<double, 2>> area_min_m;
+    std::optional<std::array<double, 2>> area_max_m;
+};
+
+/// The default area of scattered objects.
+struct AreaConfig {
+    std::array<double, 2> min_m{};  ///< x, y
+    std::array<double, 2> max_m{};
 };
 
 /// An image whose pixels are heights, which becomes the bottom.
@@ -100,7 +130,9 @@ struct SceneConfig {
     std::optional<AppliedMapConfig> backscatter_map = {};
     std::optional<SeabedConfig> seabed = {};
     std::vector<ObjectConfig> objects = {};
+    std::optional<AreaConfig> area = {};
     std::vector<ScatterConfig> scatter = {};
+    std::optional<ClutterConfig> clutter = {};  ///< empty after reading: a rule of `scatter`
     std::vector<ParticlesConfig> particles = {};
     std::optional<WaterSurfaceConfig> water_surface = {};
     Location place = {};
@@ -159,17 +191,25 @@ void describe(Visitor& v, ObjectConfig& c) {
               "an object that moves needs a name, for its poses in the metadata");
 }
 
+inline constexpr Limits any_share_buried = {-10, 1};
+
 template <class Visitor>
 void describe(Visitor& v, ScatterConfig& c) {
     v.text("name", c.name, "the objects are the instances NAME_1, NAME_2 and so on", required);
+    v.text("stock", c.stock,
+           "kinds of things that come with the program, each equally likely, in place of `files`");
     v.path("files", c.files,
-           "a file of a mesh as in `objects`, or a list of them, each equally likely", required);
-    v.text("class", c.class_name, "class of the objects, for labels; default: NAME");
+           "a file of a mesh as in `objects`, or a list of them, each equally likely");
+    v.text("class", c.class_name,
+           "class of the objects, for labels; default: the kind of `stock`, else NAME");
     v.number("count", c.count, {0, 1e5}, "number of objects");
+    v.number("density_per_m2", c.density_per_m2, between(0, 1e3),
+             "number of objects for each square metre of the area, in place of `count`");
     v.array("area_min_m", c.area_min_m, any_position_m,
-            "corner of the area with the least x and y; objects lie wholly within", required);
+            "corner of the area with the least x and y; objects lie wholly within; default: "
+            "`scene.area`, else the bottom where it has an end");
     v.array("area_max_m", c.area_max_m, any_position_m,
-            "corner of the area with the largest x and y", required);
+            "corner of the area with the largest x and y");
     v.number("yaw_deg", c.yaw_deg, any_angle_deg, "heading of an object");
     v.number("roll_deg", c.roll_deg, any_angle_deg, "roll of an object");
     v.number("pitch_deg", c.pitch_deg, any_angle_deg, "pitch of an object");
@@ -177,15 +217,52 @@ void describe(Visitor& v, ScatterConfig& c) {
              "factor that enlarges an object");
     v.text("material", c.mesh.material, "material of the objects; default: the files' materials");
     describe_mesh(v, c.mesh);
+    v.number("bury", c.bury, any_share_buried,
+             "share of an object's height that is buried in the bottom; a negative one raises it");
     v.number("bury_m", c.bury_m, any_position_m,
-             "depth to which an object is buried in the bottom");
+             "depth to which an object is buried, besides `bury`; a negative one raises it above "
+             "the bottom");
     v.number("spacing_m", c.spacing_m, at_least(0),
              "least distance between two objects, seen from above");
+    v.flag("overlap", c.overlap, "objects may lie on and in others");
     v.flag("align", c.align, "objects stand upright on the slope below them");
-    v.require(c.area_min_m[0] < c.area_max_m[0] && c.area_min_m[1] < c.area_max_m[1],
-              {"area_min_m", "area_max_m"}, "area_min_m must be below area_max_m in x and in y");
+    v.flag("unlabelled", c.unlabelled,
+           "the class of the objects is background, as by `labels.background`");
+    v.require(c.files.empty() == false, {"stock", "files"},
+              "a rule of 'scatter' needs 'stock' or 'files'");
+    v.require(c.stock.empty() || c.files.size() % c.stock.size() == 0, {"stock", "files"},
+              "'stock' and 'files': give one of the two");
+    v.require(c.area_min_m.has_value() == c.area_max_m.has_value(), {"area_min_m", "area_max_m"},
+              "an area needs both area_min_m and area_max_m");
+    v.require(
+        !c.area_min_m || !c.area_max_m ||
+            ((*c.area_min_m)[0] < (*c.area_max_m)[0] && (*c.area_min_m)[1] < (*c.area_max_m)[1]),
+        {"area_min_m", "area_max_m"}, "area_min_m must be below area_max_m in x and in y");
     v.require(c.count[0] == std::floor(c.count[0]) && c.count[1] == std::floor(c.count[1]),
               {"count"}, "'count' must be a whole number or two of them");
+}
+
+template <class Visitor>
+void describe(Visitor& v, ClutterConfig& c) {
+    v.number("density_per_m2", c.density_per_m2, between(0, 1e3),
+             "things for each square metre of the area", required);
+    v.text("stock", c.stock,
+           "their kinds; default: stones, boards, panels, ropes, weed and others");
+    v.number("roll_deg", c.roll_deg, any_angle_deg, "roll of a thing");
+    v.number("pitch_deg", c.pitch_deg, any_angle_deg, "pitch of a thing");
+    v.number("scale", c.scale, {1.0 / largest_scale, largest_scale},
+             "factor that enlarges a thing");
+    v.number("bury", c.bury, any_share_buried, "share of a thing's height that is buried");
+    v.array("area_min_m", c.area_min_m, any_position_m, "as in `scatter`");
+    v.array("area_max_m", c.area_max_m, any_position_m, "as in `scatter`");
+}
+
+template <class Visitor>
+void describe(Visitor& v, AreaConfig& c) {
+    v.array("min_m", c.min_m, any_position_m, "its least x and y", required);
+    v.array("max_m", c.max_m, any_position_m, "its largest x and y", required);
+    v.require(c.min_m[0] < c.max_m[0] && c.min_m[1] < c.max_m[1], {"min_m", "max_m"},
+              "min_m must be below max_m in x and in y");
 }
 
 template <class Visitor>
@@ -243,7 +320,11 @@ void describe(Visitor& v, SceneConfig& c) {
     v.section("seabed", c.seabed,
               "a bottom that is made from these numbers and the mission's seed");
     v.list_of("objects", c.objects, 0, "files that are placed in the scene one by one");
-    v.list_of("scatter", c.scatter, 0, "files that are placed on the bottom at random");
+    v.section("area", c.area, "the area of rules of `scatter` and of clutter that give none");
+    v.list_of("scatter", c.scatter, 0, "things or files that are placed on the bottom at random");
+    v.section("clutter", c.clutter,
+              "unlabelled things of the class `clutter`, scattered over the area, as by a rule of "
+              "`scatter` with `overlap` and `unlabelled`, whose other keys it takes");
     v.list_of("particles", c.particles, 0,
               "groups of point targets in the water, for the calibrated model: fish, bubbles and "
               "others");

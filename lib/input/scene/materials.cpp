@@ -28,8 +28,9 @@ struct OptionalColumn {
     void (*put)(Material&, double);
 };
 
-constexpr std::array<OptionalColumn, 9> optional_columns{
+constexpr std::array<OptionalColumn, 10> optional_columns{
     {{"lambert_db", -300.0, 20.0, [](Material& m, double value) { m.lambert_db = value; }},
+     {"roughness_mm", 0.0, 50.0, [](Material& m, double value) { m.roughness_mm = value; }},
      {"slope_rms_deg", 0.0, 45.0, [](Material& m, double value) { m.slope_rms_deg = value; }},
      {"wall_mm", 0.001, 100.0, [](Material& m, double value) { m.wall_mm = value; }},
      {"grain_phi", -10.0, 9.0, [](Material& m, double value) { m.grain_phi = value; }},
@@ -111,6 +112,14 @@ void check_sea_bed(const Material& material, const Location& where) {
                                 ", too; fill them in, or fill in grain_phi");
 }
 
+/// The cell of an optional column; empty where the file has no such column.
+std::string cell_of(const CsvTable& csv, const CsvRow& row, const std::string& column) {
+    const auto at = std::ranges::find(csv.header.fields, column);
+    return at == csv.header.fields.end()
+               ? std::string()
+               : row.fields[static_cast<std::size_t>(at - csv.header.fields.begin())];
+}
+
 MaterialTable to_materials(const CsvTable& csv) {
     const std::vector<OptionalColumn> optional = optional_columns_of(csv);
     MaterialTable table;
@@ -136,6 +145,8 @@ MaterialTable to_materials(const CsvTable& csv) {
                        number_within(cell, column.name.data(), column.low, column.high, where));
         }
         check_sea_bed(material, where);
+        const bool has_inside = !cell_of(csv, row, "lambert_db").empty();
+        if (material.roughness_mm && !has_inside) material.lambert_db = -300.0;
         table.materials.push_back(std::move(material));
     }
     return table;

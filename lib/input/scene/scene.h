@@ -26,6 +26,8 @@ struct Material {
 
     // The rest is for the calibrated model (docs/calibrated.md). Lambert's rule and facets:
     double lambert_db = -27.0;           ///< 10 log mu of Lambert's rule
+    /// Roughness that flow meets; with it `lambert_db` is the part from inside, if there is any.
+    std::optional<double> roughness_mm = {};
     double slope_rms_deg = 10.0;         ///< RMS slope of the facets; 0: no facets
     std::optional<double> wall_mm = {};  ///< thickness of a wall with water behind; empty: solid
     // The model of sea beds (simulate/calibrated/seafloor_scattering.h), if there is a grain size

@@ -86,6 +86,9 @@ std::vector<Warning> sonar_warnings(const OutputConfig& output, const Sonar& son
         out.push_back(make_warning(WarningCode::inside_object, about, found.enclosed, found.pings,
                                    found.enclosed_by));
     }
+    if (10 * found.beyond_edge > found.pings) {
+        out.push_back(make_warning(WarningCode::scene_ends, about, found.beyond_edge, found.pings));
+    }
     judge_blindness(sonar, found, out);
     if (found.blind == found.pings) return out;
     if (found.signal < faint * found.noise) {

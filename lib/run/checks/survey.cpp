@@ -162,6 +162,21 @@ void check_position(const Scene& scene, bool open_upwards,
     out.enclosed_by = scene.instances[instance];
 }
 
+/// True if a direction in view meets nothing and yet reaches below the whole scene within the
+/// range: it passes the end of the bottom.
+bool passes_edge(const View& view, const Scene& scene, const Pose& T_world_sensor,
+                 const Surroundings& around) {
+    for (std::size_t i = 0; i < around.directions.size(); ++i) {
+        const Eigen::Vector3f& direction = around.directions[i];
+        if (std::isfinite(around.met[i].distance_m) || beam_of(view, direction) < 0) continue;
+        const Eigen::Vector3d end =
+            T_world_sensor.translation +
+            T_world_sensor.rotation * (view.range_max_m * direction.cast<double>());
+        if (end.z() < scene.bounds_min.z()) return true;
+    }
+    return false;
+}
+
 /// Adds the surface and the objects that a ping saw, and the range of its first and last echo.
 /// Returns false if it saw nothing.
 bool take_samples(const View& view, const Samples& samples, const SceneObjects& objects,
@@ -250,6 +265,8 @@ SonarSurvey survey_sonar(const Mission& mission, const Assembly& assembly, Sonar
         if (const auto altitude = altitude_m(*now, T_world_sensor)) out.altitude_m.take(*altitude);
         bool is_blind = !take_samples(view, traced.samples, assembly.objects, out);
         check_position(assembly.scene, open_upwards, boxes, T_world_sensor, around, out);
+        out.beyond_edge +=
+            open_upwards && !is_blind && passes_edge(view, assembly.scene, T_world_sensor, around);
         if (in_turn || is_blind) {  // water and targets in it have echoes without surface
             const Ping ping = form_image(traced, then->settings, assembly.scene, key);
             is_blind = ping.counts.occupied_bins == 0;

@@ -49,6 +49,7 @@ struct SonarSurvey {
     std::size_t below_surface = 0;  ///< pings with surface above and none below
     std::size_t enclosed = 0;       ///< pings inside one instance that is no basin
     std::string enclosed_by;        ///< the last of these instances
+    std::size_t beyond_edge = 0;    ///< pings that look past the end of the scene
     ValueRange altitude_m;          ///< empty if there never is surface below
     ValueRange first_echo_m;        ///< one value for each ping that saw anything
     ValueRange last_echo_m;

@@ -33,6 +33,7 @@ enum class WarningCode {
     heightmap_facets = 37,
     azimuth_in_radians = 38,
     ping_too_early = 39,
+    scene_ends = 40,
 };
 
 /// A row of the table of all warnings. `what` and `cure` are format strings of the same figures.

@@ -116,6 +116,12 @@ constexpr std::array table{
         "allows {4:.4g} Hz",
         "lower the trajectory's rate_hz, raise every to {5:.0f}, or lower range_max_m",
         "one such ping, except with trajectory.look_at"},
+    WarningText{WarningCode::scene_ends,
+                "in {0} of {1} pings the scene ends within its view: directions within range_max_m "
+                "pass beside the bottom",
+                "take a larger bottom, or scene.seabed, which has no end",
+                "a tenth of the pings, if the scene's surface faces up: a direction in view meets "
+                "nothing and yet ends below the whole scene"},
 };
 
 static_assert(std::ranges::is_sorted(table, {}, &WarningText::code));

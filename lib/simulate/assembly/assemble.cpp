@@ -192,7 +192,7 @@ struct PlacedScene {
 
 /// Sets the trajectory and the sonars, and places the scene.
 PlacedScene place(const Mission& mission, const EngineSettings& settings, SceneStore& models,
-                  Assembly& assembly) {
+                  Assembly& assembly, bool places_only = false) {
     ErrorList errors;
     errors.attempt([&] { assembly.trajectory = vehicle_poses(mission); });
     assembly.reported = navigation_poses(mission, assembly.trajectory);
@@ -212,7 +212,7 @@ PlacedScene place(const Mission& mission, const EngineSettings& settings, SceneS
     errors.raise();
     add_ping_motions(mission, assembly.trajectory, assembly.sonars);
     return {std::move(materials),
-            place_scene(mission, assembly.trajectory, assembly.sonars, models)};
+            place_scene(mission, assembly.trajectory, assembly.sonars, models, places_only)};
 }
 
 }  // namespace
@@ -250,7 +250,7 @@ void find_poses(const Mission& mission, const Bottom* bottom, Assembly& assembly
 
 void check_places(const Mission& mission, SceneStore& models) {
     Assembly assembly;
-    place(mission, engine_settings(mission), models, assembly);
+    place(mission, engine_settings(mission), models, assembly, true);
 }
 
 Assembly assemble(const Mission& mission, SceneStore& models) {
@@ -306,7 +306,9 @@ std::string inputs_hash(const Assembly& assembly) {
                 number_text(material.sound_speed_m_s) + " " + number_text(material.lambert_db) +
                 " " + number_text(material.slope_rms_deg);
         for (const auto& [name, value] :
-             {std::pair{"wall_mm", material.wall_mm}, std::pair{"grain_phi", material.grain_phi},
+             {std::pair{"wall_mm", material.wall_mm},
+              std::pair{"roughness_mm", material.roughness_mm},
+              std::pair{"grain_phi", material.grain_phi},
               std::pair{"loss_parameter", material.loss_parameter},
               std::pair{"spectral_strength_cm4", material.spectral_strength_cm4},
               std::pair{"spectral_exponent", material.spectral_exponent},

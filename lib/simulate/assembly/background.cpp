@@ -87,6 +87,13 @@ std::vector<std::uint8_t> background_classes(const Mission& mission, const Scene
             background[class_named(mission, objects, "background", name)] = 1;
         }
     }
+    for (const ScatterConfig& rule : mission.scene.scatter) {
+        for (std::size_t i = 0; rule.unlabelled && i < rule.files.size(); ++i) {
+            const auto found = std::ranges::find(objects.classes, rule.class_of(i));
+            if (found != objects.classes.end())
+                background[static_cast<std::size_t>(found - objects.classes.begin())] = 1;
+        }
+    }
     return background;
 }
 

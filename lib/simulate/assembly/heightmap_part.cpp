@@ -51,8 +51,9 @@ Eigen::AlignedBox2d ground_of_objects(const SceneConfig& scene, Shapes& shapes) 
         ground.extend(Eigen::AlignedBox2d(at.array() - reach_m, at.array() + reach_m));
     }
     for (const ScatterConfig& scatter : scene.scatter) {
-        ground.extend(Eigen::Vector2d(scatter.area_min_m.data()));
-        ground.extend(Eigen::Vector2d(scatter.area_max_m.data()));
+        if (!scatter.area_min_m) continue;
+        ground.extend(Eigen::Vector2d(scatter.area_min_m->data()));
+        ground.extend(Eigen::Vector2d(scatter.area_max_m->data()));
     }
     return ground;
 }

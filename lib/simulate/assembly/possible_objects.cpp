@@ -15,21 +15,22 @@ namespace sonarsim {
 
 namespace {
 
-template <class Config>
-std::string class_of(const Config& config) {
-    return config.class_name.empty() ? config.name : config.class_name;
-}
-
 std::vector<NamedInstance> drawn_instances(const SceneConfig& scene) {
     std::vector<NamedInstance> drawn;
     for (const ScatterConfig& scatter : scene.scatter) {
         const auto most = static_cast<std::size_t>(std::max(1.0, scatter.count[1]));
-        for (std::size_t k = 1; k <= most; ++k)
-            drawn.push_back({scatter.name + "_" + std::to_string(k), class_of(scatter)});
+        for (std::size_t file = 0; file < scatter.files.size(); ++file) {
+            if (file == 0 || scatter.class_of(file) != scatter.class_of(file - 1))
+                drawn.push_back({scatter.name + "_1", scatter.class_of(file)});
+        }
+        for (std::size_t k = 2; k <= most; ++k)
+            drawn.push_back({scatter.name + "_" + std::to_string(k), scatter.class_of(0)});
     }
     for (const ParticlesConfig& particles : scene.particles) {
-        drawn.push_back({particles.name + "_1", class_of(particles)});
-        drawn.push_back({particles.name, class_of(particles)});
+        const std::string& own =
+            particles.class_name.empty() ? particles.name : particles.class_name;
+        drawn.push_back({particles.name + "_1", own});
+        drawn.push_back({particles.name, own});
     }
     return drawn;
 }

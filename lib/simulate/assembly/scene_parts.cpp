@@ -183,12 +183,16 @@ ScatterRule rule_of(const ScatterConfig& config) {
     return {.name = printable(config.name),
             .shapes = {},
             .count = config.count,
-            .area = {Eigen::Vector2d(config.area_min_m.data()),
-                     Eigen::Vector2d(config.area_max_m.data())},
+            .area = config.area_min_m
+                        ? Eigen::AlignedBox2d(Eigen::Vector2d(config.area_min_m->data()),
+                                              Eigen::Vector2d(config.area_max_m->data()))
+                        : Eigen::AlignedBox2d(),
             .rpy_rad = {in_rad(config.roll_deg), in_rad(config.pitch_deg), in_rad(config.yaw_deg)},
             .scale = config.scale,
+            .bury = config.bury,
             .bury_m = config.bury_m,
             .spacing_m = config.spacing_m,
+            .overlap = config.overlap,
             .align = config.align,
             .tries = 1000,
             .place = config.place};
@@ -234,7 +238,7 @@ void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64
     std::vector<Surface> shapes;
     for (const std::filesystem::path& path : config.files) {
         kinds.push_back(file_of(path, config.mesh, config.place));
-        kinds.back().class_name = config.class_name.empty() ? config.name : config.class_name;
+        kinds.back().class_name = config.class_of(kinds.size() - 1);
         shapes.push_back(surface_of(kinds.back(), models));
         if (!shapes.back().triangles.empty()) continue;
         throw InputError(config.place, path.string() + " has no surface to scatter");
@@ -254,11 +258,6 @@ void scatter_files(const ScatterConfig& config, std::uint32_t index, std::uint64
         PlacedFile& file = files.emplace_back(kinds[object.shape]);
         file.name = config.name + "_" + std::to_string(++number);
         file.T_world_file = object.T_world_shape;
-        if (config.bury_m[1] > 0.0 &&
-            lies_below(bottom.get(), moved(shapes[object.shape], file.T_world_file))) {
-            throw InputError(config.place, "'" + printable(file.name) +
-                                               "' lies wholly below the bottom; lower bury_m");
-        }
     }
 }
 
@@ -287,10 +286,20 @@ Eigen::AlignedBox2d needed_ground(const Mission& mission, const Trajectory& vehi
     return ground;
 }
 
+/// The part of a bed without an end on which objects stand, which is a small part of what sonars
+/// reach; nothing for other grounds, or without objects.
+std::optional<PlacedFile> bed_of_objects(const Mission& mission, Shapes& shapes) {
+    const SceneConfig& scene = mission.scene;
+    if (!scene.seabed || scene.seabed->size_m) return std::nullopt;
+    const Eigen::AlignedBox2d ground = ground_of_objects(scene, shapes);
+    if (ground.isEmpty()) return std::nullopt;
+    return seabed_of(*scene.seabed, mission.seed, ground, nullptr);
+}
+
 }  // namespace
 
 SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
-                       std::span<const Sonar> sonars, SceneStore& models) {
+                       std::span<const Sonar> sonars, SceneStore& models, bool places_only) {
     const SceneConfig& scene = mission.scene;
     SceneParts parts;
     Shapes shapes(models);
@@ -300,15 +309,21 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
         if (is_mesh_file(scene.file))
             add_orientation_warning(up_question(file, surface_of(file, models)), parts);
     }
+    const auto* const lines = std::get_if<LawnmowerTrajectoryConfig>(&mission.trajectory);
+    const bool needs_ground =
+        (lines && lines->altitude_m > 0.0) ||
+        std::ranges::find(mission.output.labels, Label::height) != mission.output.labels.end();
+    std::optional<PlacedFile> below_objects =
+        needs_ground ? std::nullopt : bed_of_objects(mission, shapes);
     std::optional<PlacedFile> ground;
-    if (scene.heightmap || scene.seabed) {
+    if ((scene.heightmap || scene.seabed) && !(places_only && below_objects)) {
         const Eigen::AlignedBox2d needed = needed_ground(mission, vehicle, sonars, shapes);
         ground = scene.heightmap ? heightmap_of(*scene.heightmap, needed)
                                  : seabed_of(*scene.seabed, mission.seed, needed, models.announce);
         parts.seabed = ground->seabed;
     }
     if (ground) parts.files.push_back(*ground);
-    LazyBottom bottom(scene, ground, models);
+    LazyBottom bottom(scene, below_objects ? below_objects : ground, models);
     TakenGround taken;
     const double range_m = farthest_range_m(mission);
     for (const ObjectConfig& object : scene.objects) {
@@ -342,10 +357,7 @@ SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
     }
     // Reports a pattern of `bottom` that matches no node, even if no object rests on it.
     if (!scene.bottom.empty()) bottom.get();
-    const bool heights =
-        std::ranges::find(mission.output.labels, Label::height) != mission.output.labels.end();
-    const auto* const lines = std::get_if<LawnmowerTrajectoryConfig>(&mission.trajectory);
-    if ((heights || (lines && lines->altitude_m > 0.0)) && bottom.exists()) {
+    if (needs_ground && bottom.exists()) {
         parts.bottom = bottom.share();
         bottom.mark(parts.files);
     }

@@ -31,7 +31,10 @@ struct SceneParts {
 /// room, and for a motion that does not last from the first to the last ping.
 ///
 /// A heightmap or seabed is made where the sonars reach it or objects at rest stand on it.
+///
+/// With `places_only` a bed without an end is made below the objects alone and is none of the
+/// files.
 SceneParts place_scene(const Mission& mission, const Trajectory& vehicle,
-                       std::span<const Sonar> sonars, SceneStore& models);
+                       std::span<const Sonar> sonars, SceneStore& models, bool places_only = false);
 
 }  // namespace sonarsim

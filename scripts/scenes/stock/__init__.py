@@ -5,7 +5,7 @@ from . import household, marine
 from .solids import Draw
 
 EXAMPLES = 6
-# What scene.clutter scatters by default.
+# The kinds that scene.clutter scatters by default.
 CLUTTER = ("boulder_pile", "brick", "cable", "chain", "drag_mark", "frame", "net", "panel", "pipe", "plank", "plant", "rope",
            "stone", "tarpaulin", "weed", "wreckage")
 KINDS = {kind.__name__: kind for kind in sorted(household.KINDS + marine.KINDS, key=lambda kind: kind.__name__)}

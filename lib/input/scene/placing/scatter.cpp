@@ -13,7 +13,7 @@ namespace {
 
 /// The quantity that is drawn for an object: the second word of the counter. The first word is the
 /// number of the attempt.
-enum class Draw : std::uint32_t { count, shape, scale, roll, pitch, yaw, bury, x, y };
+enum class Draw : std::uint32_t { count, shape, scale, roll, pitch, yaw, bury, x, y, share };
 
 /// The draws of one object of one rule.
 class Draws {
@@ -74,41 +74,85 @@ Hull shifted(Hull hull, const Eigen::Vector2d& by) {
 /// One object whose positions are tried one after the other.
 struct Attempt {
     const ScatterRule& rule;
+    Eigen::AlignedBox2d area;
     const Bottom& bottom;
+    const TakenGround& taken;
     const Surface& shape;
     const Stance& stance;
     const Hull& outline;  ///< outline of the rotated shape about its origin
 };
 
-/// Returns the object's transform if there is room for it, and marks the ground as taken.
-std::optional<Eigen::Affine3d> try_at(const Eigen::Vector2d& position, const Attempt& attempt,
-                                      TakenGround& taken, Refusals& refusals) {
+/// An object with the ground that it covers.
+struct Placed {
+    ScatteredObject object;
+    Hull ground;
+};
+
+/// Returns the object's transform and ground if there is room for it.
+std::optional<Placed> try_at(const Eigen::Vector2d& position, std::size_t chosen,
+                             const Attempt& attempt, Refusals& refusals) {
     const ScatterRule& rule = attempt.rule;
     const auto fits = [&](const Hull& room) {
         const bool inside = std::ranges::all_of(
-            room, [&](const Eigen::Vector2d& p) { return rule.area.contains(p); });
-        const bool alone = inside && taken.has_room(room, rule.spacing_m);
+            room, [&](const Eigen::Vector2d& p) { return attempt.area.contains(p); });
+        const bool alone = inside && (rule.overlap || attempt.taken.has_room(room, rule.spacing_m));
         refusals.outside += !inside;
         refusals.taken += inside && !alone;
         return alone;
     };
     // Cheap test first, with the outline before the object is lowered.
-    if (!fits(shifted(attempt.outline, position))) return std::nullopt;
-    std::optional<Eigen::Affine3d> T_world_shape =
+    Hull room = shifted(attempt.outline, position);
+    if (!fits(room)) return std::nullopt;
+    const std::optional<Eigen::Affine3d> T_world_shape =
         put_on_bottom(attempt.bottom, attempt.shape, position, attempt.stance);
     if (!T_world_shape) {
         ++refusals.no_bottom;
         return std::nullopt;
     }
-    if (!rule.align) {
-        taken.add(shifted(attempt.outline, position));
-        return T_world_shape;
+    if (rule.align) {
+        // The object may have been tilted on a slope, so its outline is tested again.
+        room = hull_of(moved(attempt.shape, *T_world_shape).vertices);
+        if (!fits(room)) return std::nullopt;
     }
-    // The object may have been tilted on a slope, so its outline is tested again.
-    Hull room = hull_of(moved(attempt.shape, *T_world_shape).vertices);
-    if (!fits(room)) return std::nullopt;
-    taken.add(std::move(room));
-    return T_world_shape;
+    return Placed{{chosen, *T_world_shape}, std::move(room)};
+}
+
+/// The `number`-th of `count` objects of a rule at the first position with room. `redraw` counts
+/// the draws of scale and burial. Returns nullopt if it lies wholly below the bottom.
+std::optional<Placed> place_one(const ScatterRule& rule, const Draws& draws, std::uint32_t redraw,
+                                const Bottom& bottom, const TakenGround& taken, std::size_t number,
+                                std::size_t count) {
+    const std::size_t chosen = draws.one_of(rule.shapes.size(), Draw::shape);
+    const Surface& shape = *rule.shapes[chosen];
+    Stance stance{.rotation = rotation_from_rpy(draws.in(rule.rpy_rad[0], Draw::roll),
+                                                draws.in(rule.rpy_rad[1], Draw::pitch),
+                                                draws.in(rule.rpy_rad[2], Draw::yaw)),
+                  .scale = draws.in(rule.scale, Draw::scale, redraw),
+                  .align = rule.align,
+                  .bury_m = draws.in(rule.bury_m, Draw::bury, redraw)};
+    Eigen::Affine3d upright = Eigen::Affine3d::Identity();
+    upright.linear() = stance.scale * stance.rotation.toRotationMatrix();
+    const Surface turned = moved(shape, upright);
+    stance.bury_m += draws.in(rule.bury, Draw::share, redraw) * box_of(turned).sizes().z();
+    const Hull outline = hull_of(turned.vertices);
+    const Attempt attempt{
+        rule,   rule.area.isEmpty() ? bottom.area() : rule.area, bottom, taken, shape, stance,
+        outline};
+    const Eigen::Vector2d low = attempt.area.min();
+    const Eigen::Vector2d high = attempt.area.max();
+
+    Refusals refusals;
+    std::optional<Placed> found;
+    for (int i = 0; i < rule.tries && !found; ++i) {
+        const auto n = static_cast<std::uint32_t>(i);
+        const Eigen::Vector2d position(draws.in({low.x(), high.x()}, Draw::x, n),
+                                       draws.in({low.y(), high.y()}, Draw::y, n));
+        found = try_at(position, chosen, attempt, refusals);
+    }
+    if (!found) give_up(rule, number, count, refusals);
+    if (stance.bury_m > 0.0 && lies_below(bottom, moved(shape, found->object.T_world_shape)))
+        return std::nullopt;
+    return found;
 }
 
 }  // namespace
@@ -136,33 +180,22 @@ std::optional<Eigen::Affine3d> put_on_bottom(const Bottom& bottom, const Surface
 
 std::vector<ScatteredObject> scatter(const ScatterRule& rule, std::uint32_t rule_index,
                                      std::uint64_t seed, const Bottom& bottom, TakenGround& taken) {
+    constexpr std::uint32_t most_redraws = 100;
     const std::size_t count = count_of(rule, seed, rule_index);
     std::vector<ScatteredObject> objects;
     for (std::size_t i = 0; i < count; ++i) {
         const Draws draws(seed, rule_index, static_cast<std::uint32_t>(i));
-        const std::size_t chosen = draws.one_of(rule.shapes.size(), Draw::shape);
-        const Surface& shape = *rule.shapes[chosen];
-        const Stance stance{.rotation = rotation_from_rpy(draws.in(rule.rpy_rad[0], Draw::roll),
-                                                          draws.in(rule.rpy_rad[1], Draw::pitch),
-                                                          draws.in(rule.rpy_rad[2], Draw::yaw)),
-                            .scale = draws.in(rule.scale, Draw::scale),
-                            .align = rule.align,
-                            .bury_m = draws.in(rule.bury_m, Draw::bury)};
-        Eigen::Affine3d upright = Eigen::Affine3d::Identity();
-        upright.linear() = stance.scale * stance.rotation.toRotationMatrix();
-        const Hull outline = hull_of(moved(shape, upright).vertices);
-
-        Refusals refusals;
-        std::optional<Eigen::Affine3d> found;
-        for (int attempt = 0; attempt < rule.tries && !found; ++attempt) {
-            const auto n = static_cast<std::uint32_t>(attempt);
-            const Eigen::Vector2d position(
-                draws.in({rule.area.min().x(), rule.area.max().x()}, Draw::x, n),
-                draws.in({rule.area.min().y(), rule.area.max().y()}, Draw::y, n));
-            found = try_at(position, {rule, bottom, shape, stance, outline}, taken, refusals);
+        std::optional<Placed> placed;
+        for (std::uint32_t redraw = 0; redraw < most_redraws && !placed; ++redraw)
+            placed = place_one(rule, draws, redraw, bottom, taken, i, count);
+        if (!placed) {
+            throw InputError(rule.place, "'" + rule.name + "': object " + std::to_string(i + 1) +
+                                             " lies wholly below the bottom in all of " +
+                                             std::to_string(most_redraws) +
+                                             " draws; lower bury or bury_m");
         }
-        if (!found) give_up(rule, i, count, refusals);
-        objects.push_back({chosen, *found});
+        if (!rule.overlap) taken.add(std::move(placed->ground));
+        objects.push_back(placed->object);
     }
     return objects;
 }

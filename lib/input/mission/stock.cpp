@@ -1,0 +1,171 @@
+#include "input/mission/stock.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/text.h"
+#include "input/mission/preset.h"
+#include "input/mission/value_types.h"
+
+namespace sonarsim {
+
+namespace {
+
+constexpr const char* stock_kinds[]{
+    "anchor", "block",          "bottle",   "boulder_pile", "brick",          "bucket",
+    "buoy",   "cable",          "can",      "carton",       "chain",          "coral_head",
+    "crate",  "drag_mark",      "drum",     "frame",        "gas_cylinder",   "ghost_gear",
+    "hook",   "ladder",         "mine",     "net",          "pallet",         "panel",
+    "person", "pipe",           "plank",    "plant",        "plastic_bottle", "propeller",
+    "rope",   "shampoo_bottle", "starfish", "stone",        "tarpaulin",      "torpedo",
+    "trap",   "tyre",           "valve",    "weed",         "wheel",          "wreckage"};
+
+/// The kinds of clutter by default, as CLUTTER of scripts/scenes/stock.
+constexpr const char* clutter_kinds[]{
+    "boulder_pile", "brick", "cable", "chain", "drag_mark", "frame",     "net",  "panel",
+    "pipe",         "plank", "plant", "rope",  "stone",     "tarpaulin", "weed", "wreckage"};
+
+/// The number of drawn examples of a kind.
+constexpr int stock_examples = 6;
+
+YamlNode scalar(const std::string& key, const std::string& text, const YamlPlace& place) {
+    YamlNode node;
+    node.kind = YamlNode::Kind::scalar;
+    node.place = place;
+    node.text = text;
+    node.key = key;
+    node.key_place = place;
+    return node;
+}
+
+YamlNode list(const std::string& key, std::vector<YamlNode> items, const YamlPlace& place) {
+    YamlNode node;
+    node.kind = YamlNode::Kind::list;
+    node.place = place;
+    node.items = std::move(items);
+    node.key = key;
+    node.key_place = place;
+    return node;
+}
+
+YamlNode* child(YamlNode* node, const char* key) {
+    return node != nullptr && node->kind == YamlNode::Kind::map ? node->find(key) : nullptr;
+}
+
+/// The files of a kind of the stock, absolute.
+void add_files(const YamlNode& kind, const std::filesystem::path& base_folder,
+               std::vector<YamlNode>& files) {
+    const std::vector<std::string> kinds(std::begin(stock_kinds), std::end(stock_kinds));
+    if (std::ranges::find(kinds, kind.text) == kinds.end()) {
+        refuse(kind, "the stock has no " + in_quotes(kind.text) + did_you_mean(kind.text, kinds) +
+                         "; there are: " + listed(kinds));
+    }
+    for (int k = 1; k <= stock_examples; ++k) {
+        const std::string name = kind.text + "_" + std::to_string(k) + ".glb";
+        const std::filesystem::path path =
+            preset_file("../scenes/generated/stock/" + name, base_folder);
+        if (path.empty()) {
+            refuse(kind, "the stock's file " + name +
+                             " has not been made; scripts/make_scenes.py stock makes it, as "
+                             "scripts/render.sh does with a mission");
+        }
+        files.push_back(scalar("", path.lexically_normal().string(), kind.place));
+        files.back().quoted = true;
+    }
+}
+
+/// A rule of `scatter` with the keys of `clutter` and defaults for the others.
+YamlNode rule_of_clutter(YamlNode clutter) {
+    if (clutter.kind != YamlNode::Kind::map)
+        refuse_type(clutter, "clutter", "a section with the key density_per_m2");
+    const YamlPlace place = clutter.place;
+    if (clutter.find("density_per_m2") == nullptr)
+        refuse(clutter, "'clutter' needs the key 'density_per_m2'");
+    const auto add = [&](YamlNode node) {
+        if (clutter.find(node.key) == nullptr) clutter.items.push_back(std::move(node));
+    };
+    const auto pair = [&](const char* key, const std::array<double, 2>& values) {
+        add(list(
+            key,
+            {scalar("", number_text(values[0]), place), scalar("", number_text(values[1]), place)},
+            place));
+    };
+    add(scalar("name", "clutter", place));
+    add(scalar("overlap", "true", place));
+    add(scalar("unlabelled", "true", place));
+    const ClutterConfig defaults;
+    pair("roll_deg", defaults.roll_deg);
+    pair("pitch_deg", defaults.pitch_deg);
+    pair("scale", defaults.scale);
+    pair("bury", defaults.bury);
+    std::vector<YamlNode> kinds;
+    for (const char* kind : clutter_kinds)
+        kinds.push_back(scalar("", kind, place));
+    add(list("stock", std::move(kinds), place));
+    add(scalar("class", "clutter", place));
+    clutter.key.clear();
+    return clutter;
+}
+
+/// The area of a rule without its own; nothing for all of a mesh.
+std::optional<AreaConfig> default_area(const SceneConfig& scene, const ScatterConfig& rule) {
+    if (scene.area) return scene.area;
+    if (scene.seabed && scene.seabed->size_m) return AreaConfig{{0.0, 0.0}, *scene.seabed->size_m};
+    if (!scene.seabed && !scene.heightmap && rule.density_per_m2[1] == 0.0) return std::nullopt;
+    throw InputError(rule.place, "'" + printable(rule.name) +
+                                     "' needs an area: area_min_m and area_max_m, or for all rules "
+                                     "scene.area: {min_m: [x, y], max_m: [x, y]}");
+}
+
+}  // namespace
+
+void fill_in_stock(YamlNode& mission, const std::filesystem::path& base_folder) {
+    YamlNode* const scene = child(&mission, "scene");
+    if (const YamlNode* const clutter = child(scene, "clutter")) {
+        YamlNode rule = rule_of_clutter(*clutter);
+        std::erase_if(scene->items, [](const YamlNode& item) { return item.key == "clutter"; });
+        if (scene->find("scatter") == nullptr)
+            scene->items.push_back(list("scatter", {}, rule.place));
+        if (YamlNode* const rules = scene->find("scatter"); rules->kind == YamlNode::Kind::list)
+            rules->items.push_back(std::move(rule));
+    }
+    YamlNode* const rules = child(scene, "scatter");
+    if (rules == nullptr || rules->kind != YamlNode::Kind::list) return;
+    for (YamlNode& rule : rules->items) {
+        const YamlNode* const stock = child(&rule, "stock");
+        if (stock == nullptr || rule.find("files") != nullptr ||
+            stock->kind != YamlNode::Kind::list)
+            continue;  // the reader says what is wrong
+        std::vector<YamlNode> files;
+        for (const YamlNode& kind : stock->items)
+            add_files(kind, base_folder, files);
+        const YamlPlace place = stock->place;
+        rule.items.push_back(list("files", std::move(files), place));
+    }
+}
+
+void complete_scatter(SceneConfig& scene) {
+    for (ScatterConfig& rule : scene.scatter) {
+        if (!rule.area_min_m) {
+            const std::optional<AreaConfig> area = default_area(scene, rule);
+            if (!area) continue;
+            rule.area_min_m = area->min_m;
+            rule.area_max_m = area->max_m;
+        }
+        if (rule.density_per_m2[1] == 0.0) continue;
+        const double area_m2 = ((*rule.area_max_m)[0] - (*rule.area_min_m)[0]) *
+                               ((*rule.area_max_m)[1] - (*rule.area_min_m)[1]);
+        rule.count = {std::floor(rule.density_per_m2[0] * area_m2),
+                      std::ceil(rule.density_per_m2[1] * area_m2)};
+        if (rule.count[1] > 1e5) {
+            throw InputError(rule.place,
+                             "'" + printable(rule.name) +
+                                 "' is more than 100,000 "
+                                 "objects; lower density_per_m2 or take a smaller area");
+        }
+    }
+}
+
+}  // namespace sonarsim

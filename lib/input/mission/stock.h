@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+
+#include "input/mission/document.h"
+#include "input/mission/mission.h"
+
+namespace sonarsim {
+
+/// Makes a rule of `scene.scatter` of `scene.clutter`, and gives each rule of the list that has
+/// `stock` the `files` of these kinds, which scripts/make_scenes.py makes. InputError at the place
+/// of an unknown kind, and of one whose files are not there. Relative paths start at `base_folder`.
+void fill_in_stock(YamlNode& mission, const std::filesystem::path& base_folder);
+
+/// Gives each rule of `scene.scatter` without an area that of the scene, or all of a seabed with an
+/// end; one on a mesh keeps none, which is all of the mesh. Densities become counts. InputError at
+/// the place of a rule whose area is unknown.
+void complete_scatter(SceneConfig& scene);
+
+}  // namespace sonarsim
