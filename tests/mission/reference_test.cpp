@@ -14,9 +14,11 @@ TEST_CASE("every key has a meaning, and a default unless it is required or free 
             CAPTURE(section.path);
             CAPTURE(key.name);
             CHECK(!key.meaning.empty());
-            // A key that varies has one distribution, and a seabed may have no size.
+            // A key that varies has one distribution, and a seabed may have no size, a rule no
+            // area.
             const bool free = key.type == "text" || key.type == "path" || key.type == "section" ||
-                              section.path == "vary.0" || key.name == "size_m";
+                              section.path == "vary.0" || key.name == "size_m" ||
+                              key.name.starts_with("area_m");
             CHECK((key.required || free || !key.defaults.empty()));
         }
     }
@@ -31,6 +33,7 @@ TEST_CASE("defaults of the reference are what a mission without these keys has")
             // The smallest mission has no optional sections and no keys of the calibrated model.
             if (section.path.starts_with("trajectory") || section.path.ends_with(".0") ||
                 section.path == "scene.water_surface" || section.path == "scene.heightmap" ||
+                section.path == "scene.area" || section.path == "scene.clutter" ||
                 section.path.starts_with("scene.seabed") || section.path.ends_with("_map") ||
                 section.path.ends_with("profile") ||
                 section.path.starts_with("sensors.NAME.instrument"))

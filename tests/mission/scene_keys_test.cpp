@@ -120,14 +120,14 @@ TEST_CASE("what is refused of stock, clutter and areas") {
                       refusal(head + text + tail));
     };
     begins("  scatter: [{name: a, stock: [tire]}]\n",
-           "4:32: the stock has no 'tire' (did you mean 'tyre'?)");
+           "4:31: the stock has no 'tire' (did you mean 'tyre'?)");
     begins("  scatter: [{name: a, files: a.glb}]\n", "4:13: 'a' needs an area: ");
     begins("  scatter: [{name: a}]\n", "4:13: a rule of 'scatter' needs 'stock' or 'files'");
     begins("  scatter: [{name: a, files: a.glb, area_min_m: [0, 0]}]\n",
-           "4:37: an area needs both");
+           "4:49: an area needs both");
     begins("  clutter: 3\n", "4:12: 'clutter' must be a section");
     begins("  clutter: {stock: [net]}\n", "4:12: 'clutter' needs the key 'density_per_m2'");
-    begins("  area: {min_m: [0, 0], max_m: [0, 1]}\n", "4:25: min_m must be below max_m");
+    begins("  area: {min_m: [0, 0], max_m: [0, 1]}\n", "4:32: min_m must be below max_m");
 }
 
 TEST_SUITE_END();
