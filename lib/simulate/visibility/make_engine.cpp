@@ -6,6 +6,7 @@
 #include "simulate/visibility/octree/tree.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "simulate/visibility/slices/slices_engine.h"
+#include "simulate/visibility/strips/strips_engine.h"
 
 namespace sonarsim {
 
@@ -53,6 +54,7 @@ std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSe
     if (settings.type == EngineKind::octree) return make_octree_engine(scene, settings.octree);
     const Caster caster = settings.caster ? *settings.caster : Caster(scene);
     if (settings.type == EngineKind::slices) return make_slices_engine(scene, caster);
+    if (settings.type == EngineKind::strips) return make_strips_engine(scene, caster);
     if (settings.type == EngineKind::automatic && !scene.sound_profile && scene.bodies.empty() &&
         scene.copies.empty())
         return std::make_unique<AutoEngine>(scene, caster, settings.by_rays);
@@ -61,9 +63,12 @@ std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSe
 
 std::string unsupported(const EngineSettings& settings, const Scene& scene) {
     const bool is_octree = settings.type == EngineKind::octree;
-    const std::string engine = is_octree ? "engine: octree" : "engine: slices";
+    const bool is_strips = settings.type == EngineKind::strips;
+    const std::string engine = is_octree   ? "engine: octree"
+                               : is_strips ? "engine: strips"
+                                           : "engine: slices";
     const std::string instead = "; use engine: auto or engine: rays";
-    if (is_octree || settings.type == EngineKind::slices) {
+    if (is_octree || is_strips || settings.type == EngineKind::slices) {
         if (scene.sound_profile)
             return engine + " needs straight paths of sound, and water.profile bends them" +
                    instead;

@@ -8,7 +8,7 @@
 #include "core/groups.h"
 #include "core/sorted_table.h"
 #include "simulate/visibility/local_pose.h"
-#include "simulate/visibility/slices/clusters.h"
+#include "simulate/visibility/clusters.h"
 #include "simulate/visibility/slices/edge_line.h"
 #include "simulate/visibility/slices/slice_frames.h"
 

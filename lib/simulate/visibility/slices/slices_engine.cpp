@@ -4,7 +4,7 @@
 #include "simulate/visibility/intersect.h"
 #include "simulate/visibility/local_pose.h"
 #include "simulate/visibility/slices/adaptive_slices.h"
-#include "simulate/visibility/slices/clusters.h"
+#include "simulate/visibility/clusters.h"
 #include "simulate/visibility/slices/frame_scan.h"
 #include "simulate/visibility/slices/patch_limits.h"
 #include "simulate/visibility/slices/slice_frames.h"

@@ -15,6 +15,7 @@ struct SliceFacet {
     std::uint32_t material;
     std::uint32_t instance;
     std::uint32_t component;  ///< connected component of the mesh, by shared corners
+    float area_m2;
 };
 
 /// Up to 64 neighbouring triangles.

@@ -1,4 +1,4 @@
-#include "simulate/visibility/slices/clusters.h"
+#include "simulate/visibility/clusters.h"
 
 #include <algorithm>
 #include <span>
@@ -102,9 +102,10 @@ void add_cluster(const Scene& scene, std::span<const std::uint32_t> triangles, C
             local[k] = static_cast<std::uint8_t>(at - used.begin());
         }
         mesh.corners.push_back(local);
-        mesh.facets.push_back({cross_of(scene.vertices, corners).normalized().cast<float>(),
-                               scene.triangle_material[triangle], scene.triangle_instance[triangle],
-                               0});
+        const Eigen::Vector3d twice = cross_of(scene.vertices, corners);
+        mesh.facets.push_back({twice.normalized().cast<float>(), scene.triangle_material[triangle],
+                               scene.triangle_instance[triangle], 0,
+                               static_cast<float>(0.5 * twice.norm())});
     }
     mesh.clusters.push_back(cluster);
 }

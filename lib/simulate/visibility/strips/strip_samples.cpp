@@ -1,0 +1,197 @@
+#include "simulate/visibility/strips/strip_samples.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace sonarsim {
+
+namespace {
+
+using Eigen::Vector3f;
+
+constexpr float max_parts_by_wedge = 8.0F;
+constexpr float max_parts_across = 32.0F;
+constexpr float max_parts_along = 64.0F;
+
+// An edge that spans less than this many bins may taper.
+constexpr float taper_bins = 1.5F;
+
+// If the borders at both sides leave less than this share of the length at the middle, they cross
+// within the strip, and the strip is as long as at its middle.
+constexpr float crossing_share = 0.7F;
+
+constexpr float least_length = 1e-30F;
+
+/// The number of parts of a line whose range bends by `sag_m`.
+float parts_by_sag(float sag_m, float most_m) {
+    return sag_m > most_m ? std::ceil(std::sqrt(sag_m / most_m)) : 1.0F;
+}
+
+}  // namespace
+
+StripSamples::StripSamples(const ClusterMesh& mesh, const StripFrame& frame, const LocalPose& pose,
+                           const StripRule& rule, const ColumnPieces& pieces,
+                           std::vector<Sample>& out)
+    : mesh_(mesh),
+      frame_(frame),
+      rule_(rule),
+      pieces_(pieces),
+      R_sensor_frame_(frame.R_frame_sensor.transpose()),
+      R_sensor_local_(pose.rotation.transpose()),
+      out_(out) {}
+
+Vector3f StripSamples::point(const Strip& strip, float u, float w) const {
+    const float q = std::clamp(pieces_.q_at(strip.piece, u, w), strip.triangle.q_min,
+                               strip.triangle.q_max);
+    const float X = 1.0F / q;
+    return {X, X * u, X * w};
+}
+
+void StripSamples::add(const Strip& strip) {
+    const VisibleInterval& v = strip.visible;
+    const auto side = [&](float u) {
+        float low = v.low + v.low_slope * (u - strip.middle);
+        float high = v.high + v.high_slope * (u - strip.middle);
+        if (!strip.small) {
+            float least = pieces_.low(strip.piece, u).w;
+            float most = pieces_.high(strip.piece, u).w;
+            if (!frame_.surely_sees(least, most)) {
+                const ColumnLimits view = frame_.limits_at(u);
+                least = std::max(least, view.low);
+                most = std::min(most, view.high);
+            }
+            low = std::max(least, std::min(most, low));
+            high = std::max(least, std::min(most, high));
+        }
+        if (high < low) low = high = 0.5F * (low + high);
+        return std::pair(low, high);
+    };
+    auto [near_low, near_high] = side(strip.from);
+    auto [far_low, far_high] = side(strip.to);
+    float lengths = near_high - near_low + far_high - far_low;
+    const float length = v.high - v.low;
+    if (lengths < crossing_share * length) {
+        near_low = far_low = v.low;
+        near_high = far_high = v.high;
+        lengths = 2.0F * length;
+    }
+    Quad quad{point(strip, strip.from, near_low), point(strip, strip.from, near_high),
+              point(strip, strip.to, far_low), point(strip, strip.to, far_high), strip.area_m2};
+    if (!(quad.area_m2 > 0.0F)) {
+        // The area is the width times the length at the middle, which is right on average wherever
+        // borders end within the piece.
+        quad.area_m2 = 0.5F *
+                       (quad.far_high - quad.near_low).cross(quad.near_high - quad.far_low).norm() *
+                       2.0F * length / lengths;
+    }
+    if (quad.area_m2 > 0.0F) add_quad(strip.triangle, quad, strip.small);
+}
+
+/// The number of parts of equal shares of u.
+int StripSamples::parts_across(const Quad& quad, const Ranges& r) const {
+    const float wedge =
+        std::fabs(std::fabs(r.near_high - r.near_low) - std::fabs(r.far_high - r.far_low));
+    float parts = 1.0F;
+    if (wedge > rule_.wedge_m)
+        parts = std::min(std::ceil(wedge / rule_.wedge_m), max_parts_by_wedge);
+    const float near = 0.5F * (r.near_low + r.near_high);
+    const float far = 0.5F * (r.far_low + r.far_high);
+    const float across = std::fabs(far - near);
+    if (across > taper_bins * rule_.bin_m) {
+        const float a = (quad.near_high - quad.near_low).norm();
+        const float b = (quad.far_high - quad.far_low).norm();
+        parts = std::max(parts,
+                         std::ceil(std::fabs(b - a) / ((a + b + least_length) * rule_.taper)));
+    }
+    if (across > 0.5F * rule_.bin_m) {
+        const Vector3f middle =
+            0.25F * (quad.near_low + quad.near_high + quad.far_low + quad.far_high);
+        parts = std::max(parts, parts_by_sag(0.5F * (near + far) - middle.norm(), rule_.sag_m));
+    }
+    return static_cast<int>(std::min(parts, max_parts_across));
+}
+
+void StripSamples::add_quad(const StripTriangle& triangle, const Quad& quad, bool small) {
+    const Ranges r{quad.near_low.norm(), quad.near_high.norm(), quad.far_low.norm(),
+                   quad.far_high.norm()};
+    const float nearest = std::min({r.near_low, r.near_high, r.far_low, r.far_high});
+    if (nearest - 2.0F * rule_.bin_m > rule_.range_max_m) return;
+    const int parts = small ? 1 : parts_across(quad, r);
+    // The range of an edge of length l bends by at most l^2 / (8 r).
+    const float longest2 = std::max((quad.near_high - quad.near_low).squaredNorm(),
+                                    (quad.far_high - quad.far_low).squaredNorm());
+    const float depth =
+        0.5F * std::fabs(r.near_high + r.far_high - r.near_low - r.far_low);
+    const bool is_short =
+        longest2 < 7.0F * rule_.sag_m * nearest && depth < taper_bins * rule_.bin_m;
+    if (parts == 1) return cut_along(triangle, quad, is_short);
+    const float a = (quad.near_high - quad.near_low).norm();
+    const float b = (quad.far_high - quad.far_low).norm();
+    const Vector3f low = quad.far_low - quad.near_low;
+    const Vector3f high = quad.far_high - quad.near_high;
+    for (int k = 0; k < parts; ++k) {
+        const float from = static_cast<float>(k) / static_cast<float>(parts);
+        const float to = static_cast<float>(k + 1) / static_cast<float>(parts);
+        const float share = (to - from) * (2.0F * a + (b - a) * (from + to)) / (a + b + least_length);
+        cut_along(triangle,
+                  {quad.near_low + from * low, quad.near_high + from * high,
+                   quad.near_low + to * low, quad.near_high + to * high, quad.area_m2 * share},
+                  is_short);
+    }
+}
+
+/// The number of parts along w, and the widths of both sides square to the cut.
+int StripSamples::parts_along(const Quad& quad, float& low_width, float& high_width) const {
+    const Vector3f low = 0.5F * (quad.near_low + quad.far_low);
+    const Vector3f high = 0.5F * (quad.near_high + quad.far_high);
+    const Vector3f along = high - low;
+    const float r_low = low.norm();
+    const float r_high = high.norm();
+    low_width = (quad.far_low - quad.near_low).cross(along).norm();
+    high_width = (quad.far_high - quad.near_high).cross(along).norm();
+    float parts =
+        parts_by_sag(0.5F * (r_low + r_high) - (0.5F * (low + high)).norm(), rule_.sag_m);
+    if (std::fabs(r_high - r_low) > taper_bins * rule_.bin_m)
+        parts = std::max(parts,
+                         std::ceil(std::fabs(high_width - low_width) /
+                                   ((low_width + high_width + least_length) * rule_.taper)));
+    return static_cast<int>(std::min(parts, max_parts_along));
+}
+
+/// Cuts a quadrilateral along w into parallelograms whose range bends little and whose sides have
+/// similar widths.
+void StripSamples::cut_along(const StripTriangle& triangle, const Quad& quad, bool one_part) {
+    float low_width = 1.0F;
+    float high_width = 1.0F;
+    const int count = one_part ? 1 : parts_along(quad, low_width, high_width);
+    const float widths = low_width + high_width;
+    const float share = 1.0F / static_cast<float>(count);
+    // The centroid lies towards the longer side.
+    const float near_length = (quad.near_high - quad.near_low).norm();
+    const float far_length = (quad.far_high - quad.far_low).norm();
+    const float shift =
+        (far_length - near_length) / (3.0F * (near_length + far_length) + least_length);
+    const Vector3f low = R_sensor_frame_ * (0.5F * (quad.near_low + quad.far_low));
+    const Vector3f along = R_sensor_frame_ * (0.5F * (quad.near_high + quad.far_high)) - low;
+    const Vector3f low_half = R_sensor_frame_ * (0.5F * (quad.far_low - quad.near_low));
+    const Vector3f high_half = R_sensor_frame_ * (0.5F * (quad.far_high - quad.near_high));
+    const SliceFacet& facet = mesh_.facets[triangle.facet];
+    const Vector3f normal = triangle.side * (R_sensor_local_ * facet.normal);
+    for (int k = 0; k < count; ++k) {
+        const float at = (static_cast<float>(k) + 0.5F) * share;
+        const Vector3f half = low_half + at * (high_half - low_half);
+        const float width =
+            widths > 0.0F ? 2.0F * (low_width + (high_width - low_width) * at) / widths : 1.0F;
+        out_.push_back({.position = low + at * along + shift * half,
+                        .edge_u = half,
+                        .edge_v = 0.5F * share * along,
+                        .normal = normal,
+                        .height_m = triangle.height_m,
+                        .area_m2 = quad.area_m2 * share * width,
+                        .material = facet.material,
+                        .instance = facet.instance});
+    }
+}
+
+}  // namespace sonarsim
