@@ -12,7 +12,7 @@ constexpr std::uint32_t no_triangle = 0xFFFFFFFFU;
 }  // namespace
 
 ColumnScan::ColumnScan(const ClusterMesh& mesh, const std::vector<StripTriangle>& triangles,
-                       const StripFrame& frame, const LocalPose& pose, const StripRule& rule,
+                       const ColumnFrame& frame, const LocalPose& pose, const StripRule& rule,
                        std::vector<Sample>& out)
     : triangles_(triangles),
       frame_(frame),

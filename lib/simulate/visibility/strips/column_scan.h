@@ -12,7 +12,7 @@ class ColumnScan {
   public:
     /// All arguments must outlive it.
     ColumnScan(const ClusterMesh& mesh, const std::vector<StripTriangle>& triangles,
-               const StripFrame& frame, const LocalPose& pose, const StripRule& rule,
+               const ColumnFrame& frame, const LocalPose& pose, const StripRule& rule,
                std::vector<Sample>& out);
 
     /// Adds the samples of a column between two u, from its triangles. Columns are scanned once
@@ -26,14 +26,14 @@ class ColumnScan {
     VisibleInterval whole_at(int i, float u) const;
 
     const std::vector<StripTriangle>& triangles_;
-    const StripFrame& frame_;
+    const ColumnFrame& frame_;
     const StripRule& rule_;
     ColumnPieces pieces_;
     PieceVisibility visibility_;
     StripSamples samples_;
-    int column_ = 0;  ///< number of columns so far
-    std::vector<std::uint32_t> hider_;  ///< of each triangle, the one that hid its last piece
-    std::vector<int> piece_of_;         ///< of each triangle, in its last column
+    int column_ = 0;                    ///< number of columns so far
+    std::vector<std::uint32_t> hider_;  ///< for each triangle, the one that hid its last piece
+    std::vector<int> piece_of_;         ///< for each triangle, in its last column
     std::vector<int> column_of_;
 };
 

@@ -105,20 +105,20 @@ bool PieceVisibility::take_away(const Candidate& candidate) {
     const auto line = [&](const PieceBlock::Row& w, const PieceBlock::Row& slope) {
         return fma(load(slope), d, load(w));
     };
-    const Floats8 low = greatest(greatest(line(b.low_a, b.low_a_slope), line(b.low_b, b.low_b_slope)),
-                                 rest_.low);
-    const Floats8 high = least(least(line(b.high_a, b.high_a_slope), line(b.high_b, b.high_b_slope)),
-                               rest_.high);
-    const unsigned meets = ((load(b.from) <= u) & (load(b.to) > u) & (high - low > Floats8(eps_)))
-                               .bits() &
-                           candidate.pieces;
+    const Floats8 low =
+        greatest(greatest(line(b.low_a, b.low_a_slope), line(b.low_b, b.low_b_slope)), rest_.low);
+    const Floats8 high =
+        least(least(line(b.high_a, b.high_a_slope), line(b.high_b, b.high_b_slope)), rest_.high);
+    const unsigned meets =
+        ((load(b.from) <= u) & (load(b.to) > u) & (high - low > Floats8(eps_))).bits() &
+        candidate.pieces;
     if (meets == 0) return true;
-    // By how much each is nearer at both ends of the overlap.
+    // Each is nearer by this at both ends of the overlap.
     const Floats8 q_w = load(b.q_w);
     const Floats8 q = line(b.q, b.q_u);
     const Floats8 w = load(b.w);
-    const Mask8 lower = Ints8(pieces_.block_of(piece_).facet[piece_ % lanes]) >
-                        Ints8::load(b.facet.data());
+    const Mask8 lower =
+        Ints8(pieces_.block_of(piece_).facet[piece_ % lanes]) > Ints8::load(b.facet.data());
     const Floats8 tie = sonarsim::where(lower, Floats8(same_depth), Floats8(-same_depth));
     const auto nearer = [&](Floats8 at) {
         const Floats8 own = fma(Floats8(q_w_), at, Floats8(q_0_));
@@ -143,8 +143,8 @@ bool PieceVisibility::take(int j, VisibleInterval hidden, float nearer_low, floa
         // The planes cross within the interval.
         const PieceBlock& other = pieces_.block_of(j);
         const PieceBlock& own = pieces_.block_of(piece_);
-        const float w = hidden.low + (hidden.high - hidden.low) * nearer_low /
-                                         (nearer_low - nearer_high);
+        const float w =
+            hidden.low + (hidden.high - hidden.low) * nearer_low / (nearer_low - nearer_high);
         const float by_w = other.q_w[j % lanes] - q_w_;
         const float by_u = other.q_u[j % lanes] - own.q_u[piece_ % lanes];
         const float slope = by_w != 0.0F ? -by_u / by_w : 0.0F;

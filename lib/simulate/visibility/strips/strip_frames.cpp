@@ -10,7 +10,8 @@ namespace {
 constexpr double widest_sector = 2.1;  // rad
 
 // A column of a side lies between two u, its beam between two elevations: at an azimuth a from the
-// middle of a sector the two differ by a^2 / 2. With the mean of that, 0.3 % at the ends of a sector.
+// middle of a sector the two differ by a^2 / 2. With the mean of that, 0.3 % at the ends of a
+// sector.
 constexpr double widest_side = 0.2;  // rad
 
 constexpr double widest_column = 0.0088;      // fan, rad
@@ -31,7 +32,7 @@ int at_least_one(double width, double widest) {
 }
 
 /// Completes a frame that has its axes, borders and beams.
-void set_angles(double low, double high, double stretch, StripFrame& frame) {
+void set_angles(double low, double high, double stretch, ColumnFrame& frame) {
     frame.angle_low = low;
     frame.angle_high = high;
     frame.stretch = stretch;
@@ -39,21 +40,20 @@ void set_angles(double low, double high, double stretch, StripFrame& frame) {
     frame.u_high = static_cast<float>(stretch * tangent(high));
 }
 
-void set_border(StripFrame::Border border, double half_angle, StripFrame& frame) {
+void set_border(ColumnFrame::Border border, double half_angle, ColumnFrame& frame) {
     frame.border = border;
     frame.tan_high = static_cast<float>(tangent(half_angle));
     frame.tan_low = -frame.tan_high;
 }
 
 /// Sectors of whole beams, or of parts of one beam.
-void add_fan(const View& view, std::vector<StripFrame>& frames) {
+void add_fan(const View& view, std::vector<ColumnFrame>& frames) {
     const int per_beam = at_least_one(view.azimuth_rad / view.beams, widest_column);
     const int columns = view.beams * per_beam;
     const double width = view.azimuth_rad / columns;
     const int enough = at_least_one(view.azimuth_rad, widest_sector);
     const bool in_beams = view.beams < enough;
-    const int sectors =
-        in_beams ? view.beams * ((enough + view.beams - 1) / view.beams) : enough;
+    const int sectors = in_beams ? view.beams * ((enough + view.beams - 1) / view.beams) : enough;
     const int whole = in_beams ? 1 : per_beam;
     const auto begin_of = [&](int s) {
         return whole * static_cast<int>(static_cast<long>(columns / whole) * s / sectors);
@@ -64,11 +64,11 @@ void add_fan(const View& view, std::vector<StripFrame>& frames) {
         if (first == last) continue;
         const double half = 0.5 * (last - first) * width;
         const SinCos turn = sincos((0.5 * (first + last) - 0.5 * columns) * width);
-        StripFrame frame;
+        ColumnFrame frame;
         Eigen::Matrix3d R;
         R << turn.cos, turn.sin, 0.0, -turn.sin, turn.cos, 0.0, 0.0, 0.0, 1.0;
         frame.R_frame_sensor = R.cast<float>();
-        set_border(StripFrame::Border::parallels, 0.5 * view.elevation_rad, frame);
+        set_border(ColumnFrame::Border::parallels, 0.5 * view.elevation_rad, frame);
         set_angles(-half, half, 1.0, frame);
         for (int k = first; k < last; ++k)
             frame.beams.push_back(k / per_beam);
@@ -76,28 +76,28 @@ void add_fan(const View& view, std::vector<StripFrame>& frames) {
     }
 }
 
-void add_side(const View& view, int side, std::vector<StripFrame>& frames) {
+void add_side(const View& view, int side, std::vector<ColumnFrame>& frames) {
     const double extent = 0.5 * view.azimuth_rad;
     const int sectors = at_least_one(extent, widest_side);
     const double width = extent / sectors;
     const double mean_secant = 1.0 + width * width / 24.0;
     for (int s = 0; s < sectors; ++s) {
         const SinCos turn = sincos((side == 0 ? -extent : 0.0) + (s + 0.5) * width);
-        StripFrame frame;
+        ColumnFrame frame;
         Eigen::Matrix3d R;
         R << turn.cos, turn.sin, 0.0, 0.0, 0.0, 1.0, -turn.sin, turn.cos, 0.0;
         frame.R_frame_sensor = R.cast<float>();
-        set_border(StripFrame::Border::straight, 0.5 * width, frame);
+        set_border(ColumnFrame::Border::straight, 0.5 * width, frame);
         set_angles(-0.5 * view.elevation_rad, 0.5 * view.elevation_rad, mean_secant, frame);
         frame.beams.assign(at_least_one(view.elevation_rad, widest_side_column), side);
         frames.push_back(frame);
     }
 }
 
-void add_cone(const View& view, std::vector<StripFrame>& frames) {
-    StripFrame frame;
+void add_cone(const View& view, std::vector<ColumnFrame>& frames) {
+    ColumnFrame frame;
     frame.R_frame_sensor = Eigen::Matrix3f::Identity();
-    set_border(StripFrame::Border::circle, 0.5 * view.azimuth_rad, frame);
+    set_border(ColumnFrame::Border::circle, 0.5 * view.azimuth_rad, frame);
     set_angles(-0.5 * view.azimuth_rad, 0.5 * view.azimuth_rad, 1.0, frame);
     frame.beams.assign(cone_columns, 0);
     frames.push_back(frame);
@@ -105,8 +105,8 @@ void add_cone(const View& view, std::vector<StripFrame>& frames) {
 
 }  // namespace
 
-std::vector<StripFrame> strip_frames(const View& view) {
-    std::vector<StripFrame> frames;
+std::vector<ColumnFrame> strip_frames(const View& view) {
+    std::vector<ColumnFrame> frames;
     switch (view.shape) {
         case ViewShape::fan:
             add_fan(view, frames);
@@ -122,7 +122,7 @@ std::vector<StripFrame> strip_frames(const View& view) {
     return frames;
 }
 
-std::vector<float> column_borders(const StripFrame& frame, int parts) {
+std::vector<float> column_borders(const ColumnFrame& frame, int parts) {
     const int columns = parts * static_cast<int>(frame.beams.size());
     const double width = (frame.angle_high - frame.angle_low) / columns;
     std::vector<float> u{frame.u_low};

@@ -23,15 +23,15 @@ struct ColumnLimits {
 };
 
 /// One sector of a view.
-struct StripFrame {
+struct ColumnFrame {
     enum class Border { parallels, straight, circle };
 
     Eigen::Matrix3f R_frame_sensor;
-    double angle_low, angle_high;  ///< of the sector across, rad
+    double angle_low, angle_high;  ///< ends of the sector across, rad
     double stretch;                ///< u is this times the tangent of the angle
-    std::vector<int> beams;        ///< of its least columns, which have equal angles
+    std::vector<int> beams;        ///< for each least column; these have equal angles
     float u_low, u_high;
-    Border border;  ///< of the view, in w
+    Border border;  ///< the view's, in w
     float tan_low;  ///< w of the view's borders at u = 0
     float tan_high;
 
@@ -65,11 +65,11 @@ struct StripFrame {
     }
 };
 
-/// The sectors of a view, in the order of their beams. Each beam has one least column, or more if it
-/// is wide; a cone has 32.
-std::vector<StripFrame> strip_frames(const View& view);
+/// The sectors of a view, in the order of their beams. Each beam has one least column, or more if
+/// it is wide; a cone has 32.
+std::vector<ColumnFrame> strip_frames(const View& view);
 
 /// The borders of the columns of a frame, ascending, if each of its least columns has `parts`.
-std::vector<float> column_borders(const StripFrame& frame, int parts);
+std::vector<float> column_borders(const ColumnFrame& frame, int parts);
 
 }  // namespace sonarsim

@@ -1,7 +1,6 @@
 #include "simulate/visibility/strips/strip_rule.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace sonarsim {
 
@@ -10,8 +9,12 @@ namespace {
 constexpr double usual_goal = 0.03;
 constexpr double finest_goal = 0.003;
 
-// Thin things need more columns, in proportion, but not more than this many times.
+// Thin things need more columns, in proportion, up to this many times as many.
+constexpr float by_thinness = 1.3F;
 constexpr float most_by_thinness = 4.0F;
+
+// Columns of a side where energies add: the beam receives most from its middle.
+constexpr float side_columns = 5.0F;
 
 }  // namespace
 
@@ -21,8 +24,8 @@ StripRule strip_rule(const View& view) {
         static_cast<float>(std::clamp(view.relative_l1, finest_goal, usual_goal) / usual_goal);
     StripRule rule{};
     rule.columns = 1.0F / finer;
+    if (view.energies_add && view.shape == ViewShape::port_starboard) rule.columns *= side_columns;
     rule.bin_m = bin_m;
-    rule.range_min_m = static_cast<float>(view.range_min_m);
     rule.range_max_m = static_cast<float>(view.range_max_m);
     rule.small_m = finer * bin_m;
     rule.sag_m = 0.09F * finer * bin_m;
@@ -32,8 +35,9 @@ StripRule strip_rule(const View& view) {
 }
 
 int column_parts(const StripRule& rule, float thinness) {
-    if (const char* t = std::getenv("ST_C")) return std::atoi(t);
-    return static_cast<int>(rule.columns * std::clamp(thinness + 1.0F, 1.0F, most_by_thinness) + 0.001F);
+    constexpr float rounding = 1e-3F;
+    return static_cast<int>(
+        rule.columns * std::min(1.0F + by_thinness * thinness, most_by_thinness) + rounding);
 }
 
 }  // namespace sonarsim

@@ -30,7 +30,7 @@ float parts_by_sag(float sag_m, float most_m) {
 
 }  // namespace
 
-StripSamples::StripSamples(const ClusterMesh& mesh, const StripFrame& frame, const LocalPose& pose,
+StripSamples::StripSamples(const ClusterMesh& mesh, const ColumnFrame& frame, const LocalPose& pose,
                            const StripRule& rule, const ColumnPieces& pieces,
                            std::vector<Sample>& out)
     : mesh_(mesh),
@@ -42,8 +42,8 @@ StripSamples::StripSamples(const ClusterMesh& mesh, const StripFrame& frame, con
       out_(out) {}
 
 Vector3f StripSamples::point(const Strip& strip, float u, float w) const {
-    const float q = std::clamp(pieces_.q_at(strip.piece, u, w), strip.triangle.q_min,
-                               strip.triangle.q_max);
+    const float q =
+        std::clamp(pieces_.q_at(strip.piece, u, w), strip.triangle.q_min, strip.triangle.q_max);
     const float X = 1.0F / q;
     return {X, X * u, X * w};
 }
@@ -101,8 +101,8 @@ int StripSamples::parts_across(const Quad& quad, const Ranges& r) const {
     if (across > taper_bins * rule_.bin_m) {
         const float a = (quad.near_high - quad.near_low).norm();
         const float b = (quad.far_high - quad.far_low).norm();
-        parts = std::max(parts,
-                         std::ceil(std::fabs(b - a) / ((a + b + least_length) * rule_.taper)));
+        parts =
+            std::max(parts, std::ceil(std::fabs(b - a) / ((a + b + least_length) * rule_.taper)));
     }
     if (across > 0.5F * rule_.bin_m) {
         const Vector3f middle =
@@ -121,8 +121,7 @@ void StripSamples::add_quad(const StripTriangle& triangle, const Quad& quad, boo
     // The range of an edge of length l bends by at most l^2 / (8 r).
     const float longest2 = std::max((quad.near_high - quad.near_low).squaredNorm(),
                                     (quad.far_high - quad.far_low).squaredNorm());
-    const float depth =
-        0.5F * std::fabs(r.near_high + r.far_high - r.near_low - r.far_low);
+    const float depth = 0.5F * std::fabs(r.near_high + r.far_high - r.near_low - r.far_low);
     const bool is_short =
         longest2 < 7.0F * rule_.sag_m * nearest && depth < taper_bins * rule_.bin_m;
     if (parts == 1) return cut_along(triangle, quad, is_short);
@@ -133,7 +132,8 @@ void StripSamples::add_quad(const StripTriangle& triangle, const Quad& quad, boo
     for (int k = 0; k < parts; ++k) {
         const float from = static_cast<float>(k) / static_cast<float>(parts);
         const float to = static_cast<float>(k + 1) / static_cast<float>(parts);
-        const float share = (to - from) * (2.0F * a + (b - a) * (from + to)) / (a + b + least_length);
+        const float share =
+            (to - from) * (2.0F * a + (b - a) * (from + to)) / (a + b + least_length);
         cut_along(triangle,
                   {quad.near_low + from * low, quad.near_high + from * high,
                    quad.near_low + to * low, quad.near_high + to * high, quad.area_m2 * share},
@@ -150,12 +150,10 @@ int StripSamples::parts_along(const Quad& quad, float& low_width, float& high_wi
     const float r_high = high.norm();
     low_width = (quad.far_low - quad.near_low).cross(along).norm();
     high_width = (quad.far_high - quad.near_high).cross(along).norm();
-    float parts =
-        parts_by_sag(0.5F * (r_low + r_high) - (0.5F * (low + high)).norm(), rule_.sag_m);
+    float parts = parts_by_sag(0.5F * (r_low + r_high) - (0.5F * (low + high)).norm(), rule_.sag_m);
     if (std::fabs(r_high - r_low) > taper_bins * rule_.bin_m)
-        parts = std::max(parts,
-                         std::ceil(std::fabs(high_width - low_width) /
-                                   ((low_width + high_width + least_length) * rule_.taper)));
+        parts = std::max(parts, std::ceil(std::fabs(high_width - low_width) /
+                                          ((low_width + high_width + least_length) * rule_.taper)));
     return static_cast<int>(std::min(parts, max_parts_along));
 }
 

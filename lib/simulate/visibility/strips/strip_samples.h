@@ -27,7 +27,7 @@ struct Strip {
 class StripSamples {
   public:
     /// All arguments must outlive it.
-    StripSamples(const ClusterMesh& mesh, const StripFrame& frame, const LocalPose& pose,
+    StripSamples(const ClusterMesh& mesh, const ColumnFrame& frame, const LocalPose& pose,
                  const StripRule& rule, const ColumnPieces& pieces, std::vector<Sample>& out);
 
     void add(const Strip& strip);
@@ -50,7 +50,7 @@ class StripSamples {
     void cut_along(const StripTriangle& triangle, const Quad& quad, bool one_part);
 
     const ClusterMesh& mesh_;
-    const StripFrame& frame_;
+    const ColumnFrame& frame_;
     const StripRule& rule_;
     const ColumnPieces& pieces_;
     const Eigen::Matrix3f R_sensor_frame_, R_sensor_local_;

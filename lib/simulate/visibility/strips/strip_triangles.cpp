@@ -67,7 +67,7 @@ class ColumnFinder {
 
 class TriangleProjection {
   public:
-    TriangleProjection(const ClusterMesh& mesh, const StripFrame& frame, const LocalPose& pose,
+    TriangleProjection(const ClusterMesh& mesh, const ColumnFrame& frame, const LocalPose& pose,
                        float range_max_m, StripTriangles& out)
         : mesh_(mesh),
           frame_(frame),
@@ -227,7 +227,7 @@ class TriangleProjection {
     }
 
     const ClusterMesh& mesh_;
-    const StripFrame& frame_;
+    const ColumnFrame& frame_;
     const Eigen::Matrix3f R_frame_local_;
     const Vector3f position_;
     const float reach_m_, u_low_, u_high_, reach_w_, column_width_;
@@ -239,7 +239,7 @@ class TriangleProjection {
 }  // namespace
 
 StripTriangles strip_triangles(const ClusterMesh& mesh, std::span<const std::uint32_t> clusters,
-                               const StripFrame& frame, const LocalPose& pose, float range_max_m) {
+                               const ColumnFrame& frame, const LocalPose& pose, float range_max_m) {
     StripTriangles out;
     TriangleProjection(mesh, frame, pose, range_max_m, out).run(clusters);
     return out;

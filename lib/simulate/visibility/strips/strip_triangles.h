@@ -22,11 +22,11 @@ struct StripTriangle {
     float q_min, q_max;
     float w_min, w_max;
     float q_middle;
-    float height_m;       ///< distance of the sensor from the plane
-    float side;           ///< 1: the facet's normal faces the sensor, else -1
-    float area_per_unit;  ///< m^2 per unit of its picture; 0: part of a clipped triangle
-    std::uint32_t facet;  ///< index into ClusterMesh::facets
-    bool middle_above;  ///< the middle corner lies above the line between the others
+    float height_m;            ///< distance of the sensor from the plane
+    float side;                ///< 1: the facet's normal faces the sensor, else -1
+    float area_per_unit;       ///< m^2 per unit of its picture; 0: part of a clipped triangle
+    std::uint32_t facet;       ///< index into ClusterMesh::facets
+    bool middle_above;         ///< the middle corner lies above the line between the others
     bool no_first, no_second;  ///< the corner has the u of its neighbour
 };
 
@@ -43,7 +43,7 @@ struct StripTriangles {
 /// Projects the triangles of `clusters` (indices into the mesh) into a frame. Surface nearer than
 /// 1e-5 of the greatest range, along the forward axis, is ignored.
 StripTriangles strip_triangles(const ClusterMesh& mesh, std::span<const std::uint32_t> clusters,
-                               const StripFrame& frame, const LocalPose& pose, float range_max_m);
+                               const ColumnFrame& frame, const LocalPose& pose, float range_max_m);
 
 /// The triangles that reach into each column, in their order.
 Groups triangles_by_column(const std::vector<StripTriangle>& triangles,

@@ -24,7 +24,7 @@ class StripsEngine final : public VisibilityEngine {
         const std::vector<std::uint32_t> clusters = clusters_in(view, T_world_sensor);
         Samples samples;
         samples.beam_begin.assign(view.beams + 1, 0);
-        for (const StripFrame& frame : strip_frames(view)) {
+        for (const ColumnFrame& frame : strip_frames(view)) {
             const StripTriangles triangles =
                 strip_triangles(mesh_, clusters, frame, pose, rule.range_max_m);
             scan(frame, triangles, pose, rule, samples);
@@ -40,7 +40,7 @@ class StripsEngine final : public VisibilityEngine {
 
   private:
     /// Adds the samples of a frame's beams.
-    void scan(const StripFrame& frame, const StripTriangles& triangles, const LocalPose& pose,
+    void scan(const ColumnFrame& frame, const StripTriangles& triangles, const LocalPose& pose,
               const StripRule& rule, Samples& samples) const {
         const int parts = column_parts(rule, triangles.thinness);
         const std::vector<float> u = column_borders(frame, parts);
