@@ -7,7 +7,7 @@
 
 namespace sonarsim::test {
 
-inline constexpr std::array engine_types{EngineKind::rays, EngineKind::slices};
+inline constexpr std::array engine_types{EngineKind::rays, EngineKind::strips};
 inline constexpr LabelRequest everything{.objects = true,
                                          .shares = true,
                                          .classes = true,

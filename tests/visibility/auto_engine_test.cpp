@@ -1,6 +1,6 @@
 #include "simulate/visibility/make_engine.h"
 #include "simulate/visibility/rays/rays_engine.h"
-#include "simulate/visibility/slices/slices_engine.h"
+#include "simulate/visibility/strips/strips_engine.h"
 #include "simulate/water/sound_profile.h"
 #include "support/test.h"
 
@@ -21,7 +21,7 @@ bool same(const Samples& a, const Samples& b) {
 
 TEST_SUITE_BEGIN("auto engine");
 
-TEST_CASE("auto takes slices, and rays for the views that need them") {
+TEST_CASE("auto takes strips, and rays for the views that need them") {
     const Scene scene = test::tank();
     const View view = auto_view();
     Pose pose;
@@ -30,13 +30,13 @@ TEST_CASE("auto takes slices, and rays for the views that need them") {
         return make_engine(scene, {.type = EngineKind::automatic, .octree = {}, .by_rays = by_rays})
             ->visible_surface(view, pose);
     };
-    const Samples by_slices = make_slices_engine(scene, Caster(scene))->visible_surface(view, pose);
+    const Samples by_strips = make_strips_engine(scene, Caster(scene))->visible_surface(view, pose);
     const Samples by_rays = make_rays_engine(scene)->visible_surface(view, pose);
-    CHECK(same(seen({}), by_slices));
+    CHECK(same(seen({}), by_strips));
     CHECK(same(seen({view}), by_rays));
     View other = view;
     other.beams = 64;
-    CHECK(same(seen({other}), by_slices));
+    CHECK(same(seen({other}), by_strips));
 }
 
 TEST_CASE("auto takes rays over many triangles, denser than the goal alone asks for") {
@@ -64,7 +64,7 @@ TEST_CASE("engine: slices with multipath or energies that add gives a warning") 
     CHECK(warning(EngineKind::rays, true).empty());
 }
 
-TEST_CASE("engine: the octree and the slices refuse copies, bodies and profiles of sound speed") {
+TEST_CASE("engine: the octree, slices and strips refuse copies, bodies and profiles of sound speed") {
     const Scene plain = test::tank();
     Scene copies = plain;
     copies.copies.push_back({});
@@ -81,7 +81,7 @@ TEST_CASE("engine: the octree and the slices refuse copies, bodies and profiles 
     for (const auto& scene : scenes) {
         for (const EngineKind type : {EngineKind::automatic, EngineKind::rays})
             CHECK(unsupported({.type = type, .octree = {}}, *scene.first).empty());
-        for (const EngineKind type : {EngineKind::octree, EngineKind::slices}) {
+        for (const EngineKind type : {EngineKind::octree, EngineKind::slices, EngineKind::strips}) {
             const std::string refusal = unsupported({.type = type, .octree = {}}, *scene.first);
             CHECK(refusal.find(scene.second) != std::string::npos);
             CHECK(refusal.empty() == scene.second.empty());

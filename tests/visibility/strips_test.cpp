@@ -11,12 +11,12 @@ using namespace sonarsim;
 
 namespace {
 
-View fan_view() {
+View fan_of_strips() {
     return {radians(60.0), radians(20.0), 0.2, 12.0, 256, 64, 0.03};
 }
 
-View side_view() {
-    View view = fan_view();
+View sides_of_strips() {
+    View view = fan_of_strips();
     view.azimuth_rad = radians(160.0);
     view.elevation_rad = radians(1.0);
     view.beams = 2;
@@ -24,19 +24,19 @@ View side_view() {
     return view;
 }
 
-View cone_view() {
-    View view = fan_view();
+View cone_of_strips() {
+    View view = fan_of_strips();
     view.azimuth_rad = view.elevation_rad = radians(60.0);
     view.beams = 1;
     view.shape = ViewShape::cone;
     return view;
 }
 
-Samples seen(const Scene& scene, const View& view, const Pose& pose = {}) {
+Samples seen_by_strips(const Scene& scene, const View& view, const Pose& pose = {}) {
     return make_strips_engine(scene, Caster(scene))->visible_surface(view, pose);
 }
 
-double area_of(std::span<const Sample> samples) {
+double area_by_strips(std::span<const Sample> samples) {
     double area = 0.0;
     for (const Sample& sample : samples)
         area += static_cast<double>(sample.area_m2);
@@ -44,7 +44,7 @@ double area_of(std::span<const Sample> samples) {
 }
 
 /// The solid angle that the samples fill.
-double filled(const Samples& samples) {
+double filled_sr(const Samples& samples) {
     double sum = 0.0;
     for (const Sample& sample : samples.items) {
         const auto r = static_cast<double>(sample.position.norm());
@@ -54,7 +54,7 @@ double filled(const Samples& samples) {
 }
 
 /// The wall x = `x`, 40 m across, of n x n x 2 triangles.
-Scene wall(float x, int n = 1) {
+Scene wall_ahead(float x, int n = 1) {
     Scene scene = test::empty_scene();
     test::add_quad(scene, {x, -20, -20}, {x, 20, -20}, {x, 20, 20}, {x, -20, 20},
                    test::add_material(scene, 0.5F), n);
@@ -63,7 +63,7 @@ Scene wall(float x, int n = 1) {
 
 /// The visible area of the wall x = d: |y| <= Y = d tan(phi) and |z| <= tan(theta) sqrt(d^2 + y^2).
 /// The integral of sqrt(d^2 + y^2) is (y sqrt(d^2 + y^2) + d^2 asinh(y / d)) / 2.
-double area_of_wall(double d, const View& view) {
+double wall_area(double d, const View& view) {
     const double Y = d * std::tan(0.5 * view.azimuth_rad);
     return 2.0 * std::tan(0.5 * view.elevation_rad) *
            (Y * std::hypot(d, Y) + d * d * std::asinh(Y / d));
@@ -74,11 +74,12 @@ double area_of_wall(double d, const View& view) {
 TEST_SUITE_BEGIN("strips");
 
 TEST_CASE("strips: a wall seen face on has its area, whole or in many triangles") {
-    const View view = fan_view();
+    const View view = fan_of_strips();
     for (const int n : {1, 7, 200}) {
         CAPTURE(n);
-        const Samples samples = seen(wall(5.0F, n), view);
-        CHECK(area_of(samples.items) / area_of_wall(5.0, view) == test::approx(1.0).epsilon(2e-3));
+        const Samples samples = seen_by_strips(wall_ahead(5.0F, n), view);
+        CHECK(area_by_strips(samples.items) / wall_area(5.0, view) ==
+              test::approx(1.0).epsilon(2e-3));
         for (const Sample& sample : samples.items) {
             CHECK(sample.position.x() == test::approx(5.0).epsilon(1e-3));
             CHECK(sample.height_m == test::approx(5.0).epsilon(1e-5));
@@ -91,14 +92,14 @@ TEST_CASE("strips: a cone sees a disc, however narrow it is") {
     // A plane at d across the boresight: pi (d tan(opening / 2))^2.
     for (const double opening_deg : {170.0, 60.0, 0.3, 0.05}) {
         CAPTURE(opening_deg);
-        View view = cone_view();
+        View view = cone_of_strips();
         view.range_max_m = 60.0;
         view.azimuth_rad = view.elevation_rad = radians(opening_deg);
         const double radius = 1.5 * std::tan(radians(0.5 * opening_deg));
         const double error = opening_deg < 1.0 ? 0.02 : 0.005;
         for (const int n : {1, 40}) {
             if (n > 1 && opening_deg < 1.0) continue;
-            CHECK(area_of(seen(wall(1.5F, n), view).items) ==
+            CHECK(area_by_strips(seen_by_strips(wall_ahead(1.5F, n), view).items) ==
                   test::approx(pi * radius * radius).epsilon(error));
         }
     }
@@ -109,14 +110,14 @@ TEST_CASE("strips: a sphere fills the solid angle that it should") {
     Scene scene = test::empty_scene();
     test::add_sphere(scene, {5, 0, 0}, 0.5F, test::add_material(scene, 0.5F), 256);
     const double expected = 2.0 * pi * (1.0 - std::sqrt(1.0 - 0.01));
-    for (const View& view : {fan_view(), cone_view()})
-        CHECK(filled(seen(scene, view)) / expected == test::approx(1.0).epsilon(0.01));
+    for (const View& view : {fan_of_strips(), cone_of_strips()})
+        CHECK(filled_sr(seen_by_strips(scene, view)) / expected == test::approx(1.0).epsilon(0.01));
 }
 
 TEST_CASE("strips: full turns and steep views see all of a sphere around the sonar") {
     Scene scene = test::empty_scene();
     test::add_sphere(scene, {0, 0, 0}, 3.0F, test::add_material(scene, 0.5F), 128);
-    View view = fan_view();
+    View view = fan_of_strips();
     view.azimuth_rad = 2.0 * pi;
     for (const double elevation_deg : {180.0, 120.0, 60.0}) {
         CAPTURE(elevation_deg);
@@ -125,10 +126,11 @@ TEST_CASE("strips: full turns and steep views see all of a sphere around the son
         for (const int beams : {1, 2, 3, 64, 1000}) {
             CAPTURE(beams);
             view.beams = beams;
-            const Samples samples = seen(scene, view);
-            CHECK(area_of(samples.items) == test::approx(expected).epsilon(0.01));
+            const Samples samples = seen_by_strips(scene, view);
+            CHECK(area_by_strips(samples.items) == test::approx(expected).epsilon(0.01));
             for (int j = 0; j < beams; ++j)
-                CHECK(area_of(samples.beam(j)) == test::approx(expected / beams).epsilon(0.02));
+                CHECK(area_by_strips(samples.beam(j)) ==
+                      test::approx(expected / beams).epsilon(0.02));
         }
     }
 }
@@ -140,11 +142,11 @@ TEST_CASE("strips: the sides of a side-scan see the ground in their fan") {
     Scene scene = test::empty_scene();
     test::add_quad(scene, {4, -30, -30}, {4, 30, -30}, {4, 30, 30}, {4, -30, 30},
                    test::add_material(scene, 0.5F), 9);
-    const View view = side_view();
+    const View view = sides_of_strips();
     const double y = 4.0 * std::tan(radians(60.0));
     double expected = 2.0 * std::tan(0.5 * view.elevation_rad) *
                       (y * std::hypot(4.0, y) + 16.0 * std::asinh(y / 4.0)) / 2.0;
-    const Samples samples = seen(scene, view);
+    const Samples samples = seen_by_strips(scene, view);
     for (const int side : {0, 1}) {
         double area = 0.0;
         for (const Sample& sample : samples.beam(side)) {
@@ -168,7 +170,7 @@ TEST_CASE("strips: planes that cross are each seen where they are nearest, equal
                            {5 + 4 * lean, 9, 4}, {5 + 4 * lean, -9, 4}, material[k]);
     }
     std::array<double, 3> area{};
-    const Samples samples = seen(scene, fan_view());
+    const Samples samples = seen_by_strips(scene, fan_of_strips());
     for (const Sample& sample : samples.items) {
         const auto k = std::ranges::find(material, sample.material) - material.begin();
         area[k] += static_cast<double>(sample.area_m2);
@@ -178,8 +180,40 @@ TEST_CASE("strips: planes that cross are each seen where they are nearest, equal
     CHECK(area[1] < 1e-4);
     CHECK(area[0] > 1.0);
     CHECK(area[2] / area[0] == test::approx(1.0).epsilon(1e-3));
-    const double solid = 2.0 * fan_view().azimuth_rad * sincos(0.5 * fan_view().elevation_rad).sin;
-    CHECK(filled(samples) == test::approx(solid).epsilon(2e-3));
+    const double solid =
+        2.0 * fan_of_strips().azimuth_rad * sincos(0.5 * fan_of_strips().elevation_rad).sin;
+    CHECK(filled_sr(samples) == test::approx(solid).epsilon(2e-3));
+}
+
+TEST_CASE("strips: two wide beams have the surface of rods that stand in each of them") {
+    // Beams of 150 degrees. The reference has 64 beams in place of each.
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> any(0.0F, 1.0F);
+    View view = fan_of_strips();
+    view.beams = 2;
+    view.azimuth_rad = radians(300.0);
+    View narrow = view;
+    narrow.beams = 128;
+    narrow.relative_l1 = 0.003;
+    for (int k = 0; k < 8; ++k) {
+        Scene scene = test::empty_scene();
+        const std::uint32_t rock = test::add_material(scene, 0.5F);
+        for (int rod = 0; rod < 60; ++rod) {
+            const float turn = 6.2F * any(random) - 3.1F;
+            const float range = 3.0F + 6.0F * any(random);
+            test::add_pole(scene, {range * std::cos(turn), range * std::sin(turn), -0.3F}, 0.05F,
+                           0.6F, rock, 6);
+        }
+        const Samples image = seen_by_strips(scene, view);
+        const Samples reference = seen_by_strips(scene, narrow);
+        for (const int beam : {0, 1}) {
+            CAPTURE(beam);
+            double expected = 0.0;
+            for (int j = 64 * beam; j < 64 * beam + 64; ++j)
+                expected += area_by_strips(reference.beam(j));
+            CHECK(area_by_strips(image.beam(beam)) == test::approx(expected).epsilon(0.02));
+        }
+    }
 }
 
 TEST_CASE("strips: footprints tile the ground, and their areas are the surface's") {
@@ -192,16 +226,17 @@ TEST_CASE("strips: footprints tile the ground, and their areas are the surface's
                          0.1F + 0.01F * at, rock, 24);
     }
     test::add_quad(scene, {0, -9, -1}, {14, -9, -1}, {14, 9, -1}, {0, 9, -1}, rock, 80);
-    View view = fan_view();
+    View view = fan_of_strips();
     const Pose pose{rotation_from_rpy(0.0, radians(12.0), 0.1), {0.0, 0.0, 0.3}};
-    const Samples usual = seen(scene, view, pose);
+    const Samples usual = seen_by_strips(scene, view, pose);
     double own = 0.0;
     for (const Sample& sample : usual.items)
         own += static_cast<double>(4.0F * sample.edge_u.cross(sample.edge_v).norm());
-    const double area = area_of(usual.items);
+    const double area = area_by_strips(usual.items);
     CHECK(own / area == test::approx(1.0).epsilon(0.005));
     view.relative_l1 = 0.003;
-    CHECK(area / area_of(seen(scene, view, pose).items) == test::approx(1.0).epsilon(0.01));
+    CHECK(area / area_by_strips(seen_by_strips(scene, view, pose).items) ==
+          test::approx(1.0).epsilon(0.01));
 }
 
 TEST_CASE("strips: drawn lattices are within their error goals") {

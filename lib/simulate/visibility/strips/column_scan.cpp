@@ -54,7 +54,8 @@ void ColumnScan::add_piece(int i) {
     const float steepest = std::max(std::fabs(p.w_min[k]), std::fabs(p.w_max[k]));
     const float depth = std::max(1.0F / p.q_min[k] - 1.0F / p.q_max[k],
                                  (p.w_max[k] - p.w_min[k]) * steepest / p.q_min[k]);
-    if (!(depth > rule_.small_m)) return add_small(i, t);
+    if (!(depth > rule_.small_m) && frame_.surely_sees(from, to, p.w_min[k], p.w_max[k]))
+        return add_small(i, t);
     add_between(i, from, t.u1);
     add_between(i, t.u1, to);
 }
@@ -71,9 +72,7 @@ void ColumnScan::add_small(int i, const StripTriangle& t) {
     const float at_corner = length_at(t.u1);
     const float picture = 0.5F * ((length_at(from) + at_corner) * (t.u1 - from) +
                                   (at_corner + length_at(to)) * (to - t.u1));
-    const VisibleInterval whole = whole_at(i, u);
-    if (!(whole.high > whole.low)) return;
-    if (!visibility_.find(u, whole)) {
+    if (!visibility_.find(u, whole_at(i, u))) {
         if (const int j = visibility_.hidden_by(); j != PieceVisibility::none)
             hider_[pieces_.triangle(i)] = pieces_.triangle(j);
         return;
@@ -94,7 +93,7 @@ VisibleInterval ColumnScan::whole_at(int i, float u) const {
     const PieceEnd low = pieces_.low(i, u);
     const PieceEnd high = pieces_.high(i, u);
     VisibleInterval out{low.w, high.w, low.slope, high.slope};
-    if (frame_.surely_sees(out.low, out.high)) return out;
+    if (frame_.surely_sees(u, u, out.low, out.high)) return out;
     const ColumnLimits view = frame_.limits_at(u);
     if (out.low < view.low) {
         out.low = view.low;
@@ -107,9 +106,26 @@ VisibleInterval ColumnScan::whole_at(int i, float u) const {
     return out;
 }
 
+/// Moves an end of an interval of u at which the piece lies outside the view to where it enters.
+void ColumnScan::clip_to_view(int i, float& from, float& to) const {
+    const auto room = [&](float u) {
+        const VisibleInterval whole = whole_at(i, u);
+        return whole.high - whole.low;
+    };
+    const float at_from = room(from);
+    const float at_to = room(to);
+    if (at_from < 0.0F && at_to > 0.0F)
+        from += (to - from) * at_from / (at_from - at_to);
+    else if (at_to < 0.0F && at_from > 0.0F)
+        to -= (to - from) * at_to / (at_to - at_from);
+}
+
 /// The part of a piece between two u, where its borders are straight.
 void ColumnScan::add_between(int i, float from, float to) {
     const StripTriangle& t = triangles_[pieces_.triangle(i)];
+    const PieceBlock& p = pieces_.block_of(i);
+    if (!frame_.surely_sees(from, to, p.w_min[i % lanes], p.w_max[i % lanes]))
+        clip_to_view(i, from, to);
     const float u = 0.5F * (from + to);
     const VisibleInterval whole = whole_at(i, u);
     if (!(whole.high > whole.low)) return;

@@ -53,15 +53,18 @@ struct ColumnFrame {
         return {tan_low * secant, tan_high * secant, tan_low * at_u / secant,
                 tan_high * at_u / secant};
     }
-    /// True if an interval of w lies in the view at any u of the frame.
-    bool surely_sees(float low, float high) const {
-        return border != Border::circle && low >= tan_low && high <= tan_high;
+    /// True only if an interval of w lies in the view over an interval of u.
+    bool surely_sees(float from, float to, float low, float high) const {
+        if (border != Border::circle) return low >= tan_low && high <= tan_high;
+        const float most_u = std::max(std::fabs(from), std::fabs(to));
+        const float most_w = std::max(std::fabs(low), std::fabs(high));
+        return most_u * most_u + most_w * most_w <= tan_high * tan_high;
     }
     /// The greatest |w| in the view over an interval of u.
     float reach_w(float from, float to) const {
         const float most = std::max(std::fabs(from), std::fabs(to));
-        const float stretch = border == Border::parallels ? std::sqrt(1.0F + most * most) : 1.0F;
-        return stretch * std::max(std::fabs(tan_low), std::fabs(tan_high));
+        const float secant = border == Border::parallels ? std::sqrt(1.0F + most * most) : 1.0F;
+        return secant * std::max(std::fabs(tan_low), std::fabs(tan_high));
     }
 };
 

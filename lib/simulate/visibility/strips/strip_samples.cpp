@@ -56,7 +56,7 @@ void StripSamples::add(const Strip& strip) {
         if (!strip.small) {
             float least = pieces_.low(strip.piece, u).w;
             float most = pieces_.high(strip.piece, u).w;
-            if (!frame_.surely_sees(least, most)) {
+            if (!frame_.surely_sees(u, u, least, most)) {
                 const ColumnLimits view = frame_.limits_at(u);
                 least = std::max(least, view.low);
                 most = std::min(most, view.high);
