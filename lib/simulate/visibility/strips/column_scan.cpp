@@ -1,6 +1,7 @@
 #include "simulate/visibility/strips/column_scan.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace sonarsim {
@@ -46,18 +47,24 @@ void ColumnScan::scan(std::span<const std::uint32_t> of_column, float left, floa
 
 void ColumnScan::add_piece(int i) {
     const StripTriangle& t = triangles_[pieces_.triangle(i)];
-    const float from = pieces_.from(i);
-    const float to = pieces_.to(i);
-    if (!(t.u1 > from && t.u1 < to)) return add_between(i, from, to);
     const PieceBlock& p = pieces_.block_of(i);
     const int k = i % lanes;
+    const float from = p.from[k];
+    const float to = p.to[k];
+    const bool inside = frame_.surely_sees(from, to, p.w_min[k], p.w_max[k]);
+    const auto add = [&](float low, float high) {
+        if (inside)
+            add_between(i, low, high);
+        else
+            add_at_border(i, low, high);
+    };
+    if (!(t.u1 > from && t.u1 < to)) return add(from, to);
     const float steepest = std::max(std::fabs(p.w_min[k]), std::fabs(p.w_max[k]));
     const float depth = std::max(1.0F / p.q_min[k] - 1.0F / p.q_max[k],
                                  (p.w_max[k] - p.w_min[k]) * steepest / p.q_min[k]);
-    if (!(depth > rule_.small_m) && frame_.surely_sees(from, to, p.w_min[k], p.w_max[k]))
-        return add_small(i, t);
-    add_between(i, from, t.u1);
-    add_between(i, t.u1, to);
+    if (inside && !(depth > rule_.small_m)) return add_small(i, t);
+    add(from, t.u1);
+    add(t.u1, to);
 }
 
 /// A piece with a corner, in few bins: one strip at its middle, with the share of the piece's area
@@ -106,26 +113,41 @@ VisibleInterval ColumnScan::whole_at(int i, float u) const {
     return out;
 }
 
-/// Moves an end of an interval of u at which the piece lies outside the view to where it enters.
-void ColumnScan::clip_to_view(int i, float& from, float& to) const {
-    const auto room = [&](float u) {
-        const VisibleInterval whole = whole_at(i, u);
-        return whole.high - whole.low;
+/// A piece at the border of the view: cuts it to where it lies in the view, and where one of its
+/// lines crosses the border.
+void ColumnScan::add_at_border(int i, float from, float to) {
+    struct Room {
+        float low, high, all;
     };
-    const float at_from = room(from);
-    const float at_to = room(to);
-    if (at_from < 0.0F && at_to > 0.0F)
-        from += (to - from) * at_from / (at_from - at_to);
-    else if (at_to < 0.0F && at_from > 0.0F)
-        to -= (to - from) * at_to / (at_to - at_from);
+    const auto room = [&](float u) -> Room {
+        const float low = pieces_.low(i, u).w;
+        const float high = pieces_.high(i, u).w;
+        const ColumnLimits view = frame_.limits_at(u);
+        return {low - view.low, view.high - high,
+                std::min(high, view.high) - std::max(low, view.low)};
+    };
+    const auto crossing = [&](float a, float b) { return from + (to - from) * a / (a - b); };
+    Room at_from = room(from);
+    Room at_to = room(to);
+    if (at_from.all < 0.0F && at_to.all > 0.0F) {
+        from = crossing(at_from.all, at_to.all);
+        at_from = room(from);
+    } else if (at_to.all < 0.0F && at_from.all > 0.0F) {
+        to = crossing(at_from.all, at_to.all);
+        at_to = room(to);
+    }
+    std::array<float, 4> u{from, to, to, to};
+    if (at_from.low * at_to.low < 0.0F) u[1] = crossing(at_from.low, at_to.low);
+    if (at_from.high * at_to.high < 0.0F) u[2] = crossing(at_from.high, at_to.high);
+    std::ranges::sort(u);
+    for (int k = 0; k < 3; ++k) {
+        if (u[k + 1] > u[k]) add_between(i, u[k], u[k + 1]);
+    }
 }
 
 /// The part of a piece between two u, where its borders are straight.
 void ColumnScan::add_between(int i, float from, float to) {
     const StripTriangle& t = triangles_[pieces_.triangle(i)];
-    const PieceBlock& p = pieces_.block_of(i);
-    if (!frame_.surely_sees(from, to, p.w_min[i % lanes], p.w_max[i % lanes]))
-        clip_to_view(i, from, to);
     const float u = 0.5F * (from + to);
     const VisibleInterval whole = whole_at(i, u);
     if (!(whole.high > whole.low)) return;

@@ -22,7 +22,7 @@ class ColumnScan {
   private:
     void add_piece(int i);
     void add_small(int i, const StripTriangle& t);
-    void clip_to_view(int i, float& from, float& to) const;
+    void add_at_border(int i, float from, float to);
     void add_between(int i, float from, float to);
     VisibleInterval whole_at(int i, float u) const;
 

@@ -12,6 +12,9 @@ namespace {
 // Directions w as near as this, times 1 + |w|, are one.
 constexpr float same_w = 1e-6F;
 
+// The same for a piece that is seen nearly edge-on, as a share of its extent in w.
+constexpr float same_share = 0.02F;
+
 // Depths as near as this share are one; then the facet of the lower number is the nearer one.
 constexpr float same_depth = 2e-6F;
 
@@ -24,7 +27,8 @@ void PieceVisibility::begin(int i, int first) {
     candidates_.clear();
     next_group_ = 0;
     blocks_left_ = 0;
-    eps_ = same_w * (1.0F + std::max(std::fabs(p.w_min[k]), std::fabs(p.w_max[k])));
+    eps_ = std::min(same_w * (1.0F + std::max(std::fabs(p.w_min[k]), std::fabs(p.w_max[k]))),
+                    same_share * (p.w_max[k] - p.w_min[k]));
     from_ = p.from[k];
     to_ = p.to[k];
     w_min_ = p.w_min[k] + eps_;

@@ -18,8 +18,8 @@ constexpr double widest_column = 0.0088;      // fan, rad
 constexpr double widest_side_column = 0.035;  // sides, rad
 constexpr int cone_columns = 32;
 
-// The poles of a view lie at w = infinity. Surface within 1e-3 rad of them is ignored.
-constexpr double steepest = 1e3;
+// The poles of a view lie at w = infinity. Surface within 5e-3 rad of them is ignored.
+constexpr double steepest = 200.0;
 
 double tangent(double angle) {
     const SinCos s = sincos(angle);

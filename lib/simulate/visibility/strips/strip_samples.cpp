@@ -21,6 +21,9 @@ constexpr float taper_bins = 1.5F;
 // within the strip, and the strip is as long as at its middle.
 constexpr float crossing_share = 0.7F;
 
+// Lengths that differ by less than this share are equal.
+constexpr float same_length = 1e-3F;
+
 constexpr float least_length = 1e-30F;
 
 /// The number of parts of a line whose range bends by `sag_m`.
@@ -79,11 +82,16 @@ void StripSamples::add(const Strip& strip) {
     Quad quad{point(strip, strip.from, near_low), point(strip, strip.from, near_high),
               point(strip, strip.to, far_low), point(strip, strip.to, far_high), strip.area_m2};
     if (!(quad.area_m2 > 0.0F)) {
+        quad.area_m2 =
+            0.5F * (quad.far_high - quad.near_low).cross(quad.near_high - quad.far_low).norm();
         // The area is the width times the length at the middle, which is right on average wherever
-        // borders end within the piece.
-        quad.area_m2 = 0.5F *
-                       (quad.far_high - quad.near_low).cross(quad.near_high - quad.far_low).norm() *
-                       2.0F * length / lengths;
+        // borders end within the piece. On a line u = const lengths are as dw / (q q').
+        const float low = 0.5F * (near_low + far_low);
+        const float high = 0.5F * (near_high + far_high);
+        if (std::fabs(0.5F * lengths - length) > same_length * length) {
+            const auto q = [&](float w) { return 1.0F / point(strip, strip.middle, w).x(); };
+            quad.area_m2 *= length * q(low) * q(high) / (0.5F * lengths * q(v.low) * q(v.high));
+        }
     }
     if (quad.area_m2 > 0.0F) add_quad(strip.triangle, quad, strip.small);
 }
