@@ -10,6 +10,9 @@ namespace {
 
 constexpr std::uint32_t no_triangle = 0xFFFFFFFFU;
 
+// Steps of false position towards the place where a line crosses the border of the view.
+constexpr int crossing_steps = 3;
+
 }  // namespace
 
 ColumnScan::ColumnScan(const ClusterMesh& mesh, const std::vector<StripTriangle>& triangles,
@@ -126,19 +129,32 @@ void ColumnScan::add_at_border(int i, float from, float to) {
         return {low - view.low, view.high - high,
                 std::min(high, view.high) - std::max(low, view.low)};
     };
-    const auto crossing = [&](float a, float b) { return from + (to - from) * a / (a - b); };
-    Room at_from = room(from);
-    Room at_to = room(to);
-    if (at_from.all < 0.0F && at_to.all > 0.0F) {
-        from = crossing(at_from.all, at_to.all);
-        at_from = room(from);
-    } else if (at_to.all < 0.0F && at_from.all > 0.0F) {
-        to = crossing(at_from.all, at_to.all);
-        at_to = room(to);
-    }
+    const auto crossing = [&](float Room::*of) {
+        float a = from;
+        float b = to;
+        float at_a = room(a).*of;
+        float at_b = room(b).*of;
+        float u = a;
+        for (int step = 0; step < crossing_steps; ++step) {
+            u = a + (b - a) * at_a / (at_a - at_b);
+            const float at_u = room(u).*of;
+            if (at_u == 0.0F) break;
+            ((at_u < 0.0F) == (at_a < 0.0F) ? a : b) = u;
+            ((at_u < 0.0F) == (at_a < 0.0F) ? at_a : at_b) = at_u;
+        }
+        return std::clamp(u, from, to);
+    };
+    const float all_from = room(from).all;
+    const float all_to = room(to).all;
+    if (all_from < 0.0F && all_to > 0.0F)
+        from = crossing(&Room::all);
+    else if (all_to < 0.0F && all_from > 0.0F)
+        to = crossing(&Room::all);
+    const Room at_from = room(from);
+    const Room at_to = room(to);
     std::array<float, 4> u{from, to, to, to};
-    if (at_from.low * at_to.low < 0.0F) u[1] = crossing(at_from.low, at_to.low);
-    if (at_from.high * at_to.high < 0.0F) u[2] = crossing(at_from.high, at_to.high);
+    if (at_from.low * at_to.low < 0.0F) u[1] = crossing(&Room::low);
+    if (at_from.high * at_to.high < 0.0F) u[2] = crossing(&Room::high);
     std::ranges::sort(u);
     for (int k = 0; k < 3; ++k) {
         if (u[k + 1] > u[k]) add_between(i, u[k], u[k + 1]);
