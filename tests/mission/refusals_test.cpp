@@ -85,7 +85,8 @@ TEST_CASE("kinds of sonars, engines and places") {
           "1:54: unknown place 'on_botom' (did you mean 'on_bottom'?); known: free, on_bottom"},
          {"file: a, units: inch", "1:54: unknown units 'inch'; known: m, mm, cm, km, in, ft"},
          {"file: a, exclude: Light",
-          "1:47: 'exclude' is no longer there; delete these nodes in the file"}},
+          "1:47: unknown key 'exclude'; known here: name, file, class, position_m, rpy_deg, scale, "
+          "material, units, up, place, bury_m, align, trajectory"}},
         "}]}\ntrajectory: {file: a}\nsensors: {x: {kind: imaging}}\n");
 }
 

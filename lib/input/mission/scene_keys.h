@@ -87,12 +87,8 @@ struct ScatterConfig {
 struct ClutterConfig {
     std::array<double, 2> density_per_m2{};
     std::vector<std::string> stock;
-    std::array<double, 2> roll_deg{-15, 15};
-    std::array<double, 2> pitch_deg{-15, 15};
     std::array<double, 2> scale{0.3, 1.2};
     std::array<double, 2> bury{0, 0.6};
-    std::optional<std::array<double, 2>> area_min_m;
-    std::optional<std::array<double, 2>> area_max_m;
 };
 
 /// The default area of scattered objects.
@@ -196,20 +192,18 @@ inline constexpr Limits any_share_buried = {-10, 1};
 template <class Visitor>
 void describe(Visitor& v, ScatterConfig& c) {
     v.text("name", c.name, "the objects are the instances NAME_1, NAME_2 and so on", required);
-    v.text("stock", c.stock,
-           "kinds of things that come with the program, each equally likely, in place of `files`");
+    v.text("stock", c.stock, "kinds of things of the program, in place of `files`");
     v.path("files", c.files,
            "a file of a mesh as in `objects`, or a list of them, each equally likely");
     v.text("class", c.class_name,
            "class of the objects, for labels; default: the kind of `stock`, else NAME");
     v.number("count", c.count, {0, 1e5}, "number of objects");
     v.number("density_per_m2", c.density_per_m2, between(0, 1e3),
-             "number of objects for each square metre of the area, in place of `count`");
+             "objects for each square metre, in place of `count`");
     v.array("area_min_m", c.area_min_m, any_position_m,
-            "corner of the area with the least x and y; objects lie wholly within; default: "
-            "`scene.area`, else the bottom where it has an end");
-    v.array("area_max_m", c.area_max_m, any_position_m,
-            "corner of the area with the largest x and y");
+            "least x and y of the area, in which objects lie wholly; default: `scene.area`, else "
+            "the bottom");
+    v.array("area_max_m", c.area_max_m, any_position_m, "its largest x and y");
     v.number("yaw_deg", c.yaw_deg, any_angle_deg, "heading of an object");
     v.number("roll_deg", c.roll_deg, any_angle_deg, "roll of an object");
     v.number("pitch_deg", c.pitch_deg, any_angle_deg, "pitch of an object");
@@ -218,16 +212,14 @@ void describe(Visitor& v, ScatterConfig& c) {
     v.text("material", c.mesh.material, "material of the objects; default: the files' materials");
     describe_mesh(v, c.mesh);
     v.number("bury", c.bury, any_share_buried,
-             "share of an object's height that is buried in the bottom; a negative one raises it");
+             "share of the height that is buried; a negative one raises");
     v.number("bury_m", c.bury_m, any_position_m,
-             "depth to which an object is buried, besides `bury`; a negative one raises it above "
-             "the bottom");
+             "depth to which an object is buried, besides `bury`; a negative one raises it");
     v.number("spacing_m", c.spacing_m, at_least(0),
              "least distance between two objects, seen from above");
     v.flag("overlap", c.overlap, "objects may lie on and in others");
     v.flag("align", c.align, "objects stand upright on the slope below them");
-    v.flag("unlabelled", c.unlabelled,
-           "the class of the objects is background, as by `labels.background`");
+    v.flag("unlabelled", c.unlabelled, "their class is background");
     v.require(c.files.empty() == false, {"stock", "files"},
               "a rule of 'scatter' needs 'stock' or 'files'");
     v.require(c.stock.empty() || c.files.size() % c.stock.size() == 0, {"stock", "files"},
@@ -244,17 +236,10 @@ void describe(Visitor& v, ScatterConfig& c) {
 
 template <class Visitor>
 void describe(Visitor& v, ClutterConfig& c) {
-    v.number("density_per_m2", c.density_per_m2, between(0, 1e3),
-             "things for each square metre of the area", required);
-    v.text("stock", c.stock,
-           "their kinds; default: stones, boards, panels, ropes, weed and others");
-    v.number("roll_deg", c.roll_deg, any_angle_deg, "roll of a thing");
-    v.number("pitch_deg", c.pitch_deg, any_angle_deg, "pitch of a thing");
-    v.number("scale", c.scale, {1.0 / largest_scale, largest_scale},
-             "factor that enlarges a thing");
-    v.number("bury", c.bury, any_share_buried, "share of a thing's height that is buried");
-    v.array("area_min_m", c.area_min_m, any_position_m, "as in `scatter`");
-    v.array("area_max_m", c.area_max_m, any_position_m, "as in `scatter`");
+    v.number("density_per_m2", c.density_per_m2, between(0, 1e3), "as in `scatter`", required);
+    v.text("stock", c.stock, "default: stones, boards, panels, ropes, weed and others");
+    v.number("scale", c.scale, {1.0 / largest_scale, largest_scale}, "as in `scatter`");
+    v.number("bury", c.bury, any_share_buried, "as in `scatter`");
 }
 
 template <class Visitor>
@@ -320,11 +305,9 @@ void describe(Visitor& v, SceneConfig& c) {
     v.section("seabed", c.seabed,
               "a bottom that is made from these numbers and the mission's seed");
     v.list_of("objects", c.objects, 0, "files that are placed in the scene one by one");
-    v.section("area", c.area, "the area of rules of `scatter` and of clutter that give none");
+    v.section("area", c.area, "default area of `scatter` and clutter");
     v.list_of("scatter", c.scatter, 0, "things or files that are placed on the bottom at random");
-    v.section("clutter", c.clutter,
-              "unlabelled things of the class `clutter`, scattered over the area, as by a rule of "
-              "`scatter` with `overlap` and `unlabelled`, whose other keys it takes");
+    v.section("clutter", c.clutter, "unlabelled things over the area, tilted and overlapping");
     v.list_of("particles", c.particles, 0,
               "groups of point targets in the water, for the calibrated model: fish, bubbles and "
               "others");

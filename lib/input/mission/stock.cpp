@@ -96,8 +96,8 @@ YamlNode rule_of_clutter(YamlNode clutter) {
     add(scalar("overlap", "true", place));
     add(scalar("unlabelled", "true", place));
     const ClutterConfig defaults;
-    pair("roll_deg", defaults.roll_deg);
-    pair("pitch_deg", defaults.pitch_deg);
+    pair("roll_deg", {-15.0, 15.0});
+    pair("pitch_deg", {-15.0, 15.0});
     pair("scale", defaults.scale);
     pair("bury", defaults.bury);
     std::vector<YamlNode> kinds;

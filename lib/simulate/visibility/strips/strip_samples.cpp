@@ -26,6 +26,9 @@ constexpr float same_length = 1e-3F;
 
 constexpr float least_length = 1e-30F;
 
+// A sample is at most so long, so that what is looked up at its middle holds for all of it.
+constexpr float max_sample_bins = 24.0F;
+
 /// The number of parts of a line whose range bends by `sag_m`.
 float parts_by_sag(float sag_m, float most_m) {
     return sag_m > most_m ? std::ceil(std::sqrt(sag_m / most_m)) : 1.0F;
@@ -159,15 +162,40 @@ int StripSamples::parts_along(const Quad& quad, float& low_width, float& high_wi
     low_width = (quad.far_low - quad.near_low).cross(along).norm();
     high_width = (quad.far_high - quad.near_high).cross(along).norm();
     float parts = parts_by_sag(0.5F * (r_low + r_high) - (0.5F * (low + high)).norm(), rule_.sag_m);
-    if (std::fabs(r_high - r_low) > taper_bins * rule_.bin_m)
+    const float depth = std::fabs(r_high - r_low);
+    parts = std::max(parts, std::ceil(depth / (max_sample_bins * rule_.bin_m)));
+    if (depth > taper_bins * rule_.bin_m)
         parts = std::max(parts, std::ceil(std::fabs(high_width - low_width) /
                                           ((low_width + high_width + least_length) * rule_.taper)));
     return static_cast<int>(std::min(parts, max_parts_along));
 }
 
+/// The part of a quadrilateral within the range, by ranges that are even along its sides.
+StripSamples::Quad StripSamples::within_range(const Quad& quad) const {
+    const Vector3f low = 0.5F * (quad.near_low + quad.far_low);
+    const Vector3f high = 0.5F * (quad.near_high + quad.far_high);
+    const float end = rule_.range_max_m + 2.0F * rule_.bin_m;
+    const float r_low = low.norm();
+    const float r_high = high.norm();
+    if (std::max(r_low, r_high) <= end || std::min(r_low, r_high) >= end) return quad;
+    const float cut = (end - r_low) / (r_high - r_low);
+    const float from = r_low > end ? cut : 0.0F;
+    const float to = r_low > end ? 1.0F : cut;
+    const Vector3f along = high - low;
+    const float low_width = (quad.far_low - quad.near_low).cross(along).norm();
+    const float high_width = (quad.far_high - quad.near_high).cross(along).norm();
+    const float share = (to - from) * (2.0F * low_width + (high_width - low_width) * (from + to)) /
+                        (low_width + high_width + least_length);
+    const Vector3f near = quad.near_high - quad.near_low;
+    const Vector3f far = quad.far_high - quad.far_low;
+    return {quad.near_low + from * near, quad.near_low + to * near, quad.far_low + from * far,
+            quad.far_low + to * far, quad.area_m2 * share};
+}
+
 /// Cuts a quadrilateral along w into parallelograms whose range bends little and whose sides have
 /// similar widths.
-void StripSamples::cut_along(const StripTriangle& triangle, const Quad& quad, bool one_part) {
+void StripSamples::cut_along(const StripTriangle& triangle, const Quad& whole, bool one_part) {
+    const Quad quad = within_range(whole);
     float low_width = 1.0F;
     float high_width = 1.0F;
     const int count = one_part ? 1 : parts_along(quad, low_width, high_width);

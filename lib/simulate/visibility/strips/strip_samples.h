@@ -47,7 +47,8 @@ class StripSamples {
     void add_quad(const StripTriangle& triangle, const Quad& quad, bool small);
     int parts_across(const Quad& quad, const Ranges& range) const;
     int parts_along(const Quad& quad, float& low_width, float& high_width) const;
-    void cut_along(const StripTriangle& triangle, const Quad& quad, bool one_part);
+    Quad within_range(const Quad& quad) const;
+    void cut_along(const StripTriangle& triangle, const Quad& whole, bool one_part);
 
     const ClusterMesh& mesh_;
     const ColumnFrame& frame_;
