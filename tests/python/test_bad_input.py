@@ -131,7 +131,7 @@ class Mutations(tool.ToolTest):
         from sonarsim.compare.__main__ import compare
         from sonarsim.export import __main__ as exporter
         from sonarsim.gallery.__main__ import write_page
-        options = types.SimpleNamespace(real=source, simulated=source, out=None, sensor="fls", real_sensor="fls", pings=2,
+        options = types.SimpleNamespace(real=source, simulated=[source], out=None, sensor="fls", real_sensor="fls", pings=2,
                                         json=False, quiet=True)
         for name, work in (("export", lambda: exporter.main([str(source), "--format", "coco", str(self.folder / "e")])),
                            ("gallery", lambda: command.run("gallery", write_page, source)),

@@ -27,7 +27,7 @@ class Records:
         scale, full_scale_db, noise_db, tvg_log, _ = numbers
         r = self.echoes.range_m
         gain_db = tvg_log * np.log10(r) + 2.0 * self.absorption * r * self.receiver["tvg_absorption"] - full_scale_db
-        noise = np.sqrt(10.0 ** (0.1 * noise_db) + 10.0 ** (0.1 * (self.receiver["converter_noise_db"] - gain_db)))
+        noise = np.sqrt(10.0 ** (0.1 * noise_db) + 10.0 ** (0.1 * (self.receiver.get("converter_noise_db", -300.0) - gain_db)))
         amplitude = np.abs(self.echoes.amplitude + noise * self.noise) * 10.0 ** (0.05 * gain_db)
         share = amplitude**scale if law == "gamma" else 1.0 + 20.0 * np.log10(np.maximum(amplitude, 1e-15)) / scale
         return np.floor(FULL * np.clip(np.minimum(share, 1.0) - self.receiver["offset"], 0.0, 1.0) + 0.5)
