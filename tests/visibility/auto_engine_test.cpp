@@ -1,6 +1,6 @@
 #include "simulate/visibility/make_engine.h"
 #include "simulate/visibility/rays/rays_engine.h"
-#include "simulate/visibility/strips/strips_engine.h"
+#include "simulate/visibility/slices/slices_engine.h"
 #include "simulate/water/sound_profile.h"
 #include "support/test.h"
 
@@ -21,7 +21,7 @@ bool same(const Samples& a, const Samples& b) {
 
 TEST_SUITE_BEGIN("auto engine");
 
-TEST_CASE("auto takes strips, and rays for the views that need them") {
+TEST_CASE("auto takes slices, and rays for the views that need them") {
     const Scene scene = test::tank();
     const View view = auto_view();
     Pose pose;
@@ -30,13 +30,13 @@ TEST_CASE("auto takes strips, and rays for the views that need them") {
         return make_engine(scene, {.type = EngineKind::automatic, .octree = {}, .by_rays = by_rays})
             ->visible_surface(view, pose);
     };
-    const Samples by_strips = make_strips_engine(scene, Caster(scene))->visible_surface(view, pose);
+    const Samples by_slices = make_slices_engine(scene, Caster(scene))->visible_surface(view, pose);
     const Samples by_rays = make_rays_engine(scene)->visible_surface(view, pose);
-    CHECK(same(seen({}), by_strips));
+    CHECK(same(seen({}), by_slices));
     CHECK(same(seen({view}), by_rays));
     View other = view;
     other.beams = 64;
-    CHECK(same(seen({other}), by_strips));
+    CHECK(same(seen({other}), by_slices));
 }
 
 TEST_CASE("auto takes rays over many triangles, denser than the goal alone asks for") {

@@ -13,12 +13,12 @@ namespace sonarsim {
 namespace {
 
 /// With more triangles than this `auto` takes rays, whose time hardly depends on their number.
-constexpr std::size_t strips_triangles_max = std::size_t{1} << 19;
+constexpr std::size_t slices_triangles_max = std::size_t{1} << 19;
 
 /// Factor on the density of rays over many triangles if a bin holds a mean.
 constexpr int density_over_many_triangles = 4;
 
-/// Rays for the views that need them; strips, or dense rays over many triangles, for others.
+/// Rays for the views that need them; slices, or dense rays over many triangles, for others.
 class AutoEngine final : public VisibilityEngine {
   public:
     AutoEngine(const Scene& scene, const Caster& caster, std::vector<View> by_rays)
@@ -39,7 +39,7 @@ class AutoEngine final : public VisibilityEngine {
   private:
     static std::unique_ptr<VisibilityEngine> make_others(const Scene& scene, const Caster& caster) {
         const std::size_t triangles = scene.triangles.size();
-        if (triangles <= strips_triangles_max) return make_strips_engine(scene, caster);
+        if (triangles <= slices_triangles_max) return make_slices_engine(scene, caster);
         return make_rays_engine(scene, caster,
                                 triangles > many_triangles ? density_over_many_triangles : 1);
     }
