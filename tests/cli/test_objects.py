@@ -244,7 +244,7 @@ class Objects(Sandbox):
         for name, one in found.items():
             mask, body = mask_of(one["mask"], BEAMS, BINS), expected[name]
             overlap = (mask & body).sum() / (mask | body).sum()
-            self.assertGreater(overlap, 0.82, name)
+            self.assertGreater(overlap, 0.85, name)
             padded = np.pad(mask, 1)
             self.assertEqual(pieces(padded, True), 1, name)         # one piece,
             self.assertEqual(pieces(~padded, False), 1, name)       # without holes
