@@ -6,6 +6,7 @@ import csv
 import json
 import os
 import pathlib
+import re
 import shutil
 import sys
 import unittest
@@ -170,6 +171,10 @@ class FirstPicture(Sandbox):
         sys.path.insert(0, str(ROOT / "scripts"))
         from scenes import stock
         self.assertGreaterEqual(len(stock.KINDS), 40)
+        # The program and the scripts name the same kinds.
+        source = (ROOT / "lib/input/mission/stock.cpp").read_text()
+        for names, array in ((stock.KINDS, "stock_kinds"), (stock.CLUTTER, "clutter_kinds")):
+            self.assertEqual(re.findall(r'"(\w+)"', re.search(array + r"\[\]\{(.*?)\}", source, re.S)[1]), list(names))
         materials = [line.split(",")[0] for line in (ROOT / "scenes/materials.csv").read_text().splitlines()]
         for kind in stock.KINDS:
             shapes = set()

@@ -7,9 +7,9 @@
 
 namespace sonarsim {
 
-/// Makes a rule of `scene.scatter` of `scene.clutter`, and gives each rule of the list that has
-/// `stock` the `files` of these kinds, which scripts/make_scenes.py makes. InputError at the place
-/// of an unknown kind, and of one whose files are not there. Relative paths start at `base_folder`.
+/// Appends `scene.clutter` to `scene.scatter` as a rule, and gives each rule that has `stock` the
+/// `files` of these kinds, which scripts/make_scenes.py makes. InputError at the place of an
+/// unknown kind, and of one whose files are not there. Relative paths start at `base_folder`.
 void fill_in_stock(YamlNode& mission, const std::filesystem::path& base_folder);
 
 /// Gives each rule of `scene.scatter` without an area that of the scene, or all of a seabed with an
