@@ -41,7 +41,7 @@ class SurfaceSums {
         for (int k = 0; k < echoes.count; ++k) {
             const Sample* const sample = echoes.sample[k];
             const std::uint32_t second = has_second ? echoes.second[k] : no_instance;
-            if (sample != last || second != last_second) {
+            if (k == 0 || sample != last || second != last_second) {
                 last = sample;
                 last_second = second;
                 find_source({echoes.multipath, objects_.object_of(sample->instance),
