@@ -54,6 +54,7 @@ std::vector<Setting> make_settings(const Mission& mission, bool quick) {
     const std::vector<double> leaves =
         quick ? std::vector{0.08, 0.04} : std::vector{0.08, 0.04, 0.02, 0.01};
     std::vector<Setting> settings;
+    settings.reserve(3 * goals.size() + leaves.size() + 2);
     for (const double goal : goals)
         settings.push_back(with_goal(EngineKind::rays, "rays", goal));
     for (const double goal : goals)

@@ -84,6 +84,7 @@ class TriangleProjection {
         struct Distance {
             float m;
             std::uint32_t cluster;
+            // NOLINTNEXTLINE(modernize-use-nullptr): no pointer
             auto operator<=>(const Distance&) const = default;
         };
         std::vector<Distance> in_view;
@@ -115,7 +116,7 @@ class TriangleProjection {
     }
 
     void add_cluster(const TriangleCluster& cluster) {
-        std::array<Vector3f, 3 * ClusterMesh::max_triangles> points;
+        std::array<Vector3f, std::size_t{3} * ClusterMesh::max_triangles> points;
         for (std::uint32_t i = 0; i < cluster.vertices; ++i)
             points[i] = in_frame(mesh_.vertices[cluster.first_vertex + i]);
         for (std::uint32_t i = 0; i < cluster.triangles; ++i) {
