@@ -15,6 +15,10 @@ constexpr float same_w = 1e-6F;
 // The same for a piece that is seen nearly edge-on, as a share of its extent in w.
 constexpr float same_share = 0.02F;
 
+// Overlaps of less than this share of the above are ignored: those of neighbours by rounding. Several
+// slivers side by side may hide more than the above.
+constexpr float overlap_share = 0.125F;
+
 // Depths as near as this share are one; then the facet of the lower number is the nearer one.
 constexpr float same_depth = 2e-6F;
 
@@ -114,7 +118,8 @@ bool PieceVisibility::take_away(const Candidate& candidate) {
     const Floats8 high =
         least(least(line(b.high_a, b.high_a_slope), line(b.high_b, b.high_b_slope)), rest_.high);
     const unsigned meets =
-        ((load(b.from) <= u) & (load(b.to) > u) & (high - low > Floats8(eps_))).bits() &
+        ((load(b.from) <= u) & (load(b.to) > u) & (high - low > Floats8(overlap_share * eps_)))
+            .bits() &
         candidate.pieces;
     if (meets == 0) return true;
     // Each is nearer by this at both ends of the overlap.

@@ -54,6 +54,24 @@ Vector3f StripSamples::point(const Strip& strip, float u, float w) const {
     return {X, X * u, X * w};
 }
 
+/// A strip ends where one of its lower borders, hidden or own, meets one of its upper ones.
+std::pair<float, float> StripSamples::ends(const Strip& strip) const {
+    const VisibleInterval& v = strip.visible;
+    const PieceEnd own_low = pieces_.low(strip.piece, strip.middle);
+    const PieceEnd own_high = pieces_.high(strip.piece, strip.middle);
+    float from = strip.from;
+    float to = strip.to;
+    for (const PieceEnd low : {PieceEnd{v.low, v.low_slope}, own_low}) {
+        for (const PieceEnd high : {PieceEnd{v.high, v.high_slope}, own_high}) {
+            const float opening = high.slope - low.slope;
+            const float crossing = strip.middle - (high.w - low.w) / opening;
+            if (opening > 0.0F) from = std::max(from, crossing);
+            if (opening < 0.0F) to = std::min(to, crossing);
+        }
+    }
+    return {std::min(from, strip.middle), std::max(to, strip.middle)};
+}
+
 void StripSamples::add(const Strip& strip) {
     const VisibleInterval& v = strip.visible;
     const auto side = [&](float u) {
@@ -73,22 +91,27 @@ void StripSamples::add(const Strip& strip) {
         if (high < low) low = high = 0.5F * (low + high);
         return std::pair(low, high);
     };
-    auto [near_low, near_high] = side(strip.from);
-    auto [far_low, far_high] = side(strip.to);
+    auto [from, to] = strip.small ? std::pair(strip.from, strip.to) : ends(strip);
+    auto [near_low, near_high] = side(from);
+    auto [far_low, far_high] = side(to);
     float lengths = near_high - near_low + far_high - far_low;
     const float length = v.high - v.low;
     if (lengths < crossing_share * length) {
         near_low = far_low = v.low;
         near_high = far_high = v.high;
         lengths = 2.0F * length;
+        from = 0.5F * (from + strip.middle);
+        to = 0.5F * (to + strip.middle);
     }
-    Quad quad{point(strip, strip.from, near_low), point(strip, strip.from, near_high),
-              point(strip, strip.to, far_low), point(strip, strip.to, far_high), strip.area_m2};
+    Quad quad{point(strip, from, near_low), point(strip, from, near_high),
+              point(strip, to, far_low), point(strip, to, far_high), strip.area_m2};
     if (!(quad.area_m2 > 0.0F)) {
         quad.area_m2 =
             0.5F * (quad.far_high - quad.near_low).cross(quad.near_high - quad.far_low).norm();
-        // The area is the width times the length at the middle, which is right on average wherever
-        // borders end within the piece. On a line u = const lengths are as dw / (q q').
+        if (to - from < strip.to - strip.from)
+            quad.area_m2 *= (strip.to - strip.from) / (to - from);
+        // The area is the whole width times the length at the middle, which is right on average
+        // wherever borders end within the piece. On a line u = const lengths are as dw / (q q').
         const float low = 0.5F * (near_low + far_low);
         const float high = 0.5F * (near_high + far_high);
         if (std::fabs(0.5F * lengths - length) > same_length * length) {

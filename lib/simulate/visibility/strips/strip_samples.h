@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 #include "simulate/visibility/clusters.h"
@@ -43,6 +44,7 @@ class StripSamples {
         float near_low, near_high, far_low, far_high;
     };
 
+    std::pair<float, float> ends(const Strip& strip) const;
     Eigen::Vector3f point(const Strip& strip, float u, float w) const;
     void add_quad(const StripTriangle& triangle, const Quad& quad, bool small);
     int parts_across(const Quad& quad, const Ranges& range) const;
