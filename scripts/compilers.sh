@@ -15,7 +15,7 @@ cmake --preset asan >&2
 cmake --build build-asan --target sonarsim >&2
 exec ./scripts/same_bytes.py \
     --mission tests/four_sonars.yaml,engine=rays --mission tests/four_sonars.yaml,engine=octree \
-    --mission tests/four_sonars.yaml,engine=slices \
+    --mission tests/four_sonars.yaml,engine=strips \
     --mission configs/tank_imaging.yaml,trajectory.rate_hz=0.5 \
     --mission configs/tank_multipath.yaml,trajectory.rate_hz=0.5 \
     --mission configs/tank_scanning.yaml \

@@ -15,8 +15,8 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402: the backend is chosen before
 
-COLOURS = {"strips": "#7a5195", "slices": "#c22f6d", "rays": "#1f77b4", "octree": "#e67814"}
-LEGEND = {"rays": "rays by relative_l1", "strips": "strips by relative_l1", "slices": "slices by relative_l1", "octree": "octree by leaf_m"}
+COLOURS = {"strips": "#c22f6d", "rays": "#1f77b4", "octree": "#e67814"}
+LEGEND = {"rays": "rays by relative_l1", "strips": "strips by relative_l1", "octree": "octree by leaf_m"}
 
 
 def plain_number(value, _position=None):

@@ -18,7 +18,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-MISSIONS = [f"{ROOT}/tests/four_sonars.yaml,engine={engine}" for engine in ("rays", "octree", "slices", "strips")]
+MISSIONS = [f"{ROOT}/tests/four_sonars.yaml,engine={engine}" for engine in ("rays", "octree", "strips")]
 
 
 def content(path):

@@ -61,7 +61,7 @@ PARTS = {
     "job": [["*"], ["shard_lock"], ["journal"], ["folder", "ping_files"], ["ping_cost"], ["completion", "render_pings"],
             ["run_job", "ping_source"], ["variants"], ["merge", "status", "verify"]],
     "scene": [["*"], ["images/", "meshes/"], ["heightmap/", "maps/", "seabed/"], ["gltf/", "placing/"]],
-    "visibility": [["*"], ["octree/", "rays/", "slices/", "strips/"], ["make_engine"]],
+    "visibility": [["*"], ["octree/", "rays/", "strips/"], ["make_engine"]],
 }
 # These folders work with what was traced, and take its ranges from arrivals.
 AFTER_THE_TRACE = {"paper", "calibrated", "ping", "labels", "product", "sonar", "assembly", "dataset", "checks", "job"}

@@ -125,9 +125,9 @@ void add_report(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     command
         .add_option("--engines", arguments->engines,
-                    "Engines to measure, separated by commas: rays, strips, slices, octree, auto")
+                    "Engines to measure, separated by commas: rays, strips, octree, auto")
         ->delimiter(',')
-        ->check(CLI::IsMember({"rays", "strips", "slices", "octree", "auto"}))
+        ->check(CLI::IsMember({"rays", "strips", "octree", "auto"}))
         ->type_name("NAMES");
     add_threads_option(command, arguments->report.threads,
                        "Threads for pings/s (default: one per core)");

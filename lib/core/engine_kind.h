@@ -3,6 +3,6 @@
 namespace sonarsim {
 
 /// The method that finds the visible surface; `automatic` chooses one.
-enum class EngineKind { automatic, rays, octree, slices, strips };
+enum class EngineKind { automatic, rays, octree, strips };
 
 }  // namespace sonarsim

@@ -97,7 +97,7 @@ TEST_SUITE("calibrated") {
 
     // Slices meet at the boresight of an echosounder: a piece as long as the bottom is wide weighs
     // the narrow middle of the beam as much as its edge, which makes a flat bottom 54 % too loud.
-    TEST_CASE("rays and slices agree within twice the error goal") {
+    TEST_CASE("rays and strips agree within twice the error goal") {
         Scene flat = floor_scene(14.0F, -5.0F, 0.4F, 4);
         SonarConfig side = calibrated(default_sonar(SonarKind::sidescan), 4e5);
         side.range_max_m = 12.0;
@@ -112,8 +112,8 @@ TEST_SUITE("calibrated") {
             for (const SonarConfig& config : {side, sounder}) {
                 const Sonar sonar = make_sonar(config, {0.02});
                 const std::vector<float> rays = expected_image(sonar, scene, EngineKind::rays);
-                const std::vector<float> slices = expected_image(sonar, scene, EngineKind::slices);
-                CHECK(image_error(rays, slices).relative_l1 < 0.04);
+                const std::vector<float> strips = expected_image(sonar, scene, EngineKind::strips);
+                CHECK(image_error(rays, strips).relative_l1 < 0.04);
             }
         }
     }

@@ -76,7 +76,7 @@ TEST_SUITE("calibrated") {
             config.instrument.beam.view_azimuth_deg = view_azimuth_deg;
             const Sonar joined = make_sonar(config, {0.02});
             REQUIRE(joined.settings.guard_beams.joined == 2);
-            const auto engine = make_engine(scene, {.type = EngineKind::slices, .octree = {}});
+            const auto engine = make_engine(scene, {.type = EngineKind::strips, .octree = {}});
             const Samples samples =
                 visible_surface(joined.settings.view, joined.settings.guard_beams, *engine, {})
                     .samples;
@@ -88,8 +88,8 @@ TEST_SUITE("calibrated") {
             }
             Sonar single = joined;
             single.settings.guard_beams.joined = 1;
-            const std::vector<float> by_two = expected_image(joined, scene, EngineKind::slices);
-            const std::vector<float> by_one = expected_image(single, scene, EngineKind::slices);
+            const std::vector<float> by_two = expected_image(joined, scene, EngineKind::strips);
+            const std::vector<float> by_one = expected_image(single, scene, EngineKind::strips);
             CHECK(image_error(by_two, by_one).relative_l1 < 0.03);
         }
     }

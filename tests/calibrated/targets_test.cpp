@@ -43,7 +43,7 @@ TEST_SUITE("calibrated") {
                 const BallScene ball(at, radius, sides[trial % 3]);
                 const double expected = energy_of_points(sonar, ball);
                 for (const EngineKind type :
-                     {EngineKind::rays, EngineKind::slices, EngineKind::automatic}) {
+                     {EngineKind::rays, EngineKind::strips, EngineKind::automatic}) {
                     const auto engine = make_engine(ball.scene, {.type = type, .octree = {}});
                     const double off_db =
                         db_of_power(energy_by(sonar, ball.scene, *engine) / expected);

@@ -88,7 +88,7 @@ struct Setting {
     EngineKind engine;
 };
 constexpr Setting settings[] = {{SonarKind::imaging, EngineKind::rays},
-                                {SonarKind::imaging, EngineKind::slices},
+                                {SonarKind::imaging, EngineKind::strips},
                                 {SonarKind::echosounder, EngineKind::rays}};
 
 }  // namespace

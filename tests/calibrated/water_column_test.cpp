@@ -166,7 +166,7 @@ TEST_SUITE("calibrated") {
         const std::uint32_t rock = add_material(scene, 0.4F);
         add_quad(scene, {8.0F, -20.0F, -10.0F}, {8.0F, 20.0F, -10.0F}, {8.0F, 20.0F, 10.0F},
                  {8.0F, -20.0F, 10.0F}, rock);
-        for (const EngineKind engine : {EngineKind::slices, EngineKind::rays}) {
+        for (const EngineKind engine : {EngineKind::strips, EngineKind::rays}) {
             const std::vector<float> wall = expected_image(empty, scene, engine);
             const std::vector<float> both = expected_image(full, scene, engine);
             const auto mean_water = [&](int from, int to) {

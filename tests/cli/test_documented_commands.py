@@ -217,7 +217,7 @@ class Figures(unittest.TestCase):
         self.assertIn("sixty random scenes", readme)
         self.assertIn("\nvariants: 60\n", (ROOT / "configs/detection.yaml").read_text())
         table = (ROOT / "docs/accuracy.md").read_text().split("<!-- report tank -->")[1]
-        row = re.search(r"^\| slices \| relative_l1=0.03 \|(.*)$", table, re.MULTILINE).group(1)
+        row = re.search(r"^\| strips \| relative_l1=0.03 \|(.*)$", table, re.MULTILINE).group(1)
         _, _, rate, error, *_ = [float(cell) for cell in re.findall(r"[\d.]+", row)]
         words = " ".join(readme.split())
         stated = re.search(r"on the test tank below ([\d.]+) % on average", words).group(1)

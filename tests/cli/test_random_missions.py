@@ -96,7 +96,7 @@ def write_mission(draw, keys, folder):
     sensors = {f"s{i}": sensor(draw, keys, size) for i in range(draw.choice([1, 1, 2]))}
     models = {one["model"] for one in sensors.values()}
     mission = {"seed": draw.choice([0, 7, 2**64 - 1]), "name": "random", "sensors": sensors, "output": {"folder": "out"},
-               "engine": draw.choice(["auto", "rays", "slices", *(["octree"] if models == {"paper"} else [])]),
+               "engine": draw.choice(["auto", "rays", "strips", *(["octree"] if models == {"paper"} else [])]),
                "octree": {"leaf_m": min(max(size * draw.choice([0.1, 0.3, 5]), 0.001), 1000)},
                "scene": {"file": "scene.gltf", "materials": "materials.csv"}, "trajectory": {"file": "path.csv"}}
     if draw.random() < 0.5:

@@ -30,7 +30,7 @@ from PIL import Image
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 GOLDENS = HERE / "goldens.txt"
-SHARDED, PREVIEWED = "records", ("imaging_slices", "records")
+SHARDED, PREVIEWED = "records", ("imaging_strips", "records")
 # Files about the making of a dataset, and the keys of JSON files that name a build, a version or a sum of a file.
 NOT_HASHED = ("SHA256SUMS", "journal.txt", "mission.resolved.yaml")
 NOT_COMPARED = {"build", "program_version", "format_version", "mission_hash", "inputs_hash", "sha256"}

@@ -10,7 +10,7 @@
 namespace sonarsim {
 
 // Scenes that are hard on the arithmetic, each with its expected result. Every case is run for all
-// kinds of sonar, with rays and slices and both echo models.
+// kinds of sonar, with rays and strips and both echo models.
 
 /// One sonar in the scene of a case.
 struct HardTrial {
@@ -45,7 +45,7 @@ inline constexpr float unchecked = -1.0F;
 /// The largest permitted error of each engine, sum |A - B| / sum B.
 struct HardBounds {
     double rays = 0.0;
-    double slices = -1.0;  ///< below 0: the same as for rays
+    double strips = -1.0;  ///< below 0: the same as for rays
 };
 
 struct HardCase {

@@ -45,11 +45,11 @@ void check_case(const HardCase& hard, const Scene& scene, EngineKind engine_kind
     // The invariants of a model do not depend on the engine.
     if (!is_compared && model != ModelKind::paper && engine_kind != EngineKind::rays) return;
     CAPTURE_ALL(hard.name, static_cast<int>(engine_kind), static_cast<int>(model));
-    const bool slices = engine_kind == EngineKind::slices;
+    const bool strips = engine_kind == EngineKind::strips;
     // The mean of a bin hides errors of area that a sum of energies shows.
     const double bound =
         (model == ModelKind::paper ? 1.0 : 2.0) *
-        (slices && hard.bounds.slices >= 0.0 ? hard.bounds.slices : hard.bounds.rays);
+        (strips && hard.bounds.strips >= 0.0 ? hard.bounds.strips : hard.bounds.rays);
     const auto engine = make_engine(scene, engine_settings(engine_kind));
     bool holds = true;
     for (const KindOfSonar& sonar_kind : kinds_of_sonar()) {
@@ -65,10 +65,10 @@ void check_case(const HardCase& hard, const Scene& scene, EngineKind engine_kind
         const double error =
             error_of(ping.intensity, hard.truth({scene, trial, kind, engine_kind, model, ping}));
         holds = holds && error <= bound;
-        if (!hard.rays_fail || slices) CHECK(error <= bound);
+        if (!hard.rays_fail || strips) CHECK(error <= bound);
     }
     // A known fault must still exist: a fixed one must leave the list.
-    if (is_compared && hard.rays_fail && !slices) CHECK(!holds);
+    if (is_compared && hard.rays_fail && !strips) CHECK(!holds);
 }
 
 /// The number of samples that the sonars of a turned floor drop.
@@ -96,7 +96,7 @@ TEST_CASE("hard cases: every case keeps its bound") {
         for (const HardCase& hard : cases) {
             const Scene scene = hard.scene();
             for (const Choice<ModelKind>& model : echo_models) {
-                for (const EngineKind engine : {EngineKind::rays, EngineKind::slices})
+                for (const EngineKind engine : {EngineKind::rays, EngineKind::strips})
                     check_case(hard, scene, engine, model.value);
             }
         }
@@ -113,7 +113,7 @@ TEST_CASE("a sonar on a floor, turned together every way: no image is anything b
         shapes::add_quad(scene, {3, -9, -9}, {3, 9, -9}, {3, 9, 9}, {3, -9, 9}, 0);
         for (Eigen::Vector3f& p : scene.vertices)
             p = R.toRotationMatrix().cast<float>() * (p - Eigen::Vector3f(0.31F, 0.17F, 0.0F));
-        for (const EngineKind engine_kind : {EngineKind::rays, EngineKind::slices}) {
+        for (const EngineKind engine_kind : {EngineKind::rays, EngineKind::strips}) {
             const auto engine = make_engine(scene, engine_settings(engine_kind));
             for (const Choice<ModelKind>& model : echo_models) {
                 const bool usual =

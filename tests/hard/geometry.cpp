@@ -187,8 +187,6 @@ Scene permuted() {
 
 }  // namespace
 
-// The slices examine a limited number of the triangles between two neighbouring slices, so doubled
-// faces move slices: the image changes by a tenth of its error goal.
 std::vector<HardCase> hard_geometry() {
     return {{.name = "triangles without area",
              .scene = floor_with_degenerates,

@@ -139,7 +139,7 @@ TEST_CASE("cone labels: masks of 500 things lie on their echoes" * doctest::skip
         const Thing thing = draw_thing(draw);
         const Sonar& sonar = sonars[static_cast<std::size_t>(n) % sonars.size()];
         const View& view = sonar.settings.view;
-        const auto engine = make_engine(thing.scene, {.type = EngineKind::slices, .octree = {}});
+        const auto engine = make_engine(thing.scene, {.type = EngineKind::strips, .octree = {}});
         const TracedPing traced = trace(sonar, thing.scene, *engine, thing.pose, 0);
         const SceneObjects objects = group_objects(thing.scene, {});
         const PingLabels labels =

@@ -47,7 +47,7 @@ TEST_CASE("cone labels: the pieces of targets cover the bins that an engine's sa
                    static_cast<float>(draw.between(0.15, 0.4)), m, 48);
         Sonar with_targets = sonar;
         find_targets({&with_targets, 1}, thing.scene);
-        const auto engine = make_engine(thing.scene, {.type = EngineKind::slices, .octree = {}});
+        const auto engine = make_engine(thing.scene, {.type = EngineKind::strips, .octree = {}});
         const SceneObjects objects = group_objects(thing.scene, {});
         const auto labels_of = [&](const Sonar& by) {
             const TracedPing traced = trace(by, thing.scene, *engine, thing.pose, 0);

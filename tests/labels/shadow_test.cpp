@@ -81,7 +81,7 @@ TEST_CASE("labels: the shadows of a sea floor are those that rays through all su
                                                     draw.between(-0.4, 0.4)),
                                   {-1.0, draw.between(-2, 2), draw.between(0.8, 1.8)}};
             const std::vector<bool> hidden = hidden_by_rays(scene, sonar, pose, c.grid);
-            const Labelled out = label(scene, sonar, pose, EngineKind::slices);
+            const Labelled out = label(scene, sonar, pose, EngineKind::strips);
             for (std::size_t k = 0; k < hidden.size(); ++k) {
                 const bool is = out.labels.shadow[k] > 0;
                 const bool should = hidden[k] && out.labels.object[k] == 0;
@@ -150,7 +150,7 @@ TEST_CASE("side-scan labels: surface in side lobes does not brighten a shadow") 
     bare_floor.triangles.resize(2);
     bare_floor.triangle_material.resize(2);
     bare_floor.triangle_instance.resize(2);
-    for (const EngineKind type : {EngineKind::slices, EngineKind::rays}) {
+    for (const EngineKind type : {EngineKind::strips, EngineKind::rays}) {
         CAPTURE(type);
         const Labelled out = label(scene, sonar, Pose{}, type);
         const Labelled open = label(bare_floor, sonar, Pose{}, type);

@@ -109,7 +109,7 @@ TEST_CASE("measured errors: the noise of a reference does not enter") {
         const Reference few =
             cast_reference(caster, lattice.scene, view, Pose{},
                            {.noise = 0.5 * goal, .rays_per_bin = 4.0, .rays_max = 1'000'000});
-        for (const EngineKind engine : {EngineKind::slices, EngineKind::rays}) {
+        for (const EngineKind engine : {EngineKind::strips, EngineKind::rays}) {
             const std::vector<float> image = expected_image(sonar, lattice.scene, engine);
             const double error = image_error(image, truth.intensity, truth.scored).relative_l1;
             const double measured = error_without_noise(image, few);

@@ -162,7 +162,7 @@ TEST_CASE("a goal is met at the worst pose, or missed") {
     CHECK(std::string(row.goal()) == "met");
     row.worst_relative_l1 = 0.031;
     CHECK(std::string(row.goal()) == "missed");
-    row.setting.kind = EngineKind::slices;
+    row.setting.kind = EngineKind::strips;
     CHECK(std::string(row.goal()) == "missed");
     row.setting.kind = EngineKind::octree;
     CHECK(std::string(row.goal()) == "-");

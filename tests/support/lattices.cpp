@@ -260,7 +260,7 @@ Lattice draw_lattice(std::uint32_t number) {
     const float size = draws.scale(0.5F, 4.0F);  // half of its length, m
     const float distance = size * draws.scale(1.2F, 6.0F);
     out.sonar = draw_sonar(draws, number, size, distance);
-    // Upright in half of the scenes, so that posts are parallel to the slices.
+    // Upright in half of the scenes, so that posts are parallel to the columns.
     const float yaw = draws.between(-3.14F, 3.14F);
     Eigen::Quaternionf turn(Eigen::AngleAxisf(yaw, Vector3f::UnitZ()));
     if (draws.half()) {

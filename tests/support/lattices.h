@@ -6,7 +6,7 @@
 
 namespace sonarsim::test {
 
-// Random structures of thin parts, which may stand between two slices or two rays.
+// Random structures of thin parts, which may stand between two columns or two rays.
 
 /// A drawn scene with a sonar. The sonar's frame is the world frame.
 struct Lattice {

@@ -77,7 +77,7 @@ TEST_SUITE("lay maps") {
         const auto sum_of = [&](const Scene& scene) {
             double sum = 0.0;
             for (const double yaw_deg : {0.0, 40.0, 80.0, 120.0}) {
-                sum += total(expected_image(sonar, scene, EngineKind::slices, above_floor(yaw_deg),
+                sum += total(expected_image(sonar, scene, EngineKind::strips, above_floor(yaw_deg),
                                             {.multipath = false}));
             }
             return sum;

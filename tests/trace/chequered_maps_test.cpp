@@ -91,7 +91,7 @@ TEST_SUITE("lay maps") {
                 const Pose pose = above_floor();
                 const FactorsOfBins expected = factors_of_bins(sonar, scene, pose, side);
                 for (const EngineKind type : engine_types) {
-                    if (field_m < 1.0 && type != EngineKind::slices) continue;
+                    if (field_m < 1.0 && type != EngineKind::strips) continue;
                     CAPTURE_ALL(field_m, side, static_cast<int>(type));
                     const std::vector<float> image = expected_image(sonar, scene, type, pose);
                     const std::vector<float> without = expected_image(sonar, plain, type, pose);
@@ -121,7 +121,7 @@ TEST_SUITE("lay maps") {
                     CHECK(off < (field_m > 1.0 ? 0.01 : 0.05) * sum);
                     // A bin with a border has the mean over its area. Rays alone are off by more.
                     CHECK(at_border >= 20);
-                    if (type == EngineKind::slices) {
+                    if (type == EngineKind::strips) {
                         CHECK(squares_at_border < 0.1 * 0.1 * at_border);
                         CHECK(worst_at_border < 0.45);
                     }
@@ -175,7 +175,7 @@ TEST_SUITE("lay maps") {
                 const Sonar sonar = side ? sidescan(model, 0.2) : imaging(model, 40);
                 const View& view = sonar.settings.view;
                 const auto seen = [&](const Scene& scene) {
-                    return expected_image(sonar, scene, EngineKind::slices, above_floor());
+                    return expected_image(sonar, scene, EngineKind::strips, above_floor());
                 };
                 const std::vector<float> without = seen(fields.plain);
                 for (const Scene* const scene : {&fields.by_strength, &fields.by_material}) {

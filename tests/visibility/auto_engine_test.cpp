@@ -1,6 +1,6 @@
 #include "simulate/visibility/make_engine.h"
 #include "simulate/visibility/rays/rays_engine.h"
-#include "simulate/visibility/slices/slices_engine.h"
+#include "simulate/visibility/strips/strips_engine.h"
 #include "simulate/water/sound_profile.h"
 #include "support/test.h"
 
@@ -21,7 +21,7 @@ bool same(const Samples& a, const Samples& b) {
 
 TEST_SUITE_BEGIN("auto engine");
 
-TEST_CASE("auto takes slices, and rays for the views that need them") {
+TEST_CASE("auto takes strips, and rays for the views that need them") {
     const Scene scene = test::tank();
     const View view = auto_view();
     Pose pose;
@@ -30,13 +30,13 @@ TEST_CASE("auto takes slices, and rays for the views that need them") {
         return make_engine(scene, {.type = EngineKind::automatic, .octree = {}, .by_rays = by_rays})
             ->visible_surface(view, pose);
     };
-    const Samples by_slices = make_slices_engine(scene, Caster(scene))->visible_surface(view, pose);
+    const Samples by_strips = StripsEngine(scene, Caster(scene)).visible_surface(view, pose);
     const Samples by_rays = make_rays_engine(scene)->visible_surface(view, pose);
-    CHECK(same(seen({}), by_slices));
+    CHECK(same(seen({}), by_strips));
     CHECK(same(seen({view}), by_rays));
     View other = view;
     other.beams = 64;
-    CHECK(same(seen({other}), by_slices));
+    CHECK(same(seen({other}), by_strips));
 }
 
 TEST_CASE("auto takes rays over many triangles, denser than the goal alone asks for") {
@@ -53,18 +53,38 @@ TEST_CASE("auto takes rays over many triangles, denser than the goal alone asks 
     CHECK(same(seen, make_rays_engine(scene, caster, 4)->visible_surface(view, pose)));
 }
 
-TEST_CASE("engine: slices with multipath or energies that add gives a warning") {
-    const auto warning = [](EngineKind type, bool multipath, bool energies_add = false) {
-        return slices_warning({.type = type, .octree = {}}, multipath, energies_add);
+TEST_CASE("auto takes rays for fans of energies over many triangles, strips for sides") {
+    const Scene few = test::floor_scene(20.0F, 0.0F, 0.3F, 8);
+    const Scene many = test::floor_scene(20.0F, 0.0F, 0.3F, 200);
+    View view = auto_view();
+    view.energies_add = true;
+    Pose pose;
+    pose.translation = {-4.0, 0.0, 2.0};
+    pose.rotation = Eigen::AngleAxisd(radians(25.0), Eigen::Vector3d::UnitY());
+    const auto takes_strips = [&](const Scene& scene, const View& by) {
+        return same(make_engine(scene, {.type = EngineKind::automatic, .octree = {}})
+                        ->visible_surface(by, pose),
+                    StripsEngine(scene, Caster(scene)).visible_surface(by, pose));
     };
-    CHECK(warning(EngineKind::slices, true).find("use engine: auto") != std::string::npos);
-    CHECK(warning(EngineKind::slices, false).empty());
-    CHECK(warning(EngineKind::slices, false, true).find("too bright") != std::string::npos);
-    CHECK(warning(EngineKind::automatic, true, true).empty());
+    CHECK(StripsEngine(many, Caster(many)).triangles_in_view(view, pose) > 128 * 100);
+    CHECK(takes_strips(few, view));
+    CHECK_FALSE(takes_strips(many, view));
+    view.shape = ViewShape::port_starboard;
+    view.beams = 2;
+    CHECK(takes_strips(many, view));
+}
+
+TEST_CASE("engine: strips with multipath gives a warning") {
+    const auto warning = [](EngineKind type, bool multipath) {
+        return strips_warning({.type = type, .octree = {}}, multipath);
+    };
+    CHECK(warning(EngineKind::strips, true).find("use engine: auto") != std::string::npos);
+    CHECK(warning(EngineKind::strips, false).empty());
+    CHECK(warning(EngineKind::automatic, true).empty());
     CHECK(warning(EngineKind::rays, true).empty());
 }
 
-TEST_CASE("engine: the octree, slices and strips refuse copies, bodies and profiles of sound speed") {
+TEST_CASE("engine: the octree and the strips refuse copies, bodies and profiles of sound speed") {
     const Scene plain = test::tank();
     Scene copies = plain;
     copies.copies.push_back({});
@@ -81,7 +101,7 @@ TEST_CASE("engine: the octree, slices and strips refuse copies, bodies and profi
     for (const auto& scene : scenes) {
         for (const EngineKind type : {EngineKind::automatic, EngineKind::rays})
             CHECK(unsupported({.type = type, .octree = {}}, *scene.first).empty());
-        for (const EngineKind type : {EngineKind::octree, EngineKind::slices, EngineKind::strips}) {
+        for (const EngineKind type : {EngineKind::octree, EngineKind::strips}) {
             const std::string refusal = unsupported({.type = type, .octree = {}}, *scene.first);
             CHECK(refusal.find(scene.second) != std::string::npos);
             CHECK(refusal.empty() == scene.second.empty());

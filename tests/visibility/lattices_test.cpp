@@ -42,14 +42,13 @@ TEST_CASE("lattices: the distance of a reference's halves is about its error") {
     }
 }
 
-TEST_CASE("lattices: bars that stand between two slices are seen") {
-    // Profiling sonars over posts of stairs and rails of a ladder. Two slices on either side of a
-    // bar agree.
+TEST_CASE("lattices: posts narrower than a column are seen") {
+    // Profiling sonars over posts of stairs and rails of a ladder.
     const auto error = [](std::uint32_t number, double goal) -> double {
         const test::Lattice lattice = test::draw_lattice(number);
         const Reference reference = reference_of(lattice, 400'000);
         CHECK(reference.noise < 0.05);
-        return error_of(EngineKind::slices, lattice, reference, goal);
+        return error_of(EngineKind::strips, lattice, reference, goal);
     };
     CHECK(error(257, 0.1) < 0.11);
     CHECK(error(145, 0.03) < 0.045);
@@ -72,7 +71,7 @@ TEST_CASE("lattices: rays see thin bars") {
 TEST_CASE("lattices: a patch as narrow as rounding has a finite place") {
     // A net below an echosounder. The mean of two triangles without area was no number.
     const test::Lattice lattice = test::draw_lattice(14253);
-    const auto engine = make_engine(lattice.scene, {.type = EngineKind::slices, .octree = {}});
+    const auto engine = make_engine(lattice.scene, {.type = EngineKind::strips, .octree = {}});
     const View view = make_sonar(lattice.sonar, {0.1}).settings.view;
     for (const Sample& sample : engine->visible_surface(view, Pose{}).items)
         CHECK(sample.position.allFinite());

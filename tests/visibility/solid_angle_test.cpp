@@ -48,7 +48,7 @@ TEST_CASE("a room fills the solid angle of a view, thin objects included") {
     const Scene scene = room_with_poles();
     const Pose T_world_sensor{rotation_from_rpy(0.0, radians(15.0), 0.05), {0.1, 0.05, 0.2}};
     for (const ViewShape shape : {ViewShape::fan, ViewShape::port_starboard, ViewShape::cone}) {
-        for (const EngineKind type : {EngineKind::rays, EngineKind::slices}) {
+        for (const EngineKind type : {EngineKind::rays, EngineKind::strips}) {
             const View view = view_of(shape);
             const Samples samples = make_engine(scene, {.type = type, .octree = {}})
                                         ->visible_surface(view, T_world_sensor);

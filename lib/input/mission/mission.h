@@ -75,7 +75,6 @@ struct Mission {
 inline constexpr Choice<EngineKind> engine_names[]{{"auto", EngineKind::automatic},
                                                    {"rays", EngineKind::rays},
                                                    {"octree", EngineKind::octree},
-                                                   {"slices", EngineKind::slices},
                                                    {"strips", EngineKind::strips}};
 
 /// True if a mission may have the name. It names a folder that holds nothing but this mission.

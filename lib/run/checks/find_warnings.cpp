@@ -16,8 +16,7 @@ void append(std::vector<Warning>& out, std::vector<Warning> more) {
 
 void judge_engine(const Mission& mission, const Sonar& sonar, std::vector<Warning>& out) {
     const std::string warning =
-        slices_warning(engine_settings(mission), sonar.settings.multipath.on,
-                       sonar.settings.model->info.energies_add);
+        strips_warning(engine_settings(mission), sonar.settings.multipath.on);
     if (!warning.empty())
         out.push_back(make_warning(WarningCode::engine, about_sensor(sonar.config.name), warning));
 }

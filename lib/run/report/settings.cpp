@@ -11,7 +11,7 @@ namespace sonarsim {
 
 namespace {
 
-/// Rays, strips, slices or auto by error goal.
+/// Rays, strips or auto by error goal.
 Setting with_goal(EngineKind kind, const char* engine, double goal) {
     return {.engine = engine,
             .name = "relative_l1=" + number_text(goal),
@@ -34,8 +34,7 @@ Setting own_setting(const Mission& mission) {
     if (mission.engine == EngineKind::rays) return with_goal(EngineKind::rays, "rays", goal);
     if (mission.engine == EngineKind::automatic)
         return with_goal(EngineKind::automatic, "auto", goal);
-    if (mission.engine == EngineKind::strips) return with_goal(EngineKind::strips, "strips", goal);
-    return with_goal(EngineKind::slices, "slices", goal);
+    return with_goal(EngineKind::strips, "strips", goal);
 }
 
 double finest_bin_m(const Mission& mission) {
@@ -59,8 +58,6 @@ std::vector<Setting> make_settings(const Mission& mission, bool quick) {
         settings.push_back(with_goal(EngineKind::rays, "rays", goal));
     for (const double goal : goals)
         settings.push_back(with_goal(EngineKind::strips, "strips", goal));
-    for (const double goal : goals)
-        settings.push_back(with_goal(EngineKind::slices, "slices", goal));
     for (const double leaf : leaves) {
         if (leaf >= 0.25 * finest_bin_m(mission))
             settings.push_back(octree_with(leaf, mission.accuracy.relative_l1));

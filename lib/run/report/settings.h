@@ -11,7 +11,7 @@ namespace sonarsim {
 
 /// One engine with one resolution.
 struct Setting {
-    std::string engine;  ///< "rays", "strips", "slices", "octree" or "auto"
+    std::string engine;  ///< "rays", "strips", "octree" or "auto"
     std::string name;    ///< the mission's key and value, "relative_l1=0.03"
     EngineKind kind = EngineKind::rays;
     OctreeConfig octree;       ///< for the octree
@@ -22,10 +22,10 @@ struct Setting {
     bool has_goal() const { return kind != EngineKind::octree; }
 };
 
-/// The settings of a report: rays, strips and slices by error goal and the octree by leaf size,
-/// each from coarse to fine, and `auto` at the mission's goal. Leaves finer than a quarter of the
-/// finest range bin are omitted: they cost much and improve nothing. The mission's own setting is
-/// included and marked.
+/// The settings of a report: rays and strips by error goal and the octree by leaf size, each from
+/// coarse to fine, and `auto` at the mission's goal. Leaves finer than a quarter of the finest
+/// range bin are omitted: they cost much and improve nothing. The mission's own setting is included
+/// and marked.
 std::vector<Setting> make_settings(const Mission& mission, bool quick);
 
 /// The settings to make the engine of a setting with.

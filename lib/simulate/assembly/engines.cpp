@@ -1,6 +1,5 @@
 #include "simulate/assembly/engines.h"
 
-#include "core/units.h"
 #include "simulate/ping/sonar.h"
 #include "simulate/sonar/engine_settings.h"
 #include "simulate/trace/visible_surface.h"
@@ -9,16 +8,10 @@ namespace sonarsim {
 
 namespace {
 
-// Slices meet at the sonar's z axis, so all of them hold the surface near it.
-constexpr double widest_slices_rad = 0.5 * pi;
-
-/// True if rays trace a sonar. Where energies add, patches of the slices that overlap would add the
-/// amplitude of a scatterer twice. Multipath continues from the middle of each sample, and a sample
-/// of the slices may be as long as a beam is high.
+/// True if rays trace a sonar. Multipath continues from the middle of each sample, and a sample of
+/// the strips may be as long as a beam is high.
 bool is_by_rays(const Sonar& sonar) {
-    const View& view = sonar.settings.view;
-    return view.energies_add || sonar.config.multipath.method != MultipathMethod::none ||
-           view.elevation_rad > widest_slices_rad;
+    return sonar.config.multipath.method != MultipathMethod::none;
 }
 
 }  // namespace

@@ -49,26 +49,6 @@ std::vector<std::uint32_t> along_morton_curve(const Scene& scene) {
     return order;
 }
 
-/// ClusterMesh::beyond, in the order of the scene's triangles. `welded` are the triangles with one
-/// vertex at each place.
-std::vector<TriangleCorners> across_edges(const Scene& scene,
-                                          std::span<const TriangleCorners> welded) {
-    constexpr std::uint32_t nothing = ClusterMesh::nothing;
-    std::vector<TriangleCorners> out(welded.size(), {nothing, nothing, nothing});
-    const std::vector<MeshSide> sides = sides_by_edge(welded, scene.vertices.size());
-    for (std::size_t i = 1; i < sides.size(); ++i) {
-        const MeshSide& a = sides[i - 1];
-        const MeshSide& b = sides[i];
-        if (a.low != b.low || a.high != b.high ||
-            scene.triangle_material[a.triangle] != scene.triangle_material[b.triangle] ||
-            scene.triangle_instance[a.triangle] != scene.triangle_instance[b.triangle])
-            continue;
-        out[a.triangle][a.side] = scene.triangles[b.triangle][(b.side + 2) % 3];
-        out[b.triangle][b.side] = scene.triangles[a.triangle][(a.side + 2) % 3];
-    }
-    return out;
-}
-
 /// Appends a cluster of the given triangles.
 void add_cluster(const Scene& scene, std::span<const std::uint32_t> triangles, ClusterMesh& mesh) {
     std::vector<std::uint32_t> used;
@@ -104,26 +84,10 @@ void add_cluster(const Scene& scene, std::span<const std::uint32_t> triangles, C
         mesh.corners.push_back(local);
         const Eigen::Vector3d twice = cross_of(scene.vertices, corners);
         mesh.facets.push_back({twice.normalized().cast<float>(), scene.triangle_material[triangle],
-                               scene.triangle_instance[triangle], 0,
+                               scene.triangle_instance[triangle],
                                static_cast<float>(0.5 * twice.norm())});
     }
     mesh.clusters.push_back(cluster);
-}
-
-/// Numbers the connected components of the triangles. `order` are the triangles of the facets.
-void find_components(std::span<const TriangleCorners> welded, std::size_t vertices,
-                     std::span<const std::uint32_t> order, ClusterMesh& mesh) {
-    JoinedSets sets(vertices);
-    for (const TriangleCorners& triangle : welded) {
-        sets.join(triangle[0], triangle[1]);
-        sets.join(triangle[0], triangle[2]);
-    }
-    std::vector<std::uint32_t> number(vertices, ClusterMesh::nothing);
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        std::uint32_t& own = number[sets.of(welded[order[i]][0])];
-        if (own == ClusterMesh::nothing) own = mesh.components++;
-        mesh.facets[i].component = own;
-    }
 }
 
 }  // namespace
@@ -138,17 +102,6 @@ ClusterMesh make_clusters(const Scene& scene) {
             std::min<std::size_t>(ClusterMesh::max_triangles, order.size() - first);
         add_cluster(scene, std::span(order).subspan(first, count), mesh);
     }
-    const std::vector<std::uint32_t> first = first_at_place(scene.vertices);
-    std::vector<TriangleCorners> welded = scene.triangles;
-    for (TriangleCorners& triangle : welded) {
-        for (std::uint32_t& corner : triangle)
-            corner = first[corner];
-    }
-    find_components(welded, first.size(), order, mesh);
-    const std::vector<TriangleCorners> beyond = across_edges(scene, welded);
-    mesh.beyond.reserve(order.size());
-    for (const std::uint32_t triangle : order)
-        mesh.beyond.push_back(beyond[triangle]);
     return mesh;
 }
 

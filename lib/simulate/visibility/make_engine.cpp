@@ -5,30 +5,42 @@
 
 #include "simulate/visibility/octree/tree.h"
 #include "simulate/visibility/rays/rays_engine.h"
-#include "simulate/visibility/slices/slices_engine.h"
 #include "simulate/visibility/strips/strips_engine.h"
 
 namespace sonarsim {
 
 namespace {
 
-/// With more triangles than this `auto` takes rays, whose time hardly depends on their number.
-constexpr std::size_t slices_triangles_max = std::size_t{1} << 19;
+/// In scenes of more triangles `auto` takes rays for means, as their time hardly depends on them.
+constexpr std::size_t strips_triangles_max = std::size_t{1} << 19;
+
+/// With more triangles in view for each beam of a fan of energies, it takes rays: each piece of the
+/// strips costs an echo. A side or a cone has few beams and few pieces.
+constexpr std::size_t strips_per_beam_max = 100;
+constexpr int strips_beams_min = 128;  ///< fans of fewer beams count as so many
 
 /// Factor on the density of rays over many triangles if a bin holds a mean.
 constexpr int density_over_many_triangles = 4;
 
-/// Rays for the views that need them; slices, or dense rays over many triangles, for others.
+/// Strips, or rays for the views that need them and where too many triangles are in view.
 class AutoEngine final : public VisibilityEngine {
   public:
     AutoEngine(const Scene& scene, const Caster& caster, std::vector<View> by_rays)
-        : others_(make_others(scene, caster)),
+        : triangles_(scene.triangles.size()),
+          strips_(scene, caster),
           rays_(make_rays_engine(scene, caster)),
-          by_rays_(std::move(by_rays)) {}
+          by_rays_(std::move(by_rays)) {
+        if (triangles_ > many_triangles)
+            dense_rays_ = make_rays_engine(scene, caster, density_over_many_triangles);
+    }
 
     Samples visible_surface(const View& view, const Pose& T_world_sensor) const override {
-        const bool by_rays = std::ranges::find(by_rays_, view) != by_rays_.end();
-        return (by_rays ? rays_ : others_)->visible_surface(view, T_world_sensor);
+        if (std::ranges::find(by_rays_, view) != by_rays_.end())
+            return rays_->visible_surface(view, T_world_sensor);
+        if (suits_strips(view, T_world_sensor))
+            return strips_.visible_surface(view, T_world_sensor);
+        const bool dense = dense_rays_ && !view.energies_add;
+        return (dense ? dense_rays_ : rays_)->visible_surface(view, T_world_sensor);
     }
 
     void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
@@ -37,14 +49,16 @@ class AutoEngine final : public VisibilityEngine {
     }
 
   private:
-    static std::unique_ptr<VisibilityEngine> make_others(const Scene& scene, const Caster& caster) {
-        const std::size_t triangles = scene.triangles.size();
-        if (triangles <= slices_triangles_max) return make_slices_engine(scene, caster);
-        return make_rays_engine(scene, caster,
-                                triangles > many_triangles ? density_over_many_triangles : 1);
+    bool suits_strips(const View& view, const Pose& T_world_sensor) const {
+        if (!view.energies_add) return triangles_ <= strips_triangles_max;
+        if (view.shape != ViewShape::fan) return true;
+        const std::size_t beams = std::max(view.beams, strips_beams_min);
+        return strips_.triangles_in_view(view, T_world_sensor) <= beams * strips_per_beam_max;
     }
 
-    std::unique_ptr<VisibilityEngine> others_, rays_;
+    std::size_t triangles_;
+    StripsEngine strips_;
+    std::unique_ptr<VisibilityEngine> rays_, dense_rays_;
     std::vector<View> by_rays_;
 };
 
@@ -53,8 +67,7 @@ class AutoEngine final : public VisibilityEngine {
 std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSettings& settings) {
     if (settings.type == EngineKind::octree) return make_octree_engine(scene, settings.octree);
     const Caster caster = settings.caster ? *settings.caster : Caster(scene);
-    if (settings.type == EngineKind::slices) return make_slices_engine(scene, caster);
-    if (settings.type == EngineKind::strips) return make_strips_engine(scene, caster);
+    if (settings.type == EngineKind::strips) return std::make_unique<StripsEngine>(scene, caster);
     if (settings.type == EngineKind::automatic && !scene.sound_profile && scene.bodies.empty() &&
         scene.copies.empty())
         return std::make_unique<AutoEngine>(scene, caster, settings.by_rays);
@@ -63,12 +76,9 @@ std::unique_ptr<VisibilityEngine> make_engine(const Scene& scene, const EngineSe
 
 std::string unsupported(const EngineSettings& settings, const Scene& scene) {
     const bool is_octree = settings.type == EngineKind::octree;
-    const bool is_strips = settings.type == EngineKind::strips;
-    const std::string engine = is_octree   ? "engine: octree"
-                               : is_strips ? "engine: strips"
-                                           : "engine: slices";
+    const std::string engine = is_octree ? "engine: octree" : "engine: strips";
     const std::string instead = "; use engine: auto or engine: rays";
-    if (is_octree || is_strips || settings.type == EngineKind::slices) {
+    if (is_octree || settings.type == EngineKind::strips) {
         if (scene.sound_profile)
             return engine + " needs straight paths of sound, and water.profile bends them" +
                    instead;
@@ -87,19 +97,11 @@ std::string unsupported(const EngineSettings& settings, const View& view) {
            "engine: auto";
 }
 
-std::string slices_warning(const EngineSettings& settings, bool multipath, bool energies_add) {
-    if (settings.type != EngineKind::slices) return "";
-    // With a box under a water surface, rays found 669 echoes over both, slices none.
-    if (multipath) {
-        return "engine: slices misses most multipath: reflections start at the middle of each "
-               "patch of surface, and a patch of the slices may span the whole elevation of a "
-               "beam; use engine: auto or engine: rays";
-    }
-    if (energies_add) {
-        return "engine: slices makes speckled ground up to 1.1 dB too bright with model: "
-               "calibrated: its patches overlap; use engine: auto or engine: rays";
-    }
-    return "";
+std::string strips_warning(const EngineSettings& settings, bool multipath) {
+    if (settings.type != EngineKind::strips || !multipath) return "";
+    return "engine: strips misses most multipath: reflections start at the middle of each patch of "
+           "surface, and a patch of the strips may span the whole elevation of a beam; use engine: "
+           "auto or engine: rays";
 }
 
 }  // namespace sonarsim

@@ -19,10 +19,10 @@ constexpr std::size_t many_triangles = std::size_t{1} << 21;
 struct EngineSettings {
     EngineKind type = EngineKind::rays;
     OctreeOptions octree;  ///< for the octree only
-    /// For `automatic` only: the views that rays trace. Slices trace the others, or rays in scenes
-    /// with bodies, copies or many triangles.
+    /// For `automatic` only: the views that rays trace. Strips trace the others, or rays in scenes
+    /// with bodies or copies and where many triangles are in view.
     std::vector<View> by_rays = {};
-    /// A caster over the scene, whose trees the rays and the slices then use; null: they make one.
+    /// A caster over the scene, whose trees the rays and the strips then use; null: they make one.
     std::shared_ptr<const Caster> caster = {};
 };
 
@@ -37,8 +37,7 @@ std::string unsupported(const EngineSettings& settings, const Scene& scene);
 /// Error message with the mission's keys if the engine does not support this view; empty otherwise.
 std::string unsupported(const EngineSettings& settings, const View& view);
 
-/// Warning text, with the mission's keys, if slices do not suit a sonar; empty otherwise.
-/// `energies_add`: a bin holds the sum of its echoes (calibrated model), not their mean.
-std::string slices_warning(const EngineSettings& settings, bool multipath, bool energies_add);
+/// Warning text, with the mission's keys, if strips do not suit a sonar; empty otherwise.
+std::string strips_warning(const EngineSettings& settings, bool multipath);
 
 }  // namespace sonarsim

@@ -15,8 +15,8 @@ constexpr float same_w = 1e-6F;
 // The same for a piece that is seen nearly edge-on, as a share of its extent in w.
 constexpr float same_share = 0.02F;
 
-// Overlaps of less than this share of the above are ignored: those of neighbours by rounding. Several
-// slivers side by side may hide more than the above.
+// Overlaps of less than this share of the above are ignored: those of neighbours by rounding.
+// Several slivers side by side may hide more than the above.
 constexpr float overlap_share = 0.125F;
 
 // Depths as near as this share are one; then the facet of the lower number is the nearer one.

@@ -190,7 +190,7 @@ class TriangleProjection {
         t.w_max = std::max({w[0], w[1], w[2]});
         const float reach = frame_.reach_w(std::max(t.u0, u_low_), std::min(t.u2, u_high_));
         if (t.w_min >= reach || t.w_max <= -reach) return;
-        const SliceFacet& data = mesh_.facets[facet];
+        const ClusterFacet& data = mesh_.facets[facet];
         const Vector3f normal = R_frame_local_ * data.normal;
         const float d = normal.dot(p[0]);
         t.height_m = std::fabs(d);

@@ -1,16 +1,40 @@
 #pragma once
 
-#include <memory>
+#include <vector>
 
 #include "input/scene/scene.h"
 #include "simulate/visibility/caster.h"
+#include "simulate/visibility/clusters.h"
 #include "simulate/visibility/engine.h"
+#include "simulate/visibility/local_pose.h"
+#include "simulate/visibility/strips/strip_rule.h"
+#include "simulate/visibility/strips/strip_triangles.h"
 
 namespace sonarsim {
 
 /// An engine that cuts the triangles in view into the columns of the view, a few for each beam, and
 /// finds what nearer pieces of its column leave of each piece, on the line in the middle of it.
-/// `scene` must outlive it; the scene must have no bodies, no copies and no profile of sound speed.
-std::unique_ptr<VisibilityEngine> make_strips_engine(const Scene& scene, const Caster& caster);
+class StripsEngine final : public VisibilityEngine {
+  public:
+    /// `scene` must outlive it; the scene must have no bodies, no copies and no profile of sound
+    /// speed.
+    StripsEngine(const Scene& scene, const Caster& caster);
+
+    Samples visible_surface(const View& view, const Pose& T_world_sensor) const override;
+    void intersect(const Pose& T_world_sensor, std::span<const Ray> rays,
+                   std::span<Intersection> intersections) const override;
+
+    /// The triangles of the clusters that may lie in view: its time is about proportional to them.
+    std::size_t triangles_in_view(const View& view, const Pose& T_world_sensor) const;
+
+  private:
+    std::vector<std::uint32_t> clusters_in(const View& view, Pose T_local_sensor) const;
+    void scan(const ColumnFrame& frame, const StripTriangles& triangles, const LocalPose& pose,
+              const StripRule& rule, Samples& samples) const;
+
+    const Scene* scene_;
+    Caster caster_;
+    ClusterMesh mesh_;
+};
 
 }  // namespace sonarsim

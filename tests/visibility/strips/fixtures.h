@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simulate/visibility/slices/slices_engine.h"
+#include "simulate/visibility/strips/strips_engine.h"
 #include "support/test.h"
 
 namespace sonarsim::test {
@@ -9,14 +9,14 @@ inline View fan_view() {
     return {radians(60.0), radians(20.0), 0.2, 12.0, 256, 64, 0.03};
 }
 
-inline Samples seen(const Scene& scene, const View& view, const Pose& pose, int per_beam = 2) {
-    return make_slices_engine(scene, Caster(scene), per_beam)->visible_surface(view, pose);
+inline Samples seen(const Scene& scene, const View& view, const Pose& pose = {}) {
+    return StripsEngine(scene, Caster(scene)).visible_surface(view, pose);
 }
 
 inline double area_of(std::span<const Sample> samples) {
     double area = 0.0;
     for (const Sample& sample : samples)
-        area += sample.area_m2;
+        area += static_cast<double>(sample.area_m2);
     return area;
 }
 

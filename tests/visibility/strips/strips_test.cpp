@@ -33,7 +33,7 @@ View cone_of_strips() {
 }
 
 Samples seen_by_strips(const Scene& scene, const View& view, const Pose& pose = {}) {
-    return make_strips_engine(scene, Caster(scene))->visible_surface(view, pose);
+    return StripsEngine(scene, Caster(scene)).visible_surface(view, pose);
 }
 
 double area_by_strips(std::span<const Sample> samples) {

@@ -1,6 +1,6 @@
 #include "core/elementary.h"
 #include "support/draws.h"
-#include "visibility/slices/fixtures.h"
+#include "visibility/strips/fixtures.h"
 
 using namespace sonarsim;
 using test::area_of;
@@ -30,9 +30,9 @@ void add_cable(Scene& scene, const Eigen::Vector3f& a, const Eigen::Vector3f& b,
 
 }  // namespace
 
-TEST_SUITE_BEGIN("slices");
+TEST_SUITE_BEGIN("strips");
 
-TEST_CASE("slices: two materials that meet along a slice share the beam as they lie") {
+TEST_CASE("strips: two materials that meet along an azimuth share the beam as they lie") {
     // A level floor of one material left of an azimuth and of another one right of it: at each
     // range the left part has the share of the beam left of that azimuth.
     View view = fan_view();
@@ -54,7 +54,7 @@ TEST_CASE("slices: two materials that meet along a slice share the beam as they 
         const Eigen::Vector3f far = near + 30.0F * along;
         shapes::add_quad(scene, near, far, far + 30.0F * left, near + 30.0F * left, hard);
         shapes::add_quad(scene, near - 30.0F * left, far - 30.0F * left, far, near, soft);
-        // In every other scene a wall stands beyond the floor, so that slices show two things.
+        // In every other scene a wall stands beyond the floor.
         if (k % 2 == 1) {
             const std::uint32_t wall = shapes::add_material(scene, 0.5F);
             shapes::add_quad(scene, {11.0F, -9.0F, -3.0F}, {11.0F, 9.0F, -3.0F},
@@ -62,7 +62,7 @@ TEST_CASE("slices: two materials that meet along a slice share the beam as they 
         }
         double of_hard = 0.0;
         double of_floor = 0.0;
-        const Samples samples = seen(scene, view, Pose{}, 2);
+        const Samples samples = seen(scene, view, Pose{});
         for (const Sample& sample : samples.items) {
             if (sample.material == hard) of_hard += sample.area_m2;
             if (sample.material <= soft) of_floor += sample.area_m2;
@@ -71,7 +71,7 @@ TEST_CASE("slices: two materials that meet along a slice share the beam as they 
     }
 }
 
-TEST_CASE("slices: a corner that enters the view between two slices is seen") {
+TEST_CASE("strips: a corner that enters the view within a beam is seen") {
     // A leaf below the view whose tip, a fifth of a beam wide, reaches into it.
     View view = fan_view();
     view.elevation_rad = radians(2.0);
@@ -87,13 +87,13 @@ TEST_CASE("slices: a corner that enters the view between two slices is seen") {
         const Eigen::Vector3f b(5.0F, y + 5.0F * beam, low - 49.0F * height);
         Scene scene = shapes::empty_scene();
         shapes::add_quad(scene, tip, a, b, b, shapes::add_material(scene, 0.5F));
-        CHECK(area_of(seen(scene, view, Pose{}, 0)) > 0.0);
+        CHECK(area_of(seen(scene, view, Pose{})) > 0.0);
     }
 }
 
-TEST_CASE("slices: a corner of surface and the border of the view is seen") {
+TEST_CASE("strips: a corner of surface and the border of the view is seen") {
     // The farthest point in view is where the leaning edge of a leaf crosses the upper border
-    // between two slices. It was cut off by up to 0.7 bins.
+    // within a beam.
     View view = fan_view();
     view.elevation_rad = radians(2.0);
     test::Draws draws(33);
@@ -117,7 +117,7 @@ TEST_CASE("slices: a corner of surface and the border of the view is seen") {
             (std::asin(at.z() / at.norm()) < 0.5 * view.elevation_rad ? low : high) = at.z();
         }
         float farthest = 0.0F;
-        for (const Sample& sample : seen(scene, view, Pose{}, 1).items) {
+        for (const Sample& sample : seen(scene, view, Pose{}).items) {
             const Eigen::Vector3f to = sample.position.normalized();
             farthest =
                 std::max(farthest, sample.position.norm() + std::fabs(sample.edge_u.dot(to)) +
@@ -127,9 +127,8 @@ TEST_CASE("slices: a corner of surface and the border of the view is seen") {
     }
 }
 
-TEST_CASE("slices: a cable ends in range where its corners do") {
-    // Two cables that meet in a node, so that their mesh is one part. Planes of faces with
-    // neighbours were followed beyond the face, here by 1.5 bins.
+TEST_CASE("strips: a cable ends in range where its corners do") {
+    // Two cables that meet in a node, so that their mesh is one part.
     View view = fan_view();
     view.elevation_rad = radians(2.0);
     view.range_bins = 1024;
@@ -149,7 +148,7 @@ TEST_CASE("slices: a cable ends in range where its corners do") {
         float farthest = 0.0F;
         for (const Eigen::Vector3f& p : scene.vertices)
             farthest = std::max(farthest, p.norm());
-        for (const Sample& sample : seen(scene, view, Pose{}, 0).items) {
+        for (const Sample& sample : seen(scene, view, Pose{}).items) {
             for (const float u : {-1.0F, 1.0F}) {
                 for (const float v : {-1.0F, 1.0F}) {
                     const Eigen::Vector3f corner =
