@@ -67,22 +67,18 @@ TEST_SUITE("assembly") {
         CHECK(scales[1] / scales[0] == test::approx(1.0).epsilon(0.1));
     }
 
-    TEST_CASE(
-        "auto: rays trace views of more than 90 degrees of elevation, and energies that add") {
+    TEST_CASE("auto: rays trace the views of sonars with multipath") {
         Mission mission = small_mission("out");
         mission.engine = EngineKind::automatic;
         for (SonarConfig& sensor : mission.sensors)
             sensor.multipath.method = MultipathMethod::none;
-        for (const double elevation_deg : {150.0, 91.0, 90.0}) {
-            mission.sensors[0].elevation_deg = elevation_deg;
-            const EngineSettings settings = engine_settings(mission, small_assembly(mission, 9));
-            CHECK(settings.by_rays.empty() == (elevation_deg <= 90.0));
-        }
-        Assembly assembly = small_assembly(mission, 9);
-        for (const bool energies_add : {false, true}) {
-            for (Sonar& sonar : assembly.sonars)
-                sonar.settings.view.energies_add = energies_add;
-            CHECK((engine_settings(mission, assembly).type == EngineKind::rays) == energies_add);
-        }
+        CHECK(engine_settings(mission, small_assembly(mission, 9)).by_rays.empty());
+        mission.sensors[0].multipath.method = MultipathMethod::exact;
+        const EngineSettings one = engine_settings(mission, small_assembly(mission, 9));
+        CHECK(one.type == EngineKind::automatic);
+        CHECK(one.by_rays.size() == 1);
+        for (SonarConfig& sensor : mission.sensors)
+            sensor.multipath.method = MultipathMethod::exact;
+        CHECK(engine_settings(mission, small_assembly(mission, 9)).type == EngineKind::rays);
     }
 }

@@ -95,8 +95,8 @@ TEST_SUITE("calibrated") {
         }
     }
 
-    // Slices meet at the boresight of an echosounder: a piece as long as the bottom is wide weighs
-    // the narrow middle of the beam as much as its edge, which makes a flat bottom 54 % too loud.
+    // A strip as long as the bottom is wide would weigh the narrow middle of the beam as much as its
+    // edge.
     TEST_CASE("rays and strips agree within twice the error goal") {
         Scene flat = floor_scene(14.0F, -5.0F, 0.4F, 4);
         SonarConfig side = calibrated(default_sonar(SonarKind::sidescan), 4e5);

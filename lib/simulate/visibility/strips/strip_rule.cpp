@@ -1,6 +1,7 @@
 #include "simulate/visibility/strips/strip_rule.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace sonarsim {
 
@@ -14,7 +15,12 @@ constexpr float by_thinness = 1.3F;
 constexpr float most_by_thinness = 4.0F;
 
 // Columns of a side where energies add: the beam receives most from its middle.
-constexpr float side_columns = 5.0F;
+constexpr float side_columns = 13.0F;
+
+// Where energies add, the beam pattern at the middle of a sample holds for all of it: samples along
+// a column of a fan, a cone and a sector of a side.
+constexpr double samples_along = 32.0;
+constexpr double side_along_rad = 0.0125;
 
 }  // namespace
 
@@ -31,6 +37,11 @@ StripRule strip_rule(const View& view) {
     rule.sag_m = 0.09F * finer * bin_m;
     rule.wedge_m = std::max(finer, 0.5F) * bin_m;
     rule.taper = 0.35F;
+    rule.along_rad = std::numeric_limits<float>::max();
+    if (view.energies_add)
+        rule.along_rad = static_cast<float>(view.shape == ViewShape::port_starboard
+                                                ? side_along_rad
+                                                : view.elevation_rad / samples_along);
     return rule;
 }
 

@@ -156,8 +156,9 @@ void StripSamples::add_quad(const StripTriangle& triangle, const Quad& quad, boo
     const float longest2 = std::max((quad.near_high - quad.near_low).squaredNorm(),
                                     (quad.far_high - quad.far_low).squaredNorm());
     const float depth = 0.5F * std::fabs(r.near_high + r.far_high - r.near_low - r.far_low);
-    const bool is_short =
-        longest2 < 7.0F * rule_.sag_m * nearest && depth < taper_bins * rule_.bin_m;
+    const float in_beam = rule_.along_rad * nearest;
+    const bool is_short = longest2 < 7.0F * rule_.sag_m * nearest &&
+                          depth < taper_bins * rule_.bin_m && longest2 < in_beam * in_beam;
     if (parts == 1) return cut_along(triangle, quad, is_short);
     const float a = (quad.near_high - quad.near_low).norm();
     const float b = (quad.far_high - quad.far_low).norm();
@@ -187,6 +188,8 @@ int StripSamples::parts_along(const Quad& quad, float& low_width, float& high_wi
     float parts = parts_by_sag(0.5F * (r_low + r_high) - (0.5F * (low + high)).norm(), rule_.sag_m);
     const float depth = std::fabs(r_high - r_low);
     parts = std::max(parts, std::ceil(depth / (max_sample_bins * rule_.bin_m)));
+    const float sine = low.cross(high).norm() / (r_low * r_high + least_length);
+    parts = std::max(parts, std::ceil(sine / rule_.along_rad));
     if (depth > taper_bins * rule_.bin_m)
         parts = std::max(parts, std::ceil(std::fabs(high_width - low_width) /
                                           ((low_width + high_width + least_length) * rule_.taper)));
