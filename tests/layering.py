@@ -26,29 +26,30 @@ DOORS = {
     "run": ("checks", "job", "report", "preview"),
 }
 DOOR_OF = {folder: door for door, folders in DOORS.items() for folder in folders}
-# The folders of lib/ with the folders that each may include. The table of docs/development.md says the
-# same.
-ALLOWED = {
-    "core": set(),
-    "mission": {"core"},
-    "water": {"core"},
-    "scene": {"core"},
-    "trajectory": {"core"},
-    "visibility": {"core", "water", "scene"},
-    "trace": {"core", "water", "scene", "visibility"},
-    "paper": {"core", "mission", "scene", "visibility", "trace"},
-    "calibrated": {"core", "mission", "scene", "visibility", "trace"},
-    "ping": {"core", "mission", "water", "scene", "visibility", "trace"},
-    "labels": {"core", "water", "scene", "visibility", "trace", "ping"},
-    "product": {"core", "mission", "trace", "paper", "ping", "labels"},
-    "sonar": {"core", "mission", "scene", "visibility", "trace", "paper", "calibrated", "ping", "labels", "product"},
-    "assembly": {"core", "mission", "water", "scene", "trajectory", "visibility", "trace", "paper", "calibrated", "ping",
-                 "labels", "product", "sonar"},
-    "format": {"core"},
-}
-ALLOWED["reference"] = {"core", "mission", "scene", "visibility", "trace", "ping"}
-for upper in ("dataset", "checks", "job", "report", "preview"):
-    ALLOWED[upper] = set(ALLOWED)
+# The folders of lib/ with the folders that each includes.
+ALLOWED = {folder: set(lowers.split()) for folder, lowers in {
+    "core": "",
+    "mission": "core",
+    "water": "core",
+    "scene": "core",
+    "trajectory": "core",
+    "visibility": "core water scene",
+    "trace": "core water scene visibility",
+    "paper": "core mission scene visibility trace",
+    "calibrated": "core mission scene visibility trace",
+    "ping": "core mission water trace",
+    "labels": "core scene visibility trace ping",
+    "product": "core mission trace ping labels",
+    "sonar": "core mission visibility paper calibrated ping product",
+    "assembly": "core mission water scene trajectory visibility trace calibrated ping product sonar",
+    "reference": "core scene visibility trace ping",
+    "format": "core",
+    "dataset": "core mission scene trajectory trace calibrated ping labels product sonar assembly format",
+    "checks": "core mission scene visibility trace sonar assembly reference dataset",
+    "job": "core mission trajectory visibility trace sonar assembly dataset checks",
+    "report": "core mission scene visibility sonar assembly reference dataset checks job",
+    "preview": "core mission scene visibility trace ping product sonar assembly",
+}.items()}
 assert ALLOWED.keys() == DOOR_OF.keys()
 assert all(list(DOORS).index(DOOR_OF[lower]) <= list(DOORS).index(DOOR_OF[folder])
            for folder, lowers in ALLOWED.items() for lower in lowers), "an arrow from a door to a higher one"
@@ -176,16 +177,20 @@ def faults_in_tests(root: pathlib.Path) -> list[str]:
             for path in sorted((root / "tests").rglob("*.cpp")) if "doctest::Approx" in path.read_text()]
 
 
+def unused_permissions(root: pathlib.Path) -> list[str]:
+    """The arrows of ALLOWED that no include of lib/ takes."""
+    used = {(without_door(path.relative_to(root / "lib").as_posix()).split("/")[0], without_door(name).split("/")[0])
+            for path in (root / "lib").rglob("*") if path.suffix in (".h", ".cpp")
+            for name in re.findall(r'^\s*#\s*include\s*"([^"]+)"', path.read_text(), re.MULTILINE)}
+    return [f"ALLOWED: no file of {folder} includes {lower}; remove it" for folder, lowers in ALLOWED.items()
+            for lower in sorted(lowers) if (folder, lower) not in used]
+
+
 def faults_in_table(text: str) -> list[str]:
-    """The differences between the table of docs/development.md and ALLOWED."""
-    faults, listed = [], {}
-    for folder, row in re.findall(r"^\| `lib/(?:\w+/)?(\w+)` \|.*\| *([^|]*?) *\|$", text, re.MULTILINE):
-        words = set(listed) if row == "all of the above" else set(row.split(", ")) - {""}
-        listed[folder] = words
-        if words != ALLOWED.get(folder):
-            faults.append(f"docs/development.md: the row of lib/{folder} is not what ALLOWED says")
-    return faults + [f"docs/development.md: no row for lib/{DOOR_OF[folder]}/{folder}"
-                     for folder in ALLOWED if folder not in listed]
+    """The folders that the table of docs/development.md leaves out."""
+    listed = re.findall(r"^\| `lib/(?:\w+/)?(\w+)` \|", text, re.MULTILINE)
+    return [f"docs/development.md: no row for lib/{DOOR_OF[folder]}/{folder}" for folder in ALLOWED
+            if folder not in listed]
 
 
 def fault_when(files: dict[str, str]) -> list[str]:
@@ -229,14 +234,20 @@ def try_the_rules():
     ):
         found = fault_when({**sound, name: text + "\n"})
         assert any(fault in line for line in found), f"not found: {fault}; but {found}"
-    row = "| `lib/core` | | |\n| `lib/input/mission` | | core |\n"
-    assert len(faults_in_table(row)) == len(ALLOWED) - 2, faults_in_table(row)
-    assert any("row of lib/mission" in line for line in faults_in_table(row.replace("| core", "| ping")))
+    assert len(faults_in_table("| `lib/core` | |\n| `lib/input/mission` | |\n")) == len(ALLOWED) - 2
+    with tempfile.TemporaryDirectory() as folder:
+        header = pathlib.Path(folder) / "lib/input/mission/keys.h"
+        header.parent.mkdir(parents=True)
+        header.write_text('#include "core/text.h"\n')
+        unused = unused_permissions(pathlib.Path(folder))
+        assert len(unused) == sum(map(len, ALLOWED.values())) - 1, unused
+        assert not any("no file of mission includes core" in line for line in unused), unused
 
 
 def main(root: pathlib.Path) -> int:
     try_the_rules()
     files, faults = faults_in_code(root)
+    faults += [] if faults else unused_permissions(root)
     faults += faults_in_tests(root)
     faults += faults_in_table((root / "docs/development.md").read_text())
     print("\n".join(faults) if faults else f"{files} files, no arrow runs the wrong way")
