@@ -8,8 +8,6 @@ wreck     a broken hull with ribs on a rippled bottom, 60 x 60 m
 close_bottom  a rough bottom half a metre below a sonar; besides it close_bottom_surface and
           close_bottom_flocs, which move
 lifeboat  a hull with rails, ropes and gear, of one material, for comparisons of the engines
-minefield a rippled sandy bottom with rocks, 40 x 40 m, and besides it the objects that a mission
-          may place on it: cylinder_mine, cone_mine, tyre, drum, block, rock
 anchor    an anchor as an OBJ in millimetres with z up
 bathymetry  a survey's map of 55 x 50 m of sand as a GeoTIFF in UTM coordinates
 sediments a map of what that ground is made of as a PNG, and backscatter, a map of decibels as a
@@ -31,7 +29,7 @@ import pathlib
 import subprocess
 import sys
 
-from scenes import anchor, bathymetry, close_bottom, lifeboat, minefield, mosaic, seafloor, sediments, stock, tank, wreck
+from scenes import anchor, bathymetry, close_bottom, lifeboat, mosaic, seafloor, sediments, stock, tank, wreck
 from scenes.glb import write_glb
 from scenes.named import files_named, stock_named
 from scenes.obj import write_obj
@@ -49,7 +47,6 @@ def builders(cells: int, area: float, quarterings: int) -> dict:
         "wreck": {"wreck": wreck.build},
         "close_bottom": {"close_bottom": close_bottom.build, **close_bottom.OBJECTS},
         "lifeboat": {"lifeboat": lambda: lifeboat.build(quarterings)},
-        "minefield": {"minefield": minefield.bottom, **minefield.OBJECTS},
         "anchor": {"anchor": anchor.build},
         "bathymetry": {"bathymetry": bathymetry.build},
         "sediments": {"sediments": sediments.colours, "backscatter": sediments.decibels},

@@ -71,13 +71,13 @@ class Examples(Clone):
         text = (self.clone / "configs/tank_imaging.yaml").read_text()
         self.assertIn("file: ../scenes/tank.glb", text)
         (self.clone / "own.yaml").write_text(text.replace("file: ../scenes/tank.glb", """\
-file: "scenes/tank.glb"  # not scenes/generated/block.glb
-  objects: [{name: a, file: 'scenes/generated/drum.glb', position_m: [1, 0, 1]},
+file: "scenes/tank.glb"  # not scenes/generated/wreck.glb
+  objects: [{name: a, file: 'scenes/generated/stock/drum_6.glb', position_m: [1, 0, 1]},
     {name: b, file: scenes/generated/anchor.obj, units: mm, up: z, position_m: [-1, 0, 1]}]""").replace("../", ""))
         words = ("--shard", "1/60", "--out", "out/own", "own.yaml", "--set")
-        result = self.render(*words, "scene.objects.0.file=scenes/generated/rock.glb")
+        result = self.render(*words, "scene.objects.0.file=scenes/generated/stock/stone_1.glb")
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual({path.name for path in made.iterdir()}, {"anchor.obj", "drum.glb", "rock.glb"})
+        self.assertEqual({path.name for path in made.rglob("*.*")}, {"anchor.obj", "drum_6.glb", "stone_1.glb"})
         result = self.render(*words, "scene.objects.0.file=scenes/generated/reef.glb")
         self.assertEqual((result.returncode, len(result.stderr.splitlines())), (2, 1), result.stderr)
         self.assertIn("scenes/generated/reef.glb, which is not there, and no script makes it: "
