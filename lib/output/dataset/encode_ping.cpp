@@ -8,10 +8,8 @@
 #include <vector>
 
 #include "core/clock.h"
-#include "simulate/assembly/engine_at.h"
 #include "simulate/ping/sonar.h"
 #include "simulate/sonar/measured.h"
-#include "simulate/trace/visible_surface.h"
 
 namespace sonarsim {
 
@@ -36,16 +34,6 @@ std::uint32_t count_above(std::span<const float> values, float limit) {
 }
 
 }  // namespace
-
-RenderedPing render_at_pose(const Mission& mission, const Assembly& assembly,
-                            const VisibilityEngine& engine, const PingId& id) {
-    const TimedPose& at = assembly.trajectory[id.pose];
-    const SonarAtPose sonar(mission, assembly.sonars[id.sensor], id.pose);
-    const std::shared_ptr<const VisibilityEngine> now = engine_at(engine, assembly.motions, at.t_s);
-    TracedPing traced = trace(*sonar, assembly.scene, *now, at.T_world_vehicle, id.pose);
-    Ping ping = form_image(traced, sonar->settings, assembly.scene, {mission.seed, id.pose});
-    return {id, sonar, now, std::move(traced), std::move(ping)};
-}
 
 float brightest_pixel(const Ping& ping, std::string_view sensor, std::uint32_t pose) {
     const float brightest = greatest_magnitude(ping.intensity);

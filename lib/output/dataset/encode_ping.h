@@ -2,28 +2,13 @@
 
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "output/dataset/writer.h"
-#include "simulate/sonar/sonar_at_pose.h"
 
 namespace sonarsim {
-
-/// A ping of a mission, and the sonar and the engine that it was made with.
-struct RenderedPing {
-    PingId id;
-    SonarAtPose sonar;
-    std::shared_ptr<const VisibilityEngine> engine;  ///< the scene at the time of the ping
-    TracedPing traced;
-    Ping ping;
-};
-
-/// Traces a ping and forms its image. The mission, the assembly and `engine` must outlive it.
-RenderedPing render_at_pose(const Mission& mission, const Assembly& assembly,
-                            const VisibilityEngine& engine, const PingId& id);
 
 /// The brightest pixel of a ping. std::runtime_error that names the sensor and the pose when any
 /// pixel is NaN or infinite: such an image must never reach the disk.

@@ -6,6 +6,7 @@
 #include "output/dataset/annotated_objects.h"
 #include "output/dataset/json.h"
 #include "output/format/png.h"
+#include "simulate/assembly/inputs_hash.h"
 #include "simulate/sonar/kinds.h"
 
 namespace sonarsim {

@@ -18,19 +18,11 @@
 #include "output/format/npy.h"
 #include "output/format/png.h"
 #include "simulate/assembly/assemble.h"
+#include "simulate/assembly/render_at_pose.h"
 #include "simulate/ping/form_image.h"
 #include "simulate/sonar/kinds.h"
 
 namespace sonarsim {
-
-/// A ping of a dataset: sensor by its index in Mission::sensors, pose by its index on the
-/// trajectory. Ordered by pose, then sensor.
-struct PingId {
-    std::uint32_t pose = 0;
-    std::uint32_t sensor = 0;
-
-    auto operator<=>(const PingId&) const = default;  // NOLINT(modernize-use-nullptr): no pointer
-};
 
 /// The sensor that a writer writes for.
 struct WriterContext {

@@ -5,9 +5,7 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "core/hash.h"
 #include "core/named_at.h"
-#include "core/sha256.h"
 #include "core/text.h"
 #include "input/mission/files.h"
 #include "input/scene/gltf/load.h"
@@ -170,20 +168,6 @@ std::size_t sharing_threshold(EngineKind engine) {
     return may_be_rays ? many_triangles : share_nothing;
 }
 
-template <class T>
-std::string hash_of(const std::vector<T>& values) {
-    return sha256({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
-}
-
-}  // namespace
-
-Assembly assemble(const Mission& mission) {
-    SceneStore models;
-    return assemble(mission, models);
-}
-
-namespace {
-
 /// The materials and the placed files of a scene.
 struct PlacedScene {
     MaterialTable materials;
@@ -195,7 +179,6 @@ PlacedScene place(const Mission& mission, const EngineSettings& settings, SceneS
                   Assembly& assembly, bool places_only = false) {
     ErrorList errors;
     errors.attempt([&] { assembly.trajectory = vehicle_poses(mission); });
-    assembly.reported = navigation_poses(mission, assembly.trajectory);
     for (const SonarConfig& sensor : mission.sensors)
         errors.attempt(
             [&] { assembly.sonars.push_back(checked_sonar(mission, sensor, settings)); });
@@ -214,10 +197,6 @@ PlacedScene place(const Mission& mission, const EngineSettings& settings, SceneS
     return {std::move(materials),
             place_scene(mission, assembly.trajectory, assembly.sonars, models, places_only)};
 }
-
-}  // namespace
-
-namespace {
 
 SceneObjects objects_of(const Mission& mission, const Scene& scene) {
     std::vector<ClassRule> rules;
@@ -248,6 +227,11 @@ void find_poses(const Mission& mission, const Bottom* bottom, Assembly& assembly
 
 }  // namespace
 
+Assembly assemble(const Mission& mission) {
+    SceneStore models;
+    return assemble(mission, models);
+}
+
 void check_places(const Mission& mission, SceneStore& models) {
     Assembly assembly;
     place(mission, engine_settings(mission), models, assembly, true);
@@ -255,36 +239,44 @@ void check_places(const Mission& mission, SceneStore& models) {
 
 Assembly assemble(const Mission& mission, SceneStore& models) {
     Assembly assembly;
+    Scene& scene = assembly.scene;
     assembly.trees = models.trees;
     assembly.fans = models.fans;
+    const Water water{mission.water.density_kg_m3, mission.water.sound_speed_m_s};
+    // 1. The trajectory, the sonars and the materials; then the places of the scene's files.
     const EngineSettings settings = engine_settings(mission);
     auto [materials, parts] = place(mission, settings, models, assembly);
-    assembly.scene = load_scene(parts.files, models, materials, mission.scene.material_default,
-                                {mission.water.density_kg_m3, mission.water.sound_speed_m_s},
-                                sharing_threshold(settings.type));
-    place_moving_scene(assembly.trajectory, parts.motions, assembly.scene);
+    // 2. The scene. Where all of it moves, its motions bound it.
+    scene = load_scene(parts.files, models, materials, mission.scene.material_default, water,
+                       sharing_threshold(settings.type));
+    place_moving_scene(assembly.trajectory, parts.motions, scene);
+    // 3. Poses that look at the scene, before particles are drawn around them.
     find_poses(mission, parts.bottom.get(), assembly);
-    apply_ground_maps(mission.scene, materials,
-                      {mission.water.density_kg_m3, mission.water.sound_speed_m_s}, assembly.scene);
+    // 4. Maps of the ground, which replace materials.
+    apply_ground_maps(mission.scene, materials, water, scene);
     for (std::string& warning : parts.orientation_warnings)
-        assembly.scene.warnings.push_back(std::move(warning));
+        scene.warnings.push_back(std::move(warning));
     assembly.motions = std::move(parts.motions);
     assembly.bottom = std::move(parts.bottom);
     assembly.seabed = std::move(parts.seabed);
+    // 5. The water: its surface, whose warning needs all poses, what swims in it, its layers.
     add_water_surface(mission, assembly);
-    add_particles(mission, assembly.trajectory, assembly.scene, assembly.sonars);
-    add_sound_profiles(mission, assembly.scene, assembly.sonars);
-    warn_of_empty_scatter(mission, assembly.scene);
+    add_particles(mission, assembly.trajectory, scene, assembly.sonars);
+    add_sound_profiles(mission, scene, assembly.sonars);
+    warn_of_empty_scatter(mission, scene);
+    // 6. Objects for labels: nodes and particles.
     if (!mission.output.labels.empty() || !mission.classes.empty())
-        assembly.objects = objects_of(mission, assembly.scene);
-    const std::string refusal = unsupported(settings, assembly.scene);
+        assembly.objects = objects_of(mission, scene);
+    // 7. The sonars get ready for the materials of the scene, then for its targets.
+    const std::string refusal = unsupported(settings, scene);
     if (!refusal.empty()) throw InputError(refusal);
     for (Sonar& sonar : assembly.sonars)
-        prepare_for(assembly.scene, sonar);
-    if (!assembly.scene.sound_profile) find_targets(assembly.sonars, assembly.scene);
+        prepare_for(scene, sonar);
+    if (!scene.sound_profile) find_targets(assembly.sonars, scene);
     assembly.inputs = inputs_of(mission, models);
-    Brightness brightness = find_full_scales(mission, assembly.scene, assembly.trajectory,
-                                             assembly.motions, assembly.sonars, *models.trees);
+    // 8. The white of pictures, by pings of the finished sonars.
+    Brightness brightness = find_full_scales(mission, scene, assembly.trajectory, assembly.motions,
+                                             assembly.sonars, *models.trees);
     assembly.full_scales = std::move(brightness.full_scales);
     assembly.caster = std::move(brightness.caster);
     return assembly;
@@ -292,57 +284,6 @@ Assembly assemble(const Mission& mission, SceneStore& models) {
 
 std::vector<Pose> body_poses(const Assembly& assembly, double t_s) {
     return poses_at(assembly.motions, t_s);
-}
-
-std::string inputs_hash(const Assembly& assembly) {
-    const Scene& scene = assembly.scene;
-    std::string text = hash_of(scene.vertices) + hash_of(scene.triangles) +
-                       hash_of(scene.triangle_material) + hash_of(scene.triangle_instance);
-    for (const double x : {scene.origin.x(), scene.origin.y(), scene.origin.z()}) {
-        text += " " + number_text(x);
-    }
-    for (const Material& material : scene.materials) {
-        text += "\n" + material.name + "\n" + number_text(material.density_kg_m3) + " " +
-                number_text(material.sound_speed_m_s) + " " + number_text(material.lambert_db) +
-                " " + number_text(material.slope_rms_deg);
-        for (const auto& [name, value] :
-             {std::pair{"wall_mm", material.wall_mm},
-              std::pair{"roughness_mm", material.roughness_mm},
-              std::pair{"grain_phi", material.grain_phi},
-              std::pair{"loss_parameter", material.loss_parameter},
-              std::pair{"spectral_strength_cm4", material.spectral_strength_cm4},
-              std::pair{"spectral_exponent", material.spectral_exponent},
-              std::pair{"volume_parameter", material.volume_parameter}}) {
-            if (value) text += std::string(" ") + name + " " + number_text(*value);
-        }
-    }
-    for (const std::string& instance : scene.instances)
-        text += "\n" + instance;
-    for (std::size_t i = 0; i < scene.instance_classes.size(); ++i) {
-        if (scene.instance_classes[i].empty()) continue;
-        text += "\nclass " + std::to_string(i) + " " + scene.instance_classes[i];
-    }
-    for (const Body& body : scene.bodies) {
-        text += "\nbody " + std::to_string(body.instance) + hash_of(body.vertices) +
-                hash_of(body.triangles) + hash_of(body.triangle_material);
-    }
-    for (const SharedMesh& mesh : scene.shared_meshes) {
-        text += "\nmesh " + hash_of(mesh.vertices) + hash_of(mesh.triangles) +
-                hash_of(mesh.triangle_material);
-    }
-    for (const MeshCopy& copy : scene.copies) {
-        text += "\ncopy " + std::to_string(copy.mesh) + " " + std::to_string(copy.instance);
-        for (const double x : copy.T_world_mesh.matrix().topRows<3>().reshaped())
-            text += " " + number_text(x);
-    }
-    if (scene.maps) text += scene.maps->identity();
-    for (const Sonar& sonar : assembly.sonars) {
-        if (const auto& profile = sonar.sound_profile)
-            text += "\nprofile " + hash_of(profile->height_m) + hash_of(profile->speed_m_s);
-    }
-    for (const Trajectory& motion : assembly.motions)
-        text += "\n" + write_tum(motion);
-    return fnv1a_128(text + "\n" + write_tum(assembly.trajectory));
 }
 
 }  // namespace sonarsim

@@ -56,8 +56,4 @@ void check_places(const Mission& mission, SceneStore& models);
 /// The poses of the scene's bodies at a time of the trajectory, world.
 std::vector<Pose> body_poses(const Assembly& assembly, double t_s);
 
-/// 32 hexadecimal digits that differ when the scene, its materials or the poses differ: a hash of
-/// the contents of the files that a mission names.
-std::string inputs_hash(const Assembly& assembly);
-
 }  // namespace sonarsim
