@@ -20,11 +20,12 @@ std::string short_text(double value) {
     return text.substr(0, e + 1) + (negative ? "-" : "") + exponent;
 }
 
-std::string range_text(const KeyReference& key) {
-    std::string text;
+/// "number, 0 to 1" or "`y`, `z`".
+std::string value_text(const KeyReference& key) {
+    std::string text = key.type == "choice" ? "" : key.type;
     if (key.limits) {
         const Limits& limits = *key.limits;
-        text = (limits.low_allowed ? "" : "above ") + short_text(limits.low) + " to ";
+        text += (limits.low_allowed ? ", " : ", above ") + short_text(limits.low) + " to ";
         text += limits.high > 1e18 ? "2^64 - 1" : short_text(limits.high);
     }
     for (const std::string& choice : key.choices)
@@ -71,12 +72,10 @@ std::string reference_markdown(const std::vector<SectionReference>& sections) {
     std::string text;
     for (const SectionReference& section : sections) {
         text += (text.empty() ? "### " : "\n### ") + title(section) + "\n\n";
-        text += "| key | type | default | range | meaning |\n|---|---|---|---|---|\n";
+        text += "| key | value | default | meaning |\n|---|---|---|---|\n";
         for (const KeyReference& key : section.keys) {
-            text += "| `" + key.name + "` | " + key.type;
-            text += (key.unit.empty() ? "" : ", " + key.unit) + " | ";
-            text += default_text(key, kinds) + " | ";
-            text += range_text(key) + " | " + key.meaning + " |\n";
+            text += "| `" + key.name + "` | " + value_text(key) + " | ";
+            text += default_text(key, kinds) + " | " + key.meaning + " |\n";
         }
         if (!section.checks.empty()) text += "\n";
         for (const std::string& check : section.checks)

@@ -147,9 +147,7 @@ inline constexpr double largest_scale = 1e6;
 template <class Visitor>
 void describe_mesh(Visitor& v, MeshConfig& c) {
     v.choice("units", c.units, length_units, "unit of the file's lengths");
-    v.choice(
-        "up", c.up, up_axes,
-        "axis of the file that points up; glTF says y, and STL, PLY and OBJ files often have z");
+    v.choice("up", c.up, up_axes, "axis of the file that points up; glTF has y, others often z");
     v.note_given("up", c.up_given);
 }
 
