@@ -14,7 +14,6 @@ sediments a map of what that ground is made of as a PNG, and backscatter, a map 
           GeoTIFF
 stock     forty kinds of things, each in six drawn examples: stock/tyre_1.glb and so on, for
           `scatter: [{stock: tyre}]`
-mosaic    a drawn side-scan mosaic of that ground as a GeoTIFF of decibels, with gaps below the tracks
 
     ./scripts/make_scenes.py --for mission.yaml [options of sonarsim]
 
@@ -29,7 +28,7 @@ import pathlib
 import subprocess
 import sys
 
-from scenes import anchor, bathymetry, close_bottom, lifeboat, mosaic, seafloor, sediments, stock, tank, wreck
+from scenes import anchor, bathymetry, close_bottom, lifeboat, seafloor, sediments, stock, tank, wreck
 from scenes.glb import write_glb
 from scenes.named import files_named, stock_named
 from scenes.obj import write_obj
@@ -50,13 +49,12 @@ def builders(cells: int, area: float, quarterings: int) -> dict:
         "anchor": {"anchor": anchor.build},
         "bathymetry": {"bathymetry": bathymetry.build},
         "sediments": {"sediments": sediments.colours, "backscatter": sediments.decibels},
-        "mosaic": {"mosaic": mosaic.decibels},
         "stock": {f"stock/{name}": build for name, build in stock.files().items()},
     }
 
 
 def file_name(name: str) -> str:
-    suffixes = {"anchor": ".obj", "bathymetry": ".tif", "sediments": ".png", "backscatter": ".tif", "mosaic": ".tif"}
+    suffixes = {"anchor": ".obj", "bathymetry": ".tif", "sediments": ".png", "backscatter": ".tif"}
     return name + suffixes.get(name, ".glb")
 
 
@@ -65,7 +63,7 @@ def write_parts(file: pathlib.Path, name: pathlib.PurePath, parts: list) -> str:
     if name.suffix in (".tif", ".png"):
         if name.suffix == ".png":
             size = sediments.write_png(file, parts)
-        elif name.stem in ("backscatter", "mosaic"):
+        elif name.stem == "backscatter":
             size = bathymetry.write_geotiff(file, parts, sediments.MOSAIC_PIXEL_M)
         else:
             size = bathymetry.write_geotiff(file, parts)

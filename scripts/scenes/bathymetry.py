@@ -24,19 +24,15 @@ def height(x, y, relief):
     return z
 
 
+def pixels(rows, columns, size_m, value):
+    """value(x, y) at the middle of each pixel: rows from north to south, each from west to east."""
+    return [[value((column + 0.5) * size_m, (rows - row - 0.5) * size_m) for column in range(columns)] for row in range(rows)]
+
+
 def build():
-    """The heights: rows from north to south, each from west to east."""
+    """The heights, with a hole that nobody surveyed."""
     relief = Relief(9.0, 0.25, 5, 11)
-    rows = []
-    for row in range(ROWS):
-        y = (ROWS - row - 0.5) * PIXEL_M
-        values = []
-        for column in range(COLUMNS):
-            x = (column + 0.5) * PIXEL_M
-            unknown = (x - 50) ** 2 + (y - 45) ** 2 < 9
-            values.append(NO_DATA if unknown else height(x, y, relief))
-        rows.append(values)
-    return rows
+    return pixels(ROWS, COLUMNS, PIXEL_M, lambda x, y: NO_DATA if (x - 50) ** 2 + (y - 45) ** 2 < 9 else height(x, y, relief))
 
 
 def write_geotiff(path, rows, pixel_m=PIXEL_M):

@@ -4,7 +4,7 @@ import math
 import struct
 import zlib
 
-from .bathymetry import COLUMNS, PIXEL_M, ROWS
+from .bathymetry import COLUMNS, PIXEL_M, ROWS, pixels
 from .noise import Relief
 
 SAND, MUD, GRAVEL, ROCK = (0xC8, 0xB4, 0x78), (0x6E, 0x5A, 0x46), (0x96, 0x96, 0x8C), (0x50, 0x50, 0x5A)
@@ -14,44 +14,27 @@ LETTER = ((10, 11.5, 6, 17), (10, 17, 15.5, 17), (10, 15, 11, 12.5))
 
 
 def colours():
-    """Colours: rows from north to south, each from west to east. Mud lies in the channel, rock on the mound."""
+    """The pixels. Mud lies in the channel, rock on the mound."""
     border = Relief(6.0, 1.5, 3, 23)
-    rows = []
-    for row in range(ROWS):
-        y = (ROWS - row - 0.5) * PIXEL_M
-        line = []
-        for column in range(COLUMNS):
-            x = (column + 0.5) * PIXEL_M
-            off = border(x, y)
-            if math.hypot(x - 18, y - 36) < 2.5 + 0.5 * off:
-                line.append(ROCK)
-            elif abs(x - 38 - 4 * math.sin(0.1 * y)) < 4 + off:
-                line.append(MUD)
-            elif math.hypot(x - 26, y - 12) < 6 + 2 * off:
-                line.append(GRAVEL)
-            else:
-                line.append(SAND)
-        rows.append(line)
-    return rows
+
+    def colour(x, y):
+        off = border(x, y)
+        if math.hypot(x - 18, y - 36) < 2.5 + 0.5 * off:
+            return ROCK
+        if abs(x - 38 - 4 * math.sin(0.1 * y)) < 4 + off:
+            return MUD
+        return GRAVEL if math.hypot(x - 26, y - 12) < 6 + 2 * off else SAND
+    return pixels(ROWS, COLUMNS, PIXEL_M, colour)
 
 
 def decibels():
-    """Decibels, rows from north to south, each from west to east: a texture, the marks of a trawl and a letter."""
+    """The pixels: a texture, the marks of a trawl and a letter."""
     texture = Relief(3.0, 3.0, 3, 31)
-    rows = []
-    for row in range(round(50 / MOSAIC_PIXEL_M)):
-        y = 50 - (row + 0.5) * MOSAIC_PIXEL_M
-        line = []
-        for column in range(round(55 / MOSAIC_PIXEL_M)):
-            x = (column + 0.5) * MOSAIC_PIXEL_M
-            value = texture(x, y)
-            if abs(y - 14 - 0.25 * x) < 0.5:
-                value -= 6
-            if any(west < x < east and south < y < north for west, east, south, north in LETTER):
-                value += 10
-            line.append(value)
-        rows.append(line)
-    return rows
+
+    def decibel(x, y):
+        value = texture(x, y) - (6 if abs(y - 14 - 0.25 * x) < 0.5 else 0)
+        return value + (10 if any(west < x < east and south < y < north for west, east, south, north in LETTER) else 0)
+    return pixels(round(50 / MOSAIC_PIXEL_M), round(55 / MOSAIC_PIXEL_M), MOSAIC_PIXEL_M, decibel)
 
 
 def write_png(path, rows):
