@@ -149,14 +149,14 @@ std::string text_of(const Findings& f) {
 /// The images that a sensor leaves. A ping counts once, whatever files show it.
 std::size_t count_images(const Writers& writers, std::size_t pings) {
     std::size_t images = 0;
-    bool of_pings = false;
+    bool has_pictures = false;
     for (const auto& writer : writers) {
         const auto* file = std::get_if<PingFile>(&writer.per_ping);
-        of_pings = of_pings || (file != nullptr && !file->title.empty());
+        has_pictures = has_pictures || (file != nullptr && !file->title.empty());
         images += std::ranges::count_if(
             writer.products, [](const std::string& product) { return product.ends_with(".png"); });
     }
-    return of_pings ? images + pings : images;
+    return has_pictures ? images + pings : images;
 }
 
 /// InputError for a folder in which nothing can be written.

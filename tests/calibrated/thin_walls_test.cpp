@@ -178,7 +178,7 @@ TEST_SUITE("calibrated") {
         }
     }
 
-    // Pieces of a small bottle overlap, so the pencils through them meet the same surface twice.
+    // Pieces of a small bottle overlap, so the bundles through them meet the same surface twice.
     // The mean may be off by four standard errors.
     TEST_CASE("thin walls: speckle keeps the mean echo of a body in a bottle") {
         constexpr std::uint64_t seeds = 400;

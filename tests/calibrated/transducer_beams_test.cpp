@@ -36,8 +36,8 @@ TEST_SUITE("calibrated") {
         CHECK(std::fabs(std::abs(unfocused_pattern(array, 0.0, wavelength, 0.0)) - 1.0) < 1e-9);
     }
 
-    // 0.1 degrees at 900 kHz, 0.83 m long: the far field begins beyond 400 m. Sums fill the table
-    // of a narrow view, transforms that of a wide one.
+    // 0.1 degrees at 900 kHz, 0.83 m long: the far field begins beyond 400 m. A narrow view and a
+    // wide one.
     TEST_CASE("near field: the table of a long array is the pattern") {
         struct Case {
             double side_lobe_db, frequency_hz, most_sine;

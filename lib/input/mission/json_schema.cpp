@@ -123,8 +123,8 @@ class SchemaMaker {
         json["description"] = key.meaning;
         // Kinds of sonar have other defaults.
         const std::string kind = sonar.substr(0, sonar.find(','));
-        for (const auto& [of_kind, yaml] : key.defaults) {
-            if (of_kind == kind || of_kind.empty()) json["default"] = default_json(yaml);
+        for (const auto& [default_kind, yaml] : key.defaults) {
+            if (default_kind == kind || default_kind.empty()) json["default"] = default_json(yaml);
         }
         return json;
     }

@@ -123,8 +123,8 @@ std::vector<std::string> extremes_of(const VaryConfig& rule) {
 /// The limits of the number that a key names; none if it cannot be drawn for pings.
 std::optional<Limits> limits_of(const Mission& mission, const std::string& key) {
     VehicleConfig vehicle;
-    const NumberList of_vehicle = numbers_of(vehicle);
-    if (const VaryingNumber* const found = of_vehicle.find(key)) return found->limits;
+    const NumberList vehicle_numbers = numbers_of(vehicle);
+    if (const VaryingNumber* const found = vehicle_numbers.find(key)) return found->limits;
     for (SonarConfig sensor : mission.sensors) {
         const NumberList numbers = numbers_of(sensor, section_of(sensor.name));
         if (const VaryingNumber* const found = numbers.find(key)) return found->limits;

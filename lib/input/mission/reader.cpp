@@ -24,9 +24,9 @@ std::string misplaced(const std::string& key, const std::vector<std::string>& kn
         return std::ranges::find(known, name) != known.end();
     };
     if (knows("sensors")) {
-        constexpr std::array of_sensors{"instrument", "model",       "mount",       "multipath",
-                                        "noise",      "range_max_m", "range_min_m", "streaks"};
-        if (std::ranges::find(of_sensors, key) != of_sensors.end())
+        constexpr std::array sensor_keys{"instrument", "model",       "mount",       "multipath",
+                                         "noise",      "range_max_m", "range_min_m", "streaks"};
+        if (std::ranges::find(sensor_keys, key) != sensor_keys.end())
             return "; it belongs to a sensor: sensors.NAME." + key;
     }
     if (!knows("range_max_m")) return "";

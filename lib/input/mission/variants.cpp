@@ -13,10 +13,10 @@ namespace sonarsim {
 namespace {
 
 constexpr std::uint32_t all_variants = 0xFFFFFFFFU;
-constexpr std::uint32_t of_the_seed = 0xFFFFFFFFU;
+constexpr std::uint32_t no_sensor = 0xFFFFFFFFU;
 
 std::uint64_t seed_of(std::uint64_t seed, std::uint32_t variant) {
-    const PhiloxKey key = stream_key(seed, of_the_seed, variant, Stream::variation);
+    const PhiloxKey key = stream_key(seed, no_sensor, variant, Stream::variation);
     return (std::uint64_t{key.k1} << 32) | key.k0;
 }
 

@@ -3,16 +3,16 @@
 namespace sonarsim {
 
 std::vector<Eigen::AlignedBox3d> boxes_of_copies(const Scene& scene) {
-    std::vector<Eigen::AlignedBox3d> of_meshes;
+    std::vector<Eigen::AlignedBox3d> mesh_boxes;
     for (const SharedMesh& mesh : scene.shared_meshes) {
-        Eigen::AlignedBox3d& box = of_meshes.emplace_back();
+        Eigen::AlignedBox3d& box = mesh_boxes.emplace_back();
         for (const Eigen::Vector3f& vertex : mesh.vertices)
             box.extend(vertex.cast<double>());
     }
     std::vector<Eigen::AlignedBox3d> boxes;
     boxes.reserve(scene.copies.size());
     for (const MeshCopy& copy : scene.copies) {
-        const Eigen::AlignedBox3d& box = of_meshes[copy.mesh];
+        const Eigen::AlignedBox3d& box = mesh_boxes[copy.mesh];
         boxes.push_back(box.isEmpty() ? box : box.transformed(copy.T_world_mesh));
     }
     return boxes;

@@ -61,13 +61,13 @@ std::string table(const std::string& title, const std::vector<std::string>& name
 
 std::string describe_scene(const Scene& scene) {
     Share whole;
-    std::vector<Share> of_material(scene.materials.size());
-    std::vector<Share> of_instance(scene.instances.size());
+    std::vector<Share> material_shares(scene.materials.size());
+    std::vector<Share> instance_shares(scene.instances.size());
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
         const double area = area_of(scene, scene.triangles[i]);
         whole.add(area);
-        of_material[scene.triangle_material[i]].add(area);
-        of_instance[scene.triangle_instance[i]].add(area);
+        material_shares[scene.triangle_material[i]].add(area);
+        instance_shares[scene.triangle_instance[i]].add(area);
     }
     std::vector<std::string> materials;
     for (const Material& material : scene.materials)
@@ -91,8 +91,8 @@ std::string describe_scene(const Scene& scene) {
             "rounding   {:.3f} m, since vertices lie far from the origin of their file or node\n",
             scene.vertex_rounding_m);
     }
-    return out + table("material", materials, of_material) +
-           table("instance", scene.instances, of_instance);
+    return out + table("material", materials, material_shares) +
+           table("instance", scene.instances, instance_shares);
 }
 
 std::string describe_materials(const Scene& scene, const MaterialTable& table, const Water& water) {

@@ -35,17 +35,17 @@ Trajectory reported_poses(const Trajectory& truth, const NavigationErrors& error
     for (std::size_t i = 0; i < out.size(); ++i) {
         // Counter 0 is left out, so that poses keep their draws.
         const auto counter = static_cast<std::uint32_t>(i) + 1;
-        const TwoNormals of_position = two_normals(counter, 0, draws);
-        const TwoNormals of_tilt = two_normals(counter, 1, draws);
-        const TwoNormals of_others = two_normals(counter, 2, draws);
+        const TwoNormals position_draws = two_normals(counter, 0, draws);
+        const TwoNormals tilt_draws = two_normals(counter, 1, draws);
+        const TwoNormals other_draws = two_normals(counter, 2, draws);
         Pose& pose = out[i].T_world_vehicle;
-        pose.translation += Eigen::Vector3d(errors.position_m * of_position.first,
-                                            errors.position_m * of_position.second,
-                                            errors.depth_m * of_others.first);
+        pose.translation += Eigen::Vector3d(errors.position_m * position_draws.first,
+                                            errors.position_m * position_draws.second,
+                                            errors.depth_m * other_draws.first);
         pose.rotation =
-            (rotation_from_rpy(0.0, 0.0, errors.heading_rad * of_others.second) * pose.rotation *
-             rotation_from_rpy(errors.tilt_rad * of_tilt.first, errors.tilt_rad * of_tilt.second,
-                               0.0))
+            (rotation_from_rpy(0.0, 0.0, errors.heading_rad * other_draws.second) * pose.rotation *
+             rotation_from_rpy(errors.tilt_rad * tilt_draws.first,
+                               errors.tilt_rad * tilt_draws.second, 0.0))
                 .normalized();
     }
     return out;

@@ -176,7 +176,7 @@ std::string difference_between(const Json& found, const Json& expected) {
     const auto differs = [&](const char* key) {
         return found.value(key, Json()) != expected.value(key, Json());
     };
-    if (differs("mission_hash")) return of_another_mission;
+    if (differs("mission_hash")) return another_mission;
     if (differs("inputs_hash"))
         return "of this mission made from other scene, material or trajectory files" +
                changed_inputs(found, expected);

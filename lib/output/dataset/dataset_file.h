@@ -47,7 +47,7 @@ DatasetFile parse_description(nlohmann::ordered_json json, const std::string& fi
 /// The dataset.json of a folder that must hold a dataset: else InputError.
 DatasetFile require_dataset(const std::filesystem::path& folder);
 
-inline constexpr const char* of_another_mission = "of another mission";
+inline constexpr const char* another_mission = "of another mission";
 
 /// The difference between two descriptions as the end of a sentence that begins with "a dataset":
 /// "of another mission". Empty if both are the same dataset, complete or not. Their keys need not

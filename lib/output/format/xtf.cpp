@@ -55,7 +55,7 @@ void put_time(std::string& record, double t_s) {
     const auto day = floor<days>(time);
     const year_month_day date(day);
     const hh_mm_ss clock(time - day);
-    const auto of_year = (day - sys_days(date.year() / January / 1)).count() + 1;
+    const auto day_of_year = (day - sys_days(date.year() / January / 1)).count() + 1;
     put(record, 14, static_cast<std::uint16_t>(static_cast<int>(date.year())));
     put(record, 16, static_cast<std::uint8_t>(static_cast<unsigned>(date.month())));
     put(record, 17, static_cast<std::uint8_t>(static_cast<unsigned>(date.day())));
@@ -63,7 +63,7 @@ void put_time(std::string& record, double t_s) {
     put(record, 19, static_cast<std::uint8_t>(clock.minutes().count()));
     put(record, 20, static_cast<std::uint8_t>(clock.seconds().count()));
     put(record, 21, static_cast<std::uint8_t>(clock.subseconds().count()));
-    put(record, 22, static_cast<std::uint16_t>(of_year));
+    put(record, 22, static_cast<std::uint16_t>(day_of_year));
 }
 
 void put_float(std::string& record, std::size_t at, double value) {

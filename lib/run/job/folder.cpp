@@ -131,7 +131,7 @@ DatasetFile require_part(const fs::path& folder, const fs::path& first) {
     DatasetFile dataset = require_dataset(folder);
     std::string difference = difference_between(dataset.json, require_dataset(first).json);
     if (difference.empty()) return dataset;
-    if (difference == of_another_mission)
+    if (difference == another_mission)
         difference += mission_differences(folder, read_file(first / mission_name, largest_mission));
     throw InputError({folder.string()}, "holds a dataset " + difference + ", seen from " +
                                             first.string() +
@@ -177,7 +177,7 @@ FolderState inspect_folder(const fs::path& folder, const Json& description,
     const Json found = own_description(folder);
     if (overwrite) return FolderState::fresh;
     std::string difference = difference_between(found, description);
-    if (difference == of_another_mission) difference += mission_differences(folder, mission);
+    if (difference == another_mission) difference += mission_differences(folder, mission);
     if (!difference.empty()) refuse(folder, "holds a dataset " + difference, or_overwrite);
     return found.value("complete", Json()) == true ? FolderState::complete
                                                    : FolderState::unfinished;

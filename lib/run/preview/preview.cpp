@@ -61,8 +61,8 @@ std::string title_of(const Sonar& sonar, std::uint32_t pose, double white) {
                        view.range_bins, view.beams);
 }
 
-/// `engine: auto` becomes the rays, since trying the engines takes longer than the few pings of a
-/// preview.
+/// `engine: auto` becomes the rays: it chooses by the views of the mission, and a preview has
+/// coarser ones.
 EngineSettings settings_of_preview(const Mission& mission) {
     EngineSettings settings = engine_settings(mission);
     if (settings.type == EngineKind::automatic) settings.type = EngineKind::rays;

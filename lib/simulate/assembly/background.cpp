@@ -25,16 +25,16 @@ std::vector<double> surfaces_of(const Scene& scene, const SceneObjects& objects)
     for (std::size_t k = 0; k < scene.triangles.size(); ++k)
         areas[objects.object_of(scene.triangle_instance[k])] +=
             area_of(scene.vertices, scene.triangles[k]);
-    std::vector<double> of_mesh;
+    std::vector<double> mesh_areas;
     for (const SharedMesh& mesh : scene.shared_meshes) {
         double area = 0.0;
         for (const auto& triangle : mesh.triangles)
             area += area_of(mesh.vertices, triangle);
-        of_mesh.push_back(area);
+        mesh_areas.push_back(area);
     }
     for (const MeshCopy& copy : scene.copies) {
         const double scale = copy.T_world_mesh.linear().col(0).norm();
-        areas[objects.object_of(copy.instance)] += scale * scale * of_mesh[copy.mesh];
+        areas[objects.object_of(copy.instance)] += scale * scale * mesh_areas[copy.mesh];
     }
     return areas;
 }

@@ -104,10 +104,11 @@ void apply_ground_maps(const SceneConfig& config, const MaterialTable& table, co
     if (config.sediment_map) {
         const std::string section = "scene.sediment_map";
         const SedimentMapConfig& map = *config.sediment_map;
-        const auto of_scene = add_materials(map.materials, table, map.place, scene);
+        const auto scene_materials = add_materials(map.materials, table, map.place, scene);
         resolve_materials(scene, table, water);
         materials = read_map(map, [&] {
-            return read_material_map(rule_of(map, section, scene), read_image(map.file), of_scene);
+            return read_material_map(rule_of(map, section, scene), read_image(map.file),
+                                     scene_materials);
         });
         warn_of_place(materials->frame, section, scene);
     }

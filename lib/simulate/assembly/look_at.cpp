@@ -23,10 +23,10 @@ constexpr std::uint32_t tries = 1000;
 /// World boxes around the objects at rest that are no background; empty for the others.
 std::vector<Eigen::AlignedBox3d> boxes_of_objects(const Scene& scene, const SceneObjects& objects) {
     std::vector<Eigen::AlignedBox3d> boxes(objects.objects.size());
-    const std::vector<Eigen::AlignedBox3d> of_instances = boxes_of_instances(scene);
-    for (std::uint32_t i = 0; i < of_instances.size(); ++i) {
+    const std::vector<Eigen::AlignedBox3d> instance_boxes = boxes_of_instances(scene);
+    for (std::uint32_t i = 0; i < instance_boxes.size(); ++i) {
         const std::uint32_t object = objects.object_of(i);
-        if (!objects.is_background(object)) boxes[object].extend(of_instances[i]);
+        if (!objects.is_background(object)) boxes[object].extend(instance_boxes[i]);
     }
     return boxes;
 }

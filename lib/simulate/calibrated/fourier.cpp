@@ -58,7 +58,7 @@ Value plus(const Value& a, float b, const Value& c) {
 
 /// The transform of 3 or 5 numbers that lie `step` apart.
 template <bool inverse>
-std::array<Value, 3> of_three(const ComplexLanes* in, std::ptrdiff_t step) {
+std::array<Value, 3> transform_3(const ComplexLanes* in, std::ptrdiff_t step) {
     constexpr float sine = 0.866025404F;  // sine of a third of a turn
     const Value a = load(in[0]);
     const Value b = load(in[step]);
@@ -70,7 +70,7 @@ std::array<Value, 3> of_three(const ComplexLanes* in, std::ptrdiff_t step) {
 }
 
 template <bool inverse>
-std::array<Value, 5> of_five(const ComplexLanes* in, std::ptrdiff_t step) {
+std::array<Value, 5> transform_5(const ComplexLanes* in, std::ptrdiff_t step) {
     // Cosines and sines of one and of two fifths of a turn.
     constexpr float c1 = 0.309016994F, c2 = -0.809016994F;
     constexpr float s1 = 0.951056516F, s2 = 0.587785252F;
@@ -112,9 +112,9 @@ void Fourier::odd_step(const ComplexLanes* from, ComplexLanes* to) const {
         ComplexLanes* const out = to + static_cast<std::ptrdiff_t>(radix) * p;
         const auto values = [&] {
             if constexpr (radix == 3) {
-                return of_three<inverse>(from + p, part);
+                return transform_3<inverse>(from + p, part);
             } else {
-                return of_five<inverse>(from + p, part);
+                return transform_5<inverse>(from + p, part);
             }
         }();
         store(out[0], values[0]);

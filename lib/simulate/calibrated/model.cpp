@@ -137,13 +137,13 @@ void set_info(CalibratedModel& model, const View& view) {
     info.map_strengths = MapStrengths::at_points;
     info.is_slow = true;
     const int columns =
-        std::visit([](const auto& of_model) { return columns_of(of_model); }, model.beams);
-    const double of_grid = 2.0 * columns * model.equation.rows * sizeof(float);
+        std::visit([](const auto& beams) { return columns_of(beams); }, model.beams);
+    const double grid_bytes = 2.0 * columns * model.equation.rows * sizeof(float);
     // Multipath has a grid of its own, sediment has two. Ranks of samples need the mean image.
     info.working_bytes = (1.0 + (model.instrument.below_bottom ? 2.0 : 0.0) +
                           (model.detected.changes() ? 1.0 : 0.0)) *
-                         of_grid;
-    info.multipath_bytes = of_grid;
+                         grid_bytes;
+    info.multipath_bytes = grid_bytes;
     if (std::ranges::max(model.noise_values) > 0.0F) info.mean_noise = model.noise_values;
     info.echo_gain.assign(model.row_gain.begin(), model.row_gain.end());
     info.cell.range_bins = model.target_cell.depth_m / view.bin_m();
@@ -169,7 +169,7 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
     model.instrument = instrument;
     model.amplitude_taps = range_taps(resolution_bins, side_lobe_db, false);
     model.power_taps = range_taps(resolution_bins, side_lobe_db, true);
-    const std::vector<float> of_noise = noise_taps(resolution_bins, side_lobe_db);
+    const std::vector<float> noise_filter = noise_taps(resolution_bins, side_lobe_db);
     model.speckle = instrument.speckle.mode;
     model.sound_speed_m_s = water.sound_speed_m_s;
     model.water_density_kg_m3 = water.density_kg_m3;
@@ -189,11 +189,11 @@ CalibratedModel calibrated_model(const InstrumentConfig& instrument, const Water
         row_noises(model.row_gain, noise, receiver.converter_noise_db);
     model.noise_values = noise_values(model.row_gain, row_noise);
     if (beam.aperture == Aperture::line) {
-        model.beams = array_beams(beam, sines.middles, row_noise, of_noise);
+        model.beams = array_beams(beam, sines.middles, row_noise, noise_filter);
         model.cones = ConeBeams(sines.edges);
         model.info.guard_beams = guard_beams_of(beam, view);
     } else {
-        model.beams = transducer_beams(beam, view, model.wavelength_m, row_noise, of_noise);
+        model.beams = transducer_beams(beam, view, model.wavelength_m, row_noise, noise_filter);
     }
     model.limits = point_limits(beam, view, model.beams);
     model.equation = {.range_min_m = static_cast<float>(view.range_min_m),

@@ -30,13 +30,13 @@ Eigen::Vector2d PieceStrengths::half_of_piece(const Sample& sample,
 void PieceStrengths::apply(std::span<const Sample> surface, const PatchBlock& pieces,
                            const PointLimits* limits, PatchBlock::Array<float>& power) const {
     if (!maps_) return;
-    const Sample* of_half = nullptr;
+    const Sample* last_sample = nullptr;
     Eigen::Vector2d half_m = Eigen::Vector2d::Zero();
     for (int k = 0; k < pieces.count; ++k) {
         const Sample& sample = surface[pieces.sample[k]];
         if (sample.region > 0 || !(power[k] > 0.0F) || !maps_->lie_on(sample.instance)) continue;
-        if (limits && &sample != of_half) {
-            of_half = &sample;
+        if (limits && &sample != last_sample) {
+            last_sample = &sample;
             half_m = half_of_piece(sample, *limits);
         }
         const Eigen::Vector3f point{pieces.x[k], pieces.y[k], pieces.z[k]};

@@ -77,13 +77,13 @@ RangeTaps range_taps(double resolution_bins, double side_lobe_db, bool squared) 
         if (m > 0) neighbours += taps[m] * taps[m - 1];
     }
     // A spline cannot follow a pulse as short as a bin, so it is scaled to the pulse's energy.
-    const double of_spline = squared ? sum : 2.0 / 3.0 * power + 1.0 / 3.0 * neighbours;
+    const double spline_energy = squared ? sum : 2.0 / 3.0 * power + 1.0 / 3.0 * neighbours;
     double energy = 0.0;
     for (int k = -steps * out.reach; k <= steps * out.reach; ++k) {
         const double h = response(static_cast<double>(k) / steps);
         energy += (squared ? h : h * h) / steps;
     }
-    const double scale = squared ? energy / of_spline : std::sqrt(energy / of_spline);
+    const double scale = squared ? energy / spline_energy : std::sqrt(energy / spline_energy);
     for (const double tap : taps)
         out.taps.push_back(static_cast<float>(scale * tap));
     out.scalloping_gain = static_cast<float>((2.0 / 3.0 * power + 1.0 / 3.0 * neighbours) / power);

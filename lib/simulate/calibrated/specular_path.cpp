@@ -29,11 +29,11 @@ SpecularPath specular_path(const BouncePath& path, const Sample& sample, const W
     SpecularPath out;
     out.point.at = water ? water->reflect_point(p) : p;
     out.image_source.at = t * sample.position;
-    const auto move = [&](const Eigen::Vector3f& edge, Eigen::Vector3f& of_point,
-                          Eigen::Vector3f& of_image) {
+    const auto move = [&](const Eigen::Vector3f& edge, Eigen::Vector3f& point_change,
+                          Eigen::Vector3f& image_change) {
         const float stretch = -t * edge.dot(path.normal) / along;
-        of_point = reflected(t * edge + stretch * through);
-        of_image = t * edge + stretch * sample.position;
+        point_change = reflected(t * edge + stretch * through);
+        image_change = t * edge + stretch * sample.position;
     };
     move(sample.edge_u, out.point.u, out.image_source.u);
     move(sample.edge_v, out.point.v, out.image_source.v);

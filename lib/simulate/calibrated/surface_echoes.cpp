@@ -226,9 +226,9 @@ SurfaceEchoes CalibratedModel::surface_echoes(const TracedPing& traced, const Vi
     if (!is_prepared_for(scene))
         return prepared_for(scene)->surface_echoes(traced, view, scene, request, use);
     return std::visit(
-        [&]<class Beams>(const Beams& of_model) {
+        [&]<class Beams>(const Beams& model_beams) {
             const std::vector<SpecularPath> paths = specular_paths(traced, scene, view.shape);
-            SurfaceEchoFinder<Beams> finder(*this, of_model, traced, scene, view.shape,
+            SurfaceEchoFinder<Beams> finder(*this, model_beams, traced, scene, view.shape,
                                             request.patches, use);
             const bool is_local = request.objects && !request.patches && paths.empty() &&
                                   traced.particles.samples.empty() &&

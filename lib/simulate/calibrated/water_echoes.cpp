@@ -60,8 +60,8 @@ class ReceivedWater {
         end_at(traced.samples.items);
         end_at(traced.outside_sector);
         for (int channel = 0; channel < channels_; ++channel) {
-            float* const of_channel = sums_.data() + channel * stride();
-            std::partial_sum(of_channel, of_channel + stride(), of_channel);
+            float* const channel_sums = sums_.data() + channel * stride();
+            std::partial_sum(channel_sums, channel_sums + stride(), channel_sums);
         }
     }
 

@@ -55,16 +55,16 @@ SumsOfCasts sums_of_casts(const std::vector<CastSums>& casts, std::size_t bin) {
     return sums;
 }
 
-/// The sum over scored bins of what `of_bin` gives, by the sum of the image there; 0 for 0 / 0, and
-/// 1 for other divisions by 0.
-template <class OfBin>
-double relative(const Reference& reference, const OfBin& of_bin) {
+/// The sum over scored bins of what `bin_value` gives, by the sum of the image there; 0 for 0 / 0,
+/// and 1 for other divisions by 0.
+template <class BinValue>
+double relative(const Reference& reference, const BinValue& bin_value) {
     double sum = 0.0;
     double image = 0.0;
     for (std::size_t k = 0; k < reference.scored.size(); ++k) {
         if (reference.scored[k] == 0) continue;
         const SumsOfCasts all = sums_of_casts(reference.casts, k);
-        sum += of_bin(k, all);
+        sum += bin_value(k, all);
         image += all.value();
     }
     if (image > 0.0) return sum / image;

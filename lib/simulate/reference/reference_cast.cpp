@@ -25,21 +25,23 @@ double solid_angle_density(ViewShape shape, const Eigen::Vector3f& d) {
 class PointDensity {
   public:
     PointDensity(const ReferenceView& looking, std::span<const std::uint32_t> counts)
-        : shares_(looking.shares), counts_(counts), of_own_(looking.scene.triangles.size(), 0.0F) {
+        : shares_(looking.shares),
+          counts_(counts),
+          own_density_(looking.scene.triangles.size(), 0.0F) {
         while (own_shares_ < shares_.size() && shares_[own_shares_].copy == SurfaceShare::no_copy) {
-            of_own_[shares_[own_shares_].facet] = per_m2(own_shares_);
+            own_density_[shares_[own_shares_].facet] = per_m2(own_shares_);
             ++own_shares_;
         }
     }
 
     float of(std::uint32_t facet) const {
-        if (facet < of_own_.size()) return of_own_[facet];
+        if (facet < own_density_.size()) return own_density_[facet];
         // Looked up by search: copies may have more triangles than memory holds, and few of them
         // are in view.
-        const auto of_copies = shares_.subspan(own_shares_);
-        const auto at = std::ranges::lower_bound(of_copies, facet, {}, &SurfaceShare::facet);
-        if (at == of_copies.end() || at->facet != facet) return 0.0F;
-        return per_m2(own_shares_ + static_cast<std::size_t>(at - of_copies.begin()));
+        const auto copy_shares = shares_.subspan(own_shares_);
+        const auto at = std::ranges::lower_bound(copy_shares, facet, {}, &SurfaceShare::facet);
+        if (at == copy_shares.end() || at->facet != facet) return 0.0F;
+        return per_m2(own_shares_ + static_cast<std::size_t>(at - copy_shares.begin()));
     }
 
   private:
@@ -49,7 +51,7 @@ class PointDensity {
 
     std::span<const SurfaceShare> shares_;
     std::span<const std::uint32_t> counts_;  ///< number of points by share
-    std::vector<float> of_own_;
+    std::vector<float> own_density_;
     /// Number of shares of the scene's own triangles, which come first.
     std::size_t own_shares_ = 0;
 };

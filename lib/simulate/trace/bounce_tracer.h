@@ -57,8 +57,8 @@ struct BounceTracer {
     Eigen::Vector3f true_point(const Eigen::Vector3f& p) const {
         return uses_surface_image() ? mirror->reflect_point(p) : p;
     }
-    Eigen::Vector3f true_change(const Eigen::Vector3f& of_p) const {
-        return uses_surface_image() ? mirror->reflect_direction(of_p) : of_p;
+    Eigen::Vector3f true_change(const Eigen::Vector3f& change) const {
+        return uses_surface_image() ? mirror->reflect_direction(change) : change;
     }
 };
 

@@ -70,15 +70,16 @@ Outcome reflect(const BounceTracer& context, const Sample& sample, const Plane& 
     if (!(beam >= 0.0F && range < static_cast<float>(context.view.range_max_m)))
         return &MultipathCounts::outside;
     if (!(cosine > 0.0F)) return &MultipathCounts::turned_away;
-    const auto change = [&](const Eigen::Vector3f& edge, float& of_range, float& of_beam) {
+    const auto change = [&](const Eigen::Vector3f& edge, float& range_change, float& beam_change) {
         const float stretch = -t * edge.dot(second.normal) / along;
-        const Eigen::Vector3f of_p = t * edge + stretch * through;
-        of_range = 0.5F * (stretch * first_leg + t * edge.dot(sample.position) / first_leg +
-                           of_p.dot(back) / last_leg);
-        const Eigen::Vector3f of_true_point = context.true_change(of_p);
-        of_beam = context.field.beams_per_rad() *
-                  (true_point.x() * of_true_point.y() - true_point.y() * of_true_point.x()) /
-                  (true_point.x() * true_point.x() + true_point.y() * true_point.y());
+        const Eigen::Vector3f p_change = t * edge + stretch * through;
+        range_change = 0.5F * (stretch * first_leg + t * edge.dot(sample.position) / first_leg +
+                               p_change.dot(back) / last_leg);
+        const Eigen::Vector3f true_point_change = context.true_change(p_change);
+        beam_change =
+            context.field.beams_per_rad() *
+            (true_point.x() * true_point_change.y() - true_point.y() * true_point_change.x()) /
+            (true_point.x() * true_point.x() + true_point.y() * true_point.y());
     };
     change(sample.edge_u, out.range_u, out.beam_u);
     change(sample.edge_v, out.range_v, out.beam_v);

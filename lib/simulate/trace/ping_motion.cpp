@@ -55,17 +55,17 @@ int beam_by_azimuth(const View& view, const Eigen::Vector3f& p) {
 /// Samples outside the sector end in `outside_sector`.
 void sort_into_beams(const View& view, Samples& samples, std::vector<Sample>& outside_sector) {
     if (view.shape != ViewShape::fan) return;
-    std::vector<std::vector<Sample>> of_beam(view.beams);
+    std::vector<std::vector<Sample>> beam_samples(view.beams);
     std::vector<Sample> outside;
     for (const std::vector<Sample>* all : {&samples.items, &outside_sector}) {
         for (const Sample& sample : *all) {
             const int beam = beam_by_azimuth(view, sample.position);
-            (beam < 0 ? outside : of_beam[beam]).push_back(sample);
+            (beam < 0 ? outside : beam_samples[beam]).push_back(sample);
         }
     }
     samples.items.clear();
     for (int j = 0; j < view.beams; ++j) {
-        samples.items.insert(samples.items.end(), of_beam[j].begin(), of_beam[j].end());
+        samples.items.insert(samples.items.end(), beam_samples[j].begin(), beam_samples[j].end());
         samples.beam_begin[j + 1] = static_cast<std::uint32_t>(samples.items.size());
     }
     outside_sector = std::move(outside);

@@ -57,10 +57,10 @@ void add_triangles(const TargetMesh& mesh, TargetShape& shape) {
 /// True if two triangles that share an edge are parts of one curved surface. Their areas are in the
 /// ratio of their heights over the edge.
 bool is_smooth(const TargetShape& shape, const TargetTriangle& a, const TargetTriangle& b) {
-    const double of_a = cross_of(shape.vertices, a.corners).norm();
-    const double of_b = cross_of(shape.vertices, b.corners).norm();
-    return a.normal.dot(b.normal) >= crease_cosine && of_a < max_height_ratio * of_b &&
-           of_b < max_height_ratio * of_a;
+    const double area_a = cross_of(shape.vertices, a.corners).norm();
+    const double area_b = cross_of(shape.vertices, b.corners).norm();
+    return a.normal.dot(b.normal) >= crease_cosine && area_a < max_height_ratio * area_b &&
+           area_b < max_height_ratio * area_a;
 }
 
 /// Triangles that share edges, triangles that join smoothly, and the corners at which they do.
@@ -163,8 +163,8 @@ void set_smooth_normals(TargetShape& shape, JoinedSets& corners) {
 
 /// `slope`, or that of a material that has facets, if less.
 float lesser_slope(float slope, const Material& material) {
-    const auto of_material = static_cast<float>(facet_slope(material));
-    return of_material > 0.0F ? std::min(slope, of_material) : slope;
+    const auto material_slope = static_cast<float>(facet_slope(material));
+    return material_slope > 0.0F ? std::min(slope, material_slope) : slope;
 }
 
 /// Finds the shapes of a scene's objects, and where they are.

@@ -58,7 +58,7 @@ float least_off(const Corners& corners) {
 }
 
 /// A ray, and the piece that it should reach.
-struct Aim {
+struct SightRay {
     Ray ray;
     float range_m;
     float cosine;   ///< cosine of the angle between the ray and the normal
@@ -111,13 +111,13 @@ class TargetSampler {
     /// The pieces that are seen.
     std::vector<Sample> take_seen(const VisibilityEngine& engine, const Pose& T_world_sensor) {
         std::vector<Ray> rays;
-        std::ranges::transform(aims_, std::back_inserter(rays), &Aim::ray);
+        std::ranges::transform(sight_rays_, std::back_inserter(rays), &SightRay::ray);
         std::vector<Intersection> hits(rays.size());
         engine.intersect(T_world_sensor, rays, hits);
         std::size_t kept = 0;
         for (std::size_t k = 0; k < pieces_.size(); ++k) {
             const std::uint32_t ray = ray_of_[k];
-            if (aims_[ray].arrives(hits[ray])) pieces_[kept++] = pieces_[k];
+            if (sight_rays_[ray].arrives(hits[ray])) pieces_[kept++] = pieces_[k];
         }
         pieces_.resize(kept);
         return std::move(pieces_);
@@ -162,10 +162,10 @@ class TargetSampler {
         for (int k = 0; k < 3; ++k) {
             const Corner& from = corners[k];
             const Corner& to = corners[(k + 1) % 3];
-            const float of_side = std::max(per_part * (to.place - from.place).norm(),
-                                           per_turn * (to.off - from.off).norm());
-            if (!(of_side > size)) continue;
-            size = of_side;
+            const float side_size = std::max(per_part * (to.place - from.place).norm(),
+                                             per_turn * (to.off - from.off).norm());
+            if (!(side_size > size)) continue;
+            size = side_size;
             longest = k;
         }
         if (longest < 0 || halvings == 0) return add_piece(corners, glints);
@@ -190,7 +190,7 @@ class TargetSampler {
         const Corner& c = corners[(shortest + 1) % 3];
         const Eigen::Vector3f middle = (a.place + b.place + c.place) / 3.0F;
         if (!field_.contains(middle)) return;
-        aim_at(middle, glints);
+        look_at(middle, glints);
         const Eigen::Vector3f n = (a.normal + b.normal + c.normal) / 3.0F;
         const float length = n.norm();
         const float flat_m2 = 0.5F * (b.place - a.place).cross(c.place - a.place).norm();
@@ -203,21 +203,21 @@ class TargetSampler {
         piece_.area_m2 =
             flat_m2 * std::max(flat_normal_.dot(piece_.normal), 0.0F) / (length * length);
         pieces_.push_back(piece_);
-        ray_of_.push_back(static_cast<std::uint32_t>(aims_.size() - 1));
+        ray_of_.push_back(static_cast<std::uint32_t>(sight_rays_.size() - 1));
     }
 
     /// Aims a ray at a piece, unless the last one arrives on the same part of its surface.
-    void aim_at(const Eigen::Vector3f& middle, bool glints) {
+    void look_at(const Eigen::Vector3f& middle, bool glints) {
         const float glint_m = glint_by_highlight * std::fabs(curvature_m_) * slope_;
         const float part_m = glints ? std::clamp(glint_m, min_glint_m_, part_m_) : part_m_;
         if (last_point_ && (middle - *last_point_).norm() < 0.5F * part_m &&
             flat_normal_.dot(last_normal_) > 0.9F)
             return;
         const auto [range, direction] = arrival_of(middle);
-        aims_.push_back({{Eigen::Vector3f::Zero(), direction},
-                         range,
-                         std::fabs(flat_normal_.dot(direction)),
-                         weld_m_});
+        sight_rays_.push_back({{Eigen::Vector3f::Zero(), direction},
+                               range,
+                               std::fabs(flat_normal_.dot(direction)),
+                               weld_m_});
         last_point_ = middle;
         last_normal_ = flat_normal_;
     }
@@ -239,7 +239,7 @@ class TargetSampler {
 
     std::vector<Sample> pieces_;
     std::vector<std::uint32_t> ray_of_;
-    std::vector<Aim> aims_;
+    std::vector<SightRay> sight_rays_;
     std::optional<Eigen::Vector3f> last_point_;
     Eigen::Vector3f last_normal_ = Eigen::Vector3f::Zero();
 };

@@ -20,7 +20,7 @@ constexpr float step_behind = 1e-5F;
 constexpr float max_parts = 64.0F;  // along a half edge
 
 /// The sound that goes through a part of a sample.
-struct Pencil {
+struct RayBundle {
     Eigen::Vector3f direction;
     Eigen::Vector3f half_u, half_v;  ///< half edges across it, at a range of 1 m
     float solid_angle;
@@ -28,9 +28,9 @@ struct Pencil {
     float range_m = 0.0F;  ///< the begin of its next ray
 };
 
-/// Adds the pencils of a sample's parts. Each spans about a resolution cell, as pieces of targets
+/// Adds the bundles of a sample's parts. Each spans about a resolution cell, as pieces of targets
 /// do, since what lies behind may end within a sample.
-void add_pencils(const Sample& sample, const View& view, std::vector<Pencil>& pencils) {
+void add_bundles(const Sample& sample, const View& view, std::vector<RayBundle>& bundles) {
     const Arrival middle = arrival_of(sample.position);
     if (!(middle.range_m > 0.0F)) return;
     const auto across = [](const Eigen::Vector3f& edge,
@@ -53,7 +53,7 @@ void add_pencils(const Sample& sample, const View& view, std::vector<Pencil>& pe
         for (int j = 0; j < columns; ++j) {
             const auto [r, d] = arrival_of(row + static_cast<float>(2 * j + 1 - columns) * v);
             if (!(r > 0.0F)) continue;
-            pencils.push_back({.direction = d,
+            bundles.push_back({.direction = d,
                                .half_u = across(u, d) / r,
                                .half_v = across(v, d) / r,
                                .solid_angle = section_m3 / (r * r * r),
@@ -62,21 +62,21 @@ void add_pencils(const Sample& sample, const View& view, std::vector<Pencil>& pe
     }
 }
 
-/// The part of the plane of `hit` that a pencil meets at a range.
-Sample met_by(const Pencil& pencil, const Intersection& hit, float range_m) {
-    const float along = pencil.direction.dot(hit.normal);
+/// The part of the plane of `hit` that a bundle meets at a range.
+Sample met_by(const RayBundle& bundle, const Intersection& hit, float range_m) {
+    const float along = bundle.direction.dot(hit.normal);
     const auto onto_plane = [&](const Eigen::Vector3f& half) -> Eigen::Vector3f {
-        return range_m * (half - half.dot(hit.normal) / along * pencil.direction);
+        return range_m * (half - half.dot(hit.normal) / along * bundle.direction);
     };
-    return {.position = range_m * pencil.direction,
-            .edge_u = onto_plane(pencil.half_u),
-            .edge_v = onto_plane(pencil.half_v),
+    return {.position = range_m * bundle.direction,
+            .edge_u = onto_plane(bundle.half_u),
+            .edge_v = onto_plane(bundle.half_v),
             .normal = hit.normal,
             .height_m = range_m * -along,
-            .area_m2 = pencil.solid_angle * range_m * range_m / -along,
+            .area_m2 = bundle.solid_angle * range_m * range_m / -along,
             .material = hit.material,
             .instance = hit.instance,
-            .strength = pencil.strength};
+            .strength = bundle.strength};
 }
 
 }  // namespace
@@ -86,11 +86,11 @@ std::vector<Sample> surface_behind_walls(std::span<const float> transmissions,
                                          std::initializer_list<std::span<const Sample>> surfaces) {
     std::vector<Sample> behind;
     if (transmissions.empty()) return behind;
-    std::vector<Pencil> pencils;
+    std::vector<RayBundle> bundles;
     for (const std::span<const Sample> surface : surfaces) {
         for (const Sample& sample : surface) {
             if (transmissions[sample.material] >= min_left)
-                add_pencils(sample, context.view, pencils);
+                add_bundles(sample, context.view, bundles);
         }
     }
     const auto reach = static_cast<float>(context.view.range_max_m);
@@ -98,27 +98,27 @@ std::vector<Sample> surface_behind_walls(std::span<const float> transmissions,
     std::vector<Intersection> hits;
     // The first rays start at the sonar and find the walls again: a piece of a target may lie off
     // its triangle.
-    for (int walls = 0; walls <= max_walls && !pencils.empty(); ++walls) {
+    for (int walls = 0; walls <= max_walls && !bundles.empty(); ++walls) {
         rays.clear();
-        for (const Pencil& pencil : pencils)
-            rays.push_back({pencil.range_m * pencil.direction, pencil.direction});
+        for (const RayBundle& bundle : bundles)
+            rays.push_back({bundle.range_m * bundle.direction, bundle.direction});
         hits.resize(rays.size());
         context.engine.intersect_behind(context.T_world_sensor, rays, reach, hits);
-        std::size_t going_on = 0;
+        std::size_t kept = 0;
         for (std::size_t k = 0; k < rays.size(); ++k) {
-            Pencil& pencil = pencils[k];
+            RayBundle& bundle = bundles[k];
             const Intersection& hit = hits[k];
-            const float range = pencil.range_m + hit.distance_m;
+            const float range = bundle.range_m + hit.distance_m;
             if (!(range < reach)) continue;
-            const float cosine = -hit.normal.dot(pencil.direction);
-            if (walls > 0 && cosine >= min_facing) behind.push_back(met_by(pencil, hit, range));
-            pencil.strength *= transmissions[hit.material];
-            if (!(pencil.strength >= min_left)) continue;
-            pencil.range_m =
+            const float cosine = -hit.normal.dot(bundle.direction);
+            if (walls > 0 && cosine >= min_facing) behind.push_back(met_by(bundle, hit, range));
+            bundle.strength *= transmissions[hit.material];
+            if (!(bundle.strength >= min_left)) continue;
+            bundle.range_m =
                 range * (1.0F + step_behind) + 2.0F * hit.rounding_m / std::max(cosine, min_facing);
-            pencils[going_on++] = pencil;
+            bundles[kept++] = bundle;
         }
-        pencils.resize(going_on);
+        bundles.resize(kept);
     }
     return behind;
 }

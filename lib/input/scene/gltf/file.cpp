@@ -92,12 +92,12 @@ std::string surfaces_of(std::string_view text, const Location& where) {
         throw InputError(where, "the JSON is nested more than 64 deep");
     // Unread parts are not even stored: they may be much larger than the meshes.
     const auto is_read = [](int depth, json::parse_event_t event, const json& parsed) {
-        constexpr int of_file = 1;
-        constexpr int of_material = 3;
+        constexpr int file_depth = 1;
+        constexpr int material_depth = 3;
         if (event != json::parse_event_t::key) return true;
         const auto& key = parsed.get_ref<const std::string&>();
-        return !(depth == of_file && contains(unread_of_file, key)) &&
-               !(depth == of_material && contains(unread_of_materials, key));
+        return !(depth == file_depth && contains(unread_of_file, key)) &&
+               !(depth == material_depth && contains(unread_of_materials, key));
     };
     json document;
     try {

@@ -58,7 +58,7 @@ std::vector<SurfaceExtent> find_extents(const std::vector<OpenFile>& open, const
     Eigen::AlignedBox3d whole;
     std::set<std::pair<std::string, double>> warned;
     for (std::size_t i = 0; i < open.size(); ++i) {
-        const RepeatedFile* const repeated = repeats.of_file[i];
+        const RepeatedFile* const repeated = repeats.by_file[i];
         const SurfaceExtent& extent =
             extents.emplace_back(repeated ? moved(repeated->extent, open[i].placed->T_world_file)
                                           : find_extent(open[i], limit));
@@ -75,7 +75,7 @@ void set_bounds(const std::vector<SurfaceExtent>& extents, const Repeats& repeat
     for (const Eigen::Vector3f& vertex : scene.vertices)
         box.extend(vertex.cast<double>());
     for (std::size_t i = 0; i < extents.size(); ++i) {
-        if (!repeats.of_file[i] || extents[i].box.isEmpty()) continue;
+        if (!repeats.by_file[i] || extents[i].box.isEmpty()) continue;
         box.extend(Eigen::AlignedBox3d(extents[i].box.min() - scene.origin,
                                        extents[i].box.max() - scene.origin));
     }
@@ -96,7 +96,7 @@ Scene compose(std::span<const PlacedFile> files, SceneFiles& models, const Mater
     MeshBuilder<Scene> still{scene, scene.rejects, scene.origin};
     for (std::size_t i = 0; i < open.size(); ++i) {
         const OpenFile& file = open[i];
-        if (RepeatedFile* const repeated = repeats.of_file[i]) {
+        if (RepeatedFile* const repeated = repeats.by_file[i]) {
             add_copy(*repeated, file, rules, limit, materials, scene);
             continue;
         }

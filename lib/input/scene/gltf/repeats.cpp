@@ -58,7 +58,7 @@ Repeats find_repeats(const std::vector<OpenFile>& open, std::size_t sharing_thre
     for (const auto& group : alike)
         triangles += group.second.size() * triangles_of(open[group.second.front()]);
     Repeats repeats;
-    repeats.of_file.assign(open.size(), nullptr);
+    repeats.by_file.assign(open.size(), nullptr);
     if (triangles <= sharing_threshold) return repeats;
     if (triangles > max_triangles) {
         throw InputError(alike.begin()->first->place,
@@ -74,7 +74,7 @@ Repeats find_repeats(const std::vector<OpenFile>& open, std::size_t sharing_thre
         repeated.open.meshes = place_meshes(*first.model, repeated.placed, names);
         repeated.extent = find_extent(repeated.open, limit);
         for (const std::size_t file : group.second)
-            repeats.of_file[file] = &repeated;
+            repeats.by_file[file] = &repeated;
     }
     return repeats;
 }

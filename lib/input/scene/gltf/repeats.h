@@ -26,7 +26,7 @@ struct RepeatedFile {
 /// The files of a scene that become shared meshes.
 struct Repeats {
     std::deque<RepeatedFile> files;      ///< a deque, since `open` points to `placed`
-    std::vector<RepeatedFile*> of_file;  ///< for each file of the scene; null: it is not shared
+    std::vector<RepeatedFile*> by_file;  ///< for each file of the scene; null: it is not shared
 };
 
 /// Finds the files that have names, do not move and are read more than once in the same way.

@@ -38,14 +38,14 @@ Eigen::AlignedBox2d area_of(const Surface& surface, std::uint32_t triangle) {
     const double a_x = corner_a.x() - point.x(), a_y = corner_a.y() - point.y();
     const double b_x = corner_b.x() - point.x(), b_y = corner_b.y() - point.y();
     const double c_x = corner_c.x() - point.x(), c_y = corner_c.y() - point.y();
-    const double of_a = b_x * c_y - b_y * c_x;
-    const double of_b = c_x * a_y - c_y * a_x;
-    const double of_c = a_x * b_y - a_y * b_x;
-    const bool inside =
-        (of_a >= 0.0 && of_b >= 0.0 && of_c >= 0.0) || (of_a <= 0.0 && of_b <= 0.0 && of_c <= 0.0);
-    const double sum = of_a + of_b + of_c;
+    const double weight_a = b_x * c_y - b_y * c_x;
+    const double weight_b = c_x * a_y - c_y * a_x;
+    const double weight_c = a_x * b_y - a_y * b_x;
+    const bool inside = (weight_a >= 0.0 && weight_b >= 0.0 && weight_c >= 0.0) ||
+                        (weight_a <= 0.0 && weight_b <= 0.0 && weight_c <= 0.0);
+    const double sum = weight_a + weight_b + weight_c;
     if (!inside || sum == 0.0) return false;
-    z = (of_a * corner_a.z() + of_b * corner_b.z() + of_c * corner_c.z()) / sum;
+    z = (weight_a * corner_a.z() + weight_b * corner_b.z() + weight_c * corner_c.z()) / sum;
     return true;
 }
 

@@ -79,15 +79,15 @@ tinygltf::Model bed_model(const Seabed& bed) {
     tinygltf::Node& node = add_node(model, "seabed", ground);
     node.matrix = grid_matrix(bed.grid.cell_m, -bed.grid.cell_m, bed.grid.x_m(0), bed.grid.y_m(0));
     set_class(bed.class_name, node);
-    const std::string& of_rocks =
+    const std::string& rocks_material =
         bed.rock_material.empty() ? bed.materials.front() : bed.rock_material;
     std::vector<int> mesh_of_shape(bed.rock_shapes.size(), -1);
     for (std::size_t i = 0; i < bed.rocks.size(); ++i) {
         const Rock& rock = bed.rocks[i];
         int& mesh = mesh_of_shape[rock.shape];
         if (mesh < 0) {
-            mesh = add_rock_shape(bed.rock_shapes[rock.shape], material_number(model, of_rocks),
-                                  model);
+            mesh = add_rock_shape(bed.rock_shapes[rock.shape],
+                                  material_number(model, rocks_material), model);
         }
         const Eigen::Matrix4d& matrix = rock.T_world_shape.matrix();
         tinygltf::Node& placed = add_node(model, rock_name(i), mesh);
