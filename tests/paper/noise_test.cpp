@@ -182,20 +182,6 @@ TEST_CASE("what lights a pixel does not change what the others draw") {
         CHECK((dark[k] == occupied[k]) == (k != 130));
 }
 
-TEST_CASE("the additive noise grows with the row's and the column's scale") {
-    std::vector<float> image(2 * 4000, 0.0F);
-    std::vector<float> lobe(4000, 1.0F);
-    std::fill(lobe.begin() + 2000, lobe.end(), 1.5F);
-    add_pixel_noise(image, {0.5F, 0.1F, 0.0F, {0.25F, 1.0F}, lobe}, {1, 2});
-    const double expected = 0.1 * std::sqrt(std::acos(-1.0) / 2.0);  // mean of a Rayleigh
-    const double scales[] = {0.25, 0.375, 1.0, 1.5};
-    for (int block = 0; block < 4; ++block) {
-        const std::vector<double> draws(image.begin() + block * 2000,
-                                        image.begin() + (block + 1) * 2000);
-        CHECK(std::fabs(mean(draws) - scales[block] * expected) < 4.5 * standard_error(draws));
-    }
-}
-
 TEST_CASE("negative pixels become zero and are counted") {
     std::vector<float> image(10000, 1.0F);
     const std::uint64_t negative = add_pixel_noise(

@@ -2,7 +2,6 @@
 #include "simulate/sonar/sonar.h"
 #include "simulate/visibility/rays/rays_engine.h"
 #include "support/sonars.h"
-#include "support/statistics.h"
 
 using namespace sonarsim;
 using namespace sonarsim::test;
@@ -123,43 +122,6 @@ TEST_CASE("noise is a function of seed, sensor and ping; without it the seed doe
     CHECK(image != look(noisy, {0, 6}));
     config.name = "another";
     CHECK(image != look(make_sonar(config, {}), {0, 5}));
-}
-
-TEST_CASE("the mean over 1,000 seeds agrees with theory") {
-    // A wall within one scatterer cell: a ping has one w, and bins [a, b) hold the echo when D + w
-    // falls into them: E[I'] = I / 2 (exp(-2 (a - D) / lambda) - exp(-2 (b - D) / lambda)). Pixel
-    // noise adds s sigma sqrt(pi / 2) and halves the rest (m = 0.5).
-    constexpr double R = 0.8;
-    constexpr double D = 2.01;
-    constexpr double lambda = 0.1;
-    constexpr double sigma_a = 0.02;
-    Scene scene = empty_scene();
-    const std::uint32_t m = add_material(scene, R);
-    add_quad(scene, {D, -1, -1}, {D, 1, -1}, {D, 1, 1}, {D, -1, 1}, m);
-    SonarConfig config = small_imaging();
-    config.azimuth_deg = config.elevation_deg = 1.0;
-    set_range(config, 1.9, 2.5, 12);
-    config.azimuth_bins = 1;
-    config.noise = {lambda, 1000.0, sigma_a, 0.05, true, 0.0};
-    const Sonar sonar = make_sonar(config, {});
-    const auto engine = make_rays_engine(scene);
-    std::vector<std::vector<double>> bins(12);
-    for (std::uint64_t seed = 0; seed < 1000; ++seed) {
-        const Ping ping = render_ping(sonar, scene, *engine, Pose{}, {seed, 0});
-        for (int i = 0; i < 12; ++i)
-            bins[i].push_back(ping.at(i, 0));
-    }
-    for (int i = 0; i < 12; ++i) {
-        const double a = std::max(sonar.range_edges_m[i] - D, 0.0);
-        const double b = std::max(sonar.range_edges_m[i + 1] - D, 0.0);
-        const double echo = 0.5 * R * (std::exp(-2.0 * a / lambda) - std::exp(-2.0 * b / lambda));
-        const double r =
-            0.5 * (sonar.range_edges_m[i] + sonar.range_edges_m[i + 1]) / config.range_max_m;
-        // The lobe factor is 1.5 in the only beam, at azimuth 0.
-        const double additive = r * r * 1.5 * sigma_a * std::sqrt(std::acos(-1.0) / 2.0);
-        // 12 bins at 4 standard errors: a false alarm once in 1,300.
-        CHECK(std::fabs(mean(bins[i]) - (0.5 * echo + additive)) < 4.0 * standard_error(bins[i]));
-    }
 }
 
 TEST_CASE("the narrowest lobe that a mission can ask for leaves finite scales") {
