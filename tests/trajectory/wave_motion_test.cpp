@@ -21,7 +21,8 @@ PhiloxKey wave_key(std::uint32_t seed) {
 }  // namespace
 
 TEST_SUITE("wave motion") {
-    TEST_CASE("Heave has the variance and the autocorrelation of the spectrum") {
+    TEST_CASE("Heave has the variance and the autocorrelation of the spectrum" *
+              doctest::skip(test::sanitized)) {
         // Pierson-Moskowitz by energy shares u: r(lag) is s^2 times the integral over u from 0 to 1
         // of cos(2 pi lag / period (1.25 / -ln u)^(1/4)).
         constexpr int seeds = 4000;

@@ -51,7 +51,7 @@ PhiloxKey key_of(std::uint32_t number) {
 
 }  // namespace
 
-TEST_CASE("the spectrum of a bed has its strength and exponent") {
+TEST_CASE("the spectrum of a bed has its strength and exponent" * doctest::skip(test::sanitized)) {
     // 28 beds, 6 wavelengths from 1 m to 4 cells, 8 directions each, which lie more than the
     // window's width apart: each mean of a wavelength has the deviation 1 / sqrt(28 * 8) = 6.7 %.
     constexpr int beds = 28;
@@ -90,7 +90,7 @@ TEST_CASE("the spectrum of a bed has its strength and exponent") {
     CHECK(std::abs(slope) < 4.0 * 0.067 / std::sqrt(squares) + 0.05);
 }
 
-TEST_CASE("ripples have their length, direction and height") {
+TEST_CASE("ripples have their length, direction and height" * doctest::skip(test::sanitized)) {
     for (const double angle : {0.4, 2.0}) {
         SeabedRule rule = rule_of_size(6.0);
         rule.seed = 3;
