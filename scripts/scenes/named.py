@@ -29,7 +29,7 @@ def stock_named(mission: pathlib.Path, options: list[str], kinds, clutter: tuple
     the mission has some."""
     text = re.sub(r"#.*", "", text_of(mission, options))
     words = re.findall(r"\w+", " ".join(re.findall(r"\bstock\b(?:[^\n\[]*\[[^\]]*\])?[^\n]*", text)))
-    if re.search(r"\bclutter[:.=]", text):
+    if re.search(r"\bclutter[\"']?\s*[:.=]", text):
         words += clutter
     return sorted(set(words) & set(kinds))
 
